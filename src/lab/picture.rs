@@ -1,0 +1,96 @@
+//! What the stage shows, as plain data: the last f64 become f32 here, after the camera is subtracted.
+//!
+//! Lengths are logical points from the stage's top left corner, y down; colours are straight sRGB with
+//! alpha. Everything in a [`Picture`] is finite and within [`FAR`] of the stage, whatever the lanes do.
+
+/// A colour: red, green, blue and alpha, sRGB, alpha not multiplied in.
+pub type Rgba = [u8; 4];
+
+/// An upright rectangle in points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rect {
+    /// Left and top.
+    pub min: [f32; 2],
+    /// Right and bottom.
+    pub max: [f32; 2],
+}
+
+/// Everything on the stage, in painting order: seas, then strokes, then labels.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Picture {
+    /// Backgrounds, one for each body of each lane.
+    pub seas: Vec<Sea>,
+    /// Everything drawn, the first at the bottom.
+    pub strokes: Vec<Stroke>,
+    /// Text over it.
+    pub labels: Vec<Label>,
+}
+
+/// The background of one body's cell: water or chart paper, with a grid in the body's world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sea {
+    /// Where it is.
+    pub rect: Rect,
+    /// The point of the stage at which the grid has a line in both directions.
+    pub grid_origin: [f32; 2],
+    /// Distance between grid lines.
+    pub grid_step: f32,
+    /// How much the water moves: 1 for a ship's sea, 0 for chart paper.
+    pub waves: f32,
+    /// Phase of the waves in radians, from simulated time.
+    pub phase: f32,
+}
+
+/// The shape of a stroke's ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cap {
+    /// A disc at either end: lines, dots, hulls.
+    Round,
+    /// Cut straight through the end point: with a length equal to its width, a square.
+    Butt,
+}
+
+/// A line from disc to disc: with equal radii a stroke, with different ones a hull, of no length a dot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stroke {
+    /// One end.
+    pub from: [f32; 2],
+    /// The other end.
+    pub to: [f32; 2],
+    /// Half the width at either end.
+    pub radii: [f32; 2],
+    /// Colour at either end.
+    pub colours: [Rgba; 2],
+    /// Dash pattern: drawn length, gap length, and how far into the pattern `from` is. A gap of 0 is solid.
+    pub dash: [f32; 3],
+    /// The shape of the ends.
+    pub cap: Cap,
+    /// Nothing is drawn outside this.
+    pub clip: Rect,
+}
+
+/// How a label's text lies to its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Align {
+    /// The text begins at the point.
+    Left,
+    /// The text is centred on the point.
+    Centre,
+    /// The text ends at the point.
+    Right,
+}
+
+/// A line of text, its point at mid height.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// Where.
+    pub at: [f32; 2],
+    /// How the text lies to it.
+    pub align: Align,
+    /// Height of the type in points.
+    pub size: f32,
+    /// Colour.
+    pub colour: Rgba,
+    /// What it says.
+    pub text: String,
+}

@@ -1,0 +1,80 @@
+//! What a body draws itself with: marks in metres, without colour.
+
+use glam::DVec2;
+
+/// One mark of an outline, in metres, x right and y up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mark {
+    /// A line with round ends, `weight` times the lane's line width.
+    Line {
+        /// One end.
+        from: DVec2,
+        /// The other end.
+        to: DVec2,
+        /// Times the lane's line width.
+        weight: f64,
+    },
+    /// A filled shape that tapers from a disc of one radius to a disc of another.
+    Taper {
+        /// The first disc's centre.
+        from: DVec2,
+        /// The second disc's centre.
+        to: DVec2,
+        /// The first disc's radius.
+        from_radius: f64,
+        /// The second disc's radius.
+        to_radius: f64,
+    },
+    /// A filled upright square.
+    Block {
+        /// Its centre.
+        centre: DVec2,
+        /// Half its side.
+        half: f64,
+    },
+}
+
+/// Collects the marks of one outline, in painting order.
+#[derive(Debug, Default)]
+pub struct Pen {
+    /// What was drawn, the first at the bottom.
+    pub marks: Vec<Mark>,
+    /// Where the body is: the point that trails and arrows refer to.
+    pub at: DVec2,
+}
+
+impl Pen {
+    /// Draws a line.
+    pub fn line(&mut self, from: DVec2, to: DVec2, weight: f64) {
+        self.marks.push(Mark::Line { from, to, weight });
+    }
+
+    /// Draws a filled taper.
+    pub fn taper(&mut self, from: DVec2, from_radius: f64, to: DVec2, to_radius: f64) {
+        self.marks.push(Mark::Taper { from, to, from_radius, to_radius });
+    }
+
+    /// Draws a filled square.
+    pub fn block(&mut self, centre: DVec2, half: f64) {
+        self.marks.push(Mark::Block { centre, half });
+    }
+
+    /// Draws a coil spring of `turns` turns and radius `radius`, with straight ends.
+    pub fn coil(&mut self, from: DVec2, to: DVec2, turns: u32, radius: f64) {
+        let along = to - from;
+        let across = along.perp().normalize_or(DVec2::Y) * radius;
+        let lead = 0.08;
+        let mut last = from + along * lead;
+        self.line(from, last, 1.0);
+        for half_turn in 0..2 * turns {
+            let part = (f64::from(half_turn) + 0.5) / f64::from(2 * turns);
+            let side = if half_turn % 2 == 0 { across } else { -across };
+            let next = from + along * (lead + (1.0 - 2.0 * lead) * part) + side;
+            self.line(last, next, 1.0);
+            last = next;
+        }
+        let end = from + along * (1.0 - lead);
+        self.line(last, end, 1.0);
+        self.line(end, to, 1.0);
+    }
+}

@@ -1,0 +1,147 @@
+//! The chapter's ship: thrust against drag that grows with speed, `m v′ = T - C v`.
+
+use glam::DVec2;
+
+use super::{Body, Coordinate, Input, Kind, LARGEST, Parameter, Pen, Range, View};
+use crate::sim::{State, System, stepper};
+
+pub(super) const KIND: Kind = Kind {
+    id: "ship",
+    about: "m s″ = T - C s′: full thrust times throttle, against linear drag",
+    coordinates: &[Coordinate { name: "s", unit: "m" }],
+    parameters: &[
+        Parameter {
+            key: "thrust_n",
+            about: "T, the full thrust",
+            default: None,
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "drag_n_s_per_m",
+            about: "C, the drag for each metre per second",
+            default: None,
+            range: Range::NonNegative(LARGEST),
+        },
+        Parameter {
+            key: "mass_kg",
+            about: "m, the mass",
+            default: None,
+            range: Range::Positive(LARGEST),
+        },
+        Parameter {
+            key: "s0_m",
+            about: "the distance run at the start",
+            default: Some(0.0),
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "v0_m_per_s",
+            about: "the speed at the start",
+            default: Some(0.0),
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "kick_n_s",
+            about: "the impulse of one kick",
+            default: Some(20_000.0),
+            range: Range::Within(LARGEST),
+        },
+    ],
+    inputs: &["throttle", "kick"],
+    build: |values, solver| {
+        let &[thrust, drag, mass, s0, v0, kick] = values else { unreachable!("one value a key") };
+        stepper(Ship { thrust, throttle: 1.0, drag, mass, s0, v0, kick }, solver)
+    },
+};
+
+/// A ship on a straight course. Its coordinate is the distance run, in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ship {
+    /// T, the full thrust, in newtons.
+    pub thrust: f64,
+    /// The part of the full thrust that is set, -1 to 1.
+    pub throttle: f64,
+    /// C, in newtons for each metre per second.
+    pub drag: f64,
+    /// m, in kilograms.
+    pub mass: f64,
+    /// Distance run at the start, in metres.
+    pub s0: f64,
+    /// Speed at the start, in metres per second.
+    pub v0: f64,
+    /// The impulse of one kick, in newton seconds.
+    pub kick: f64,
+}
+
+impl System for Ship {
+    type Vector = f64;
+
+    #[inline]
+    fn acceleration(&self, _t: f64, _s: &f64, v: &f64, a: &mut f64) {
+        *a = (self.thrust * self.throttle - self.drag * v) / self.mass;
+    }
+}
+
+impl Body for Ship {
+    fn start(&self) -> State<f64> {
+        State { q: self.s0, v: self.v0 }
+    }
+
+    fn exact(&self, dt: f64, from: &State<f64>) -> Option<State<f64>> {
+        let push = self.thrust * self.throttle / self.mass;
+        let rate = self.drag / self.mass;
+        // With z = rate dt:  phi1 = (1 - e^-z) / z,  phi2 = (1 - phi1) / z.
+        let z = rate * dt;
+        let (phi1, phi2) = if z.abs() < 0.1 { phi_series(z) } else { phi(z) };
+        let State { q: s, v } = *from;
+        Some(State {
+            q: s + v * dt * phi1 + push * dt * dt * phi2,
+            v: v + (push - rate * v) * dt * phi1,
+        })
+    }
+
+    fn energy(&self, state: &State<f64>) -> Option<f64> {
+        let thrust = self.thrust * self.throttle;
+        (self.drag == 0.0).then(|| self.mass * state.v * state.v / 2.0 - thrust * state.q)
+    }
+
+    fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {
+        match input {
+            Input::Throttle(part) => self.throttle = part,
+            Input::Kick(times) => state.v += times * self.kick / self.mass,
+        }
+        true
+    }
+
+    fn outline(&self, state: &State<f64>, pen: &mut Pen) {
+        pen.at = DVec2::new(state.q, 0.0);
+        let along = |x: f64| pen.at + DVec2::new(x, 0.0);
+        let (stern, waist, bow) = (along(-4.0), along(0.5), along(5.0));
+        pen.taper(stern, 1.3, waist, 1.7);
+        pen.taper(waist, 1.7, bow, 0.2);
+        pen.block(along(-2.2), 0.9);
+    }
+
+    fn view(&self) -> View {
+        View::Follow { width_m: 60.0 }
+    }
+}
+
+fn phi(z: f64) -> (f64, f64) {
+    let phi1 = -libm::expm1(-z) / z;
+    (phi1, (1.0 - phi1) / z)
+}
+
+/// Both as their Taylor series, where the closed forms would cancel: for |z| < 0.1 the first term left
+/// out is below 1e-20.
+fn phi_series(z: f64) -> (f64, f64) {
+    let (mut term1, mut term2) = (1.0, 0.5);
+    let (mut phi1, mut phi2) = (0.0, 0.0);
+    for n in 0..12 {
+        phi1 += term1;
+        phi2 += term2;
+        term1 *= -z / f64::from(n + 2);
+        term2 *= -z / f64::from(n + 3);
+    }
+    (phi1, phi2)
+}

@@ -1,0 +1,44 @@
+//! Explicit Euler: the tangent at the start, followed for the whole step.
+
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "explicit-euler",
+    name: "Explicit Euler",
+    about: "gains energy: a spring's amplitude grows at every step size",
+    family: Family::Explicit,
+    order: 1,
+    order_with_drag: 1,
+    evaluations: Some(1),
+    symplectic: false,
+    reversible: false,
+    stability_limit: Some(0.0),
+    tolerance: None,
+    as_printed: false,
+    source: "Euler, Institutionum calculi integralis I (1768); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7, Figure 7-5",
+};
+
+/// `y' = y + h f(t, y)` on the whole state `y = (q, v)`.
+pub struct ExplicitEuler<V> {
+    k1: State<V>,
+}
+
+impl<S: System> Integrator<S> for ExplicitEuler<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { k1: State { q: like.clone(), v: like.clone() } }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { k1 } = self;
+        system.derivative(t, y, k1);
+        y.add_scaled(h, k1);
+        Ok(())
+    }
+}

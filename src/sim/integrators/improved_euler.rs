@@ -1,0 +1,52 @@
+//! Improved Euler (Heun): the mean of the slopes at both ends of the step.
+
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "improved-euler",
+    name: "Improved Euler",
+    about: "accurate for its cost, but an undamped spring slowly gains energy",
+    family: Family::Explicit,
+    order: 2,
+    order_with_drag: 2,
+    evaluations: Some(2),
+    symplectic: false,
+    reversible: false,
+    stability_limit: Some(0.0),
+    tolerance: None,
+    as_printed: false,
+    source: "Heun, Neue Methoden zur approximativen Integration (1900); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
+};
+
+/// `k1 = f(t, y)`, `k2 = f(t + h, y + h k1)`, `y' = y + h (k1 + k2) / 2`.
+pub struct ImprovedEuler<V> {
+    k1: State<V>,
+    k2: State<V>,
+    /// The predicted end of the step.
+    end: State<V>,
+}
+
+impl<S: System> Integrator<S> for ImprovedEuler<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let zero = State { q: like.clone(), v: like.clone() };
+        Self { k1: zero.clone(), k2: zero.clone(), end: zero }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { k1, k2, end } = self;
+        system.derivative(t, y, k1);
+        end.assign(y);
+        end.add_scaled(h, k1);
+        system.derivative(t + h, end, k2);
+        y.add_scaled(h / 2.0, k1);
+        y.add_scaled(h / 2.0, k2);
+        Ok(())
+    }
+}

@@ -1,0 +1,66 @@
+//! The classical Runge-Kutta method: four slopes, weighted 1 2 2 1.
+
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "rk4",
+    name: "Runge-Kutta 4",
+    about: "the general-purpose choice: accurate, and an undamped spring decays very slowly",
+    family: Family::Explicit,
+    order: 4,
+    order_with_drag: 4,
+    evaluations: Some(4),
+    symplectic: false,
+    reversible: false,
+    stability_limit: Some(2.0 * std::f64::consts::SQRT_2),
+    tolerance: None,
+    as_printed: false,
+    source: "Kutta, Beitrag zur näherungsweisen Integration totaler Differentialgleichungen (1901); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
+};
+
+/// `y' = y + h (k1 + 2 k2 + 2 k3 + k4) / 6` on the whole state `y = (q, v)`.
+pub struct Rk4<V> {
+    k1: State<V>,
+    k2: State<V>,
+    k3: State<V>,
+    k4: State<V>,
+    /// The state at which a stage is evaluated.
+    stage: State<V>,
+}
+
+impl<S: System> Integrator<S> for Rk4<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let zero = State { q: like.clone(), v: like.clone() };
+        Self { k1: zero.clone(), k2: zero.clone(), k3: zero.clone(), k4: zero.clone(), stage: zero }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { k1, k2, k3, k4, stage } = self;
+        system.derivative(t, y, k1);
+
+        stage.assign(y);
+        stage.add_scaled(h / 2.0, k1);
+        system.derivative(t + h / 2.0, stage, k2);
+
+        stage.assign(y);
+        stage.add_scaled(h / 2.0, k2);
+        system.derivative(t + h / 2.0, stage, k3);
+
+        stage.assign(y);
+        stage.add_scaled(h, k3);
+        system.derivative(t + h, stage, k4);
+
+        y.add_scaled(h / 6.0, k1);
+        y.add_scaled(h / 3.0, k2);
+        y.add_scaled(h / 3.0, k3);
+        y.add_scaled(h / 6.0, k4);
+        Ok(())
+    }
+}

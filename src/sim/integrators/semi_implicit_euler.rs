@@ -1,0 +1,45 @@
+//! Semi-implicit Euler: kick the velocity, then drift with the new velocity.
+
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "semi-implicit-euler",
+    name: "Semi-implicit Euler",
+    about: "bounded on a spring up to h ω = 2; the usual choice of game physics",
+    family: Family::Symplectic,
+    order: 1,
+    order_with_drag: 1,
+    evaluations: Some(1),
+    symplectic: true,
+    reversible: false,
+    stability_limit: Some(2.0),
+    tolerance: None,
+    as_printed: false,
+    source: "de Vogelaere, Methods of integration which preserve the contact transformation property of the Hamilton equations (1956)",
+};
+
+/// `v' = v + h a(t, q, v)`, then `q' = q + h v'`.
+pub struct SemiImplicitEuler<V> {
+    a: V,
+}
+
+impl<S: System> Integrator<S> for SemiImplicitEuler<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { a: like.clone() }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        State { q, v }: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { a } = self;
+        system.acceleration(t, q, v, a);
+        v.add_scaled(h, a);
+        q.add_scaled(h, v);
+        Ok(())
+    }
+}

@@ -1,0 +1,13 @@
+//! Mathematics: a state, an equation of motion, and ways to step it.
+//!
+//! This layer knows no files, clocks, threads, randomness or pixels. Everything stepped is `f64` and
+//! uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same bits on every platform,
+//! in every build profile.
+
+pub mod bodies;
+pub mod integrators;
+mod stepper;
+mod system;
+
+pub use stepper::{Solver, Stepper, stepper};
+pub use system::{Counted, State, System, Vector};

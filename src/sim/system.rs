@@ -1,0 +1,151 @@
+//! The equation of motion `q″ = a(t, q, v)`, its state, and the vectors both are made of.
+
+use std::cell::Cell;
+
+/// A coordinate vector: what a method needs of it, and nothing else.
+///
+/// `f64` serves bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] those that move in a
+/// plane or in space, `Vec<f64>` those with many. A method is written once, over this trait, and
+/// compiles to registers for the small ones and to loops for the large.
+pub trait Vector: Clone + Send + 'static {
+    /// Becomes equal to `from`, which has as many components. Never allocates.
+    fn assign(&mut self, from: &Self);
+    /// `self += h x`, rounded after the product and after the sum.
+    fn add_scaled(&mut self, h: f64, x: &Self);
+    /// The components in order.
+    fn components(&self) -> &[f64];
+    /// The components in order, to be written.
+    fn components_mut(&mut self) -> &mut [f64];
+}
+
+impl Vector for f64 {
+    #[inline]
+    fn assign(&mut self, from: &Self) {
+        *self = *from;
+    }
+    #[inline]
+    fn add_scaled(&mut self, h: f64, x: &Self) {
+        *self += h * x;
+    }
+    fn components(&self) -> &[f64] {
+        std::slice::from_ref(self)
+    }
+    fn components_mut(&mut self) -> &mut [f64] {
+        std::slice::from_mut(self)
+    }
+}
+
+macro_rules! glam_vector {
+    ($($Vector:ty),+) => {$(
+        impl Vector for $Vector {
+            #[inline]
+            fn assign(&mut self, from: &Self) {
+                *self = *from;
+            }
+            #[inline]
+            fn add_scaled(&mut self, h: f64, x: &Self) {
+                *self += h * *x;
+            }
+            fn components(&self) -> &[f64] {
+                self.as_ref()
+            }
+            fn components_mut(&mut self) -> &mut [f64] {
+                self.as_mut()
+            }
+        }
+    )+};
+}
+glam_vector!(glam::DVec2, glam::DVec3);
+
+impl Vector for Vec<f64> {
+    #[inline]
+    fn assign(&mut self, from: &Self) {
+        self.copy_from_slice(from);
+    }
+    #[inline]
+    fn add_scaled(&mut self, h: f64, x: &Self) {
+        for (component, x) in self.iter_mut().zip(x) {
+            *component += h * x;
+        }
+    }
+    fn components(&self) -> &[f64] {
+        self
+    }
+    fn components_mut(&mut self) -> &mut [f64] {
+        self
+    }
+}
+
+/// Coordinates and their velocities; also their derivatives, `(v, a)`, which add to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State<V> {
+    /// Coordinates, in metres or radians.
+    pub q: V,
+    /// Velocities, per second.
+    pub v: V,
+}
+
+impl<V: Vector> State<V> {
+    /// Becomes equal to `from`. Never allocates.
+    #[inline]
+    pub fn assign(&mut self, from: &Self) {
+        self.q.assign(&from.q);
+        self.v.assign(&from.v);
+    }
+
+    /// `self += h x` in both halves.
+    #[inline]
+    pub fn add_scaled(&mut self, h: f64, x: &Self) {
+        self.q.add_scaled(h, &x.q);
+        self.v.add_scaled(h, &x.v);
+    }
+}
+
+/// An equation of motion of second order, `q″ = a(t, q, v)`.
+///
+/// It is kept in second order because the symplectic methods need the split into `q` and `v`.
+pub trait System {
+    /// The body's natural coordinates.
+    type Vector: Vector;
+
+    /// Overwrites `a` with the acceleration at time `t` (s). Uses only `+ - × ÷ √` and `libm`.
+    fn acceleration(&self, t: f64, q: &Self::Vector, v: &Self::Vector, a: &mut Self::Vector);
+
+    /// Overwrites `d` with the derivative `(v, a)` of the state: one evaluation.
+    #[inline]
+    fn derivative(&self, t: f64, state: &State<Self::Vector>, d: &mut State<Self::Vector>) {
+        d.q.assign(&state.v);
+        self.acceleration(t, &state.q, &state.v, &mut d.v);
+    }
+}
+
+/// Counts the evaluations of a system's acceleration, so that a method's cost is measured and not
+/// taken on the method's word.
+#[derive(Clone, Debug)]
+pub struct Counted<S> {
+    /// The system counted.
+    pub system: S,
+    evaluations: Cell<u64>,
+}
+
+impl<S> Counted<S> {
+    /// Wraps `system`, with a count of zero.
+    pub fn new(system: S) -> Self {
+        Self { system, evaluations: Cell::new(0) }
+    }
+
+    /// Evaluations since construction.
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations.get()
+    }
+}
+
+impl<S: System> System for Counted<S> {
+    type Vector = S::Vector;
+
+    #[inline]
+    fn acceleration(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector) {
+        self.evaluations.set(self.evaluations.get() + 1);
+        self.system.acceleration(t, q, v, a);
+    }
+}
