@@ -1,1 +1,3 @@
-//! stub
+//! Regatta.
+pub mod lab;
+pub mod sim;

@@ -4,15 +4,7 @@
 //! This layer knows no GPU, no window, no files and no wall clock: text comes in as `&str`, time as
 //! integers, and what comes out is plain data. [`Lab`] holds it all together.
 
-mod clock;
 mod command;
-mod history;
-#[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
-mod lab;
-mod lane;
-mod metrics;
 pub mod picture;
-mod race;
-mod scene;
 
-pub use crate::sim::StepperExports as _;
+pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};

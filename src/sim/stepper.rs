@@ -54,9 +54,7 @@ pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
 fn under<B: Body>(body: B, state: State<B::Vector>, solver: Solver, t: f64) -> Box<dyn Stepper> {
     match solver {
         Solver::Method(method) => construct::<Counted<B>, _>(method, Launch { body, state }),
-        Solver::Exact => {
-            Box::new(Follower { body, anchor: state.clone(), anchored_at: t, state })
-        }
+        Solver::Exact => Box::new(Follower { body, anchor: state.clone(), anchored_at: t, state }),
     }
 }
 

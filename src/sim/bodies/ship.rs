@@ -115,7 +115,7 @@ impl Body for Ship {
 
     fn outline(&self, state: &State<f64>, pen: &mut Pen) {
         pen.at = DVec2::new(state.q, 0.0);
-        let along = |x: f64| pen.at + DVec2::new(x, 0.0);
+        let along = |x: f64| DVec2::new(state.q + x, 0.0);
         let (stern, waist, bow) = (along(-4.0), along(0.5), along(5.0));
         pen.taper(stern, 1.3, waist, 1.7);
         pen.taper(waist, 1.7, bow, 0.2);

@@ -1,6 +1,6 @@
 //! Explicit Euler: the tangent at the start, followed for the whole step.
 
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::{Family, Integrator, Method, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "explicit-euler",

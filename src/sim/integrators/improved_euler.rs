@@ -1,6 +1,6 @@
 //! Improved Euler (Heun): the mean of the slopes at both ends of the step.
 
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::{Family, Integrator, Method, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler",

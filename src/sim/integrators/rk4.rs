@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method: four slopes, weighted 1 2 2 1.
 
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::{Family, Integrator, Method, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "rk4",

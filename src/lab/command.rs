@@ -1,0 +1,248 @@
+//! Everything a person or a script can do, and the keys that do it.
+//!
+//! Keyboard, panels, scene scripts and tests all make the same [`Command`]s; [`KEYS`] is the one table
+//! from which the window, the help overlay and `regatta list keys` are made.
+
+use crate::sim::integrators::Method;
+
+/// Something to be done, at the next tick where it touches the bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Command {
+    /// Solo: switches the bodies to this method in flight. Race: selects its lane.
+    Method(&'static Method),
+    /// Solo: switches to the method on this place of the lane list, from 0. Race: selects that lane.
+    Pick(usize),
+    /// The next method or lane on the list, round.
+    NextMethod,
+    /// The previous method or lane on the list, round.
+    PreviousMethod,
+    /// Solo to race, from the start line; race to solo, with the selected lane as it is.
+    ToggleRace,
+    /// Runs or pauses.
+    TogglePause,
+    /// Pauses and goes one tick forward.
+    TickForward,
+    /// Back to tick 0 with the scene as it was written.
+    Restart,
+    /// Sets the tick rate in Hz.
+    TickHz(u32),
+    /// The next higher rate of [`TICK_LADDER`].
+    TickRateUp,
+    /// The next lower rate of [`TICK_LADDER`].
+    TickRateDown,
+    /// Sets the speed in percent of real time.
+    SpeedPercent(u32),
+    /// The next higher speed of [`SPEED_LADDER`].
+    SpeedUp,
+    /// The next lower speed of [`SPEED_LADDER`].
+    SpeedDown,
+    /// Sets the throttle of every body that has one, -1 to 1.
+    Throttle(f64),
+    /// A tenth more throttle.
+    ThrottleUp,
+    /// A tenth less throttle.
+    ThrottleDown,
+    /// Gives every body an impulse of this many times its own kick.
+    Kick(f64),
+    /// Opens the built-in scene on this place of [`SCENES`](super::SCENES), from 0.
+    Scene(usize),
+    /// The next built-in scene, round.
+    NextScene,
+    /// The previous built-in scene, round.
+    PreviousScene,
+    /// Shows or hides the exact ghost.
+    ToggleGhost,
+    /// The next way of drawing between ticks: raw, linear, Hermite.
+    NextInterpolation,
+    /// The next instrument, round.
+    NextInstrument,
+    /// Opens or closes the help overlay.
+    ToggleHelp,
+    /// Saves what the window shows to a file.
+    Screenshot,
+    /// Enters or leaves full screen.
+    ToggleFullScreen,
+    /// Closes the overlay, else quits.
+    Escape,
+}
+
+/// The tick rates that the bracket keys walk, in Hz: the usual ones, with 49 and 50 beside the limit of
+/// the stiff spring.
+pub const TICK_LADDER: [u32; 13] = [2, 5, 10, 15, 20, 30, 49, 50, 60, 100, 120, 240, 1000];
+
+/// The speeds that `-` and `=` walk, in percent of real time.
+pub const SPEED_LADDER: [u32; 6] = [25, 50, 100, 200, 400, 1600];
+
+/// A key as this layer knows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Key {
+    /// A digit by its place on the keyboard, so that it works unshifted on every layout.
+    Digit(u8),
+    /// A lower-case letter or a sign, as the layout gives it.
+    Sign(char),
+    /// The same letter with Shift held.
+    ShiftSign(char),
+    /// The space bar.
+    Space,
+    /// The up arrow.
+    Up,
+    /// The down arrow.
+    Down,
+    /// Home.
+    Home,
+    /// Escape.
+    Escape,
+    /// A function key.
+    Function(u8),
+}
+
+/// One line of the key table.
+#[derive(Debug)]
+pub struct Binding {
+    /// As the help shows it.
+    pub shown: &'static str,
+    /// What it does, for people.
+    pub about: &'static str,
+    /// The keys, each with what it does.
+    pub keys: &'static [(Key, Command)],
+    /// Whether holding the key repeats it.
+    pub repeats: bool,
+}
+
+/// Every key.
+pub static KEYS: &[Binding] = &[
+    Binding {
+        shown: "1 … 9, 0",
+        about: "solo: switch the bodies to that method, in flight; race: select that lane",
+        keys: &[
+            (Key::Digit(1), Command::Pick(0)),
+            (Key::Digit(2), Command::Pick(1)),
+            (Key::Digit(3), Command::Pick(2)),
+            (Key::Digit(4), Command::Pick(3)),
+            (Key::Digit(5), Command::Pick(4)),
+            (Key::Digit(6), Command::Pick(5)),
+            (Key::Digit(7), Command::Pick(6)),
+            (Key::Digit(8), Command::Pick(7)),
+            (Key::Digit(9), Command::Pick(8)),
+            (Key::Digit(0), Command::Pick(9)),
+        ],
+        repeats: false,
+    },
+    Binding {
+        shown: "M, Shift M",
+        about: "next, previous method",
+        keys: &[
+            (Key::Sign('m'), Command::NextMethod),
+            (Key::ShiftSign('m'), Command::PreviousMethod),
+        ],
+        repeats: false,
+    },
+    Binding {
+        shown: "C",
+        about: "solo / race of all methods",
+        keys: &[(Key::Sign('c'), Command::ToggleRace)],
+        repeats: false,
+    },
+    Binding {
+        shown: "Space",
+        about: "run / pause",
+        keys: &[(Key::Space, Command::TogglePause)],
+        repeats: false,
+    },
+    Binding {
+        shown: ".",
+        about: "one tick forward",
+        keys: &[(Key::Sign('.'), Command::TickForward)],
+        repeats: true,
+    },
+    Binding {
+        shown: "Home",
+        about: "restart",
+        keys: &[(Key::Home, Command::Restart)],
+        repeats: false,
+    },
+    Binding {
+        shown: "[ ]",
+        about: "tick rate down, up",
+        keys: &[(Key::Sign('['), Command::TickRateDown), (Key::Sign(']'), Command::TickRateUp)],
+        repeats: true,
+    },
+    Binding {
+        shown: "- =",
+        about: "speed down, up: ¼× to 16×",
+        keys: &[(Key::Sign('-'), Command::SpeedDown), (Key::Sign('='), Command::SpeedUp)],
+        repeats: true,
+    },
+    Binding {
+        shown: "↑ ↓",
+        about: "throttle (ship)",
+        keys: &[(Key::Up, Command::ThrottleUp), (Key::Down, Command::ThrottleDown)],
+        repeats: true,
+    },
+    Binding {
+        shown: "K",
+        about: "kick: an impulse at the next tick",
+        keys: &[(Key::Sign('k'), Command::Kick(1.0))],
+        repeats: false,
+    },
+    Binding {
+        shown: "N, B",
+        about: "next, previous scene",
+        keys: &[(Key::Sign('n'), Command::NextScene), (Key::Sign('b'), Command::PreviousScene)],
+        repeats: false,
+    },
+    Binding {
+        shown: "G",
+        about: "exact ghost on / off",
+        keys: &[(Key::Sign('g'), Command::ToggleGhost)],
+        repeats: false,
+    },
+    Binding {
+        shown: "I",
+        about: "drawing between ticks: raw / linear / Hermite",
+        keys: &[(Key::Sign('i'), Command::NextInterpolation)],
+        repeats: false,
+    },
+    Binding {
+        shown: "T",
+        about: "next instrument",
+        keys: &[(Key::Sign('t'), Command::NextInstrument)],
+        repeats: false,
+    },
+    Binding {
+        shown: "P, F12",
+        about: "screenshot; the file's name is shown",
+        keys: &[(Key::Sign('p'), Command::Screenshot), (Key::Function(12), Command::Screenshot)],
+        repeats: false,
+    },
+    Binding {
+        shown: "F11",
+        about: "full screen",
+        keys: &[(Key::Function(11), Command::ToggleFullScreen)],
+        repeats: false,
+    },
+    Binding {
+        shown: "H, F1, ?",
+        about: "help",
+        keys: &[
+            (Key::Sign('h'), Command::ToggleHelp),
+            (Key::Function(1), Command::ToggleHelp),
+            (Key::Sign('?'), Command::ToggleHelp),
+        ],
+        repeats: false,
+    },
+    Binding {
+        shown: "Esc",
+        about: "close the overlay, else quit",
+        keys: &[(Key::Escape, Command::Escape)],
+        repeats: false,
+    },
+];
+
+/// What `key` does, if anything.
+pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
+    KEYS.iter().find_map(|binding| {
+        let (_, command) = binding.keys.iter().find(|(bound, _)| *bound == key)?;
+        Some((*command, binding))
+    })
+}
