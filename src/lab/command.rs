@@ -3,6 +3,7 @@
 //! Keyboard, panels, scene scripts and tests all make the same [`Command`]s; [`KEYS`] is the one table
 //! from which the window, the help overlay and `regatta list keys` are made.
 
+use super::lab::Instrument;
 use crate::sim::integrators::Method;
 
 /// Something to be done, at the next tick where it touches the bodies.
@@ -22,7 +23,8 @@ pub enum Command {
     TogglePause,
     /// Pauses and goes one tick forward.
     TickForward,
-    /// Back to tick 0 with the scene as it was written.
+    /// Back to tick 0, the bodies at their start and the script from its top. The method and the tick
+    /// rate that a person chose stay; a script's do not.
     Restart,
     /// Sets the tick rate in Hz.
     TickHz(u32),
@@ -54,8 +56,12 @@ pub enum Command {
     ToggleGhost,
     /// The next way of drawing between ticks: raw, linear, Hermite.
     NextInterpolation,
+    /// Shows this instrument.
+    Instrument(Instrument),
     /// The next instrument, round.
     NextInstrument,
+    /// The plots and the lane list speak of the body on this place of the scene, from 0.
+    Body(usize),
     /// Opens or closes the help overlay.
     ToggleHelp,
     /// Saves what the window shows to a file.

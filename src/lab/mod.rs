@@ -4,7 +4,22 @@
 //! This layer knows no GPU, no window, no files and no wall clock: text comes in as `&str`, time as
 //! integers, and what comes out is plain data. [`Lab`] holds it all together.
 
+mod clock;
 mod command;
+mod history;
+#[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
+mod lab;
+mod lane;
+mod metrics;
 pub mod picture;
+mod race;
+mod scene;
 
+pub use clock::{Clock, Due};
 pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};
+pub use history::{CAPACITY, History, Sample};
+pub use lab::{Ask, Display, Instrument, Interpolation, Lab, Mode, Pace};
+pub use lane::{ESCAPE, Halt, Lane, LaneBody};
+pub use metrics::{METRICS, Metric, Scale};
+pub use race::{Entrant, Race};
+pub use scene::{BuiltIn, LaneSpec, SCENES, Scene, SceneBody, Scripted};

@@ -83,6 +83,8 @@ pub struct Kind {
 pub struct Coordinate {
     /// Its letter, as in the CSV's `coordinate` column.
     pub name: &'static str,
+    /// The letter of its velocity.
+    pub velocity: &'static str,
     /// Its unit.
     pub unit: &'static str,
 }

@@ -8,7 +8,7 @@ use crate::sim::{State, System, stepper};
 pub(super) const KIND: Kind = Kind {
     id: "ship",
     about: "m s″ = T - C s′: full thrust times throttle, against linear drag",
-    coordinates: &[Coordinate { name: "s", unit: "m" }],
+    coordinates: &[Coordinate { name: "s", velocity: "v", unit: "m" }],
     parameters: &[
         Parameter {
             key: "thrust_n",

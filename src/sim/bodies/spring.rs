@@ -8,7 +8,7 @@ use crate::sim::{State, System, stepper};
 pub(super) const KIND: Kind = Kind {
     id: "spring",
     about: "m x″ = -k x - c x′: a mass on a spring with a dash-pot",
-    coordinates: &[Coordinate { name: "x", unit: "m" }],
+    coordinates: &[Coordinate { name: "x", velocity: "v", unit: "m" }],
     parameters: &[
         Parameter {
             key: "mass_kg",

@@ -203,10 +203,10 @@ pub fn method(id: &str) -> Option<&'static Method> {
 /// rk4.step(&spring, 0.0, 1.0 / 60.0, &mut state).unwrap();
 /// assert!(state.q < 1.0);
 /// ```
-pub fn integrator<S: System>(method: &Method, like: &S::Vector) -> Box<dyn Integrator<S>>
-where
-    S: 'static,
-{
+pub fn integrator<S: System + 'static>(
+    method: &Method,
+    like: &S::Vector,
+) -> Box<dyn Integrator<S>> {
     struct Boxed<'a, V>(&'a V);
     impl<S: System + 'static> Construct<S> for Boxed<'_, S::Vector> {
         type Output = Box<dyn Integrator<S>>;

@@ -1,0 +1,176 @@
+//! Frame durations in, whole ticks out, exactly.
+//!
+//! Owed time is an integer in nanoseconds × hertz × percent, so that any whole tick rate at any whole
+//! percentage of real time divides it without a remainder being rounded away: a day at 60 Hz is
+//! 5 184 000 ticks however the day is cut into frames.
+
+/// One tick in nanoseconds × hertz × percent.
+const TICK: u128 = 1_000_000_000 * 100;
+
+/// What a frame has to simulate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Due {
+    /// Ticks to step now.
+    pub ticks: u32,
+    /// Ticks given up because the frame was longer than the cap: the simulation fell behind real time.
+    pub dropped: u64,
+}
+
+/// Turns real time into ticks.
+#[derive(Clone, Debug)]
+pub struct Clock {
+    tick_hz: u32,
+    speed_percent: u32,
+    /// Less than one [`TICK`].
+    owed: u128,
+}
+
+impl Clock {
+    /// The tick rates a clock can run at, in Hz.
+    pub const TICK_HZ: std::ops::RangeInclusive<u32> = 1..=10_000;
+    /// The speeds a clock can run at, in percent of real time.
+    pub const SPEED_PERCENT: std::ops::RangeInclusive<u32> = 1..=10_000;
+    /// The longest stretch of real time that one frame catches up with: 15 ticks at 60 Hz. Longer, and
+    /// a slow machine spirals down; shorter, and a hitch shows as slow motion.
+    pub const LONGEST_FRAME_MS: u32 = 250;
+
+    /// A clock at full speed that owes nothing.
+    ///
+    /// # Panics
+    /// If the rate is not in [`Clock::TICK_HZ`].
+    pub fn new(tick_hz: u32) -> Self {
+        assert!(Self::TICK_HZ.contains(&tick_hz), "the caller checks the tick rate");
+        Self { tick_hz, speed_percent: 100, owed: 0 }
+    }
+
+    /// The tick rate in Hz.
+    pub fn tick_hz(&self) -> u32 {
+        self.tick_hz
+    }
+
+    /// The speed in percent of real time.
+    pub fn speed_percent(&self) -> u32 {
+        self.speed_percent
+    }
+
+    /// Changes the tick rate, brought into [`Clock::TICK_HZ`]. The part of a tick that is owed stays
+    /// that part, so that nothing drawn jumps.
+    pub fn set_tick_hz(&mut self, tick_hz: u32) {
+        self.tick_hz = tick_hz.clamp(*Self::TICK_HZ.start(), *Self::TICK_HZ.end());
+    }
+
+    /// Changes the speed, brought into [`Clock::SPEED_PERCENT`].
+    pub fn set_speed_percent(&mut self, percent: u32) {
+        self.speed_percent =
+            percent.clamp(*Self::SPEED_PERCENT.start(), *Self::SPEED_PERCENT.end());
+    }
+
+    /// The most ticks that one frame gets: [`Clock::LONGEST_FRAME_MS`] of them, and at least one.
+    pub fn most_ticks(&self) -> u32 {
+        let per_second = u64::from(self.tick_hz) * u64::from(self.speed_percent);
+        let most = (per_second * u64::from(Self::LONGEST_FRAME_MS)).div_ceil(100 * 1000);
+        u32::try_from(most).expect("at most 10 000 Hz at a hundredfold speed")
+    }
+
+    /// Takes in a frame of `frame_ns` nanoseconds; a negative one counts as none.
+    pub fn advance(&mut self, frame_ns: i64) -> Due {
+        let frame_ns = u128::from(frame_ns.max(0).unsigned_abs());
+        self.owed += frame_ns * u128::from(self.tick_hz) * u128::from(self.speed_percent);
+        let whole = u64::try_from(self.owed / TICK).expect("2^63 ns at 10^4 Hz and 10^4 % fit");
+        self.owed %= TICK;
+        let ticks = u64::from(self.most_ticks()).min(whole);
+        Due { ticks: ticks as u32, dropped: whole - ticks }
+    }
+
+    /// How far real time is into the next tick, in [0, 1).
+    pub fn alpha(&self) -> f64 {
+        self.owed as f64 / TICK as f64
+    }
+
+    /// Owes nothing again.
+    pub fn restart(&mut self) {
+        self.owed = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DAY_NS: i64 = 86_400 * 1_000_000_000;
+
+    fn run(clock: &mut Clock, frames: impl Iterator<Item = i64>) -> (u64, u64) {
+        frames.fold((0, 0), |(ticks, dropped), frame| {
+            let due = clock.advance(frame);
+            assert!((0.0..1.0).contains(&clock.alpha()));
+            (ticks + u64::from(due.ticks), dropped + due.dropped)
+        })
+    }
+
+    #[test]
+    fn a_day_at_60_hz_is_5_184_000_ticks_at_any_frame_rate() {
+        for fps in [24, 60, 144, 240] {
+            let frames = 86_400 * fps;
+            let at = |frame: i64| (i128::from(frame) * 1_000_000_000 / i128::from(fps)) as i64;
+            let mut clock = Clock::new(60);
+            let total = run(&mut clock, (0..frames).map(|i| at(i + 1) - at(i)));
+            assert_eq!(total, (5_184_000, 0), "at {fps} frames a second");
+            assert_eq!(clock.alpha(), 0.0);
+        }
+    }
+
+    #[test]
+    fn every_rate_and_speed_divides_an_hour_exactly() {
+        for tick_hz in [1, 2, 7, 49, 60, 997, 10_000] {
+            for percent in [25, 50, 100, 400, 1600] {
+                let mut clock = Clock::new(tick_hz);
+                clock.set_speed_percent(percent);
+                let frame = 8_333_333;
+                let whole = 3_600_000_000_000 / frame;
+                let rest = 3_600_000_000_000 - whole * frame;
+                let frames = std::iter::repeat_n(frame, whole as usize).chain([rest]);
+                let ticks = 3600 * u64::from(tick_hz) * u64::from(percent) / 100;
+                assert_eq!(run(&mut clock, frames), (ticks, 0), "{tick_hz} Hz at {percent} %");
+            }
+        }
+    }
+
+    #[test]
+    fn a_frame_of_no_time_or_less_owes_nothing() {
+        let mut clock = Clock::new(60);
+        assert_eq!(clock.advance(0), Due::default());
+        assert_eq!(clock.advance(-5), Due::default());
+        assert_eq!(clock.advance(i64::MIN), Due::default());
+        assert_eq!(clock.alpha(), 0.0);
+    }
+
+    #[test]
+    fn a_long_frame_is_capped_and_the_rest_is_reported() {
+        let mut clock = Clock::new(60);
+        assert_eq!(clock.advance(10_000_000_000), Due { ticks: 15, dropped: 585 });
+        let due = clock.advance(i64::MAX);
+        assert_eq!(due.ticks, 15);
+        assert_eq!(due.dropped + 15, i64::MAX as u64 / 1_000_000_000 * 60 + 51);
+        let mut day = Clock::new(10_000);
+        day.set_speed_percent(1600);
+        assert_eq!(day.advance(DAY_NS).ticks, 40_000);
+    }
+
+    #[test]
+    fn a_slow_tick_still_comes_when_its_time_is_up() {
+        let mut clock = Clock::new(1);
+        let total = run(&mut clock, std::iter::repeat_n(100_000_000, 30));
+        assert_eq!(total, (3, 0));
+    }
+
+    #[test]
+    fn a_change_of_rate_keeps_the_part_of_a_tick_that_is_owed() {
+        let mut clock = Clock::new(2);
+        clock.advance(400_000_000);
+        let alpha = clock.alpha();
+        assert!((0.79..0.81).contains(&alpha));
+        clock.set_tick_hz(1000);
+        assert_eq!(clock.alpha(), alpha);
+        assert_eq!(clock.advance(0).ticks, 0);
+    }
+}

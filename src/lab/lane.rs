@@ -1,0 +1,144 @@
+//! A solver on its own copy of the scene's bodies; the truth is one too.
+
+use super::scene::Scene;
+use crate::sim::bodies::{Input, Kind};
+use crate::sim::integrators::StepFailure;
+use crate::sim::{Solver, Stepper};
+
+/// The largest magnitude that is followed. Beyond it a value would no longer fit the f32 of the
+/// picture, and nothing is left to learn: the lane halts.
+pub const ESCAPE: f64 = 1e38;
+
+/// Why and when a lane stopped.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Halt {
+    /// The tick that could not be completed. The lane keeps the state it had before.
+    pub tick: u64,
+    /// The body that failed, by its place in the scene.
+    pub body: usize,
+    /// What happened to it.
+    pub failure: StepFailure,
+}
+
+/// One body of a lane.
+pub struct LaneBody {
+    /// Its card.
+    pub kind: &'static Kind,
+    /// Itself, under the lane's solver.
+    pub stepper: Box<dyn Stepper>,
+    /// Coordinates one tick ago, for drawing between ticks.
+    pub previous_q: Vec<f64>,
+    /// Velocities one tick ago.
+    pub previous_v: Vec<f64>,
+}
+
+impl LaneBody {
+    fn remember(&mut self) {
+        self.previous_q.copy_from_slice(self.stepper.q());
+        self.previous_v.copy_from_slice(self.stepper.v());
+    }
+
+    /// The first value that is not finite or beyond [`ESCAPE`].
+    fn check(&self) -> Result<(), StepFailure> {
+        let names = self.kind.coordinates.iter();
+        let q = names.clone().map(|c| c.name).zip(self.stepper.q());
+        let v = names.map(|c| c.velocity).zip(self.stepper.v());
+        for (coordinate, &value) in q.chain(v) {
+            if !value.is_finite() {
+                return Err(StepFailure::NotFinite { coordinate, value });
+            }
+            if value.abs() > ESCAPE {
+                return Err(StepFailure::Escaped { coordinate, value });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A solver on its own copy of the scene.
+pub struct Lane {
+    solver: Solver,
+    substeps: u32,
+    bodies: Vec<LaneBody>,
+    halted: Option<Halt>,
+    /// Evaluations of steppers that a switch has since replaced.
+    past_evaluations: u64,
+}
+
+impl Lane {
+    /// The scene's bodies at their start under `solver`, which takes `substeps` steps in a tick.
+    pub fn new(scene: &Scene, solver: Solver, substeps: u32) -> Self {
+        let bodies = scene.bodies.iter().map(|body| {
+            let stepper = (body.kind.build)(&body.values, solver);
+            let (previous_q, previous_v) = (stepper.q().to_vec(), stepper.v().to_vec());
+            LaneBody { kind: body.kind, stepper, previous_q, previous_v }
+        });
+        Self { solver, substeps, bodies: bodies.collect(), halted: None, past_evaluations: 0 }
+    }
+
+    /// What carries the bodies forward.
+    pub fn solver(&self) -> Solver {
+        self.solver
+    }
+    /// Steps in one tick.
+    pub fn substeps(&self) -> u32 {
+        self.substeps
+    }
+    /// The bodies, in scene order.
+    pub fn bodies(&self) -> &[LaneBody] {
+        &self.bodies
+    }
+    /// Why the lane stopped, if it did.
+    pub fn halted(&self) -> Option<&Halt> {
+        self.halted.as_ref()
+    }
+    /// Evaluations of all bodies' accelerations since the start.
+    pub fn evaluations(&self) -> u64 {
+        let present: u64 = self.bodies.iter().map(|body| body.stepper.evaluations()).sum();
+        self.past_evaluations + present
+    }
+
+    /// Steps every body from `t` by `h` (s), from tick `tick` to the next. If one fails, all keep the
+    /// state they had, and the lane halts.
+    pub fn tick(&mut self, tick: u64, t: f64, h: f64) {
+        if self.halted.is_some() {
+            return;
+        }
+        for i in 0..self.bodies.len() {
+            let body = &mut self.bodies[i];
+            body.remember();
+            let stepped = body.stepper.advance(t, h, self.substeps).and_then(|()| body.check());
+            if let Err(failure) = stepped {
+                for body in &mut self.bodies[..=i] {
+                    body.stepper.set(t, &body.previous_q, &body.previous_v);
+                }
+                for body in &mut self.bodies[i..] {
+                    body.remember();
+                }
+                self.halted = Some(Halt { tick, body: i, failure });
+                return;
+            }
+        }
+    }
+
+    /// Gives an input at time `t` (s) to every body that takes it.
+    pub fn input(&mut self, t: f64, input: Input) {
+        if self.halted.is_none() {
+            for body in &mut self.bodies {
+                body.stepper.input(t, input);
+            }
+        }
+    }
+
+    /// Puts the bodies under another solver, their state carried exactly. A halted lane goes on from
+    /// its last good state.
+    pub fn switch(&mut self, solver: Solver, substeps: u32, t: f64) {
+        self.past_evaluations = self.evaluations();
+        self.solver = solver;
+        self.substeps = substeps;
+        self.halted = None;
+        for body in &mut self.bodies {
+            body.stepper = body.stepper.with_solver(solver, t);
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! What is measured of a body in a lane, against the same body in truth.
+
+use crate::sim::Stepper;
+
+/// How a metric is plotted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// As its decimal logarithm.
+    Log,
+    /// As it is.
+    Linear,
+}
+
+/// One thing measured.
+#[derive(Debug)]
+pub struct Metric {
+    /// Name in output, `snake_case`.
+    pub id: &'static str,
+    /// Name for people.
+    pub name: &'static str,
+    /// Unit, empty for a pure number.
+    pub unit: &'static str,
+    /// How it is plotted.
+    pub scale: Scale,
+    /// The value for a body in a lane and the same body in truth, or `None` where it has no meaning.
+    pub measure: fn(lane: &dyn Stepper, truth: &dyn Stepper) -> Option<f64>,
+}
+
+/// Every metric, the one that lanes are ranked by first.
+pub const METRICS: &[Metric] = &[
+    Metric {
+        id: "position_error",
+        name: "position error",
+        unit: "m",
+        scale: Scale::Log,
+        measure: |lane, truth| Some(largest_difference(lane.q(), truth.q())),
+    },
+    Metric {
+        id: "velocity_error",
+        name: "velocity error",
+        unit: "m/s",
+        scale: Scale::Log,
+        measure: |lane, truth| Some(largest_difference(lane.v(), truth.v())),
+    },
+    Metric {
+        id: "relative_speed_error",
+        name: "speed error",
+        unit: "%",
+        scale: Scale::Linear,
+        measure: |lane, truth| {
+            let (speed, exact) = (length(lane.v()), length(truth.v()));
+            (exact > 0.0).then(|| 100.0 * (speed - exact) / exact)
+        },
+    },
+    Metric {
+        id: "energy_drift",
+        name: "energy drift",
+        unit: "%",
+        scale: Scale::Linear,
+        measure: |lane, truth| {
+            let (energy, exact) = (lane.energy()?, truth.energy()?);
+            (exact != 0.0).then(|| 100.0 * (energy - exact) / exact.abs())
+        },
+    },
+    Metric {
+        id: "evaluations",
+        name: "evaluations",
+        unit: "",
+        scale: Scale::Linear,
+        measure: |lane, _| Some(lane.evaluations() as f64),
+    },
+];
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+fn length(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |length, &v| libm::hypot(length, v))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::Solver;
+    use crate::sim::bodies::{Input, kind};
+
+    fn metric(id: &str) -> &'static Metric {
+        METRICS.iter().find(|metric| metric.id == id).unwrap()
+    }
+
+    #[test]
+    fn metrics_compare_a_lane_with_the_truth() {
+        let spring = kind("spring").unwrap();
+        let values = [2.0, 8.0, 0.0, 1.0, 0.0, 4.0];
+        let truth = (spring.build)(&values, Solver::Exact);
+        let mut lane = (spring.build)(&values, Solver::Exact);
+        let of = |id: &str, lane: &dyn Stepper| (metric(id).measure)(lane, &*truth);
+        assert_eq!(of("position_error", &*lane), Some(0.0));
+        assert_eq!(of("energy_drift", &*lane), Some(0.0));
+        assert_eq!(of("relative_speed_error", &*lane), None);
+        assert!(lane.input(0.0, Input::Kick(1.0)));
+        assert_eq!(of("velocity_error", &*lane), Some(2.0));
+        assert_eq!(of("energy_drift", &*lane), Some(100.0));
+        assert_eq!(of("evaluations", &*lane), Some(0.0));
+    }
+}

@@ -1,0 +1,169 @@
+//! All lanes and the truth, tick by tick, in integer time.
+
+use super::history::{CAPACITY, History};
+use super::lane::Lane;
+use super::scene::{LaneSpec, Scene};
+use crate::sim::bodies::Input;
+use crate::sim::{Solver, Stepper};
+
+/// A lane in a race, with its recent past.
+pub struct Entrant {
+    /// Its place on the list of methods.
+    pub entry: usize,
+    /// The lane.
+    pub lane: Lane,
+    /// One history for each body.
+    pub histories: Vec<History>,
+}
+
+/// Lanes against the truth. In solo mode there is one.
+pub struct Race {
+    truth: Lane,
+    entrants: Vec<Entrant>,
+    tick: u64,
+    tick_hz: u32,
+    /// The tick and the time (s) at which the present tick rate was set: time is counted from there,
+    /// and never summed up.
+    origin: (u64, f64),
+    /// Ticks between recorded samples.
+    stride: u64,
+    /// The stretch of time, in seconds, that histories are to reach back.
+    span_s: f64,
+}
+
+impl Race {
+    /// The scene at its start, with one lane for each `(entry, spec)`.
+    pub fn new(scene: &Scene, lanes: impl IntoIterator<Item = (usize, LaneSpec)>) -> Self {
+        let entrants = lanes.into_iter().map(|(entry, spec)| Entrant {
+            entry,
+            lane: Lane::new(scene, Solver::Method(spec.method), spec.substeps),
+            histories: scene.bodies.iter().map(|_| History::new()).collect(),
+        });
+        let mut race = Self {
+            truth: Lane::new(scene, Solver::Exact, 1),
+            entrants: entrants.collect(),
+            tick: 0,
+            tick_hz: scene.tick_hz,
+            origin: (0, 0.0),
+            stride: 1,
+            span_s: scene.seconds,
+        };
+        race.set_stride();
+        race
+    }
+
+    /// The tick reached.
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+    /// The tick rate in Hz.
+    pub fn tick_hz(&self) -> u32 {
+        self.tick_hz
+    }
+    /// The time reached, in seconds.
+    pub fn t(&self) -> f64 {
+        self.origin.1 + (self.tick - self.origin.0) as f64 / f64::from(self.tick_hz)
+    }
+    /// The exact solution.
+    pub fn truth(&self) -> &Lane {
+        &self.truth
+    }
+    /// The lanes, in list order.
+    pub fn entrants(&self) -> &[Entrant] {
+        &self.entrants
+    }
+
+    /// Keeps only the lane at this place.
+    pub(super) fn keep_only(&mut self, index: usize) {
+        self.entrants.swap(0, index);
+        self.entrants.truncate(1);
+    }
+
+    /// Changes the tick rate from here on.
+    pub fn set_tick_hz(&mut self, tick_hz: u32) {
+        self.origin = (self.tick, self.t());
+        self.tick_hz = tick_hz;
+        self.set_stride();
+    }
+
+    fn set_stride(&mut self) {
+        let samples = self.span_s * f64::from(self.tick_hz);
+        self.stride = ((samples / CAPACITY as f64).ceil() as u64).max(1);
+    }
+
+    /// Steps every lane and the truth by one tick. Never allocates.
+    pub fn step(&mut self) {
+        let (t, h) = (self.t(), 1.0 / f64::from(self.tick_hz));
+        self.truth.tick(self.tick, t, h);
+        for entrant in &mut self.entrants {
+            entrant.lane.tick(self.tick, t, h);
+        }
+        self.tick += 1;
+    }
+
+    /// Adds the present to the histories, if it is time for a sample. Never allocates.
+    pub fn record(&mut self) {
+        if self.tick.is_multiple_of(self.stride) {
+            let t = self.t();
+            for Entrant { entry, lane, histories } in &mut self.entrants {
+                if lane.halted().is_some() {
+                    continue;
+                }
+                let bodies = lane.bodies().iter().zip(self.truth.bodies()).zip(histories);
+                for ((body, truth), history) in bodies {
+                    history.record(t, *entry, &*body.stepper, &*truth.stepper);
+                }
+            }
+        }
+    }
+
+    /// Gives an input to every lane and the truth, at the present tick.
+    pub fn input(&mut self, input: Input) {
+        let t = self.t();
+        self.truth.input(t, input);
+        for entrant in &mut self.entrants {
+            entrant.lane.input(t, input);
+        }
+    }
+
+    /// Switches the lane at `index` to another method, its state carried exactly.
+    pub fn switch(&mut self, index: usize, entry: usize, spec: LaneSpec) {
+        let t = self.t();
+        let entrant = &mut self.entrants[index];
+        entrant.entry = entry;
+        entrant.lane.switch(Solver::Method(spec.method), spec.substeps, t);
+    }
+
+    /// A hash of the tick and of every lane's state to the bit, the truth left out: equal for equal
+    /// physics on every platform and in every build. It is 64-bit FNV-1a over little-endian words, with
+    /// -0 as 0.
+    pub fn state_hash(&self) -> u64 {
+        let mut hash = Fnv::new();
+        hash.word(self.tick);
+        for Entrant { lane, .. } in &self.entrants {
+            hash.word(u64::from(lane.substeps()));
+            hash.word(lane.halted().map_or(u64::MAX, |halt| halt.tick));
+            for body in lane.bodies() {
+                let stepper: &dyn Stepper = &*body.stepper;
+                for &value in stepper.q().iter().chain(stepper.v()) {
+                    hash.word(if value == 0.0 { 0 } else { value.to_bits() });
+                }
+            }
+        }
+        hash.0
+    }
+}
+
+struct Fnv(u64);
+
+impl Fnv {
+    fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    fn word(&mut self, word: u64) {
+        for byte in word.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+}
