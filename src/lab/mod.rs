@@ -11,6 +11,7 @@ mod history;
 mod lab;
 mod lane;
 mod metrics;
+pub mod number;
 pub mod picture;
 mod race;
 mod scene;

@@ -3,6 +3,15 @@
 //! Lengths are logical points from the stage's top left corner, y down; colours are straight sRGB with
 //! alpha. Everything in a [`Picture`] is finite and within [`FAR`] of the stage, whatever the lanes do.
 
+mod compose;
+pub mod palette;
+mod sketch;
+
+pub use compose::compose;
+
+/// The largest coordinate in a picture, in points: far outside any stage, and exact in an f32.
+pub const FAR: f32 = 1e5;
+
 /// A colour: red, green, blue and alpha, sRGB, alpha not multiplied in.
 pub type Rgba = [u8; 4];
 

@@ -19,6 +19,8 @@ pub struct Entrant {
 /// Lanes against the truth. In solo mode there is one.
 pub struct Race {
     truth: Lane,
+    /// One history of the truth for each body.
+    truth_histories: Vec<History>,
     entrants: Vec<Entrant>,
     tick: u64,
     tick_hz: u32,
@@ -41,6 +43,7 @@ impl Race {
         });
         let mut race = Self {
             truth: Lane::new(scene, Solver::Exact, 1),
+            truth_histories: scene.bodies.iter().map(|_| History::new()).collect(),
             entrants: entrants.collect(),
             tick: 0,
             tick_hz: scene.tick_hz,
@@ -67,6 +70,10 @@ impl Race {
     /// The exact solution.
     pub fn truth(&self) -> &Lane {
         &self.truth
+    }
+    /// The recent past of the truth, one history for each body.
+    pub fn truth_histories(&self) -> &[History] {
+        &self.truth_histories
     }
     /// The lanes, in list order.
     pub fn entrants(&self) -> &[Entrant] {
@@ -105,6 +112,9 @@ impl Race {
     pub fn record(&mut self) {
         if self.tick.is_multiple_of(self.stride) {
             let t = self.t();
+            for (truth, history) in self.truth.bodies().iter().zip(&mut self.truth_histories) {
+                history.record(t, 0, &*truth.stepper, &*truth.stepper);
+            }
             for Entrant { entry, lane, histories } in &mut self.entrants {
                 if lane.halted().is_some() {
                     continue;
