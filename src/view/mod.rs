@@ -1,0 +1,2 @@
+//! Pixels.
+mod panels;

@@ -1,0 +1,32 @@
+//! The line under everything: what happened last, what to try next, and the keys.
+
+use egui::{Align, Layout, RichText, Ui};
+
+use super::{ACCENT, QUIET, TEXT};
+use crate::lab::Lab;
+
+pub(super) const HEIGHT: f32 = 26.0;
+
+/// From this width on, in points, the keys fit beside the hint.
+const ROOM_FOR_KEYS: f32 = 900.0;
+
+pub(super) fn show(ui: &mut Ui, lab: &Lab) {
+    let width = ui.available_width();
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        if width >= ROOM_FOR_KEYS {
+            let throttle = lab
+                .has_throttle()
+                .then(|| format!("↑↓ throttle {:.0} %  ", lab.throttle() * 100.0));
+            let keys = format!("{}K kick  Space pause  H all keys", throttle.unwrap_or_default());
+            ui.label(RichText::new(keys).color(QUIET));
+        }
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let (text, colour) = match (lab.notice(), &lab.scene().hint) {
+                (Some(notice), _) => (notice, TEXT),
+                (None, Some(hint)) => (hint.as_str(), ACCENT),
+                (None, None) => (lab.scene().about.as_str(), QUIET),
+            };
+            ui.add(egui::Label::new(RichText::new(text).color(colour)).truncate());
+        });
+    });
+}

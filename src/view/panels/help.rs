@@ -1,0 +1,31 @@
+//! The help overlay: every key, from the one table of keys.
+
+use egui::{Align2, Grid, Order, RichText, ScrollArea, Ui, Window};
+
+use super::{ACCENT, QUIET};
+use crate::lab::{Command, KEYS};
+
+pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
+    let screen = ui.ctx().content_rect();
+    let window = Window::new("Keys").order(Order::Foreground).collapsible(false).resizable(false);
+    window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).max_height(screen.height() - 60.0).show(
+        ui.ctx(),
+        |ui| {
+            ScrollArea::vertical().show(ui, |ui| {
+                Grid::new("keys").num_columns(2).spacing([18.0, 5.0]).show(ui, |ui| {
+                    for binding in KEYS {
+                        ui.label(RichText::new(binding.shown).monospace().color(ACCENT));
+                        ui.label(binding.about);
+                        ui.end_row();
+                    }
+                });
+                ui.add_space(6.0);
+                let note = "White is the exact solution; each method has its own colour and dash.";
+                ui.label(RichText::new(note).color(QUIET));
+                if ui.button("Close (Esc)").clicked() {
+                    commands.push(Command::ToggleHelp);
+                }
+            });
+        },
+    );
+}

@@ -1,0 +1,248 @@
+//! The plots: the value of every lane over the exact curve, and one instrument below it.
+//!
+//! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
+//! arrow in its colour says so.
+
+use egui::{Color32, RichText, Ui, vec2};
+use egui_plot::{Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoints, PlotUi, Points};
+
+use super::{QUIET, colour};
+use crate::lab::number::{significant, superscript};
+use crate::lab::picture::palette;
+use crate::lab::{Command, History, Instrument, Lab, METRICS, Sample, Scale};
+
+/// A lane this many times further out than the truth no longer stretches the axes.
+const HEALTHY: f64 = 1.6;
+/// Errors below this are round-off: the plot's floor, as a power of ten.
+const FLOOR: f64 = -17.0;
+/// Samples in a phase portrait: a few turns, and each still to be told from the next.
+const PHASE_SAMPLES: usize = 360;
+
+pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let height = ui.available_height();
+    let body = &lab.scene().bodies[lab.display().body];
+    ui.horizontal(|ui| {
+        for (index, body) in lab.scene().bodies.iter().enumerate() {
+            let selected = index == lab.display().body;
+            if ui.selectable_label(selected, &body.name).clicked() {
+                commands.push(Command::Body(index));
+            }
+        }
+        let coordinate = &body.kind.coordinates[0];
+        let title = format!("{} ({}), exact in white", coordinate.name, coordinate.unit);
+        ui.label(RichText::new(title).color(QUIET));
+    });
+    value(ui, lab, (height * 0.5 - 26.0).max(10.0));
+
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for instrument in Instrument::all() {
+            let selected = instrument == lab.display().instrument;
+            if ui.selectable_label(selected, instrument.name()).clicked() {
+                commands.push(Command::Instrument(instrument));
+            }
+        }
+    });
+    let room = (ui.available_height() - 2.0).max(10.0);
+    match lab.display().instrument {
+        Instrument::Metric(index) => metric(ui, lab, room, index),
+        Instrument::Phase => phase(ui, lab, room),
+    }
+}
+
+/// A curve to be drawn: its colour, its dash, and its points.
+struct Curve {
+    name: &'static str,
+    colour: Color32,
+    dash: [f32; 2],
+    points: Vec<[f64; 2]>,
+}
+
+/// One curve for each lane, of what `y` makes of its samples.
+fn curves(lab: &Lab, x: impl Fn(&Sample) -> f64, y: impl Fn(&Sample) -> f64) -> Vec<Curve> {
+    let curve = |(entry, history): (usize, &History)| {
+        let method = lab.entries()[entry].method;
+        let (rgba, dash) = palette::style(method);
+        let points = history.samples().map(|s| [x(s), y(s)]);
+        let points = points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect();
+        Curve { name: method.name, colour: colour(rgba), dash, points }
+    };
+    lab.plotted().map(curve).collect()
+}
+
+fn truth(lab: &Lab) -> &History {
+    &lab.race().truth_histories()[lab.display().body]
+}
+
+fn value(ui: &mut Ui, lab: &Lab, height: f32) {
+    let exact: Vec<[f64; 2]> = truth(lab).samples().map(|s| [s.t, s.q]).collect();
+    let lanes = curves(lab, |s| s.t, |s| s.q);
+    let y = healthy_range(1, &exact, &lanes);
+    plot("value", height).y_axis_formatter(|mark, _| tick_text(mark.value)).show(ui, |plot| {
+        let bounds = bounds(lab, y);
+        draw(plot, &bounds, &lanes);
+        let line = Line::new("exact", PlotPoints::from(exact)).allow_hover(false);
+        plot.line(line.color(colour(palette::TRUTH)).width(1.2));
+    });
+}
+
+fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
+    let metric = &METRICS[index];
+    match metric.scale {
+        Scale::Log => {
+            let log = |s: &Sample| match s.metrics[index] {
+                0.0 => FLOOR,
+                value => libm::log10(value).max(FLOOR),
+            };
+            let lanes = curves(lab, |s| s.t, log);
+            let y = log_range(lab, &lanes);
+            let plot = plot("log metric", height).y_axis_formatter(|mark, _| {
+                let exponent = mark.value.round();
+                if (mark.value - exponent).abs() > 1e-6 {
+                    return String::new();
+                }
+                format!("10{} {}", superscript(exponent as i32), metric.unit)
+            });
+            plot.y_grid_spacer(decades).show(ui, |plot| draw(plot, &bounds(lab, y), &lanes));
+        }
+        Scale::Linear => {
+            let lanes = curves(lab, |s| s.t, |s| s.metrics[index]);
+            let y = spread(&lanes, 300.0);
+            let plot = plot("metric", height);
+            let unit = metric.unit;
+            let plot =
+                plot.y_axis_formatter(move |mark, _| format!("{} {unit}", tick_text(mark.value)));
+            plot.show(ui, |plot| draw(plot, &bounds(lab, y), &lanes));
+        }
+    }
+}
+
+fn phase(ui: &mut Ui, lab: &Lab, height: f32) {
+    let latest =
+        |points: Vec<[f64; 2]>| points[points.len().saturating_sub(PHASE_SAMPLES)..].to_vec();
+    let exact = latest(truth(lab).samples().map(|s| [s.q, s.v]).collect());
+    let mut lanes = curves(lab, |s| s.q, |s| s.v);
+    for lane in &mut lanes {
+        lane.points = latest(std::mem::take(&mut lane.points));
+    }
+    let [x, y] = [0, 1].map(|axis| healthy_range(axis, &exact, &lanes));
+    let formatter = |mark: egui_plot::GridMark, _: &_| tick_text(mark.value);
+    plot("phase", height).x_axis_formatter(formatter).y_axis_formatter(formatter).show(
+        ui,
+        |plot| {
+            let bounds = PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]);
+            draw(plot, &bounds, &lanes);
+            let line = Line::new("exact", PlotPoints::from(exact)).allow_hover(false);
+            plot.line(line.color(colour(palette::TRUTH)).width(1.2));
+        },
+    );
+}
+
+fn plot<'a>(id: &'static str, height: f32) -> Plot<'a> {
+    Plot::new(id)
+        .height(height)
+        .show_background(false)
+        .allow_zoom(false)
+        .allow_drag(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(false)
+        .set_margin_fraction(vec2(0.0, 0.0))
+        .y_axis_min_width(52.0)
+        .x_axis_formatter(|mark, _| format!("{} s", tick_text(mark.value)))
+        .grid_color(Color32::from_rgb(64, 86, 116))
+        .label_formatter(|_| None)
+}
+
+/// The window of time in view, and the given range of values.
+fn bounds(lab: &Lab, (low, high): (f64, f64)) -> PlotBounds {
+    let span = lab.scene().seconds;
+    let now = lab.race().t();
+    PlotBounds::from_min_max([(now - span).max(0.0), low], [now.max(span), high])
+}
+
+/// Draws the lanes, each cut off at the bounds, with an arrow where its newest point is beyond them.
+fn draw(plot: &mut PlotUi<'_>, bounds: &PlotBounds, lanes: &[Curve]) {
+    plot.set_plot_bounds(*bounds);
+    let ([left, low], [right, high]) = (bounds.min(), bounds.max());
+    // Far enough out for a line to leave at its own slope, near enough for the f32 of the painter.
+    let (wide, tall) = (10.0 * (right - left), 10.0 * (high - low));
+    for lane in lanes {
+        let Some(&[x, y]) = lane.points.last() else { continue };
+        let cut = |[x, y]: &[f64; 2]| {
+            [x.clamp(left - wide, right + wide), y.clamp(low - tall, high + tall)]
+        };
+        let points: Vec<[f64; 2]> = lane.points.iter().map(cut).collect();
+        let style = match lane.dash {
+            [_, 0.0] => LineStyle::Solid,
+            [drawn, _] => LineStyle::Dashed { length: drawn },
+        };
+        let line = Line::new(lane.name, PlotPoints::from(points)).allow_hover(false);
+        plot.line(line.color(lane.colour).width(1.6).style(style));
+        if y > high || y < low {
+            let (shape, inset) =
+                if y > high { (MarkerShape::Up, -0.04) } else { (MarkerShape::Down, 0.04) };
+            let edge = if y > high { high } else { low };
+            let at = [x.clamp(left, right - 0.012 * (right - left)), edge + inset * (high - low)];
+            let arrow = Points::new(lane.name, PlotPoints::from(vec![at])).allow_hover(false);
+            plot.points(arrow.shape(shape).radius(5.0).color(lane.colour));
+        }
+    }
+}
+
+/// The range of the truth along an axis, stretched to take in what is not far outside it.
+fn healthy_range(axis: usize, exact: &[[f64; 2]], lanes: &[Curve]) -> (f64, f64) {
+    let along = |point: &[f64; 2]| point[axis];
+    let (low, high) = range(exact.iter().map(along)).unwrap_or((-1.0, 1.0));
+    let half = ((high - low) / 2.0).max(1e-3 * high.abs()).max(1e-9);
+    let middle = (low + high) / 2.0;
+    let near = |value: &f64| (value - middle).abs() <= HEALTHY * half;
+    let all = lanes.iter().flat_map(|lane| lane.points.iter().map(along)).filter(near);
+    let (low, high) = range(all.chain([low, high])).unwrap_or((low, high));
+    let pad = 0.12 * (high - low).max(half);
+    (low - pad, high + pad)
+}
+
+/// The decades that hold the errors, up to ten times the truth's own range: beyond that a lane is lost.
+fn log_range(lab: &Lab, lanes: &[Curve]) -> (f64, f64) {
+    let size = truth(lab).samples().map(|s| s.q.abs().max(s.v.abs())).fold(1e-300, f64::max);
+    let lost = libm::log10(size).ceil() + 1.0;
+    let all = lanes.iter().flat_map(|lane| lane.points.iter().map(|p| p[1]));
+    let (low, high) = range(all.filter(|&y| y > FLOOR && y <= lost)).unwrap_or((-3.0, 0.0));
+    (low.floor() - 0.2, high.ceil().max(low.floor() + 2.0) + 0.2)
+}
+
+/// The range of all lanes within `most` of zero.
+fn spread(lanes: &[Curve], most: f64) -> (f64, f64) {
+    let all = lanes.iter().flat_map(|lane| lane.points.iter().map(|p| p[1]));
+    let (low, high) = range(all.filter(|y| y.abs() <= most)).unwrap_or((-1.0, 1.0));
+    let pad = 0.08 * (high - low).max(1e-9);
+    (low - pad, high + pad)
+}
+
+fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    values.fold(None, |range, y| {
+        let (low, high) = range.unwrap_or((y, y));
+        Some((low.min(y), high.max(y)))
+    })
+}
+
+/// A line for every whole power of ten, or every few where they crowd.
+fn decades(input: egui_plot::GridInput) -> Vec<egui_plot::GridMark> {
+    let (low, high) = input.bounds;
+    let step = ((high - low) / 6.0).ceil().max(1.0);
+    let first = (low / step).ceil() as i64;
+    let last = (high / step).floor() as i64;
+    let mark = |i: i64| egui_plot::GridMark { value: i as f64 * step, step_size: step };
+    (first..=last).map(mark).collect()
+}
+
+/// A number on an axis, without trailing noughts.
+fn tick_text(value: f64) -> String {
+    let text = significant((value * 1e9).round() / 1e9, 4);
+    if text.contains('.') && !text.contains('·') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}

@@ -1,0 +1,279 @@
+//! The list of methods: key, colour, what the card says, and how each is doing.
+
+use egui::{Align2, Color32, FontId, Pos2, Rect, ScrollArea, Sense, Stroke, Ui, Vec2, pos2, vec2};
+
+use super::{QUIET, RAISED, TEXT, colour};
+use crate::lab::number::significant;
+use crate::lab::picture::palette;
+use crate::lab::{Command, Entrant, Lab, LaneSpec, METRICS, Metric, Mode};
+
+const ROW: f32 = 20.0;
+const HEAD: f32 = 16.0;
+
+pub(super) fn height(lab: &Lab) -> f32 {
+    HEAD + ROW * lab.entries().len() as f32 + 12.0
+}
+
+pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    ui.spacing_mut().item_spacing = Vec2::ZERO;
+    let width = ui.available_width();
+    let columns: Vec<&Column> = COLUMNS.iter().filter(|c| width >= c.from_width).collect();
+    let lefts = lefts(&columns, width);
+
+    let (head, _) = ui.allocate_exact_size(vec2(width, HEAD), Sense::hover());
+    for (column, left) in columns.iter().zip(&lefts) {
+        let at = column.align.anchor(head, *left, column.width);
+        ui.painter().text(
+            at,
+            column.align.align(),
+            (column.head)(lab),
+            FontId::proportional(10.5),
+            QUIET,
+        );
+    }
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        for (index, spec) in lab.entries().iter().enumerate() {
+            let row = Row::new(lab, index, spec);
+            let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
+            let name = format!("{} {}", index + 1, spec.method.name);
+            response.widget_info(|| {
+                egui::WidgetInfo::selected(egui::Role::Button, true, row.active, &name)
+            });
+            if row.active || response.hovered() {
+                let fill = if row.active { RAISED } else { RAISED.gamma_multiply(0.5) };
+                ui.painter().rect_filled(rect, 3.0, fill);
+            }
+            for (column, left) in columns.iter().zip(&lefts) {
+                (column.paint)(ui, &row, rect, *left, column);
+            }
+            if response.on_hover_text(spec.method.about).clicked() {
+                commands.push(Command::Pick(index));
+            }
+        }
+    });
+}
+
+/// One line of the list.
+struct Row<'a> {
+    index: usize,
+    spec: &'a LaneSpec,
+    active: bool,
+    /// The lane that flies this method now.
+    entrant: Option<&'a Entrant>,
+    lab: &'a Lab,
+}
+
+impl<'a> Row<'a> {
+    fn new(lab: &'a Lab, index: usize, spec: &'a LaneSpec) -> Self {
+        let entrant = lab.race().entrants().iter().find(|entrant| entrant.entry == index);
+        Self { index, spec, active: index == lab.active(), entrant, lab }
+    }
+
+    fn text_colour(&self) -> Color32 {
+        if self.entrant.is_some() { TEXT } else { QUIET }
+    }
+
+    /// A metric of the displayed body, where it flies.
+    fn measure(&self, metric: &Metric) -> Option<f64> {
+        let body = self.lab.display().body;
+        let lane = &*self.entrant?.lane.bodies()[body].stepper;
+        (metric.measure)(lane, &*self.lab.race().truth().bodies()[body].stepper)
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Left,
+    Right,
+}
+
+impl Side {
+    fn align(self) -> Align2 {
+        match self {
+            Side::Left => Align2::LEFT_CENTER,
+            Side::Right => Align2::RIGHT_CENTER,
+        }
+    }
+
+    fn anchor(self, row: Rect, left: f32, width: f32) -> Pos2 {
+        let x = row.left() + left + if self == Side::Left { 0.0 } else { width };
+        pos2(x, row.center().y)
+    }
+}
+
+/// One column of the list, and from which panel width on it is shown.
+struct Column {
+    head: fn(&Lab) -> String,
+    width: f32,
+    /// Whether it takes a share of the room that is left over.
+    grows: bool,
+    from_width: f32,
+    align: Side,
+    paint: fn(&Ui, &Row<'_>, Rect, f32, &Column),
+}
+
+const COLUMNS: &[Column] = &[
+    Column {
+        head: |_| "key".into(),
+        width: 26.0,
+        grows: false,
+        from_width: 0.0,
+        align: Side::Left,
+        paint: |ui, row, rect, left, column| {
+            let key = if row.index < 10 { format!("{}", (row.index + 1) % 10) } else { "".into() };
+            write(ui, row, rect, left + 6.0, column, key, true);
+        },
+    },
+    Column {
+        head: |_| String::new(),
+        width: 42.0,
+        grows: false,
+        from_width: 0.0,
+        align: Side::Left,
+        paint: swatch,
+    },
+    Column {
+        head: |lab| match lab.mode() {
+            Mode::Solo => "method".into(),
+            Mode::Race => "lane".into(),
+        },
+        width: 140.0,
+        grows: false,
+        from_width: 0.0,
+        align: Side::Left,
+        paint: |ui, row, rect, left, column| {
+            let substeps = row.spec.substeps;
+            let times = if substeps > 1 { format!(" ×{substeps}") } else { String::new() };
+            write(ui, row, rect, left, column, format!("{}{times}", row.spec.method.name), false);
+        },
+    },
+    Column {
+        head: |_| "order".into(),
+        width: 70.0,
+        grows: false,
+        from_width: 560.0,
+        align: Side::Left,
+        paint: |ui, row, rect, left, column| {
+            let method = row.spec.method;
+            let text = if method.order == method.order_with_drag {
+                format!("{}", method.order)
+            } else {
+                format!("{}, {} with drag", method.order, method.order_with_drag)
+            };
+            write(ui, row, rect, left, column, text, false);
+        },
+    },
+    Column {
+        head: |_| "evaluations a step".into(),
+        width: 104.0,
+        grows: false,
+        from_width: 700.0,
+        align: Side::Left,
+        paint: |ui, row, rect, left, column| {
+            let cost = row.spec.method.evaluations;
+            let text = cost.map_or("as needed".into(), |n| format!("{n}"));
+            write(ui, row, rect, left, column, text, false);
+        },
+    },
+    Column {
+        head: |_| "evaluations".into(),
+        width: 84.0,
+        grows: false,
+        from_width: 860.0,
+        align: Side::Right,
+        paint: |ui, row, rect, left, column| {
+            let text = row.entrant.map_or(String::new(), |e| format!("{}", e.lane.evaluations()));
+            write(ui, row, rect, left, column, text, true);
+        },
+    },
+    Column {
+        head: |lab| format!("{} error", lab.scene().bodies[lab.display().body].name),
+        width: 110.0,
+        grows: false,
+        from_width: 0.0,
+        align: Side::Right,
+        paint: |ui, row, rect, left, column| metric(ui, row, rect, left, column, "position_error"),
+    },
+    Column {
+        head: |_| "energy drift".into(),
+        width: 104.0,
+        grows: false,
+        from_width: 640.0,
+        align: Side::Right,
+        paint: |ui, row, rect, left, column| metric(ui, row, rect, left, column, "energy_drift"),
+    },
+    Column {
+        head: |_| String::new(),
+        width: 60.0,
+        grows: true,
+        from_width: 940.0,
+        align: Side::Left,
+        paint: fate,
+    },
+];
+
+fn lefts(columns: &[&Column], width: f32) -> Vec<f32> {
+    let fixed: f32 = columns.iter().map(|column| column.width + 8.0).sum();
+    let growing = columns.iter().filter(|column| column.grows).count().max(1);
+    let spare = (width - fixed).max(0.0) / growing as f32;
+    let mut left = 0.0;
+    let place = columns.iter().map(|column| {
+        let here = left;
+        left += column.width + 8.0 + if column.grows { spare } else { 0.0 };
+        here
+    });
+    place.collect()
+}
+
+fn write(
+    ui: &Ui,
+    row: &Row<'_>,
+    rect: Rect,
+    left: f32,
+    column: &Column,
+    text: String,
+    fixed_width: bool,
+) {
+    let font = if fixed_width { FontId::monospace(12.0) } else { FontId::proportional(12.5) };
+    let at = column.align.anchor(rect, left, column.width);
+    ui.painter().text(at, column.align.align(), text, font, row.text_colour());
+}
+
+fn metric(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column, id: &str) {
+    let metric = METRICS.iter().find(|metric| metric.id == id);
+    let text = metric.and_then(|metric| {
+        let value = row.measure(metric)?;
+        Some(format!("{} {:<2}", significant(value, 3), metric.unit))
+    });
+    write(ui, row, rect, left, column, text.unwrap_or_default(), true);
+}
+
+/// A piece of the lane's line, as the plots draw it.
+fn swatch(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, _column: &Column) {
+    let (rgba, [drawn, gap]) = palette::style(row.spec.method);
+    let colour =
+        if row.entrant.is_some() { colour(rgba) } else { colour(palette::faded(rgba, 0.6)) };
+    let (y, from, to) = (rect.center().y, rect.left() + left, rect.left() + left + 34.0);
+    let mut x = from;
+    while x < to {
+        let end = if gap > 0.0 { (x + drawn).min(to) } else { to };
+        ui.painter().line_segment([pos2(x, y), pos2(end, y)], Stroke::new(3.0, colour));
+        x = end + gap.max(1.0);
+    }
+}
+
+/// What became of the lane.
+fn fate(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column) {
+    let at = column.align.anchor(rect, left + 8.0, column.width);
+    let (text, colour) = match row.entrant.map(|entrant| entrant.lane.halted()) {
+        Some(Some(halt)) => {
+            let body = &row.lab.scene().bodies[halt.body].name;
+            let text = format!("halted at tick {}: {body} {}", halt.tick, halt.failure);
+            (text, colour(palette::ALARM))
+        }
+        _ => (row.spec.method.about.to_owned(), QUIET),
+    };
+    let font = FontId::proportional(11.5);
+    let room = Rect::from_min_max(pos2(at.x, rect.top()), rect.max);
+    ui.painter().with_clip_rect(room).text(at, column.align.align(), text, font, colour);
+}

@@ -1,0 +1,103 @@
+//! The panels round the stage: they read the lab and return commands, and touch nothing.
+
+use egui::{Color32, CornerRadius, Frame, Margin, Rect, Stroke, Ui};
+
+use crate::lab::{Command, Lab, picture::Rgba};
+
+mod footer;
+mod help;
+mod instruments;
+mod lanes;
+mod top_bar;
+
+/// Below these sizes, in points, a panel gives its room to the stage.
+const WIDTH_FOR_INSTRUMENTS: f32 = 420.0;
+const HEIGHT_FOR_TOP_BAR: f32 = 120.0;
+const HEIGHT_FOR_LANES: f32 = 260.0;
+const HEIGHT_FOR_FOOTER: f32 = 200.0;
+
+/// The part of the width that the instruments take.
+const INSTRUMENTS: f32 = 0.38;
+
+/// Shows all panels. Returns what was asked for and the rectangle left for the stage, in points.
+pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
+    let mut commands = Vec::new();
+    let size = ui.max_rect().size();
+    if size.y >= HEIGHT_FOR_TOP_BAR {
+        let panel = egui::Panel::top("top bar").exact_size(top_bar::HEIGHT).frame(frame(PANEL));
+        panel.show(ui, |ui| top_bar::show(ui, lab, &mut commands));
+    }
+    if size.y >= HEIGHT_FOR_FOOTER {
+        let panel = egui::Panel::bottom("footer").exact_size(footer::HEIGHT).frame(frame(PANEL));
+        panel.show(ui, |ui| footer::show(ui, lab));
+    }
+    if size.y >= HEIGHT_FOR_LANES {
+        let height = lanes::height(lab).min(size.y * 0.4);
+        let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame(PANEL));
+        panel.show(ui, |ui| lanes::show(ui, lab, &mut commands));
+    }
+    if size.x >= WIDTH_FOR_INSTRUMENTS {
+        let width = size.x * INSTRUMENTS;
+        let panel = egui::Panel::right("instruments").exact_size(width).frame(frame(BACKDROP));
+        panel.show(ui, |ui| instruments::show(ui, lab, &mut commands));
+    }
+    let stage = ui.available_rect_before_wrap();
+    if lab.display().help {
+        help::show(ui, &mut commands);
+    }
+    (commands, stage)
+}
+
+const BACKDROP: Color32 = Color32::from_rgb(10, 17, 28);
+const PANEL: Color32 = Color32::from_rgb(16, 26, 40);
+const RAISED: Color32 = Color32::from_rgb(29, 44, 65);
+const TEXT: Color32 = Color32::from_rgb(206, 218, 232);
+const QUIET: Color32 = Color32::from_rgb(138, 156, 180);
+const ACCENT: Color32 = Color32::from_rgb(86, 180, 233);
+
+/// The look of every widget: a night chart. Set once for each context.
+pub(super) fn dress(ctx: &egui::Context) {
+    ctx.set_theme(egui::Theme::Dark);
+    ctx.all_styles_mut(|style| {
+        style.animation_time = 0.0;
+        style.spacing.item_spacing = egui::vec2(6.0, 3.0);
+        style.spacing.button_padding = egui::vec2(6.0, 2.0);
+        for (text_style, size) in [
+            (egui::TextStyle::Body, 12.5),
+            (egui::TextStyle::Button, 12.5),
+            (egui::TextStyle::Monospace, 12.0),
+            (egui::TextStyle::Small, 10.5),
+            (egui::TextStyle::Heading, 16.0),
+        ] {
+            if let Some(font) = style.text_styles.get_mut(&text_style) {
+                font.size = size;
+            }
+        }
+        let visuals = &mut style.visuals;
+        visuals.panel_fill = PANEL;
+        visuals.window_fill = PANEL;
+        visuals.extreme_bg_color = BACKDROP;
+        visuals.override_text_color = Some(TEXT);
+        visuals.selection.bg_fill = Color32::from_rgb(38, 76, 110);
+        visuals.selection.stroke = Stroke::new(1.0, ACCENT);
+        visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, RAISED);
+        visuals.widgets.inactive.weak_bg_fill = RAISED;
+        visuals.widgets.inactive.bg_fill = RAISED;
+        for widget in [
+            &mut visuals.widgets.inactive,
+            &mut visuals.widgets.hovered,
+            &mut visuals.widgets.active,
+            &mut visuals.widgets.open,
+        ] {
+            widget.corner_radius = CornerRadius::same(4);
+        }
+    });
+}
+
+fn frame(fill: Color32) -> Frame {
+    Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 4))
+}
+
+fn colour([r, g, b, a]: Rgba) -> Color32 {
+    Color32::from_rgba_unmultiplied(r, g, b, a)
+}

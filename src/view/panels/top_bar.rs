@@ -1,0 +1,127 @@
+//! The top bar: what runs, how fast, and where time has got to.
+
+use egui::{Align, Button, ComboBox, Layout, RichText, Ui};
+
+use super::{ACCENT, QUIET, colour};
+use crate::lab::picture::palette;
+use crate::lab::{Command, Lab, Mode, SCENES, SPEED_LADDER, TICK_LADDER};
+
+pub(super) const HEIGHT: f32 = 34.0;
+
+/// Widths of the bar, in points, at which more of it fits.
+const ROOM_FOR_LADDERS: f32 = 760.0;
+const ROOM_FOR_PACE: f32 = 1040.0;
+
+pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let width = ui.available_width();
+    ui.horizontal_centered(|ui| {
+        scene_menu(ui, lab, commands);
+        transport(ui, lab, commands);
+        let (text, hover) = match lab.mode() {
+            Mode::Solo => ("Race all", "race every method from the start line (C)"),
+            Mode::Race => ("Solo", "fly the selected lane alone (C)"),
+        };
+        button(ui, text, hover, Command::ToggleRace, commands);
+        if width >= ROOM_FOR_LADDERS {
+            ui.separator();
+            speed(ui, lab, commands);
+            tick_rate(ui, lab, commands);
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            button(ui, "?", "help (H)", Command::ToggleHelp, commands);
+            if width >= ROOM_FOR_PACE {
+                pace(ui, lab);
+                ui.separator();
+            }
+            let race = lab.race();
+            let time = format!("t = {:.3} s · tick {}", race.t(), race.tick());
+            ui.monospace(time);
+        });
+    });
+}
+
+fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let name = &lab.scene().name;
+    let menu = ComboBox::from_id_salt("scene").selected_text(name).width(86.0);
+    let response = menu.show_ui(ui, |ui| {
+        for (index, scene) in SCENES.iter().enumerate() {
+            if ui.selectable_label(scene.name == name, scene.name).clicked() {
+                commands.push(Command::Scene(index));
+            }
+        }
+    });
+    let about = format!("{}\n{}", lab.scene().title, lab.scene().about);
+    response.response.on_hover_text(about);
+}
+
+fn transport(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    button(ui, "⏮", "restart (Home)", Command::Restart, commands);
+    let (sign, hover) =
+        if lab.running() { ("⏸", "pause (Space)") } else { ("▶", "run (Space)") };
+    button(ui, sign, hover, Command::TogglePause, commands);
+    button(ui, "⏭", "one tick forward (.)", Command::TickForward, commands);
+}
+
+fn speed(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let percent = lab.clock().speed_percent();
+    button(ui, "−", "slower (-)", Command::SpeedDown, commands);
+    let text = RichText::new(format!("{:>3}×", multiple(percent))).monospace();
+    ComboBox::from_id_salt("speed").selected_text(text).width(48.0).show_ui(ui, |ui| {
+        for rung in SPEED_LADDER {
+            let text = format!("{}× real time", multiple(rung));
+            if ui.selectable_label(rung == percent, text).clicked() {
+                commands.push(Command::SpeedPercent(rung));
+            }
+        }
+    });
+    button(ui, "+", "faster (=)", Command::SpeedUp, commands);
+}
+
+fn multiple(percent: u32) -> String {
+    match percent {
+        25 => "¼".into(),
+        50 => "½".into(),
+        whole if whole % 100 == 0 => format!("{}", whole / 100),
+        other => format!("{:.2}", f64::from(other) / 100.0),
+    }
+}
+
+fn tick_rate(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let tick_hz = lab.clock().tick_hz();
+    button(ui, "[", "lower tick rate ([)", Command::TickRateDown, commands);
+    let text = RichText::new(format!("{tick_hz:>4} Hz")).monospace();
+    ComboBox::from_id_salt("tick rate").selected_text(text).width(64.0).show_ui(ui, |ui| {
+        for rung in TICK_LADDER {
+            if ui.selectable_label(rung == tick_hz, format!("{rung} Hz")).clicked() {
+                commands.push(Command::TickHz(rung));
+            }
+        }
+    });
+    button(ui, "]", "higher tick rate (])", Command::TickRateUp, commands);
+}
+
+fn pace(ui: &mut Ui, lab: &Lab) {
+    let text = match lab.pace() {
+        Some(pace) => {
+            format!("{:5.1} fps · {:.2}× real time", pace.frames_per_second, pace.real_time_factor)
+        }
+        None => "scripted time".into(),
+    };
+    ui.label(RichText::new(text).monospace().color(QUIET))
+        .on_hover_text("frames drawn a second · simulated seconds in a second");
+    if lab.dropped() > 0 {
+        let text = format!("{} ticks dropped", lab.dropped());
+        ui.label(RichText::new(text).monospace().color(colour(palette::ALARM)))
+            .on_hover_text("the simulation fell behind real time and gave these up");
+    } else if !lab.running() {
+        ui.label(RichText::new("paused").color(ACCENT));
+    }
+}
+
+fn button(ui: &mut Ui, text: &str, hover: &str, command: Command, commands: &mut Vec<Command>) {
+    let response = ui.add(Button::new(text)).on_hover_text(hover);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, hover));
+    if response.clicked() {
+        commands.push(command);
+    }
+}
