@@ -1,0 +1,165 @@
+//! A window's surface and the renderer that draws on it; made anew when the driver loses them.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui_winit::accesskit_winit;
+use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
+use winit::window::Window;
+
+use super::WindowError;
+use crate::lab::{Command, Lab};
+use crate::view::{FrameRenderer, Gpu, Screen};
+
+pub(super) struct Canvas {
+    pub(super) window: Arc<Window>,
+    pub(super) egui: egui_winit::State,
+    pub(super) gpu: Gpu,
+    pub(super) renderer: FrameRenderer,
+    /// The display's refresh rate in millihertz, where it is known.
+    pub(super) refresh_mhz: Option<u32>,
+    /// `None` only while the surface is being renewed.
+    screen: Option<Screen>,
+    size_px: [u32; 2],
+}
+
+/// What became of a frame.
+pub(super) enum Drawn {
+    /// It is on the screen.
+    Shown {
+        /// What the panels were asked for.
+        commands: Vec<Command>,
+        /// When the panels want to be drawn again, though nothing happens.
+        repaint_after: Duration,
+    },
+    /// There was nothing to draw on at the moment.
+    Skipped,
+}
+
+impl Canvas {
+    pub(super) fn new(
+        event_loop: &ActiveEventLoop,
+        window: Arc<Window>,
+        proxy: EventLoopProxy<accesskit_winit::Event>,
+    ) -> Result<Self, WindowError> {
+        let display = Box::new(event_loop.owned_display_handle());
+        let screen = Screen::new(display, Arc::clone(&window))?;
+        let gpu = screen.gpu()?;
+        log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
+        let renderer = FrameRenderer::new(&gpu, screen.format(&gpu));
+        let mut egui = translator(&renderer, &window, &gpu);
+        egui.init_accesskit(event_loop, &window, proxy);
+        let mut canvas = Self {
+            window,
+            egui,
+            gpu,
+            renderer,
+            refresh_mhz: None,
+            screen: Some(screen),
+            size_px: [0, 0],
+        };
+        canvas.resize();
+        Ok(canvas)
+    }
+
+    /// Follows the window's size and the display it is on.
+    pub(super) fn resize(&mut self) {
+        let display = self.window.current_monitor();
+        self.refresh_mhz = display.and_then(|display| display.refresh_rate_millihertz());
+        let size = self.window.inner_size();
+        let size_px = [size.width, size.height];
+        if size_px != self.size_px && !size_px.contains(&0) {
+            self.size_px = size_px;
+            self.configure();
+        }
+    }
+
+    fn configure(&self) {
+        if let Some(screen) = &self.screen {
+            screen.configure(&self.gpu, self.size_px);
+        }
+    }
+
+    /// Draws one frame and shows it.
+    pub(super) fn draw(&mut self, lab: &Lab) -> Result<Drawn, WindowError> {
+        if self.gpu.is_lost() {
+            self.renew_device()?;
+        }
+        let Some(screen) = &self.screen else { return Ok(Drawn::Skipped) };
+        let (texture, reconfigure) = match screen.surface().get_current_texture() {
+            wgpu::CurrentSurfaceTexture::Success(texture) => (texture, false),
+            wgpu::CurrentSurfaceTexture::Suboptimal(texture) => (texture, true),
+            wgpu::CurrentSurfaceTexture::Timeout | wgpu::CurrentSurfaceTexture::Occluded => {
+                return Ok(Drawn::Skipped);
+            }
+            wgpu::CurrentSurfaceTexture::Outdated | wgpu::CurrentSurfaceTexture::Validation => {
+                self.configure();
+                return Ok(Drawn::Skipped);
+            }
+            wgpu::CurrentSurfaceTexture::Lost => {
+                self.renew_surface()?;
+                return Ok(Drawn::Skipped);
+            }
+        };
+        let size_px = [texture.texture.width(), texture.texture.height()];
+        let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let input = self.egui.take_egui_input(&self.window);
+        let scale = self.window.scale_factor() as f32;
+        let (commands, output) =
+            self.renderer.draw(&self.gpu, &view, size_px, scale, input, lab);
+        self.egui.handle_platform_output(&self.window, output.platform);
+        self.window.pre_present_notify();
+        self.gpu.queue.present(texture);
+        if reconfigure {
+            self.configure();
+        }
+        Ok(Drawn::Shown { commands, repaint_after: output.repaint_delay })
+    }
+
+    fn renew_surface(&mut self) -> Result<(), WindowError> {
+        log::warn!("the surface was lost; making another");
+        if let Some(screen) = self.screen.take() {
+            self.screen = Some(screen.renewed(Arc::clone(&self.window))?);
+        }
+        self.configure();
+        Ok(())
+    }
+
+    fn renew_device(&mut self) -> Result<(), WindowError> {
+        self.renew_surface()?;
+        if let Some(screen) = &self.screen {
+            self.gpu = screen.gpu()?;
+            // With a context of its own, since the old one thinks its fonts are on the device.
+            self.renderer = FrameRenderer::new(&self.gpu, screen.format(&self.gpu));
+            let accessibility = self.egui.accesskit.take();
+            self.egui = translator(&self.renderer, &self.window, &self.gpu);
+            self.egui.accesskit = accessibility;
+        }
+        self.configure();
+        Ok(())
+    }
+
+    /// What a screen reader asked for.
+    pub(super) fn accessibility(&mut self, event: accesskit_winit::Event) {
+        use accesskit_winit::WindowEvent;
+        match event.window_event {
+            WindowEvent::InitialTreeRequested => self.egui.egui_ctx().enable_accesskit(),
+            WindowEvent::ActionRequested(request) => {
+                self.egui.on_accesskit_action_request(request);
+            }
+            WindowEvent::AccessibilityDeactivated => self.egui.egui_ctx().disable_accesskit(),
+        }
+    }
+}
+
+/// What turns the window's events into those of the renderer's panels.
+fn translator(renderer: &FrameRenderer, window: &Window, gpu: &Gpu) -> egui_winit::State {
+    egui_winit::State::new(
+        renderer.context().clone(),
+        egui::ViewportId::ROOT,
+        window,
+        Some(window.scale_factor() as f32),
+        None,
+        Some(gpu.max_texture_side_px as usize),
+    )
+}

@@ -1,0 +1,90 @@
+//! From the window system's keys to ours.
+
+use winit::event::KeyEvent;
+use winit::keyboard::{Key as Logical, KeyCode, NamedKey, PhysicalKey};
+
+use crate::lab::Key;
+
+/// The key of an event, if it is one that could be bound.
+pub(super) fn key(event: &KeyEvent, shift: bool) -> Option<Key> {
+    from_parts(event.physical_key, &event.logical_key, shift)
+}
+
+/// Whether a widget with the focus is worked by this key.
+pub(super) fn works_widgets(key: Key) -> bool {
+    matches!(key, Key::Space | Key::Up | Key::Down | Key::Home | Key::Escape)
+}
+
+fn from_parts(physical: PhysicalKey, logical: &Logical, shift: bool) -> Option<Key> {
+    // By place, since on some layouts the digits are shifted.
+    if let PhysicalKey::Code(code) = physical
+        && let Some(digit) = digit(code)
+    {
+        return Some(Key::Digit(digit));
+    }
+    match logical {
+        Logical::Named(named) => Some(match named {
+            NamedKey::Space => Key::Space,
+            NamedKey::ArrowUp => Key::Up,
+            NamedKey::ArrowDown => Key::Down,
+            NamedKey::Home => Key::Home,
+            NamedKey::Escape => Key::Escape,
+            NamedKey::F1 => Key::Function(1),
+            NamedKey::F11 => Key::Function(11),
+            NamedKey::F12 => Key::Function(12),
+            _ => return None,
+        }),
+        Logical::Character(text) => {
+            let mut chars = text.chars();
+            let (Some(sign), None) = (chars.next(), chars.next()) else { return None };
+            let lower = sign.to_lowercase().next().unwrap_or(sign);
+            Some(if shift && sign.is_alphabetic() { Key::ShiftSign(lower) } else { Key::Sign(lower) })
+        }
+        _ => None,
+    }
+}
+
+fn digit(code: KeyCode) -> Option<u8> {
+    Some(match code {
+        KeyCode::Digit0 | KeyCode::Numpad0 => 0,
+        KeyCode::Digit1 | KeyCode::Numpad1 => 1,
+        KeyCode::Digit2 | KeyCode::Numpad2 => 2,
+        KeyCode::Digit3 | KeyCode::Numpad3 => 3,
+        KeyCode::Digit4 | KeyCode::Numpad4 => 4,
+        KeyCode::Digit5 | KeyCode::Numpad5 => 5,
+        KeyCode::Digit6 | KeyCode::Numpad6 => 6,
+        KeyCode::Digit7 | KeyCode::Numpad7 => 7,
+        KeyCode::Digit8 | KeyCode::Numpad8 => 8,
+        KeyCode::Digit9 | KeyCode::Numpad9 => 9,
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{Command, KEYS, command_for};
+
+    fn pressed(code: KeyCode, text: &str, shift: bool) -> Option<Key> {
+        from_parts(PhysicalKey::Code(code), &Logical::Character(text.into()), shift)
+    }
+
+    #[test]
+    fn digits_go_by_place_and_letters_by_layout() {
+        assert_eq!(pressed(KeyCode::Digit1, "&", false), Some(Key::Digit(1)));
+        assert_eq!(pressed(KeyCode::KeyQ, "a", false), Some(Key::Sign('a')));
+        assert_eq!(pressed(KeyCode::KeyM, "M", true), Some(Key::ShiftSign('m')));
+        assert_eq!(pressed(KeyCode::KeyM, "M", false), Some(Key::Sign('m')));
+        assert_eq!(pressed(KeyCode::Slash, "?", true), Some(Key::Sign('?')));
+    }
+
+    #[test]
+    fn every_bound_key_is_bound_once() {
+        let bound: Vec<Key> = KEYS.iter().flat_map(|b| b.keys.iter().map(|(key, _)| *key)).collect();
+        for (i, key) in bound.iter().enumerate() {
+            assert!(!bound[..i].contains(key), "{key:?} is bound twice");
+        }
+        let (command, _) = command_for(Key::Digit(1)).unwrap();
+        assert_eq!(command, Command::Pick(0));
+    }
+}
