@@ -1,4 +1,106 @@
-//! Regatta.
+//! Regatta shows, in real time, what a numerical integrator does to a game's moving bodies, so that a
+//! developer picks the right one before shipping.
+//!
+//! # The house
+//!
+//! Four layers, each knowing only those to its right: `main → commands, window → view → lab → sim`.
+//!
+//! - [`sim`] is mathematics: a [`State`](sim::State), an equation of motion ([`System`](sim::System)),
+//!   and ways to step it ([`Integrator`](sim::integrators::Integrator)). It knows no files, clocks or
+//!   pixels. RK4's formula is in `sim/integrators/rk4.rs`.
+//! - [`lab`] is the experiment: a [`Scene`](lab::Scene) is read from text, a [`Clock`](lab::Clock)
+//!   turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the truth, and a
+//!   [`Picture`](lab::picture::Picture) says what to draw. A lane is one method on its own copy of the
+//!   scene's bodies; the truth is a lane whose solver is the exact flow. The layer knows no GPU and no
+//!   wall clock: time comes in as integers, text as `&str`.
+//! - `view` is pixels: a graphics device, two pipelines for the stage, panels in egui, and
+//!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
+//!   and differ only in where time comes from and where the texture goes.
+//! - `window` and `commands` are the drivers: they alone touch files and real time.
+//!
+//! `view`, `window` and `commands` are there with the default feature `desktop`. Without it the
+//! package is `sim` and `lab`, pulls in no graphics crate, and builds in seconds: what a game's own
+//! tests want.
+//!
+//! # A frame
+//!
+//! events → [`Command`](lab::Command)s → [`Lab::apply`](lab::Lab::apply) →
+//! [`Lab::advance`](lab::Lab::advance) → as many [`Race::step`](lab::Race::step)s as are due →
+//! [`picture::compose`](lab::picture::compose) → `FrameRenderer::draw` → present or read back.
+//!
+//! # What holds
+//!
+//! - **The same bits everywhere.** Stepped state is `f64` and uses only `+ - × ÷ √` and `libm`; time
+//!   is counted in whole ticks. Frame rate, drawing, platform and build profile change nothing, and
+//!   `tests/determinism.rs` compares [`Race::state_hash`](lab::Race::state_hash) with committed values.
+//! - **Claims are measured.** Every field of a [`Method`](sim::integrators::Method) card is tested
+//!   both ways by `tests/conformance.rs`, with drag and without.
+//! - **The step allocates nothing**, takes no lock and touches no file (`tests/allocation.rs`).
+//! - **A body that blows up is data.** Its lane halts, keeps its last good state and says why; the
+//!   others go on, unchanged to the bit.
+//! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
+//!   [metrics](lab::METRICS), [scenes](lab::SCENES) and [keys](lab::KEYS): menus, help, command line
+//!   and tests loop over them.
+//! - Who may import whom is enforced by `tests/tidy.rs`.
+//!
+//! # Adding a thing
+//!
+//! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
+//!   `methods!`. If its card claims too much or too little, `tests/conformance.rs` fails.
+//! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
+//!   [`BODIES`](sim::bodies::BODIES). `tests/exact_flows.rs` holds its exact flow against its equation.
+//! - **A scene**: add a file to `assets/scenes` and its line to [`SCENES`](lab::SCENES).
+//! - **A metric**: one entry of [`METRICS`](lab::METRICS). **A key**: one entry of [`KEYS`](lab::KEYS).
+//!
+//! # In your own game loop
+//!
+//! The clock and the methods work on any system of yours. Here a ball falls through air, stepped at
+//! 120 Hz whatever the frame rate, and drawn between ticks:
+//!
+//! ```
+//! use glam::DVec2;
+//! use regatta::lab::Clock;
+//! use regatta::sim::integrators::{StepFailure, integrator, method};
+//! use regatta::sim::{State, System};
+//!
+//! struct Ball {
+//!     drag_per_s: f64,
+//! }
+//!
+//! impl System for Ball {
+//!     type Vector = DVec2;
+//!     fn acceleration(&self, _t: f64, _q: &DVec2, v: &DVec2, a: &mut DVec2) {
+//!         *a = DVec2::new(0.0, -9.81) - self.drag_per_s * *v;
+//!     }
+//! }
+//!
+//! fn main() -> Result<(), StepFailure> {
+//!     let ball = Ball { drag_per_s: 0.1 };
+//!     let mut state = State { q: DVec2::new(0.0, 2.0), v: DVec2::new(5.0, 3.0) };
+//!     let mut previous = state.clone();
+//!     let mut rk4 = integrator::<Ball>(method("rk4").expect("a built-in method"), &state.q);
+//!
+//!     let (mut clock, mut tick) = (Clock::new(120), 0_u64);
+//!     for frame_ns in [16_700_000, 16_600_000, 41_000_000] {
+//!         for _ in 0..clock.advance(frame_ns).ticks {
+//!             previous.assign(&state);
+//!             rk4.step(&ball, tick as f64 / 120.0, 1.0 / 120.0, &mut state)?;
+//!             tick += 1;
+//!         }
+//!         let _drawn_at = previous.q.lerp(state.q, clock.alpha());
+//!     }
+//!     assert_eq!(tick, 8);
+//!     assert!(state.q.x > 0.3 && state.v.y < 3.0);
+//!     Ok(())
+//! }
+//! ```
+//!
+//! # Out of scope
+//!
+//! Collisions and contacts, which would hide the integrator behind the solver; generic scalars,
+//! because the formulas would drown; and constraints, because a closed body with natural coordinates
+//! needs none.
+
 pub mod lab;
 pub mod sim;
 #[cfg(feature = "desktop")]
