@@ -1,3 +1,5 @@
 //! Regatta.
 pub mod lab;
 pub mod sim;
+#[cfg(feature = "desktop")]
+pub mod view;
