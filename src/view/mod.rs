@@ -1,15 +1,23 @@
-//! Pixels: a graphics device, what it draws on, and the way back from there.
+//! Pixels: a graphics device, the pipelines that draw a [`Picture`](crate::lab::picture::Picture),
+//! and the one function that draws a frame.
 //!
-//! Colours are blended
+//! A window, a screenshot and a capture all call [`FrameRenderer::draw`] on a texture view; what
+//! differs between them is where that view comes from and where its pixels go. Colours are blended
 //! as they are stored, in gamma space, so all targets have a format without `Srgb` in its name.
 
+mod frame;
 mod gpu;
+mod instances;
 mod offscreen;
 mod readback;
 mod screen;
+mod sea;
+mod stage;
+mod strokes;
 #[cfg(test)]
 mod testing;
 
+pub use frame::{FrameOutput, FrameRenderer, Stage};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use offscreen::Offscreen;
 pub use readback::{Readback, ReadbackError};

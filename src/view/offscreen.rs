@@ -7,7 +7,7 @@ use super::gpu::{Gpu, GpuError};
 pub struct Offscreen {
     /// For [`Readback`](super::Readback).
     pub texture: wgpu::Texture,
-    /// To draw on.
+    /// For [`FrameRenderer::draw`](super::FrameRenderer::draw).
     pub view: wgpu::TextureView,
     /// Width and height in pixels.
     pub size_px: [u32; 2],
@@ -40,6 +40,20 @@ impl Offscreen {
         }
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         Ok(Self { texture, view, size_px })
+    }
+
+    /// This texture as the target of a pass that begins with `colour`.
+    #[cfg(test)]
+    pub(super) fn cleared(&self, colour: wgpu::Color) -> wgpu::RenderPassColorAttachment<'_> {
+        wgpu::RenderPassColorAttachment {
+            view: &self.view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(colour),
+                store: wgpu::StoreOp::Store,
+            },
+        }
     }
 }
 
