@@ -105,3 +105,5 @@ pub mod lab;
 pub mod sim;
 #[cfg(feature = "desktop")]
 pub mod view;
+#[cfg(feature = "desktop")]
+pub mod window;

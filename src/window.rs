@@ -265,8 +265,7 @@ impl ApplicationHandler<accesskit_winit::Event> for App {
             WindowEvent::ModifiersChanged(modifiers) => {
                 let state = modifiers.state();
                 self.shift = state.shift_key();
-                self.other_modifier =
-                    state.control_key() || state.alt_key() || state.super_key();
+                self.other_modifier = state.control_key() || state.alt_key() || state.super_key();
             }
             // The release of a key pressed here may go to another window.
             WindowEvent::Focused(false) => (self.shift, self.other_modifier) = (false, false),

@@ -1,2 +1,25 @@
-//! Pixels.
+//! Pixels: a graphics device, the pipelines that draw a [`Picture`](crate::lab::picture::Picture),
+//! and the one function that draws a frame.
+//!
+//! A window, a screenshot and a capture all call [`FrameRenderer::draw`] on a texture view; what
+//! differs between them is where that view comes from and where its pixels go. Colours are blended
+//! as they are stored, in gamma space, so all targets have a format without `Srgb` in its name.
+
+mod frame;
+mod gpu;
+mod instances;
+mod offscreen;
 mod panels;
+mod readback;
+mod screen;
+mod sea;
+mod stage;
+mod strokes;
+#[cfg(test)]
+mod testing;
+
+pub use frame::{FrameOutput, FrameRenderer};
+pub use gpu::{AdapterPreference, Gpu, GpuError};
+pub use offscreen::Offscreen;
+pub use readback::{Readback, ReadbackError};
+pub use screen::Screen;

@@ -105,8 +105,7 @@ impl Canvas {
         let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let input = self.egui.take_egui_input(&self.window);
         let scale = self.window.scale_factor() as f32;
-        let (commands, output) =
-            self.renderer.draw(&self.gpu, &view, size_px, scale, input, lab);
+        let (commands, output) = self.renderer.draw(&self.gpu, &view, size_px, scale, input, lab);
         self.egui.handle_platform_output(&self.window, output.platform);
         self.window.pre_present_notify();
         self.gpu.queue.present(texture);

@@ -38,7 +38,11 @@ fn from_parts(physical: PhysicalKey, logical: &Logical, shift: bool) -> Option<K
             let mut chars = text.chars();
             let (Some(sign), None) = (chars.next(), chars.next()) else { return None };
             let lower = sign.to_lowercase().next().unwrap_or(sign);
-            Some(if shift && sign.is_alphabetic() { Key::ShiftSign(lower) } else { Key::Sign(lower) })
+            Some(if shift && sign.is_alphabetic() {
+                Key::ShiftSign(lower)
+            } else {
+                Key::Sign(lower)
+            })
         }
         _ => None,
     }
@@ -80,7 +84,8 @@ mod tests {
 
     #[test]
     fn every_bound_key_is_bound_once() {
-        let bound: Vec<Key> = KEYS.iter().flat_map(|b| b.keys.iter().map(|(key, _)| *key)).collect();
+        let bound: Vec<Key> =
+            KEYS.iter().flat_map(|b| b.keys.iter().map(|(key, _)| *key)).collect();
         for (i, key) in bound.iter().enumerate() {
             assert!(!bound[..i].contains(key), "{key:?} is bound twice");
         }

@@ -48,7 +48,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
     (commands, stage)
 }
 
-const BACKDROP: Color32 = Color32::from_rgb(10, 17, 28);
+const BACKDROP: Color32 = Color32::from_rgb(8, 14, 23);
 const PANEL: Color32 = Color32::from_rgb(16, 26, 40);
 const RAISED: Color32 = Color32::from_rgb(29, 44, 65);
 const TEXT: Color32 = Color32::from_rgb(206, 218, 232);
@@ -59,7 +59,9 @@ const ACCENT: Color32 = Color32::from_rgb(86, 180, 233);
 pub(super) fn dress(ctx: &egui::Context) {
     ctx.set_theme(egui::Theme::Dark);
     ctx.all_styles_mut(|style| {
+        // The same input makes the same frame, whenever it is drawn.
         style.animation_time = 0.0;
+        style.visuals.text_cursor.blink = false;
         style.spacing.item_spacing = egui::vec2(6.0, 3.0);
         style.spacing.button_padding = egui::vec2(6.0, 2.0);
         for (text_style, size) in [

@@ -1,0 +1,82 @@
+// Seas: night water or chart paper under a grid, in a cell with round corners.
+
+const CHART = vec3(0.043, 0.075, 0.118);
+const WATER = vec3(0.035, 0.080, 0.133);
+const SWELL = vec3(0.006, 0.016, 0.025);
+const GRID = vec3(0.45, 0.65, 0.85);
+const GRID_ALPHA = 0.085;
+const BORDER = vec3(0.40, 0.58, 0.76);
+const BORDER_ALPHA = 0.22;
+const CORNER_POINTS = 5.0;
+// Lines closer than the first are a grey wash, so they are left out; from the second on they are full.
+const GRID_FADE_PX = vec2(4.0, 14.0);
+const TAU = 6.2831853;
+
+struct Instance {
+    @location(0) rect: vec4<f32>,
+    @location(1) grid_origin: vec2<f32>,
+    @location(2) grid_step: f32,
+    // How much, phase.
+    @location(3) waves: vec2<f32>,
+}
+
+struct Varying {
+    @builtin(position) position: vec4<f32>,
+    // Middle, half size.
+    @location(0) @interpolate(flat) cell_px: vec4<f32>,
+    // Origin, step.
+    @location(1) @interpolate(flat) grid_px: vec3<f32>,
+    @location(2) @interpolate(flat) waves: vec2<f32>,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32, sea: Instance) -> Varying {
+    // On whole pixels, so that neighbours neither overlap nor leave a seam.
+    let low_px = round(px_from_points(sea.rect.xy));
+    let high_px = round(px_from_points(sea.rect.zw));
+    var out: Varying;
+    out.position = clip_from_px(mix(low_px, high_px, corner_of(index)));
+    out.cell_px = vec4(0.5 * (low_px + high_px), 0.5 * (high_px - low_px));
+    out.grid_px = vec3(px_from_points(sea.grid_origin), sea.grid_step * stage.px_per_point);
+    out.waves = sea.waves;
+    return out;
+}
+
+// Whole numbers of waves in a grid cell: the sea does not jump when the grid's origin does.
+fn swell(turn: vec2<f32>, phase: f32) -> f32 {
+    let bent = turn + vec2(0.9, 0.45) * sin(turn.yx + vec2(0.7, phase));
+    return 0.45 * sin(bent.y + bent.x + phase)
+        + 0.35 * sin(2.0 * bent.y - bent.x + 2.0 * phase)
+        + 0.20 * sin(4.0 * bent.y + bent.x - phase);
+}
+
+@fragment
+fn fragment(in: Varying) -> @location(0) vec4<f32> {
+    let from_middle_px = in.position.xy - in.cell_px.xy;
+    let half_px = in.cell_px.zw;
+    let corner_px = min(CORNER_POINTS * stage.px_per_point, min(half_px.x, half_px.y));
+    let beyond_px = abs(from_middle_px) - half_px + corner_px;
+    let edge_px = length(max(beyond_px, vec2(0.0))) + min(max(beyond_px.x, beyond_px.y), 0.0)
+        - corner_px;
+
+    let line_px = max(1.0, round(stage.px_per_point));
+    let step_px = max(in.grid_px.z, 1.0);
+    let turn = (in.position.xy - in.grid_px.xy) / step_px;
+    // On whole pixels: a line that lies across two of them is half as bright.
+    let line_low_px = round(in.grid_px.xy + round(turn) * step_px - 0.5 * line_px);
+    let into_line_px = in.position.xy - line_low_px;
+    let on_line = (into_line_px > vec2(0.0)) & (into_line_px < vec2(line_px));
+    let grid = select(0.0, 1.0, any(on_line)) * smoothstep(GRID_FADE_PX.x, GRID_FADE_PX.y, step_px);
+
+    // Lighter towards the top, as under a sky.
+    let height = 1.0 - 0.14 * from_middle_px.y / max(half_px.y, 1.0);
+    var colour = mix(CHART, WATER, in.waves.x) * height;
+    if in.waves.x > 0.0 {
+        colour += in.waves.x * SWELL * swell(turn * TAU, in.waves.y);
+    }
+    colour = mix(colour, GRID, GRID_ALPHA * grid);
+    let border = clamp(edge_px + line_px + 0.5, 0.0, 1.0);
+    colour = mix(colour, BORDER, BORDER_ALPHA * border);
+    let coverage = clamp(0.5 - edge_px, 0.0, 1.0);
+    return vec4(colour, 1.0) * coverage;
+}

@@ -1,0 +1,309 @@
+//! One frame: panels are laid out, the stage they leave is drawn, the panels are drawn over it.
+//!
+//! The panels go first because the picture is made for the room that they leave.
+
+use std::time::Duration;
+
+use super::gpu::Gpu;
+use super::panels;
+use super::stage::StageRenderer;
+use crate::lab::picture::{self, Align, Label, Picture};
+use crate::lab::{Command, Lab};
+
+/// Shows where neither stage nor panel is: between the cells of the stage.
+const BACKGROUND: wgpu::Color = wgpu::Color { r: 0.018, g: 0.030, b: 0.051, a: 1.0 };
+
+/// How black the shadow under a white label is, of 255: it can be read on any trail.
+const SHADOW_ALPHA: u32 = 180;
+
+/// The part of the frame that panels leave free, and what to show there.
+#[derive(Clone, Debug)]
+pub(super) struct Stage {
+    /// Where, in points of the frame.
+    pub(super) rect: egui::Rect,
+    /// What, in points of the stage.
+    pub(super) picture: Picture,
+}
+
+/// What egui asks of whoever shows the frame.
+#[derive(Clone)]
+pub struct FrameOutput {
+    /// Cursor shape, clipboard, accessibility tree.
+    pub platform: egui::PlatformOutput,
+    /// When the next frame is due on egui's account; [`Duration::MAX`] if nothing changes.
+    pub repaint_delay: Duration,
+}
+
+/// Draws frames on texture views of one format.
+pub struct FrameRenderer {
+    context: egui::Context,
+    panels: egui_wgpu::Renderer,
+    stage: StageRenderer,
+}
+
+impl FrameRenderer {
+    /// A renderer for targets of `format`, which is one in gamma space.
+    pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
+        let context = egui::Context::default();
+        panels::dress(&context);
+        let options = egui_wgpu::RendererOptions::PREDICTABLE;
+        Self {
+            context,
+            panels: egui_wgpu::Renderer::new(&gpu.device, format, options),
+            stage: StageRenderer::new(gpu, format),
+        }
+    }
+
+    /// The context that panels live in: for style, and for translating a window's events.
+    pub fn context(&self) -> &egui::Context {
+        &self.context
+    }
+
+    /// Draws the lab on all of `target`, which has `size_px` pixels, `scale` of them to a point.
+    /// Returns what the panels were asked for. The size fields of `input` are filled in here.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        target: &wgpu::TextureView,
+        size_px: [u32; 2],
+        scale: f32,
+        input: egui::RawInput,
+        lab: &Lab,
+    ) -> (Vec<Command>, FrameOutput) {
+        let mut commands = Vec::new();
+        let output = self.draw_with(gpu, target, size_px, scale, input, |ui| {
+            let (asked, rect) = panels::show(ui, lab);
+            commands.extend(asked);
+            let size = rect.size().max(egui::Vec2::ZERO);
+            Some(Stage { rect, picture: picture::compose(lab, size.into()) })
+        });
+        (commands, output)
+    }
+
+    /// Draws panels and a stage.
+    ///
+    /// `show` lays out the panels and says what is left for the stage. It may be called twice for a
+    /// frame, when a widget first has to learn its size; events come with the first call only, so a
+    /// caller adds up what the calls ask for. On a lost device the panels work as ever, and nothing
+    /// is drawn.
+    fn draw_with(
+        &mut self,
+        gpu: &Gpu,
+        target: &wgpu::TextureView,
+        size_px: [u32; 2],
+        scale: f32,
+        input: egui::RawInput,
+        mut show: impl FnMut(&mut egui::Ui) -> Option<Stage>,
+    ) -> FrameOutput {
+        let mut stage = None;
+        let input = self.sized(gpu, size_px, scale, input);
+        let mut output = self.context.run_ui(input, |ui| {
+            stage = show(ui);
+            if let Some(Stage { rect, picture }) = &stage {
+                let painter = ui.painter().with_clip_rect(*rect);
+                picture.labels.iter().for_each(|label| write(&painter, *rect, label));
+            }
+        });
+        let textures = std::mem::take(&mut output.textures_delta);
+        self.paint(gpu, target, size_px, &output, textures, stage.as_ref());
+        let repaint_delay = output
+            .viewport_output
+            .get(&egui::ViewportId::ROOT)
+            .map_or(Duration::MAX, |viewport| viewport.repaint_delay);
+        FrameOutput { platform: output.platform_output, repaint_delay }
+    }
+
+    fn sized(
+        &self,
+        gpu: &Gpu,
+        size_px: [u32; 2],
+        scale: f32,
+        mut input: egui::RawInput,
+    ) -> egui::RawInput {
+        let scale_with_zoom = scale * self.context.zoom_factor();
+        let size_points = egui::vec2(size_px[0] as f32, size_px[1] as f32) / scale_with_zoom;
+        input.viewport_id = egui::ViewportId::ROOT;
+        input.screen_rect = Some(egui::Rect::from_min_size(egui::Pos2::ZERO, size_points));
+        input.max_texture_side = Some(gpu.max_texture_side_px as usize);
+        let viewport = input.viewports.entry(egui::ViewportId::ROOT).or_default();
+        viewport.native_pixels_per_point = Some(scale);
+        input
+    }
+
+    fn paint(
+        &mut self,
+        gpu: &Gpu,
+        target: &wgpu::TextureView,
+        size_px: [u32; 2],
+        output: &egui::FullOutput,
+        mut textures: egui::TexturesDelta,
+        stage: Option<&Stage>,
+    ) {
+        // egui_wgpu panics on a lost device, and warns of textures that nobody took.
+        if gpu.is_lost() {
+            textures.clear();
+            return;
+        }
+        let Gpu { device, queue, .. } = gpu;
+        let pixels_per_point = output.pixels_per_point;
+        for (id, deltas) in textures.set.drain() {
+            for delta in deltas {
+                self.panels.update_texture(device, queue, id, &delta);
+            }
+        }
+        let jobs = self.context.tessellate(output.shapes.clone(), pixels_per_point);
+        let screen = egui_wgpu::ScreenDescriptor { size_in_pixels: size_px, pixels_per_point };
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let uploads = self.panels.update_buffers(device, queue, &mut encoder, &jobs, &screen);
+        if let Some(stage) = stage {
+            self.stage.prepare(gpu, stage, size_px, pixels_per_point);
+        }
+        {
+            let mut pass = encoder
+                .begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some("frame"),
+                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                        view: target,
+                        depth_slice: None,
+                        resolve_target: None,
+                        ops: wgpu::Operations {
+                            load: wgpu::LoadOp::Clear(BACKGROUND),
+                            store: wgpu::StoreOp::Store,
+                        },
+                    })],
+                    ..Default::default()
+                })
+                .forget_lifetime();
+            if stage.is_some() {
+                self.stage.paint(&mut pass);
+            }
+            self.panels.render(&mut pass, &jobs, &screen);
+        }
+        queue.submit(uploads.into_iter().chain([encoder.finish()]));
+        for id in textures.free.drain() {
+            self.panels.free_texture(&id);
+        }
+    }
+}
+
+fn write(painter: &egui::Painter, stage: egui::Rect, label: &Label) {
+    let anchor = match label.align {
+        Align::Left => egui::Align2::LEFT_CENTER,
+        Align::Centre => egui::Align2::CENTER_CENTER,
+        Align::Right => egui::Align2::RIGHT_CENTER,
+    };
+    let [r, g, b, a] = label.colour;
+    let colour = egui::Color32::from_rgba_unmultiplied(r, g, b, a);
+    let font = egui::FontId::proportional(label.size);
+    let text = painter.layout_no_wrap(label.text.clone(), font, colour);
+    let at = stage.min + egui::Vec2::from(label.at);
+    let corner = anchor.anchor_size(at, text.size()).min;
+    // A shadow under dark text would only blur it.
+    let brightness = u32::from(r.max(g).max(b)) * u32::from(a) / 255;
+    let shadow = egui::Color32::from_black_alpha((SHADOW_ALPHA * brightness / 255) as u8);
+    painter.galley_with_override_text_color(corner + egui::vec2(0.0, 1.0), text.clone(), shadow);
+    painter.galley(corner, text, colour);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::picture::{Cap, Stroke};
+    use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
+    use crate::view::{AdapterPreference, Offscreen};
+
+    fn red_everywhere() -> Picture {
+        let stroke = Stroke {
+            from: [-1000.0; 2],
+            to: [1000.0; 2],
+            radii: [2000.0; 2],
+            colours: [[255, 0, 0, 255]; 2],
+            dash: [0.0; 3],
+            cap: Cap::Round,
+            clip: EVERYWHERE,
+        };
+        Picture { strokes: vec![stroke], ..Picture::default() }
+    }
+
+    /// A panel 40 points wide at the left; the stage is the rest.
+    fn show(ui: &mut egui::Ui, picture: &Picture) -> Option<Stage> {
+        let frame = egui::Frame::NONE.fill(egui::Color32::GREEN);
+        egui::Panel::left("panel").exact_size(40.0).frame(frame).show(ui, |_| ());
+        Some(Stage { rect: ui.available_rect_before_wrap(), picture: picture.clone() })
+    }
+
+    fn draw(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
+        let target = Offscreen::new(gpu, size_px).unwrap();
+        let mut renderer = FrameRenderer::new(gpu, Offscreen::FORMAT);
+        let input = egui::RawInput::default();
+        renderer.draw_with(gpu, &target.view, size_px, scale, input, |ui| show(ui, picture));
+        read(gpu, &target)
+    }
+
+    #[test]
+    fn the_stage_fills_what_the_panels_leave() {
+        let Some(gpu) = gpu_or_skip("the_stage_fills_what_the_panels_leave") else { return };
+        for scale in [1.0, 2.0] {
+            let pixels = draw(&gpu, [200, 100], scale, &red_everywhere());
+            let edge = (40.0 * scale) as u32;
+            assert_eq!(pixels.at(edge / 2, 50), [0, 255, 0, 255]);
+            assert_eq!(pixels.at(edge + 2, 50), [255, 0, 0, 255]);
+            assert_eq!(pixels.at(199, 99), [255, 0, 0, 255]);
+        }
+    }
+
+    #[test]
+    fn a_frame_of_one_pixel_is_drawn() {
+        let Some(gpu) = gpu_or_skip("a_frame_of_one_pixel_is_drawn") else { return };
+        for scale in [0.5, 1.0, 3.0] {
+            let pixels = draw(&gpu, [1, 1], scale, &red_everywhere());
+            assert_eq!(pixels.at(0, 0)[3], 255);
+        }
+    }
+
+    #[test]
+    fn labels_are_written_on_the_stage() {
+        let Some(gpu) = gpu_or_skip("labels_are_written_on_the_stage") else { return };
+        let label = |align| Label {
+            at: [80.0, 50.0],
+            align,
+            size: 20.0,
+            colour: [255; 4],
+            text: "HHHH".to_owned(),
+        };
+        let lit = |align| {
+            let picture = Picture { labels: vec![label(align)], ..Picture::default() };
+            let pixels = draw(&gpu, [200, 100], 1.0, &picture);
+            let bright = |x: u32| (0..100).any(|y| pixels.at(x, y)[0] > 200);
+            let left = (40..120).filter(|&x| bright(x)).count();
+            let right = (120..200).filter(|&x| bright(x)).count();
+            (left > 0, right > 0)
+        };
+        assert_eq!(lit(Align::Left), (false, true));
+        assert_eq!(lit(Align::Right), (true, false));
+        assert_eq!(lit(Align::Centre), (true, true));
+    }
+
+    #[test]
+    fn the_same_input_makes_the_same_frame() {
+        let Some(gpu) = gpu_or_skip("the_same_input_makes_the_same_frame") else { return };
+        let frame = || draw(&gpu, [120, 90], 1.5, &red_everywhere()).rows;
+        assert_eq!(frame(), frame());
+    }
+
+    #[test]
+    fn a_lost_device_does_not_panic_and_a_new_one_draws() {
+        let test = "a_lost_device_does_not_panic_and_a_new_one_draws";
+        let Some(gpu) = gpu_or_skip(test) else { return };
+        let target = Offscreen::new(&gpu, [64, 64]).unwrap();
+        let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+        gpu.device.destroy();
+        let picture = red_everywhere();
+        let input = egui::RawInput::default();
+        renderer.draw_with(&gpu, &target.view, [64, 64], 1.0, input, |ui| show(ui, &picture));
+        assert!(gpu.is_lost());
+
+        let gpu = Gpu::headless(AdapterPreference::CpuOnly).unwrap();
+        assert_eq!(draw(&gpu, [64, 64], 1.0, &picture).at(60, 60), [255, 0, 0, 255]);
+    }
+}

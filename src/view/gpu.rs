@@ -1,0 +1,284 @@
+//! A graphics device, with or without a window, and what to say when there is none.
+//!
+//! Adapters are enumerated and ranked here rather than requested from wgpu, because the best one may
+//! refuse to make a device while the next one would.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Which adapters may be used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AdapterPreference {
+    /// The fastest that works, a software one if need be.
+    #[default]
+    Any,
+    /// A software one only, whose pixels are the same on every machine: for golden pictures.
+    CpuOnly,
+}
+
+/// Why there is no device, or no texture of the size asked for.
+#[derive(Debug, thiserror::Error)]
+pub enum GpuError {
+    /// No driver offers an adapter that could be used.
+    #[error(
+        "no usable graphics adapter: {reasons}; unset WGPU_BACKEND if it is set, or install a driver, \
+         a software one will do (Debian, Ubuntu: apt install mesa-vulkan-drivers)"
+    )]
+    NoAdapter {
+        /// What became of each backend.
+        reasons: String,
+    },
+    /// Adapters exist, but none of them made a device.
+    #[error("no graphics device: {refusals}; update the driver, or try WGPU_BACKEND=gl")]
+    DeviceRefused {
+        /// Each adapter tried, with its refusal.
+        refusals: String,
+    },
+    /// The window system gave nothing to draw on.
+    #[error("no surface to draw on: {0}; try WGPU_BACKEND=gl, or capture without a window")]
+    NoSurface(#[from] wgpu::CreateSurfaceError),
+    /// A texture of this size is more than the adapter can make.
+    #[error(
+        "frame size {width}x{height} is beyond this adapter's limit of {limit}; \
+         give at most {limit}x{limit}"
+    )]
+    TooLarge {
+        /// Asked for, in pixels.
+        width: u32,
+        /// Asked for, in pixels.
+        height: u32,
+        /// The longest side that the adapter can make, in pixels.
+        limit: u32,
+    },
+    /// A texture without pixels was asked for.
+    #[error("frame size {width}x{height} has no pixels; give at least 1x1")]
+    Empty {
+        /// Asked for, in pixels.
+        width: u32,
+        /// Asked for, in pixels.
+        height: u32,
+    },
+    /// The texture is within the adapter's limits but not within its memory.
+    #[error("no memory for a frame of {width}x{height}; give a smaller size")]
+    OutOfMemory {
+        /// Asked for, in pixels.
+        width: u32,
+        /// Asked for, in pixels.
+        height: u32,
+    },
+}
+
+/// A device, its queue, and the adapter they came from.
+#[derive(Debug)]
+pub struct Gpu {
+    /// Makes textures, buffers and pipelines.
+    pub device: wgpu::Device,
+    /// Takes work.
+    pub queue: wgpu::Queue,
+    /// Tells what a surface can do.
+    pub adapter: wgpu::Adapter,
+    /// Name, backend, driver and kind of the adapter.
+    pub info: wgpu::AdapterInfo,
+    /// The longest side of a texture, in pixels.
+    pub max_texture_side_px: u32,
+    lost: Arc<AtomicBool>,
+}
+
+impl Gpu {
+    /// A device that draws into textures only; needs no display.
+    ///
+    /// `WGPU_BACKEND` (`vulkan`, `gl`, …) restricts the search.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
+    pub fn headless(preference: AdapterPreference) -> Result<Self, GpuError> {
+        let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        Self::choose(&wgpu::Instance::new(descriptor), None, preference)
+    }
+
+    /// A device of the best ranked adapter that can present to `surface`, where there is one.
+    pub(super) fn choose(
+        instance: &wgpu::Instance,
+        surface: Option<&wgpu::Surface<'_>>,
+        preference: AdapterPreference,
+    ) -> Result<Self, GpuError> {
+        let mut unfit = Vec::new();
+        let mut candidates = Vec::new();
+        for adapter in pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all())) {
+            let info = adapter.get_info();
+            let is_cpu = info.device_type == wgpu::DeviceType::Cpu;
+            if preference == AdapterPreference::CpuOnly && !is_cpu {
+                unfit.push(format!("{} is no software adapter", title(&info)));
+            } else if surface.is_some_and(|surface| !adapter.is_surface_supported(surface)) {
+                unfit.push(format!("{} cannot present to this window", title(&info)));
+            } else {
+                candidates.push((adapter, info));
+            }
+        }
+        if candidates.is_empty() {
+            unfit.extend(absent_backends(instance));
+            return Err(GpuError::NoAdapter { reasons: unfit.join(", ") });
+        }
+        candidates.sort_by_key(|(_, info)| rank(info));
+
+        let mut refusals = Vec::new();
+        for (adapter, info) in candidates {
+            match Self::open(adapter, info.clone()) {
+                Ok(gpu) => return Ok(gpu),
+                Err(refusal) => refusals.push(format!("{}: {refusal}", title(&info))),
+            }
+        }
+        Err(GpuError::DeviceRefused { refusals: refusals.join(", ") })
+    }
+
+    fn open(
+        adapter: wgpu::Adapter,
+        info: wgpu::AdapterInfo,
+    ) -> Result<Self, wgpu::RequestDeviceError> {
+        // The least that wgpu knows of, since quads and uniforms are all we need, but textures and
+        // buffers as large as the adapter makes them.
+        let limits = wgpu::Limits {
+            max_buffer_size: adapter.limits().max_buffer_size,
+            ..wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits())
+        };
+        let max_texture_side_px = limits.max_texture_dimension_2d;
+        let request = adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("regatta"),
+            required_limits: limits,
+            ..Default::default()
+        });
+        let (device, queue) = pollster::block_on(request)?;
+
+        let lost = Arc::new(AtomicBool::new(false));
+        device.set_device_lost_callback({
+            let lost = Arc::clone(&lost);
+            move |reason, message| {
+                lost.store(true, Ordering::Release);
+                log::warn!("the graphics device is gone ({reason:?}): {message}");
+            }
+        });
+        device.on_uncaptured_error(Arc::new(|error| log::error!("graphics: {error}")));
+        Ok(Self { device, queue, adapter, info, max_texture_side_px, lost })
+    }
+
+    /// Whether the device is gone for good: driver reset, unplugged, destroyed. Only a new [`Gpu`],
+    /// with everything that was made from this one, helps.
+    pub fn is_lost(&self) -> bool {
+        // A destroyed device says so when it is next polled.
+        self.device.poll(wgpu::PollType::Poll).ok();
+        self.lost.load(Ordering::Acquire)
+    }
+
+    /// Whether a texture of this size can be made.
+    pub(super) fn check_size(&self, [width, height]: [u32; 2]) -> Result<(), GpuError> {
+        let limit = self.max_texture_side_px;
+        if width == 0 || height == 0 {
+            Err(GpuError::Empty { width, height })
+        } else if width > limit || height > limit {
+            Err(GpuError::TooLarge { width, height, limit })
+        } else {
+            Ok(())
+        }
+    }
+}
+
+fn title(info: &wgpu::AdapterInfo) -> String {
+    format!("{} ({})", info.name, info.backend)
+}
+
+/// Hardware before software, the card before the chip, and an explicit interface before GL, which
+/// does the same work with more of the driver in between.
+fn rank(info: &wgpu::AdapterInfo) -> (u8, u8) {
+    let kind = match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Other => 3,
+        wgpu::DeviceType::Cpu => 4,
+    };
+    (kind, u8::from(info.backend == wgpu::Backend::Gl))
+}
+
+/// What wgpu says of each backend that was looked for and offered nothing.
+fn absent_backends(instance: &wgpu::Instance) -> Vec<String> {
+    let request = instance.request_adapter(&wgpu::RequestAdapterOptions {
+        // So that hardware which was passed over above does not end the search here.
+        force_fallback_adapter: true,
+        ..Default::default()
+    });
+    let Err(error) = pollster::block_on(request) else {
+        return Vec::new();
+    };
+    let text = error.to_string();
+    let reasons = text.split_once("; ").map_or(text.as_str(), |(_, reasons)| reasons);
+    let built_in = wgpu::Instance::enabled_backend_features();
+    let is_built_in = |reason: &&str| {
+        wgpu::Backend::ALL.into_iter().any(|backend| {
+            built_in.contains(backend.into()) && reason.starts_with(backend.to_str())
+        })
+    };
+    reasons.split(", ").filter(is_built_in).map(str::to_owned).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::testing::gpu_or_skip;
+
+    fn info(kind: wgpu::DeviceType, backend: wgpu::Backend) -> wgpu::AdapterInfo {
+        wgpu::AdapterInfo::new(kind, backend)
+    }
+
+    #[test]
+    fn hardware_is_preferred_and_gl_is_the_last_resort_of_each_kind() {
+        use wgpu::{Backend, DeviceType};
+        let mut infos = [
+            info(DeviceType::Cpu, Backend::Gl),
+            info(DeviceType::Cpu, Backend::Vulkan),
+            info(DeviceType::IntegratedGpu, Backend::Gl),
+            info(DeviceType::DiscreteGpu, Backend::Vulkan),
+        ];
+        infos.sort_by_key(rank);
+        let order = infos.map(|info| (info.device_type, info.backend));
+        assert_eq!(
+            order,
+            [
+                (DeviceType::DiscreteGpu, Backend::Vulkan),
+                (DeviceType::IntegratedGpu, Backend::Gl),
+                (DeviceType::Cpu, Backend::Vulkan),
+                (DeviceType::Cpu, Backend::Gl),
+            ]
+        );
+    }
+
+    #[test]
+    fn without_an_adapter_the_error_names_the_backends_and_the_package() {
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        descriptor.backends = wgpu::Backends::empty();
+        let instance = wgpu::Instance::new(descriptor);
+        let error = Gpu::choose(&instance, None, AdapterPreference::Any).unwrap_err().to_string();
+        assert!(error.starts_with("no usable graphics adapter: "), "{error}");
+        assert!(error.contains("gl not requested"), "{error}");
+        assert!(error.ends_with("apt install mesa-vulkan-drivers)"), "{error}");
+    }
+
+    #[test]
+    fn a_destroyed_device_is_known_to_be_lost() {
+        let Some(gpu) = gpu_or_skip("a_destroyed_device_is_known_to_be_lost") else { return };
+        assert!(!gpu.is_lost());
+        gpu.device.destroy();
+        assert!(gpu.is_lost());
+    }
+
+    #[test]
+    fn an_uncaptured_error_does_not_end_the_program() {
+        let Some(gpu) = gpu_or_skip("an_uncaptured_error_does_not_end_the_program") else { return };
+        drop(gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: u64::MAX,
+            usage: wgpu::BufferUsages::VERTEX,
+            mapped_at_creation: false,
+        }));
+        assert!(!gpu.is_lost());
+    }
+}

@@ -1,0 +1,203 @@
+//! From a texture to tightly packed RGBA rows.
+
+use std::sync::mpsc;
+use std::time::Duration;
+
+use super::gpu::Gpu;
+
+/// How long a device may take over a frame before it counts as hung. A software adapter needs
+/// seconds for the largest frames; a hung driver would otherwise hold the program for ever.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Why the pixels did not come back.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadbackError {
+    /// The device went away.
+    #[error("the graphics device was lost while a frame was read back; start again")]
+    DeviceLost,
+    /// The device did not finish the frame.
+    #[error("the graphics device did not finish a frame in {} s; give a smaller size", PATIENCE.as_secs())]
+    Timeout,
+    /// The buffer could not be read.
+    #[error("a frame could not be read back: {reason}; give a smaller size")]
+    Unreadable {
+        /// What the device said.
+        reason: String,
+    },
+    /// The texture does not hold four 8-bit channels.
+    #[error("frames of format {format:?} cannot be read back; draw to Rgba8Unorm or Bgra8Unorm")]
+    Format {
+        /// The texture's format.
+        format: wgpu::TextureFormat,
+    },
+}
+
+/// Reads textures, keeping its buffer from one frame to the next.
+#[derive(Debug, Default)]
+pub struct Readback {
+    buffer: Option<wgpu::Buffer>,
+}
+
+impl Readback {
+    /// Waits for all work submitted so far and replaces `rows` by the texture's pixels: red, green,
+    /// blue, alpha, top row first, no padding. The texture needs `COPY_SRC`.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`]; `rows` is then unspecified.
+    pub fn read(
+        &mut self,
+        gpu: &Gpu,
+        texture: &wgpu::Texture,
+        rows: &mut Vec<u8>,
+    ) -> Result<(), ReadbackError> {
+        let format = texture.format();
+        let blue_first = match format {
+            wgpu::TextureFormat::Rgba8Unorm => false,
+            wgpu::TextureFormat::Bgra8Unorm => true,
+            _ => return Err(ReadbackError::Format { format }),
+        };
+        if gpu.is_lost() {
+            return Err(ReadbackError::DeviceLost);
+        }
+        let row_bytes = 4 * texture.width();
+        let padded_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let bytes = u64::from(padded_row_bytes) * u64::from(texture.height());
+        let buffer = self.buffer_of(gpu, bytes).clone();
+
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(
+            texture.as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded_row_bytes),
+                    rows_per_image: None,
+                },
+            },
+            texture.size(),
+        );
+        gpu.queue.submit([encoder.finish()]);
+        if let Err(error) = wait_until_mapped(gpu, &buffer.slice(..bytes)) {
+            // It may be mapped any time later, and a mapped buffer cannot be copied to.
+            self.buffer = None;
+            return Err(error);
+        }
+
+        rows.clear();
+        rows.reserve_exact(row_bytes as usize * texture.height() as usize);
+        {
+            let mapped = buffer
+                .get_mapped_range(..bytes)
+                .map_err(|error| ReadbackError::Unreadable { reason: error.to_string() })?;
+            for row in mapped.chunks_exact(padded_row_bytes as usize) {
+                rows.extend_from_slice(&row[..row_bytes as usize]);
+            }
+        }
+        buffer.unmap();
+        if blue_first {
+            for pixel in rows.chunks_exact_mut(4) {
+                pixel.swap(0, 2);
+            }
+        }
+        Ok(())
+    }
+
+    fn buffer_of(&mut self, gpu: &Gpu, bytes: u64) -> &wgpu::Buffer {
+        self.buffer.take_if(|buffer| buffer.size() != bytes);
+        self.buffer.get_or_insert_with(|| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("readback"),
+                size: bytes,
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            })
+        })
+    }
+}
+
+fn wait_until_mapped(gpu: &Gpu, slice: &wgpu::BufferSlice<'_>) -> Result<(), ReadbackError> {
+    let (sender, receiver) = mpsc::channel();
+    slice.map_async(wgpu::MapMode::Read, move |result| {
+        // The receiver is gone only when nobody waits any more.
+        sender.send(result).ok();
+    });
+    let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
+    let polled = gpu.device.poll(wait);
+    match receiver.try_recv() {
+        Ok(Ok(())) => Ok(()),
+        _ if gpu.is_lost() => Err(ReadbackError::DeviceLost),
+        Ok(Err(error)) => Err(ReadbackError::Unreadable { reason: error.to_string() }),
+        Err(_) => match polled {
+            Err(wgpu::PollError::Timeout) | Ok(_) => Err(ReadbackError::Timeout),
+            Err(error) => Err(ReadbackError::Unreadable { reason: error.to_string() }),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::testing::gpu_or_skip;
+
+    /// A texture holding `rows`, uploaded rather than drawn.
+    fn uploaded(
+        gpu: &Gpu,
+        format: wgpu::TextureFormat,
+        [width, height]: [u32; 2],
+        rows: &[u8],
+    ) -> wgpu::Texture {
+        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size,
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::COPY_DST | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(4 * width),
+            rows_per_image: None,
+        };
+        gpu.queue.write_texture(texture.as_image_copy(), rows, layout, size);
+        texture
+    }
+
+    #[test]
+    fn pixels_come_back_exactly_at_odd_widths() {
+        let Some(gpu) = gpu_or_skip("pixels_come_back_exactly_at_odd_widths") else { return };
+        let mut readback = Readback::default();
+        let mut rows = Vec::new();
+        for [width, height] in [[1, 1], [63, 5], [64, 5], [65, 5], [257, 3]] {
+            let sent: Vec<u8> = (0..4 * width * height).map(|i| (i * 7 % 251) as u8).collect();
+            let format = wgpu::TextureFormat::Rgba8Unorm;
+            let texture = uploaded(&gpu, format, [width, height], &sent);
+            readback.read(&gpu, &texture, &mut rows).unwrap();
+            assert_eq!(rows, sent, "{width}x{height}");
+        }
+    }
+
+    #[test]
+    fn red_comes_first_whatever_the_texture_holds() {
+        let Some(gpu) = gpu_or_skip("red_comes_first_whatever_the_texture_holds") else { return };
+        let format = wgpu::TextureFormat::Bgra8Unorm;
+        let texture = uploaded(&gpu, format, [1, 1], &[10, 20, 30, 40]);
+        let mut rows = Vec::new();
+        Readback::default().read(&gpu, &texture, &mut rows).unwrap();
+        assert_eq!(rows, [30, 20, 10, 40]);
+    }
+
+    #[test]
+    fn reading_from_a_lost_device_is_an_error() {
+        let Some(gpu) = gpu_or_skip("reading_from_a_lost_device_is_an_error") else { return };
+        let format = wgpu::TextureFormat::Rgba8Unorm;
+        let texture = uploaded(&gpu, format, [1, 1], &[0; 4]);
+        gpu.device.destroy();
+        let error = Readback::default().read(&gpu, &texture, &mut Vec::new()).unwrap_err();
+        assert!(matches!(error, ReadbackError::DeviceLost), "{error}");
+    }
+}

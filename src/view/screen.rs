@@ -1,0 +1,81 @@
+//! A window's surface, and the instance that can make it again.
+
+use super::gpu::{AdapterPreference, Gpu, GpuError};
+
+/// What a window shows frames on. Which frames, and when, is the window's business.
+#[derive(Debug)]
+pub struct Screen {
+    instance: wgpu::Instance,
+    surface: wgpu::Surface<'static>,
+}
+
+impl Screen {
+    /// A surface for `window`, on the display that it is on: GL needs the display to present.
+    ///
+    /// # Errors
+    /// [`GpuError::NoSurface`].
+    pub fn new(
+        display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>,
+        window: impl Into<wgpu::SurfaceTarget<'static>>,
+    ) -> Result<Self, GpuError> {
+        let descriptor = wgpu::InstanceDescriptor::new_with_display_handle_from_env(display);
+        let instance = wgpu::Instance::new(descriptor);
+        let surface = instance.create_surface(window)?;
+        Ok(Self { instance, surface })
+    }
+
+    /// The best device that can present here. Asked again after the first was lost.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
+    pub fn gpu(&self) -> Result<Gpu, GpuError> {
+        Gpu::choose(&self.instance, Some(&self.surface), AdapterPreference::Any)
+    }
+
+    /// The same with a new surface: for [`wgpu::CurrentSurfaceTexture::Lost`].
+    ///
+    /// # Errors
+    /// [`GpuError::NoSurface`].
+    pub fn renewed(
+        self,
+        window: impl Into<wgpu::SurfaceTarget<'static>>,
+    ) -> Result<Self, GpuError> {
+        let Self { instance, surface } = self;
+        // A window can have one surface at a time.
+        drop(surface);
+        let surface = instance.create_surface(window)?;
+        Ok(Self { instance, surface })
+    }
+
+    /// The surface, to take textures from.
+    pub fn surface(&self) -> &wgpu::Surface<'static> {
+        &self.surface
+    }
+
+    /// The format that [`Self::configure`] gives the surface's textures: one in gamma space, as long
+    /// as the surface has any.
+    pub fn format(&self, gpu: &Gpu) -> wgpu::TextureFormat {
+        let formats = self.surface.get_capabilities(&gpu.adapter).formats;
+        let gamma = [wgpu::TextureFormat::Bgra8Unorm, wgpu::TextureFormat::Rgba8Unorm];
+        let found = gamma.into_iter().find(|format| formats.contains(format));
+        found.or(formats.first().copied()).unwrap_or(wgpu::TextureFormat::Bgra8Unorm)
+    }
+
+    /// Makes the surface's textures `size_px`, cut to what the adapter can make and to at least one
+    /// pixel. Waits for the display's refresh.
+    pub fn configure(&self, gpu: &Gpu, size_px: [u32; 2]) {
+        let [width, height] = size_px.map(|side| side.clamp(1, gpu.max_texture_side_px));
+        let configuration = wgpu::SurfaceConfiguration {
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            format: self.format(gpu),
+            color_space: wgpu::SurfaceColorSpace::Auto,
+            width,
+            height,
+            present_mode: wgpu::PresentMode::AutoVsync,
+            desired_maximum_frame_latency: 2,
+            alpha_mode: wgpu::CompositeAlphaMode::Auto,
+            view_formats: Vec::new(),
+        };
+        self.surface.configure(&gpu.device, &configuration);
+    }
+}

@@ -1,0 +1,68 @@
+//! What the tests of this layer share: a device, and the pixels drawn with it.
+
+use std::io::{self, Write};
+
+use super::{AdapterPreference, Gpu, Offscreen, Readback, Stage};
+use crate::lab::picture::{Picture, Rect};
+use crate::view::stage::StageRenderer;
+
+/// A software device, or a line on stderr that says which test did not run and why.
+pub(super) fn gpu_or_skip(test: &str) -> Option<Gpu> {
+    Gpu::headless(AdapterPreference::CpuOnly)
+        // Not `eprintln!`, which the test runner hides when a test passes.
+        .inspect_err(|error| drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")))
+        .ok()
+}
+
+/// Tightly packed RGBA rows.
+pub(super) struct Pixels {
+    pub(super) size_px: [u32; 2],
+    pub(super) rows: Vec<u8>,
+}
+
+impl Pixels {
+    pub(super) fn at(&self, x: u32, y: u32) -> [u8; 4] {
+        let first = 4 * (y * self.size_px[0] + x) as usize;
+        self.rows[first..first + 4].try_into().expect("four bytes are four bytes")
+    }
+
+    /// How many pixels are not black.
+    pub(super) fn lit(&self) -> usize {
+        self.rows.chunks_exact(4).filter(|pixel| pixel[..3] != [0, 0, 0]).count()
+    }
+
+    /// The sum of a channel over all pixels, 1 for a full one.
+    pub(super) fn sum(&self, channel: usize) -> f32 {
+        self.rows.iter().skip(channel).step_by(4).map(|&value| f32::from(value) / 255.0).sum()
+    }
+}
+
+/// A picture alone on black, the stage filling the target, `scale` pixels a point.
+pub(super) fn draw_picture(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
+    let target = Offscreen::new(gpu, size_px).expect("tests ask for small targets");
+    let mut renderer = StageRenderer::new(gpu, Offscreen::FORMAT);
+    let rect = egui::Rect::from_min_size(
+        egui::Pos2::ZERO,
+        egui::vec2(size_px[0] as f32, size_px[1] as f32) / scale,
+    );
+    renderer.prepare(gpu, &Stage { rect, picture: picture.clone() }, size_px, scale);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            color_attachments: &[Some(target.cleared(wgpu::Color::BLACK))],
+            ..Default::default()
+        });
+        renderer.paint(&mut pass);
+    }
+    gpu.queue.submit([encoder.finish()]);
+    read(gpu, &target)
+}
+
+pub(super) fn read(gpu: &Gpu, target: &Offscreen) -> Pixels {
+    let mut rows = Vec::new();
+    Readback::default().read(gpu, &target.texture, &mut rows).expect("a fresh target can be read");
+    Pixels { size_px: target.size_px, rows }
+}
+
+/// A clip rectangle that clips nothing.
+pub(super) const EVERYWHERE: Rect = Rect { min: [-1e4; 2], max: [1e4; 2] };
