@@ -28,7 +28,7 @@ pub struct SceneErrors {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{cause}; {}", cause.remedy())]
 pub struct SceneError {
-    /// The bytes of the text at fault; empty where something is missing.
+    /// The bytes of the text at fault; where a key is missing, its table's header or nothing.
     pub span: Range<usize>,
     pub(super) cause: Cause,
 }
