@@ -23,4 +23,8 @@ pub use lab::{Ask, Display, Instrument, Interpolation, Lab, Mode, Pace};
 pub use lane::{ESCAPE, Halt, Lane, LaneBody};
 pub use metrics::{METRICS, Metric, Scale};
 pub use race::{Entrant, Race};
-pub use scene::{BuiltIn, LaneSpec, SCENES, Scene, SceneBody, Scripted};
+pub use scene::{
+    BuiltIn, LARGEST_FILE, LAST_TICK, LaneSpec, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS,
+    MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene, SceneBody, SceneError,
+    SceneErrors, Scripted,
+};

@@ -1,80 +1,153 @@
-//! stub
+//! What is simulated: a scene, read from TOML text and checked as a whole.
+//!
+//! A scene file is read in one walk, driven by the tables of [methods](crate::sim::integrators::METHODS)
+//! and [bodies](crate::sim::bodies::BODIES): whatever they list, a scene may name. Every fault of a file
+//! is reported at once, each with its place and its remedy; a [`Scene`] in hand has none.
+
+use std::path::Path;
+
 use super::Command;
 use crate::sim::bodies::Kind;
-use crate::sim::integrators::{METHODS, Method};
+use crate::sim::integrators::Method;
+
+mod cause;
+mod document;
+mod errors;
+mod nearest;
+mod syntax;
+mod table;
+
+pub use errors::{MOST_SHOWN, SceneError, SceneErrors};
+
+/// The largest scene file in bytes: tens of thousands of scripted commands. A file of nothing but
+/// mistakes takes the parser some hundred times its size in memory.
+pub const LARGEST_FILE: usize = 1 << 20;
+
+/// The highest tick rate in Hz: ten times what the finest physics of games runs at.
+pub const MOST_TICK_HZ: u32 = 10_000;
+
+/// The longest a scene may run, in seconds: a year. At [`MOST_TICK_HZ`] its last tick is far below
+/// 2⁵³, so that `tick / rate` is exact to the last bit of an f64.
+pub const MOST_SECONDS: f64 = 365.0 * 86_400.0;
+
+/// The last tick of the longest scene at the highest rate.
+pub const LAST_TICK: u64 = 365 * 86_400 * MOST_TICK_HZ as u64;
+
+/// The most bodies in a scene: more cells than this cannot be told apart on a stage.
+pub const MOST_BODIES: usize = 64;
+
+/// The most lanes in a scene: twice as many as colours that can be told apart.
+pub const MOST_LANES: usize = 32;
+
+/// The most substeps in a tick of a lane.
+pub const MOST_SUBSTEPS: u32 = 1_000;
+
+/// The most characters in a body's name: it stands in one line beside its cell.
+pub const MOST_NAME_CHARS: usize = 64;
+
+/// What is simulated, and how.
 #[derive(Clone, Debug)]
 pub struct Scene {
+    /// The built-in scene's name, or its file's name without directory and ending.
     pub name: String,
+    /// Its name for people.
     pub title: String,
+    /// What it shows; empty where the file does not say.
     pub about: String,
+    /// What to try, for the line under the stage.
     pub hint: Option<String>,
+    /// Ticks a second, 1 to [`MOST_TICK_HZ`].
     pub tick_hz: u32,
+    /// How long it runs, more than 0 and at most [`MOST_SECONDS`].
     pub seconds: f64,
+    /// The methods that race, 1 to [`MOST_LANES`], no two alike.
     pub lanes: Vec<LaneSpec>,
+    /// The bodies in the order of the file, 1 to [`MOST_BODIES`], no two of one name.
     pub bodies: Vec<SceneBody>,
+    /// What happens without anybody's doing, by tick, and within a tick in the order of the file.
     pub script: Vec<Scripted>,
 }
+
+/// A lane of the race.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaneSpec {
+    /// How its bodies are stepped.
     pub method: &'static Method,
+    /// Equal steps in a tick, 1 to [`MOST_SUBSTEPS`].
     pub substeps: u32,
 }
+
+/// A body of a scene.
 #[derive(Clone, Debug)]
 pub struct SceneBody {
+    /// Its name, not found on any other body of the scene.
     pub name: String,
+    /// What it is.
     pub kind: &'static Kind,
+    /// What [`Kind::build`] takes: one value for each of the kind's parameters, in their order.
     pub values: Vec<f64>,
 }
-#[derive(Clone, Debug)]
+
+/// A command of a scene's script.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scripted {
+    /// The tick before which it is applied, at most [`LAST_TICK`].
     pub tick: u64,
+    /// What is done.
     pub command: Command,
 }
-pub struct BuiltIn {
-    pub name: &'static str,
-    pub text: &'static str,
-}
-pub static SCENES: &[BuiltIn] = &[
-    BuiltIn { name: "harbour", text: "" },
-    BuiltIn { name: "ship", text: "" },
-    BuiltIn { name: "spring", text: "" },
-    BuiltIn { name: "stiff", text: "" },
-];
+
 impl Scene {
+    /// Reads a scene from the bytes of a file; `file` is the file's name, for messages.
+    ///
+    /// # Errors
+    /// As [`Scene::parse`], and where the bytes are not UTF-8.
+    pub fn from_bytes(file: &str, bytes: &[u8]) -> Result<Scene, SceneErrors> {
+        if bytes.len() > LARGEST_FILE {
+            return Err(SceneErrors::too_large(file));
+        }
+        match str::from_utf8(bytes) {
+            Ok(text) => Scene::parse(file, text),
+            Err(error) => Err(SceneErrors::not_utf8(file, bytes, error.valid_up_to())),
+        }
+    }
+
+    /// Reads a scene from the text of a file; `file` is the file's name, for messages.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the text, in the order in which it stands there.
+    pub fn parse(file: &str, text: &str) -> Result<Scene, SceneErrors> {
+        if text.len() > LARGEST_FILE {
+            return Err(SceneErrors::too_large(file));
+        }
+        // Some editors begin a file with a byte order mark, and none of them counts it as a column.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let stem = Path::new(file).file_stem().and_then(|stem| stem.to_str());
+        document::read(stem.unwrap_or(file), text)
+            .map_err(|errors| SceneErrors::new(file, text, errors))
+    }
+
+    /// The scene of [`SCENES`] with this name.
     pub fn built_in(name: &str) -> Option<Scene> {
-        use crate::sim::bodies::kind;
-        let spring = |n: &str, k: f64, c: f64| SceneBody {
-            name: n.into(),
-            kind: kind("spring").unwrap(),
-            values: vec![1.0, k, c, 1.0, 0.0, 3.0],
-        };
-        let ship = || SceneBody {
-            name: "ship".into(),
-            kind: kind("ship").unwrap(),
-            values: vec![20000.0, 1000.0, 10000.0, 0.0, 0.0, 20000.0],
-        };
-        let k1 = 39.47841760435743;
-        let (tick_hz, seconds, bodies) = match name {
-            "harbour" => {
-                (60, 20.0, vec![ship(), spring("buoy", k1, 0.0), spring("mooring", 20.0, 0.4)])
-            }
-            "ship" => (2, 60.0, vec![ship()]),
-            "spring" => (60, 20.0, vec![spring("spring", k1, 0.0)]),
-            "stiff" => (60, 5.0, vec![spring("stiff", 1e4, 0.0)]),
-            _ => return None,
-        };
-        Some(Scene {
-            name: name.into(),
-            title: "A title".into(),
-            about: "about".into(),
-            hint: Some(
-                "press 1 for explicit Euler and watch the amplitude; C races all methods".into(),
-            ),
-            tick_hz,
-            seconds,
-            lanes: METHODS.iter().map(|method| LaneSpec { method, substeps: 1 }).collect(),
-            bodies,
-            script: vec![],
-        })
+        let BuiltIn { name, text } = SCENES.iter().find(|scene| scene.name == name)?;
+        let scene = Scene::parse(name, text);
+        Some(scene.expect("tests/scenes.rs parses every built-in scene"))
     }
 }
+
+/// A scene that is part of the program.
+#[derive(Debug)]
+pub struct BuiltIn {
+    /// The name of its file in `assets/scenes`, without the ending.
+    pub name: &'static str,
+    /// The file.
+    pub text: &'static str,
+}
+
+/// Every built-in scene, in menu order; the first is the one that the program opens with.
+pub static SCENES: &[BuiltIn] = &[
+    BuiltIn { name: "harbour", text: include_str!("../../assets/scenes/harbour.toml") },
+    BuiltIn { name: "ship", text: include_str!("../../assets/scenes/ship.toml") },
+    BuiltIn { name: "spring", text: include_str!("../../assets/scenes/spring.toml") },
+    BuiltIn { name: "stiff", text: include_str!("../../assets/scenes/stiff.toml") },
+];

@@ -126,10 +126,11 @@ impl Range {
 
 impl std::fmt::Display for Range {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Range::Positive(most) => write!(f, "greater than 0 and at most {most:e}"),
-            Range::NonNegative(most) => write!(f, "from 0 to {most:e}"),
-            Range::Within(most) => write!(f, "from {:e} to {most:e}", -most),
+        let short = |x: f64| if x.abs() < 1e9 { format!("{x}") } else { format!("{x:e}") };
+        match *self {
+            Range::Positive(most) => write!(f, "greater than 0 and at most {}", short(most)),
+            Range::NonNegative(most) => write!(f, "from 0 to {}", short(most)),
+            Range::Within(most) => write!(f, "from {} to {}", short(-most), short(most)),
         }
     }
 }

@@ -1,0 +1,204 @@
+//! One variant for each thing that can be wrong with a scene file, with its values and its remedy.
+
+use std::fmt;
+use std::ops::RangeInclusive;
+
+use super::LARGEST_FILE;
+use super::errors::clip;
+use crate::sim::bodies::{self, BODIES};
+
+/// What is wrong. The display says that, [`Cause::remedy`] what to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub(super) enum Cause {
+    #[error("the file holds more than {LARGEST_FILE} bytes")]
+    TooLarge,
+    #[error("the file is not text: byte {byte} is not UTF-8")]
+    NotUtf8 { byte: usize },
+    #[error("the file holds no scene")]
+    Empty,
+    #[error("{what}")]
+    Syntax { what: String, remedy: String },
+    #[error("`{}` is given twice", clip(key))]
+    DuplicateKey { key: String, is_table: bool },
+    #[error("missing key `{key}` {place}")]
+    MissingKey { key: &'static str, place: Place, about: &'static str, wanted: Wanted },
+    #[error("unknown key `{}` {place}", clip(key))]
+    UnknownKey {
+        key: String,
+        place: Place,
+        nearest: Option<&'static str>,
+        known: Vec<&'static str>,
+    },
+    #[error("`{key}` does not belong {place}")]
+    Misplaced { key: &'static str, place: Place },
+    #[error("unknown table `{}`", clip(key))]
+    UnknownTable { key: String, nearest: Option<&'static str>, known: Vec<&'static str> },
+    #[error("unknown method {:?} in `{key}`", clip(id))]
+    UnknownMethod {
+        id: String,
+        key: &'static str,
+        nearest: Option<&'static str>,
+        known: Vec<&'static str>,
+    },
+    #[error("{subject} is {found}, not {}", wanted.noun())]
+    WrongType { subject: String, found: String, wanted: Wanted },
+    #[error("`{key}` is {value}, out of range")]
+    OutOfRange { key: &'static str, value: String, wanted: Wanted },
+    #[error("`{key}` is empty")]
+    EmptyText { key: &'static str, wanted: Wanted },
+    #[error("`{key}` has {chars} characters")]
+    LongText { key: &'static str, chars: usize, wanted: Wanted },
+    #[error("`{key}` holds the control character U+{:04X}", *character as u32)]
+    ControlCharacter { key: &'static str, character: char },
+    #[error("the scene has no body")]
+    NoBody,
+    #[error("the scene has {found} bodies")]
+    TooManyBodies { found: usize, most: usize },
+    #[error("the name {name:?} is taken by the body on line {line}")]
+    DuplicateName { name: String, line: usize },
+    #[error("`methods` is empty")]
+    NoLanes,
+    #[error("the scene has {found} lanes")]
+    TooManyLanes { found: usize, most: usize },
+    #[error("a lane \"{method}\" with `substeps = {substeps}` is on line {line} already")]
+    DuplicateLane { method: &'static str, substeps: u32, line: usize },
+    #[error("lanes are given twice, as `methods` and as `[[lane]]`")]
+    TwoLaneLists,
+    #[error("the command does nothing")]
+    NoAction { known: Vec<&'static str> },
+    #[error("the command does {} things: {}", found.len(), list(found, '`', " and "))]
+    ManyActions { found: Vec<&'static str> },
+    #[error("no body of this scene takes `{input}`")]
+    NoTaker { input: &'static str },
+}
+
+/// Where a key stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// Before the first table.
+    Top,
+    /// In a table array of this name.
+    Table(&'static str),
+}
+
+/// What a key takes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Wanted {
+    /// A string of at most this many characters.
+    Text(usize),
+    /// A number, whole or not.
+    Number(bodies::Range),
+    /// A whole number.
+    Whole(RangeInclusive<u64>),
+    /// The id of a method.
+    Method,
+    /// A list of methods' ids.
+    Methods,
+    /// A table array of this name.
+    Tables(&'static str),
+}
+
+impl Cause {
+    /// What to do about it.
+    pub(super) fn remedy(&self) -> String {
+        match self {
+            Cause::TooLarge => "give a scene file, with a shorter script".into(),
+            Cause::NotUtf8 { .. } => "give a scene file, saved as UTF-8".into(),
+            Cause::Empty => {
+                "write `title`, `tick_hz`, `seconds` and a table such as `[[ship]]`".into()
+            }
+            Cause::Syntax { remedy, .. } => remedy.clone(),
+            Cause::DuplicateKey { key, is_table: true } => {
+                format!("write `[[{}]]` each time", clip(key))
+            }
+            Cause::DuplicateKey { .. } => "keep one of them".into(),
+            Cause::MissingKey { key, place: Place::Top, about, wanted } => {
+                format!("write `{key} = …` above the first table: {about}, {wanted}")
+            }
+            Cause::MissingKey { key, about, wanted, .. } => {
+                format!("write `{key} = …`: {about}, {wanted}")
+            }
+            Cause::UnknownKey { nearest, known, .. } => offer(*nearest, known, '`'),
+            Cause::Misplaced { .. } => "move it above the first table".into(),
+            Cause::UnknownTable { nearest, known, .. } => offer(*nearest, known, '['),
+            Cause::UnknownMethod { nearest, known, .. } => offer(*nearest, known, '"'),
+            Cause::WrongType { wanted, .. }
+            | Cause::OutOfRange { wanted, .. }
+            | Cause::EmptyText { wanted, .. }
+            | Cause::LongText { wanted, .. } => format!("write {wanted}"),
+            Cause::ControlCharacter { .. } => "remove it".into(),
+            Cause::NoBody => {
+                let kinds: Vec<_> = BODIES.iter().map(|kind| kind.id).collect();
+                format!("add a table {}", list(&kinds, '[', " or "))
+            }
+            Cause::TooManyBodies { most, .. } => format!("keep at most {most}"),
+            Cause::DuplicateName { .. } => "give it another".into(),
+            Cause::NoLanes => "name a method, or remove the line and all of them race".into(),
+            Cause::TooManyLanes { most, .. } => format!("keep at most {most}"),
+            Cause::DuplicateLane { .. } => {
+                "remove one, or give it other `substeps` in a `[[lane]]`".into()
+            }
+            Cause::TwoLaneLists => "keep one of them".into(),
+            Cause::NoAction { known } => format!("write one of {}", list(known, '`', ", ")),
+            Cause::ManyActions { .. } => {
+                "write a `[[command]]` with the same `tick` for each".into()
+            }
+            Cause::NoTaker { input } => {
+                let takers = BODIES.iter().filter(|kind| kind.inputs.contains(input));
+                let takers: Vec<_> = takers.map(|kind| kind.id).collect();
+                format!("remove the command, or add a table {}", list(&takers, '[', " or "))
+            }
+        }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::Top => f.write_str("at the top of the file"),
+            Place::Table(name) => write!(f, "in `[[{name}]]`"),
+        }
+    }
+}
+
+impl Wanted {
+    fn noun(&self) -> &'static str {
+        match self {
+            Wanted::Text(_) | Wanted::Method => "a string",
+            Wanted::Number(_) => "a number",
+            Wanted::Whole(_) => "an integer",
+            Wanted::Methods => "a list",
+            Wanted::Tables(_) => "an array of tables",
+        }
+    }
+}
+
+impl fmt::Display for Wanted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Wanted::Text(most) => write!(f, "1 to {most} characters in double quotes"),
+            Wanted::Number(range) => write!(f, "a number {range}"),
+            Wanted::Whole(range) => {
+                write!(f, "a whole number from {} to {}", range.start(), range.end())
+            }
+            Wanted::Method => write!(f, "a method's name in double quotes, such as \"rk4\""),
+            Wanted::Methods => write!(f, "a list of methods' names, such as [\"rk4\"]"),
+            Wanted::Tables(name) => write!(f, "`[[{name}]]` in double brackets and its keys below"),
+        }
+    }
+}
+
+fn offer(nearest: Option<&str>, known: &[&str], quote: char) -> String {
+    match nearest {
+        Some(name) => format!("did you mean {}?", list(&[name], quote, "")),
+        None => format!("write one of {}", list(known, quote, ", ")),
+    }
+}
+
+fn list(names: &[&str], quote: char, between: &str) -> String {
+    let quoted = names.iter().map(|name| match quote {
+        '[' => format!("`[[{name}]]`"),
+        _ => format!("{quote}{name}{quote}"),
+    });
+    quoted.collect::<Vec<_>>().join(between)
+}

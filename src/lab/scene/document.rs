@@ -1,0 +1,270 @@
+//! The walk over a scene file, from its top to a [`Scene`].
+
+use std::ops::Range as Span;
+
+use toml::de::DeTable;
+
+use super::cause::{Cause, Wanted};
+use super::errors::{SceneError, position};
+use super::syntax;
+use super::table::{Field, Table};
+use super::{
+    LAST_TICK, LaneSpec, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS, MOST_SUBSTEPS,
+    MOST_TICK_HZ, Scene, SceneBody, Scripted,
+};
+use crate::lab::Command;
+use crate::sim::bodies::{BODIES, Kind, LARGEST, Parameter, Range};
+use crate::sim::integrators::METHODS;
+
+/// The most characters of a title: it stands in the window's title bar.
+const MOST_TITLE_CHARS: usize = 80;
+
+/// The most characters of what a scene is about: a few lines of a panel.
+const MOST_ABOUT_CHARS: usize = 400;
+
+/// The most characters of a hint: the line under the stage.
+const MOST_HINT_CHARS: usize = 120;
+
+const TITLE: Field = required("title", "the scene's name for people");
+const ABOUT: Field = optional("about");
+const HINT: Field = optional("hint");
+const TICK_HZ: Field = required("tick_hz", "ticks a second");
+const SECONDS: Field = required("seconds", "how long it runs");
+const METHOD_LIST: Field = optional("methods");
+const TOP: [Field; 6] = [TITLE, ABOUT, HINT, TICK_HZ, SECONDS, METHOD_LIST];
+
+const NAME: Field = optional("name");
+
+const LANE_METHOD: Field = required("method", "the method that races");
+const SUBSTEPS: Field = optional("substeps");
+
+const TICK: Field = required("tick", "the tick before which it is done");
+
+const fn required(key: &'static str, about: &'static str) -> Field {
+    Field { key, needed_as: Some(about) }
+}
+
+const fn optional(key: &'static str) -> Field {
+    Field { key, needed_as: None }
+}
+
+/// Something that a `[[command]]` may do, by its key.
+struct Action {
+    field: Field,
+    /// The input that some body must take for the action to have an effect.
+    input: Option<&'static str>,
+    read: fn(&mut Table<'_>, Field) -> Option<Command>,
+}
+
+static ACTIONS: [Action; 4] = [
+    Action {
+        field: optional("method"),
+        input: None,
+        read: |table, field| table.method(field).map(Command::Method),
+    },
+    Action {
+        field: optional("throttle"),
+        input: Some("throttle"),
+        read: |table, field| table.number(field, Range::Within(1.0)).map(Command::Throttle),
+    },
+    Action {
+        field: optional("kick"),
+        input: Some("kick"),
+        read: |table, field| table.number(field, Range::Within(LARGEST)).map(Command::Kick),
+    },
+    Action {
+        field: optional("tick_hz"),
+        input: None,
+        read: |table, field| table.whole(field, 1..=MOST_TICK_HZ).map(Command::TickHz),
+    },
+];
+
+/// Reads the scene called `name`, or says everything that is wrong with its text, in no order.
+pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
+    let (document, errors) = DeTable::parse_recoverable(text);
+    let mut errors = syntax::errors(text, errors);
+    // A key given twice leaves the rest of the file clear; other syntax errors leave only guesses.
+    if errors.iter().any(|error| !matches!(error.cause, Cause::DuplicateKey { .. })) {
+        return Err(errors);
+    }
+    if document.get_ref().is_empty() {
+        return Err(vec![SceneError { span: 0..0, cause: Cause::Empty }]);
+    }
+
+    let mut top = Table::top(text, document.get_ref());
+    let title = top.text(TITLE, MOST_TITLE_CHARS);
+    let about = top.text(ABOUT, MOST_ABOUT_CHARS).unwrap_or_default();
+    let hint = top.text(HINT, MOST_HINT_CHARS);
+    let tick_hz = top.whole(TICK_HZ, 1..=MOST_TICK_HZ);
+    let seconds = top.number(SECONDS, Range::Positive(MOST_SECONDS));
+    let lanes = read_lanes(text, &mut top);
+    let bodies = read_bodies(&mut top);
+    check_names(text, &bodies, &mut top);
+    let script = read_script(&bodies, &mut top);
+    errors.extend(top.finish(&[]));
+    let may_mean_a_body = |error: &SceneError| {
+        matches!(
+            error.cause,
+            Cause::UnknownTable { .. } | Cause::WrongType { wanted: Wanted::Tables(_), .. }
+        )
+    };
+    if bodies.is_empty() && !errors.iter().any(may_mean_a_body) {
+        errors.push(SceneError { span: text.len()..text.len(), cause: Cause::NoBody });
+    }
+
+    match (title, tick_hz, seconds) {
+        (Some(title), Some(tick_hz), Some(seconds)) if errors.is_empty() => {
+            let (name, bodies) = (name.into(), finish_bodies(bodies));
+            Ok(Scene { name, title, about, hint, tick_hz, seconds, lanes, bodies, script })
+        }
+        _ => Err(errors),
+    }
+}
+
+fn read_lanes(text: &str, top: &mut Table<'_>) -> Vec<LaneSpec> {
+    let listed = top.methods(METHOD_LIST, MOST_LANES);
+    let is_listed = listed.is_some();
+    let listed = listed.into_iter().flatten();
+    let mut lanes: Vec<_> =
+        listed.map(|(span, method)| (span, LaneSpec { method, substeps: 1 })).collect();
+
+    let rows = top.rows("lane");
+    if let (true, Some(row)) = (is_listed, rows.first()) {
+        top.complain(row.header.clone(), Cause::TwoLaneLists);
+    }
+    if let Some(row) = rows.get(MOST_LANES) {
+        let cause = Cause::TooManyLanes { found: rows.len(), most: MOST_LANES };
+        top.complain(row.header.clone(), cause);
+    }
+    let is_given = is_listed || !rows.is_empty();
+    for mut row in rows.into_iter().take(MOST_LANES) {
+        let method = row.method(LANE_METHOD);
+        let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS).unwrap_or(1);
+        let lane = method.map(|method| (row.span(LANE_METHOD.key), LaneSpec { method, substeps }));
+        lanes.extend(lane);
+        top.adopt(row, &TOP);
+    }
+
+    for (n, (span, lane)) in lanes.iter().enumerate() {
+        if let Some((first, _)) = lanes[..n].iter().find(|(_, earlier)| earlier == lane) {
+            let (line, _) = position(text, first.start);
+            let (method, substeps) = (lane.method.id, lane.substeps);
+            top.complain(span.clone(), Cause::DuplicateLane { method, substeps, line });
+        }
+    }
+    if is_given {
+        lanes.into_iter().map(|(_, lane)| lane).collect()
+    } else {
+        METHODS.iter().map(|method| LaneSpec { method, substeps: 1 }).collect()
+    }
+}
+
+/// A body as the file describes it, faults included.
+struct Described {
+    kind: &'static Kind,
+    name: Option<String>,
+    /// The bytes of the name, or of the table's header where it has none.
+    name_at: Span<usize>,
+    values: Option<Vec<f64>>,
+}
+
+fn read_bodies(top: &mut Table<'_>) -> Vec<Described> {
+    let of_kind = |kind: &'static Kind| top.rows(kind.id).into_iter().map(move |row| (kind, row));
+    let mut rows: Vec<_> = BODIES.iter().flat_map(of_kind).collect();
+    rows.sort_by_key(|(_, row)| row.header.start);
+    if let Some((_, row)) = rows.get(MOST_BODIES) {
+        let cause = Cause::TooManyBodies { found: rows.len(), most: MOST_BODIES };
+        top.complain(row.header.clone(), cause);
+    }
+    let mut bodies = Vec::new();
+    for (kind, mut row) in rows.into_iter().take(MOST_BODIES) {
+        let name = row.text(NAME, MOST_NAME_CHARS);
+        let name_at = row.span(NAME.key);
+        let values = read_values(kind, &mut row);
+        bodies.push(Described { kind, name, name_at, values });
+        top.adopt(row, &TOP);
+    }
+    bodies
+}
+
+fn read_values(kind: &Kind, row: &mut Table<'_>) -> Option<Vec<f64>> {
+    let read = |parameter: &Parameter| {
+        let Parameter { key, about, default, range } = *parameter;
+        let field = if default.is_some() { optional(key) } else { required(key, about) };
+        row.number(field, range).or(default)
+    };
+    // All are read before any is missed, so that every fault is found.
+    let values: Vec<_> = kind.parameters.iter().map(read).collect();
+    values.into_iter().collect()
+}
+
+fn check_names(text: &str, bodies: &[Described], top: &mut Table<'_>) {
+    for (n, body) in bodies.iter().enumerate() {
+        let Some(name) = &body.name else { continue };
+        if let Some(first) = bodies[..n].iter().find(|earlier| earlier.name == body.name) {
+            let (line, _) = position(text, first.name_at.start);
+            let cause = Cause::DuplicateName { name: name.clone(), line };
+            top.complain(body.name_at.clone(), cause);
+        }
+    }
+}
+
+/// Names the nameless after their kind, numbered where the kind has several bodies.
+fn finish_bodies(bodies: Vec<Described>) -> Vec<SceneBody> {
+    let mut taken: Vec<String> = bodies.iter().filter_map(|body| body.name.clone()).collect();
+    let kinds: Vec<_> = bodies.iter().map(|body| body.kind.id).collect();
+    let mut finished = Vec::new();
+    for Described { kind, name, values, .. } in bodies {
+        let is_alone = kinds.iter().filter(|id| **id == kind.id).count() == 1;
+        let name = name.unwrap_or_else(|| {
+            let plain = is_alone.then(|| kind.id.to_owned());
+            let numbered = (1..).map(|number| format!("{}-{number}", kind.id));
+            let free = plain.into_iter().chain(numbered).find(|name| !taken.contains(name));
+            free.expect("there is always a next number")
+        });
+        taken.push(name.clone());
+        finished.extend(values.map(|values| SceneBody { name, kind, values }));
+    }
+    finished
+}
+
+fn read_script(bodies: &[Described], top: &mut Table<'_>) -> Vec<Scripted> {
+    let mut script = Vec::new();
+    for mut row in top.rows("command") {
+        let tick = row.whole(TICK, 0..=LAST_TICK);
+        let command = read_action(bodies, &mut row);
+        script.extend(tick.zip(command).map(|(tick, command)| Scripted { tick, command }));
+        top.adopt(row, &TOP);
+    }
+    script.sort_by_key(|scripted| scripted.tick);
+    script
+}
+
+fn read_action(bodies: &[Described], row: &mut Table<'_>) -> Option<Command> {
+    let mut command = None;
+    let mut found = Vec::new();
+    for Action { field, input, read } in &ACTIONS {
+        // Each is read, also where one too many is found: a row knows only the keys it was asked for.
+        command = read(row, *field).or(command);
+        if !row.has(field.key) {
+            continue;
+        }
+        found.push(field.key);
+        if let Some(input) = *input
+            && !bodies.is_empty()
+            && !bodies.iter().any(|body| body.kind.inputs.contains(&input))
+        {
+            row.complain(row.span(field.key), Cause::NoTaker { input });
+        }
+    }
+    let header = row.header.clone();
+    match found.len() {
+        0 => {
+            let known = ACTIONS.iter().map(|action| action.field.key).collect();
+            row.complain(header, Cause::NoAction { known });
+        }
+        1 => {}
+        _ => row.complain(header, Cause::ManyActions { found }),
+    }
+    command
+}

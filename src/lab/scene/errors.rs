@@ -1,0 +1,110 @@
+//! Everything that is wrong with one scene file, with its places.
+
+use std::fmt;
+use std::ops::Range;
+
+use super::cause::Cause;
+
+/// How many errors of one file are shown: as many as a person mends before trying again.
+pub const MOST_SHOWN: usize = 10;
+
+/// The most characters of a file's text in one message, so that it stays a line.
+const MOST_QUOTED_CHARS: usize = 40;
+
+/// Everything that is wrong with one scene file. Its display has one line for each error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneErrors {
+    /// The file's name, as it was given.
+    pub file: String,
+    /// The text to which the errors' spans refer.
+    pub text: String,
+    /// The first [`MOST_SHOWN`] errors in the order of the text; at least one.
+    pub errors: Vec<SceneError>,
+    /// How many more there are.
+    pub more: usize,
+}
+
+/// One thing that is wrong with a scene file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{cause}; {}", cause.remedy())]
+pub struct SceneError {
+    /// The bytes of the text at fault; where a key is missing, its table's header or nothing.
+    pub span: Range<usize>,
+    pub(super) cause: Cause,
+}
+
+impl SceneError {
+    /// What is wrong, in lower case: the title of a longer message.
+    pub fn what(&self) -> String {
+        self.cause.to_string()
+    }
+
+    /// What to do about it: the label of the span in a longer message.
+    pub fn remedy(&self) -> String {
+        self.cause.remedy()
+    }
+}
+
+impl SceneErrors {
+    pub(super) fn new(file: &str, text: &str, mut errors: Vec<SceneError>) -> Self {
+        errors.sort_by_key(|error| error.span.start);
+        let more = errors.len().saturating_sub(MOST_SHOWN);
+        errors.truncate(MOST_SHOWN);
+        Self { file: file.into(), text: text.into(), errors, more }
+    }
+
+    pub(super) fn too_large(file: &str) -> Self {
+        let error = SceneError { span: 0..0, cause: Cause::TooLarge };
+        Self::new(file, "", vec![error])
+    }
+
+    pub(super) fn not_utf8(file: &str, bytes: &[u8], byte: usize) -> Self {
+        let text = String::from_utf8_lossy(bytes);
+        let span = byte..byte + char::REPLACEMENT_CHARACTER.len_utf8();
+        Self::new(file, &text, vec![SceneError { span, cause: Cause::NotUtf8 { byte } }])
+    }
+
+    /// The line and the column of a byte of the text, both from 1, the column in characters.
+    pub fn position(&self, byte: usize) -> (usize, usize) {
+        position(&self.text, byte)
+    }
+}
+
+impl fmt::Display for SceneErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { file, errors, more, .. } = self;
+        for (n, error) in errors.iter().enumerate() {
+            let (line, column) = self.position(error.span.start);
+            let newline = if n == 0 { "" } else { "\n" };
+            write!(f, "{newline}{file}:{line}:{column}: {error}")?;
+        }
+        if *more > 0 {
+            write!(f, "\n{file}: and {more} more; mend these first")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for SceneErrors {}
+
+/// Text of a file as part of a message: not too much of it, and no control characters.
+pub(super) fn clip(text: &str) -> String {
+    let mut shown = String::new();
+    for character in text.chars().take(MOST_QUOTED_CHARS) {
+        match character {
+            '"' | '\'' | '\\' => shown.push(character),
+            _ => shown.extend(character.escape_debug()),
+        }
+    }
+    if text.chars().nth(MOST_QUOTED_CHARS).is_some() {
+        shown.push('…');
+    }
+    shown
+}
+
+pub(super) fn position(text: &str, byte: usize) -> (usize, usize) {
+    let before = &text[..text.floor_char_boundary(byte)];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = 1 + before.bytes().filter(|byte| *byte == b'\n').count();
+    (line, 1 + before[line_start..].chars().count())
+}

@@ -1,0 +1,78 @@
+//! The known name that somebody may have meant.
+
+/// How alike two spellings must be, from 0 to 1 after Jaro and Winkler, for one to be offered for the
+/// other: the tests below show what that lets through.
+const ALIKE: f64 = 0.8;
+
+/// Longer words are not compared: no known name comes near, and comparing takes time.
+const MOST_CHARS: usize = 64;
+
+/// The name that `written` is a part of, if of one only; else the name with the most similar spelling,
+/// if one is similar at all. A name may have several spellings; case, blanks and the kind of hyphen do
+/// not matter.
+pub(super) fn nearest(
+    written: &str,
+    names: impl Iterator<Item = (&'static str, &'static str)>,
+) -> Option<&'static str> {
+    if written.chars().nth(MOST_CHARS).is_some() {
+        return None;
+    }
+    let plain = |word: &str| word.trim().to_lowercase().replace(['_', ' '], "-");
+    let written = plain(written);
+    let names: Vec<_> = names.map(|(spelling, name)| (plain(spelling), name)).collect();
+
+    let mut whole = names.iter().filter(|(spelling, _)| spelling.contains(&written));
+    if let Some((_, name)) = whole.next()
+        && written.len() > 1
+        && whole.all(|(_, other)| other == name)
+    {
+        return Some(name);
+    }
+    // A slip of the finger seldom hits the first letter; without this, `planet` is like `lane`.
+    let likely =
+        names.iter().filter(|(spelling, _)| spelling.chars().next() == written.chars().next());
+    likely
+        .map(|(spelling, name)| (strsim::jaro_winkler(&written, spelling), *name))
+        .filter(|(likeness, _)| *likeness >= ALIKE)
+        .max_by(|(a, _), (b, _)| a.total_cmp(b))
+        .map(|(_, name)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_slip_or_a_part_finds_its_name_and_anything_else_finds_none() {
+        let names = [
+            ("explicit-euler", "explicit-euler"),
+            ("semi-implicit-euler", "semi-implicit-euler"),
+            ("rk4", "rk4"),
+            ("Runge-Kutta 4", "rk4"),
+            ("mass_kg", "mass_kg"),
+            ("tick_hz", "tick_hz"),
+            ("lane", "lane"),
+            ("command", "command"),
+        ];
+        for (written, name) in [
+            ("rk5", Some("rk4")),
+            ("RK4", Some("rk4")),
+            ("runge kutta", Some("rk4")),
+            ("explicit_euler", Some("explicit-euler")),
+            ("explict-euler", Some("explicit-euler")),
+            ("semi-implicit", Some("semi-implicit-euler")),
+            ("mass", Some("mass_kg")),
+            ("kg", Some("mass_kg")),
+            ("tickrate_hz", Some("tick_hz")),
+            ("lanes", Some("lane")),
+            ("euler", None),
+            ("planet", None),
+            ("colour", None),
+            ("k", None),
+            ("", None),
+        ] {
+            assert_eq!(nearest(written, names.into_iter()), name, "{written:?}");
+        }
+        assert_eq!(nearest(&"mass_kg".repeat(10), names.into_iter()), None);
+    }
+}

@@ -1,0 +1,97 @@
+//! What the TOML parser complains of, in the words of a scene's messages.
+
+use std::ops::Range;
+
+use toml::de::Error;
+
+use super::cause::Cause;
+use super::errors::{SceneError, clip};
+
+const MISSING_COMMA: &str = "missing comma between array elements";
+
+/// The errors that do not merely follow from an earlier one, in the order of the text.
+pub(super) fn errors(text: &str, found: Vec<Error>) -> Vec<SceneError> {
+    let place = |error: Error| {
+        let span = error.span().unwrap_or(text.len()..text.len());
+        (span.start.min(text.len())..span.end.min(text.len()), error)
+    };
+    let mut found: Vec<_> = found.into_iter().map(place).collect();
+    found.sort_by_key(|(span, _)| span.start);
+    let mut next_line = 0;
+    let mut is_table_twice = false;
+    let mut errors = Vec::new();
+    for (span, error) in found {
+        if span.start < next_line {
+            continue;
+        }
+        let cause = cause(text, span.clone(), error.message());
+        // The parser puts both tables' keys into one.
+        if is_table_twice && matches!(cause, Cause::DuplicateKey { .. }) {
+            continue;
+        }
+        is_table_twice |= matches!(cause, Cause::DuplicateKey { is_table: true, .. });
+        let newline = text.as_bytes()[span.start..].iter().position(|byte| *byte == b'\n');
+        next_line = newline.map_or(usize::MAX, |n| span.start + n + 1);
+        errors.push(SceneError { span, cause });
+        // To the parser, a list that is not closed goes on through all the lines that follow.
+        if error.message().starts_with(MISSING_COMMA) {
+            break;
+        }
+    }
+    errors
+}
+
+fn cause(text: &str, span: Range<usize>, message: &str) -> Cause {
+    let written = text.get(span.clone()).unwrap_or_default();
+    let rest_of_line =
+        text.get(span.start..).and_then(|rest| rest.lines().next()).unwrap_or_default();
+    let before = text.get(..span.start).unwrap_or_default();
+    let (what, expected) = match message.split_once(", expected ") {
+        Some((what, expected)) => (what, Some(expected)),
+        None => (message, None),
+    };
+    let syntax =
+        |what: &str, remedy: &str| Cause::Syntax { what: what.into(), remedy: remedy.into() };
+    match (what, expected) {
+        ("duplicate key", _) => {
+            let is_table = before.trim_end().ends_with('[');
+            Cause::DuplicateKey { key: written.into(), is_table }
+        }
+        ("string values must be quoted", _) if written.trim().is_empty() => {
+            syntax("a key has no value", "write one after the `=`")
+        }
+        ("string values must be quoted", _) => syntax(
+            &format!("`{}` is no value", clip(written)),
+            "write a number, or text in double quotes",
+        ),
+        ("key with no value", _) => syntax("a line has no `=`", "write `key = value`"),
+        ("invalid unquoted key", _) => {
+            syntax(&format!("`{}` cannot be in a key", clip(written)), "write `key = value`")
+        }
+        ("invalid key-value pair", _) => syntax("a line has no key", "write `key = value`"),
+        ("unexpected key or value", _) => syntax(
+            &format!("`{}` follows the value", clip(rest_of_line.trim_end())),
+            "write one value on a line, with a point for the decimal sign",
+        ),
+        (MISSING_COMMA, _) => syntax("a list lacks a `,` or a `]`", "write it before this"),
+        ("invalid basic string" | "invalid literal string", Some(quote @ ("`\"`" | "'`'`"))) => {
+            syntax("a string is not closed", &format!("end it with {quote} on its own line"))
+        }
+        ("missing escaped value", _) => syntax(
+            "a string has a `\\` with no meaning",
+            "write `\\\\`, or the text in single quotes",
+        ),
+        ("recursion limit" | "cannot recurse further; max recursion depth met", _) => {
+            syntax("nested too deeply", "a scene needs no list within a list")
+        }
+        (what, None) => syntax(what, "its form is at https://toml.io"),
+        (what, Some("nothing")) => syntax(what, "remove it"),
+        (what, Some(expected)) => {
+            let expected = match expected.rsplit_once(", ") {
+                Some((all, last)) => format!("{all} or {last}"),
+                None => expected.into(),
+            };
+            syntax(what, &format!("write {expected} here"))
+        }
+    }
+}

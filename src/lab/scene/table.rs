@@ -1,0 +1,292 @@
+//! One table of a scene file, read key by key; what is not asked for is unknown.
+
+use std::ops::{Range, RangeInclusive};
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::cause::{Cause, Place, Wanted};
+use super::errors::{SceneError, clip};
+use super::nearest::nearest;
+use crate::sim::bodies;
+use crate::sim::integrators::{METHODS, Method};
+
+/// A key that a table may or must have.
+#[derive(Clone, Copy)]
+pub(super) struct Field {
+    pub(super) key: &'static str,
+    /// What it is, for a table that must have it; `None` where it may be left out.
+    pub(super) needed_as: Option<&'static str>,
+}
+
+/// A table and what was found wrong with it so far. Whatever is wrong is noted, and read as `None`.
+pub(super) struct Table<'t> {
+    text: &'t str,
+    place: Place,
+    /// The bytes of its header; none at the top.
+    pub(super) header: Range<usize>,
+    entries: &'t DeTable<'t>,
+    keys: Vec<&'static str>,
+    arrays: Vec<&'static str>,
+    errors: Vec<SceneError>,
+    /// What is wrong with the tables below it.
+    below: Vec<SceneError>,
+}
+
+impl<'t> Table<'t> {
+    pub(super) fn top(text: &'t str, entries: &'t DeTable<'t>) -> Self {
+        Self::new(text, Place::Top, 0..0, entries)
+    }
+
+    fn new(text: &'t str, place: Place, header: Range<usize>, entries: &'t DeTable<'t>) -> Self {
+        Self {
+            text,
+            place,
+            header,
+            entries,
+            keys: vec![],
+            arrays: vec![],
+            errors: vec![],
+            below: vec![],
+        }
+    }
+
+    pub(super) fn complain(&mut self, span: Range<usize>, cause: Cause) {
+        self.errors.push(SceneError { span, cause });
+    }
+
+    /// Where the value of `key` is, or else the header.
+    pub(super) fn span(&self, key: &str) -> Range<usize> {
+        self.entries.get(key).map_or(self.header.clone(), Spanned::span)
+    }
+
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.entries.contains_key(key)
+    }
+
+    pub(super) fn text(&mut self, field: Field, most_chars: usize) -> Option<String> {
+        let wanted = Wanted::Text(most_chars);
+        let value = self.value(field, &wanted)?;
+        let (span, key) = (value.span(), field.key);
+        let Some(text) = value.get_ref().as_str() else {
+            return self.wrong_type(format!("`{key}`"), value, wanted);
+        };
+        let chars = text.chars().count();
+        if text.trim().is_empty() {
+            self.complain(span, Cause::EmptyText { key, wanted });
+        } else if chars > most_chars {
+            self.complain(span, Cause::LongText { key, chars, wanted });
+        } else if let Some(character) = text.chars().find(|c| c.is_control()) {
+            self.complain(span, Cause::ControlCharacter { key, character });
+        } else {
+            return Some(text.into());
+        }
+        None
+    }
+
+    pub(super) fn number(&mut self, field: Field, range: bodies::Range) -> Option<f64> {
+        let wanted = Wanted::Number(range);
+        let value = self.value(field, &wanted)?;
+        let number = match value.get_ref() {
+            // What does not fit is out of every range.
+            DeValue::Integer(_) => integer(value).map_or(f64::INFINITY, |whole| whole as f64),
+            DeValue::Float(float) => float.as_str().parse().unwrap_or(f64::NAN),
+            _ => return self.wrong_type(format!("`{}`", field.key), value, wanted),
+        };
+        self.within(field, value, range.contains(number).then_some(number), wanted)
+    }
+
+    pub(super) fn whole<T>(&mut self, field: Field, range: RangeInclusive<T>) -> Option<T>
+    where
+        T: Copy + PartialOrd + Into<u64> + TryFrom<i128>,
+    {
+        let wanted = Wanted::Whole((*range.start()).into()..=(*range.end()).into());
+        let value = self.value(field, &wanted)?;
+        if !value.get_ref().is_integer() {
+            return self.wrong_type(format!("`{}`", field.key), value, wanted);
+        }
+        let whole = integer(value).and_then(|whole| T::try_from(whole).ok());
+        self.within(field, value, whole.filter(|whole| range.contains(whole)), wanted)
+    }
+
+    pub(super) fn method(&mut self, field: Field) -> Option<&'static Method> {
+        let value = self.value(field, &Wanted::Method)?;
+        self.method_named(field.key, format!("`{}`", field.key), value)
+    }
+
+    /// Methods with the bytes of their names. No more than `most` entries are looked at.
+    pub(super) fn methods(
+        &mut self,
+        field: Field,
+        most: usize,
+    ) -> Option<Vec<(Range<usize>, &'static Method)>> {
+        let value = self.value(field, &Wanted::Methods)?;
+        let Some(entries) = value.get_ref().as_array() else {
+            return self.wrong_type(format!("`{}`", field.key), value, Wanted::Methods);
+        };
+        if entries.is_empty() {
+            self.complain(value.span(), Cause::NoLanes);
+        }
+        if let Some(first_too_many) = entries.get(most) {
+            let cause = Cause::TooManyLanes { found: entries.len(), most };
+            self.complain(first_too_many.span(), cause);
+        }
+        let mut methods = Vec::new();
+        for entry in entries.iter().take(most) {
+            let subject = format!("an entry of `{}`", field.key);
+            let method = self.method_named(field.key, subject, entry);
+            methods.extend(method.map(|method| (entry.span(), method)));
+        }
+        Some(methods)
+    }
+
+    /// The tables of the array `name`, in the order of the file.
+    pub(super) fn rows(&mut self, name: &'static str) -> Vec<Table<'t>> {
+        self.arrays.push(name);
+        let Some(value) = self.entries.get(name) else { return vec![] };
+        let Some(array) = value.get_ref().as_array() else {
+            self.wrong_type::<()>(format!("`{name}`"), value, Wanted::Tables(name));
+            return vec![];
+        };
+        let table = |entry: &'t Spanned<DeValue<'t>>| {
+            let entries = entry.get_ref().as_table()?;
+            Some(Table::new(self.text, Place::Table(name), entry.span(), entries))
+        };
+        let rows: Option<Vec<_>> = array.iter().map(table).collect();
+        if rows.is_none() {
+            self.wrong_type::<()>(format!("`{name}`"), value, Wanted::Tables(name));
+        }
+        rows.unwrap_or_default()
+    }
+
+    /// Takes in what is wrong with a table below this one; a key of `top` is known to belong to the
+    /// top of the file.
+    pub(super) fn adopt(&mut self, row: Table<'t>, top: &[Field]) {
+        self.below.extend(row.finish(top));
+    }
+
+    /// Everything that is wrong with the table, now that all its keys were asked for.
+    pub(super) fn finish(mut self, top: &[Field]) -> Vec<SceneError> {
+        let mut unknown = Vec::new();
+        for (key, value) in self.entries {
+            let (span, key) = (key.span(), key.get_ref().as_ref());
+            if !self.keys.contains(&key) && !self.arrays.contains(&key) {
+                unknown.push(SceneError { span, cause: self.unknown(key, value.get_ref(), top) });
+            }
+        }
+        // What stands in the file misspelt or misplaced is not missing as well.
+        let misspelt = unknown.iter().filter_map(|error| match error.cause {
+            Cause::UnknownKey { nearest, .. } => nearest,
+            _ => None,
+        });
+        let misplaced = self.below.iter().filter_map(|error| match error.cause {
+            Cause::Misplaced { key, .. } => Some(key),
+            _ => None,
+        });
+        let meant: Vec<&str> = misspelt.chain(misplaced).collect();
+        self.errors.retain(|error| match &error.cause {
+            Cause::MissingKey { key, .. } => !meant.contains(key),
+            Cause::NoAction { known } => !known.iter().any(|key| meant.contains(key)),
+            _ => true,
+        });
+        self.errors.append(&mut unknown);
+        self.errors.append(&mut self.below);
+        self.errors
+    }
+
+    fn unknown(&self, key: &str, value: &DeValue<'_>, top: &[Field]) -> Cause {
+        let place = self.place;
+        if let Some(field) = top.iter().find(|field| field.key == key) {
+            return Cause::Misplaced { key: field.key, place };
+        }
+        let is_table = place == Place::Top && is_table(value);
+        let known = if is_table { self.arrays.clone() } else { self.keys.clone() };
+        let nearest = nearest(key, known.iter().map(|name| (*name, *name)));
+        let key = key.into();
+        match is_table {
+            true => Cause::UnknownTable { key, nearest, known },
+            false => Cause::UnknownKey { key, place, nearest, known },
+        }
+    }
+
+    fn value(&mut self, field: Field, wanted: &Wanted) -> Option<&'t Spanned<DeValue<'t>>> {
+        let Field { key, needed_as } = field;
+        self.keys.push(key);
+        let value = self.entries.get(key);
+        if let (None, Some(about)) = (value, needed_as) {
+            let (place, wanted) = (self.place, wanted.clone());
+            self.complain(self.header.clone(), Cause::MissingKey { key, place, about, wanted });
+        }
+        value
+    }
+
+    fn method_named(
+        &mut self,
+        key: &'static str,
+        subject: String,
+        value: &Spanned<DeValue<'_>>,
+    ) -> Option<&'static Method> {
+        let Some(id) = value.get_ref().as_str() else {
+            return self.wrong_type(subject, value, Wanted::Method);
+        };
+        let method = METHODS.iter().find(|method| method.id == id);
+        if method.is_none() {
+            let spellings = METHODS.iter().flat_map(|m| [(m.id, m.id), (m.name, m.id)]);
+            let nearest = nearest(id, spellings);
+            let known = METHODS.iter().map(|method| method.id).collect();
+            self.complain(
+                value.span(),
+                Cause::UnknownMethod { id: id.into(), key, nearest, known },
+            );
+        }
+        method
+    }
+
+    fn within<T>(
+        &mut self,
+        field: Field,
+        value: &Spanned<DeValue<'_>>,
+        number: Option<T>,
+        wanted: Wanted,
+    ) -> Option<T> {
+        if number.is_none() {
+            let written = clip(&self.text[value.span()]);
+            self.complain(
+                value.span(),
+                Cause::OutOfRange { key: field.key, value: written, wanted },
+            );
+        }
+        number
+    }
+
+    fn wrong_type<T>(
+        &mut self,
+        subject: String,
+        value: &Spanned<DeValue<'_>>,
+        wanted: Wanted,
+    ) -> Option<T> {
+        let written = clip(&self.text[value.span()]);
+        let found = match value.get_ref() {
+            DeValue::String(_) => format!("the string {written}"),
+            DeValue::Integer(_) => format!("the integer {written}"),
+            DeValue::Float(_) => format!("the float {written}"),
+            DeValue::Boolean(_) => format!("the boolean {written}"),
+            DeValue::Datetime(_) => format!("the date {written}"),
+            DeValue::Array(_) if is_table(value.get_ref()) => "an array of tables".into(),
+            DeValue::Array(_) => "a list".into(),
+            DeValue::Table(_) => "a table".into(),
+        };
+        self.complain(value.span(), Cause::WrongType { subject, found, wanted });
+        None
+    }
+}
+
+fn is_table(value: &DeValue<'_>) -> bool {
+    let first = value.as_array().and_then(|array| array.first());
+    value.is_table() || first.is_some_and(|first| first.get_ref().is_table())
+}
+
+fn integer(value: &Spanned<DeValue<'_>>) -> Option<i128> {
+    let integer = value.get_ref().as_integer()?;
+    i128::from_str_radix(integer.as_str(), integer.radix()).ok()
+}

@@ -1,0 +1,216 @@
+//! What a scene file may say, and what the built-in ones claim.
+
+use std::f64::consts::PI;
+use std::fs;
+use std::path::Path;
+
+use regatta::lab::{
+    Command, LAST_TICK, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ, SCENES,
+    Scene, SceneBody, TICK_LADDER,
+};
+use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::{Solver, Stepper};
+
+fn built_in(name: &str) -> Scene {
+    Scene::built_in(name).unwrap_or_else(|| panic!("no scene {name}"))
+}
+
+fn parse(text: &str) -> Scene {
+    Scene::parse("scenes/mine.toml", text).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+fn parse_body(body: &str) -> Scene {
+    parse(&format!("title = 'Mine'\ntick_hz = 60\nseconds = 10\n{body}"))
+}
+
+const SPRING: &str = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
+
+/// The body's state after `ticks` ticks at `tick_hz`, and the largest |q| on the way.
+fn run(body: &SceneBody, solver: Solver, tick_hz: u32, ticks: u32) -> (Box<dyn Stepper>, f64) {
+    let mut stepper = (body.kind.build)(&body.values, solver);
+    let mut largest = stepper.q()[0].abs();
+    for tick in 0..ticks {
+        let hz = f64::from(tick_hz);
+        stepper.advance(f64::from(tick) / hz, 1.0 / hz, 1).unwrap();
+        largest = largest.max(stepper.q()[0].abs());
+    }
+    (stepper, largest)
+}
+
+fn with(id: &str) -> Solver {
+    Solver::Method(method(id).unwrap())
+}
+
+#[test]
+fn every_built_in_scene_parses_races_all_methods_and_says_what_to_try() {
+    for scene in SCENES {
+        let parsed = built_in(scene.name);
+        assert_eq!(parsed.name, scene.name);
+        assert!(!parsed.about.is_empty() && parsed.hint.is_some(), "{}", scene.name);
+        let methods: Vec<_> = parsed.lanes.iter().map(|lane| lane.method).collect();
+        assert_eq!(methods, METHODS.iter().collect::<Vec<_>>(), "{}", scene.name);
+    }
+    assert!(Scene::built_in("no-such-scene").is_none());
+}
+
+#[test]
+fn the_built_in_scenes_are_the_files_of_their_folder() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/scenes");
+    let names = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name());
+    let mut files: Vec<_> = names.map(|name| name.into_string().unwrap()).collect();
+    files.sort();
+    let mut listed: Vec<_> = SCENES.iter().map(|scene| format!("{}.toml", scene.name)).collect();
+    listed.sort();
+    assert_eq!(files, listed);
+    listed.dedup();
+    assert_eq!(listed.len(), SCENES.len(), "a name twice");
+}
+
+#[test]
+fn the_ship_is_the_chapters_and_as_wrong_as_its_scene_says() {
+    for name in ["ship", "harbour"] {
+        let body = &built_in(name).bodies[0];
+        assert_eq!((body.kind.id, &body.values[..3]), ("ship", &[20_000.0, 1_000.0, 10_000.0][..]));
+    }
+    let scene = built_in("ship");
+    assert_eq!(scene.tick_hz, 2);
+    let body = &scene.bodies[0];
+    let speed = |solver, ticks| run(body, solver, 2, ticks).0.v()[0];
+    let exact = speed(Solver::Exact, 17);
+    assert!((speed(with("explicit-euler"), 17) / exact - 1.016).abs() < 5e-4);
+    assert!((speed(with("rk4"), 17) / exact - 1.0).abs() < 1e-6);
+    let ticks = (scene.seconds * f64::from(scene.tick_hz)) as u32;
+    for method in METHODS {
+        assert!((speed(Solver::Method(method), ticks) - 20.0).abs() < 0.1, "{}", method.id);
+    }
+}
+
+#[test]
+fn the_1_hz_spring_doubles_under_explicit_euler_as_its_scene_says() {
+    let scene = built_in("spring");
+    let body = &scene.bodies[0];
+    assert_eq!(body.values[..5], [1.0, 4.0 * PI * PI, 0.0, 1.0, 0.0]);
+    let largest = |id, ticks| run(body, with(id), scene.tick_hz, ticks).1;
+    let seconds = 20 * scene.tick_hz;
+    let doublings = largest("explicit-euler", seconds).log2();
+    assert!((20.0 / doublings - 2.1).abs() < 0.1, "doubles every {} s", 20.0 / doublings);
+    assert!(largest("semi-implicit-euler", seconds) < 1.01);
+}
+
+#[test]
+fn the_harbours_springs_grow_under_explicit_euler_within_ten_seconds_and_stay_under_the_next() {
+    let scene = built_in("harbour");
+    for spring in &scene.bodies[1..] {
+        let largest = |solver| run(spring, solver, scene.tick_hz, 10 * scene.tick_hz).1;
+        let grown = largest(with("explicit-euler"));
+        assert!((5.0..50.0).contains(&grown), "{}: {grown} m", spring.name);
+        assert!(largest(with("semi-implicit-euler")) < 1.1);
+        assert!(largest(Solver::Exact) < 1.0 + 1e-9);
+    }
+    let late = |spring: &SceneBody| run(spring, Solver::Exact, 1, 20).0.q()[0].abs();
+    assert!(
+        (late(&scene.bodies[1]) - 1.0).abs() < 1e-6,
+        "the free spring is back after 20 periods"
+    );
+    assert!(late(&scene.bodies[2]) < 1e-3, "the damped spring has come to rest");
+}
+
+#[test]
+fn the_stiff_spring_is_bounded_at_60_hz_and_explodes_two_presses_lower_as_its_scene_says() {
+    let scene = built_in("stiff");
+    let place = TICK_LADDER.iter().position(|hz| *hz == scene.tick_hz).unwrap();
+    assert_eq!((TICK_LADDER[place], TICK_LADDER[place - 2]), (60, 49));
+    let largest = |hz| run(&scene.bodies[0], with("semi-implicit-euler"), hz, 5 * hz).1;
+    assert!(largest(60) < 2.0);
+    assert!(largest(49) > 1e6);
+}
+
+#[test]
+fn a_scene_without_lanes_races_every_method_and_optional_keys_have_defaults() {
+    let scene = parse_body(SPRING);
+    assert_eq!((scene.name.as_str(), scene.title.as_str()), ("mine", "Mine"));
+    assert_eq!((scene.about.as_str(), scene.hint), ("", None));
+    assert_eq!((scene.tick_hz, scene.seconds), (60, 10.0));
+    assert_eq!(scene.lanes.len(), METHODS.len());
+    let spring = &scene.bodies[0];
+    let defaults = spring.kind.parameters[2..].iter().map(|parameter| parameter.default.unwrap());
+    assert_eq!(spring.values, [1.0, 40.0].into_iter().chain(defaults).collect::<Vec<_>>());
+    assert!(scene.script.is_empty());
+}
+
+#[test]
+fn lanes_keep_their_order_and_differ_by_method_or_substeps() {
+    let lane = |id, substeps| LaneSpec { method: method(id).unwrap(), substeps };
+    let scene = parse_body(&format!("methods = ['rk4', 'explicit-euler']\n{SPRING}"));
+    assert_eq!(scene.lanes, [lane("rk4", 1), lane("explicit-euler", 1)]);
+    let lanes = "[[lane]]\nmethod = 'rk4'\n[[lane]]\nmethod = 'rk4'\nsubsteps = 1000\n";
+    let scene = parse_body(&format!("{lanes}{SPRING}"));
+    assert_eq!(scene.lanes, [lane("rk4", 1), lane("rk4", 1000)]);
+}
+
+#[test]
+fn bodies_keep_the_order_of_the_file_and_get_names_that_are_free() {
+    let named = "name = 'spring-2'\n";
+    let ship = "[[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 0\nmass_kg = 1\n";
+    let scene = parse_body(&format!("{SPRING}{ship}{SPRING}{named}{SPRING}"));
+    let names: Vec<_> = scene.bodies.iter().map(|body| body.name.as_str()).collect();
+    assert_eq!(names, ["spring-1", "ship", "spring-2", "spring-3"]);
+    let kinds: Vec<_> = scene.bodies.iter().map(|body| body.kind.id).collect();
+    assert_eq!(kinds, ["spring", "ship", "spring", "spring"]);
+}
+
+#[test]
+fn a_script_is_sorted_by_tick_and_keeps_the_order_of_the_file_within_one() {
+    let script = [
+        "tick = 120\nmethod = 'rk4'",
+        "tick = 7\nkick = -2",
+        "tick = 120\nthrottle = -1.0",
+        "tick = 0\ntick_hz = 10_000",
+    ];
+    let script: String = script.map(|command| format!("[[command]]\n{command}\n")).concat();
+    let ship = "[[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 0\nmass_kg = 1\n";
+    let scene = parse_body(&format!("{script}{ship}"));
+    let script: Vec<_> = scene.script.iter().map(|each| (each.tick, each.command)).collect();
+    let expected = [
+        (0, Command::TickHz(10_000)),
+        (7, Command::Kick(-2.0)),
+        (120, Command::Method(method("rk4").unwrap())),
+        (120, Command::Throttle(-1.0)),
+    ];
+    assert_eq!(script, expected);
+}
+
+#[test]
+fn numbers_may_be_whole_signed_grouped_hexadecimal_and_physically_extreme() {
+    let scene = parse_body(
+        "[[spring]]\nmass_kg = 1e-300\nstiffness_n_per_m = 1_000_000_000_000_000\n\
+         damping_n_s_per_m = -0.0\nx0_m = 0x10\nv0_m_per_s = +3\n",
+    );
+    assert_eq!(scene.bodies[0].values[..5], [1e-300, 1e15, 0.0, 16.0, 3.0]);
+}
+
+#[test]
+fn each_limit_itself_is_allowed() {
+    let lanes: String =
+        (1..=MOST_LANES).map(|n| format!("[[lane]]\nmethod = 'rk4'\nsubsteps = {n}\n")).collect();
+    let scene = parse(&format!(
+        "title = '{}'\ntick_hz = {MOST_TICK_HZ}\nseconds = {MOST_SECONDS}\n{lanes}{}\
+         [[command]]\ntick = {LAST_TICK}\nkick = 1\n",
+        "é".repeat(80),
+        SPRING.repeat(MOST_BODIES),
+    ));
+    assert_eq!((scene.lanes.len(), scene.bodies.len()), (MOST_LANES, MOST_BODIES));
+    assert_eq!((scene.tick_hz, scene.seconds), (MOST_TICK_HZ, MOST_SECONDS));
+    assert_eq!(scene.script[0].tick, LAST_TICK);
+}
+
+#[test]
+fn other_editors_line_ends_byte_order_mark_and_inline_tables_are_the_same_scene() {
+    let text = format!("title = 'Mine'\ntick_hz = 60\nseconds = 10\n{SPRING}");
+    let expected = format!("{:?}", parse(&text));
+    let inline = "title = 'Mine'\ntick_hz = 60\nseconds = 10\n\
+                  spring = [{ mass_kg = 1, stiffness_n_per_m = 40 }]";
+    for variant in [&text.replace('\n', "\r\n"), &format!("\u{feff}{text}"), inline] {
+        assert_eq!(format!("{:?}", parse(variant)), expected);
+    }
+}
