@@ -69,8 +69,9 @@ fn the_built_in_scenes_are_the_files_of_their_folder() {
 #[test]
 fn the_ship_is_the_chapters_and_as_wrong_as_its_scene_says() {
     for name in ["ship", "harbour"] {
-        let body = &built_in(name).bodies[0];
-        assert_eq!((body.kind.id, &body.values[..3]), ("ship", &[20_000.0, 1_000.0, 10_000.0][..]));
+        let bodies = built_in(name).bodies;
+        let ship = bodies.iter().find(|body| body.kind.id == "ship").unwrap();
+        assert_eq!(ship.values[..3], [20_000.0, 1_000.0, 10_000.0]);
     }
     let scene = built_in("ship");
     assert_eq!(scene.tick_hz, 2);
@@ -100,7 +101,7 @@ fn the_1_hz_spring_doubles_under_explicit_euler_as_its_scene_says() {
 #[test]
 fn the_harbours_springs_grow_under_explicit_euler_within_ten_seconds_and_stay_under_the_next() {
     let scene = built_in("harbour");
-    for spring in &scene.bodies[1..] {
+    for spring in &scene.bodies[..2] {
         let largest = |solver| run(spring, solver, scene.tick_hz, 10 * scene.tick_hz).1;
         let grown = largest(with("explicit-euler"));
         assert!((5.0..50.0).contains(&grown), "{}: {grown} m", spring.name);
@@ -109,10 +110,10 @@ fn the_harbours_springs_grow_under_explicit_euler_within_ten_seconds_and_stay_un
     }
     let late = |spring: &SceneBody| run(spring, Solver::Exact, 1, 20).0.q()[0].abs();
     assert!(
-        (late(&scene.bodies[1]) - 1.0).abs() < 1e-6,
+        (late(&scene.bodies[0]) - 1.0).abs() < 1e-6,
         "the free spring is back after 20 periods"
     );
-    assert!(late(&scene.bodies[2]) < 1e-3, "the damped spring has come to rest");
+    assert!(late(&scene.bodies[1]) < 1e-3, "the damped spring has come to rest");
 }
 
 #[test]

@@ -59,7 +59,7 @@ impl Instrument {
     pub fn name(self) -> &'static str {
         match self {
             Instrument::Metric(index) => METRICS[index].name,
-            Instrument::Phase => "phase portrait",
+            Instrument::Phase => "phase",
         }
     }
 }

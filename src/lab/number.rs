@@ -19,6 +19,16 @@ pub fn significant(value: f64, digits: usize) -> String {
     if value < 0.0 { format!("\u{2212}{magnitude}") } else { magnitude }
 }
 
+/// The same without trailing noughts: for marks on an axis, which are round.
+pub fn round(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    if text.contains('.') && !text.contains('·') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text.replace(".000·", "·")
+    }
+}
+
 /// A whole number in raised figures.
 pub fn superscript(exponent: i32) -> String {
     let raise = |c: char| match c {
@@ -50,6 +60,15 @@ mod tests {
             (f64::INFINITY, "-"),
         ] {
             assert_eq!(significant(value, 4), shown);
+        }
+    }
+
+    #[test]
+    fn round_numbers_lose_their_noughts() {
+        for (value, shown) in
+            [(20.0, "20"), (0.5, "0.5"), (-2.5, "\u{2212}2.5"), (0.0, "0"), (2e6, "2·10⁶")]
+        {
+            assert_eq!(round(value, 4), shown);
         }
     }
 }

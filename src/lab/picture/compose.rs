@@ -5,17 +5,27 @@ use glam::DVec2;
 use super::palette::{self, faded, style};
 use super::sketch::{Camera, Paint, SOLID, demote, strokes};
 use super::{Align, Cap, Label, Picture, Rect, Rgba, Sea, Stroke};
-use crate::lab::number::significant;
+use crate::lab::number::{round, significant};
 use crate::lab::race::Entrant;
 use crate::lab::{History, Interpolation, Lab, LaneBody, Mode, Sample};
 use crate::sim::bodies::{Pen, View};
 
 /// Space round the stage and between its cells, in points.
 const MARGIN: f32 = 6.0;
-/// Time that a trail reaches back, in seconds: three swings of the 1 Hz spring.
-const TRAIL_S: f64 = 3.0;
+/// The part of a scene's duration that a trail reaches back: three swings of the harbour's 1 Hz spring,
+/// and no more of a faster one than can be told apart.
+const TRAIL: f64 = 0.15;
+/// The longest trail, in seconds: a ship under way has left the stage by then.
+const LONGEST_TRAIL_S: f64 = 3.0;
 /// The most segments in a trail: more would not show.
 const TRAIL_SEGMENTS: usize = 180;
+
+/// The least height of a cell, in points, that a scale bar does not crowd.
+const ROOM_FOR_BAR: f32 = 44.0;
+/// Room that a scale bar may take at the right of a cell, in points.
+const BAR_MARGIN: f32 = 130.0;
+/// The least width of a cell, in points, that distance marks do not crowd.
+const ROOM_FOR_MARKS: f32 = 330.0;
 
 /// The picture of the lab on a stage of `size` points.
 pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
@@ -30,6 +40,7 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
             Interpolation::Raw => race.t(),
             _ => race.t() - (1.0 - lab.clock().alpha()) * h,
         },
+        trail_s: (TRAIL * lab.scene().seconds).min(LONGEST_TRAIL_S),
     };
     for (cell, entrant, body) in cells(lab, size) {
         shown.cell(&mut picture, cell, entrant, body);
@@ -69,6 +80,8 @@ struct Shown<'a> {
     h: f64,
     /// The moment in seconds.
     t: f64,
+    /// How far trails reach back, in seconds.
+    trail_s: f64,
 }
 
 impl Shown<'_> {
@@ -123,7 +136,18 @@ impl Shown<'_> {
         }
         picture.strokes.extend(strokes(&pen.marks, &camera, own));
         self.arrow(picture, &camera, pen.at, style.0);
-        self.marks(picture, &camera, view);
+        let last = self.lab.race().entrants().last();
+        if self.lab.mode() == Mode::Solo || last.is_some_and(|last| last.entry == entrant.entry) {
+            scale_bar(picture, &camera);
+        }
+        if let View::Follow { .. } = view {
+            distance_marks(picture, &camera);
+        }
+        if self.lab.mode() == Mode::Race && index == 0 && entrant.entry == self.lab.active() {
+            let x = rect.min[0] + 2.5;
+            let ends = [[x, rect.min[1] + 6.0], [x, rect.max[1] - 6.0]];
+            picture.strokes.push(line(ends[0], ends[1], 3.0, style.0, rect));
+        }
         self.words(picture, rect, entrant, index, (q[0], v[0]));
     }
 
@@ -175,11 +199,11 @@ impl Shown<'_> {
         style(self.lab.entries()[sample.entry].method).0
     }
 
-    /// The samples of the last [`TRAIL_S`] seconds before the moment drawn, newest first, thinned to
+    /// The samples of the last `trail_s` seconds before the moment drawn, newest first, thinned to
     /// what shows.
     fn recent<'h>(&self, history: &'h History) -> impl Iterator<Item = (f64, &'h Sample)> {
-        let shown = self.t;
-        let recent = move |s: &&Sample| shown - s.t < TRAIL_S;
+        let (shown, trail_s) = (self.t, self.trail_s);
+        let recent = move |s: &&Sample| shown - s.t < trail_s;
         let count = history.samples().rev().take_while(recent).count();
         let every = count.div_ceil(TRAIL_SEGMENTS).max(1);
         let newest_first = history.samples().rev().take_while(recent).step_by(every);
@@ -187,7 +211,7 @@ impl Shown<'_> {
     }
 
     fn fade(&self, age: f64) -> f32 {
-        if self.lab.display().motion { demote(1.0 - age / TRAIL_S) } else { 0.6 }
+        if self.lab.display().motion { demote(1.0 - age / self.trail_s) } else { 0.6 }
     }
 
     /// Where the mass has been, drawn as a chart recorder would: older is further down.
@@ -199,7 +223,7 @@ impl Shown<'_> {
         history: &History,
         colour: impl Fn(&Sample) -> Rgba,
     ) {
-        let drop = (camera.rect.max[1] - camera.at[1]) as f64 / TRAIL_S;
+        let drop = (camera.rect.max[1] - camera.at[1]) as f64 / self.trail_s;
         let point = |q: f64, age: f64| {
             let [x, y] = camera.points(DVec2::new(q, 0.0));
             [x, demote(f64::from(y) + age * drop)]
@@ -275,45 +299,6 @@ impl Shown<'_> {
         });
     }
 
-    /// Distance marks along the course of a ship, and a scale bar.
-    fn marks(&self, picture: &mut Picture, camera: &Camera, view: View) {
-        let Rect { min, max } = camera.rect;
-        let [width, height] = [max[0] - min[0], max[1] - min[1]];
-        if height < 44.0 || width < 120.0 {
-            return;
-        }
-        let label = |at, align, text| Label { at, align, size: 10.0, colour: palette::MARK, text };
-        if let View::Follow { .. } = view {
-            let step_m = camera.round_length_m(96.0);
-            let (left, right) = camera.span_m();
-            let first = libm::ceil(left / step_m);
-            let count = ((right - left) / step_m) as usize;
-            for i in 0..=count {
-                let x_m = (first + i as f64) * step_m;
-                let [x, _] = camera.points(DVec2::new(x_m, 0.0));
-                let bottom = max[1] - 1.0;
-                if x > min[0] + 20.0 && x < max[0] - width * 0.2 {
-                    let tick = [[x, bottom], [x, bottom - 5.0]];
-                    let mark = line(tick[0], tick[1], 1.0, palette::MARK, camera.rect);
-                    picture.strokes.push(mark);
-                    let text = format!("{} m", significant(x_m, 4).trim_end_matches(".0"));
-                    picture.labels.push(label([x, bottom - 12.0], Align::Centre, text));
-                }
-            }
-        }
-        let bar_m = camera.round_length_m(40.0);
-        let (right, y) = (max[0] - 10.0, max[1] - 8.0);
-        let left = right - camera.length(bar_m);
-        let ends = [[left, y], [right, y]];
-        picture.strokes.push(line(ends[0], ends[1], 1.5, palette::MARK, camera.rect));
-        for x in [left, right] {
-            let tick = line([x, y - 3.0], [x, y + 3.0], 1.5, palette::MARK, camera.rect);
-            picture.strokes.push(tick);
-        }
-        let text = format!("{} m", bar_text(bar_m));
-        picture.labels.push(label([(left + right) / 2.0, y - 10.0], Align::Centre, text));
-    }
-
     /// Who this is, where it is, and what became of it.
     fn words(
         &self,
@@ -363,6 +348,46 @@ impl Shown<'_> {
     }
 }
 
+/// Distance marks along a ship's course.
+fn distance_marks(picture: &mut Picture, camera: &Camera) {
+    let Rect { min, max } = camera.rect;
+    if max[0] - min[0] < ROOM_FOR_MARKS || max[1] - min[1] < ROOM_FOR_BAR {
+        return;
+    }
+    let step_m = camera.round_length_m(96.0);
+    let (left, right) = camera.span_m();
+    let first = libm::ceil(left / step_m);
+    let bottom = max[1] - 1.0;
+    for i in 0..=((right - left) / step_m) as usize {
+        let x_m = (first + i as f64) * step_m;
+        let [x, _] = camera.points(DVec2::new(x_m, 0.0));
+        if x > min[0] + 20.0 && x < max[0] - BAR_MARGIN {
+            let colour = palette::MARK;
+            picture.strokes.push(line([x, bottom], [x, bottom - 5.0], 1.0, colour, camera.rect));
+            let at = [x, bottom - 12.0];
+            let text = format!("{} m", round(x_m, 6));
+            picture.labels.push(Label { at, align: Align::Centre, size: 10.0, colour, text });
+        }
+    }
+}
+
+fn scale_bar(picture: &mut Picture, camera: &Camera) {
+    let Rect { min, max } = camera.rect;
+    if max[0] - min[0] < BAR_MARGIN || max[1] - min[1] < ROOM_FOR_BAR {
+        return;
+    }
+    let length_m = camera.round_length_m(40.0);
+    let (right, y, colour) = (max[0] - 10.0, max[1] - 8.0, palette::MARK);
+    let left = right - camera.length(length_m);
+    picture.strokes.push(line([left, y], [right, y], 1.5, colour, camera.rect));
+    for x in [left, right] {
+        picture.strokes.push(line([x, y - 3.0], [x, y + 3.0], 1.5, colour, camera.rect));
+    }
+    let at = [(left + right) / 2.0, y - 10.0];
+    let text = format!("{} m", round(length_m, 4));
+    picture.labels.push(Label { at, align: Align::Centre, size: 10.0, colour, text });
+}
+
 /// The cubic through `q` at both ends of a tick of `h` seconds with the velocities `v` there, at the
 /// part `alpha` of it.
 fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
@@ -374,11 +399,6 @@ fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
 fn line(from: [f32; 2], to: [f32; 2], width: f32, colour: Rgba, clip: Rect) -> Stroke {
     let radii = [width / 2.0; 2];
     Stroke { from, to, radii, colours: [colour; 2], dash: SOLID, cap: Cap::Round, clip }
-}
-
-/// A length of 1, 2 or 5 times a power of ten, without trailing noughts.
-fn bar_text(metres: f64) -> String {
-    if (1e-3..1e5).contains(&metres) { format!("{metres}") } else { significant(metres, 1) }
 }
 
 #[cfg(test)]

@@ -8,7 +8,8 @@ use crate::lab::{Command, KEYS};
 pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
     let screen = ui.ctx().content_rect();
     let window = Window::new("Keys").order(Order::Foreground).collapsible(false).resizable(false);
-    window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).max_height(screen.height() - 60.0).show(
+    let size = egui::vec2(600.0, 560.0).min(screen.size() - egui::vec2(24.0, 64.0));
+    window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).fixed_size(size.max(egui::Vec2::ZERO)).show(
         ui.ctx(),
         |ui| {
             ScrollArea::vertical().show(ui, |ui| {

@@ -7,7 +7,7 @@ use egui::{Color32, RichText, Ui, vec2};
 use egui_plot::{Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoints, PlotUi, Points};
 
 use super::{QUIET, colour};
-use crate::lab::number::{significant, superscript};
+use crate::lab::number::{round, superscript};
 use crate::lab::picture::palette;
 use crate::lab::{Command, History, Instrument, Lab, METRICS, Sample, Scale};
 
@@ -35,7 +35,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     value(ui, lab, (height * 0.5 - 26.0).max(10.0));
 
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 2.0;
+        ui.spacing_mut().item_spacing.x = 0.0;
+        ui.spacing_mut().button_padding.x = 4.0;
         for instrument in Instrument::all() {
             let selected = instrument == lab.display().instrument;
             if ui.selectable_label(selected, instrument.name()).clicked() {
@@ -237,12 +238,7 @@ fn decades(input: egui_plot::GridInput) -> Vec<egui_plot::GridMark> {
     (first..=last).map(mark).collect()
 }
 
-/// A number on an axis, without trailing noughts.
+/// A number on an axis; what the axis computes for its zero may miss it by a rounding.
 fn tick_text(value: f64) -> String {
-    let text = significant((value * 1e9).round() / 1e9, 4);
-    if text.contains('.') && !text.contains('·') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
+    round((value * 1e9).round() / 1e9, 4)
 }

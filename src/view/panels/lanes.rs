@@ -243,9 +243,9 @@ fn metric(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column, id: &s
     let metric = METRICS.iter().find(|metric| metric.id == id);
     let text = metric.and_then(|metric| {
         let value = row.measure(metric)?;
-        Some(format!("{} {:<2}", significant(value, 3), metric.unit))
+        Some(format!("{} {}", significant(value, 3), metric.unit))
     });
-    write(ui, row, rect, left, column, text.unwrap_or_default(), true);
+    write(ui, row, rect, left, column, text.unwrap_or_default(), false);
 }
 
 /// A piece of the lane's line, as the plots draw it.

@@ -58,6 +58,14 @@ const ACCENT: Color32 = Color32::from_rgb(86, 180, 233);
 /// The look of every widget: a night chart. Set once for each context.
 pub(super) fn dress(ctx: &egui::Context) {
     ctx.set_theme(egui::Theme::Dark);
+    let mut fonts = egui::FontDefinitions::default();
+    if let Some(fallback) = fonts.families.get(&egui::FontFamily::Monospace).cloned()
+        && let Some(faces) = fonts.families.get_mut(&egui::FontFamily::Proportional)
+    {
+        // The proportional face lacks arrows and raised signs.
+        faces.extend(fallback);
+    }
+    ctx.set_fonts(fonts);
     ctx.all_styles_mut(|style| {
         // The same input makes the same frame, whenever it is drawn.
         style.animation_time = 0.0;

@@ -9,8 +9,8 @@ use crate::lab::{Command, Lab, Mode, SCENES, SPEED_LADDER, TICK_LADDER};
 pub(super) const HEIGHT: f32 = 34.0;
 
 /// Widths of the bar, in points, at which more of it fits.
-const ROOM_FOR_LADDERS: f32 = 760.0;
-const ROOM_FOR_PACE: f32 = 1040.0;
+const ROOM_FOR_LADDERS: f32 = 840.0;
+const ROOM_FOR_PACE: f32 = 1100.0;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let width = ui.available_width();
@@ -64,6 +64,7 @@ fn transport(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 
 fn speed(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let percent = lab.clock().speed_percent();
+    ui.label(RichText::new("speed").color(QUIET));
     button(ui, "−", "slower (-)", Command::SpeedDown, commands);
     let text = RichText::new(format!("{:>3}×", multiple(percent))).monospace();
     ComboBox::from_id_salt("speed").selected_text(text).width(48.0).show_ui(ui, |ui| {
@@ -88,6 +89,7 @@ fn multiple(percent: u32) -> String {
 
 fn tick_rate(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let tick_hz = lab.clock().tick_hz();
+    ui.label(RichText::new("  tick rate").color(QUIET));
     button(ui, "[", "lower tick rate ([)", Command::TickRateDown, commands);
     let text = RichText::new(format!("{tick_hz:>4} Hz")).monospace();
     ComboBox::from_id_salt("tick rate").selected_text(text).width(64.0).show_ui(ui, |ui| {
@@ -110,7 +112,7 @@ fn pace(ui: &mut Ui, lab: &Lab) {
     ui.label(RichText::new(text).monospace().color(QUIET))
         .on_hover_text("frames drawn a second · simulated seconds in a second");
     if lab.dropped() > 0 {
-        let text = format!("{} ticks dropped", lab.dropped());
+        let text = format!("{} ticks dropped ·", lab.dropped());
         ui.label(RichText::new(text).monospace().color(colour(palette::ALARM)))
             .on_hover_text("the simulation fell behind real time and gave these up");
     } else if !lab.running() {
