@@ -5,7 +5,7 @@ use super::{Family, Integrator, Method, State, StepFailure, System};
 pub(super) const CARD: Method = Method {
     id: "improved-euler",
     name: "Improved Euler",
-    about: "accurate for its cost, but an undamped spring slowly gains energy",
+    about: "accurate for its cost; an undamped spring gains energy, slowly at a fine tick",
     family: Family::Explicit,
     order: 2,
     order_with_drag: 2,
