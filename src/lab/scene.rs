@@ -18,6 +18,7 @@ mod syntax;
 mod table;
 
 pub use errors::{MOST_SHOWN, SceneError, SceneErrors};
+pub use nearest::nearest;
 
 /// The largest scene file in bytes: tens of thousands of scripted commands. A file of nothing but
 /// mistakes takes the parser some hundred times its size in memory.

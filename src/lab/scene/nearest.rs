@@ -10,7 +10,7 @@ const MOST_CHARS: usize = 64;
 /// The name that `written` is a part of, if of one only; else the name with the most similar spelling,
 /// if one is similar at all. A name may have several spellings; case, blanks and the kind of hyphen do
 /// not matter.
-pub(super) fn nearest(
+pub fn nearest(
     written: &str,
     names: impl Iterator<Item = (&'static str, &'static str)>,
 ) -> Option<&'static str> {
