@@ -10,6 +10,7 @@ mod gpu;
 mod instances;
 mod offscreen;
 mod panels;
+pub mod png;
 mod readback;
 mod screen;
 mod sea;
