@@ -101,6 +101,8 @@
 //! because the formulas would drown; and constraints, because a closed body with natural coordinates
 //! needs none.
 
+#[cfg(feature = "desktop")]
+pub mod commands;
 pub mod lab;
 pub mod sim;
 #[cfg(feature = "desktop")]

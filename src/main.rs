@@ -1,11 +1,45 @@
-//! temp
-fn main() {
-    env_logger::Builder::from_env(
-        env_logger::Env::default()
-            .default_filter_or("info,wgpu_core=error,wgpu_hal=error,naga=error"),
-    )
-    .init();
-    let name = std::env::args().nth(1).unwrap_or("harbour".into());
-    let lab = regatta::lab::Lab::new(regatta::lab::Scene::built_in(&name).unwrap());
-    regatta::window::run(lab, None).unwrap();
+//! Regatta's program: command line in, exit code out. 0 is success, 1 a run that failed, 2 a mistake in
+//! the command line or in a scene file, 130 an interrupt.
+
+use std::io::{self, Write};
+use std::panic::{self, PanicHookInfo};
+use std::process::ExitCode;
+
+use clap::Parser;
+use regatta::commands::{self, Cli};
+
+/// The libraries below us speak of errors only; `RUST_LOG` overrides it.
+const LOG_FILTER: &str = "warn,wgpu_core=error,wgpu_hal=error,naga=error";
+
+fn main() -> ExitCode {
+    panic::set_hook(Box::new(report_bug));
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or(LOG_FILTER)).init();
+    panic::catch_unwind(run).unwrap_or(ExitCode::FAILURE)
+}
+
+fn run() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(answer) => {
+            // Help and version come this way too. A closed pipe is no reason to complain.
+            let _ = answer.print();
+            return ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(1));
+        }
+    };
+    match commands::run(cli) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            commands::tell(&error.report(&commands::stderr_renderer()));
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn report_bug(panic: &PanicHookInfo<'_>) {
+    // Not `eprintln!`, which panics in its turn where standard error is closed.
+    let _ = writeln!(
+        io::stderr(),
+        "error: regatta has a bug, and stopped: {panic}\n\
+         Please report it with these lines and the command that you gave."
+    );
 }

@@ -1,0 +1,32 @@
+//! `regatta completions`: a script for a shell, so that Tab completes options, scenes and methods.
+
+use std::io::{self, Write};
+
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+use super::{Cli, Error};
+
+const EXAMPLES: &str = "\
+Examples:
+  regatta completions bash > ~/.local/share/bash-completion/completions/regatta
+  regatta completions fish > ~/.config/fish/completions/regatta.fish
+  regatta completions zsh  > ~/.zfunc/_regatta";
+
+/// Print a completion script for a shell
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct CompletionsArgs {
+    /// The shell
+    shell: Shell,
+}
+
+pub(super) fn run(args: &CompletionsArgs) -> Result<(), Error> {
+    // By way of memory: on a closed pipe the generator itself would panic.
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "regatta", &mut script);
+    let mut out = io::stdout().lock();
+    out.write_all(&script)?;
+    out.flush()?;
+    Ok(())
+}

@@ -1,0 +1,172 @@
+//! The options that every run has in common, and the lab that they set up.
+
+use std::ffi::OsStr;
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::{PossibleValue, TypedValueParser};
+
+use super::scene_file::{self, SceneFileError};
+use crate::lab::{Clock, Command, Lab, LaneSpec, MOST_SECONDS, SCENES, Scene, nearest};
+use crate::sim::integrators::{METHODS, Method, method};
+
+/// What is run.
+#[derive(Clone, Debug, Args)]
+pub(super) struct ExperimentArgs {
+    /// A built-in scene (`regatta list scenes`), or else the path of a scene file
+    #[arg(long, value_name = "NAME|FILE", default_value = SCENES[0].name)]
+    #[arg(value_parser = SceneParser, hide_possible_values = true)]
+    scene: PathBuf,
+
+    /// An integrator (`regatta list methods`); give several to race them
+    #[arg(long = "method", value_name = "ID", value_parser = MethodParser)]
+    #[arg(hide_possible_values = true)]
+    methods: Vec<&'static Method>,
+
+    /// Ticks in a second, 1 to 10000 [default: the scene's]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
+    tick_hz: Option<u32>,
+}
+
+/// Which lanes there are where fewer than two methods are named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lineup {
+    /// The one method named, else the one that the window opens with.
+    Solo,
+    /// All methods of the scene; the one named, if any, is selected.
+    Everyone,
+}
+
+/// A scene and who sails it.
+pub(super) struct Experiment {
+    scene: Scene,
+    selected: Option<&'static Method>,
+    lineup: Lineup,
+}
+
+impl ExperimentArgs {
+    /// Reads the scene and applies the other options to it.
+    pub(super) fn load(&self, lineup: Lineup) -> Result<Experiment, SceneFileError> {
+        let mut scene = scene_file::load(&self.scene)?;
+        if let Some(tick_hz) = self.tick_hz {
+            scene.tick_hz = tick_hz;
+        }
+        let mut lineup = lineup;
+        if self.methods.len() > 1 {
+            scene.lanes = lanes_of(&scene, &self.methods);
+            lineup = Lineup::Everyone;
+        }
+        Ok(Experiment { scene, selected: self.methods.first().copied(), lineup })
+    }
+
+    /// Whether no method is named.
+    pub(super) fn names_no_method(&self) -> bool {
+        self.methods.is_empty()
+    }
+}
+
+/// The scene's lanes of the methods named, substeps and all, in the order named, each once; a plain
+/// lane for a method that the scene does not list.
+fn lanes_of(scene: &Scene, methods: &[&'static Method]) -> Vec<LaneSpec> {
+    let mut lanes: Vec<LaneSpec> = Vec::new();
+    for &method in methods {
+        if lanes.iter().any(|lane| lane.method == method) {
+            continue;
+        }
+        let listed = lanes.len();
+        lanes.extend(scene.lanes.iter().filter(|lane| lane.method == method));
+        if lanes.len() == listed {
+            lanes.push(LaneSpec { method, substeps: 1 });
+        }
+    }
+    lanes
+}
+
+impl Experiment {
+    /// The scene, with the options applied.
+    pub(super) fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The lab at tick 0. One lane alone sails solo.
+    pub(super) fn lab(&self) -> Lab {
+        let mut lab = Lab::new(self.scene.clone());
+        if let Some(method) = self.selected {
+            lab.apply(Command::Method(method));
+        }
+        if self.lineup == Lineup::Everyone && lab.entries().len() > 1 {
+            lab.apply(Command::ToggleRace);
+        } else {
+            lab.apply(Command::Restart);
+        }
+        lab
+    }
+}
+
+/// A duration on the command line, in seconds.
+pub(super) fn seconds(written: &str) -> Result<f64, String> {
+    match written.parse::<f64>() {
+        Ok(seconds) if (0.0..=MOST_SECONDS).contains(&seconds) => Ok(seconds),
+        Ok(_) => Err(format!("give 0 to {MOST_SECONDS} seconds")),
+        Err(_) => Err("give a number of seconds, such as 8.5".into()),
+    }
+}
+
+fn range_of(range: std::ops::RangeInclusive<u32>) -> std::ops::RangeInclusive<i64> {
+    i64::from(*range.start())..=i64::from(*range.end())
+}
+
+/// Takes any path; offers the built-in scenes to the shell's completion.
+#[derive(Clone)]
+struct SceneParser;
+
+impl TypedValueParser for SceneParser {
+    type Value = PathBuf;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        arg: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<PathBuf, clap::Error> {
+        clap::builder::PathBufValueParser::new().parse_ref(command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(SCENES.iter().map(|scene| PossibleValue::new(scene.name))))
+    }
+}
+
+/// Takes a method's id; offers all of them to the shell's completion.
+#[derive(Clone)]
+struct MethodParser;
+
+impl TypedValueParser for MethodParser {
+    type Value = &'static Method;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        arg: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<&'static Method, clap::Error> {
+        known_method.parse_ref(command, arg, value)
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(METHODS.iter().map(|method| PossibleValue::new(method.id))))
+    }
+}
+
+const SEE_METHODS: &str = "`regatta list methods` names all";
+
+fn known_method(id: &str) -> Result<&'static Method, String> {
+    method(id).ok_or_else(|| {
+        let spellings = METHODS.iter().flat_map(|m| [(m.id, m.id), (m.name, m.id)]);
+        match nearest(id, spellings) {
+            Some(id) => format!("no such method; did you mean {id}? {SEE_METHODS}"),
+            None => format!("no such method. {SEE_METHODS}"),
+        }
+    })
+}

@@ -1,0 +1,180 @@
+//! `regatta list`: the program's own tables, for people and for programs.
+
+use std::io::{self, Write};
+
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+
+use super::table::{self, Column};
+use super::{Error, TableFormat};
+use crate::lab::{Binding, KEYS, METRICS, Metric, SCENES, Scale, Scene};
+use crate::sim::bodies::{BODIES, Coordinate, Kind, Parameter};
+use crate::sim::integrators::{METHODS, Method};
+
+const EXAMPLES: &str = "\
+Examples:
+  regatta list methods
+  regatta list bodies                  the tables and keys of a scene file
+  regatta list methods --format json   with everything on a method's card";
+
+/// List the scenes, methods, bodies, metrics or keys that there are
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct ListArgs {
+    /// What to list
+    what: Listing,
+
+    /// How to write it: text or json
+    #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
+    format: TableFormat,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Listing {
+    /// The built-in scenes, for `--scene`
+    Scenes,
+    /// The integrators, for `--method` and for scene files
+    Methods,
+    /// The bodies, and the keys by which a scene file describes them
+    Bodies,
+    /// What `trace --metrics` writes
+    Metrics,
+    /// The keys of the window
+    Keys,
+}
+
+pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
+    let listing = match args.what {
+        Listing::Scenes => {
+            let scenes: Vec<_> =
+                SCENES.iter().filter_map(|scene| Scene::built_in(scene.name)).collect();
+            write(SCENE, &scenes, args.format)
+        }
+        Listing::Methods => write(METHOD, METHODS, args.format),
+        Listing::Bodies if args.format == TableFormat::Text => bodies_with_keys(),
+        Listing::Bodies => write(BODY, BODIES, args.format),
+        Listing::Metrics => write(METRIC, METRICS, args.format),
+        Listing::Keys => write(KEY, KEYS, args.format),
+    };
+    let mut out = io::stdout().lock();
+    out.write_all(listing.as_bytes())?;
+    out.flush()?;
+    Ok(())
+}
+
+fn write<T>(columns: &[Column<T>], items: &[T], format: TableFormat) -> String {
+    match format {
+        TableFormat::Text => table::text(columns, items, ""),
+        TableFormat::Json => format!("{:#}\n", table::json(columns, items)),
+    }
+}
+
+fn bodies_with_keys() -> String {
+    let keys = BODIES.iter().map(|body| {
+        format!("\n[[{}]]\n{}", body.id, table::text(PARAMETER, body.parameters, "  "))
+    });
+    table::text(BODY, BODIES, "") + &keys.collect::<String>()
+}
+
+const SCENE: &[Column<Scene>] = &[
+    Column { key: "name", heading: Some("NAME"), value: |scene| json!(scene.name) },
+    Column { key: "tick_hz", heading: Some("HZ"), value: |scene| json!(scene.tick_hz) },
+    Column { key: "seconds", heading: Some("SECONDS"), value: |scene| json!(scene.seconds) },
+    Column {
+        key: "bodies",
+        heading: Some("BODIES"),
+        value: |scene| scene.bodies.iter().map(|body| json!(body.kind.id)).collect(),
+    },
+    Column {
+        key: "methods",
+        heading: None,
+        value: |scene| scene.lanes.iter().map(|lane| json!(lane.method.id)).collect(),
+    },
+    Column { key: "title", heading: Some("TITLE"), value: |scene| json!(scene.title) },
+    Column { key: "about", heading: None, value: |scene| json!(scene.about) },
+];
+
+const METHOD: &[Column<Method>] = &[
+    Column { key: "id", heading: Some("ID"), value: |method| json!(method.id) },
+    Column { key: "name", heading: None, value: |method| json!(method.name) },
+    Column { key: "family", heading: Some("FAMILY"), value: |method| json!(method.family.id()) },
+    Column { key: "order", heading: Some("ORDER"), value: |method| json!(method.order) },
+    Column {
+        key: "order_with_drag",
+        heading: Some("WITH DRAG"),
+        value: |method| json!(method.order_with_drag),
+    },
+    Column { key: "evaluations", heading: Some("EVALS"), value: |m| json!(m.evaluations) },
+    Column { key: "symplectic", heading: Some("SYMPLECTIC"), value: |m| json!(m.symplectic) },
+    Column { key: "reversible", heading: Some("REVERSIBLE"), value: |m| json!(m.reversible) },
+    Column {
+        key: "stability_limit",
+        heading: Some("STABLE TO h ω"),
+        value: |method| json!(method.stability_limit),
+    },
+    Column {
+        key: "tolerance",
+        heading: None,
+        value: |method| {
+            method.tolerance.map_or(Value::Null, |tolerance| {
+                json!({
+                    "absolute_q": tolerance.absolute_q,
+                    "absolute_v": tolerance.absolute_v,
+                    "relative": tolerance.relative,
+                })
+            })
+        },
+    },
+    Column { key: "as_printed", heading: Some("AS PRINTED"), value: |m| json!(m.as_printed) },
+    Column { key: "about", heading: Some("ABOUT"), value: |method| json!(method.about) },
+    Column { key: "source", heading: None, value: |method| json!(method.source) },
+];
+
+const BODY: &[Column<Kind>] = &[
+    Column { key: "id", heading: Some("ID"), value: |body| json!(body.id) },
+    Column { key: "about", heading: Some("EQUATION"), value: |body| json!(body.about) },
+    Column {
+        key: "coordinates",
+        heading: None,
+        value: |body| table::json(COORDINATE, body.coordinates),
+    },
+    Column { key: "inputs", heading: Some("INPUTS"), value: |body| json!(body.inputs) },
+    Column {
+        key: "parameters",
+        heading: None,
+        value: |body| table::json(PARAMETER, body.parameters),
+    },
+];
+
+const COORDINATE: &[Column<Coordinate>] = &[
+    Column { key: "name", heading: None, value: |coordinate| json!(coordinate.name) },
+    Column { key: "velocity", heading: None, value: |coordinate| json!(coordinate.velocity) },
+    Column { key: "unit", heading: None, value: |coordinate| json!(coordinate.unit) },
+];
+
+const PARAMETER: &[Column<Parameter>] = &[
+    Column { key: "key", heading: Some("KEY"), value: |parameter| json!(parameter.key) },
+    Column { key: "default", heading: Some("DEFAULT"), value: |p| json!(p.default) },
+    Column { key: "range", heading: Some("RANGE"), value: |p| json!(p.range.to_string()) },
+    Column { key: "about", heading: Some("ABOUT"), value: |parameter| json!(parameter.about) },
+];
+
+const METRIC: &[Column<Metric>] = &[
+    Column { key: "id", heading: Some("ID"), value: |metric| json!(metric.id) },
+    Column { key: "name", heading: Some("NAME"), value: |metric| json!(metric.name) },
+    Column { key: "unit", heading: Some("UNIT"), value: |metric| json!(metric.unit) },
+    Column {
+        key: "scale",
+        heading: Some("SCALE"),
+        value: |metric| match metric.scale {
+            Scale::Log => json!("log"),
+            Scale::Linear => json!("linear"),
+        },
+    },
+];
+
+const KEY: &[Column<Binding>] = &[
+    Column { key: "keys", heading: Some("KEYS"), value: |binding| json!(binding.shown) },
+    Column { key: "does", heading: Some("DOES"), value: |binding| json!(binding.about) },
+    Column { key: "repeats", heading: None, value: |binding| json!(binding.repeats) },
+];

@@ -1,0 +1,146 @@
+//! The command line: one file a subcommand, from arguments to a finished run.
+//!
+//! Data goes to standard output and everything else to standard error, so that a command can stand in
+//! a pipe; a pipe that closes early ends a command quietly. Names, columns and exit codes are an
+//! interface that scripts rely on.
+
+use std::io::{self, IsTerminal, Write};
+
+use annotate_snippets::{Group, Level, Renderer};
+use clap::{Parser, Subcommand, ValueEnum};
+
+mod artist;
+mod capture;
+mod completions;
+mod experiment;
+mod frame_folder;
+mod list;
+mod play;
+mod scene_file;
+mod table;
+mod trace;
+
+use capture::{CaptureArgs, CaptureError};
+use completions::CompletionsArgs;
+use list::ListArgs;
+use play::PlayArgs;
+use scene_file::SceneFileError;
+use trace::TraceArgs;
+
+use crate::window::WindowError;
+
+const EXAMPLES: &str = "\
+Examples:
+  regatta                                          open the harbour under Runge-Kutta
+  regatta --scene stiff --race                     race all methods on a stiff spring
+  regatta --scene ship --method explicit-euler --tick-hz 2
+  regatta trace --scene ship --method rk4 > ship.csv
+  regatta capture --scene spring --race --out clip
+  regatta list methods
+
+In the window, H shows the keys. `regatta help COMMAND` explains a command.";
+
+/// Race numerical integrators on a ship and on springs against the exact solution
+#[derive(Debug, Parser)]
+#[command(name = "regatta", version, args_conflicts_with_subcommands = true)]
+#[command(after_help = EXAMPLES, subcommand_help_heading = "Commands", max_term_width = 100)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    play: PlayArgs,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Play(PlayArgs),
+    Capture(CaptureArgs),
+    Trace(TraceArgs),
+    List(ListArgs),
+    Completions(CompletionsArgs),
+}
+
+/// Does what the command line says.
+///
+/// # Errors
+/// What kept it from being done. A closed standard output is not an error.
+pub fn run(cli: Cli) -> Result<(), Error> {
+    let done = match cli.command.unwrap_or(Command::Play(cli.play)) {
+        Command::Play(args) => play::run(&args),
+        Command::Capture(args) => capture::run(&args),
+        Command::Trace(args) => trace::run(&args),
+        Command::List(args) => list::run(&args),
+        Command::Completions(args) => completions::run(&args),
+    };
+    match done {
+        Err(Error::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        done => done,
+    }
+}
+
+/// Why a command did not do what was asked.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The scene could not be had.
+    #[error(transparent)]
+    SceneFile(#[from] SceneFileError),
+    /// Frames could not be drawn or written.
+    #[error(transparent)]
+    Capture(#[from] CaptureError),
+    /// The window could not be opened, or failed.
+    #[error(transparent)]
+    Window(#[from] WindowError),
+    /// Standard output took no more.
+    #[error("cannot write to standard output: {0}")]
+    Output(#[from] io::Error),
+}
+
+impl Error {
+    /// What the process returns: 1 for a run that failed, 2 for what was asked wrongly, 130 for an
+    /// interrupt.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Error::SceneFile(_) => 2,
+            Error::Capture(error) => error.exit_code(),
+            Error::Window(_) | Error::Output(_) => 1,
+        }
+    }
+
+    /// The message, with the lines of the scene file that it speaks of.
+    pub fn report(&self, renderer: &Renderer) -> String {
+        match self {
+            Error::SceneFile(SceneFileError::Invalid(errors)) => {
+                scene_file::report(errors, renderer)
+            }
+            _ => {
+                let title = Level::ERROR.primary_title(self.to_string());
+                renderer.render(&[Group::with_title(title)])
+            }
+        }
+    }
+}
+
+/// How data is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TableFormat {
+    /// Aligned columns, for people
+    Text,
+    /// An array of objects, for programs
+    Json,
+}
+
+/// Says something on standard error; where that is closed, nobody wants to know.
+pub fn tell(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// Renders messages for standard error: in colour on a terminal, unless `NO_COLOR` is set.
+pub fn stderr_renderer() -> Renderer {
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    if io::stderr().is_terminal() && !is_set("NO_COLOR") && !is_dumb {
+        Renderer::styled()
+    } else {
+        Renderer::plain()
+    }
+}

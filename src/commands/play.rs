@@ -1,0 +1,75 @@
+//! `regatta play`: the window; where there is no display, its first seconds as pictures.
+
+use clap::Args;
+
+use super::capture::{self, CaptureError, FPS, Recording};
+use super::experiment::{self, ExperimentArgs, Lineup};
+use super::frame_folder::FrameFolder;
+use super::{Error, tell};
+use crate::window::{self, WindowError};
+
+const EXAMPLES: &str = "\
+Examples:
+  regatta play --scene spring --method explicit-euler
+  regatta play --scene stiff --race --tick-hz 49
+  regatta play --scene my.toml
+
+In the window, H shows the keys. Without a display the first seconds are drawn into
+./regatta-frames instead.";
+
+/// Open the window (also without `play`)
+#[derive(Clone, Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct PlayArgs {
+    #[command(flatten)]
+    experiment: ExperimentArgs,
+
+    /// Race all methods of the scene at once
+    #[arg(long)]
+    race: bool,
+
+    /// Close after this many simulated seconds, to the nearest tick [default: never]
+    #[arg(long, value_name = "S", value_parser = experiment::seconds)]
+    #[arg(allow_negative_numbers = true)]
+    seconds: Option<f64>,
+
+    /// Trails do not fade, and the camera does not glide
+    #[arg(long)]
+    reduced_motion: bool,
+}
+
+/// Where pictures go that nobody named a directory for.
+const FRAMES_DIR: &str = "regatta-frames";
+/// Enough to see what each method does, and drawn in seconds even by software.
+const FRAMES: u32 = 4 * FPS;
+/// The size of the window.
+const SIZE_PX: [u32; 2] = [1280, 720];
+
+pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
+    let lineup = if args.race { Lineup::Everyone } else { Lineup::Solo };
+    let experiment = args.experiment.load(lineup)?;
+    let lab = || {
+        let mut lab = experiment.lab();
+        lab.set_motion(!args.reduced_motion);
+        lab
+    };
+    let tick_hz = f64::from(experiment.scene().tick_hz);
+    let seconds = args.seconds.map(|seconds| (seconds * tick_hz).round() / tick_hz);
+    match window::run(lab(), seconds) {
+        Err(WindowError::NoDisplay(reason)) => {
+            let frames = match seconds {
+                Some(seconds) => capture::frames_in(seconds, FPS)?,
+                None => FRAMES,
+            };
+            let folder = FrameFolder::beside(FRAMES_DIR).map_err(CaptureError::from)?;
+            tell(&format!(
+                "no display to open a window on ({reason}); drawing {} s of it into {} instead",
+                f64::from(frames) / f64::from(FPS),
+                folder.path().display(),
+            ));
+            let recording = Recording { frames, fps: FPS, size_px: SIZE_PX, scale: 1.0 };
+            Ok(capture::record(&mut lab(), recording, folder)?)
+        }
+        done => Ok(done?),
+    }
+}

@@ -1,0 +1,122 @@
+//! From what stands after `--scene` to a scene: a built-in one, or else a file.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+
+use crate::lab::{LARGEST_FILE, SCENES, Scene, SceneErrors, nearest};
+
+/// Why there is no scene.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneFileError {
+    /// Neither a built-in scene nor a file has this name.
+    #[error("no file and no built-in scene ({}) is called {path:?}; {}", names(), remedy(.path))]
+    NotFound {
+        /// As it was given.
+        path: PathBuf,
+    },
+    /// The name is that of a directory.
+    #[error("{} is a directory; give a scene file in it", .path.display())]
+    Directory {
+        /// As it was given.
+        path: PathBuf,
+    },
+    /// The file is there but cannot be read.
+    #[error("cannot read the scene file {}: {source}", .path.display())]
+    Unreadable {
+        /// As it was given.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The file holds no valid scene.
+    #[error(transparent)]
+    Invalid(#[from] SceneErrors),
+}
+
+/// The built-in scene of that name, or the scene in the file at that path.
+pub(super) fn load(path: &Path) -> Result<Scene, SceneFileError> {
+    match path.to_str().and_then(Scene::built_in) {
+        Some(scene) => Ok(scene),
+        None => Ok(Scene::from_bytes(&path.display().to_string(), &read(path)?)?),
+    }
+}
+
+/// The first bytes of a file: enough for a scene to be read, or to be found too large.
+fn read(path: &Path) -> Result<Vec<u8>, SceneFileError> {
+    let fail = |source: io::Error| {
+        let path = path.to_owned();
+        match source.kind() {
+            io::ErrorKind::NotFound => SceneFileError::NotFound { path },
+            io::ErrorKind::IsADirectory => SceneFileError::Directory { path },
+            _ => SceneFileError::Unreadable { path, source },
+        }
+    };
+    let file = File::open(path).map_err(fail)?;
+    if file.metadata().map_err(fail)?.is_dir() {
+        return Err(SceneFileError::Directory { path: path.to_owned() });
+    }
+    let mut bytes = Vec::new();
+    file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes).map_err(fail)?;
+    Ok(bytes)
+}
+
+/// Each error as `file:line:column: message`, then its place in the text.
+pub(super) fn report(errors: &SceneErrors, renderer: &Renderer) -> String {
+    let mut report = String::new();
+    for error in &errors.errors {
+        let (line, column) = errors.position(error.span.start);
+        report += &format!("{}:{line}:{column}: {error}\n", errors.file);
+        if !errors.text.is_empty() {
+            let annotation = AnnotationKind::Primary.span(error.span.clone());
+            let snippet = Snippet::source(&errors.text).annotation(annotation);
+            report += &renderer.render(&[Group::with_level(Level::ERROR).element(snippet)]);
+            report.push('\n');
+        }
+    }
+    if errors.more > 0 {
+        report += &format!("{}: {} more; mend these first\n", errors.file, errors.more);
+    }
+    report.truncate(report.trim_end().len());
+    report
+}
+
+fn remedy(path: &Path) -> String {
+    let names = SCENES.iter().map(|scene| (scene.name, scene.name));
+    match path.to_str().and_then(|path| nearest(path, names)) {
+        Some(name) => format!("did you mean {name}?"),
+        None => "give one of these, or the path of a scene file".into(),
+    }
+}
+
+fn names() -> String {
+    SCENES.iter().map(|scene| scene.name).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bad_scene_is_reported_with_its_lines() {
+        let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes");
+        let mut reported = 0;
+        for entry in std::fs::read_dir(directory).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_none_or(|ending| ending != "toml") {
+                continue;
+            }
+            let Err(SceneFileError::Invalid(errors)) = load(&path) else {
+                panic!("{} is a good scene", path.display());
+            };
+            let report = report(&errors, &Renderer::plain());
+            for line in errors.to_string().lines() {
+                assert!(report.lines().any(|reported| reported == line), "{report}");
+            }
+            reported += 1;
+        }
+        assert!(reported >= 30, "only {reported} bad scenes");
+    }
+}

@@ -1,0 +1,79 @@
+//! One description of a list's columns, written as aligned text or as JSON.
+
+use serde_json::{Map, Value};
+
+/// One property of the things listed.
+pub(super) struct Column<T> {
+    /// Its name in JSON.
+    pub(super) key: &'static str,
+    /// Its heading in text; `None` where the text leaves it out, because it is long.
+    pub(super) heading: Option<&'static str>,
+    /// The property. `Null` where it has no meaning.
+    pub(super) value: fn(&T) -> Value,
+}
+
+/// An array with one object for each of `items`.
+pub(super) fn json<T>(columns: &[Column<T>], items: &[T]) -> Value {
+    let object = |item| {
+        let fields = columns.iter().map(|column| (column.key.to_owned(), (column.value)(item)));
+        Value::Object(fields.collect::<Map<_, _>>())
+    };
+    items.iter().map(object).collect()
+}
+
+/// A line of headings and a line for each of `items`, aligned; `indent` stands before each.
+pub(super) fn text<T>(columns: &[Column<T>], items: &[T], indent: &str) -> String {
+    let shown: Vec<_> =
+        columns.iter().filter_map(|column| Some((column.heading?, column.value))).collect();
+    let headings = shown.iter().map(|(heading, _)| (*heading).to_owned()).collect();
+    let cells = |item| shown.iter().map(|(_, value)| plain(&value(item))).collect();
+    let rows: Vec<Vec<String>> = std::iter::once(headings).chain(items.iter().map(cells)).collect();
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max();
+    let widths: Vec<_> = (0..shown.len()).filter_map(width).collect();
+    let line = |row: Vec<String>| {
+        let padded = row.iter().zip(&widths).map(|(cell, &width)| format!("{cell:width$}"));
+        format!("{indent}{}", padded.collect::<Vec<_>>().join("  ")).trim_end().to_owned() + "\n"
+    };
+    rows.into_iter().map(line).collect()
+}
+
+fn plain(value: &Value) -> String {
+    match value {
+        Value::Null => "-".into(),
+        Value::Bool(true) => "yes".into(),
+        Value::Bool(false) => "no".into(),
+        Value::Number(number) if number.is_f64() => short(number.as_f64().unwrap_or(f64::NAN)),
+        Value::String(text) => text.clone(),
+        Value::Array(values) => values.iter().map(plain).collect::<Vec<_>>().join(" "),
+        Value::Number(_) | Value::Object(_) => value.to_string(),
+    }
+}
+
+/// A number to four digits, more for large whole ones, as a person would write it.
+fn short(value: f64) -> String {
+    let rounded = format!("{value:.3}");
+    rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COLUMNS: &[Column<(&str, Option<f64>)>] = &[
+        Column { key: "name", heading: Some("NAME"), value: |row| row.0.into() },
+        Column { key: "limit", heading: Some("h ω"), value: |row| row.1.into() },
+        Column { key: "half", heading: None, value: |row| row.1.map(|limit| limit / 2.0).into() },
+    ];
+    const ROWS: &[(&str, Option<f64>)] = &[("α", Some(2.0)), ("beta", None), ("c", Some(0.12345))];
+
+    #[test]
+    fn text_is_aligned_by_characters_and_has_no_trailing_blanks() {
+        assert_eq!(text(COLUMNS, ROWS, " "), " NAME  h ω\n α     2\n beta  -\n c     0.123\n");
+    }
+
+    #[test]
+    fn json_has_every_column_to_the_last_digit() {
+        let expected = r#"[{"name":"α","limit":2.0,"half":1.0},{"name":"beta","limit":null,"half":null},{"name":"c","limit":0.12345,"half":0.061725}]"#;
+        assert_eq!(json(COLUMNS, ROWS).to_string(), expected);
+    }
+}

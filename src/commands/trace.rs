@@ -1,0 +1,263 @@
+//! `regatta trace`: every lane's numbers, tick by tick, as a tidy table on standard output.
+
+use std::io::{self, BufWriter, Write};
+
+use clap::{Args, ValueEnum};
+
+use super::experiment::{self, ExperimentArgs, Lineup};
+use super::{Error, tell};
+use crate::lab::{Lab, Lane, METRICS, SceneBody};
+use crate::sim::Solver;
+
+const EXAMPLES: &str = "\
+One row for each tick, lane, body and coordinate:
+  tick,t,lane,method,body,coordinate,q,v
+Lane 0 is the exact solution; q is in metres, v in metres a second, t in seconds. With --metrics a
+row for each metric follows, its id as coordinate, its value as q, and v empty.
+
+The scene's script is played. A method that it switches to is flown where one lane sails alone; in a
+race each lane keeps its own.
+
+Examples:
+  regatta trace --scene ship --method explicit-euler --seconds 8.5
+  regatta trace --scene spring --every 60 --metrics --format json
+  regatta trace --scene my.toml --method rk4 --method semi-implicit-euler > run.csv";
+
+/// Write the exact solution and every lane's numbers, tick by tick, to standard output
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct TraceArgs {
+    #[command(flatten)]
+    experiment: ExperimentArgs,
+
+    /// Length of the run in simulated seconds, to the nearest tick [default: the scene's]
+    #[arg(long, value_name = "S", value_parser = experiment::seconds)]
+    #[arg(allow_negative_numbers = true)]
+    seconds: Option<f64>,
+
+    /// Write only the ticks that are multiples of N
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    every: u64,
+
+    /// Write each metric too (`regatta list metrics`)
+    #[arg(long)]
+    metrics: bool,
+
+    /// How to write it: csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "csv", hide_possible_values = true)]
+    format: TraceFormat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TraceFormat {
+    /// Comma-separated values under a header
+    Csv,
+    /// An array of objects with the same names
+    Json,
+}
+
+/// A tie between two ticks goes to the later one, though `t` may be off by its last bit.
+const TIE: f64 = 1e-6;
+
+pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
+    let lineup = if args.experiment.names_no_method() { Lineup::Everyone } else { Lineup::Solo };
+    let experiment = args.experiment.load(lineup)?;
+    let seconds = args.seconds.unwrap_or(experiment.scene().seconds);
+    let mut lab = experiment.lab();
+    let mut trace = Trace::new(args, &experiment.scene().bodies);
+    let mut halts = Halts::default();
+
+    trace.begin()?;
+    trace.tick(&lab)?;
+    while ticks_left(&lab, seconds) >= 1.0 {
+        lab.tick();
+        trace.tick(&lab)?;
+        halts.note(&lab);
+    }
+    trace.finish()?;
+    halts.lines.iter().for_each(|line| tell(line));
+    Ok(())
+}
+
+/// A script may change the tick rate, so that the last tick is not known beforehand.
+fn ticks_left(lab: &Lab, seconds: f64) -> f64 {
+    let race = lab.race();
+    ((seconds - race.t()) * f64::from(race.tick_hz()) + TIE).round()
+}
+
+/// The table being written.
+struct Trace {
+    out: BufWriter<io::StdoutLock<'static>>,
+    format: TraceFormat,
+    every: u64,
+    metrics: bool,
+    /// The bodies' names as a quoted cell, in scene order.
+    bodies: Vec<String>,
+    /// The present tick and time as cells.
+    moment: String,
+    is_first: bool,
+}
+
+impl Trace {
+    fn new(args: &TraceArgs, bodies: &[SceneBody]) -> Self {
+        let name = |body: &SceneBody| match args.format {
+            TraceFormat::Csv => csv_cell(&body.name),
+            TraceFormat::Json => serde_json::Value::from(body.name.as_str()).to_string(),
+        };
+        Self {
+            out: BufWriter::with_capacity(1 << 16, io::stdout().lock()),
+            format: args.format,
+            every: args.every,
+            metrics: args.metrics,
+            bodies: bodies.iter().map(name).collect(),
+            moment: String::new(),
+            is_first: true,
+        }
+    }
+
+    fn begin(&mut self) -> io::Result<()> {
+        match self.format {
+            TraceFormat::Csv => writeln!(self.out, "tick,t,lane,method,body,coordinate,q,v"),
+            TraceFormat::Json => write!(self.out, "["),
+        }
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        if self.format == TraceFormat::Json {
+            writeln!(self.out, "\n]")?;
+        }
+        self.out.flush()
+    }
+
+    /// Writes the present of the truth and of every lane that still sails.
+    fn tick(&mut self, lab: &Lab) -> io::Result<()> {
+        let race = lab.race();
+        if !race.tick().is_multiple_of(self.every) {
+            return Ok(());
+        }
+        let (tick, t) = (race.tick(), serde_json::to_string(&race.t())?);
+        self.moment = match self.format {
+            TraceFormat::Csv => format!("{tick},{t}"),
+            TraceFormat::Json => format!("\"tick\":{tick},\"t\":{t}"),
+        };
+        self.lane(0, race.truth(), None)?;
+        for (n, entrant) in race.entrants().iter().enumerate() {
+            self.lane(n + 1, &entrant.lane, Some(race.truth()))?;
+        }
+        Ok(())
+    }
+
+    fn lane(&mut self, number: usize, lane: &Lane, truth: Option<&Lane>) -> io::Result<()> {
+        if lane.halted().is_some() {
+            return Ok(());
+        }
+        let method = method_id(lane.solver());
+        for (n, body) in lane.bodies().iter().enumerate() {
+            let values = body.stepper.q().iter().zip(body.stepper.v());
+            for (coordinate, (&q, &v)) in body.kind.coordinates.iter().zip(values) {
+                self.row(number, method, n, coordinate.name, q, Some(v))?;
+            }
+            let Some(truth) = truth.filter(|truth| self.metrics && truth.halted().is_none()) else {
+                continue;
+            };
+            for metric in METRICS {
+                let value = (metric.measure)(&*body.stepper, &*truth.bodies()[n].stepper);
+                if let Some(value) = value.filter(|value| value.is_finite()) {
+                    self.row(number, method, n, metric.id, value, None)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn row(
+        &mut self,
+        lane: usize,
+        method: &str,
+        body: usize,
+        coordinate: &str,
+        q: f64,
+        v: Option<f64>,
+    ) -> io::Result<()> {
+        let Self { out, bodies, moment, .. } = self;
+        let body = &bodies[body];
+        match self.format {
+            TraceFormat::Csv => {
+                write!(out, "{moment},{lane},{method},{body},{coordinate},")?;
+                serde_json::to_writer(&mut *out, &q)?;
+                out.write_all(b",")?;
+                if let Some(v) = v {
+                    serde_json::to_writer(&mut *out, &v)?;
+                }
+                out.write_all(b"\n")
+            }
+            TraceFormat::Json => {
+                let comma = if std::mem::take(&mut self.is_first) { "" } else { "," };
+                write!(
+                    out,
+                    "{comma}\n{{{moment},\"lane\":{lane},\"method\":\"{method}\",\"body\":{body},\
+                     \"coordinate\":\"{coordinate}\",\"q\":"
+                )?;
+                serde_json::to_writer(&mut *out, &q)?;
+                out.write_all(b",\"v\":")?;
+                serde_json::to_writer(&mut *out, &v)?;
+                out.write_all(b"}")
+            }
+        }
+    }
+}
+
+fn method_id(solver: Solver) -> &'static str {
+    match solver {
+        Solver::Method(method) => method.id,
+        Solver::Exact => "exact",
+    }
+}
+
+fn csv_cell(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.into()
+    }
+}
+
+/// The lanes that stopped, to be told of when the table is done and cannot be torn by a message.
+#[derive(Default)]
+struct Halts {
+    lines: Vec<String>,
+}
+
+impl Halts {
+    fn note(&mut self, lab: &Lab) {
+        let race = lab.race();
+        let entrants = race.entrants().iter().map(|entrant| &entrant.lane);
+        for (number, lane) in std::iter::once(race.truth()).chain(entrants).enumerate() {
+            if let Some(halt) = lane.halted()
+                && halt.tick + 1 == race.tick()
+            {
+                let body = &lab.scene().bodies[halt.body].name;
+                self.lines.push(format!(
+                    "lane {number}, {}, halted at tick {} (t = {:.3} s): {body} {}; its rows end there",
+                    method_id(lane.solver()),
+                    halt.tick,
+                    race.t() - 1.0 / f64::from(race.tick_hz()),
+                    halt.failure,
+                ));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_with_commas_quotes_or_newlines_are_quoted() {
+        assert_eq!(csv_cell("free spring"), "free spring");
+        assert_eq!(csv_cell("a, b"), "\"a, b\"");
+        assert_eq!(csv_cell("the \"Pride\""), "\"the \"\"Pride\"\"\"");
+    }
+}
