@@ -22,6 +22,7 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(super) struct ListArgs {
     /// What to list
+    #[arg(value_name = "scenes|methods|bodies|metrics|keys")]
     what: Listing,
 
     /// How to write it: text or json

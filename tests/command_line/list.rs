@@ -1,0 +1,87 @@
+//! `list` and `completions`.
+
+use regatta::lab::{KEYS, METRICS, SCENES};
+use regatta::sim::bodies::BODIES;
+use regatta::sim::integrators::METHODS;
+use serde_json::Value;
+
+use crate::{run, stdout_of};
+
+fn listing(what: &str) -> Vec<Value> {
+    serde_json::from_str(&stdout_of(&format!("list {what} --format json"))).unwrap()
+}
+
+/// The values of `key` in every object.
+fn column<'a>(listing: &'a [Value], key: &str) -> Vec<&'a str> {
+    listing.iter().map(|object| object[key].as_str().unwrap()).collect()
+}
+
+#[test]
+fn every_table_is_listed_whole_and_in_order() {
+    let ids: Vec<_> = METHODS.iter().map(|method| method.id).collect();
+    assert_eq!(column(&listing("methods"), "id"), ids);
+    let ids: Vec<_> = BODIES.iter().map(|body| body.id).collect();
+    assert_eq!(column(&listing("bodies"), "id"), ids);
+    let ids: Vec<_> = METRICS.iter().map(|metric| metric.id).collect();
+    assert_eq!(column(&listing("metrics"), "id"), ids);
+    let names: Vec<_> = SCENES.iter().map(|scene| scene.name).collect();
+    assert_eq!(column(&listing("scenes"), "name"), names);
+    let keys: Vec<_> = KEYS.iter().map(|binding| binding.shown).collect();
+    assert_eq!(column(&listing("keys"), "keys"), keys);
+}
+
+#[test]
+fn a_method_is_listed_with_all_of_its_card() {
+    let methods = listing("methods");
+    for (object, method) in methods.iter().zip(METHODS) {
+        let keys: Vec<_> = object.as_object().unwrap().keys().map(String::as_str).collect();
+        let expected = "id name family order order_with_drag evaluations symplectic reversible \
+                        stability_limit tolerance as_printed about source";
+        assert_eq!(keys.join(" "), expected);
+        assert_eq!(object["order"], method.order);
+        assert_eq!(object["order_with_drag"], method.order_with_drag);
+        assert_eq!(object["evaluations"], Value::from(method.evaluations));
+        assert_eq!(object["symplectic"], method.symplectic);
+        assert_eq!(object["stability_limit"], Value::from(method.stability_limit));
+    }
+}
+
+#[test]
+fn a_body_is_listed_with_the_keys_of_its_table() {
+    let bodies = listing("bodies");
+    for (object, body) in bodies.iter().zip(BODIES) {
+        for (listed, parameter) in
+            object["parameters"].as_array().unwrap().iter().zip(body.parameters)
+        {
+            assert_eq!(listed["key"], parameter.key);
+            assert_eq!(listed["default"], Value::from(parameter.default));
+        }
+    }
+    let text = stdout_of("list bodies");
+    assert!(text.contains("[[spring]]\n"), "{text}");
+    assert!(text.contains("  stiffness_n_per_m  "), "{text}");
+}
+
+#[test]
+fn text_lists_have_a_line_for_each_entry_under_a_heading() {
+    for (what, entries) in [
+        ("methods", METHODS.len()),
+        ("scenes", SCENES.len()),
+        ("metrics", METRICS.len()),
+        ("keys", KEYS.len()),
+    ] {
+        let text = stdout_of(&format!("list {what}"));
+        assert_eq!(text.lines().count(), 1 + entries, "{text}");
+        assert!(text.lines().all(|line| line.trim_end() == line), "{text}");
+    }
+}
+
+#[test]
+fn completions_name_scenes_and_methods() {
+    for shell in ["bash", "fish", "zsh"] {
+        let script = stdout_of(&format!("completions {shell}"));
+        assert!(script.contains("semi-implicit-euler"), "{shell}");
+        assert!(script.contains("harbour"), "{shell}");
+    }
+    assert_eq!(run("completions tcsh").status.code(), Some(2));
+}

@@ -1,0 +1,50 @@
+//! The program as its users meet it: arguments in; bytes, messages and exit codes out.
+#![cfg(feature = "desktop")]
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+mod capture;
+mod list;
+mod mistakes;
+mod trace;
+
+/// The program, with nothing of this machine's display or settings.
+fn regatta() -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_regatta"));
+    for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "RUST_LOG", "NO_COLOR"] {
+        command.env_remove(variable);
+    }
+    // Where it is unset, libwayland says so on standard error.
+    command.env("XDG_RUNTIME_DIR", std::env::temp_dir()).stdin(Stdio::null());
+    command
+}
+
+/// What the program makes of these words.
+fn run(arguments: &str) -> Output {
+    regatta().args(arguments.split_whitespace()).output().unwrap()
+}
+
+fn run_in(directory: &Path, arguments: &str) -> Output {
+    regatta().current_dir(directory).args(arguments.split_whitespace()).output().unwrap()
+}
+
+/// What the program writes, where it succeeds in silence.
+fn stdout_of(arguments: &str) -> String {
+    let output = run(arguments);
+    assert_eq!(stderr(&output), "", "{arguments}");
+    assert_eq!(output.status.code(), Some(0), "{arguments}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// What the program says, where it fails with this code and writes no data.
+fn refusal(arguments: &str, code: i32) -> String {
+    let output = run(arguments);
+    assert_eq!(output.status.code(), Some(code), "{arguments}: {}", stderr(&output));
+    assert!(output.stdout.is_empty(), "{arguments}");
+    stderr(&output)
+}

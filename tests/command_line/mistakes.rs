@@ -1,0 +1,110 @@
+//! Wrong arguments and wrong scene files: exit code 2, the reason and the remedy.
+
+use std::fs;
+
+use crate::{refusal, regatta, run, run_in, stderr};
+
+#[test]
+fn each_mistake_is_named_with_its_remedy() {
+    for (arguments, said) in [
+        ("trace --scene shp", "is called \"shp\"; did you mean ship?"),
+        ("trace --scene Stiff", "did you mean stiff?"),
+        ("trace --scene nosuch.toml", "give one of these, or the path of a scene file"),
+        ("trace --scene nosuch.toml", "(harbour, ship, spring, stiff)"),
+        ("trace --scene .", ". is a directory; give a scene file in it"),
+        ("trace --method rk5", "did you mean rk4? `regatta list methods` names all"),
+        ("trace --method x", "no such method. `regatta list methods` names all"),
+        ("--method runge-kutta", "did you mean rk4?"),
+        ("trace --tick-hz 0", "1..=10000"),
+        ("trace --tick-hz 10001", "1..=10000"),
+        ("trace --tick-hz 59.9", "'59.9' for '--tick-hz <N>'"),
+        ("trace --seconds -1", "give 0 to 31536000 seconds"),
+        ("trace --seconds inf", "give 0 to 31536000 seconds"),
+        ("trace --seconds NaN", "give 0 to 31536000 seconds"),
+        ("trace --seconds soon", "give a number of seconds, such as 8.5"),
+        ("trace --every 0", "0 is not in 1..="),
+        ("trace --sceen ship", "a similar argument exists: '--scene'"),
+        ("trace --format xml", "csv, json"),
+        ("list", "<scenes|methods|bodies|metrics|keys>"),
+        ("list method", "a similar value exists: 'methods'"),
+        ("sail", "unrecognized subcommand 'sail'"),
+        ("completions", "<SHELL>"),
+        ("capture --scene ship", "--out <DIR>"),
+        ("capture --out x --size 0x720", "each side has 1 to 8192 pixels"),
+        ("capture --out x --size 1280x8193", "each side has 1 to 8192 pixels"),
+        ("capture --out x --size big", "such as 1280x720"),
+        ("capture --out x --scale 0", "give a number from 0.5 to 4"),
+        ("capture --out x --fps 0", "0 is not in 1..=1000"),
+        ("capture --out x --frames 0", "0 is not in 1..=1000000"),
+        ("capture --out x --frames 2 --seconds 2", "cannot be used with"),
+        ("capture --out x --frames 1000000 --size 8192x8192", "fewer --frames or a smaller --size"),
+        ("capture --out x --fps 1000 --seconds 9999", "a lower --fps or fewer --seconds"),
+        ("capture --out Cargo.toml", "Cargo.toml is not a directory; give another --out"),
+        ("capture --out src", "src is not empty; give another --out, or --force"),
+    ] {
+        let message = refusal(arguments, 2);
+        assert!(message.starts_with("error: "), "{arguments}: {message}");
+        assert!(message.contains(said), "{arguments}: {message}");
+    }
+}
+
+#[test]
+fn a_bad_scene_file_is_shown_line_by_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = \"x\"\ntick_hz = 60\nseconds = nan\nmethods = [\"rk5\"]\n[[sprong]]\n";
+    fs::write(folder.path().join("bad.toml"), scene).unwrap();
+    let expected = "\
+bad.toml:3:11: `seconds` is nan, out of range; write a number greater than 0 and at most 31536000
+  |
+3 | seconds = nan
+  |           ^^^
+bad.toml:4:12: unknown method \"rk5\" in `methods`; did you mean \"rk4\"?
+  |
+4 | methods = [\"rk5\"]
+  |            ^^^^^
+bad.toml:5:3: unknown table `sprong`; did you mean `[[spring]]`?
+  |
+5 | [[sprong]]
+  |   ^^^^^^
+";
+    for command in ["trace", "play", "capture --out x"] {
+        let output = run_in(folder.path(), &format!("{command} --scene bad.toml"));
+        assert_eq!(stderr(&output), expected, "{command}");
+        assert_eq!(output.status.code(), Some(2), "{command}");
+    }
+}
+
+#[test]
+fn files_that_are_no_text_or_too_large_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (bytes, said) in [
+        (vec![0xff, 0xfe], "bad.toml:1:1: the file is not text: byte 0 is not UTF-8"),
+        (vec![b'#'; 5 << 20], "bad.toml:1:1: the file holds more than 1048576 bytes"),
+        (vec![], "bad.toml:1:1: the file holds no scene"),
+    ] {
+        fs::write(folder.path().join("bad.toml"), bytes).unwrap();
+        let output = run_in(folder.path(), "trace --scene bad.toml");
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).starts_with(said), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn help_and_version_are_data() {
+    for arguments in ["--help", "-h", "help trace", "trace --help", "--version", "help capture"] {
+        let output = run(arguments);
+        assert_eq!(output.status.code(), Some(0), "{arguments}");
+        assert!(!output.stdout.is_empty() && output.stderr.is_empty(), "{arguments}");
+    }
+}
+
+#[test]
+fn every_help_fits_a_hundred_columns_and_has_examples() {
+    for command in ["play", "capture", "trace", "list", "completions"] {
+        let output = regatta().args([command, "--help"]).env("COLUMNS", "200").output().unwrap();
+        let help = String::from_utf8(output.stdout).unwrap();
+        assert!(help.contains("Examples:\n  regatta "), "{help}");
+        let widest = help.lines().map(|line| line.chars().count()).max();
+        assert!(widest <= Some(100), "{command}: {widest:?} columns");
+    }
+}

@@ -1,0 +1,215 @@
+//! `trace`: its numbers, its columns, its ends.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{BufRead, BufReader, Read};
+use std::process::Stdio;
+
+use regatta::sim::integrators::METHODS;
+use serde_json::Value;
+
+use crate::{regatta, run_in, stderr, stdout_of};
+
+const HEADER: &str = "tick,t,lane,method,body,coordinate,q,v";
+
+/// A row's cells.
+fn rows(csv: &str) -> Vec<Vec<&str>> {
+    csv.lines().skip(1).map(|line| line.split(',').collect()).collect()
+}
+
+/// The velocity at each time, of the only body under `method`.
+fn velocities(csv: &str, method: &str) -> BTreeMap<String, f64> {
+    let rows = rows(csv).into_iter().filter(|row| row[3] == method);
+    rows.map(|row| (row[1].to_owned(), row[7].parse().unwrap())).collect()
+}
+
+#[test]
+fn the_chapters_table_7_1_comes_out_digit_by_digit() {
+    const TIMES: [&str; 5] = ["6.5", "7.0", "7.5", "8.0", "8.5"];
+    const TABLE: [(&str, [&str; 5]); 4] = [
+        ("exact", ["9.559084465", "10.068293924", "10.552668945", "11.013420718", "11.451701361"]),
+        (
+            "explicit-euler",
+            ["9.733158334", "10.246500418", "10.734175397", "11.197466627", "11.637593296"],
+        ),
+        (
+            "improved-euler",
+            ["9.556148145", "10.065285923", "10.549603234", "11.010310076", "11.448557460"],
+        ),
+        ("rk4", ["9.559084096", "10.068293547", "10.552668560", "11.013420327", "11.451700966"]),
+    ];
+    for (method, cells) in TABLE {
+        let flown = if method == "exact" { "rk4" } else { method };
+        let csv = stdout_of(&format!("trace --scene ship --method {flown} --seconds 8.5"));
+        let velocities = velocities(&csv, method);
+        for (t, cell) in TIMES.into_iter().zip(cells) {
+            assert_eq!(format!("{:.9}", velocities[t]), cell, "{method} at {t} s");
+        }
+    }
+}
+
+#[test]
+fn a_trace_is_tidy_and_begins_at_tick_0_with_the_truth_as_lane_0() {
+    let csv = stdout_of("trace --scene ship --seconds 2");
+    assert_eq!(csv.lines().next(), Some(HEADER));
+    let lanes = 1 + METHODS.len();
+    assert_eq!(csv.lines().count(), 1 + 5 * lanes);
+    assert!(csv.lines().all(|line| line.split(',').count() == 8));
+    for (n, row) in rows(&csv).into_iter().enumerate() {
+        let (tick, lane) = (n / lanes, n % lanes);
+        let t = format!("{:?}", tick as f64 / 2.0);
+        let method = if lane == 0 { "exact" } else { METHODS[lane - 1].id };
+        let start = [&tick.to_string(), &t, &lane.to_string(), method, "ship", "s"];
+        assert_eq!(row[..6], start);
+    }
+}
+
+#[test]
+fn numbers_are_the_shortest_that_read_back_the_same() {
+    fn digits(number: &str) -> String {
+        let mantissa = number.split('e').next().unwrap();
+        let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+        digits.trim_matches('0').to_owned()
+    }
+    let csv = stdout_of("trace --scene spring --method rk4 --seconds 1");
+    for row in rows(&csv) {
+        for cell in [row[1], row[6], row[7]] {
+            let value: f64 = cell.parse().unwrap();
+            assert_eq!(digits(cell), digits(&format!("{value:e}")));
+        }
+    }
+}
+
+#[test]
+fn json_holds_what_csv_holds() {
+    for options in ["--scene harbour --seconds 0.1 --metrics", "--scene ship --every 7 --seconds 9"]
+    {
+        let csv = stdout_of(&format!("trace {options}"));
+        let json = stdout_of(&format!("trace {options} --format json"));
+        let parsed: Vec<Value> = serde_json::from_str(&json).unwrap();
+        assert_eq!(parsed.len(), rows(&csv).len());
+        for (line, row) in json.lines().skip(1).zip(rows(&csv)) {
+            let [tick, t, lane, method, body, coordinate, q, v] = row[..] else {
+                panic!("{row:?}")
+            };
+            let v = if v.is_empty() { "null" } else { v };
+            let expected = format!(
+                r#"{{"tick":{tick},"t":{t},"lane":{lane},"method":"{method}","body":"{body}","coordinate":"{coordinate}","q":{q},"v":{v}}}"#
+            );
+            assert_eq!(line.trim_end_matches(','), expected);
+        }
+    }
+}
+
+#[test]
+fn seconds_round_to_the_nearest_tick() {
+    for (seconds, last) in [("0", 0), ("0.2", 0), ("0.3", 1), ("0.25", 1), ("8.5", 17), ("8.7", 17)]
+    {
+        let csv = stdout_of(&format!("trace --scene ship --method rk4 --seconds {seconds}"));
+        assert_eq!(rows(&csv).last().unwrap()[0], last.to_string(), "{seconds} s");
+    }
+    let csv = stdout_of("trace --scene ship --method rk4 --seconds 8.35 --tick-hz 60");
+    assert_eq!(rows(&csv).last().unwrap()[0], "501");
+}
+
+#[test]
+fn every_keeps_the_multiples_only() {
+    let csv = stdout_of("trace --scene ship --method rk4 --seconds 10 --every 6");
+    let ticks: Vec<_> = rows(&csv).iter().map(|row| row[0].to_owned()).collect();
+    assert_eq!(ticks, ["0", "0", "6", "6", "12", "12", "18", "18"]);
+}
+
+#[test]
+fn metrics_are_rows_without_v_for_every_lane_but_the_truth() {
+    let csv = stdout_of("trace --scene ship --method rk4 --seconds 0.5 --metrics");
+    let metrics: Vec<_> = rows(&csv).into_iter().filter(|row| row[7].is_empty()).collect();
+    let of_tick = |tick: &str| -> Vec<&str> {
+        metrics.iter().filter(|row| row[0] == tick).map(|row| row[5]).collect()
+    };
+    // At rest a relative speed error has no meaning; a ship with drag conserves no energy.
+    assert_eq!(of_tick("0"), ["position_error", "velocity_error", "evaluations"]);
+    assert_eq!(
+        of_tick("1"),
+        ["position_error", "velocity_error", "relative_speed_error", "evaluations"]
+    );
+    assert!(metrics.iter().all(|row| row[2] == "1" && row[3] == "rk4"));
+}
+
+#[test]
+fn several_methods_race_in_the_order_named_each_once() {
+    let csv = stdout_of(
+        "trace --scene ship --method rk4 --method explicit-euler --method rk4 --seconds 0",
+    );
+    let lanes: Vec<_> = rows(&csv).iter().map(|row| format!("{} {}", row[2], row[3])).collect();
+    assert_eq!(lanes, ["0 exact", "1 rk4", "2 explicit-euler"]);
+}
+
+#[test]
+fn a_lane_that_halts_ends_with_a_word_on_standard_error() {
+    let output = run_in(
+        &std::env::temp_dir(),
+        "trace --scene stiff --method semi-implicit-euler --tick-hz 49 --seconds 20",
+    );
+    assert_eq!(output.status.code(), Some(0));
+    let said = stderr(&output);
+    assert!(said.starts_with("lane 1, semi-implicit-euler, halted at tick "), "{said}");
+    assert!(said.contains("stiff spring left the stage: "), "{said}");
+    assert!(said.ends_with("; its rows end there\n"), "{said}");
+    let csv = String::from_utf8(output.stdout).unwrap();
+    let last = |lane: &str| {
+        let row = rows(&csv).into_iter().rfind(|row| row[2] == lane).unwrap();
+        row[0].parse::<u64>().unwrap()
+    };
+    assert_eq!(last("0"), 20 * 49);
+    assert!(last("1") < last("0"));
+    assert!(said.contains(&format!("halted at tick {} ", last("1"))), "{said}");
+}
+
+#[test]
+fn a_script_switches_the_method_of_a_lane_alone_and_of_no_lane_in_a_race() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 10\nseconds = 1\n\
+                 [[spring]]\nname = 'a, \"b\"'\nmass_kg = 1\nstiffness_n_per_m = 40\n\
+                 [[command]]\ntick = 5\nmethod = 'rk4'\n";
+    fs::write(folder.path().join("my.toml"), scene).unwrap();
+    let methods = |options: &str| {
+        let output = run_in(folder.path(), &format!("trace --scene my.toml {options}"));
+        let csv = String::from_utf8(output.stdout).unwrap();
+        assert!(csv.lines().nth(1).unwrap().contains(",exact,\"a, \"\"b\"\"\",x,"), "{csv}");
+        let lane = csv.lines().filter(|line| line.split(',').nth(2) == Some("1"));
+        lane.map(|line| line.split(',').nth(3).unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let alone = methods("--method explicit-euler");
+    assert_eq!(alone.iter().filter(|method| *method == "explicit-euler").count(), 6);
+    assert_eq!(alone.iter().filter(|method| *method == "rk4").count(), 5);
+    let racing = methods("--method explicit-euler --method rk4");
+    assert_eq!(racing, vec!["explicit-euler"; 11]);
+}
+
+#[test]
+fn a_pipe_that_closes_early_ends_the_trace_quietly() {
+    let mut child = regatta()
+        .args(["trace", "--scene", "spring", "--seconds", "100000"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut first = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut first).unwrap();
+    assert_eq!(first.trim_end(), HEADER);
+    let mut said = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+    assert_eq!((said.as_str(), child.wait().unwrap().code()), ("", Some(0)));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    let full = || fs::File::options().write(true).open("/dev/full").unwrap();
+    for arguments in ["trace --scene ship", "list methods", "completions bash"] {
+        let output = regatta().args(arguments.split(' ')).stdout(full()).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments}");
+        let said = stderr(&output);
+        assert!(said.starts_with("error: cannot write to standard output: No space"), "{said}");
+    }
+}
