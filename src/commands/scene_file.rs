@@ -63,24 +63,21 @@ fn read(path: &Path) -> Result<Vec<u8>, SceneFileError> {
     Ok(bytes)
 }
 
-/// Each error as `file:line:column: message`, then its place in the text.
+/// Each line of the message, and below it the place in the text that it speaks of.
 pub(super) fn report(errors: &SceneErrors, renderer: &Renderer) -> String {
-    let mut report = String::new();
-    for error in &errors.errors {
-        let (line, column) = errors.position(error.span.start);
-        report += &format!("{}:{line}:{column}: {error}\n", errors.file);
-        if !errors.text.is_empty() {
-            let annotation = AnnotationKind::Primary.span(error.span.clone());
+    let message = errors.to_string();
+    // One line for each error, then perhaps how many more there are.
+    let mut spans = errors.errors.iter().map(|error| error.span.clone());
+    let mut report = Vec::new();
+    for line in message.lines() {
+        report.push(line.to_owned());
+        if let Some(span) = spans.next().filter(|_| !errors.text.is_empty()) {
+            let annotation = AnnotationKind::Primary.span(span);
             let snippet = Snippet::source(&errors.text).annotation(annotation);
-            report += &renderer.render(&[Group::with_level(Level::ERROR).element(snippet)]);
-            report.push('\n');
+            report.push(renderer.render(&[Group::with_level(Level::ERROR).element(snippet)]));
         }
     }
-    if errors.more > 0 {
-        report += &format!("{}: {} more; mend these first\n", errors.file, errors.more);
-    }
-    report.truncate(report.trim_end().len());
-    report
+    report.join("\n")
 }
 
 fn remedy(path: &Path) -> String {
