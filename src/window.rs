@@ -53,7 +53,7 @@ pub enum WindowError {
 pub fn run(lab: Lab, seconds: Option<f64>) -> Result<(), WindowError> {
     let event_loop = EventLoop::<accesskit_winit::Event>::with_user_event()
         .build()
-        .map_err(|error| WindowError::NoDisplay(error.to_string()))?;
+        .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
     let mut app = App {
         lab,
         seconds,
@@ -70,8 +70,18 @@ pub fn run(lab: Lab, seconds: Option<f64>) -> Result<(), WindowError> {
         started: Instant::now(),
         outcome: Ok(()),
     };
-    event_loop.run_app(&mut app).map_err(|error| WindowError::Refused(error.to_string()))?;
+    event_loop.run_app(&mut app).map_err(|error| WindowError::Refused(reason(&error)))?;
     app.outcome
+}
+
+/// What the window system said, without the place in winit's source that winit puts before it.
+fn reason(error: &dyn std::error::Error) -> String {
+    let text = error.to_string();
+    let said = match text.split_once(": ") {
+        Some((place, said)) if place.starts_with("os error at ") => said,
+        _ => &text,
+    };
+    said.trim_end_matches('.').into()
 }
 
 struct App {
@@ -218,7 +228,7 @@ impl ApplicationHandler<accesskit_winit::Event> for App {
         let window = match event_loop.create_window(attributes) {
             Ok(window) => Arc::new(window),
             Err(error) => {
-                return self.end(event_loop, Err(WindowError::Refused(error.to_string())));
+                return self.end(event_loop, Err(WindowError::Refused(reason(&error))));
             }
         };
         match Canvas::new(event_loop, window, self.proxy.clone()) {

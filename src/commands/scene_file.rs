@@ -24,7 +24,7 @@ pub enum SceneFileError {
         path: PathBuf,
     },
     /// The file is there but cannot be read.
-    #[error("cannot read the scene file {}: {source}", .path.display())]
+    #[error("cannot read the scene file {}: {source}; give one that you may read", .path.display())]
     Unreadable {
         /// As it was given.
         path: PathBuf,

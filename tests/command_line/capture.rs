@@ -146,6 +146,8 @@ fn an_interrupt_leaves_whole_frames_and_says_how_many() {
     assert!(frames.iter().all(|frame| dimensions(&clip.join(frame)) == (64, 64)));
 }
 
+// Elsewhere the display does not depend on the environment.
+#[cfg(target_os = "linux")]
 #[test]
 fn without_a_display_the_demo_is_drawn_into_a_fresh_directory() {
     let folder = tempfile::tempdir().unwrap();
@@ -154,7 +156,7 @@ fn without_a_display_the_demo_is_drawn_into_a_fresh_directory() {
         let Some(output) = drawn_or_skip(test, folder.path(), "--seconds 0.1") else { return };
         let said = stderr(&output);
         assert_eq!(output.status.code(), Some(0), "{said}");
-        assert!(said.starts_with("no display to open a window on"), "{said}");
+        assert!(said.starts_with("no display to open a window on (neither "), "{said}");
         assert!(said.contains(&format!("0.1 s of it into {out} instead\n")), "{said}");
         let wrote = format!("wrote 3 frames of 1280x720, 30 a second: {out}/frame-000000.png");
         assert!(said.contains(&wrote), "{said}");
