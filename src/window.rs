@@ -120,7 +120,10 @@ impl App {
             return;
         }
         if std::mem::take(&mut self.screenshot) {
-            let notice = screenshot::save(canvas, &self.lab);
+            let Canvas { window, gpu, .. } = canvas;
+            let size = window.inner_size();
+            let scale = window.scale_factor() as f32;
+            let notice = screenshot::save(gpu, [size.width, size.height], scale, &self.lab);
             self.lab.set_notice(notice);
         }
         match canvas.draw(&self.lab) {

@@ -8,12 +8,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::artist::Artist;
 use super::experiment::{self, ExperimentArgs, Lineup};
 use super::frame_folder::{Existing, FrameFolder, FrameFolderError, MOST_FRAMES};
 use super::{Error, tell};
 use crate::lab::{Clock, Lab};
-use crate::view::{GpuError, ReadbackError, png};
+use crate::view::{AdapterPreference, Artist, Gpu, GpuError, ReadbackError, png};
 
 const EXAMPLES: &str = "\
 Frame i shows the run at i / fps seconds. The same command makes the same bytes.
@@ -203,7 +202,9 @@ pub(super) fn record(
     if pixels > MOST_PIXELS {
         return Err(CaptureError::TooManyPixels { frames, size_px, pixels });
     }
-    let mut artist = Artist::new(size_px, scale)?;
+    let gpu = Gpu::headless(AdapterPreference::Any)?;
+    log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
+    let mut artist = Artist::new(gpu, size_px, scale)?;
     folder.clear()?;
 
     let interrupted = watch_for_interrupt();

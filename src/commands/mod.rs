@@ -9,7 +9,6 @@ use std::io::{self, IsTerminal, Write};
 use annotate_snippets::{Group, Level, Renderer};
 use clap::{Parser, Subcommand, ValueEnum};
 
-mod artist;
 mod capture;
 mod completions;
 mod experiment;

@@ -68,8 +68,8 @@ pub enum GpuError {
     },
 }
 
-/// A device, its queue, and the adapter they came from.
-#[derive(Debug)]
+/// A device, its queue, and the adapter they came from. A clone is the same device.
+#[derive(Clone, Debug)]
 pub struct Gpu {
     /// Makes textures, buffers and pipelines.
     pub device: wgpu::Device,

@@ -5,6 +5,7 @@
 //! differs between them is where that view comes from and where its pixels go. Colours are blended
 //! as they are stored, in gamma space, so all targets have a format without `Srgb` in its name.
 
+mod artist;
 mod frame;
 mod gpu;
 mod instances;
@@ -19,6 +20,7 @@ mod strokes;
 #[cfg(test)]
 mod testing;
 
+pub use artist::Artist;
 pub use frame::{FrameOutput, FrameRenderer};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use offscreen::Offscreen;

@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::{AdapterPreference, Gpu, Offscreen, Readback, Stage};
+use super::frame::Stage;
+use super::{AdapterPreference, Gpu, Offscreen, Readback};
 use crate::lab::picture::{Picture, Rect};
 use crate::view::stage::StageRenderer;
 
