@@ -1,0 +1,100 @@
+//! What reaches the stage: finite, within reach of an f32, and where the bodies are.
+
+use regatta::lab::picture::{FAR, Picture, compose};
+use regatta::lab::{Command, ESCAPE, Lab, Mode, SCENES, Scene};
+
+fn assert_drawable(picture: &Picture, what: &str) {
+    let finite = |values: &[f32]| values.iter().all(|x| x.is_finite() && x.abs() <= 2.0 * FAR);
+    for stroke in &picture.strokes {
+        let all = [stroke.from, stroke.to, stroke.radii, stroke.clip.min, stroke.clip.max];
+        assert!(all.iter().all(|pair| finite(pair)), "{what}: {stroke:?}");
+    }
+    for sea in &picture.seas {
+        let scalars = [sea.grid_step, sea.waves, sea.phase];
+        assert!(finite(&sea.grid_origin) && finite(&scalars), "{what}: {sea:?}");
+        assert!(sea.grid_step > 0.0, "{what}: {sea:?}");
+    }
+    for label in &picture.labels {
+        assert!(finite(&label.at) && label.size > 0.0, "{what}: {label:?}");
+    }
+}
+
+#[test]
+fn nothing_that_blows_up_reaches_a_vertex() {
+    for scene in SCENES {
+        let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
+        lab.apply(Command::ToggleRace);
+        for frame in 0..400 {
+            lab.advance(16_666_667);
+            if frame % 3 == 0 {
+                lab.apply(Command::NextInterpolation);
+            }
+            let what = format!("{} at frame {frame}", scene.name);
+            assert_drawable(&compose(&lab, [780.0, 500.0]), &what);
+        }
+    }
+}
+
+#[test]
+fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
+    let text = format!(
+        "title = \"far\"\ntick_hz = 10000\nseconds = 1\n\
+         [[ship]]\nthrust_n = 0\ndrag_n_s_per_m = 0\nmass_kg = 1e-3\ns0_m = 1e15\nv0_m_per_s = 1e15\n\
+         [[spring]]\nmass_kg = 1e15\nstiffness_n_per_m = 1e-3\nx0_m = -1e15\nv0_m_per_s = -1e15\n\
+         [[spring]]\nname = \"small\"\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 1e-12\n"
+    );
+    let mut lab = Lab::new(Scene::parse("far.toml", &text).unwrap());
+    lab.apply(Command::ToggleRace);
+    for _ in 0..20 {
+        lab.advance(16_666_667);
+        assert_drawable(&compose(&lab, [780.0, 500.0]), "far");
+        lab.apply(Command::Kick(1e12));
+        assert!(lab.race().truth().bodies()[0].stepper.v()[0].abs() < ESCAPE);
+    }
+}
+
+#[test]
+fn stages_of_no_size_are_composed() {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    for mode in [Mode::Solo, Mode::Race] {
+        assert_eq!(lab.mode(), mode);
+        for size in [[0.0, 0.0], [1.0, 1.0], [2000.0, 0.0], [0.0, 2000.0], [30.0, 20.0]] {
+            assert_drawable(&compose(&lab, size), &format!("{size:?}"));
+        }
+        lab.apply(Command::ToggleRace);
+    }
+}
+
+#[test]
+fn every_body_of_every_lane_has_a_cell_inside_the_stage() {
+    let size = [780.0, 500.0];
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    lab.advance(100_000_000);
+    assert_eq!(compose(&lab, size).seas.len(), 3);
+    lab.apply(Command::ToggleRace);
+    lab.advance(100_000_000);
+    let picture = compose(&lab, size);
+    assert_eq!(picture.seas.len(), 3 * lab.entries().len());
+    for (i, sea) in picture.seas.iter().enumerate() {
+        let ([left, top], [right, bottom]) = (sea.rect.min, sea.rect.max);
+        assert!(left >= 0.0 && top >= 0.0 && right <= size[0] && bottom <= size[1], "{sea:?}");
+        assert!(right - left > 100.0 && bottom - top > 50.0, "{sea:?}");
+        for other in &picture.seas[..i] {
+            let apart = left >= other.rect.max[0]
+                || top >= other.rect.max[1]
+                || right <= other.rect.min[0]
+                || bottom <= other.rect.min[1];
+            assert!(apart, "{sea:?} covers {other:?}");
+        }
+    }
+}
+
+#[test]
+fn the_ghost_shows_only_when_it_is_asked_for() {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    lab.advance(100_000_000);
+    let with = compose(&lab, [780.0, 500.0]).strokes.len();
+    lab.apply(Command::ToggleGhost);
+    let without = compose(&lab, [780.0, 500.0]).strokes.len();
+    assert!(without < with, "{without} strokes without a ghost, {with} with");
+}
