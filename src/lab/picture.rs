@@ -3,9 +3,11 @@
 //! Lengths are logical points from the stage's top left corner, y down; colours are straight sRGB with
 //! alpha. Everything in a [`Picture`] is finite and within [`FAR`] of the stage, whatever the lanes do.
 
+mod captions;
 mod compose;
 pub mod palette;
 mod sketch;
+mod trails;
 
 pub use compose::compose;
 

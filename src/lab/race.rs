@@ -27,6 +27,8 @@ pub struct Race {
     /// The tick and the time (s) at which the present tick rate was set: time is counted from there,
     /// and never summed up.
     origin: (u64, f64),
+    /// The length of the last tick, in seconds.
+    last_step_s: f64,
     /// Ticks between recorded samples.
     stride: u64,
     /// The stretch of time, in seconds, that histories are to reach back.
@@ -48,6 +50,7 @@ impl Race {
             tick: 0,
             tick_hz: scene.tick_hz,
             origin: (0, 0.0),
+            last_step_s: 0.0,
             stride: 1,
             span_s: scene.seconds,
         };
@@ -66,6 +69,10 @@ impl Race {
     /// The time reached, in seconds.
     pub fn t(&self) -> f64 {
         self.origin.1 + (self.tick - self.origin.0) as f64 / f64::from(self.tick_hz)
+    }
+    /// The length of the last tick in seconds, at whatever rate it was; 0 at the start.
+    pub fn last_step_s(&self) -> f64 {
+        self.last_step_s
     }
     /// The exact solution.
     pub fn truth(&self) -> &Lane {
@@ -106,6 +113,7 @@ impl Race {
             entrant.lane.tick(self.tick, t, h);
         }
         self.tick += 1;
+        self.last_step_s = h;
     }
 
     /// Adds the present to the histories, if it is time for a sample. Never allocates.

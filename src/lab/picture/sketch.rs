@@ -98,5 +98,11 @@ pub(super) fn strokes<'a>(
     })
 }
 
+/// A line with round ends, `width` points wide.
+pub(super) fn line(from: [f32; 2], to: [f32; 2], width: f32, colour: Rgba, clip: Rect) -> Stroke {
+    let radii = [width / 2.0; 2];
+    Stroke { from, to, radii, colours: [colour; 2], dash: SOLID, cap: Cap::Round, clip }
+}
+
 /// The dash pattern of an unbroken line.
-pub(super) const SOLID: [f32; 3] = [1.0, 0.0, 0.0];
+const SOLID: [f32; 3] = [1.0, 0.0, 0.0];

@@ -1,0 +1,89 @@
+//! Where bodies have been: the trace of a mass, the wake of a ship.
+
+use glam::DVec2;
+
+use super::compose::Shown;
+use super::palette::{self, faded, style};
+use super::sketch::{Camera, demote, line};
+use super::{Cap, Picture, Rgba, Stroke};
+use crate::lab::{History, Sample};
+
+/// The most segments in a trail: more would not show.
+const TRAIL_SEGMENTS: usize = 180;
+
+impl Shown<'_> {
+    /// The colour of the method that flew a body at a moment of its past.
+    pub(super) fn colour(&self, sample: &Sample) -> Rgba {
+        style(self.lab.entries()[sample.entry].method).0
+    }
+
+    /// The samples of the last `trail_s` seconds before the moment drawn, newest first, thinned to
+    /// what shows.
+    fn recent<'h>(&self, history: &'h History) -> impl Iterator<Item = (f64, &'h Sample)> {
+        let (shown, trail_s) = (self.t, self.trail_s);
+        let recent = move |s: &&Sample| shown - s.t < trail_s;
+        let count = history.samples().rev().take_while(recent).count();
+        let every = count.div_ceil(TRAIL_SEGMENTS).max(1);
+        let newest_first = history.samples().rev().take_while(recent).step_by(every);
+        newest_first.filter(move |s| s.t < shown).map(move |s| (shown - s.t, s))
+    }
+
+    fn fade(&self, age: f64) -> f32 {
+        if self.lab.display().motion { demote(1.0 - age / self.trail_s) } else { 0.6 }
+    }
+
+    /// Where the mass has been, drawn as a chart recorder would: older is further down.
+    pub(super) fn trail(
+        &self,
+        picture: &mut Picture,
+        camera: &Camera,
+        from: DVec2,
+        history: &History,
+        colour: impl Fn(&Sample) -> Rgba,
+    ) {
+        let drop = (camera.rect.max[1] - camera.at[1]) as f64 / self.trail_s;
+        let point = |q: f64, age: f64| {
+            let [x, y] = camera.points(DVec2::new(q, 0.0));
+            [x, demote(f64::from(y) + age * drop)]
+        };
+        let mut last = point(from.x, 0.0);
+        for (age, sample) in self.recent(history) {
+            let next = point(sample.q, age);
+            let colour = faded(colour(sample), self.fade(age));
+            picture.strokes.push(line(last, next, 1.5, colour, camera.rect));
+            last = next;
+        }
+    }
+
+    /// Foam behind the hull, wider and fainter with age, and the two arms of the bow wave.
+    pub(super) fn wake(
+        &self,
+        picture: &mut Picture,
+        camera: &Camera,
+        from: DVec2,
+        history: &History,
+    ) {
+        /// Half the opening of a ship's wake on deep water, as Kelvin found it: sin = 1/3.
+        const KELVIN_SLOPE: f64 = 0.353_553_390_593_273_8;
+        let point = |x: f64, y: f64| camera.points(DVec2::new(x, y));
+        let mut last = from.x;
+        for (age, sample) in self.recent(history) {
+            let (old, new) = (sample.q, last);
+            let fade = self.fade(age);
+            let foam = faded(self.colour(sample), 0.55 * fade);
+            let radius = camera.length(0.35 + 0.25 * age);
+            picture.strokes.push(Stroke {
+                radii: [radius, radius],
+                cap: Cap::Butt,
+                ..line(point(new, 0.0), point(old, 0.0), 1.0, foam, camera.rect)
+            });
+            let arm = faded(palette::TRUTH, 0.35 * fade);
+            for side in [-1.0, 1.0] {
+                let spread = |x: f64| side * (1.2 + KELVIN_SLOPE * (from.x - x).abs());
+                let (a, b) = (point(new + 3.0, spread(new)), point(old + 3.0, spread(old)));
+                picture.strokes.push(line(a, b, 1.2, arm, camera.rect));
+            }
+            last = old;
+        }
+    }
+}
