@@ -79,9 +79,16 @@ fn a_halted_lane_keeps_its_last_good_state() {
     while race.entrants()[0].lane.halted().is_none() {
         last = states(&race, "");
         race.step();
+        race.record();
         assert!(race.tick() < 1000);
     }
+    let samples = race.entrants()[0].histories[0].samples().len();
+    for _ in 0..100 {
+        race.step();
+        race.record();
+    }
     assert_eq!(states(&race, ""), last);
+    assert_eq!(race.entrants()[0].histories[0].samples().len(), samples, "nothing is recorded");
     let body = &race.entrants()[0].lane.bodies()[0];
     assert_eq!(body.previous_q, body.stepper.q(), "nothing is drawn moving");
     assert_eq!(body.previous_v, body.stepper.v());
@@ -98,11 +105,14 @@ fn a_halt_is_announced_once_with_its_tick_and_its_reason() {
         lab.tick();
         notices.extend(lab.notice().filter(|notice| *notice != "nothing new").map(String::from));
     }
+    let entrants = lab.race().entrants();
+    let halted = entrants.iter().filter(|entrant| entrant.lane.halted().is_some());
+    assert_eq!(notices.len(), halted.count(), "one notice a halt: {notices:?}");
     let name = method("explicit-euler").unwrap().name;
-    let of_euler: Vec<_> = notices.iter().filter(|notice| notice.starts_with(name)).collect();
+    let tick = entrants[0].lane.halted().expect("explicit Euler halts").tick;
+    let begins = format!("{name} halted at tick {tick}: ");
+    let of_euler: Vec<_> = notices.iter().filter(|notice| notice.starts_with(&begins)).collect();
     let [notice] = of_euler[..] else { panic!("{notices:?}") };
-    let halted = lab.race().entrants().iter().find_map(|entrant| entrant.lane.halted()).unwrap();
-    assert!(notice.contains(&format!("tick {}", halted.tick)), "{notice}");
     assert!(notice.contains("left the stage: v reached"), "{notice}");
 }
 

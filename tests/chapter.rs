@@ -3,9 +3,11 @@
 //!
 //! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
 
+use std::cell::RefCell;
+
 use regatta::sim::bodies::{Body, Ship, Spring};
 use regatta::sim::integrators::{AdaptiveEuler, Integrator, Tolerance, integrator, method};
-use regatta::sim::{Counted, State};
+use regatta::sim::{Counted, State, System};
 
 const SHIP: Ship = Ship {
     thrust: 20_000.0,
@@ -340,4 +342,45 @@ fn step_doubling_agrees_with_the_oracles_of_the_chapter() {
         assert_eq!(system.evaluations(), 2 * accepted + rejected);
         assert_eq!(system.evaluations() + rejected, two_an_attempt);
     }
+}
+
+/// A body at rest far from where its force would have it; remembers the times it is asked for.
+struct Asked(RefCell<Vec<f64>>);
+
+impl System for Asked {
+    type Vector = f64;
+    fn acceleration(&self, t: f64, q: &f64, _v: &f64, a: &mut f64) {
+        self.0.borrow_mut().push(t);
+        *a = -q;
+    }
+}
+
+#[test]
+fn step_doubling_changes_its_step_by_a_fifth_to_fivefold() {
+    let trials = |absolute_q: f64, from: f64, ticks: &[f64]| {
+        let system = Asked(RefCell::default());
+        let allowed = Tolerance { absolute_q, absolute_v: f64::INFINITY, relative: 0.0 };
+        let mut adaptive = AdaptiveEuler::with_tolerance(&from, allowed);
+        let mut state = State { q: from, v: 0.0 };
+        let mut before = 0;
+        for &h in ticks {
+            before = system.0.borrow().len();
+            adaptive.step(&system, 0.0, h, &mut state).unwrap();
+        }
+        system.0.borrow()[before..].to_vec()
+    };
+    let begins = |found: &[f64], wanted: &[f64]| {
+        let close = |(found, wanted): (&f64, &f64)| (found - wanted).abs() < 1e-12;
+        assert!(found.iter().zip(wanted).all(close), "{found:?}, wanted {wanted:?}");
+        assert!(found.len() >= wanted.len());
+    };
+    // The error at rest is h²/4: a step of 1 s is tried, of a fifth, and again; then comes what the
+    // error asks for, 0.9 √(1e-6 · 4) s, in the middle of which the second slope is taken.
+    let first = trials(1e-6, 1.0, &[1.0]);
+    begins(&first, &[0.0, 0.5, 0.1, 0.02, 0.004, 0.0009]);
+    // Without an error each substep is five times the one before, up to the end of the tick.
+    let grown = trials(1e-6, 0.0, &[1e-3, 2.0]);
+    let wanted = [0.0, 0.0025, 0.005, 0.0175, 0.03, 0.0925, 0.155, 0.4675, 0.78, 1.39];
+    begins(&grown, &wanted);
+    assert_eq!(grown.len(), wanted.len());
 }
