@@ -5,6 +5,8 @@ use regatta::sim::integrators::{METHODS, StepFailure, method};
 
 /// Ticks of the long race: 4 h 38 min at 60 Hz.
 const TICKS: u64 = 1_000_000;
+/// Ticks in which it is held against the race without the lane: 1000 times as long as that lane lives.
+const SIDE_BY_SIDE: u64 = 150_000;
 
 fn stiff() -> Scene {
     Scene::built_in("stiff").expect("a built-in scene")
@@ -37,7 +39,6 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_a_million_ticks_go_on() {
     let mut halt = None;
     for tick in 0..TICKS {
         with.step();
-        without.step();
         with.record();
         let lane = &with.entrants()[0].lane;
         match (&halt, lane.halted()) {
@@ -47,12 +48,14 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_a_million_ticks_go_on() {
             }
             (before, now) => assert_eq!(before.as_ref(), now, "a halt stays as it is"),
         }
-        if tick % 10_000 == 0 {
-            assert_eq!(states(&with, blown), states(&without, blown), "at tick {tick}");
+        if tick < SIDE_BY_SIDE {
+            without.step();
+            if tick % 1000 == 0 {
+                assert_eq!(states(&with, blown), states(&without, blown), "at tick {tick}");
+            }
         }
     }
     assert_eq!(METHODS[with.entrants()[0].entry].id, blown);
-    assert_eq!(states(&with, blown), states(&without, blown));
 
     let halt = halt.expect("explicit Euler multiplies the amplitude by 1.94 a tick");
     // 1.94ⁿ passes 1e38 at n = 132; the velocity, 100 times the stretch, at 125.
