@@ -1,35 +1,58 @@
 //! The formulas by hand: one body, one method, local numbers, no interface.
 
 /// The state after `n` steps of `h` from the start that `values`, in the order of the body's keys, say.
-pub(crate) type Floor = fn(values: &[f64], h: f64, n: u32) -> [f64; 2];
+pub(crate) type Loop = fn(values: &[f64], h: f64, n: u32) -> [f64; 2];
 
-/// The floor for this body and method, where there is one.
-pub(crate) fn of(body: &str, method: &str) -> Option<Floor> {
+/// One body and method by hand, in two ways.
+#[derive(Clone, Copy)]
+pub(crate) struct ByHand {
+    /// The force divided by the mass at every stage, as the equation is printed.
+    pub(crate) textbook: Loop,
+    /// Every division before the loop: the same bits as ours.
+    pub(crate) bare: Loop,
+}
+
+/// The loops for this body and method, where they are written.
+pub(crate) fn by_hand(body: &str, method: &str) -> Option<ByHand> {
+    macro_rules! of {
+        ($method:ident, $textbook:ident, $bare:ident) => {
+            ByHand {
+                textbook: |values, h, n| $method($textbook(values), values, h, n),
+                bare: |values, h, n| $method($bare(values), values, h, n),
+            }
+        };
+    }
     Some(match (body, method) {
-        ("ship", "explicit-euler") => |values, h, n| explicit_euler(ship(values), values, h, n),
-        ("ship", "semi-implicit-euler") => {
-            |values, h, n| semi_implicit_euler(ship(values), values, h, n)
-        }
-        ("ship", "improved-euler") => |values, h, n| improved_euler(ship(values), values, h, n),
-        ("ship", "rk4") => |values, h, n| rk4(ship(values), values, h, n),
-        ("spring", "explicit-euler") => |values, h, n| explicit_euler(spring(values), values, h, n),
-        ("spring", "semi-implicit-euler") => {
-            |values, h, n| semi_implicit_euler(spring(values), values, h, n)
-        }
-        ("spring", "improved-euler") => |values, h, n| improved_euler(spring(values), values, h, n),
-        ("spring", "rk4") => |values, h, n| rk4(spring(values), values, h, n),
+        ("ship", "explicit-euler") => of!(explicit_euler, textbook_ship, bare_ship),
+        ("ship", "semi-implicit-euler") => of!(semi_implicit_euler, textbook_ship, bare_ship),
+        ("ship", "improved-euler") => of!(improved_euler, textbook_ship, bare_ship),
+        ("ship", "rk4") => of!(rk4, textbook_ship, bare_ship),
+        ("spring", "explicit-euler") => of!(explicit_euler, textbook_spring, bare_spring),
+        ("spring", "semi-implicit-euler") => of!(semi_implicit_euler, textbook_spring, bare_spring),
+        ("spring", "improved-euler") => of!(improved_euler, textbook_spring, bare_spring),
+        ("spring", "rk4") => of!(rk4, textbook_spring, bare_spring),
         _ => return None,
     })
 }
 
-fn ship(values: &[f64]) -> impl Fn(f64, f64) -> f64 {
+fn textbook_ship(values: &[f64]) -> impl Fn(f64, f64) -> f64 {
     let (thrust, drag, mass) = (values[0], values[1], values[2]);
     move |_s, v| (thrust - drag * v) / mass
 }
 
-fn spring(values: &[f64]) -> impl Fn(f64, f64) -> f64 {
+fn bare_ship(values: &[f64]) -> impl Fn(f64, f64) -> f64 {
+    let (push, rate) = (values[0] / values[2], values[1] / values[2]);
+    move |_s, v| push - rate * v
+}
+
+fn textbook_spring(values: &[f64]) -> impl Fn(f64, f64) -> f64 {
     let (mass, stiffness, damping) = (values[0], values[1], values[2]);
     move |x, v| (-stiffness * x - damping * v) / mass
+}
+
+fn bare_spring(values: &[f64]) -> impl Fn(f64, f64) -> f64 {
+    let (k, c) = (values[1] / values[0], values[2] / values[0]);
+    move |x, v| -k * x - c * v
 }
 
 #[inline(always)]
