@@ -58,9 +58,10 @@ const LAYERS: [Layer; 5] = [
 /// The crates in `Cargo.toml`, as sources name them.
 fn crates() -> BTreeSet<String> {
     let manifest = std::fs::read_to_string(root().join("Cargo.toml")).expect("a manifest");
-    let manifest: toml::Table = manifest.parse().expect("a manifest");
-    let dependencies = manifest["dependencies"].as_table().expect("a table");
-    dependencies.keys().map(|name| name.replace('-', "_")).collect()
+    let (_, after) = manifest.split_once("[dependencies]\n").expect("a table of dependencies");
+    let entries = after.lines().take_while(|line| !line.starts_with('['));
+    let names = entries.filter_map(|line| line.split_once(" = "));
+    names.map(|(name, _)| name.replace('-', "_")).collect()
 }
 
 /// What this source names that its layer may not.
