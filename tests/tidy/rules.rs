@@ -36,8 +36,8 @@ const LAYERS: [Layer; 5] = [
     Layer {
         name: "lab",
         above: &["view", "window", "commands"],
-        crates: Crates::Only(&["glam", "libm", "thiserror", "toml", "serde"]),
-        std: &["fs", "time", "thread", "env", "io", "net", "process", "path"],
+        crates: Crates::Only(&["glam", "libm", "thiserror", "toml", "serde", "strsim"]),
+        std: &["fs", "time", "thread", "env", "io", "net", "process"],
     },
     Layer {
         name: "view",
