@@ -121,9 +121,11 @@ impl Lane {
         }
     }
 
-    /// Gives an input at time `t` (s) to every body that takes it.
+    /// Gives an input at time `t` (s) to every body that takes it. A halted lane feels no kick, but
+    /// keeps the throttle for when it goes on.
     pub fn input(&mut self, t: f64, input: Input) {
-        if self.halted.is_none() {
+        let kick = matches!(input, Input::Kick(_));
+        if self.halted.is_none() || !kick {
             for body in &mut self.bodies {
                 body.stepper.input(t, input);
             }

@@ -110,7 +110,7 @@ impl<S: System> Integrator<S> for AdaptiveEuler<S::Vector> {
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         let Self { tolerance, next, accepted, rejected, k1, k2, half } = self;
-        let mut carried = next.unwrap_or(h);
+        let mut carried = next.map_or(h, |next| next.copysign(h));
         let mut left = h;
         system.derivative(t, y, k1);
         for _ in 0..MAX_ATTEMPTS {

@@ -116,7 +116,7 @@ impl Family {
     }
 }
 
-/// A method's card: what it claims. Every field is measured by `tests/conformance.rs`.
+/// A method's card: what it claims. Every field is measured by `tests/conformance`.
 #[derive(Debug)]
 pub struct Method {
     /// Kebab-case name in scenes, on the command line and in output.

@@ -1,0 +1,132 @@
+//! Stepping never allocates: not a method on any vector, not a race with its truth and its histories.
+#![expect(unsafe_code, reason = "a global allocator that counts can only be written so")]
+
+use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
+use std::cell::Cell;
+
+use regatta::lab::{Command, Lab, Race, SCENES, Scene};
+use regatta::sim::bodies::{Input, Spring};
+use regatta::sim::integrators::{METHODS, integrator};
+use regatta::sim::{State, System, Vector};
+
+struct Counting;
+
+thread_local! {
+    /// By thread, because the harness allocates on its own.
+    static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+}
+
+// SAFETY: everything is passed on unchanged; the count is a plain cell that needs no allocation.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        unsafe { SystemAllocator.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        unsafe { SystemAllocator.dealloc(memory, layout) }
+    }
+
+    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        unsafe { SystemAllocator.realloc(memory, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations_in(work: impl FnOnce()) -> u64 {
+    let before = ALLOCATIONS.get();
+    work();
+    ALLOCATIONS.get() - before
+}
+
+#[test]
+fn the_counter_counts() {
+    let mut kept = Vec::new();
+    let count = allocations_in(|| kept = vec![1.0; 100]);
+    let grown = allocations_in(|| kept.reserve(1000));
+    assert_eq!((count, grown, kept.len()), (1, 1, 100));
+}
+
+/// As many springs as the vector has components, all equal.
+struct Springs<V>(std::marker::PhantomData<V>);
+
+impl<V: Vector> System for Springs<V> {
+    type Vector = V;
+    fn acceleration(&self, _t: f64, q: &V, v: &V, a: &mut V) {
+        let pairs = q.components().iter().zip(v.components());
+        for (a, (q, v)) in a.components_mut().iter_mut().zip(pairs) {
+            *a = -400.0 * q - v;
+        }
+    }
+}
+
+fn steps_without_allocating<S: System + 'static>(system: &S, like: &S::Vector) {
+    for method in METHODS {
+        let mut state = State { q: like.clone(), v: like.clone() };
+        let mut integrator = integrator::<S>(method, like);
+        let count = allocations_in(|| {
+            for step in 0..1000 {
+                integrator.step(system, 0.05 * f64::from(step), 0.05, &mut state).unwrap();
+                if step % 100 == 0 {
+                    integrator.reset();
+                }
+            }
+            integrator.steps(system, 0.0, 0.05, 16, &mut state).unwrap();
+        });
+        assert_eq!(count, 0, "{}", method.id);
+    }
+}
+
+#[test]
+fn no_method_allocates_in_a_thousand_steps_on_any_vector() {
+    let spring = Spring { mass: 1.0, stiffness: 400.0, damping: 1.0, x0: 1.0, v0: 0.0, kick: 1.0 };
+    steps_without_allocating(&spring, &1.0);
+    let plane = Springs(std::marker::PhantomData);
+    steps_without_allocating(&plane, &glam::DVec2::ONE);
+    let many = Springs(std::marker::PhantomData);
+    steps_without_allocating(&many, &vec![1.0; 50]);
+}
+
+fn scenes() -> impl Iterator<Item = Scene> {
+    SCENES.iter().map(|scene| Scene::built_in(scene.name).expect("a built-in scene"))
+}
+
+#[test]
+fn a_race_does_not_allocate_while_its_histories_fill_and_turn_over() {
+    for scene in scenes() {
+        let mut race = Race::new(&scene, scene.lanes.iter().copied().enumerate());
+        let count = allocations_in(|| {
+            for tick in 0..5000 {
+                race.step();
+                race.record();
+                if tick % 500 == 0 {
+                    race.input(Input::Kick(1.0));
+                    race.input(Input::Throttle(0.5));
+                }
+            }
+        });
+        assert_eq!(count, 0, "{}", scene.name);
+    }
+}
+
+#[test]
+fn a_lab_does_not_allocate_in_a_tick() {
+    for scene in scenes() {
+        let mut lab = Lab::new(scene);
+        lab.apply(Command::ToggleRace);
+        // A lane that halts is announced in words, which do: let those halt first that will.
+        for _ in 0..3000 {
+            lab.tick();
+        }
+        let count = allocations_in(|| {
+            for _ in 0..3000 {
+                lab.tick();
+            }
+            lab.advance(1_000_000_000);
+        });
+        assert_eq!(count, 0, "{}", lab.scene().name);
+    }
+}

@@ -1,0 +1,36 @@
+//! What can be read off a card without running its method.
+
+use std::collections::HashSet;
+
+use regatta::sim::integrators::{Family, METHODS, method};
+
+#[test]
+fn ids_and_names_are_unique_and_found() {
+    let ids: HashSet<_> = METHODS.iter().map(|card| card.id).collect();
+    let names: HashSet<_> = METHODS.iter().map(|card| card.name).collect();
+    assert_eq!((ids.len(), names.len()), (METHODS.len(), METHODS.len()));
+    for card in METHODS {
+        assert!(std::ptr::eq(method(card.id).unwrap(), card), "{}", card.id);
+    }
+    assert!(method("rk5").is_none());
+}
+
+#[test]
+fn every_card_says_what_to_expect_and_where_it_comes_from() {
+    for card in METHODS {
+        assert!(card.about.len() > 20, "{}", card.id);
+        let year = card.source.as_bytes().windows(4).any(|w| w.iter().all(u8::is_ascii_digit));
+        assert!(year || card.source.contains("Bourg & Bywalec"), "{}: {}", card.id, card.source);
+    }
+}
+
+#[test]
+fn families_agree_with_the_fields_they_sum_up() {
+    for card in METHODS {
+        assert_eq!(card.family == Family::Symplectic, card.symplectic, "{}", card.id);
+        let adaptive = card.family == Family::Adaptive;
+        assert_eq!(adaptive, card.tolerance.is_some(), "{}", card.id);
+        assert_eq!(adaptive, card.evaluations.is_none(), "{}", card.id);
+        assert_eq!(adaptive, card.stability_limit.is_none(), "{}", card.id);
+    }
+}

@@ -1,0 +1,136 @@
+//! What a step costs, how far it goes, and what a method remembers of it.
+
+use std::cell::RefCell;
+
+use glam::DVec2;
+use regatta::sim::integrators::{AdaptiveEuler, Integrator, METHODS, Method, integrator, method};
+use regatta::sim::{Counted, State};
+
+use super::systems::{Timetable, bits, fresh, spring};
+
+#[test]
+fn a_step_costs_the_evaluations_on_its_card() {
+    const STEPS: u32 = 100;
+    for method in METHODS {
+        let Some(evaluations) = method.evaluations else { continue };
+        let counted = Counted::new(spring(5.0, 0.1));
+        let mut integrator = fresh(method);
+        let mut state = State { q: 1.0, v: 0.0 };
+        let mut run = |n| integrator.steps(&counted, 0.0, 0.3, n, &mut state).unwrap();
+        // A method that reuses its last force owes one evaluation more at its first step.
+        run(1);
+        let first = counted.evaluations();
+        let owed = u64::from(evaluations);
+        assert!((owed..=owed + 1).contains(&first), "{}: first step {first}", method.id);
+        run(STEPS);
+        assert_eq!(counted.evaluations() - first, u64::from(evaluations * STEPS), "{}", method.id);
+    }
+}
+
+#[test]
+fn adaptive_euler_costs_two_evaluations_a_substep_and_one_a_rejection() {
+    let counted = Counted::new(spring(20.0, 0.1));
+    let tolerance = method("adaptive-euler").unwrap().tolerance.unwrap();
+    let mut adaptive = AdaptiveEuler::with_tolerance(&0.0, tolerance);
+    let mut state = State { q: 1.0, v: 0.0 };
+    for tick in 0..40 {
+        adaptive.step(&counted, f64::from(tick) * 0.1, 0.1, &mut state).unwrap();
+    }
+    let (accepted, rejected) = (adaptive.accepted(), adaptive.rejected());
+    assert!(accepted > 400 && rejected > 2, "too easy: {accepted} accepted, {rejected} rejected");
+    assert_eq!(counted.evaluations(), 2 * accepted + rejected);
+}
+
+/// Runs three ticks of 0.1 s from `t`, and returns what they added to the state and the times at which
+/// the force was asked for.
+fn run(method: &Method, power: i32, t: f64, substeps: u32) -> (State<f64>, Vec<f64>) {
+    let system = Timetable::new(power);
+    let v = if power == 0 { 1.0 } else { 0.0 };
+    let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(v, 0.0) };
+    let mut integrator = integrator::<Timetable>(method, &state.q);
+    for tick in 0..3 {
+        let at = t + 0.1 * f64::from(tick);
+        integrator.steps(&system, at, 0.1, substeps, &mut state).unwrap();
+    }
+    (State { q: state.q.x, v: state.v.x - v }, system.asked.into_inner())
+}
+
+#[test]
+fn a_tick_lasts_exactly_as_long_as_asked() {
+    // Without force, a speed of 1 makes the coordinate a clock: the sum of all substeps.
+    for method in METHODS {
+        for substeps in [1, 2, 7, 16] {
+            let (clock, asked) = run(method, 0, 5.0, substeps);
+            assert!((clock.q - 0.3).abs() < 1e-14, "{}: {} s of 0.3 s", method.id, clock.q);
+            if method.tolerance.is_some() {
+                assert!(asked.len() > 20 * 3, "{} took only {} substeps", method.id, asked.len());
+            }
+        }
+    }
+}
+
+#[test]
+fn forces_are_asked_for_within_the_step_and_at_the_right_time() {
+    for method in METHODS {
+        for (t, substeps) in [(0.0, 1), (5.0, 1), (5.0, 4)] {
+            let (_, asked) = run(method, 0, t, substeps);
+            assert!(asked.iter().all(|time| (t..=t + 0.3 + 1e-14).contains(time)), "{asked:?}");
+            let part = 0.1 / f64::from(substeps);
+            for substep in 0..3 * substeps {
+                let from = t + part * f64::from(substep);
+                let here = from - 1e-14..from + part + 1e-14;
+                assert!(asked.iter().any(|time| here.contains(time)), "{}: {asked:?}", method.id);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_method_of_order_p_integrates_a_force_of_degree_p_minus_1_in_time_exactly() {
+    for method in METHODS {
+        let power = method.order.min(method.order_with_drag) as i32;
+        for (t, substeps) in [(0.0, 1), (5.0, 1), (5.0, 4)] {
+            let end: f64 = t + 0.3;
+            let gained = |power| end.powi(power) - f64::powi(t, power);
+            let (state, _) = run(method, power, t, substeps);
+            let error = (state.v / gained(power) - 1.0).abs();
+            assert!(error < 1e-12, "{}: off by {error:e} from {t} s", method.id);
+
+            // And not every force: RK4's Simpson rule ends at degree 3, the midpoint rule at 1.
+            let (state, _) = run(method, power + 2, t, 1);
+            let error = (state.v / gained(power + 2) - 1.0).abs();
+            assert!(error > 1e-12, "{} cannot be that good: {error:e}", method.id);
+        }
+    }
+}
+
+#[test]
+fn after_a_reset_a_method_is_as_new() {
+    for method in METHODS {
+        let system = spring(20.0, 0.1);
+        let run = |integrator: &mut dyn Integrator<_>, ticks: u32, mut state: State<f64>| {
+            for tick in 0..ticks {
+                integrator.step(&system, f64::from(tick) * 0.05, 0.05, &mut state).unwrap();
+            }
+            bits(&state)
+        };
+        let start = State { q: -0.3, v: 11.0 };
+        let mut used = fresh(method);
+        run(&mut *used, 57, State { q: 100.0, v: 3.0 });
+        used.reset();
+        let reset = run(&mut *used, 20, start.clone());
+        assert_eq!(reset, run(&mut *fresh(method), 20, start), "{}", method.id);
+    }
+}
+
+#[test]
+fn a_method_that_carries_its_step_keeps_its_direction_when_time_turns() {
+    for method in METHODS {
+        let system = Timetable { power: 1, asked: RefCell::default() };
+        let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(0.0, 0.0) };
+        let mut integrator = integrator::<Timetable>(method, &state.q);
+        integrator.step(&system, 0.0, 0.1, &mut state).unwrap();
+        integrator.step(&system, 0.1, -0.1, &mut state).unwrap();
+        assert!(state.v.x.abs() < 1e-15, "{}: {} m/s left", method.id, state.v.x);
+    }
+}

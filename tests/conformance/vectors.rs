@@ -1,0 +1,43 @@
+//! One formula over every kind of coordinate vector.
+
+use std::marker::PhantomData;
+
+use glam::{DVec2, DVec3};
+use regatta::sim::integrators::{METHODS, Method, integrator};
+use regatta::sim::{State, Vector};
+
+use super::systems::Springs;
+
+/// The state after 200 steps of as many equal springs as `like` has components.
+fn run<V: Vector>(method: &Method, like: &V) -> State<V> {
+    let system = Springs(PhantomData);
+    let mut state = State { q: like.clone(), v: like.clone() };
+    state.q.components_mut().fill(1.0);
+    state.v.components_mut().fill(-0.37);
+    let mut integrator = integrator::<Springs<V>>(method, like);
+    for step in 0..200 {
+        integrator.step(&system, 0.1 * f64::from(step), 0.1, &mut state).unwrap();
+    }
+    state
+}
+
+#[test]
+fn equal_springs_get_equal_bits_in_every_vector() {
+    for method in METHODS {
+        let State { q, v } = run(method, &0.0);
+        assert!(q.is_finite() && v.is_finite() && q != 0.0, "{}: {q}, {v}", method.id);
+        let check = |q_there: &[f64], v_there: &[f64]| {
+            assert!(q_there.iter().all(|x| x.to_bits() == q.to_bits()), "{}", method.id);
+            assert!(v_there.iter().all(|x| x.to_bits() == v.to_bits()), "{}", method.id);
+        };
+        let plane = run(method, &DVec2::ZERO);
+        check(plane.q.components(), plane.v.components());
+        let space = run(method, &DVec3::ZERO);
+        check(space.q.components(), space.v.components());
+        for n in [1, 2, 3, 17] {
+            let many = run(method, &vec![0.0; n]);
+            assert_eq!(many.q.len(), n);
+            check(&many.q, &many.v);
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! The same inputs give the same bits: in debug and release, on every machine, at every frame rate.
+//!
+//! `tests/hashes.txt` holds the state hash of every built-in scene under every method and in a race. If
+//! a change of the physics is meant, write it anew: `BLESS=1 cargo test --test determinism`.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use regatta::lab::{Command, Lab, SCENES, Scene, Scripted};
+use regatta::sim::integrators::{METHODS, Method, method};
+
+/// Ticks after which the hash is taken: 28 minutes at 60 Hz.
+const TICKS: u64 = 100_000;
+const SECOND: i64 = 1_000_000_000;
+
+/// Random numbers for frame times, the same on every machine.
+struct XorShift(u64);
+
+impl XorShift {
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    fn below(&mut self, limit: i64) -> i64 {
+        (self.next() % limit.unsigned_abs()) as i64
+    }
+}
+
+/// A scene under one method, or under all of them.
+#[derive(Clone, Copy)]
+enum Field {
+    Solo(&'static Method),
+    Race,
+}
+
+impl Field {
+    fn all() -> impl Iterator<Item = Field> {
+        METHODS.iter().map(Field::Solo).chain([Field::Race])
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Field::Solo(method) => method.id,
+            Field::Race => "race",
+        }
+    }
+
+    fn open(self, scene: &Scene) -> Lab {
+        let mut lab = Lab::new(scene.clone());
+        lab.apply(match self {
+            Field::Solo(method) => Command::Method(method),
+            Field::Race => Command::ToggleRace,
+        });
+        lab
+    }
+}
+
+fn built_in(name: &str) -> Scene {
+    Scene::built_in(name).expect("a built-in scene")
+}
+
+/// The tick reached and the hash there.
+type Mark = (u64, u64);
+
+fn mark(lab: &Lab) -> Mark {
+    (lab.race().tick(), lab.race().state_hash())
+}
+
+/// Runs a lab from frames of these lengths in nanoseconds, and marks the first frame at which each of
+/// ten parts of `ticks` ticks is reached.
+fn paced(mut lab: Lab, ticks: u64, mut frames: impl FnMut() -> i64) -> Vec<Mark> {
+    let mut marks = Vec::new();
+    for part in 1..=10 {
+        while lab.race().tick() < ticks * part / 10 {
+            lab.advance(frames());
+        }
+        marks.push(mark(&lab));
+    }
+    marks
+}
+
+/// Frames of a window at 60 a second, to the nanosecond.
+fn steady() -> impl FnMut() -> i64 {
+    let mut n = 0;
+    move || {
+        n += 1;
+        SECOND * n / 60 - SECOND * (n - 1) / 60
+    }
+}
+
+/// Frames of every kind: usual ones of 0.1 to 40 ms, none, backward ones, hitches beyond the cap.
+fn ragged(seed: u64) -> impl FnMut() -> i64 {
+    println!("frame times from seed {seed:#x}");
+    let mut random = XorShift(seed);
+    move || match random.below(20) {
+        0 => 0,
+        1 => -random.below(SECOND),
+        2 => SECOND / 10 + random.below(SECOND),
+        _ => SECOND / 10_000 + random.below(SECOND / 25),
+    }
+}
+
+/// Ticks a lab one by one to `ticks`, and compares it on the way with what pacings have marked.
+fn compare(mut lab: Lab, ticks: u64, paced: &[(&str, Vec<Mark>)], what: &str) -> u64 {
+    let mut hash = None;
+    let last = paced.iter().flat_map(|(_, marks)| marks).map(|mark| mark.0).max();
+    while lab.race().tick() < last.unwrap_or(0).max(ticks) {
+        lab.tick();
+        let here = mark(&lab);
+        if here.0 == ticks {
+            hash = Some(here.1);
+        }
+        for (pacing, marks) in paced {
+            if let Some(there) = marks.iter().find(|there| there.0 == here.0) {
+                assert_eq!(*there, here, "{what}: {pacing} pacing against tick by tick");
+            }
+        }
+    }
+    hash.expect("passed on the way")
+}
+
+/// The lines of one scene: its name, the method or `race`, and the hash after [`TICKS`], which must
+/// not depend on the pacing.
+fn lines(name: &str) -> String {
+    let scene = built_in(name);
+    let mut lines = String::new();
+    for field in Field::all() {
+        let what = format!("{name} {}", field.name());
+        let pacings = [
+            ("steady", paced(field.open(&scene), TICKS, steady())),
+            ("ragged", paced(field.open(&scene), TICKS, ragged(0x5eed_0001))),
+        ];
+        let hash = compare(field.open(&scene), TICKS, &pacings, &what);
+        writeln!(lines, "{what} {hash:016x}").expect("a string takes everything");
+    }
+    lines
+}
+
+#[test]
+fn every_scene_and_method_keeps_its_hash_at_any_pacing() {
+    let found: String = std::thread::scope(|threads| {
+        let scenes = SCENES.iter().map(|scene| threads.spawn(|| lines(scene.name)));
+        let scenes: Vec<_> = scenes.collect();
+        scenes.into_iter().map(|lines| lines.join().expect("see above")).collect()
+    });
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/hashes.txt");
+    if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
+        std::fs::write(&path, &found).expect("tests/hashes.txt can be written");
+    }
+    let kept = std::fs::read_to_string(&path)
+        .expect("tests/hashes.txt is there; write it with BLESS=1 cargo test --test determinism");
+    let missing: Vec<_> = found.lines().filter(|line| !kept.lines().any(|k| k == *line)).collect();
+    let stale: Vec<_> = kept.lines().filter(|line| !found.lines().any(|f| f == *line)).collect();
+    assert!(
+        found == kept,
+        "tests/hashes.txt says otherwise.\nfound, not kept: {missing:#?}\nkept, not found: {stale:#?}",
+    );
+}
+
+/// Every kind of input that a script can give.
+fn script() -> Vec<Scripted> {
+    let of = |tick, command| Scripted { tick, command };
+    let switch = |tick, id| of(tick, Command::Method(method(id).expect("a method")));
+    vec![
+        of(0, Command::Kick(0.5)),
+        of(7, Command::Throttle(0.3)),
+        switch(60, "semi-implicit-euler"),
+        of(61, Command::Kick(-1.0)),
+        of(200, Command::TickHz(49)),
+        switch(300, "adaptive-euler"),
+        of(301, Command::ThrottleDown),
+        of(301, Command::ThrottleDown),
+        of(800, Command::TickHz(240)),
+        switch(1000, "rk4"),
+        of(1001, Command::Throttle(-1.0)),
+        of(1500, Command::Kick(2.0)),
+    ]
+}
+
+const SCRIPTED_TICKS: u64 = 4000;
+
+fn scripted(name: &str, script: Vec<Scripted>) -> Scene {
+    Scene { script, ..built_in(name) }
+}
+
+#[test]
+fn a_script_acts_at_its_ticks_at_any_pacing() {
+    for scene in SCENES {
+        let with = scripted(scene.name, script());
+        for field in Field::all() {
+            let what = format!("scripted {} {}", scene.name, field.name());
+            let pacings = [
+                ("steady", paced(field.open(&with), SCRIPTED_TICKS, steady())),
+                ("ragged", paced(field.open(&with), SCRIPTED_TICKS, ragged(0x5eed_0002))),
+                ("hasty", paced(field.open(&with), SCRIPTED_TICKS, || SECOND / 4)),
+            ];
+            let hash = compare(field.open(&with), SCRIPTED_TICKS, &pacings, &what);
+            let without = scripted(scene.name, Vec::new());
+            let plain = compare(field.open(&without), SCRIPTED_TICKS, &[], &what);
+            assert_ne!(hash, plain, "{what}: the script changes something");
+        }
+    }
+}
+
+#[test]
+fn a_persons_commands_act_as_the_same_script_does() {
+    for field in Field::all() {
+        let mut by_script = field.open(&scripted("harbour", script()));
+        let mut by_hand = field.open(&scripted("harbour", Vec::new()));
+        let mut commands = script().into_iter().peekable();
+        for tick in 0..SCRIPTED_TICKS {
+            while let Some(due) = commands.next_if(|scripted| scripted.tick == tick) {
+                by_hand.apply(due.command);
+            }
+            by_hand.tick();
+            by_script.tick();
+            assert_eq!(mark(&by_hand), mark(&by_script), "harbour {} at tick {tick}", field.name());
+        }
+        assert!(commands.next().is_none());
+    }
+}
+
+#[test]
+fn ragged_frames_lose_ticks_to_the_cap_and_the_loss_is_counted() {
+    let mut frames = ragged(0x5eed_0003);
+    let mut lab = Lab::new(built_in("spring"));
+    let (mut real_ns, mut ticks, mut dropped) = (0, 0, 0);
+    for _ in 0..2000 {
+        let frame = frames();
+        real_ns += frame.max(0);
+        let due = lab.advance(frame);
+        assert!(due.ticks <= lab.clock().most_ticks());
+        ticks += u64::from(due.ticks);
+        dropped += due.dropped;
+    }
+    assert!(dropped > 0);
+    assert_eq!((lab.race().tick(), lab.dropped()), (ticks, dropped));
+    let owed = real_ns.unsigned_abs() * u64::from(lab.clock().tick_hz()) / SECOND.unsigned_abs();
+    assert_eq!(ticks + dropped, owed, "every nanosecond is a tick stepped, dropped, or owed");
+}
+
+#[test]
+fn the_hash_sees_the_last_bit_of_every_value() {
+    let scene = built_in("harbour");
+    let hash = |scene: &Scene| Field::Race.open(scene).race().state_hash();
+    let plain = hash(&scene);
+    for (body, place) in (0..scene.bodies.len()).flat_map(|body| [(body, 3), (body, 4)]) {
+        let mut moved = scene.clone();
+        let value = &mut moved.bodies[body].values[place];
+        *value = value.next_up();
+        assert_ne!(hash(&moved), plain, "body {body}, value {place}");
+        let mut negated = scene.clone();
+        let value = &mut negated.bodies[body].values[place];
+        if *value == 0.0 {
+            *value = -0.0;
+            assert_eq!(hash(&negated), plain, "-0 and 0 are one state");
+        }
+    }
+}

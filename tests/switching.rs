@@ -1,0 +1,250 @@
+//! Switching in flight: the state is carried to the bit, and the truth goes on from where an input
+//! left it.
+
+use regatta::lab::{Command, Lab, Lane, LaneSpec, Mode, Race, Scene, SceneBody};
+use regatta::sim::bodies::{Body, Input, Ship, Spring};
+use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::{Solver, State};
+
+fn scene(name: &str) -> Scene {
+    Scene::built_in(name).expect("a built-in scene")
+}
+
+fn solo(scene: &Scene, id: &str) -> Race {
+    Race::new(scene, [(0, LaneSpec { method: method(id).unwrap(), substeps: 1 })])
+}
+
+fn bits(lane: &Lane) -> Vec<u64> {
+    let values =
+        lane.bodies().iter().flat_map(|body| body.stepper.q().iter().chain(body.stepper.v()));
+    values.map(|value| value.to_bits()).collect()
+}
+
+fn run(race: &mut Race, ticks: u32) {
+    for _ in 0..ticks {
+        race.step();
+    }
+}
+
+#[test]
+fn a_switch_carries_the_state_to_the_bit() {
+    for from in METHODS {
+        for to in METHODS {
+            let mut race = solo(&scene("harbour"), from.id);
+            run(&mut race, 100);
+            let (before, hash) = (bits(&race.entrants()[0].lane), race.state_hash());
+            race.switch(0, 1, LaneSpec { method: to, substeps: 1 });
+            let lane = &race.entrants()[0].lane;
+            assert_eq!(bits(lane), before, "{} to {}", from.id, to.id);
+            assert_eq!(lane.solver(), Solver::Method(to));
+            assert_eq!(race.state_hash(), hash);
+            race.switch(0, 0, LaneSpec { method: from, substeps: 1 });
+            assert_eq!(race.state_hash(), hash, "{} to {} and back", from.id, to.id);
+        }
+    }
+}
+
+#[test]
+fn there_and_back_in_one_tick_changes_nothing_that_follows() {
+    // An adaptive method forgets the step it carried, as it must: it starts anew.
+    for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+        let mut straight = solo(&scene("harbour"), method.id);
+        let mut detour = solo(&scene("harbour"), method.id);
+        run(&mut straight, 500);
+        run(&mut detour, 100);
+        detour.switch(0, 1, LaneSpec { method: METHODS.last().unwrap(), substeps: 3 });
+        detour.switch(0, 0, LaneSpec { method, substeps: 1 });
+        run(&mut detour, 400);
+        assert_eq!(detour.state_hash(), straight.state_hash(), "{}", method.id);
+    }
+}
+
+#[test]
+fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
+    let scene = scene("spring");
+    for to in METHODS {
+        let mut race = solo(&scene, "rk4");
+        run(&mut race, 77);
+        race.switch(0, 0, LaneSpec { method: to, substeps: 2 });
+        let mut lane = Lane::new(&scene, Solver::Method(to), 2);
+        let (q, v) = {
+            let body = &race.entrants()[0].lane.bodies()[0].stepper;
+            (body.q()[0], body.v()[0])
+        };
+        let mut scene_there = scene.clone();
+        scene_there.bodies[0].values[3..5].copy_from_slice(&[q, v]);
+        let mut there = Lane::new(&scene_there, Solver::Method(to), 2);
+        let h = 1.0 / f64::from(scene.tick_hz);
+        for tick in 77..177 {
+            race.step();
+            there.tick(tick, tick as f64 * h, h);
+            lane.tick(tick, tick as f64 * h, h);
+        }
+        assert_eq!(bits(&race.entrants()[0].lane), bits(&there), "{}", to.id);
+        assert_ne!(bits(&there), bits(&lane), "{} moves", to.id);
+    }
+}
+
+#[test]
+fn evaluations_go_on_counting_across_a_switch() {
+    let mut race = solo(&scene("spring"), "rk4");
+    run(&mut race, 10);
+    race.switch(0, 1, LaneSpec { method: method("explicit-euler").unwrap(), substeps: 1 });
+    run(&mut race, 5);
+    assert_eq!(race.entrants()[0].lane.evaluations(), 4 * 10 + 5);
+}
+
+/// The state of the first body in a lane.
+fn state(lane: &Lane) -> State<f64> {
+    let stepper = &lane.bodies()[0].stepper;
+    State { q: stepper.q()[0], v: stepper.v()[0] }
+}
+
+fn close(found: f64, wanted: f64) -> bool {
+    (found - wanted).abs() <= 1e-11 * (1.0 + wanted.abs())
+}
+
+#[test]
+fn a_throttle_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
+    let scene = scene("ship");
+    let mut race = solo(&scene, "rk4");
+    run(&mut race, 10);
+    race.input(Input::Throttle(-0.5));
+    run(&mut race, 20);
+
+    let &[thrust, drag, mass, s0, v0, kick] = &scene.bodies[0].values[..] else { unreachable!() };
+    let ahead = Ship { thrust, throttle: 1.0, drag, mass, s0, v0, kick };
+    let astern = Ship { throttle: -0.5, ..ahead.clone() };
+    let h = 1.0 / f64::from(scene.tick_hz);
+    let turned = ahead.exact(10.0 * h, &ahead.start()).unwrap();
+    let wanted = astern.exact(20.0 * h, &turned).unwrap();
+    let truth = state(race.truth());
+    assert!(close(truth.q, wanted.q) && close(truth.v, wanted.v), "{truth:?}, {wanted:?}");
+    let without = ahead.exact(30.0 * h, &ahead.start()).unwrap();
+    assert!((truth.v - without.v).abs() > 1.0, "a throttle changes something");
+    let lane = state(&race.entrants()[0].lane);
+    assert!((lane.v - wanted.v).abs() < 1e-5, "{lane:?}, {wanted:?}");
+}
+
+#[test]
+fn a_kick_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
+    let scene = scene("spring");
+    let mut race = solo(&scene, "rk4");
+    run(&mut race, 31);
+    let before = state(&race.entrants()[0].lane);
+    race.input(Input::Kick(-2.0));
+    let kicked = state(&race.entrants()[0].lane);
+    run(&mut race, 40);
+
+    let &[mass, stiffness, damping, x0, v0, kick] = &scene.bodies[0].values[..] else {
+        unreachable!()
+    };
+    assert_eq!((kicked.q, kicked.v), (before.q, before.v - 2.0 * kick / mass));
+    let spring = Spring { mass, stiffness, damping, x0, v0, kick };
+    let h = 1.0 / f64::from(scene.tick_hz);
+    let mut wanted = spring.exact(31.0 * h, &spring.start()).unwrap();
+    wanted.v -= 2.0 * kick / mass;
+    let wanted = spring.exact(40.0 * h, &wanted).unwrap();
+    let truth = state(race.truth());
+    assert!(close(truth.q, wanted.q) && close(truth.v, wanted.v), "{truth:?}, {wanted:?}");
+    let lane = state(&race.entrants()[0].lane);
+    assert!((lane.v - wanted.v).abs() < 1e-3, "{lane:?}, {wanted:?}");
+}
+
+#[test]
+fn a_change_of_tick_rate_keeps_the_time_and_the_truth() {
+    let scene = scene("spring");
+    let mut race = solo(&scene, "rk4");
+    run(&mut race, 60);
+    let t = race.t();
+    race.set_tick_hz(100);
+    assert_eq!(race.t(), t);
+    run(&mut race, 50);
+    let wanted = t + 0.5;
+    assert!((race.t() - wanted).abs() < 1e-12, "{}", race.t());
+    let &[mass, stiffness, damping, x0, v0, kick] = &scene.bodies[0].values[..] else {
+        unreachable!()
+    };
+    let spring = Spring { mass, stiffness, damping, x0, v0, kick };
+    let there = spring.exact(wanted, &spring.start()).unwrap();
+    let truth = state(race.truth());
+    assert!(close(truth.q, there.q) && close(truth.v, there.v), "{truth:?}, {there:?}");
+}
+
+/// A ship beside a damped spring that explicit Euler loses and Runge-Kutta brings to rest: `h ω` is 2,
+/// the limits at this damping are 0.4 and 2.9.
+fn ship_and_lively_spring() -> Scene {
+    let mut scene = scene("harbour");
+    scene.tick_hz = 10;
+    let lively = vec![1.0, 400.0, 8.0, 1.0, 0.0, 3.0];
+    scene.bodies = vec![scene_body("ship"), SceneBody { values: lively, ..scene_body("spring") }];
+    scene.script.clear();
+    scene
+}
+
+fn scene_body(kind: &str) -> SceneBody {
+    let bodies = scene("harbour").bodies;
+    bodies.into_iter().find(|body| body.kind.id == kind).expect("one of each in the harbour")
+}
+
+/// The race of that scene under explicit Euler, which has halted.
+fn halted() -> Race {
+    let mut race = solo(&ship_and_lively_spring(), "explicit-euler");
+    while race.entrants()[0].lane.halted().is_none() {
+        race.step();
+        assert!(race.tick() < 1000);
+    }
+    race
+}
+
+#[test]
+fn a_halted_lane_that_is_switched_goes_on_from_its_last_good_state() {
+    let mut race = halted();
+    let last = bits(&race.entrants()[0].lane);
+    run(&mut race, 10);
+    assert_eq!(bits(&race.entrants()[0].lane), last, "a halted lane stays where it is");
+    race.switch(0, 1, LaneSpec { method: method("rk4").unwrap(), substeps: 1 });
+    assert_eq!(race.entrants()[0].lane.halted(), None);
+    assert_eq!(bits(&race.entrants()[0].lane), last);
+    run(&mut race, 1000);
+    let lane = &race.entrants()[0].lane;
+    assert_eq!(lane.halted(), None);
+    let stretch = lane.bodies()[1].stepper.q()[0];
+    assert!(stretch.abs() < 1.0, "Runge-Kutta brings the spring to rest: {stretch} m");
+}
+
+#[test]
+fn a_throttle_set_while_a_lane_was_halted_holds_when_it_goes_on() {
+    let mut race = halted();
+    race.input(Input::Throttle(-0.5));
+    let last = bits(&race.entrants()[0].lane);
+    race.input(Input::Kick(1.0));
+    assert_eq!(bits(&race.entrants()[0].lane), last, "a halted lane feels no kick");
+    race.switch(0, 1, LaneSpec { method: method("rk4").unwrap(), substeps: 1 });
+    run(&mut race, 3000);
+    // After 30 time constants both ships have the speed that the throttle asks for.
+    let (lane, truth) = (state(&race.entrants()[0].lane), state(race.truth()));
+    assert!((lane.v - truth.v).abs() < 1e-9, "{lane:?}, the truth {truth:?}");
+    assert!((truth.v + 10.0).abs() < 1e-9, "{truth:?}");
+}
+
+#[test]
+fn solo_to_race_and_back_flies_the_method_that_was_selected() {
+    let mut lab = Lab::new(scene("spring"));
+    for method in METHODS {
+        lab.apply(Command::Method(method));
+        lab.apply(Command::ToggleRace);
+        assert_eq!(lab.mode(), Mode::Race);
+        assert_eq!(lab.race().entrants().len(), lab.entries().len());
+        for _ in 0..50 {
+            lab.tick();
+        }
+        let selected = &lab.race().entrants()[lab.active()].lane;
+        assert_eq!(selected.solver(), Solver::Method(method));
+        let before = bits(selected);
+        lab.apply(Command::ToggleRace);
+        assert_eq!(lab.race().entrants().len(), 1);
+        let lane = &lab.race().entrants()[0].lane;
+        assert_eq!((lane.solver(), bits(lane)), (Solver::Method(method), before));
+    }
+}

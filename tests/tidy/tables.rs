@@ -1,0 +1,105 @@
+//! Every file is in its table, and every table's ids are fit to be typed.
+
+use std::collections::BTreeSet;
+
+use regatta::lab::{METRICS, SCENES, Scene};
+use regatta::sim::bodies::{BODIES, kind};
+use regatta::sim::integrators::METHODS;
+
+use super::{Source, none, root, sources};
+
+/// The files that hold `mark` but are not listed in `table` as `name::`, and those listed without one.
+fn unlisted(files: &[Source], mark: &str, table: &str) -> Vec<String> {
+    let stem = |source: &Source| {
+        let file = source.path.rsplit('/').next().unwrap_or_default();
+        file.trim_end_matches(".rs").to_string()
+    };
+    let holding = files.iter().filter(|source| source.text.contains(mark)).map(stem);
+    let holding: BTreeSet<String> = holding.collect();
+    let entries = table.split(|c: char| c == ',' || c.is_whitespace());
+    let entries = entries.filter_map(|entry| entry.split_once("::"));
+    let listed: BTreeSet<String> = entries.map(|(name, _)| name.to_string()).collect();
+    let complain = |name: &String| format!("{name} has a file or a line in the table, not both");
+    holding.symmetric_difference(&listed).map(complain).collect()
+}
+
+/// What stands between `open` and the next `close` in a file.
+fn between(path: &str, open: &str, close: char) -> String {
+    let text = std::fs::read_to_string(root().join(path)).expect("the table's file");
+    let (_, after) = text.split_once(open).expect("the table");
+    after.split(close).next().unwrap_or_default().to_string()
+}
+
+#[test]
+fn every_method_with_a_card_is_in_methods() {
+    let folder = "src/sim/integrators";
+    let files = sources(folder, &["rs"]);
+    let table = between(&format!("{folder}/mod.rs"), "\nmethods! {", '}');
+    none(unlisted(&files, "const CARD: Method", &table));
+    assert_eq!(table.matches("::").count(), METHODS.len());
+    let cards = files.iter().filter(|file| file.text.contains("const CARD: Method"));
+    assert_eq!(cards.count(), METHODS.len());
+}
+
+#[test]
+fn every_body_with_a_card_is_in_bodies() {
+    let folder = "src/sim/bodies";
+    let table = between(&format!("{folder}/mod.rs"), "BODIES: &[Kind] = &[", ']');
+    none(unlisted(&sources(folder, &["rs"]), "const KIND: Kind", &table));
+    assert_eq!(table.matches("::").count(), BODIES.len());
+}
+
+#[test]
+fn every_scene_file_is_built_in() {
+    let files = sources("assets/scenes", &["toml"]);
+    let files: BTreeSet<(&str, &str)> = files
+        .iter()
+        .map(|file| {
+            let name = file.path.rsplit('/').next().unwrap_or_default();
+            (name.trim_end_matches(".toml"), &*file.text)
+        })
+        .collect();
+    let written = SCENES.iter().filter(|scene| !scene.text.is_empty());
+    let listed: BTreeSet<(&str, &str)> = written.map(|scene| (scene.name, scene.text)).collect();
+    assert_eq!(files, listed);
+    for scene in SCENES {
+        assert!(Scene::built_in(scene.name).is_some(), "{}", scene.name);
+    }
+    assert!(Scene::built_in("atlantis").is_none());
+}
+
+#[test]
+fn missing_files_and_lines_are_seen() {
+    let file = |path: &str, text: &str| Source { path: path.into(), text: text.into() };
+    let files =
+        [file("a/rk4.rs", "const CARD"), file("a/mod.rs", ""), file("a/rk5.rs", "const CARD")];
+    assert_eq!(unlisted(&files, "const CARD", "\n rk4::Rk4,\n rk5::Rk5,\n").len(), 0);
+    assert_eq!(unlisted(&files, "const CARD", "rk4::Rk4").len(), 1);
+    assert_eq!(unlisted(&files, "const CARD", "rk4::Rk4, rk5::Rk5, rk6::Rk6").len(), 1);
+}
+
+fn fit(ids: &[&str], dash: char) {
+    let unique: BTreeSet<_> = ids.iter().collect();
+    assert_eq!(unique.len(), ids.len(), "{ids:?}");
+    let letter = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit();
+    for id in ids {
+        let word = |word: &str| !word.is_empty() && word.chars().all(letter);
+        assert!(id.split(dash).all(word), "{id}");
+    }
+}
+
+#[test]
+fn ids_are_unique_and_fit_to_be_typed() {
+    fit(&METHODS.iter().map(|method| method.id).collect::<Vec<_>>(), '-');
+    fit(&BODIES.iter().map(|kind| kind.id).collect::<Vec<_>>(), '-');
+    fit(&SCENES.iter().map(|scene| scene.name).collect::<Vec<_>>(), '-');
+    fit(&METRICS.iter().map(|metric| metric.id).collect::<Vec<_>>(), '_');
+    for body in BODIES {
+        assert!(std::ptr::eq(kind(body.id).expect("found by its id"), body));
+        fit(&body.parameters.iter().map(|parameter| parameter.key).collect::<Vec<_>>(), '_');
+        let defaults = body.parameters.iter().filter_map(|p| Some((p, p.default?)));
+        for (parameter, default) in defaults {
+            assert!(parameter.range.contains(default), "{} {}", body.id, parameter.key);
+        }
+    }
+}
