@@ -248,3 +248,33 @@ fn solo_to_race_and_back_flies_the_method_that_was_selected() {
         assert_eq!((lane.solver(), bits(lane)), (Solver::Method(method), before));
     }
 }
+
+#[test]
+fn a_switch_keeps_the_count_of_what_the_body_cost() {
+    let mut race = solo(&scene("spring"), "rk4");
+    run(&mut race, 10);
+    race.switch(0, 1, LaneSpec { method: method("improved-euler").unwrap(), substeps: 1 });
+    run(&mut race, 5);
+    let lane = &race.entrants()[0].lane;
+    assert_eq!(lane.evaluations(), 10 * 4 + 5 * 2);
+    assert_eq!(lane.bodies()[0].stepper.evaluations(), lane.evaluations());
+}
+
+#[test]
+fn a_race_under_way_takes_no_newcomers_and_solo_does() {
+    let text = "title = \"pair\"\ntick_hz = 60\nseconds = 5\nmethods = [\"rk4\", \"improved-euler\"]\n\
+                [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
+    let newcomer = Command::Method(method("explicit-euler").unwrap());
+    let mut lab = Lab::new(Scene::parse("pair.toml", text).unwrap());
+    lab.apply(Command::ToggleRace);
+    for _ in 0..30 {
+        lab.tick();
+    }
+    lab.apply(newcomer);
+    assert_eq!((lab.race().tick(), lab.race().entrants().len(), lab.active()), (30, 2, 0));
+    lab.apply(Command::ToggleRace);
+    lab.apply(newcomer);
+    assert_eq!(lab.mode(), Mode::Solo);
+    assert_eq!((lab.entries().len(), lab.active()), (3, 2));
+    assert_eq!(lab.race().entrants()[0].lane.solver(), Solver::Method(lab.entries()[2].method));
+}

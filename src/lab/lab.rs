@@ -7,7 +7,6 @@ use super::metrics::METRICS;
 use super::race::Race;
 use super::scene::{LaneSpec, SCENES, Scene};
 use crate::sim::bodies::Input;
-use crate::sim::integrators::Method;
 
 /// One method at a time, or all of them at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -356,7 +355,14 @@ impl Lab {
         match command {
             Command::Method(method) => {
                 let listed = self.entries.iter().position(|spec| spec.method == method);
-                let entry = listed.unwrap_or_else(|| self.enlist(method));
+                // A race under way takes no newcomers.
+                if listed.is_none() && self.mode == Mode::Race {
+                    return;
+                }
+                let entry = listed.unwrap_or(self.entries.len());
+                if listed.is_none() {
+                    self.entries.push(LaneSpec { method, substeps: 1 });
+                }
                 self.pick(entry);
             }
             Command::Pick(entry) if entry < self.entries.len() => self.pick(entry),
@@ -377,15 +383,6 @@ impl Lab {
             Command::Kick(times) => self.race.input(Input::Kick(times)),
             _ => {}
         }
-    }
-
-    /// Adds a method to the end of the list, and to a race under way as a lane from the start line.
-    fn enlist(&mut self, method: &'static Method) -> usize {
-        self.entries.push(LaneSpec { method, substeps: 1 });
-        if self.mode == Mode::Race {
-            self.restart();
-        }
-        self.entries.len() - 1
     }
 
     fn pick(&mut self, entry: usize) {

@@ -61,8 +61,6 @@ pub struct Lane {
     substeps: u32,
     bodies: Vec<LaneBody>,
     halted: Option<Halt>,
-    /// Evaluations of steppers that a switch has since replaced.
-    past_evaluations: u64,
 }
 
 impl Lane {
@@ -73,7 +71,7 @@ impl Lane {
             let (previous_q, previous_v) = (stepper.q().to_vec(), stepper.v().to_vec());
             LaneBody { kind: body.kind, stepper, previous_q, previous_v }
         });
-        Self { solver, substeps, bodies: bodies.collect(), halted: None, past_evaluations: 0 }
+        Self { solver, substeps, bodies: bodies.collect(), halted: None }
     }
 
     /// What carries the bodies forward.
@@ -94,8 +92,7 @@ impl Lane {
     }
     /// Evaluations of all bodies' accelerations since the start.
     pub fn evaluations(&self) -> u64 {
-        let present: u64 = self.bodies.iter().map(|body| body.stepper.evaluations()).sum();
-        self.past_evaluations + present
+        self.bodies.iter().map(|body| body.stepper.evaluations()).sum()
     }
 
     /// Steps every body from `t` by `h` (s), from tick `tick` to the next. If one fails, all keep the
@@ -135,7 +132,6 @@ impl Lane {
     /// Puts the bodies under another solver, their state carried exactly. A halted lane goes on from
     /// its last good state.
     pub fn switch(&mut self, solver: Solver, substeps: u32, t: f64) {
-        self.past_evaluations = self.evaluations();
         self.solver = solver;
         self.substeps = substeps;
         self.halted = None;

@@ -31,7 +31,7 @@ pub trait Stepper: Send {
     /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
     fn input(&mut self, t: f64, input: Input) -> bool;
 
-    /// Evaluations of the acceleration since construction.
+    /// Evaluations of the acceleration since the start, under whatever methods.
     fn evaluations(&self) -> u64;
     /// The conserved energy in joules, where the body conserves one under its present input.
     fn energy(&self) -> Option<f64>;
@@ -48,10 +48,15 @@ pub trait Stepper: Send {
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    under(body, state, solver, 0.0)
+    under(Counted::new(body), state, solver, 0.0)
 }
 
-fn under<B: Body>(body: B, state: State<B::Vector>, solver: Solver, t: f64) -> Box<dyn Stepper> {
+fn under<B: Body>(
+    body: Counted<B>,
+    state: State<B::Vector>,
+    solver: Solver,
+    t: f64,
+) -> Box<dyn Stepper> {
     match solver {
         Solver::Method(method) => construct::<Counted<B>, _>(method, Launch { body, state }),
         Solver::Exact => Box::new(Follower { body, anchor: state.clone(), anchored_at: t, state }),
@@ -59,7 +64,7 @@ fn under<B: Body>(body: B, state: State<B::Vector>, solver: Solver, t: f64) -> B
 }
 
 struct Launch<B: Body> {
-    body: B,
+    body: Counted<B>,
     state: State<B::Vector>,
 }
 
@@ -68,7 +73,7 @@ impl<B: Body> Construct<Counted<B>> for Launch<B> {
 
     fn of<I: Integrator<Counted<B>> + 'static>(self) -> Self::Output {
         let Self { body, state } = self;
-        Box::new(Stepped { integrator: I::new(&state.q), body: Counted::new(body), state })
+        Box::new(Stepped { integrator: I::new(&state.q), body, state })
     }
 }
 
@@ -118,13 +123,14 @@ impl<B: Body, I: Integrator<Counted<B>>> Stepper for Stepped<B, I> {
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        under(self.body.system.clone(), self.state.clone(), solver, t)
+        under(self.body.clone(), self.state.clone(), solver, t)
     }
 }
 
 /// A body on its exact flow, always computed in one stride from `anchor`, so that nothing accumulates.
 struct Follower<B: Body> {
-    body: B,
+    /// Costs nothing here, but keeps the count of what it cost before.
+    body: Counted<B>,
     anchor: State<B::Vector>,
     anchored_at: f64,
     state: State<B::Vector>,
@@ -134,6 +140,7 @@ impl<B: Body> Stepper for Follower<B> {
     fn advance(&mut self, t: f64, h: f64, _substeps: u32) -> Result<(), StepFailure> {
         self.state = self
             .body
+            .system
             .exact(t + h - self.anchored_at, &self.anchor)
             .ok_or(StepFailure::NoClosedForm)?;
         Ok(())
@@ -152,7 +159,7 @@ impl<B: Body> Stepper for Follower<B> {
     }
 
     fn input(&mut self, t: f64, input: Input) -> bool {
-        let taken = self.body.input(input, &mut self.state);
+        let taken = self.body.system.input(input, &mut self.state);
         if taken {
             self.anchor.assign(&self.state);
             self.anchored_at = t;
@@ -161,17 +168,17 @@ impl<B: Body> Stepper for Follower<B> {
     }
 
     fn evaluations(&self) -> u64 {
-        0
+        self.body.evaluations()
     }
     fn energy(&self) -> Option<f64> {
-        self.body.energy(&self.state)
+        self.body.system.energy(&self.state)
     }
 
     fn outline(&self, q: &[f64], v: &[f64], pen: &mut Pen) {
-        outline(&self.body, &self.state, q, v, pen);
+        outline(&self.body.system, &self.state, q, v, pen);
     }
     fn view(&self) -> View {
-        self.body.view()
+        self.body.system.view()
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {

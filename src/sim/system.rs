@@ -134,7 +134,7 @@ impl<S> Counted<S> {
         Self { system, evaluations: Cell::new(0) }
     }
 
-    /// Evaluations since construction.
+    /// Evaluations so far.
     pub fn evaluations(&self) -> u64 {
         self.evaluations.get()
     }
