@@ -250,17 +250,6 @@ fn solo_to_race_and_back_flies_the_method_that_was_selected() {
 }
 
 #[test]
-fn a_switch_keeps_the_count_of_what_the_body_cost() {
-    let mut race = solo(&scene("spring"), "rk4");
-    run(&mut race, 10);
-    race.switch(0, 1, LaneSpec { method: method("improved-euler").unwrap(), substeps: 1 });
-    run(&mut race, 5);
-    let lane = &race.entrants()[0].lane;
-    assert_eq!(lane.evaluations(), 10 * 4 + 5 * 2);
-    assert_eq!(lane.bodies()[0].stepper.evaluations(), lane.evaluations());
-}
-
-#[test]
 fn a_race_under_way_takes_no_newcomers_and_solo_does() {
     let text = "title = \"pair\"\ntick_hz = 60\nseconds = 5\nmethods = [\"rk4\", \"improved-euler\"]\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
