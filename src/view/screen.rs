@@ -1,6 +1,6 @@
 //! A window's surface, and the instance that can make it again.
 
-use super::gpu::{AdapterPreference, Gpu, GpuError};
+use super::gpu::{AdapterPreference, Gpu, GpuError, instance};
 
 /// What a window shows frames on. Which frames, and when, is the window's business.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ impl Screen {
         window: impl Into<wgpu::SurfaceTarget<'static>>,
     ) -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_with_display_handle_from_env(display);
-        let instance = wgpu::Instance::new(descriptor);
+        let instance = instance(descriptor);
         let surface = instance.create_surface(window)?;
         Ok(Self { instance, surface })
     }
