@@ -95,7 +95,7 @@ impl Experiment {
         if let Some(method) = self.selected {
             lab.apply(Command::Method(method));
         }
-        if self.lineup == Lineup::Everyone && lab.entries().len() > 1 {
+        if self.lineup == Lineup::Everyone && lab.scene().lanes.len() > 1 {
             lab.apply(Command::ToggleRace);
         } else {
             lab.apply(Command::Restart);

@@ -87,10 +87,9 @@ impl Race {
         &self.entrants
     }
 
-    /// Keeps only the lane at this place.
-    pub(super) fn keep_only(&mut self, index: usize) {
-        self.entrants.swap(0, index);
-        self.entrants.truncate(1);
+    /// Keeps only the lane that flies the method on this place of the list.
+    pub(super) fn keep_only(&mut self, entry: usize) {
+        self.entrants.retain(|entrant| entrant.entry == entry);
     }
 
     /// Changes the tick rate from here on.
