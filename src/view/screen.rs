@@ -13,14 +13,20 @@ impl Screen {
     /// A surface for `window`, on the display that it is on: GL needs the display to present.
     ///
     /// # Errors
-    /// [`GpuError::NoSurface`].
+    /// [`GpuError::NoSurface`], or what keeps any device from being made.
     pub fn new(
         display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>,
         window: impl Into<wgpu::SurfaceTarget<'static>>,
     ) -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_with_display_handle_from_env(display);
         let instance = instance(descriptor);
-        let surface = instance.create_surface(window)?;
+        let surface = instance.create_surface(window).map_err(|refusal| {
+            // Where there is no driver there is no surface either, but the driver is what is missing.
+            match Gpu::choose(&instance, None, AdapterPreference::Any) {
+                Ok(_) => refusal.into(),
+                Err(error) => error,
+            }
+        })?;
         Ok(Self { instance, surface })
     }
 
