@@ -198,7 +198,7 @@ const COLUMNS: &[Column] = &[
         head: |_| "energy drift".into(),
         width: 104.0,
         grows: false,
-        from_width: 640.0,
+        from_width: 560.0,
         align: Side::Right,
         paint: |ui, row, rect, left, column| metric(ui, row, rect, left, column, "energy_drift"),
     },
