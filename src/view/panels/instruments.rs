@@ -4,7 +4,9 @@
 //! arrow in its colour says so.
 
 use egui::{Color32, ComboBox, Label, RichText, Ui, vec2};
-use egui_plot::{Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoints, PlotUi, Points};
+use egui_plot::{
+    AxisHints, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoints, PlotUi, Points,
+};
 
 use super::{QUIET, colour};
 use crate::lab::number::{round, superscript};
@@ -19,6 +21,9 @@ const FLOOR: f64 = -17.0;
 const ROOM_FOR_TABS: f32 = 430.0;
 /// From this height on, in points, both plots can be read; below, the stage has to show the value.
 const ROOM_FOR_BOTH: f32 = 200.0;
+/// The height of a time axis in points, at least that of its text: a plot that had to learn it would be
+/// laid out anew in its second frame, and the first would not match.
+const X_AXIS: f32 = 16.0;
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 const PHASE_SAMPLES: usize = 360;
 
@@ -184,6 +189,7 @@ fn plot<'a>(id: &'static str, height: f32) -> Plot<'a> {
         .allow_double_click_reset(false)
         .set_margin_fraction(vec2(0.0, 0.0))
         .y_axis_min_width(52.0)
+        .custom_x_axes(vec![AxisHints::new_x().min_thickness(X_AXIS)])
         .x_axis_formatter(|mark, _| format!("{} s", tick_text(mark.value)))
         .grid_color(Color32::from_rgb(64, 86, 116))
         .label_formatter(|_| None)
