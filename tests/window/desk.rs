@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-use image::RgbaImage;
+use image::{Rgba, RgbaImage};
 use tempfile::TempDir;
 use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask, ImageFormat, Window};
 use x11rb::rust_connection::RustConnection;
@@ -151,6 +151,30 @@ impl Desk {
             pixel[3] = 255;
         }
         RgbaImage::from_raw(width.into(), height.into(), pixels).unwrap()
+    }
+
+    /// Waits for the window to show this screenshot of it, paused, `scale` pixels to a point.
+    #[track_caller]
+    pub(crate) fn shows(&self, picture: &RgbaImage, scale: u32) {
+        // The bar above tells of the frame rate, and the footer, now, of the screenshot.
+        let between = |y: u32| (34 * scale..picture.height() - 26 * scale).contains(&y);
+        let differ = |a: &Rgba<u8>, b: &Rgba<u8>| (0..4).any(|i| a[i].abs_diff(b[i]) > 1);
+        until("the screenshot in the window", || {
+            let sight = self.sight();
+            assert_eq!(sight.dimensions(), picture.dimensions());
+            let pairs = sight.enumerate_pixels().zip(picture.pixels());
+            let off = pairs.filter(|((_, y, a), b)| between(*y) && differ(a, b)).count();
+            // Now and then a letter falls on the other side of a quarter of a pixel.
+            (off < 100).then_some(())
+        });
+    }
+
+    /// Presses a key, and waits for something to change in a paused window.
+    #[track_caller]
+    pub(crate) fn press_and_see(&self, key: &str) {
+        let before = self.sight();
+        self.press(key);
+        until("a change", || (self.sight() != before).then_some(()));
     }
 
     /// Asks the window to close, as the cross in its frame would.

@@ -51,18 +51,13 @@ fn a_widget_with_the_focus_takes_space_and_escape_gives_it_back() {
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("space");
     desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
-    let press_and_see = |key| {
-        let before = desk.sight();
-        desk.press(key);
-        until("the frame round another widget", || (desk.sight() != before).then_some(()));
-    };
     // The menu of scenes, restart, run.
-    ["Tab", "Tab", "Tab"].into_iter().for_each(press_and_see);
+    ["Tab", "Tab", "Tab"].into_iter().for_each(|key| desk.press_and_see(key));
     desk.press("space");
     desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz");
     desk.press("space");
     desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
-    press_and_see("Escape");
+    desk.press_and_see("Escape");
     desk.press("space");
     desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz");
     desk.quit();
