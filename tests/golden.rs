@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
 use regatta::lab::{Command, Lab, SCENES, Scene};
-use regatta::view::{AdapterPreference, Artist, Gpu};
+use regatta::view::{AdapterPreference, Artist, Gpu, Panels};
 
 const SIZE_PX: [u32; 2] = [480, 270];
 /// As in a window of 800 × 450 points, where all panels show.
@@ -133,6 +133,30 @@ fn the_same_lab_gives_the_same_bytes_from_two_renderers() {
         rgba
     };
     assert!(draw() == draw());
+}
+
+#[test]
+fn without_panels_the_stage_fills_the_frame() {
+    let Some(gpu) = gpu_or_skip("without_panels_the_stage_fills_the_frame") else { return };
+    let lab = sailed("harbour", true, |_| ());
+    let draw = |panels| {
+        let mut rgba = Vec::new();
+        let mut artist = Artist::new(gpu.clone(), SIZE_PX, SCALE).unwrap().with_panels(panels);
+        artist.draw(&lab, &mut rgba).unwrap();
+        RgbaImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgba).unwrap()
+    };
+    let (shown, off) = (draw(Panels::Shown), draw(Panels::Off));
+    assert_eq!(shown, draw(Panels::default()));
+    // Between the cells and the edge lies nothing but the background; inside each corner there is sea.
+    let background = off.get_pixel(0, 0);
+    for y in 0..SIZE_PX[1] {
+        assert_eq!(off.get_pixel(0, y), background);
+        assert_eq!(off.get_pixel(SIZE_PX[0] - 1, y), background);
+    }
+    for y in [20, SIZE_PX[1] - 20] {
+        assert_ne!(off.get_pixel(SIZE_PX[0] - 20, y), background, "no stage at height {y}");
+    }
+    assert_ne!(shown.get_pixel(0, 0), background, "the top bar is there");
 }
 
 #[test]

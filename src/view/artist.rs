@@ -1,7 +1,7 @@
 //! Frames without a window: the same renderer, on a texture of our own. Captures, screenshots and tests
 //! draw so.
 
-use super::{FrameRenderer, Gpu, GpuError, Offscreen, Readback, ReadbackError};
+use super::{FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback, ReadbackError};
 use crate::lab::Lab;
 
 /// Draws a lab into memory.
@@ -22,6 +22,11 @@ impl Artist {
         let canvas = Offscreen::new(&gpu, size_px)?;
         let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
         Ok(Self { gpu, renderer, canvas, readback: Readback::default(), scale })
+    }
+
+    /// The same artist with or without panels, which it draws at first.
+    pub fn with_panels(self, shown: Panels) -> Self {
+        Self { renderer: self.renderer.with_panels(shown), ..self }
     }
 
     /// Width and height of the frames, in pixels.
