@@ -147,16 +147,16 @@ fn without_panels_the_stage_fills_the_frame() {
     };
     let (shown, off) = (draw(Panels::Shown), draw(Panels::Off));
     assert_eq!(shown, draw(Panels::default()));
-    // Between the cells and the edge lies nothing but the background; inside each corner there is sea.
-    let background = off.get_pixel(0, 0);
+    // Beside the last cell lies a margin of background, and a little to the left of it there is sea.
+    let right = SIZE_PX[0] - 1;
+    let background = off.get_pixel(right, 0);
     for y in 0..SIZE_PX[1] {
-        assert_eq!(off.get_pixel(0, y), background);
-        assert_eq!(off.get_pixel(SIZE_PX[0] - 1, y), background);
+        assert_eq!(off.get_pixel(right, y), background, "at height {y}");
     }
     for y in [20, SIZE_PX[1] - 20] {
-        assert_ne!(off.get_pixel(SIZE_PX[0] - 20, y), background, "no stage at height {y}");
+        assert_ne!(off.get_pixel(right - 20, y), background, "no stage at height {y}");
     }
-    assert_ne!(shown.get_pixel(0, 0), background, "the top bar is there");
+    assert_ne!(shown.get_pixel(right, 0), background, "the top bar is there");
 }
 
 #[test]

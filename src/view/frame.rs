@@ -5,6 +5,7 @@
 use std::time::Duration;
 
 use super::gpu::Gpu;
+use super::meshes::MeshRenderer;
 use super::panels::{self, Panels};
 use super::stage::StageRenderer;
 use crate::lab::picture::{self, Align, Label, Picture};
@@ -38,7 +39,7 @@ pub struct FrameOutput {
 pub struct FrameRenderer {
     context: egui::Context,
     shown: Panels,
-    panels: egui_wgpu::Renderer,
+    panels: MeshRenderer,
     stage: StageRenderer,
 }
 
@@ -47,11 +48,12 @@ impl FrameRenderer {
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
         let context = egui::Context::default();
         panels::dress(&context);
-        let options = egui_wgpu::RendererOptions::PREDICTABLE;
+        // Discs are drawn as polygons: one from the atlas would have to be filtered.
+        context.tessellation_options_mut(|options| options.prerasterized_discs = false);
         Self {
             context,
             shown: Panels::Shown,
-            panels: egui_wgpu::Renderer::new(&gpu.device, format, options),
+            panels: MeshRenderer::new(gpu, format),
             stage: StageRenderer::new(gpu, format),
         }
     }
@@ -118,8 +120,7 @@ impl FrameRenderer {
                 picture.labels.iter().for_each(|label| write(&painter, *rect, label));
             }
         });
-        let textures = std::mem::take(&mut output.textures_delta);
-        self.paint(gpu, target, size_px, &output, textures, stage.as_ref());
+        self.paint(gpu, target, size_px, &mut output, stage.as_ref());
         let repaint_delay = output
             .viewport_output
             .get(&egui::ViewportId::ROOT)
@@ -149,53 +150,46 @@ impl FrameRenderer {
         gpu: &Gpu,
         target: &wgpu::TextureView,
         size_px: [u32; 2],
-        output: &egui::FullOutput,
-        mut textures: egui::TexturesDelta,
+        output: &mut egui::FullOutput,
         stage: Option<&Stage>,
     ) {
-        // egui_wgpu panics on a lost device, and warns of textures that nobody took.
+        // egui warns of textures that nobody took.
         if gpu.is_lost() {
-            textures.clear();
+            output.textures_delta.clear();
             return;
         }
-        let Gpu { device, queue, .. } = gpu;
-        let pixels_per_point = output.pixels_per_point;
-        for (id, deltas) in textures.set.drain() {
-            for delta in deltas {
-                self.panels.update_texture(device, queue, id, &delta);
-            }
+        let px_per_point = output.pixels_per_point;
+        for (id, deltas) in output.textures_delta.set.drain() {
+            deltas.iter().for_each(|delta| self.panels.set_texture(gpu, id, delta));
         }
-        let jobs = self.context.tessellate(output.shapes.clone(), pixels_per_point);
-        let screen = egui_wgpu::ScreenDescriptor { size_in_pixels: size_px, pixels_per_point };
-        let mut encoder = device.create_command_encoder(&Default::default());
-        let uploads = self.panels.update_buffers(device, queue, &mut encoder, &jobs, &screen);
+        let meshes = self.context.tessellate(std::mem::take(&mut output.shapes), px_per_point);
+        self.panels.prepare(gpu, &meshes, size_px, px_per_point);
         if let Some(stage) = stage {
-            self.stage.prepare(gpu, stage, size_px, pixels_per_point);
+            self.stage.prepare(gpu, stage, size_px, px_per_point);
         }
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
         {
-            let mut pass = encoder
-                .begin_render_pass(&wgpu::RenderPassDescriptor {
-                    label: Some("frame"),
-                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                        view: target,
-                        depth_slice: None,
-                        resolve_target: None,
-                        ops: wgpu::Operations {
-                            load: wgpu::LoadOp::Clear(BACKGROUND),
-                            store: wgpu::StoreOp::Store,
-                        },
-                    })],
-                    ..Default::default()
-                })
-                .forget_lifetime();
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("frame"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(BACKGROUND),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
+            });
             if stage.is_some() {
                 self.stage.paint(&mut pass);
             }
-            self.panels.render(&mut pass, &jobs, &screen);
+            self.panels.paint(&mut pass);
         }
-        queue.submit(uploads.into_iter().chain([encoder.finish()]));
-        for id in textures.free.drain() {
-            self.panels.free_texture(&id);
+        gpu.queue.submit([encoder.finish()]);
+        for id in output.textures_delta.free.drain() {
+            self.panels.free_texture(id);
         }
     }
 }

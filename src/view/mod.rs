@@ -9,6 +9,7 @@ mod artist;
 mod frame;
 mod gpu;
 mod instances;
+mod meshes;
 mod offscreen;
 mod panels;
 pub mod png;

@@ -1,0 +1,268 @@
+//! What egui lays out, as pixels.
+//!
+//! `egui_wgpu` could draw it too, but filters four texels for each pixel of a panel in a way that costs
+//! a software adapter more than everything else in a frame. Here a texel is looked up.
+
+use std::collections::HashMap;
+
+use bytemuck::{Pod, Zeroable};
+use egui::epaint::{self, Primitive};
+use egui::{ClippedPrimitive, ImageData, TextureId};
+
+use super::gpu::Gpu;
+
+const SHADER: &str = include_str!("../../shaders/panels.wgsl");
+
+/// `Frame` in `shaders/panels.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct FrameUniform {
+    size_points: [f32; 2],
+    padding: [f32; 2],
+}
+
+const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
+    wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4];
+
+/// Room for this many bytes at first; growing is by doubling.
+const FIRST_CAPACITY: u64 = 1 << 16;
+
+/// Some triangles of one texture.
+#[derive(Debug)]
+struct Draw {
+    texture: TextureId,
+    /// Left, top, width and height on the target.
+    scissor_px: [u32; 4],
+    indices: std::ops::Range<u32>,
+}
+
+/// Draws egui's meshes on targets of one format.
+#[derive(Debug)]
+pub(super) struct MeshRenderer {
+    pipeline: wgpu::RenderPipeline,
+    atlas_layout: wgpu::BindGroupLayout,
+    atlases: HashMap<TextureId, (wgpu::Texture, wgpu::BindGroup)>,
+    uniform: wgpu::Buffer,
+    bind_group: wgpu::BindGroup,
+    vertex_buffer: wgpu::Buffer,
+    index_buffer: wgpu::Buffer,
+    draws: Vec<Draw>,
+    /// Kept for their capacity.
+    vertices: Vec<epaint::Vertex>,
+    indices: Vec<u32>,
+}
+
+impl MeshRenderer {
+    pub(super) fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
+        let device = &gpu.device;
+        let layout = |visibility, ty| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some("panels"),
+                entries: &[wgpu::BindGroupLayoutEntry { binding: 0, visibility, ty, count: None }],
+            })
+        };
+        let frame_layout = layout(
+            wgpu::ShaderStages::VERTEX,
+            wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+        );
+        let atlas_layout = layout(
+            wgpu::ShaderStages::VERTEX_FRAGMENT,
+            wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: false,
+            },
+        );
+        let uniform = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("panels"),
+            size: size_of::<FrameUniform>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("panels"),
+            layout: &frame_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
+        });
+        Self {
+            pipeline: pipeline(gpu, format, [&frame_layout, &atlas_layout]),
+            atlas_layout,
+            atlases: HashMap::new(),
+            uniform,
+            bind_group,
+            vertex_buffer: buffer(gpu, wgpu::BufferUsages::VERTEX, FIRST_CAPACITY),
+            index_buffer: buffer(gpu, wgpu::BufferUsages::INDEX, FIRST_CAPACITY),
+            draws: Vec::new(),
+            vertices: Vec::new(),
+            indices: Vec::new(),
+        }
+    }
+
+    /// Takes over a new texture, or a changed part of an old one.
+    pub(super) fn set_texture(&mut self, gpu: &Gpu, id: TextureId, delta: &epaint::ImageDelta) {
+        let ImageData::Color(image) = &delta.image;
+        let [width, height] = image.size.map(|side| side as u32);
+        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+        if delta.pos.is_none() {
+            let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("panels"),
+                size,
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::Rgba8Unorm,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+                view_formats: &[],
+            });
+            let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+            let bind_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("panels"),
+                layout: &self.atlas_layout,
+                entries: &[wgpu::BindGroupEntry {
+                    binding: 0,
+                    resource: wgpu::BindingResource::TextureView(&view),
+                }],
+            });
+            self.atlases.insert(id, (texture, bind_group));
+        }
+        let Some((texture, _)) = self.atlases.get(&id) else { return };
+        let [x, y] = delta.pos.unwrap_or_default().map(|side| side as u32);
+        gpu.queue.write_texture(
+            wgpu::TexelCopyTextureInfo {
+                origin: wgpu::Origin3d { x, y, z: 0 },
+                ..texture.as_image_copy()
+            },
+            bytemuck::cast_slice(&image.pixels),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(4 * width),
+                rows_per_image: None,
+            },
+            size,
+        );
+    }
+
+    pub(super) fn free_texture(&mut self, id: TextureId) {
+        self.atlases.remove(&id);
+    }
+
+    /// Uploads what the next [`Self::paint`] is to draw on a target of `size_px`.
+    pub(super) fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        primitives: &[ClippedPrimitive],
+        size_px: [u32; 2],
+        px_per_point: f32,
+    ) {
+        self.draws.clear();
+        self.vertices.clear();
+        self.indices.clear();
+        for ClippedPrimitive { clip_rect, primitive } in primitives {
+            // Nothing here asks egui for a callback.
+            let Primitive::Mesh(mesh) = primitive else { continue };
+            let scissor_px = scissor(*clip_rect, size_px, px_per_point);
+            if scissor_px[2] == 0 || scissor_px[3] == 0 {
+                continue;
+            }
+            let (first_vertex, first) = (self.vertices.len() as u32, self.indices.len() as u32);
+            self.vertices.extend_from_slice(&mesh.vertices);
+            self.indices.extend(mesh.indices.iter().map(|index| first_vertex + index));
+            let indices = first..self.indices.len() as u32;
+            self.draws.push(Draw { texture: mesh.texture_id, scissor_px, indices });
+        }
+        let size_points = size_px.map(|side| side as f32 / px_per_point);
+        let uniform = FrameUniform { size_points, padding: [0.0; 2] };
+        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        write(gpu, &mut self.vertex_buffer, bytemuck::cast_slice(&self.vertices));
+        write(gpu, &mut self.index_buffer, bytemuck::cast_slice(&self.indices));
+    }
+
+    /// Draws what was prepared.
+    pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.bind_group, &[]);
+        pass.set_vertex_buffer(0, self.vertex_buffer.slice(..));
+        pass.set_index_buffer(self.index_buffer.slice(..), wgpu::IndexFormat::Uint32);
+        for Draw { texture, scissor_px: [left, top, width, height], indices } in &self.draws {
+            let Some((_, bind_group)) = self.atlases.get(texture) else { continue };
+            pass.set_bind_group(1, bind_group, &[]);
+            pass.set_scissor_rect(*left, *top, *width, *height);
+            pass.draw_indexed(indices.clone(), 0, 0..1);
+        }
+    }
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    format: wgpu::TextureFormat,
+    layouts: [&wgpu::BindGroupLayout; 2],
+) -> wgpu::RenderPipeline {
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("panels"),
+        source: wgpu::ShaderSource::Wgsl(SHADER.into()),
+    });
+    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("panels"),
+        bind_group_layouts: &layouts.map(Some),
+        immediate_size: 0,
+    });
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("panels"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: size_of::<epaint::Vertex>() as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &ATTRIBUTES,
+            })],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some("fragment"),
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format,
+                blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn buffer(gpu: &Gpu, usage: wgpu::BufferUsages, bytes: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("panels"),
+        size: bytes,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// Writes to the start of a buffer, or of a larger one in its place.
+fn write(gpu: &Gpu, into: &mut wgpu::Buffer, bytes: &[u8]) {
+    if bytes.len() as u64 > into.size() {
+        let usage = into.usage() & !wgpu::BufferUsages::COPY_DST;
+        *into = buffer(gpu, usage, (bytes.len() as u64).next_power_of_two());
+    }
+    gpu.queue.write_buffer(into, 0, bytes);
+}
+
+/// The pixels of a rectangle in points, within the target: left, top, width and height.
+fn scissor(clip: egui::Rect, size_px: [u32; 2], px_per_point: f32) -> [u32; 4] {
+    let px = |points: f32, side: usize| ((points * px_per_point).round() as u32).min(size_px[side]);
+    let [left, right] = [clip.min.x, clip.max.x].map(|x| px(x, 0));
+    let [top, bottom] = [clip.min.y, clip.max.y].map(|y| px(y, 1));
+    [left, top, right.saturating_sub(left), bottom.saturating_sub(top)]
+}
