@@ -71,26 +71,40 @@ fn swell(turn: vec2<f32>, phase: f32) -> f32 {
     return dot(waves, vec3(0.45, 0.35, 0.20));
 }
 
-@fragment
-fn fragment(in: Varying) -> @location(0) vec4<f32> {
+// A cell in the colour of its middle, lighter by `swell`.
+fn cell(in: Varying, turn: vec2<f32>, middle: vec3<f32>, swell: vec3<f32>) -> vec4<f32> {
     let from_middle_px = in.position.xy - in.cell_px.xy;
     let beyond_px = abs(from_middle_px) - in.cell_px.zw + in.look.x;
     let edge_px = length(max(beyond_px, vec2(0.0))) + min(max(beyond_px.x, beyond_px.y), 0.0)
         - in.look.x;
 
     let line_px = max(1.0, round(stage.px_per_point));
-    let turn = (in.position.xy - in.grid_px.xy) * in.grid_px.w;
     // On whole pixels: a line that lies across two of them is half as bright.
     let line_low_px = round(in.grid_px.xy + round(turn) * in.grid_px.z - 0.5 * line_px);
     let into_line_px = in.position.xy - line_low_px;
     let on_line = (into_line_px > vec2(0.0)) & (into_line_px < vec2(line_px));
     let grid_alpha = select(0.0, in.look.z, any(on_line));
 
-    var colour = mix(CHART, WATER, in.waves.x) * (1.0 - in.look.y * from_middle_px.y);
-    colour += in.waves.x * SWELL * swell(turn, in.waves.y);
+    var colour = middle * (1.0 - in.look.y * from_middle_px.y) + swell;
     colour = mix(colour, GRID, grid_alpha);
     let border = clamp(edge_px + line_px + 0.5, 0.0, 1.0);
     colour = mix(colour, BORDER, BORDER_ALPHA * border);
     let coverage = clamp(0.5 - edge_px, 0.0, 1.0);
     return vec4(colour, 1.0) * coverage;
+}
+
+fn grid_turn(in: Varying) -> vec2<f32> {
+    return (in.position.xy - in.grid_px.xy) * in.grid_px.w;
+}
+
+@fragment
+fn water(in: Varying) -> @location(0) vec4<f32> {
+    let turn = grid_turn(in);
+    let height = in.waves.x * swell(turn, in.waves.y);
+    return cell(in, turn, mix(CHART, WATER, in.waves.x), SWELL * height);
+}
+
+@fragment
+fn chart(in: Varying) -> @location(0) vec4<f32> {
+    return cell(in, grid_turn(in), CHART, vec3(0.0));
 }

@@ -6,6 +6,8 @@
 const DOT_LENGTH_PX = 1e-3;
 // Round shapes thinner than a pixel are drawn a pixel wide and paler, so that they do not break up.
 const MIN_RADIUS_PX = 0.5;
+// Further than any pixel is.
+const FAR_PX = 1e9;
 // The edge's blur reaches half a pixel, its corners a little further.
 const MARGIN_PX = 1.0;
 
@@ -22,12 +24,13 @@ struct Instance {
 struct Varying {
     @builtin(position) position: vec4<f32>,
     @location(0) local_px: vec2<f32>,
-    // Length, radii.
-    @location(1) @interpolate(flat) shape_px: vec3<f32>,
-    @location(2) @interpolate(flat) from_colour: vec4<f32>,
-    @location(3) @interpolate(flat) to_colour: vec4<f32>,
-    @location(4) @interpolate(flat) dash_px_and_cap: vec4<f32>,
+    // Length, radii, 1 for a butt cap.
+    @location(1) @interpolate(flat) shape_px: vec4<f32>,
+    @location(2) @interpolate(flat) taper: vec3<f32>,
+    @location(3) @interpolate(flat) from_colour: vec4<f32>,
+    @location(4) @interpolate(flat) to_colour: vec4<f32>,
     @location(5) @interpolate(flat) clip_px: vec4<f32>,
+    @location(6) @interpolate(flat) dash_px: vec3<f32>,
 }
 
 fn premultiplied(colour: vec4<f32>) -> vec4<f32> {
@@ -55,33 +58,42 @@ fn vertex(@builtin(vertex_index) index: u32, stroke: Instance) -> Varying {
     var out: Varying;
     out.position = clip_from_px(from_px + direction * local_px.x + normal * local_px.y);
     out.local_px = local_px;
-    out.shape_px = vec3(length_px, radii_px);
+    out.shape_px = vec4(length_px, radii_px, stroke.dash_and_cap.w);
+    let round_px = max(radii_px, vec2(MIN_RADIUS_PX));
+    out.taper = taper_of(length_px, round_px);
     out.from_colour = premultiplied(stroke.from_colour);
     out.to_colour = premultiplied(stroke.to_colour);
-    out.dash_px_and_cap = vec4(stroke.dash_and_cap.xyz * stage.px_per_point, stroke.dash_and_cap.w);
+    out.dash_px = stroke.dash_and_cap.xyz * stage.px_per_point;
     out.clip_px = vec4(px_from_points(stroke.clip.xy), px_from_points(stroke.clip.zw));
     return out;
 }
 
+// Sine and cosine of how far the hull's sides lean, and how far along them the second disc begins. Where
+// one disc holds the other one, everything belongs to the larger.
+fn taper_of(length_px: f32, radii_px: vec2<f32>) -> vec3<f32> {
+    let sine = (radii_px.x - radii_px.y) / max(length_px, DOT_LENGTH_PX);
+    if abs(sine) >= 1.0 || length_px <= DOT_LENGTH_PX {
+        return vec3(1.0, 0.0, select(-FAR_PX, FAR_PX, radii_px.x >= radii_px.y));
+    }
+    let cosine = sqrt(1.0 - sine * sine);
+    return vec3(sine, cosine, length_px * cosine);
+}
+
 // Distance to the hull of two discs (Inigo Quilez, "uneven capsule").
-fn taper_distance_px(local_px: vec2<f32>, length_px: f32, radii_px: vec2<f32>) -> f32 {
+fn hull_distance_px(
+    local_px: vec2<f32>,
+    length_px: f32,
+    radii_px: vec2<f32>,
+    taper: vec3<f32>,
+) -> f32 {
     let along = local_px.x;
     let across = abs(local_px.y);
-    let from_distance = length(vec2(along, across)) - radii_px.x;
-    let to_distance = length(vec2(along - length_px, across)) - radii_px.y;
-    if length_px <= max(abs(radii_px.x - radii_px.y), DOT_LENGTH_PX) {
-        return select(to_distance, from_distance, radii_px.x >= radii_px.y);
-    }
-    let sine = (radii_px.x - radii_px.y) / length_px;
-    let cosine = sqrt(1.0 - sine * sine);
-    let height = along * cosine - across * sine;
-    if height < 0.0 {
-        return from_distance;
-    }
-    if height > length_px * cosine {
-        return to_distance;
-    }
-    return across * cosine + along * sine - radii_px.x;
+    let height = along * taper.y - across * taper.x;
+    let at_second = height > taper.z;
+    let from_disc = length(vec2(along - select(0.0, length_px, at_second), across))
+        - select(radii_px.x, radii_px.y, at_second);
+    let from_side = across * taper.y + along * taper.x - radii_px.x;
+    return select(from_side, from_disc, at_second || height <= 0.0);
 }
 
 // How much of the pixel at `x` lies within `half_width` of 0, in one dimension.
@@ -96,37 +108,53 @@ fn from_dash_middle_px(along: f32, dash_px: vec3<f32>) -> f32 {
     return (turns - round(turns)) * period;
 }
 
+fn is_clipped(in: Varying) -> bool {
+    return any(in.position.xy < in.clip_px.xy) || any(in.position.xy >= in.clip_px.zw);
+}
+
+fn part_of(in: Varying) -> f32 {
+    return clamp(in.local_px.x / max(in.shape_px.x, DOT_LENGTH_PX), 0.0, 1.0);
+}
+
+fn round_distance_px(in: Varying) -> f32 {
+    let radii_px = max(in.shape_px.yz, vec2(MIN_RADIUS_PX));
+    return hull_distance_px(in.local_px, in.shape_px.x, radii_px, in.taper);
+}
+
+// The colour where shapes of such distance and such extent along the stroke are drawn.
+fn painted(in: Varying, part: f32, along: f32, distance_px: f32) -> vec4<f32> {
+    let radius_px = mix(in.shape_px.y, in.shape_px.z, part);
+    let butt = along * overlap(in.local_px.y, radius_px);
+    let rounded = clamp(0.5 - distance_px, 0.0, 1.0) * min(radius_px / MIN_RADIUS_PX, 1.0);
+    let coverage = select(rounded, butt, in.shape_px.w > 0.5);
+    return mix(in.from_colour, in.to_colour, part) * coverage;
+}
+
+fn overlap_of_all(in: Varying) -> f32 {
+    let half_px = 0.5 * in.shape_px.x;
+    return overlap(in.local_px.x - half_px, half_px);
+}
+
 @fragment
-fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    let inside = all(in.position.xy >= in.clip_px.xy) && all(in.position.xy < in.clip_px.zw);
-    if !inside {
+fn solid(in: Varying) -> @location(0) vec4<f32> {
+    if is_clipped(in) {
         discard;
     }
-    let length_px = in.shape_px.x;
-    let along = in.local_px.x;
-    let part = clamp(along / max(length_px, DOT_LENGTH_PX), 0.0, 1.0);
-    let radius_px = mix(in.shape_px.y, in.shape_px.z, part);
-    let dash_px = in.dash_px_and_cap.xyz;
-    let dashed = dash_px.y > 0.0;
+    return painted(in, part_of(in), overlap_of_all(in), round_distance_px(in));
+}
 
-    var coverage: f32;
-    if in.dash_px_and_cap.w > 0.5 {
-        coverage = overlap(along - 0.5 * length_px, 0.5 * length_px);
-        if dashed {
-            coverage = min(coverage, overlap(from_dash_middle_px(along, dash_px), 0.5 * dash_px.x));
-        }
-        coverage *= overlap(in.local_px.y, radius_px);
-    } else {
-        let radii_px = max(in.shape_px.yz, vec2(MIN_RADIUS_PX));
-        var distance_px = taper_distance_px(in.local_px, length_px, radii_px);
-        if dashed {
-            // Dashes are as round as the ends, and as long as asked for, ends included.
-            let round_px = max(radius_px, MIN_RADIUS_PX);
-            let straight_px = max(0.5 * dash_px.x - round_px, 0.0);
-            let beyond_px = max(abs(from_dash_middle_px(along, dash_px)) - straight_px, 0.0);
-            distance_px = max(distance_px, length(vec2(beyond_px, in.local_px.y)) - round_px);
-        }
-        coverage = clamp(0.5 - distance_px, 0.0, 1.0) * min(radius_px / MIN_RADIUS_PX, 1.0);
+@fragment
+fn dashed(in: Varying) -> @location(0) vec4<f32> {
+    if is_clipped(in) {
+        discard;
     }
-    return mix(in.from_colour, in.to_colour, part) * coverage;
+    let part = part_of(in);
+    let from_middle_px = from_dash_middle_px(in.local_px.x, in.dash_px);
+    let along = min(overlap_of_all(in), overlap(from_middle_px, 0.5 * in.dash_px.x));
+    // Dashes are as round as the ends, and as long as asked for, ends included.
+    let round_px = max(mix(in.shape_px.y, in.shape_px.z, part), MIN_RADIUS_PX);
+    let straight_px = max(0.5 * in.dash_px.x - round_px, 0.0);
+    let beyond_px = max(abs(from_middle_px) - straight_px, 0.0);
+    let dash_distance_px = length(vec2(beyond_px, in.local_px.y)) - round_px;
+    return painted(in, part, along, max(round_distance_px(in), dash_distance_px));
 }

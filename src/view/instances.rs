@@ -1,5 +1,7 @@
 //! A buffer of instances that grows as needed and is kept from frame to frame.
 
+use std::ops::Range;
+
 use super::gpu::Gpu;
 
 /// Room for this many at first: a solo scene fits, and growing is by doubling.
@@ -30,13 +32,19 @@ impl<T: bytemuck::Pod> Instances<T> {
         gpu.queue.write_buffer(&self.buffer, 0, bytes);
     }
 
-    /// Draws a strip of four vertices for each instance, with the pipeline that is set.
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        if self.staging.is_empty() {
+    pub(super) fn all(&self) -> Range<u32> {
+        0..self.staging.len() as u32
+    }
+
+    /// Draws a strip of four vertices for each of some instances, with the pipeline that is set.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, some: Range<u32>) {
+        if some.is_empty() {
             return;
         }
-        pass.set_vertex_buffer(0, self.buffer.slice(..));
-        pass.draw(0..4, 0..self.staging.len() as u32);
+        // Not by a first instance, which some drivers' GL lacks.
+        let first = u64::from(some.start) * size_of::<T>() as u64;
+        pass.set_vertex_buffer(0, self.buffer.slice(first..));
+        pass.draw(0..4, 0..some.len() as u32);
     }
 }
 

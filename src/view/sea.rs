@@ -35,11 +35,11 @@ impl From<&Sea> for SeaInstance {
     }
 }
 
-/// Draws a picture's seas.
+/// Draws a picture's seas: water and chart paper apart, for only water pays for a swell.
 #[derive(Debug)]
 pub(super) struct SeaPipeline {
-    pipeline: wgpu::RenderPipeline,
-    instances: Instances<SeaInstance>,
+    water: (wgpu::RenderPipeline, Instances<SeaInstance>),
+    chart: (wgpu::RenderPipeline, Instances<SeaInstance>),
 }
 
 impl SeaPipeline {
@@ -48,24 +48,29 @@ impl SeaPipeline {
         layout: &wgpu::PipelineLayout,
         format: wgpu::TextureFormat,
     ) -> Self {
-        let instance = wgpu::VertexBufferLayout {
-            array_stride: size_of::<SeaInstance>() as u64,
-            step_mode: wgpu::VertexStepMode::Instance,
-            attributes: &ATTRIBUTES,
+        let kind = |fragment| {
+            let instance = wgpu::VertexBufferLayout {
+                array_stride: size_of::<SeaInstance>() as u64,
+                step_mode: wgpu::VertexStepMode::Instance,
+                attributes: &ATTRIBUTES,
+            };
+            let pipeline = quad_pipeline(gpu, layout, format, ["seas", SHADER, fragment], instance);
+            (pipeline, Instances::new(gpu, "seas"))
         };
-        Self {
-            pipeline: quad_pipeline(gpu, layout, format, "seas", SHADER, instance),
-            instances: Instances::new(gpu, "seas"),
-        }
+        Self { water: kind("water"), chart: kind("chart") }
     }
 
     pub(super) fn upload(&mut self, gpu: &Gpu, seas: &[Sea]) {
-        self.instances.upload(gpu, seas.iter().map(SeaInstance::from));
+        let (water, chart) = (&mut self.water.1, &mut self.chart.1);
+        water.upload(gpu, seas.iter().filter(|sea| sea.waves > 0.0).map(SeaInstance::from));
+        chart.upload(gpu, seas.iter().filter(|sea| sea.waves <= 0.0).map(SeaInstance::from));
     }
 
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipeline);
-        self.instances.draw(pass);
+        for (pipeline, instances) in [&self.water, &self.chart] {
+            pass.set_pipeline(pipeline);
+            instances.draw(pass, instances.all());
+        }
     }
 }
 

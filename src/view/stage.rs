@@ -101,13 +101,13 @@ impl StageRenderer {
     }
 }
 
-/// A pipeline of instanced quads over `shaders/stage.wgsl`, blending premultiplied colours.
+/// A pipeline of instanced quads over `shaders/stage.wgsl`, blending the premultiplied colours of its
+/// fragment function. Named by label, shader and that function.
 pub(super) fn quad_pipeline(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,
     format: wgpu::TextureFormat,
-    label: &str,
-    shader: &str,
+    [label, shader, fragment]: [&str; 3],
     instance: wgpu::VertexBufferLayout<'_>,
 ) -> wgpu::RenderPipeline {
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -131,7 +131,7 @@ pub(super) fn quad_pipeline(
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
             module: &module,
-            entry_point: Some("fragment"),
+            entry_point: Some(fragment),
             compilation_options: Default::default(),
             targets: &[Some(wgpu::ColorTargetState {
                 format,

@@ -42,11 +42,14 @@ impl From<&Stroke> for StrokeInstance {
     }
 }
 
-/// Draws a picture's strokes.
+/// Draws a picture's strokes. Dashed ones are rare, and the others need not pay for them.
 #[derive(Debug)]
 pub(super) struct StrokePipeline {
-    pipeline: wgpu::RenderPipeline,
+    solid: wgpu::RenderPipeline,
+    dashed: wgpu::RenderPipeline,
     instances: Instances<StrokeInstance>,
+    /// How many strokes of a kind follow each other: solid ones, dashed ones, and so on in turn.
+    runs: Vec<u32>,
 }
 
 impl StrokePipeline {
@@ -55,24 +58,44 @@ impl StrokePipeline {
         layout: &wgpu::PipelineLayout,
         format: wgpu::TextureFormat,
     ) -> Self {
-        let instance = wgpu::VertexBufferLayout {
-            array_stride: size_of::<StrokeInstance>() as u64,
-            step_mode: wgpu::VertexStepMode::Instance,
-            attributes: &ATTRIBUTES,
+        let pipeline = |fragment| {
+            let instance = wgpu::VertexBufferLayout {
+                array_stride: size_of::<StrokeInstance>() as u64,
+                step_mode: wgpu::VertexStepMode::Instance,
+                attributes: &ATTRIBUTES,
+            };
+            quad_pipeline(gpu, layout, format, ["strokes", SHADER, fragment], instance)
         };
         Self {
-            pipeline: quad_pipeline(gpu, layout, format, "strokes", SHADER, instance),
+            solid: pipeline("solid"),
+            dashed: pipeline("dashed"),
             instances: Instances::new(gpu, "strokes"),
+            runs: Vec::new(),
         }
     }
 
     pub(super) fn upload(&mut self, gpu: &Gpu, strokes: &[Stroke]) {
         self.instances.upload(gpu, strokes.iter().map(StrokeInstance::from));
+        self.runs.clear();
+        self.runs.push(0);
+        for stroke in strokes {
+            let dashed = stroke.dash[1] > 0.0;
+            if dashed != self.runs.len().is_multiple_of(2) {
+                self.runs.push(0);
+            }
+            if let Some(run) = self.runs.last_mut() {
+                *run += 1;
+            }
+        }
     }
 
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipeline);
-        self.instances.draw(pass);
+        let mut first = 0;
+        for (run, pipeline) in self.runs.iter().zip([&self.solid, &self.dashed].iter().cycle()) {
+            pass.set_pipeline(pipeline);
+            self.instances.draw(pass, first..first + run);
+            first += run;
+        }
     }
 }
 
