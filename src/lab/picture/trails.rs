@@ -1,6 +1,6 @@
 //! Where bodies have been: the trace of a mass, the wake of a ship.
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 
 use super::compose::Shown;
 use super::palette::{self, faded, style};
@@ -10,6 +10,8 @@ use crate::lab::{History, Sample};
 
 /// The most segments in a trail: more would not show.
 const TRAIL_SEGMENTS: usize = 180;
+/// The least length of a segment, in points: of shorter ones, too, more would not show.
+const SHORTEST_SEGMENT: f32 = 2.0;
 
 impl Shown<'_> {
     /// The colour of the method that flew a body at a moment of its past.
@@ -49,8 +51,13 @@ impl Shown<'_> {
         let mut last = point(from.x, 0.0);
         for (age, sample) in self.recent(history) {
             let next = point(sample.q, age);
+            if Vec2::from(last).distance(next.into()) < SHORTEST_SEGMENT {
+                continue;
+            }
             let colour = faded(colour(sample), self.fade(age));
-            picture.strokes.push(line(last, next, 1.5, colour, camera.rect));
+            // Butt, for round ends would lie over each other and show as beads where a trail fades.
+            let segment = line(last, next, 1.5, colour, camera.rect);
+            picture.strokes.push(Stroke { cap: Cap::Butt, ..segment });
             last = next;
         }
     }
@@ -69,6 +76,9 @@ impl Shown<'_> {
         let mut last = from.x;
         for (age, sample) in self.recent(history) {
             let (old, new) = (sample.q, last);
+            if camera.length((new - old).abs()) < SHORTEST_SEGMENT {
+                continue;
+            }
             let fade = self.fade(age);
             let foam = faded(self.colour(sample), 0.55 * fade);
             let radius = camera.length(0.35 + 0.25 * age);

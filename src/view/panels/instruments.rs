@@ -4,11 +4,9 @@
 //! arrow in its colour says so.
 
 use egui::{Color32, ComboBox, Label, RichText, Ui, vec2};
-use egui_plot::{
-    AxisHints, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoints, PlotUi, Points,
-};
+use egui_plot::{AxisHints, Plot, PlotBounds, PlotPoint};
 
-use super::{QUIET, colour};
+use super::{QUIET, colour, curves};
 use crate::lab::number::{round, superscript};
 use crate::lab::picture::palette;
 use crate::lab::{Command, History, Instrument, Lab, METRICS, Sample, Scale};
@@ -24,6 +22,9 @@ const ROOM_FOR_BOTH: f32 = 200.0;
 /// The height of a time axis in points, at least that of its text: a plot that had to learn it would be
 /// laid out anew in its second frame, and the first would not match.
 const X_AXIS: f32 = 16.0;
+/// The width of the lanes' curves and of the exact one, in points.
+const LANE_WIDTH: f32 = 1.6;
+const TRUTH_WIDTH: f32 = 1.4;
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 const PHASE_SAMPLES: usize = 360;
 
@@ -90,22 +91,22 @@ fn choice(
     }
 }
 
-/// A curve to be drawn: its colour, its dash, and its points.
+/// A curve to be drawn.
 struct Curve {
-    name: &'static str,
     colour: Color32,
+    /// Drawn length and gap in points.
     dash: [f32; 2],
+    /// Time and value, or whatever else the axes are for.
     points: Vec<[f64; 2]>,
 }
 
 /// One curve for each lane, of what `y` makes of its samples.
 fn curves(lab: &Lab, x: impl Fn(&Sample) -> f64, y: impl Fn(&Sample) -> f64) -> Vec<Curve> {
     let curve = |(entry, history): (usize, &History)| {
-        let method = lab.entries()[entry].method;
-        let (rgba, dash) = palette::style(method);
+        let (rgba, dash) = palette::style(lab.entries()[entry].method);
         let points = history.samples().map(|s| [x(s), y(s)]);
         let points = points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect();
-        Curve { name: method.name, colour: colour(rgba), dash, points }
+        Curve { colour: colour(rgba), dash, points }
     };
     lab.plotted().map(curve).collect()
 }
@@ -118,12 +119,8 @@ fn value(ui: &mut Ui, lab: &Lab, height: f32) {
     let exact: Vec<[f64; 2]> = truth(lab).samples().map(|s| [s.t, s.q]).collect();
     let lanes = curves(lab, |s| s.t, |s| s.q);
     let y = healthy_range(1, &exact, &lanes);
-    plot("value", height).y_axis_formatter(|mark, _| tick_text(mark.value)).show(ui, |plot| {
-        let bounds = bounds(lab, y);
-        draw(plot, &bounds, &lanes);
-        let line = Line::new("exact", PlotPoints::from(exact)).allow_hover(false);
-        plot.line(line.color(colour(palette::TRUTH)).width(1.2));
-    });
+    let plot = plot("value", height).y_axis_formatter(|mark, _| tick_text(mark.value));
+    draw(ui, plot, bounds(lab, y), &lanes, &exact);
 }
 
 fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
@@ -143,7 +140,7 @@ fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
                 }
                 format!("10{} {}", superscript(exponent as i32), metric.unit)
             });
-            plot.y_grid_spacer(decades).show(ui, |plot| draw(plot, &bounds(lab, y), &lanes));
+            draw(ui, plot.y_grid_spacer(decades), bounds(lab, y), &lanes, &[]);
         }
         Scale::Linear => {
             let lanes = curves(lab, |s| s.t, |s| s.metrics[index]);
@@ -152,7 +149,7 @@ fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
             let unit = metric.unit;
             let plot =
                 plot.y_axis_formatter(move |mark, _| format!("{} {unit}", tick_text(mark.value)));
-            plot.show(ui, |plot| draw(plot, &bounds(lab, y), &lanes));
+            draw(ui, plot, bounds(lab, y), &lanes, &[]);
         }
     }
 }
@@ -167,15 +164,8 @@ fn phase(ui: &mut Ui, lab: &Lab, height: f32) {
     }
     let [x, y] = [0, 1].map(|axis| healthy_range(axis, &exact, &lanes));
     let formatter = |mark: egui_plot::GridMark, _: &_| tick_text(mark.value);
-    plot("phase", height).x_axis_formatter(formatter).y_axis_formatter(formatter).show(
-        ui,
-        |plot| {
-            let bounds = PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]);
-            draw(plot, &bounds, &lanes);
-            let line = Line::new("exact", PlotPoints::from(exact)).allow_hover(false);
-            plot.line(line.color(colour(palette::TRUTH)).width(1.2));
-        },
-    );
+    let plot = plot("phase", height).x_axis_formatter(formatter).y_axis_formatter(formatter);
+    draw(ui, plot, PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]), &lanes, &exact);
 }
 
 fn plot<'a>(id: &'static str, height: f32) -> Plot<'a> {
@@ -202,33 +192,26 @@ fn bounds(lab: &Lab, (low, high): (f64, f64)) -> PlotBounds {
     PlotBounds::from_min_max([(now - span).max(0.0), low], [now.max(span), high])
 }
 
-/// Draws the lanes, each cut off at the bounds, with an arrow where its newest point is beyond them.
-fn draw(plot: &mut PlotUi<'_>, bounds: &PlotBounds, lanes: &[Curve]) {
-    plot.set_plot_bounds(*bounds);
+/// Draws the lanes, each cut off at the bounds, with an arrow where its newest point is beyond them,
+/// and the exact curve over them.
+fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, lanes: &[Curve], exact: &[[f64; 2]]) {
+    let shown = plot.show(ui, |plot| plot.set_plot_bounds(bounds));
+    let painter = ui.painter().with_clip_rect(*shown.transform.frame());
     let ([left, low], [right, high]) = (bounds.min(), bounds.max());
     // Far enough out for a line to leave at its own slope, near enough for the f32 of the painter.
     let (wide, tall) = (10.0 * (right - left), 10.0 * (high - low));
-    for lane in lanes {
-        let Some(&[x, y]) = lane.points.last() else { continue };
-        let cut = |[x, y]: &[f64; 2]| {
-            [x.clamp(left - wide, right + wide), y.clamp(low - tall, high + tall)]
-        };
-        let points: Vec<[f64; 2]> = lane.points.iter().map(cut).collect();
-        let style = match lane.dash {
-            [_, 0.0] => LineStyle::Solid,
-            [drawn, _] => LineStyle::Dashed { length: drawn },
-        };
-        let line = Line::new(lane.name, PlotPoints::from(points)).allow_hover(false);
-        plot.line(line.color(lane.colour).width(1.6).style(style));
-        if y > high || y < low {
-            let (shape, inset) =
-                if y > high { (MarkerShape::Up, -0.04) } else { (MarkerShape::Down, 0.04) };
-            let edge = if y > high { high } else { low };
-            let at = [x.clamp(left, right - 0.012 * (right - left)), edge + inset * (high - low)];
-            let arrow = Points::new(lane.name, PlotPoints::from(vec![at])).allow_hover(false);
-            plot.points(arrow.shape(shape).radius(5.0).color(lane.colour));
+    let on_screen = |[x, y]: &[f64; 2]| {
+        let (x, y) = (x.clamp(left - wide, right + wide), y.clamp(low - tall, high + tall));
+        shown.transform.position_from_point(&PlotPoint::new(x, y))
+    };
+    for Curve { colour, dash, points } in lanes {
+        curves::paint(&painter, points.iter().map(on_screen), *colour, LANE_WIDTH, *dash);
+        if let Some(newest) = points.last() {
+            curves::paint_arrow(&painter, on_screen(newest), *colour);
         }
     }
+    let white = colour(palette::TRUTH);
+    curves::paint(&painter, exact.iter().map(on_screen), white, TRUTH_WIDTH, [1.0, 0.0]);
 }
 
 /// The range of the truth along an axis, stretched to take in what is not far outside it.

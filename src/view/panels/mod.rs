@@ -4,6 +4,7 @@ use egui::{Color32, CornerRadius, Frame, Margin, Rect, Stroke, Ui};
 
 use crate::lab::{Command, Lab, picture::Rgba};
 
+mod curves;
 mod footer;
 mod help;
 mod instruments;
