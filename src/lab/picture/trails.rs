@@ -12,6 +12,8 @@ use crate::lab::{History, Sample};
 const TRAIL_SEGMENTS: usize = 180;
 /// The least length of a segment, in points: of shorter ones, too, more would not show.
 const SHORTEST_SEGMENT: f32 = 2.0;
+/// The same in a wake, which has no bends and fades within each segment.
+const SHORTEST_OF_WAKE: f32 = 8.0;
 
 impl Shown<'_> {
     /// The colour of the method that flew a body at a moment of its past.
@@ -73,27 +75,28 @@ impl Shown<'_> {
         /// Half the opening of a ship's wake on deep water, as Kelvin found it: sin = 1/3.
         const KELVIN_SLOPE: f64 = 0.353_553_390_593_273_8;
         let point = |x: f64, y: f64| camera.points(DVec2::new(x, y));
-        let mut last = from.x;
+        let (mut new, mut since) = (from.x, 0.0);
         for (age, sample) in self.recent(history) {
-            let (old, new) = (sample.q, last);
-            if camera.length((new - old).abs()) < SHORTEST_SEGMENT {
+            let old = sample.q;
+            if camera.length((new - old).abs()) < SHORTEST_OF_WAKE {
                 continue;
             }
-            let fade = self.fade(age);
-            let foam = faded(self.colour(sample), 0.55 * fade);
-            let radius = camera.length(0.35 + 0.25 * age);
+            let ages = [since, age];
+            let paler = |colour, part: f32| ages.map(|age| faded(colour, part * self.fade(age)));
             picture.strokes.push(Stroke {
-                radii: [radius, radius],
+                radii: ages.map(|age| camera.length(0.35 + 0.25 * age)),
+                colours: paler(self.colour(sample), 0.55),
                 cap: Cap::Butt,
-                ..line(point(new, 0.0), point(old, 0.0), 1.0, foam, camera.rect)
+                ..line(point(new, 0.0), point(old, 0.0), 1.0, palette::TRUTH, camera.rect)
             });
-            let arm = faded(palette::TRUTH, 0.35 * fade);
             for side in [-1.0, 1.0] {
                 let spread = |x: f64| side * (1.2 + KELVIN_SLOPE * (from.x - x).abs());
                 let (a, b) = (point(new + 3.0, spread(new)), point(old + 3.0, spread(old)));
-                picture.strokes.push(line(a, b, 1.2, arm, camera.rect));
+                let arm = line(a, b, 1.2, palette::TRUTH, camera.rect);
+                let colours = paler(palette::TRUTH, 0.35);
+                picture.strokes.push(Stroke { colours, cap: Cap::Butt, ..arm });
             }
-            last = old;
+            (new, since) = (old, age);
         }
     }
 }
