@@ -41,9 +41,8 @@ fn main() {
     let strokes = picture::compose(&lab, STAGE_POINTS).strokes.len();
     let adapter = format!("{} ({})", gpu.info.name, gpu.info.backend);
     println!("harbour, race, {} lanes, {strokes} strokes, {adapter}", lab.entries().len());
-    println!("start to first frame {:.0} ms{}", millis(first), {
-        verdict(first < MOST_FOR_THE_FIRST_FRAME, "1000 ms")
-    });
+    let aim = verdict(first < MOST_FOR_THE_FIRST_FRAME, "1000 ms");
+    println!("start to first frame {:.0} ms{aim}", millis(first));
     for (panels, least) in LEAST_FRAMES_A_SECOND {
         println!("\n1280x720, panels {panels:?}: a frame's stages, median and least ms");
         for (name, times) in stages(&gpu, panels, &mut lab) {
