@@ -32,7 +32,7 @@ fn drift(method: &Method, h: f64, steps: u32) -> Option<Drift> {
     for step in 0..steps {
         integrator.step(&Pendulum, h * f64::from(step), h, &mut state).unwrap();
         let error = energy(&state) - first;
-        if !(error.abs() < LOST) {
+        if !error.is_finite() || error.abs() > LOST {
             return None;
         }
         (least, most) = (least.min(error), most.max(error));
@@ -71,7 +71,7 @@ fn out_and_back<S: System<Vector = f64> + 'static>(method: &Method, system: &S) 
     let back = (1..=STEPS).rev().map(|n| (H * f64::from(n), -H));
     for (t, h) in out.chain(back) {
         integrator.step(system, t, h, &mut state).unwrap();
-        if !(state.q.abs() < LOST) {
+        if !state.q.is_finite() || state.q.abs() > LOST {
             return f64::INFINITY;
         }
     }

@@ -15,19 +15,21 @@ const HALVINGS: usize = 4;
 /// one the next term shows; at one moment or another it is large.
 const MOMENTS: u32 = 8;
 
+/// The state at a time, from the start.
+type Flow<S> = fn(&S, f64, &State<<S as System>::Vector>) -> State<<S as System>::Vector>;
+
 /// A motion whose exact course is known.
 struct Course<S: System> {
     system: S,
     start: State<S::Vector>,
-    exact: fn(&S, t: f64, start: &State<S::Vector>) -> State<S::Vector>,
+    exact: Flow<S>,
     /// How long it is followed, in seconds.
     span: f64,
 }
 
 /// The course of a body.
 fn of_body<B: Body>(body: B, span: f64) -> Course<B> {
-    let exact: fn(&B, f64, &State<B::Vector>) -> State<B::Vector> =
-        |body, t, start| body.exact(t, start).expect("a closed form");
+    let exact: Flow<B> = |body, t, start| body.exact(t, start).expect("a closed form");
     Course { start: body.start(), system: body, exact, span }
 }
 
