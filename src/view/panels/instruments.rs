@@ -60,7 +60,7 @@ fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 fn instrument_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let option = |instrument: Instrument| (Command::Instrument(instrument), instrument.name());
     let options: Vec<_> = Instrument::all().map(option).collect();
-    ui.spacing_mut().button_padding.x = 4.0;
+    ui.spacing_mut().button_padding.x = 3.0;
     choice(ui, "instrument", &options, Command::Instrument(lab.display().instrument), commands);
 }
 
