@@ -72,7 +72,7 @@ fn every_body_of_every_lane_has_a_cell_inside_the_stage() {
     lab.apply(Command::ToggleRace);
     lab.advance(100_000_000);
     let picture = compose(&lab, size);
-    assert_eq!(picture.seas.len(), 3 * lab.entries().len());
+    assert_eq!(picture.seas.len(), 3 * lab.race().entrants().len());
     for (i, sea) in picture.seas.iter().enumerate() {
         let ([left, top], [right, bottom]) = (sea.rect.min, sea.rect.max);
         assert!(left >= 0.0 && top >= 0.0 && right <= size[0] && bottom <= size[1], "{sea:?}");

@@ -1,7 +1,7 @@
 //! The list of methods: key, colour, what the card says, and how each is doing.
 
 use egui::{
-    Align2, Color32, FontId, Id, Pos2, Rect, ScrollArea, Sense, Stroke, Ui, Vec2, pos2, vec2,
+    Align, Align2, Color32, FontId, Id, Pos2, Rect, ScrollArea, Sense, Stroke, Ui, Vec2, pos2, vec2,
 };
 
 use super::{QUIET, RAISED, TEXT, colour};
