@@ -77,7 +77,7 @@ fn the_ship_is_the_chapters_and_as_wrong_as_its_scene_says() {
     assert_eq!(scene.tick_hz, 2);
     let body = &scene.bodies[0];
     let speed = |solver, ticks| run(body, solver, 2, ticks).0.v()[0];
-    let exact = speed(Solver::Exact, 17);
+    let exact = speed(Solver::Truth, 17);
     assert!((speed(with("explicit-euler"), 17) / exact - 1.016).abs() < 5e-4);
     assert!((speed(with("rk4"), 17) / exact - 1.0).abs() < 1e-6);
     let ticks = (scene.seconds * f64::from(scene.tick_hz)) as u32;
@@ -106,9 +106,9 @@ fn the_harbours_springs_grow_under_explicit_euler_within_ten_seconds_and_stay_un
         let grown = largest(with("explicit-euler"));
         assert!((5.0..50.0).contains(&grown), "{}: {grown} m", spring.name);
         assert!(largest(with("semi-implicit-euler")) < 1.1);
-        assert!(largest(Solver::Exact) < 1.0 + 1e-9);
+        assert!(largest(Solver::Truth) < 1.0 + 1e-9);
     }
-    let late = |spring: &SceneBody| run(spring, Solver::Exact, 1, 20).0.q()[0].abs();
+    let late = |spring: &SceneBody| run(spring, Solver::Truth, 1, 20).0.q()[0].abs();
     assert!(
         (late(&scene.bodies[0]) - 1.0).abs() < 1e-6,
         "the free spring is back after 20 periods"

@@ -16,11 +16,13 @@ const MARGIN: f32 = 6.0;
 const GUTTERS: (f32, f32) = (112.0, 18.0);
 /// From this width of the stage on, in points, lane names fit.
 const ROOM_FOR_NAMES: f32 = 520.0;
-/// The part of a scene's duration that a trail reaches back: three swings of the harbour's 1 Hz spring,
-/// and no more of a faster one than can be told apart.
-const TRAIL: f64 = 0.15;
-/// The longest trail, in seconds: a ship under way has left the stage by then.
-const LONGEST_TRAIL_S: f64 = 3.0;
+/// The part of a scene's duration that a chart recorder's paper holds: three swings of the harbour's
+/// 1 Hz spring, and no more of a faster one than can be told apart.
+const PAPER: f64 = 0.15;
+/// The most that the paper holds, in seconds.
+const LONGEST_PAPER_S: f64 = 3.0;
+/// The part of its width that a cell is high at least, when it follows a ship: her beam and some water.
+const LEAST_HEIGHT: f64 = 0.15;
 
 /// The picture of the lab on a stage of `size` points.
 pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
@@ -35,7 +37,7 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
             Interpolation::Raw => race.t(),
             _ => race.t() - (1.0 - lab.clock().alpha()) * h,
         },
-        trail_s: (TRAIL * lab.scene().seconds).min(LONGEST_TRAIL_S),
+        paper_s: (PAPER * lab.scene().seconds).min(LONGEST_PAPER_S),
     };
     let bodies = lab.scene().bodies.len();
     match lab.mode() {
@@ -87,8 +89,8 @@ pub(super) struct Shown<'a> {
     h: f64,
     /// The moment in seconds.
     pub(super) t: f64,
-    /// How far trails reach back, in seconds.
-    pub(super) trail_s: f64,
+    /// How far a chart recorder's trail reaches back, in seconds.
+    pub(super) paper_s: f64,
 }
 
 impl Shown<'_> {
@@ -126,16 +128,25 @@ impl Shown<'_> {
         let own = Paint { colour, line_width: 2.0, grow: 0.0 };
         let exact = Paint { colour: faded(palette::TRUTH, 0.75), line_width: 1.0, grow: 1.6 };
 
+        let white = faded(palette::TRUTH, 0.55);
+
         picture.seas.push(self.sea(&camera, view));
         match view {
-            View::Follow { .. } => self.wake(picture, &camera, pen.at, history),
-            View::Fixed { .. } => {
+            View::Follow { width_m, wake_s } => {
+                self.wake(picture, &camera, pen.at, history, width_m, wake_s);
+            }
+            View::Recorder { .. } => {
                 if self.lab.display().ghost {
-                    let white = faded(palette::TRUTH, 0.55);
-                    self.trail(picture, &camera, ghost.at, truth_history, |_| white);
+                    self.recorded(picture, &camera, ghost.at, truth_history, |_| white);
                 }
-                self.trail(picture, &camera, pen.at, history, |sample| self.colour(sample));
+                self.recorded(picture, &camera, pen.at, history, |sample| self.colour(sample));
                 envelope(picture, &camera, truth_history);
+            }
+            View::Fixed { trail_s, .. } => {
+                if self.lab.display().ghost {
+                    self.path(picture, &camera, ghost.at, truth_history, trail_s, |_| white);
+                }
+                self.path(picture, &camera, pen.at, history, trail_s, |s| self.colour(s));
             }
         }
         if self.lab.display().ghost {
@@ -149,11 +160,14 @@ impl Shown<'_> {
         if self.lab.mode() == Mode::Solo || entrant.entry == race[race.len() - 1].entry {
             captions::scale_bar(picture, &camera);
         }
-        if let View::Follow { .. } = view {
+        if let (View::Follow { .. }, [_]) = (view, body.coordinates) {
             captions::distance_marks(picture, &camera);
         }
         match self.lab.mode() {
-            Mode::Solo => captions::solo(picture, rect, self.lab, index, (q[0], v[0])),
+            Mode::Solo => {
+                let shown = (&body.coordinates[0], q[0], v[0]);
+                captions::solo(picture, rect, self.lab, index, shown);
+            }
             Mode::Race if first => captions::column(picture, rect, self.lab, index),
             Mode::Race => {}
         }
@@ -163,25 +177,34 @@ impl Shown<'_> {
         let [width, height] = [0, 1].map(|i| f64::from(rect.max[i] - rect.min[i]).max(1.0));
         let middle = [0, 1].map(|i| (rect.min[i] + rect.max[i]) / 2.0);
         match view {
-            View::Follow { width_m } => {
+            View::Follow { width_m, .. } => {
                 let centre_m = if self.lab.display().motion {
                     truth_at
                 } else {
                     // In pages, so that nothing but the ship moves.
-                    let page = 0.6 * width_m;
-                    DVec2::new((libm::floor(truth_at.x / page) + 0.5) * page, truth_at.y)
+                    let (page, leaf) = (0.6 * width_m, 0.5 * LEAST_HEIGHT * width_m);
+                    let x = (libm::floor(truth_at.x / page) + 0.5) * page;
+                    DVec2::new(x, libm::round(truth_at.y / leaf) * leaf)
                 };
                 // Half a ship's length ahead of the middle leaves room for the wake.
                 let at = [middle[0] + 0.1 * width as f32, middle[1] + 0.06 * height as f32];
-                let points_per_metre = (width / width_m).min(height / 9.0);
+                let points_per_metre = (width / width_m).min(height / (LEAST_HEIGHT * width_m));
                 Camera { rect, centre_m, at, points_per_metre }
             }
-            View::Fixed { half_width_m } => {
-                let swing = truth.samples().map(|s| s.q.abs()).fold(0.0, f64::max);
+            View::Recorder { half_width_m } => {
+                let swing = swing(truth);
                 let half_width_m = half_width_m.max(1.15 * swing);
                 let at = [middle[0] + 0.05 * width as f32, rect.min[1] + 0.46 * height as f32];
                 let points_per_metre = (width / 2.1).min(height * 1.1) / half_width_m;
                 Camera { rect, centre_m: DVec2::ZERO, at, points_per_metre }
+            }
+            View::Fixed { centre_m, half_m, .. } => {
+                let off = truth.samples().map(|s| (s.at - centre_m).abs() * 1.05);
+                let half_m = off.fold(half_m, DVec2::max);
+                // Below the caption.
+                let at = [middle[0], middle[1] + 0.02 * height as f32];
+                let points_per_metre = (width / half_m.x).min(0.96 * height / half_m.y) / 2.0;
+                Camera { rect, centre_m, at, points_per_metre }
             }
         }
     }
@@ -189,7 +212,7 @@ impl Shown<'_> {
     fn sea(&self, camera: &Camera, view: View) -> Sea {
         let step_m = camera.round_length_m(48.0);
         // The nearest grid line to the camera, so that no large number reaches an f32.
-        let line = DVec2::new(libm::round(camera.centre_m.x / step_m) * step_m, 0.0);
+        let line = (camera.centre_m / step_m).round() * step_m;
         Sea {
             rect: camera.rect,
             grid_origin: camera.points(line),
@@ -204,9 +227,14 @@ impl Shown<'_> {
     }
 }
 
+/// How far the truth has been from the origin along x, in metres.
+fn swing(truth: &History) -> f64 {
+    truth.samples().map(|s| s.at.x.abs()).fold(0.0, f64::max)
+}
+
 /// Two ticks at the largest swing of the truth: a mass beyond them has gained energy.
 fn envelope(picture: &mut Picture, camera: &Camera, truth: &History) {
-    let swing = truth.samples().map(|s| s.q.abs()).fold(0.0, f64::max);
+    let swing = swing(truth);
     let colour = faded(palette::TRUTH, 0.6);
     for x in [-swing, swing] {
         let [x, y] = camera.points(DVec2::new(x, 0.0));

@@ -14,10 +14,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) {
     let width = ui.available_width();
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         if width >= ROOM_FOR_KEYS {
-            let throttle = lab
-                .has_throttle()
-                .then(|| format!("↑↓ throttle {:.0} %  ", lab.throttle() * 100.0));
-            let keys = format!("{}K kick  Space pause  H all keys", throttle.unwrap_or_default());
+            let part = |input, keys: &str, part: f64| {
+                let text = format!("{keys} {input} {:.0} %  ", part * 100.0);
+                if lab.takes(input) { text } else { String::new() }
+            };
+            let keys = format!(
+                "{}{}K kick  Space pause  H all keys",
+                part("throttle", "↑↓", lab.throttle()),
+                part("rudder", "←→", lab.rudder()),
+            );
             ui.label(RichText::new(keys).color(QUIET));
         }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
