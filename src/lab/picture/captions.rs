@@ -29,7 +29,8 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, lab: &Lab, entrant: &Entra
     let middle = (rect.min[1] + rect.max[1]) / 2.0;
     if entrant.entry == lab.active() {
         let (top, bottom) = (rect.min[1] + 4.0, rect.max[1] - 4.0);
-        let bar = line([2.5, top], [2.5, bottom.max(top)], 3.0, colour, rect);
+        let x = rect.min[0] + 2.5;
+        let bar = line([x, top], [x, bottom.max(top)], 3.0, colour, rect);
         picture.strokes.push(bar);
     }
     let mut write = |y, colour, text: String| {

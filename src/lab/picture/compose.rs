@@ -9,6 +9,10 @@ use crate::lab::race::Entrant;
 use crate::lab::{History, Interpolation, Lab, LaneBody, Mode};
 use crate::sim::bodies::{Pen, View};
 
+/// The head of a cell in which its lane is named, and may have halted, in points.
+const CAPTION: f32 = 32.0;
+/// The head of a cell that a body with a fixed camera leaves to the caption, in points.
+const HEAD: f64 = 20.0;
 /// Space round the stage and between its cells, in points.
 const MARGIN: f32 = 6.0;
 /// The column of lane names at the left of a race, in points: on a stage wide enough for names, and on
@@ -21,8 +25,6 @@ const ROOM_FOR_NAMES: f32 = 520.0;
 const PAPER: f64 = 0.15;
 /// The most that the paper holds, in seconds.
 const LONGEST_PAPER_S: f64 = 3.0;
-/// The part of its width that a cell is high at least, when it follows a ship: her beam and some water.
-const LEAST_HEIGHT: f64 = 0.15;
 
 /// The picture of the lab on a stage of `size` points.
 pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
@@ -47,6 +49,16 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
                 shown.body(&mut picture, cell, &race.entrants()[0], index);
             }
         }
+        Mode::Race if let Some(shape) = shown.shape() => {
+            let stage = Rect { min: [0.0; 2], max: size };
+            let cells = mosaic(stage, race.entrants().len(), shape);
+            for (entrant, cell) in race.entrants().iter().zip(cells) {
+                shown.body(&mut picture, cell, entrant, 0);
+                let bottom = (cell.min[1] + CAPTION).min(cell.max[1]);
+                let head = Rect { min: cell.min, max: [cell.max[0], bottom] };
+                captions::lane(&mut picture, head, lab, entrant);
+            }
+        }
         Mode::Race => {
             let gutter = if size[0] >= ROOM_FOR_NAMES { GUTTERS.0 } else { GUTTERS.1 };
             let stage = Rect { min: [gutter, 0.0], max: size };
@@ -57,6 +69,9 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
                 for (index, cell) in row.iter().enumerate() {
                     shown.body(&mut picture, *cell, entrant, index);
                 }
+            }
+            for (index, cell) in cells.iter().take(bodies).enumerate() {
+                captions::column(&mut picture, *cell, lab, index);
             }
         }
     }
@@ -80,6 +95,18 @@ fn grid(stage: Rect, rows: usize, columns: usize) -> Vec<Rect> {
     (0..rows).flat_map(|row| (0..columns).map(move |column| cell(row, column))).collect()
 }
 
+/// So many cells in rows, cut so that a picture of this `shape` is as large as may be in each.
+fn mosaic(stage: Rect, count: usize, shape: DVec2) -> Vec<Rect> {
+    let scale = |cells: &Vec<Rect>| {
+        let Rect { min, max } = cells[0];
+        (f64::from(max[0] - min[0]) / shape.x).min(f64::from(max[1] - min[1]) / shape.y)
+    };
+    let grids = (1..=count).map(|columns| grid(stage, count.div_ceil(columns), columns));
+    let mut cells = grids.max_by(|a, b| scale(a).total_cmp(&scale(b))).unwrap_or_default();
+    cells.truncate(count);
+    cells
+}
+
 /// The moment that is drawn.
 pub(super) struct Shown<'a> {
     pub(super) lab: &'a Lab,
@@ -94,6 +121,19 @@ pub(super) struct Shown<'a> {
 }
 
 impl Shown<'_> {
+    /// The width and height, in metres, of what is to be seen of a body that is alone in its scene and
+    /// moves both across and up. Other bodies move along rows.
+    fn shape(&self) -> Option<DVec2> {
+        let [body] = self.lab.race().truth().bodies() else { return None };
+        match body.stepper.view() {
+            View::Fixed { half_m, .. } => Some(half_m),
+            View::Follow { width_m, height_m, .. } if turns(body) => {
+                Some(DVec2::new(width_m, height_m))
+            }
+            View::Follow { .. } | View::Recorder { .. } => None,
+        }
+    }
+
     /// A body's coordinates and velocities at the moment drawn.
     fn state(&self, body: &LaneBody) -> (Vec<f64>, Vec<f64>) {
         let (q0, v0) = (&body.previous_q, &body.previous_v);
@@ -123,7 +163,7 @@ impl Shown<'_> {
         body.stepper.outline(&q, &v, &mut pen);
 
         let view = truth.stepper.view();
-        let camera = self.camera(rect, view, ghost.at, truth_history);
+        let camera = self.camera(rect, truth, ghost.at, truth_history);
         let (colour, _) = style(self.lab.entries()[entrant.entry].method);
         let own = Paint { colour, line_width: 2.0, grow: 0.0 };
         let exact = Paint { colour: faded(palette::TRUTH, 0.75), line_width: 1.0, grow: 1.6 };
@@ -132,7 +172,7 @@ impl Shown<'_> {
 
         picture.seas.push(self.sea(&camera, view));
         match view {
-            View::Follow { width_m, wake_s } => {
+            View::Follow { width_m, wake_s, .. } => {
                 self.wake(picture, &camera, pen.at, history, width_m, wake_s);
             }
             View::Recorder { .. } => {
@@ -156,11 +196,10 @@ impl Shown<'_> {
 
         captions::arrow(picture, &camera, pen.at, colour);
         let race = self.lab.race().entrants();
-        let first = entrant.entry == race[0].entry;
         if self.lab.mode() == Mode::Solo || entrant.entry == race[race.len() - 1].entry {
             captions::scale_bar(picture, &camera);
         }
-        if let (View::Follow { .. }, [_]) = (view, body.coordinates) {
+        if let (View::Follow { .. }, false) = (view, turns(body)) {
             captions::distance_marks(picture, &camera);
         }
         match self.lab.mode() {
@@ -168,27 +207,28 @@ impl Shown<'_> {
                 let shown = (&body.coordinates[0], q[0], v[0]);
                 captions::solo(picture, rect, self.lab, index, shown);
             }
-            Mode::Race if first => captions::column(picture, rect, self.lab, index),
             Mode::Race => {}
         }
     }
 
-    fn camera(&self, rect: Rect, view: View, truth_at: DVec2, truth: &History) -> Camera {
+    fn camera(&self, rect: Rect, body: &LaneBody, truth_at: DVec2, truth: &History) -> Camera {
         let [width, height] = [0, 1].map(|i| f64::from(rect.max[i] - rect.min[i]).max(1.0));
         let middle = [0, 1].map(|i| (rect.min[i] + rect.max[i]) / 2.0);
-        match view {
-            View::Follow { width_m, .. } => {
+        match body.stepper.view() {
+            View::Follow { width_m, height_m, .. } => {
                 let centre_m = if self.lab.display().motion {
                     truth_at
                 } else {
                     // In pages, so that nothing but the ship moves.
-                    let (page, leaf) = (0.6 * width_m, 0.5 * LEAST_HEIGHT * width_m);
+                    let (page, leaf) = (0.6 * width_m, 0.5 * height_m);
                     let x = (libm::floor(truth_at.x / page) + 0.5) * page;
                     DVec2::new(x, libm::round(truth_at.y / leaf) * leaf)
                 };
-                // Half a ship's length ahead of the middle leaves room for the wake.
-                let at = [middle[0] + 0.1 * width as f32, middle[1] + 0.06 * height as f32];
-                let points_per_metre = (width / width_m).min(height / (LEAST_HEIGHT * width_m));
+                // On a straight course half a ship's length ahead of the middle leaves room for the
+                // wake.
+                let ahead = if turns(body) { 0.0 } else { 0.1 };
+                let at = [middle[0] + ahead * width as f32, middle[1] + 0.06 * height as f32];
+                let points_per_metre = (width / width_m).min(height / height_m);
                 Camera { rect, centre_m, at, points_per_metre }
             }
             View::Recorder { half_width_m } => {
@@ -201,9 +241,9 @@ impl Shown<'_> {
             View::Fixed { centre_m, half_m, .. } => {
                 let off = truth.samples().map(|s| (s.at - centre_m).abs() * 1.05);
                 let half_m = off.fold(half_m, DVec2::max);
-                // Below the caption.
-                let at = [middle[0], middle[1] + 0.02 * height as f32];
-                let points_per_metre = (width / half_m.x).min(0.96 * height / half_m.y) / 2.0;
+                let head = HEAD.min(height / 4.0);
+                let at = [middle[0], middle[1] + head as f32 / 2.0];
+                let points_per_metre = (width / half_m.x).min((height - head) / half_m.y) / 2.0;
                 Camera { rect, centre_m, at, points_per_metre }
             }
         }
@@ -225,6 +265,11 @@ impl Shown<'_> {
             },
         }
     }
+}
+
+/// Whether a body leaves the line that it starts on: the one coordinate of the others is along it.
+fn turns(body: &LaneBody) -> bool {
+    body.coordinates.len() > 1
 }
 
 /// How far the truth has been from the origin along x, in metres.

@@ -73,7 +73,8 @@ impl Shown<'_> {
         let mut last = camera.points(from);
         for (age, sample) in self.recent(history, trail_s) {
             let next = camera.points(sample.at);
-            let colour = faded(colour(sample), self.fade(age, trail_s));
+            // Opaque, since where two segments meet one covers the other.
+            let colour = palette::dimmed(colour(sample), self.fade(age, trail_s));
             picture.strokes.push(line(last, next, 1.5, colour, camera.rect));
             last = next;
         }

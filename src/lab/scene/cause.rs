@@ -44,7 +44,7 @@ pub(super) enum Cause {
     WrongType { subject: String, found: String, wanted: Wanted },
     #[error("`{key}` is {value}, out of range")]
     OutOfRange { key: &'static str, value: String, wanted: Wanted },
-    #[error("`{key}` has {found} points")]
+    #[error("`{key}` has {found} point{}", if *found == 1 { "" } else { "s" })]
     PointCount { key: &'static str, found: usize, wanted: Wanted },
     #[error("`{key}` goes from {before} to {value}")]
     NotRising { key: &'static str, value: f64, before: f64 },

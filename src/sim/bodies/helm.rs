@@ -246,7 +246,7 @@ impl Body for Helm {
     }
 
     fn view(&self) -> View {
-        View::Follow { width_m: WIDTH_M, wake_s: 8.0 }
+        View::Follow { width_m: WIDTH_M, height_m: 0.6 * WIDTH_M, wake_s: 10.0 }
     }
 }
 

@@ -54,6 +54,9 @@ impl Stumpff {
 }
 
 /// The state `dt` seconds after `from`, about a centre at the origin that pulls with `mu` / r².
+///
+/// Good to some 1e-14 of its size for each radian gone round. On a fly-by from r away at speed v, times
+/// cancel, and it is worse by the factor r v² / `mu`.
 pub(super) fn flow(mu: f64, dt: f64, from: &State<DVec2>) -> State<DVec2> {
     if dt == 0.0 {
         return from.clone();

@@ -82,11 +82,13 @@ pub enum Input {
 /// How a body wants to be looked at: what part of its world the stage shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum View {
-    /// Afloat: the camera follows the true body over the water, this many metres are shown across,
-    /// and a wake lies where the body has been.
+    /// Afloat: the camera follows the true body over the water, and a wake lies where the body has
+    /// been.
     Follow {
-        /// Metres across.
+        /// The metres shown across, at least; a sixth of that is about a hull.
         width_m: f64,
+        /// The metres shown from top to bottom, at least.
+        height_m: f64,
         /// How far the wake reaches back, in seconds.
         wake_s: f64,
     },
@@ -250,7 +252,9 @@ impl std::fmt::Display for Range {
             Range::NonNegative(most) => write!(f, "from 0 to {}", short(most)),
             Range::Within(most) => write!(f, "from {} to {}", short(-most), short(most)),
             Range::Count(most) => write!(f, "whole, from 1 to {most}"),
-            Range::Curve { x, y } => write!(f, "2 to {MOST_POINTS} points [{x}, {y}]"),
+            Range::Curve { x, y } => {
+                write!(f, "2 to {MOST_POINTS} points [{x}, {y}] in rising order")
+            }
         }
     }
 }

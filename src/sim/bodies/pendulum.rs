@@ -144,6 +144,6 @@ impl Body for Pendulum {
 
     fn view(&self) -> View {
         let half_m = DVec2::splat(1.2 * self.length);
-        View::Fixed { centre_m: DVec2::ZERO, half_m, trail_s: 0.6 }
+        View::Fixed { centre_m: DVec2::ZERO, half_m, trail_s: 1.0 }
     }
 }

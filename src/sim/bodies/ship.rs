@@ -128,7 +128,7 @@ impl Body for Ship {
     }
 
     fn view(&self) -> View {
-        View::Follow { width_m: 60.0, wake_s: 3.0 }
+        View::Follow { width_m: 60.0, height_m: 9.0, wake_s: 3.0 }
     }
 }
 
