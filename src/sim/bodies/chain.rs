@@ -113,7 +113,8 @@ pub struct Chain {
     x0: f64,
     /// The impulse of one kick, in newton seconds.
     kick: f64,
-    /// `sin(π i / (N + 1))` for i from 0 to 2 N + 1: mass j in mode n is at i = j n, round.
+    /// `sin(π i / (N + 1))` for i from 0 to 2 N + 1: mass j in mode n moves as far as i = j n, round,
+    /// says.
     sines: Vec<f64>,
 }
 
@@ -147,10 +148,16 @@ impl Chain {
         2.0 * (self.stiffness / self.mass).sqrt() * libm::sin(half)
     }
 
-    /// How far mass `j` moves in mode `n`, both from 1, in a mode of amplitude 1.
-    #[inline]
-    fn shape(&self, n: usize, j: usize) -> f64 {
-        self.sines[(n * j) % self.sines.len()]
+    /// How far each mass moves in mode `n`, from 1, of amplitude 1.
+    fn shape(&self, n: usize) -> impl Iterator<Item = f64> {
+        let mut i = 0;
+        (0..self.masses).map(move |_| {
+            i += n;
+            if i >= self.sines.len() {
+                i -= self.sines.len();
+            }
+            self.sines[i]
+        })
     }
 
     /// The displacement of the plucked mass at the start, for scale, in metres.
@@ -200,16 +207,14 @@ impl Body for Chain {
         let norm = 2.0 / (self.masses + 1) as f64;
         for n in 1..=self.masses {
             let mut mode = State { q: 0.0, v: 0.0 };
-            for (j, (q, v)) in (1..).zip(from.q.iter().zip(&from.v)) {
-                let shape = self.shape(n, j);
+            for ((q, v), shape) in from.q.iter().zip(&from.v).zip(self.shape(n)) {
                 mode.q += norm * shape * q;
                 mode.v += norm * shape * v;
             }
             let omega = self.angular_frequency(n);
             let alpha = self.damping / self.stiffness * omega * omega / 2.0;
             let mode = oscillator::flow(omega * omega, alpha, dt, &mode);
-            for (j, (q, v)) in (1..).zip(to.q.iter_mut().zip(&mut to.v)) {
-                let shape = self.shape(n, j);
+            for ((q, v), shape) in to.q.iter_mut().zip(&mut to.v).zip(self.shape(n)) {
                 *q += shape * mode.q;
                 *v += shape * mode.v;
             }
