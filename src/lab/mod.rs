@@ -21,7 +21,7 @@ pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, comman
 pub use history::{CAPACITY, History, Sample};
 pub use lab::{Ask, Display, Instrument, Interpolation, Lab, Mode, Pace};
 pub use lane::{ESCAPE, Halt, Lane, LaneBody};
-pub use metrics::{METRICS, Metric, Scale};
+pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use race::{Entrant, Race};
 pub use scene::{
     BuiltIn, LARGEST_FILE, LAST_TICK, LaneSpec, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS,

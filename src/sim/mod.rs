@@ -6,8 +6,10 @@
 
 pub mod bodies;
 pub mod integrators;
+mod reference;
 mod stepper;
 mod system;
 
+pub use reference::REFERENCE_ACCURACY;
 pub use stepper::{Solver, Stepper, stepper};
 pub use system::{Counted, State, System, Vector};

@@ -32,8 +32,9 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     if height >= ROOM_FOR_BOTH {
         ui.horizontal(|ui| {
             body_choice(ui, lab, commands);
-            let coordinate = &lab.scene().bodies[lab.display().body].kind.coordinates[0];
-            let title = format!("{} ({}), exact in white", coordinate.name, coordinate.unit);
+            let truth = &lab.race().truth().bodies()[lab.display().body];
+            let (coordinate, words) = (&truth.coordinates[0], truth.truth_in_words());
+            let title = format!("{} ({}), {words} in white", coordinate.name, coordinate.unit);
             ui.add(Label::new(RichText::new(title).color(QUIET)).truncate());
         });
         value(ui, lab, height * 0.5 - 26.0);
@@ -121,13 +122,15 @@ fn value(ui: &mut Ui, lab: &Lab, height: f32) {
     plot("value", height).y_axis_formatter(|mark, _| tick_text(mark.value)).show(ui, |plot| {
         let bounds = bounds(lab, y);
         draw(plot, &bounds, &lanes);
-        let line = Line::new("exact", PlotPoints::from(exact)).allow_hover(false);
+        let line = Line::new("truth", PlotPoints::from(exact)).allow_hover(false);
         plot.line(line.color(colour(palette::TRUTH)).width(1.2));
     });
 }
 
 fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
     let metric = &METRICS[index];
+    let body = &lab.race().truth().bodies()[lab.display().body];
+    let unit = metric.unit.on(&body.coordinates[0]);
     match metric.scale {
         Scale::Log => {
             let log = |s: &Sample| match s.metrics[index] {
@@ -141,7 +144,7 @@ fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
                 if (mark.value - exponent).abs() > 1e-6 {
                     return String::new();
                 }
-                format!("10{} {}", superscript(exponent as i32), metric.unit)
+                format!("10{} {unit}", superscript(exponent as i32))
             });
             plot.y_grid_spacer(decades).show(ui, |plot| draw(plot, &bounds(lab, y), &lanes));
         }
@@ -149,7 +152,6 @@ fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
             let lanes = curves(lab, |s| s.t, |s| s.metrics[index]);
             let y = spread(&lanes, 300.0);
             let plot = plot("metric", height);
-            let unit = metric.unit;
             let plot =
                 plot.y_axis_formatter(move |mark, _| format!("{} {unit}", tick_text(mark.value)));
             plot.show(ui, |plot| draw(plot, &bounds(lab, y), &lanes));
@@ -172,7 +174,7 @@ fn phase(ui: &mut Ui, lab: &Lab, height: f32) {
         |plot| {
             let bounds = PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]);
             draw(plot, &bounds, &lanes);
-            let line = Line::new("exact", PlotPoints::from(exact)).allow_hover(false);
+            let line = Line::new("truth", PlotPoints::from(exact)).allow_hover(false);
             plot.line(line.color(colour(palette::TRUTH)).width(1.2));
         },
     );
