@@ -37,8 +37,7 @@ fn nothing_that_blows_up_reaches_a_vertex() {
 
 #[test]
 fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
-    let text = format!(
-        "title = \"far\"\ntick_hz = 10000\nseconds = 1\n\
+    let text = "title = \"far\"\ntick_hz = 10000\nseconds = 1\n\
          [[ship]]\nthrust_n = 0\ndrag_n_s_per_m = 0\nmass_kg = 1e-3\ns0_m = 1e15\nv0_m_per_s = 1e15\n\
          [[spring]]\nmass_kg = 1e15\nstiffness_n_per_m = 1e-3\nx0_m = -1e15\nv0_m_per_s = -1e15\n\
          [[spring]]\nname = \"small\"\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 1e-12\n\
@@ -48,9 +47,8 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
          [[orbit]]\nname = \"near\"\nmu_m3_per_s2 = 1e15\nx0_m = 1e-9\nvy0_m_per_s = 0\n\
          [[helm]]\nmass_kg = 1\ninertia_kg_m2 = 1\ndrag_n_s_per_m = 0\nside_drag_n_s_per_m = 0\n\
          yaw_drag_n_m_s = 0\nrudder_n_s = 1\nx0_m = 1e15\ny0_m = -1e15\npsi0_rad = 1e15\n\
-         u0_m_per_s = 1e15\nthrust_curve = [[0, 0], [1, 0]]\n"
-    );
-    let scene = Scene::parse("far.toml", &text).unwrap();
+         u0_m_per_s = 1e15\nthrust_curve = [[0, 0], [1, 0]]\n";
+    let scene = Scene::parse("far.toml", text).unwrap();
     // One after the other, so that one that halts stops no other; then all at once.
     let alone = (0..scene.bodies.len()).map(|body| {
         let bodies = vec![scene.bodies[body].clone()];
