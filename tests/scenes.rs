@@ -271,7 +271,7 @@ fn a_chain_and_a_helm_are_read_with_their_counts_and_points() {
         coordinates.map(|c| format!("{} {}", c.name, c.velocity)).collect::<Vec<_>>()
     };
     assert_eq!(names(&scene.bodies[0]), ["x1 v1", "x2 v2", "x3 v3"]);
-    assert_eq!(names(&scene.bodies[1]), ["x vx", "y vy", "ψ r"]);
+    assert_eq!(names(&scene.bodies[1]), ["x vx", "y vy", "psi r"]);
 }
 
 #[test]

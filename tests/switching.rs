@@ -318,3 +318,30 @@ fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_other
     lab.apply(Command::ToggleRace);
     assert_eq!((racing(&lab), lab.active()), (vec![0, 1, 3], 3));
 }
+
+#[test]
+fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_after_a_restart() {
+    let mut lab = Lab::new(scene("helm"));
+    assert!(lab.takes("rudder") && lab.takes("throttle") && !lab.takes("anchor"));
+    assert_eq!((lab.rudder(), lab.throttle()), (0.0, 1.0));
+    for (command, times, rudder) in [
+        (Command::RudderLeft, 3, 0.3),
+        (Command::RudderRight, 3, 0.0),
+        (Command::RudderRight, 14, -1.0),
+        (Command::RudderLeft, 10, 0.0),
+        (Command::Rudder(7.0), 1, 1.0),
+    ] {
+        for _ in 0..times {
+            lab.apply(command);
+        }
+        assert_eq!(lab.rudder(), rudder);
+    }
+    for _ in 0..10 {
+        lab.tick();
+    }
+    let heading = |lab: &Lab| lab.race().entrants()[0].lane.bodies()[0].stepper.q()[2];
+    assert!(heading(&lab) > 0.1, "left is counter-clockwise");
+    lab.apply(Command::Restart);
+    assert_eq!((lab.rudder(), heading(&lab)), (0.0, 0.0));
+    assert!(!Lab::new(scene("ship")).takes("rudder"));
+}

@@ -10,7 +10,10 @@ fn each_mistake_is_named_with_its_remedy() {
         ("trace --scene shp", "is called \"shp\"; did you mean ship?"),
         ("trace --scene Stiff", "did you mean stiff?"),
         ("trace --scene nosuch.toml", "give one of these, or the path of a scene file"),
-        ("trace --scene nosuch.toml", "(harbour, ship, spring, stiff)"),
+        (
+            "trace --scene nosuch.toml",
+            "(harbour, ship, spring, stiff, surge, chain, pendulum, orbit, helm)",
+        ),
         ("trace --scene .", ". is a directory; give a scene file in it"),
         ("trace --method rk5", "did you mean rk4? `regatta list methods` names all"),
         ("trace --method x", "no such method. `regatta list methods` names all"),
