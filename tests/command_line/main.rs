@@ -6,6 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 mod capture;
 mod list;
+mod manifest;
 mod mistakes;
 mod trace;
 
