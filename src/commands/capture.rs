@@ -1,6 +1,7 @@
 //! `regatta capture`: a run drawn frame by frame, by a clock that is computed and not read, so that the
 //! same command makes the same bytes.
 
+use std::io;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -144,6 +145,9 @@ pub enum CaptureError {
     /// A frame was drawn but did not come back.
     #[error(transparent)]
     Readback(#[from] ReadbackError),
+    /// Standard output took no more.
+    #[error("cannot write to standard output: {0}")]
+    Output(#[from] io::Error),
     /// Somebody pressed Ctrl-C.
     #[error("interrupted after {done} of {frames} frames; whole: {whole}")]
     Interrupted {

@@ -3,7 +3,7 @@
 /// 64 bits of `bytes` as 16 hexadecimal digits. As FNV-1a, but over little-endian words of 8 bytes, the
 /// last one filled up with zeros, and folded after each by `hash ^= hash >> 32`; the number of bytes is
 /// the first word. A change of any one word changes the hash.
-pub(super) fn fingerprint(bytes: &[u8]) -> String {
+pub fn fingerprint(bytes: &[u8]) -> String {
     let word = |chunk: &[u8]| {
         let mut word = [0; 8];
         word[..chunk.len()].copy_from_slice(chunk);

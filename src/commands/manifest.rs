@@ -24,12 +24,14 @@
 //!   `lanes` its `hash` and, body by body, `q` and `v`.
 //!
 //! A lane's `hash` is [`Race::lane_hashes`](crate::lab::Race::lane_hashes). The other hashes are 64
-//! bits, as FNV-1a but over little-endian words of 8 bytes, the last one filled up with zeros, each
+//! bits ([`fingerprint`]), as FNV-1a but over little-endian words of 8 bytes, the last one filled up with zeros, each
 //! followed by `hash ^= hash >> 32`; the number of bytes is the first word. All are hexadecimal. There
 //! is no seed, for nothing in a run is random.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
+
+pub use super::fingerprint::fingerprint;
 
 /// The number of the description above. A manifest of another one cannot be judged.
 pub const SCHEMA: u32 = 1;
@@ -70,6 +72,14 @@ pub struct Settings {
     pub panels: bool,
     pub motion: bool,
     pub mark_every: u64,
+}
+
+impl Settings {
+    /// The hash by which altered settings are known.
+    pub fn hash(&self) -> String {
+        let text = serde_json::to_string(self).expect("all keys are strings");
+        fingerprint(text.as_bytes())
+    }
 }
 
 /// A scene file as it was.

@@ -24,6 +24,7 @@ mod scene_file;
 mod settings;
 mod table;
 mod trace;
+mod verify;
 mod voyage;
 
 use capture::{CaptureArgs, CaptureError};
@@ -32,6 +33,7 @@ use list::ListArgs;
 use play::PlayArgs;
 use scene_file::SceneFileError;
 use trace::TraceArgs;
+use verify::{VerifyArgs, VerifyError};
 
 use crate::window::WindowError;
 
@@ -42,6 +44,7 @@ Examples:
   regatta --scene ship --method explicit-euler --tick-hz 2
   regatta trace --scene ship --method rk4 > ship.csv
   regatta capture --scene spring --race --out clip
+  regatta verify clip
   regatta list methods
 
 In the window, H shows the keys. `regatta help COMMAND` explains a command.";
@@ -61,6 +64,7 @@ pub struct Cli {
 enum Command {
     Play(PlayArgs),
     Capture(CaptureArgs),
+    Verify(VerifyArgs),
     Trace(TraceArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
@@ -74,6 +78,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
     let done = match cli.command.unwrap_or(Command::Play(cli.play)) {
         Command::Play(args) => play::run(&args),
         Command::Capture(args) => capture::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args),
@@ -93,6 +98,9 @@ pub enum Error {
     /// Frames could not be drawn or written.
     #[error(transparent)]
     Capture(#[from] CaptureError),
+    /// Frames are not what they were, or cannot be judged.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
     /// The window could not be opened, or failed.
     #[error(transparent)]
     Window(#[from] WindowError),
@@ -108,6 +116,7 @@ impl Error {
         match self {
             Error::SceneFile(_) => 2,
             Error::Capture(error) => error.exit_code(),
+            Error::Verify(error) => error.exit_code(),
             Error::Window(_) | Error::Output(_) => 1,
         }
     }

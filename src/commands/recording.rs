@@ -107,7 +107,7 @@ pub(super) fn record(
     let manifest = Manifest {
         schema: SCHEMA,
         regatta: env!("CARGO_PKG_VERSION").to_owned(),
-        settings_hash: settings::hash(&settings),
+        settings_hash: settings.hash(),
         settings,
         adapter,
         complete: done == frames,

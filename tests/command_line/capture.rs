@@ -20,7 +20,7 @@ pub(crate) fn drawn_or_skip(test: &str, directory: &Path, arguments: &str) -> Op
     Some(output)
 }
 
-fn names(directory: &Path) -> Vec<String> {
+pub(crate) fn names(directory: &Path) -> Vec<String> {
     let entries = fs::read_dir(directory).unwrap();
     let mut names: Vec<_> =
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
@@ -28,7 +28,7 @@ fn names(directory: &Path) -> Vec<String> {
     names
 }
 
-fn dimensions(picture: &Path) -> (u32, u32) {
+pub(crate) fn dimensions(picture: &Path) -> (u32, u32) {
     image::open(picture).unwrap().into_rgba8().dimensions()
 }
 

@@ -9,6 +9,7 @@ mod list;
 mod manifest;
 mod mistakes;
 mod trace;
+mod verify;
 
 /// The program, with nothing of this machine's display or settings.
 fn regatta() -> Command {
