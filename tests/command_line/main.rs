@@ -7,6 +7,7 @@ use std::process::{Command, Output, Stdio};
 mod capture;
 mod list;
 mod manifest;
+mod mishaps;
 mod mistakes;
 mod trace;
 mod verify;
