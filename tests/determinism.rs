@@ -268,3 +268,17 @@ fn the_hash_sees_the_last_bit_of_every_value() {
         }
     }
 }
+
+#[test]
+fn each_lane_has_the_hash_of_a_race_of_its_own() {
+    let scene = built_in("harbour");
+    let mut race = Field::Race.open(&scene);
+    let mut solos: Vec<Lab> =
+        scene.lanes.iter().map(|lane| Field::Solo(lane.method).open(&scene)).collect();
+    for _ in 0..200 {
+        race.tick();
+        solos.iter_mut().for_each(Lab::tick);
+    }
+    let alone = solos.iter().map(|lab| lab.race().state_hash());
+    assert!(race.race().lane_hashes().eq(alone));
+}

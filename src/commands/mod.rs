@@ -12,12 +12,20 @@ use clap::{Parser, Subcommand, ValueEnum};
 mod capture;
 mod completions;
 mod experiment;
+mod fingerprint;
 mod frame_folder;
 mod list;
+mod logbook;
+pub mod manifest;
+mod pipeline;
 mod play;
+mod recording;
 mod scene_file;
+mod settings;
 mod table;
 mod trace;
+mod verify;
+mod voyage;
 
 use capture::{CaptureArgs, CaptureError};
 use completions::CompletionsArgs;
@@ -25,6 +33,7 @@ use list::ListArgs;
 use play::PlayArgs;
 use scene_file::SceneFileError;
 use trace::TraceArgs;
+use verify::{VerifyArgs, VerifyError};
 
 use crate::window::WindowError;
 
@@ -35,6 +44,7 @@ Examples:
   regatta --scene ship --method explicit-euler --tick-hz 2
   regatta trace --scene ship --method rk4 > ship.csv
   regatta capture --scene spring --race --out clip
+  regatta verify clip
   regatta list methods
 
 In the window, H shows the keys. `regatta help COMMAND` explains a command.";
@@ -54,6 +64,7 @@ pub struct Cli {
 enum Command {
     Play(PlayArgs),
     Capture(CaptureArgs),
+    Verify(VerifyArgs),
     Trace(TraceArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
@@ -67,6 +78,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
     let done = match cli.command.unwrap_or(Command::Play(cli.play)) {
         Command::Play(args) => play::run(&args),
         Command::Capture(args) => capture::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args),
@@ -86,6 +98,9 @@ pub enum Error {
     /// Frames could not be drawn or written.
     #[error(transparent)]
     Capture(#[from] CaptureError),
+    /// Frames are not what they were, or cannot be judged.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
     /// The window could not be opened, or failed.
     #[error(transparent)]
     Window(#[from] WindowError),
@@ -101,6 +116,7 @@ impl Error {
         match self {
             Error::SceneFile(_) => 2,
             Error::Capture(error) => error.exit_code(),
+            Error::Verify(error) => error.exit_code(),
             Error::Window(_) | Error::Output(_) => 1,
         }
     }

@@ -334,12 +334,18 @@ impl Lab {
 
     /// Takes in a frame of `frame_ns` nanoseconds of real time and steps what is due.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
+        self.advance_seen(frame_ns, |_| ())
+    }
+
+    /// As [`Lab::advance`], and shows itself to `after_tick` after every tick.
+    pub fn advance_seen(&mut self, frame_ns: i64, mut after_tick: impl FnMut(&Lab)) -> Due {
         if !self.running {
             return Due::default();
         }
         let due = self.clock.advance(frame_ns);
         for _ in 0..due.ticks {
             self.tick();
+            after_tick(self);
         }
         self.dropped += due.dropped;
         due

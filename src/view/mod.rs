@@ -24,5 +24,6 @@ pub use artist::Artist;
 pub use frame::{FrameOutput, FrameRenderer};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use offscreen::Offscreen;
+pub use panels::Panels;
 pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;

@@ -6,8 +6,11 @@ use std::process::{Command, Output, Stdio};
 
 mod capture;
 mod list;
+mod manifest;
+mod mishaps;
 mod mistakes;
 mod trace;
+mod verify;
 
 /// The program, with nothing of this machine's display or settings.
 fn regatta() -> Command {
