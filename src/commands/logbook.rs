@@ -85,7 +85,7 @@ pub(super) fn ends(lab: &Lab) -> Vec<LaneEnd> {
 fn method_id(solver: Solver) -> &'static str {
     match solver {
         Solver::Method(method) => method.id,
-        Solver::Exact => "exact",
+        Solver::Truth => "exact",
     }
 }
 

@@ -78,7 +78,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
         halts.note(&lab);
     }
     trace.finish()?;
-    tell_accuracy(&experiment.scene().bodies);
+    tell_accuracy(&experiment.scene.bodies);
     halts.lines.iter().for_each(|line| tell(line));
     Ok(())
 }
