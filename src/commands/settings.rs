@@ -12,8 +12,11 @@ use crate::view::Panels;
 /// What a manifest says of a run that is about to be recorded.
 pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Settings {
     let scene = &experiment.scene;
-    let lane =
-        |lane: &LaneSpec| LaneEntry { method: lane.method.id.to_owned(), substeps: lane.substeps };
+    let lane = |lane: &LaneSpec| LaneEntry {
+        method: lane.method.id.to_owned(),
+        substeps: lane.substeps,
+        tolerance: lane.tolerance,
+    };
     Settings {
         scene: SceneText {
             name: scene.name.clone(),
@@ -47,7 +50,8 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
     }
     scene.tick_hz = settings.tick_hz;
     let lane = |lane: &LaneEntry| {
-        Ok(LaneSpec { method: known(&lane.method)?, substeps: lane.substeps.max(1) })
+        let method = known(&lane.method)?;
+        Ok(LaneSpec { method, substeps: lane.substeps.max(1), tolerance: lane.tolerance })
     };
     scene.lanes = settings.lanes.iter().map(lane).collect::<Result<_, String>>()?;
     let experiment = Experiment {
