@@ -278,7 +278,7 @@ fn solo_to_race_and_back_flies_the_method_that_was_selected() {
         lab.apply(Command::Method(method));
         lab.apply(Command::ToggleRace);
         assert_eq!(lab.mode(), Mode::Race);
-        assert_eq!(lab.race().entrants().len(), lab.entries().len());
+        assert_eq!(lab.race().entrants().len(), lab.scene().lanes.len());
         for _ in 0..50 {
             lab.tick();
         }
