@@ -6,6 +6,7 @@
 
 pub mod bodies;
 pub mod integrators;
+pub mod stability;
 mod stepper;
 mod system;
 

@@ -31,6 +31,9 @@ pub trait Stepper: Send {
     /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
     fn input(&mut self, t: f64, input: Input) -> bool;
 
+    /// Overwrites `a` with the acceleration in the given state under the present input; not counted.
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
+
     /// Evaluations of the acceleration since the start, under whatever methods.
     fn evaluations(&self) -> u64;
     /// The conserved energy in joules, where the body conserves one under its present input.
@@ -108,6 +111,10 @@ impl<B: Body, I: Integrator<Counted<B>>> Stepper for Stepped<B, I> {
         taken
     }
 
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        acceleration(&self.body.system, &self.state, t, (q, v), a);
+    }
+
     fn evaluations(&self) -> u64 {
         self.body.evaluations()
     }
@@ -167,6 +174,10 @@ impl<B: Body> Stepper for Follower<B> {
         taken
     }
 
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        acceleration(&self.body.system, &self.state, t, (q, v), a);
+    }
+
     fn evaluations(&self) -> u64 {
         self.body.evaluations()
     }
@@ -189,6 +200,20 @@ impl<B: Body> Stepper for Follower<B> {
 fn write<V: Vector>(state: &mut State<V>, q: &[f64], v: &[f64]) {
     state.q.components_mut().copy_from_slice(q);
     state.v.components_mut().copy_from_slice(v);
+}
+
+fn acceleration<B: Body>(
+    body: &B,
+    like: &State<B::Vector>,
+    t: f64,
+    (q, v): (&[f64], &[f64]),
+    a: &mut [f64],
+) {
+    let mut at = like.clone();
+    write(&mut at, q, v);
+    let mut acceleration = like.q.clone();
+    body.acceleration(t, &at.q, &at.v, &mut acceleration);
+    a.copy_from_slice(acceleration.components());
 }
 
 fn outline<B: Body>(body: &B, like: &State<B::Vector>, q: &[f64], v: &[f64], pen: &mut Pen) {
