@@ -9,6 +9,7 @@ use std::io::{self, IsTerminal, Write};
 use annotate_snippets::{Group, Level, Renderer};
 use clap::{Parser, Subcommand, ValueEnum};
 
+mod advise;
 mod capture;
 mod completions;
 mod experiment;
@@ -19,6 +20,7 @@ mod scene_file;
 mod table;
 mod trace;
 
+use advise::AdviseArgs;
 use capture::{CaptureArgs, CaptureError};
 use completions::CompletionsArgs;
 use list::ListArgs;
@@ -35,6 +37,7 @@ Examples:
   regatta --scene ship --method explicit-euler --tick-hz 2
   regatta trace --scene ship --method rk4 > ship.csv
   regatta capture --scene spring --race --out clip
+  regatta advise --scene stiff
   regatta list methods
 
 In the window, H shows the keys. `regatta help COMMAND` explains a command.";
@@ -55,6 +58,7 @@ enum Command {
     Play(PlayArgs),
     Capture(CaptureArgs),
     Trace(TraceArgs),
+    Advise(AdviseArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
 }
@@ -68,6 +72,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Play(args) => play::run(&args),
         Command::Capture(args) => capture::run(&args),
         Command::Trace(args) => trace::run(&args),
+        Command::Advise(args) => advise::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args),
     };
