@@ -3,7 +3,7 @@
 
 use regatta::lab::{Command, Lab, Lane, LaneSpec, Mode, Race, Scene, SceneBody};
 use regatta::sim::bodies::{Body, Input, Ship, Spring};
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{METHODS, Method, method};
 use regatta::sim::{Solver, State};
 
 fn scene(name: &str) -> Scene {
@@ -46,8 +46,8 @@ fn a_switch_carries_the_state_to_the_bit() {
 
 #[test]
 fn there_and_back_in_one_tick_changes_nothing_that_follows() {
-    // An adaptive method forgets the step it carried, as it must: it starts anew.
-    for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+    // A method that carries something forgets it, as it must: it starts anew.
+    for method in METHODS.iter().filter(|method| method.restart.is_none()) {
         let mut straight = solo(&scene("harbour"), method.id);
         let mut detour = solo(&scene("harbour"), method.id);
         run(&mut straight, 500);
@@ -59,29 +59,72 @@ fn there_and_back_in_one_tick_changes_nothing_that_follows() {
     }
 }
 
+/// A spring with drag, at whose ticks every method carries what it can.
+fn damped_spring() -> Scene {
+    let mut scene = scene("spring");
+    scene.bodies[0].values[2] = 0.8;
+    scene
+}
+
+/// Runs a race for 77 ticks under one method, lets `change` interrupt it, and compares what follows with
+/// a race that starts under the second method where the first then is.
+fn goes_on_as_if_started_there(from: &'static Method, to: &'static Method, change: fn(&mut Race)) {
+    let scene = damped_spring();
+    let mut race = solo(&scene, from.id);
+    run(&mut race, 77);
+    change(&mut race);
+    if from != to {
+        race.switch(0, 0, LaneSpec { method: to, substeps: 1 });
+    }
+    let State { q, v } = state(&race.entrants()[0].lane);
+    let mut there = scene.clone();
+    there.tick_hz = race.tick_hz();
+    there.bodies[0].values[3..5].copy_from_slice(&[q, v]);
+    let mut fresh = solo(&there, to.id);
+    let start = fresh.entrants()[0].lane.bodies()[0].stepper.q()[0];
+    run(&mut race, 100);
+    run(&mut fresh, 100);
+    let (race, fresh) = (&race.entrants()[0].lane, &fresh.entrants()[0].lane);
+    assert_eq!(bits(race), bits(fresh), "{} to {}", from.id, to.id);
+    assert_ne!(state(fresh).q, start, "{} moves", to.id);
+}
+
 #[test]
 fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
-    let scene = scene("spring");
     for to in METHODS {
-        let mut race = solo(&scene, "rk4");
-        run(&mut race, 77);
-        race.switch(0, 0, LaneSpec { method: to, substeps: 2 });
-        let mut lane = Lane::new(&scene, Solver::Method(to), 2);
-        let (q, v) = {
-            let body = &race.entrants()[0].lane.bodies()[0].stepper;
-            (body.q()[0], body.v()[0])
-        };
-        let mut scene_there = scene.clone();
-        scene_there.bodies[0].values[3..5].copy_from_slice(&[q, v]);
-        let mut there = Lane::new(&scene_there, Solver::Method(to), 2);
-        let h = 1.0 / f64::from(scene.tick_hz);
-        for tick in 77..177 {
-            race.step();
-            there.tick(tick, tick as f64 * h, h);
-            lane.tick(tick, tick as f64 * h, h);
-        }
-        assert_eq!(bits(&race.entrants()[0].lane), bits(&there), "{}", to.id);
-        assert_ne!(bits(&there), bits(&lane), "{} moves", to.id);
+        let from = method(if to.id == "rk4" { "improved-euler" } else { "rk4" }).unwrap();
+        goes_on_as_if_started_there(from, to, |_| ());
+    }
+}
+
+#[test]
+fn after_a_kick_every_method_goes_on_as_if_started_there() {
+    for method in METHODS {
+        goes_on_as_if_started_there(method, method, |race| race.input(Input::Kick(1.0)));
+        // A kick of nothing leaves the state as it is, but a kick it is.
+        goes_on_as_if_started_there(method, method, |race| race.input(Input::Kick(0.0)));
+    }
+}
+
+#[test]
+fn after_a_change_of_tick_rate_every_method_goes_on_as_if_started_there() {
+    for method in METHODS {
+        goes_on_as_if_started_there(method, method, |race| race.set_tick_hz(100));
+        goes_on_as_if_started_there(method, method, |race| race.set_tick_hz(49));
+    }
+}
+
+#[test]
+fn to_set_the_tick_rate_that_is_set_already_changes_nothing() {
+    for method in METHODS {
+        let [mut told, mut left] = [(); 2].map(|()| solo(&damped_spring(), method.id));
+        run(&mut told, 77);
+        run(&mut left, 77);
+        told.set_tick_hz(told.tick_hz());
+        run(&mut told, 100);
+        run(&mut left, 100);
+        assert_eq!(told.t().to_bits(), left.t().to_bits());
+        assert_eq!(told.state_hash(), left.state_hash(), "{}", method.id);
     }
 }
 

@@ -31,6 +31,8 @@ pub(crate) fn by_hand(body: &str, method: &str) -> Option<ByHand> {
         ("spring", "semi-implicit-euler") => of!(semi_implicit_euler, textbook_spring, bare_spring),
         ("spring", "improved-euler") => of!(improved_euler, textbook_spring, bare_spring),
         ("spring", "rk4") => of!(rk4, textbook_spring, bare_spring),
+        ("ship", "velocity-verlet") => of!(velocity_verlet, textbook_ship, bare_ship),
+        ("spring", "velocity-verlet") => of!(velocity_verlet, textbook_spring, bare_spring),
         _ => return None,
     })
 }
@@ -70,6 +72,20 @@ fn semi_implicit_euler(a: impl Fn(f64, f64) -> f64, values: &[f64], h: f64, n: u
     for _ in 0..n {
         v += h * a(q, v);
         q += h * v;
+    }
+    [q, v]
+}
+
+#[inline(always)]
+fn velocity_verlet(a: impl Fn(f64, f64) -> f64, values: &[f64], h: f64, n: u32) -> [f64; 2] {
+    let (mut q, mut v) = (values[3], values[4]);
+    let mut a0 = a(q, v);
+    let half = h / 2.0;
+    for _ in 0..n {
+        q = q + h * v + h * half * a0;
+        let a1 = a(q, v + h * a0);
+        v = v + half * a0 + half * a1;
+        a0 = a1;
     }
     [q, v]
 }

@@ -129,6 +129,13 @@ impl Lane {
         }
     }
 
+    /// Makes the solver begin anew from the state as it is: the steps to come are of another length.
+    pub fn reset(&mut self) {
+        for body in &mut self.bodies {
+            body.stepper.reset();
+        }
+    }
+
     /// Puts the bodies under another solver, their state carried exactly. A halted lane goes on from
     /// its last good state.
     pub fn switch(&mut self, solver: Solver, substeps: u32, t: f64) {

@@ -69,6 +69,13 @@ pub const METRICS: &[Metric] = &[
         scale: Scale::Linear,
         measure: |lane, _| Some(lane.evaluations() as f64),
     },
+    Metric {
+        id: "lost_time",
+        name: "lost time",
+        unit: "s",
+        scale: Scale::Linear,
+        measure: |lane, _| Some(lane.lost_time()),
+    },
 ];
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
@@ -84,6 +91,7 @@ mod tests {
     use super::*;
     use crate::sim::Solver;
     use crate::sim::bodies::{Input, kind};
+    use crate::sim::integrators::method;
 
     fn metric(id: &str) -> &'static Metric {
         METRICS.iter().find(|metric| metric.id == id).unwrap()
@@ -103,5 +111,26 @@ mod tests {
         assert_eq!(of("velocity_error", &*lane), Some(2.0));
         assert_eq!(of("energy_drift", &*lane), Some(100.0));
         assert_eq!(of("evaluations", &*lane), Some(0.0));
+        assert_eq!(of("lost_time", &*lane), Some(0.0));
+    }
+
+    #[test]
+    fn time_lost_as_printed_stays_lost_through_resets_and_switches() {
+        let ship = kind("ship").unwrap();
+        let under = |id| Solver::Method(method(id).unwrap());
+        let truth = (ship.build)(&[2e4, 1e3, 1e4, 0.0, 0.0, 2e4], Solver::Exact);
+        let mut lane = truth.with_solver(under("adaptive-euler-as-printed"), 0.0);
+        let lost = |lane: &dyn Stepper| (metric("lost_time").measure)(lane, &*truth).unwrap();
+        lane.advance(0.0, 0.5, 1).unwrap();
+        let once = lost(&*lane);
+        assert!(once > 0.1 && once < 0.5, "{once} s");
+        lane.reset();
+        assert_eq!(lost(&*lane), once);
+        for solver in [under("rk4"), Solver::Exact, under("adaptive-euler-as-printed")] {
+            lane = lane.with_solver(solver, 0.5);
+            assert_eq!(lost(&*lane), once);
+        }
+        lane.advance(0.5, 0.5, 1).unwrap();
+        assert!(lost(&*lane) > once + 0.1);
     }
 }

@@ -93,11 +93,18 @@ impl Race {
         self.entrants.truncate(1);
     }
 
-    /// Changes the tick rate from here on.
+    /// Changes the tick rate from here on. Methods begin anew, from the states as they are; to set the rate
+    /// that is set already changes nothing.
     pub fn set_tick_hz(&mut self, tick_hz: u32) {
+        if tick_hz == self.tick_hz {
+            return;
+        }
         self.origin = (self.tick, self.t());
         self.tick_hz = tick_hz;
         self.set_stride();
+        for entrant in &mut self.entrants {
+            entrant.lane.reset();
+        }
     }
 
     fn set_stride(&mut self) {

@@ -27,6 +27,8 @@ pub trait Stepper: Send {
     fn v(&self) -> &[f64];
     /// Puts the body into a state at time `t` (s) and makes the solver forget what it carried.
     fn set(&mut self, t: f64, q: &[f64], v: &[f64]);
+    /// Makes the solver forget what it carried from step to step, the state left as it is.
+    fn reset(&mut self);
 
     /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
     fn input(&mut self, t: f64, input: Input) -> bool;
@@ -36,6 +38,9 @@ pub trait Stepper: Send {
 
     /// Evaluations of the acceleration since the start, under whatever methods.
     fn evaluations(&self) -> u64;
+    /// Seconds by which the body is behind, because methods it was under
+    /// [did not keep time](Method::keeps_time).
+    fn lost_time(&self) -> f64;
     /// The conserved energy in joules, where the body conserves one under its present input.
     fn energy(&self) -> Option<f64>;
 
@@ -51,32 +56,35 @@ pub trait Stepper: Send {
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    under(Counted::new(body), state, solver, 0.0)
+    Launch { body: Counted::new(body), state, behind: 0.0 }.under(solver, 0.0)
 }
 
-fn under<B: Body>(
-    body: Counted<B>,
-    state: State<B::Vector>,
-    solver: Solver,
-    t: f64,
-) -> Box<dyn Stepper> {
-    match solver {
-        Solver::Method(method) => construct::<Counted<B>, _>(method, Launch { body, state }),
-        Solver::Exact => Box::new(Follower { body, anchor: state.clone(), anchored_at: t, state }),
-    }
-}
-
+/// A body about to come under a solver.
 struct Launch<B: Body> {
     body: Counted<B>,
     state: State<B::Vector>,
+    /// The time lost so far, in seconds.
+    behind: f64,
+}
+
+impl<B: Body> Launch<B> {
+    fn under(self, solver: Solver, t: f64) -> Box<dyn Stepper> {
+        match solver {
+            Solver::Method(method) => construct::<Counted<B>, _>(method, self),
+            Solver::Exact => {
+                let Self { body, state, behind } = self;
+                Box::new(Follower { body, anchor: state.clone(), anchored_at: t, state, behind })
+            }
+        }
+    }
 }
 
 impl<B: Body> Construct<Counted<B>> for Launch<B> {
     type Output = Box<dyn Stepper>;
 
     fn of<I: Integrator<Counted<B>> + 'static>(self) -> Self::Output {
-        let Self { body, state } = self;
-        Box::new(Stepped { integrator: I::new(&state.q), body, state })
+        let Self { body, state, behind } = self;
+        Box::new(Stepped { integrator: I::new(&state.q), body, state, behind })
     }
 }
 
@@ -85,6 +93,8 @@ struct Stepped<B: Body, I> {
     body: Counted<B>,
     integrator: I,
     state: State<B::Vector>,
+    /// The time lost under earlier solvers, in seconds.
+    behind: f64,
 }
 
 impl<B: Body, I: Integrator<Counted<B>>> Stepper for Stepped<B, I> {
@@ -100,6 +110,9 @@ impl<B: Body, I: Integrator<Counted<B>>> Stepper for Stepped<B, I> {
     }
     fn set(&mut self, _t: f64, q: &[f64], v: &[f64]) {
         write(&mut self.state, q, v);
+        self.integrator.reset();
+    }
+    fn reset(&mut self) {
         self.integrator.reset();
     }
 
@@ -118,6 +131,9 @@ impl<B: Body, I: Integrator<Counted<B>>> Stepper for Stepped<B, I> {
     fn evaluations(&self) -> u64 {
         self.body.evaluations()
     }
+    fn lost_time(&self) -> f64 {
+        self.behind + self.integrator.lost_time()
+    }
     fn energy(&self) -> Option<f64> {
         self.body.system.energy(&self.state)
     }
@@ -130,7 +146,8 @@ impl<B: Body, I: Integrator<Counted<B>>> Stepper for Stepped<B, I> {
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        under(self.body.clone(), self.state.clone(), solver, t)
+        let (body, state, behind) = (self.body.clone(), self.state.clone(), self.lost_time());
+        Launch { body, state, behind }.under(solver, t)
     }
 }
 
@@ -141,6 +158,8 @@ struct Follower<B: Body> {
     anchor: State<B::Vector>,
     anchored_at: f64,
     state: State<B::Vector>,
+    /// The time lost under earlier solvers, in seconds.
+    behind: f64,
 }
 
 impl<B: Body> Stepper for Follower<B> {
@@ -164,6 +183,7 @@ impl<B: Body> Stepper for Follower<B> {
         self.anchor.assign(&self.state);
         self.anchored_at = t;
     }
+    fn reset(&mut self) {}
 
     fn input(&mut self, t: f64, input: Input) -> bool {
         let taken = self.body.system.input(input, &mut self.state);
@@ -181,6 +201,9 @@ impl<B: Body> Stepper for Follower<B> {
     fn evaluations(&self) -> u64 {
         self.body.evaluations()
     }
+    fn lost_time(&self) -> f64 {
+        self.behind
+    }
     fn energy(&self) -> Option<f64> {
         self.body.system.energy(&self.state)
     }
@@ -193,7 +216,8 @@ impl<B: Body> Stepper for Follower<B> {
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        under(self.body.clone(), self.state.clone(), solver, t)
+        let (body, state, behind) = (self.body.clone(), self.state.clone(), self.lost_time());
+        Launch { body, state, behind }.under(solver, t)
     }
 }
 

@@ -36,7 +36,7 @@ fn a_method_is_listed_with_all_of_its_card() {
     for (object, method) in methods.iter().zip(METHODS) {
         let keys: Vec<_> = object.as_object().unwrap().keys().map(String::as_str).collect();
         let expected = "id name family order order_with_drag evaluations symplectic reversible \
-                        stability_limit tolerance as_printed about source";
+                        stability_limit tolerance restart keeps_time as_printed about source";
         assert_eq!(keys.join(" "), expected);
         assert_eq!(object["order"], method.order);
         assert_eq!(object["order_with_drag"], method.order_with_drag);

@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::process::Stdio;
 
-use regatta::sim::integrators::METHODS;
+use regatta::lab::Scene;
 use serde_json::Value;
 
 use crate::{regatta, run_in, stderr, stdout_of};
@@ -52,13 +52,14 @@ fn the_chapters_table_7_1_comes_out_digit_by_digit() {
 fn a_trace_is_tidy_and_begins_at_tick_0_with_the_truth_as_lane_0() {
     let csv = stdout_of("trace --scene ship --seconds 2");
     assert_eq!(csv.lines().next(), Some(HEADER));
-    let lanes = 1 + METHODS.len();
+    let scene = Scene::built_in("ship").unwrap();
+    let lanes = 1 + scene.lanes.len();
     assert_eq!(csv.lines().count(), 1 + 5 * lanes);
     assert!(csv.lines().all(|line| line.split(',').count() == 8));
     for (n, row) in rows(&csv).into_iter().enumerate() {
         let (tick, lane) = (n / lanes, n % lanes);
         let t = format!("{:?}", tick as f64 / 2.0);
-        let method = if lane == 0 { "exact" } else { METHODS[lane - 1].id };
+        let method = if lane == 0 { "exact" } else { scene.lanes[lane - 1].method.id };
         let start = [&tick.to_string(), &t, &lane.to_string(), method, "ship", "s"];
         assert_eq!(row[..6], start);
     }

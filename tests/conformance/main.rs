@@ -6,6 +6,9 @@
 mod cards;
 mod cost;
 mod geometry;
+mod limits;
+mod long_run;
+mod memory;
 mod order;
 mod stability;
 mod systems;

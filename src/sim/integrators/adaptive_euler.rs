@@ -14,6 +14,8 @@ pub(super) const CARD: Method = Method {
     reversible: false,
     stability_limit: None,
     tolerance: Some(TOLERANCE),
+    restart: Some("by trying the whole tick as one step"),
+    keeps_time: true,
     as_printed: false,
     source: "Bourg & Bywalec, Physics for Game Developers 2e, ch. 7, corrected; step control after Hairer, Nørsett & Wanner, Solving ODEs I, II.4",
 };

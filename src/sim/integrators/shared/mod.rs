@@ -1,0 +1,4 @@
+//! What several methods are made of.
+
+pub(super) mod composition;
+pub(super) mod seam;
