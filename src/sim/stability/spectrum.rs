@@ -54,11 +54,12 @@ pub(super) fn eigenvalues(derivatives: &Derivatives) -> Option<Vec<Eigenvalue>> 
         let (now, later) = (now.each_ref().map(cut), later.each_ref().map(cut));
         let product = &later[0] * &now[0];
         let off = (&now[1] - product).amax();
-        values.extend(if off <= MEMORY * (1.0 + now[1].amax()) {
-            of_matrix(&now[0])?
-        } else {
-            of_matrix(&with_memory(&now, &later)?)?.into_iter().map(sharpened).collect()
-        });
+        let has_memory = off > MEMORY * (1.0 + now[1].amax());
+        let (map, blur) = match has_memory {
+            true => (&with_memory(&now, &later)?, MEMORY_BLUR),
+            false => (&now[0], BLUR * off),
+        };
+        values.extend(of_matrix(map)?.into_iter().map(|value| sharpened(value, blur)));
     }
     Some(values)
 }
@@ -116,12 +117,14 @@ fn of_two_rows(matrix: &DMatrix<f64>) -> [Eigenvalue; 2] {
     }
 }
 
-/// A modulus this near 1 is 1, where a memory had to be found out: velocities that a method makes of
-/// differences of positions carry rounding divided by the step, twice over.
-const BLUR: f64 = 1e-9;
+/// A modulus this near 1 is 1, where a memory had to be found out.
+const MEMORY_BLUR: f64 = 1e-9;
+/// And without memory, in units of what two ticks are off from their product, which is the rounding of
+/// the differences: much for a method that makes velocities of differences of positions.
+const BLUR: f64 = 10.0;
 
-fn sharpened(value: Eigenvalue) -> Eigenvalue {
-    let neutral = (value.modulus - 1.0).abs() < BLUR;
+fn sharpened(value: Eigenvalue, blur: f64) -> Eigenvalue {
+    let neutral = (value.modulus - 1.0).abs() < blur;
     Eigenvalue { modulus: if neutral { 1.0 } else { value.modulus }, ..value }
 }
 
