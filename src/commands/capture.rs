@@ -9,7 +9,8 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::experiment::{self, ExperimentArgs, Lineup};
-use super::frame_folder::{Existing, FrameFolder, FrameFolderError, MOST_FRAMES};
+use super::folder::{Existing, FolderError};
+use super::frame_folder::{FrameFolder, MOST_FRAMES};
 use super::{Error, tell};
 use crate::lab::{Clock, Lab};
 use crate::view::{AdapterPreference, Artist, Gpu, GpuError, ReadbackError, png};
@@ -122,12 +123,12 @@ pub enum CaptureError {
     },
     /// The folder cannot be used.
     #[error(transparent)]
-    Folder(#[from] FrameFolderError),
+    Folder(#[from] FolderError),
     /// A frame could not be written.
     #[error("{source}; whole before that: {whole}")]
     Write {
         /// Why.
-        source: FrameFolderError,
+        source: FolderError,
         /// The frames written before.
         whole: String,
     },
@@ -157,7 +158,7 @@ impl CaptureError {
             CaptureError::TooManyFrames { .. }
             | CaptureError::TooManyPixels { .. }
             | CaptureError::Folder(
-                FrameFolderError::NotEmpty { .. } | FrameFolderError::NotADirectory { .. },
+                FolderError::NotEmpty { .. } | FolderError::NotADirectory { .. },
             )
             | CaptureError::Gpu(GpuError::TooLarge { .. } | GpuError::Empty { .. }) => 2,
             CaptureError::Interrupted { .. } => 130,

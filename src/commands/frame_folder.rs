@@ -1,146 +1,60 @@
 //! The directory that a capture fills with numbered pictures, each of which appears whole or not at all.
 
-use std::ffi::{OsStr, OsString};
-use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::ffi::OsString;
+use std::path::Path;
+
+use super::folder::{Existing, Folder, FolderError, Ours};
 
 /// The most frames in a folder: as many as six digits number.
 pub(super) const MOST_FRAMES: u32 = 1_000_000;
 
-/// What may become of the frames that a folder holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Existing {
-    /// The folder has to be empty or new.
-    Refuse,
-    /// Frames make way for the new ones; other entries stay.
-    Replace,
-}
-
-/// Why frames could not be kept in a folder.
-#[derive(Debug, thiserror::Error)]
-pub enum FrameFolderError {
-    /// The path is taken by something else.
-    #[error("{} is not a directory; give another --out", .path.display())]
-    NotADirectory {
-        /// The path.
-        path: PathBuf,
-    },
-    /// The folder is in use.
-    #[error(
-        "{} is not empty; give another --out, or --force to replace the frames in it",
-        .path.display()
-    )]
-    NotEmpty {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// The system refused.
-    #[error("cannot {doing} {}: {source}{}", .path.display(), remedy(.source))]
-    Io {
-        /// What was tried.
-        doing: &'static str,
-        /// On what.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-}
-
 /// A folder of frames.
 #[derive(Debug)]
 pub(super) struct FrameFolder {
-    path: PathBuf,
-    /// Frames of an earlier capture, whole or not.
-    old_frames: Vec<OsString>,
-    /// Names of the entries that are none of our frames.
-    others: Vec<OsString>,
+    folder: Folder,
     frames: u32,
 }
 
 impl FrameFolder {
     /// Looks at the folder at `path`, which need not exist yet, and changes nothing.
-    pub(super) fn inspect(path: &Path, existing: Existing) -> Result<Self, FrameFolderError> {
-        let fail = failure("read", path);
-        let mut folder = Self::empty(path);
-        match fs::read_dir(path) {
-            Ok(entries) => {
-                for entry in entries {
-                    let entry = entry.map_err(&fail)?;
-                    let is_directory = entry.file_type().map_err(&fail)?.is_dir();
-                    let name = entry.file_name();
-                    let list = if is_frame(&name) && !is_directory {
-                        &mut folder.old_frames
-                    } else {
-                        &mut folder.others
-                    };
-                    list.push(name);
-                }
-            }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-            Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
-                return Err(FrameFolderError::NotADirectory { path: path.to_owned() });
-            }
-            Err(error) => return Err(fail(error)),
-        }
-        folder.others.sort();
-        let is_empty = folder.old_frames.is_empty() && folder.others.is_empty();
-        if existing == Existing::Refuse && !is_empty {
-            return Err(FrameFolderError::NotEmpty { path: path.to_owned() });
-        }
-        Ok(folder)
+    pub(super) fn inspect(path: &Path, existing: Existing) -> Result<Self, FolderError> {
+        let ours = Ours { what: "frames", is_ours: is_frame };
+        Ok(Self { folder: Folder::inspect(path, ours, existing)?, frames: 0 })
     }
 
     /// The first of `name`, `name-2`, `name-3` … that is new or an empty directory.
-    pub(super) fn beside(name: &str) -> Result<Self, FrameFolderError> {
+    pub(super) fn beside(name: &str) -> Result<Self, FolderError> {
         let siblings = (2..).map(|n: u32| format!("{name}-{n}"));
         for sibling in std::iter::once(name.to_owned()).chain(siblings) {
             match Self::inspect(Path::new(&sibling), Existing::Refuse) {
-                Err(FrameFolderError::NotEmpty { .. } | FrameFolderError::NotADirectory { .. }) => {
-                }
+                Err(FolderError::NotEmpty { .. } | FolderError::NotADirectory { .. }) => {}
                 found => return found,
             }
         }
         unreachable!("no file system holds as many directories")
     }
 
-    fn empty(path: &Path) -> Self {
-        Self { path: path.to_owned(), old_frames: Vec::new(), others: Vec::new(), frames: 0 }
-    }
-
     /// Where it is.
     pub(super) fn path(&self) -> &Path {
-        &self.path
+        self.folder.path()
     }
 
     /// Makes the folder where there is none, and removes the frames of an earlier capture, so that
     /// it never holds frames of two.
-    pub(super) fn clear(&mut self) -> Result<(), FrameFolderError> {
-        fs::create_dir_all(&self.path).map_err(failure("make the directory", &self.path))?;
-        for name in self.old_frames.drain(..) {
-            let path = self.path.join(name);
-            fs::remove_file(&path).map_err(failure("replace", &path))?;
-        }
-        Ok(())
+    pub(super) fn clear(&mut self) -> Result<(), FolderError> {
+        self.folder.clear()
     }
 
-    /// Adds the next frame: under a name of its own until it is whole.
-    pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), FrameFolderError> {
-        let path = self.path.join(frame_name(self.frames));
-        let part = path.with_extension("png.part");
-        let written = fs::write(&part, picture).and_then(|()| fs::rename(&part, &path));
-        if let Err(error) = written {
-            // It may never have come to be; then there is nothing to remove.
-            let _ = fs::remove_file(&part);
-            return Err(failure("write", &path)(error));
-        }
+    /// Adds the next frame.
+    pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), FolderError> {
+        self.folder.write(&frame_name(self.frames), picture)?;
         self.frames += 1;
         Ok(())
     }
 
     /// The frames written, by the names of the first and the last.
     pub(super) fn range(&self) -> String {
-        let name = |frame| self.path.join(frame_name(frame)).display().to_string();
+        let name = |frame| self.path().join(frame_name(frame)).display().to_string();
         match self.frames {
             0 => "none".into(),
             1 => name(0),
@@ -150,7 +64,7 @@ impl FrameFolder {
 
     /// Names of the entries that are none of our frames and have been left alone.
     pub(super) fn others(&self) -> &[OsString] {
-        &self.others
+        self.folder.others()
     }
 }
 
@@ -158,41 +72,26 @@ fn frame_name(frame: u32) -> String {
     format!("frame-{frame:06}.png")
 }
 
-/// Whether a capture gives files this name, for whole frames or for those under way.
-fn is_frame(name: &OsStr) -> bool {
-    let digits = name.to_str().and_then(|name| {
-        let name = name.strip_suffix(".part").unwrap_or(name);
-        name.strip_prefix("frame-")?.strip_suffix(".png")
-    });
+/// Whether a capture gives files this name.
+fn is_frame(name: &str) -> bool {
+    let digits = name.strip_prefix("frame-").and_then(|name| name.strip_suffix(".png"));
     digits.is_some_and(|digits| digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit()))
-}
-
-fn failure(doing: &'static str, path: &Path) -> impl Fn(io::Error) -> FrameFolderError {
-    let path = path.to_owned();
-    move |source| FrameFolderError::Io { doing, path: path.clone(), source }
-}
-
-fn remedy(error: &io::Error) -> &'static str {
-    match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-            "; free some space, or give another --out"
-        }
-        _ => "; give an --out that you may write to",
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]
     fn only_numbered_pictures_are_frames() {
-        for name in ["frame-000000.png", "frame-999999.png", "frame-000012.png.part"] {
-            assert!(is_frame(OsStr::new(name)), "{name}");
+        for name in ["frame-000000.png", "frame-999999.png", "frame-000012.png"] {
+            assert!(is_frame(name), "{name}");
         }
         for name in ["frame-00000.png", "frame-0000000.png", "frame-+00001.png", "frame-000001.gif"]
         {
-            assert!(!is_frame(OsStr::new(name)), "{name}");
+            assert!(!is_frame(name), "{name}");
         }
     }
 
@@ -204,7 +103,7 @@ mod tests {
         assert!(FrameFolder::inspect(&path, Existing::Refuse).is_ok());
         fs::write(path.join("frame-000000.png"), "old").unwrap();
         let error = FrameFolder::inspect(&path, Existing::Refuse).unwrap_err();
-        assert!(matches!(error, FrameFolderError::NotEmpty { .. }), "{error}");
+        assert!(matches!(error, FolderError::NotEmpty { .. }), "{error}");
         assert_eq!(fs::read(path.join("frame-000000.png")).unwrap(), b"old");
     }
 
@@ -246,7 +145,7 @@ mod tests {
         let path = parent.path().join("clip");
         fs::write(&path, "mine").unwrap();
         let error = FrameFolder::inspect(&path, Existing::Replace).unwrap_err();
-        assert!(matches!(error, FrameFolderError::NotADirectory { .. }), "{error}");
+        assert!(matches!(error, FolderError::NotADirectory { .. }), "{error}");
     }
 
     #[test]

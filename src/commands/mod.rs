@@ -11,8 +11,10 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 mod advise;
 mod capture;
+mod chapter;
 mod completions;
 mod experiment;
+mod folder;
 mod frame_folder;
 mod list;
 mod play;
@@ -22,6 +24,7 @@ mod trace;
 
 use advise::AdviseArgs;
 use capture::{CaptureArgs, CaptureError};
+use chapter::{ChapterArgs, ChapterError};
 use completions::CompletionsArgs;
 use list::ListArgs;
 use play::PlayArgs;
@@ -38,6 +41,7 @@ Examples:
   regatta trace --scene ship --method rk4 > ship.csv
   regatta capture --scene spring --race --out clip
   regatta advise --scene stiff
+  regatta chapter --out figures
   regatta list methods
 
 In the window, H shows the keys. `regatta help COMMAND` explains a command.";
@@ -59,6 +63,7 @@ enum Command {
     Capture(CaptureArgs),
     Trace(TraceArgs),
     Advise(AdviseArgs),
+    Chapter(ChapterArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
 }
@@ -73,6 +78,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Capture(args) => capture::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Advise(args) => advise::run(&args),
+        Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args),
     };
@@ -91,6 +97,9 @@ pub enum Error {
     /// Frames could not be drawn or written.
     #[error(transparent)]
     Capture(#[from] CaptureError),
+    /// The chapter's figures could not be drawn or written.
+    #[error(transparent)]
+    Chapter(#[from] ChapterError),
     /// The window could not be opened, or failed.
     #[error(transparent)]
     Window(#[from] WindowError),
@@ -106,6 +115,7 @@ impl Error {
         match self {
             Error::SceneFile(_) => 2,
             Error::Capture(error) => error.exit_code(),
+            Error::Chapter(error) => error.exit_code(),
             Error::Window(_) | Error::Output(_) => 1,
         }
     }

@@ -1,11 +1,12 @@
 //! The list of methods: key, colour, what the card says, and how each is doing.
 
-use egui::{Align2, Color32, FontId, Pos2, Rect, ScrollArea, Sense, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Color32, FontId, Pos2, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
 use super::{QUIET, RAISED, TEXT, colour};
 use crate::lab::number::significant;
 use crate::lab::picture::palette;
 use crate::lab::{Command, Entrant, Lab, LaneSpec, METRICS, Metric, Mode};
+use crate::view::plot;
 
 const ROW: f32 = 20.0;
 const HEAD: f32 = 16.0;
@@ -250,16 +251,11 @@ fn metric(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column, id: &s
 
 /// A piece of the lane's line, as the plots draw it.
 fn swatch(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, _column: &Column) {
-    let (rgba, [drawn, gap]) = palette::style(row.spec.method);
+    let (rgba, dash) = palette::style(row.spec.method);
     let colour =
         if row.entrant.is_some() { colour(rgba) } else { colour(palette::faded(rgba, 0.6)) };
-    let (y, from, to) = (rect.center().y, rect.left() + left, rect.left() + left + 34.0);
-    let mut x = from;
-    while x < to {
-        let end = if gap > 0.0 { (x + drawn).min(to) } else { to };
-        ui.painter().line_segment([pos2(x, y), pos2(end, y)], Stroke::new(3.0, colour));
-        x = end + gap.max(1.0);
-    }
+    let from = pos2(rect.left() + left, rect.center().y);
+    plot::swatch(ui.painter(), from, 34.0, dash, colour);
 }
 
 /// What became of the lane.

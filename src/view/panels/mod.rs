@@ -2,7 +2,8 @@
 
 use egui::{Color32, CornerRadius, Frame, Margin, Rect, Stroke, Ui};
 
-use crate::lab::{Command, Lab, picture::Rgba};
+pub(super) use super::plot::colour;
+use crate::lab::{Command, Lab};
 
 mod footer;
 mod help;
@@ -48,11 +49,11 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
     (commands, stage)
 }
 
-const BACKDROP: Color32 = Color32::from_rgb(8, 14, 23);
+pub(super) const BACKDROP: Color32 = Color32::from_rgb(8, 14, 23);
 const PANEL: Color32 = Color32::from_rgb(16, 26, 40);
 const RAISED: Color32 = Color32::from_rgb(29, 44, 65);
-const TEXT: Color32 = Color32::from_rgb(206, 218, 232);
-const QUIET: Color32 = Color32::from_rgb(138, 156, 180);
+pub(super) const TEXT: Color32 = Color32::from_rgb(206, 218, 232);
+pub(super) const QUIET: Color32 = Color32::from_rgb(138, 156, 180);
 const ACCENT: Color32 = Color32::from_rgb(86, 180, 233);
 
 /// The look of every widget: a night chart. Set once for each context.
@@ -106,8 +107,4 @@ pub(super) fn dress(ctx: &egui::Context) {
 
 fn frame(fill: Color32) -> Frame {
     Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 4))
-}
-
-fn colour([r, g, b, a]: Rgba) -> Color32 {
-    Color32::from_rgba_unmultiplied(r, g, b, a)
 }
