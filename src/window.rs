@@ -132,7 +132,10 @@ impl App {
                     log::info!("first frame after {} ms", self.started.elapsed().as_millis());
                 }
                 self.meter.frame(now, self.lab.race().t());
-                let again = self.lab.running() || !commands.is_empty() || self.screenshot;
+                let again = self.lab.running()
+                    || self.lab.is_thinking()
+                    || !commands.is_empty()
+                    || self.screenshot;
                 self.asked.extend(commands);
                 self.schedule(event_loop, now, if again { Duration::ZERO } else { repaint_after });
             }

@@ -211,6 +211,8 @@ pub(super) fn record(
     let interrupted = watch_for_interrupt();
     let progress = ProgressBar::new(u64::from(frames)).with_style(progress_style());
     let mut rgba = Vec::new();
+    // In a window verdicts come one a frame; here there is time for all of them before the first.
+    while lab.think() {}
     for frame in 0..frames {
         if interrupted.load(Ordering::Relaxed) {
             progress.finish_and_clear();

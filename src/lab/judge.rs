@@ -48,6 +48,13 @@ pub struct Outcome {
     pub seconds: f64,
 }
 
+impl Outcome {
+    /// Whether the error stayed within [`TOLERANCE`].
+    pub fn is_accurate(&self) -> bool {
+        self.error <= TOLERANCE
+    }
+}
+
 impl Judge {
     /// For `scene` under this throttle, -1 to 1.
     ///
@@ -70,16 +77,16 @@ impl Judge {
         self.horizon_s
     }
 
-    /// The same, but no longer than `most_s` seconds. Amplitudes stay those of the whole.
+    /// What is to be said of a lane at this tick rate.
+    pub fn verdict(&self, spec: LaneSpec, tick_hz: u32) -> Verdict {
+        self.verdict_within(spec, tick_hz, f64::INFINITY)
+    }
+
+    /// The same over no more than `most_s` seconds. Amplitudes stay those of the whole.
     pub fn verdict_within(&self, spec: LaneSpec, tick_hz: u32, most_s: f64) -> Verdict {
         let horizon_s = self.horizon_s.min(most_s);
         let outcome = self.run(spec, tick_hz, horizon_s, f64::INFINITY);
         Verdict::new(self.stability(spec, tick_hz), outcome, horizon_s)
-    }
-
-    /// What is to be said of a lane at this tick rate.
-    pub fn verdict(&self, spec: LaneSpec, tick_hz: u32) -> Verdict {
-        self.verdict_within(spec, tick_hz, f64::INFINITY)
     }
 
     /// How the method treats small deviations from the start, the worst of all bodies in each respect;
@@ -92,19 +99,26 @@ impl Judge {
         all?.into_iter().reduce(worse)
     }
 
-    /// How a lane fares over the horizon at this tick rate.
-    pub fn outcome(&self, spec: LaneSpec, tick_hz: u32) -> Outcome {
-        self.run(spec, tick_hz, self.horizon_s, f64::INFINITY)
-    }
-
-    /// Whether a lane's error stays within [`TOLERANCE`] over the horizon.
-    pub fn is_accurate(&self, spec: LaneSpec, tick_hz: u32) -> bool {
-        self.run(spec, tick_hz, self.horizon_s, TOLERANCE).error <= TOLERANCE
+    /// How a lane fares over the horizon at this tick rate, but no further than the error is within [`TOLERANCE`].
+    pub fn outcome_while_accurate(&self, spec: LaneSpec, tick_hz: u32) -> Outcome {
+        self.run(spec, tick_hz, self.horizon_s, TOLERANCE)
     }
 
     /// Whether no body's deviations grow.
     pub fn is_stable(&self, spec: LaneSpec, tick_hz: u32) -> bool {
         self.stability(spec, tick_hz).is_some_and(|stability| stability.is_bounded())
+    }
+
+    /// Coordinates of all bodies together.
+    pub(super) fn coordinates(&self) -> u64 {
+        self.amplitudes.iter().map(|body| body.len() as u64 / 2).sum()
+    }
+
+    /// What [`Self::stability`] takes, in evaluations of one coordinate's acceleration, roughly: some
+    /// twenty ticks of the body for each component, and the eigenvalues.
+    pub(super) fn work_for_stability(&self) -> u64 {
+        let of_body = |n: u64| 100 * n * n + 10 * n * n * n;
+        self.amplitudes.iter().map(|body| of_body(body.len() as u64)).sum()
     }
 
     /// Steps a lane to the horizon, or until its error is more than `enough`.

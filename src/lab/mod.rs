@@ -7,6 +7,7 @@
 mod advice;
 mod clock;
 mod command;
+mod display;
 mod history;
 mod judge;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
@@ -17,15 +18,17 @@ pub mod number;
 pub mod picture;
 mod race;
 mod scene;
+mod thinking;
 mod verdict;
 
 pub use crate::sim::stability::Stability;
 pub use advice::{Advised, Adviser, Good, cheapest};
 pub use clock::{Clock, Due};
 pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};
+pub use display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
 pub use history::{CAPACITY, History, Sample};
 pub use judge::{Judge, LONGEST_HORIZON_S, Outcome, TOLERANCE};
-pub use lab::{Ask, Display, Instrument, Interpolation, Lab, Mode, Pace};
+pub use lab::Lab;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody};
 pub use metrics::{METRICS, Metric, Scale};
 pub use race::{Entrant, Race};

@@ -77,7 +77,7 @@ impl Verdict {
                 _ => Word::Halted,
             },
             (None, _) if outcome.error <= ROUNDING => Word::Exact,
-            (None, _) if outcome.error <= TOLERANCE => Word::Accurate,
+            (None, _) if outcome.is_accurate() => Word::Accurate,
             (None, Some(s)) if !s.is_bounded() && shown(s.growth_per_s) => Word::Grows,
             (None, Some(s)) if shown(s.loss_per_s) => Word::Decays,
             _ => Word::Drifting,

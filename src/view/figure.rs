@@ -1,7 +1,9 @@
 //! A diagram that fills a picture: title, legend, axes with units, curves, and a note below.
 
+use std::ops::RangeInclusive;
+
 use egui::{Align2, FontId, Frame, Margin, RichText, Sense, Ui, vec2};
-use egui_plot::{PlotBounds, PlotPoints, Points};
+use egui_plot::{GridInput, GridMark, PlotBounds, PlotPoints, Points};
 
 use super::panels::{BACKDROP, QUIET, TEXT};
 use super::plot::{Curve, colour, draw, plot, swatch, tick_text};
@@ -18,6 +20,8 @@ pub struct Figure {
     pub axes: [&'static str; 2],
     /// The least and the greatest value in view, along each axis.
     pub view: [[f64; 2]; 2],
+    /// The distance of marks along each axis.
+    pub steps: [f64; 2],
     /// The first is drawn at the bottom.
     pub curves: Vec<FigureCurve>,
 }
@@ -63,7 +67,10 @@ pub(super) fn show(ui: &mut Ui, figure: &Figure) {
         let axes = plot("figure", height)
             .x_axis_label(figure.axes[0])
             .y_axis_label(figure.axes[1])
-            .x_axis_formatter(|mark, _| tick_text(mark.value));
+            .x_axis_formatter(label(figure.steps[0]))
+            .y_axis_formatter(label(figure.steps[1]))
+            .x_grid_spacer(marks(figure.steps[0]))
+            .y_grid_spacer(marks(figure.steps[1]));
         axes.show(ui, |plot| {
             draw(plot, &bounds, &curves);
             for (curve, drawn) in figure.curves.iter().zip(&curves) {
@@ -83,6 +90,25 @@ pub(super) fn show(ui: &mut Ui, figure: &Figure) {
             ui.label(RichText::new(&figure.note).color(QUIET));
         });
     });
+}
+
+/// Marks at the multiples of `step`, and faint lines five times as close.
+fn marks(step: f64) -> impl Fn(GridInput) -> Vec<GridMark> {
+    const FINER: i64 = 5;
+    move |input| {
+        let fine = step / FINER as f64;
+        let (low, high) = input.bounds;
+        let mark = |i: i64| {
+            let step_size = if i % FINER == 0 { step } else { fine };
+            GridMark { value: i as f64 * fine, step_size }
+        };
+        ((low / fine).ceil() as i64..=(high / fine).floor() as i64).map(mark).collect()
+    }
+}
+
+/// What stands at the multiples of `step`, and nothing at the faint lines between.
+fn label(step: f64) -> impl Fn(GridMark, &RangeInclusive<f64>) -> String {
+    move |mark, _| if mark.step_size < step { String::new() } else { tick_text(mark.value) }
 }
 
 fn curve(curve: &FigureCurve) -> Curve<'_> {

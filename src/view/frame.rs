@@ -90,10 +90,13 @@ impl FrameRenderer {
         scale: f32,
         figure: &Figure,
     ) {
-        self.draw_with(gpu, target, size_px, scale, egui::RawInput::default(), |ui| {
-            figure::show(ui, figure);
-            None
-        });
+        // Once for the axes to learn how much room their labels take.
+        for _ in 0..2 {
+            self.draw_with(gpu, target, size_px, scale, egui::RawInput::default(), |ui| {
+                figure::show(ui, figure);
+                None
+            });
+        }
     }
 
     /// Draws panels and a stage.

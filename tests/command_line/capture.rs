@@ -7,7 +7,7 @@ use std::process::Output;
 use crate::{regatta, run_in, stderr};
 
 /// Runs a command that draws. Where there is nothing to draw with, says that `test` is skipped.
-fn drawn_or_skip(test: &str, directory: &Path, arguments: &str) -> Option<Output> {
+pub(crate) fn drawn_or_skip(test: &str, directory: &Path, arguments: &str) -> Option<Output> {
     let output = run_in(directory, arguments);
     let said = stderr(&output);
     if said.contains("no usable graphics adapter") || said.contains("no graphics device") {
@@ -18,7 +18,7 @@ fn drawn_or_skip(test: &str, directory: &Path, arguments: &str) -> Option<Output
     Some(output)
 }
 
-fn names(directory: &Path) -> Vec<String> {
+pub(crate) fn names(directory: &Path) -> Vec<String> {
     let entries = fs::read_dir(directory).unwrap();
     let mut names: Vec<_> =
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();

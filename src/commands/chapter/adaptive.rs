@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::run::{exactly, scene};
 use crate::lab::SceneBody;
+use crate::lab::number::significant;
 use crate::sim::bodies::{Body, Ship};
 use crate::sim::integrators::{AdaptiveEuler, AdaptiveEulerAsPrinted, Integrator, Tolerance};
 use crate::sim::{Counted, State};
@@ -38,11 +39,11 @@ pub(super) fn listings() -> String {
     let truth = exactly(&scene, asked, f64::from(scene.tick_hz)).last().map_or(0.0, |end| end.v);
     let mut text = format!(
         "Adaptive Euler, {TICKS} ticks of {h} s: {asked} s are asked for, the speed is then {truth:.6} m/s\n\n\
-         {:>10}  {:>32}  {:>46}\n\
-         {:>10}  {:>12}  {:>7}  {:>9}  {:>12}  {:>10}  {:>8}  {:>10}\n",
+         {:>9}  {:^32}  {:^50}\n\
+         {:>9}  {:>12}  {:>7}  {:>9}  {:>11}  {:>14}  {:>8}  {:>11}\n",
         "",
-        "as printed         ",
-        "corrected              ",
+        "as printed",
+        "corrected",
         "tolerance",
         "simulated",
         "v (m/s)",
@@ -59,10 +60,10 @@ pub(super) fn listings() -> String {
         let simulated = asked - Integrator::<Counted<Ship>>::lost_time(&printed);
         let mut corrected = AdaptiveEuler::with_tolerance(&0.0, allowed);
         let (right, evaluations) = sail(&mut corrected, &ship, h);
-        let percent = |v: f64| format!("{:+.3} %", 100.0 * (v - truth) / truth);
+        let percent = |v: f64| format!("{} %", significant(100.0 * (v - truth) / truth, 3));
         let _ = writeln!(
             text,
-            "{tolerance:>10}  {simulated:>10.4} s  {:>7.5}  {:>9}  {:>12.8}  {:>10}  {:>8}  {evaluations:>10}",
+            "{tolerance:>9}  {simulated:>10.4} s  {:>7.5}  {:>9}  {:>11.8}  {:>14}  {:>8}  {evaluations:>11}",
             slow.v,
             percent(slow.v),
             right.v,
@@ -70,7 +71,9 @@ pub(super) fn listings() -> String {
             corrected.accepted(),
         );
     }
-    text + "\n  As printed a step that is cut short is never made up for: the ship sails in slow motion.\n"
+    let lines = text.lines().map(|line| format!("{}\n", line.trim_end()));
+    lines.collect::<String>()
+        + "\n  As printed a step that is cut short is never made up for: the ship sails in slow motion.\n"
 }
 
 /// The ship's state after all ticks, and what it cost.

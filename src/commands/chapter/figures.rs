@@ -22,18 +22,20 @@ pub(super) fn all() -> Vec<Diagram> {
         curves.extend(ids.map(|id| speed(&ship, id, seconds)));
         curves
     };
-    let of_ship = |title: &str, view, curves| Figure {
+    let of_ship = |title: &str, view, steps, curves| Figure {
         title: title.into(),
         note: ship_note(&ship),
         axes: ["time (s)", "speed (m/s)"],
         view,
+        steps,
         curves,
     };
-    let of_spring = |title: &str, view, curves| Figure {
+    let of_spring = |title: &str, view, steps, curves| Figure {
         title: title.into(),
         note: spring_note(&spring),
         axes: ["time (s)", "displacement (m)"],
         view,
+        steps,
         curves,
     };
     let swings = |seconds, ids: &[&str]| {
@@ -41,36 +43,59 @@ pub(super) fn all() -> Vec<Diagram> {
         curves.extend(ids.iter().map(|id| swing(&spring, id, seconds)));
         curves
     };
-    let zoom = [[6.5, 8.5], [9.4, 11.8]];
+    let zoom = [[6.46, 8.54], [9.4, 11.8]];
     let diagram = |number, figure| Diagram { number, figure };
     vec![
         diagram(
             "7-2",
-            of_ship("Figure 7-2: speed by Euler's method", [[0.0, 10.0], [0.0, 14.0]], euler(10.0)),
+            of_ship(
+                "Figure 7-2: speed by Euler's method",
+                [[0.0, 10.2], [0.0, 14.4]],
+                [1.0, 2.0],
+                euler(10.0),
+            ),
         ),
-        diagram("7-3", of_ship("Figure 7-3: a closer look", zoom, euler(8.5))),
+        diagram(
+            "7-3",
+            of_ship("Figure 7-3: the same, from 6.5 to 8.5 s", zoom, [0.5, 0.5], euler(8.5)),
+        ),
         diagram(
             "7-4",
-            of_ship("Figure 7-4: in time it converges", [[0.0, 60.0], [0.0, 22.0]], euler(60.0)),
+            of_ship(
+                "Figure 7-4: in time it converges",
+                [[0.0, 61.0], [0.0, 22.0]],
+                [10.0, 5.0],
+                euler(60.0),
+            ),
         ),
         diagram(
             "7-5",
             of_spring(
                 "Figure 7-5: a spring grows without end under explicit Euler",
-                [[0.0, 6.0], [-8.0, 8.0]],
+                [[0.0, 6.1], [-8.4, 8.4]],
+                [1.0, 2.0],
                 swings(6.0, &["explicit-euler"]),
             ),
         ),
-        diagram("7-6", of_ship("Figure 7-6: three methods", [[0.0, 10.0], [0.0, 14.0]], all(10.0))),
+        diagram(
+            "7-6",
+            of_ship("Figure 7-6: three methods", [[0.0, 10.2], [0.0, 14.4]], [1.0, 2.0], all(10.0)),
+        ),
         diagram(
             "7-7",
-            of_ship("Figure 7-7: only Euler's can be told from the exact curve", zoom, all(8.5)),
+            of_ship(
+                "Figure 7-7: only Euler's can be told from the exact curve",
+                zoom,
+                [0.5, 0.5],
+                all(8.5),
+            ),
         ),
         diagram(
             "7-8",
             of_spring(
                 "Figure 7-8: the same spring under improved Euler and Runge-Kutta",
-                [[0.0, 6.0], [-1.5, 1.5]],
+                [[0.0, 6.1], [-1.6, 1.6]],
+                [1.0, 0.5],
                 swings(6.0, &["improved-euler", "rk4"]),
             ),
         ),
@@ -129,7 +154,7 @@ fn stepped(
 
 fn ship_note(scene: &Scene) -> String {
     format!(
-        "The chapter's ship from rest: {}. Step {} s, a dot for each.",
+        "The chapter's ship from rest: {}. Step {} s.",
         parameters(scene),
         1.0 / f64::from(scene.tick_hz),
     )

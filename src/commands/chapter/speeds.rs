@@ -68,7 +68,7 @@ pub(super) fn displacements() -> String {
     let last = |moments: Vec<Moment>| moments.last().expect("the start at least").q;
     let truth = last(exactly(&scene, END_S, hz));
     let mut text = format!(
-        "Distance run after {END_S} s, dt = {} s: exactly {truth:.7} m\n\n  {:<28}  {:>10}  {:>10}  {:>8}\n",
+        "Distance run after {END_S} s, dt = {} s: exactly {truth:.7} m\n\n  {:<28}  {:>10}  {:>10}  {:>12}\n",
         1.0 / hz,
         "method",
         "s (m)",
@@ -80,10 +80,10 @@ pub(super) fn displacements() -> String {
         let error = found - truth;
         let _ = writeln!(
             text,
-            "  {:<28}  {found:>10.6}  {:>10}  {:>8}",
+            "  {:<28}  {found:>10.6}  {:>10}  {:>12}",
             method_of(id).name,
             significant(error, 4),
-            percent(100.0 * error / truth),
+            format!("{} %", significant(100.0 * error / truth, 3)),
         );
     }
     text + "\n  Semi-implicit Euler is what the chapter's listing of Euler's method does.\n"

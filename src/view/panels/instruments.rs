@@ -6,7 +6,7 @@
 use egui::{RichText, Ui};
 use egui_plot::{Line, PlotBounds, PlotPoints};
 
-use super::{QUIET, colour};
+use super::{QUIET, advice, colour};
 use crate::lab::number::superscript;
 use crate::lab::picture::palette;
 use crate::lab::{Command, History, Instrument, Lab, METRICS, Sample, Scale};
@@ -49,6 +49,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     match lab.display().instrument {
         Instrument::Metric(index) => metric(ui, lab, room, index),
         Instrument::Phase => phase(ui, lab, room),
+        Instrument::Advice => advice::show(ui, lab),
     }
 }
 

@@ -204,7 +204,7 @@ const COLUMNS: &[Column] = &[
         paint: |ui, row, rect, left, column| metric(ui, row, rect, left, column, "energy_drift"),
     },
     Column {
-        head: |_| String::new(),
+        head: |lab| format!("  verdict at {} Hz", lab.clock().tick_hz()),
         width: 60.0,
         grows: true,
         from_width: 940.0,
@@ -258,7 +258,7 @@ fn swatch(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, _column: &Column) {
     plot::swatch(ui.painter(), from, 34.0, dash, colour);
 }
 
-/// What became of the lane.
+/// What became of the lane, or else what is to be said of its method.
 fn fate(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column) {
     let at = column.align.anchor(rect, left + 8.0, column.width);
     let (text, colour) = match row.entrant.map(|entrant| entrant.lane.halted()) {
@@ -267,7 +267,10 @@ fn fate(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column) {
             let text = format!("halted at tick {}: {body} {}", halt.tick, halt.failure);
             (text, colour(palette::ALARM))
         }
-        _ => (row.spec.method.about.to_owned(), QUIET),
+        _ => match row.lab.verdict(row.index) {
+            Some(verdict) => (verdict.to_string(), super::tone(verdict.word)),
+            None => return,
+        },
     };
     let font = FontId::proportional(11.5);
     let room = Rect::from_min_max(pos2(at.x, rect.top()), rect.max);

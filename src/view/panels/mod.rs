@@ -3,8 +3,10 @@
 use egui::{Color32, CornerRadius, Frame, Margin, Rect, Stroke, Ui};
 
 pub(super) use super::plot::colour;
-use crate::lab::{Command, Lab};
+use crate::lab::picture::palette;
+use crate::lab::{Command, Lab, Word};
 
+mod advice;
 mod footer;
 mod help;
 mod instruments;
@@ -54,6 +56,8 @@ const PANEL: Color32 = Color32::from_rgb(16, 26, 40);
 const RAISED: Color32 = Color32::from_rgb(29, 44, 65);
 pub(super) const TEXT: Color32 = Color32::from_rgb(206, 218, 232);
 pub(super) const QUIET: Color32 = Color32::from_rgb(138, 156, 180);
+const WELL: Color32 = Color32::from_rgb(122, 204, 164);
+const DOUBTFUL: Color32 = Color32::from_rgb(230, 190, 110);
 const ACCENT: Color32 = Color32::from_rgb(86, 180, 233);
 
 /// The look of every widget: a night chart. Set once for each context.
@@ -107,4 +111,13 @@ pub(super) fn dress(ctx: &egui::Context) {
 
 fn frame(fill: Color32) -> Frame {
     Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 4))
+}
+
+/// The colour of a verdict: quiet where all is well.
+fn tone(word: Word) -> Color32 {
+    match word {
+        Word::Exact | Word::Accurate => WELL,
+        Word::Drifting | Word::Decays => DOUBTFUL,
+        Word::Grows | Word::Lost | Word::Halted => colour(palette::ALARM),
+    }
 }
