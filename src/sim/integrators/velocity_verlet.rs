@@ -1,4 +1,4 @@
-//! Velocity Verlet: the position by the parabola, the velocity by the mean of the forces at both ends.
+//! Velocity Verlet: half a kick, a drift, half a kick by the force at the end.
 
 use super::shared::seam::Seam;
 use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
@@ -21,10 +21,10 @@ pub(super) const CARD: Method = Method {
     source: "Swope, Andersen, Berens & Wilson, A computer simulation method for the calculation of equilibrium constants for the formation of physical clusters of molecules (1982)",
 };
 
-/// `q' = q + h v + h² a / 2`, `a' = a(t + h, q', v + h a)`, `v' = v + h (a + a') / 2`.
+/// `v½ = v + h a / 2`, `q' = q + h v½`, `a' = a(t + h, q', v½ + h a / 2)`, `v' = v½ + h a' / 2`.
 ///
-/// The second force is taken at the predicted velocity `v + h a`, which keeps the order under drag; at
-/// the half-step velocity `v + h a / 2` it would be 1.
+/// The second force is taken at the velocity predicted for the end, which keeps the order under drag; at
+/// the half-step velocity `v½` it would be 1.
 pub struct VelocityVerlet<V> {
     a: V,
     /// The force at the end, which the next step starts with.
@@ -54,14 +54,12 @@ impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
             system.acceleration(t, &y.q, &y.v, a);
         }
         let State { q, v } = y;
+        v.add_scaled(h / 2.0, a);
         q.add_scaled(h, v);
-        q.add_scaled(h * h / 2.0, a);
 
         v_end.assign(v);
-        v_end.add_scaled(h, a);
+        v_end.add_scaled(h / 2.0, a);
         system.acceleration(t + h, q, v_end, a_end);
-
-        v.add_scaled(h / 2.0, a);
         v.add_scaled(h / 2.0, a_end);
         std::mem::swap(a, a_end);
         seam.end(h, y);
