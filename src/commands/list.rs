@@ -139,8 +139,10 @@ const BODY: &[Column<Kind>] = &[
     Column {
         key: "coordinates",
         heading: None,
-        value: |body| table::json(COORDINATE, body.coordinates),
+        value: |body| table::json(COORDINATE, body.plain_coordinates()),
     },
+    Column { key: "truth", heading: Some("TRUTH"), value: |body| json!(body.truth.id()) },
+    Column { key: "accuracy", heading: None, value: |body| json!(body.truth.accuracy()) },
     Column { key: "inputs", heading: Some("INPUTS"), value: |body| json!(body.inputs) },
     Column {
         key: "parameters",
@@ -165,7 +167,7 @@ const PARAMETER: &[Column<Parameter>] = &[
 const METRIC: &[Column<Metric>] = &[
     Column { key: "id", heading: Some("ID"), value: |metric| json!(metric.id) },
     Column { key: "name", heading: Some("NAME"), value: |metric| json!(metric.name) },
-    Column { key: "unit", heading: Some("UNIT"), value: |metric| json!(metric.unit) },
+    Column { key: "unit", heading: Some("UNIT"), value: |metric| json!(metric.unit.to_string()) },
     Column {
         key: "scale",
         heading: Some("SCALE"),

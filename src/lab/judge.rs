@@ -6,7 +6,7 @@
 use super::lane::Lane;
 use super::scene::{LaneSpec, Scene};
 use super::verdict::{Fate, Verdict};
-use crate::sim::bodies::{Input, Kind};
+use crate::sim::bodies::{Coordinate, Input};
 use crate::sim::stability::{Stability, Tick};
 use crate::sim::{Solver, Stepper};
 
@@ -19,6 +19,9 @@ pub const LONGEST_HORIZON_S: f64 = 60.0;
 
 /// Moments at which a lane is held against the truth: some twenty a turn of what turns once a second.
 const MOMENTS: u64 = 512;
+
+/// States of the true motion over which a nonlinear body's stability is averaged.
+const STATES: u32 = 32;
 
 /// A half range this small against the largest value is rounding: the body keeps that value.
 const KEEPS_STILL: f64 = 1e-9;
@@ -89,12 +92,28 @@ impl Judge {
         Verdict::new(self.stability(spec, tick_hz), outcome, horizon_s)
     }
 
-    /// How the method treats small deviations from the start, the worst of all bodies in each respect;
-    /// `None` where it cannot get through its first ticks.
+    /// How the method treats small deviations, the worst of all bodies in each respect: about the start
+    /// and, of a nonlinear body, in the mean over its true motion. `None` where the method cannot get
+    /// through its first ticks.
     pub fn stability(&self, spec: LaneSpec, tick_hz: u32) -> Option<Stability> {
-        let tick = Tick { t: 0.0, h: 1.0 / f64::from(tick_hz), substeps: spec.substeps };
-        let truth = self.truth();
-        let each = truth.iter().map(|body| Stability::of(&**body, spec.method, tick).ok());
+        let each = self.truth().into_iter().map(|mut body| {
+            let h = 1.0 / f64::from(tick_hz);
+            let of = |body: &dyn Stepper, t: f64| {
+                let tick = Tick { t, h, substeps: spec.substeps };
+                Stability::of(body, spec.method, tick).ok()
+            };
+            let mut states = vec![of(&*body, 0.0)?];
+            let stretch = self.horizon_s / f64::from(STATES);
+            for i in 0..STATES {
+                let t = stretch * f64::from(i);
+                body.advance(t, stretch, 1).ok()?;
+                states.push(of(&*body, t + stretch)?);
+                if i == 0 && alike(&states[0], &states[1]) {
+                    return Some(states[0]);
+                }
+            }
+            Some(mean(&states))
+        });
         let all: Option<Vec<Stability>> = each.collect();
         all?.into_iter().reduce(worse)
     }
@@ -167,7 +186,7 @@ impl Judge {
     /// Every body at its start on the exact flow.
     fn truth(&self) -> Vec<Box<dyn Stepper>> {
         let bodies = self.scene.bodies.iter().map(|body| {
-            let mut stepper = (body.kind.build)(&body.values, Solver::Exact);
+            let mut stepper = (body.kind.build)(&body.values, Solver::Truth);
             stepper.input(0.0, Input::Throttle(self.throttle));
             stepper
         });
@@ -189,7 +208,9 @@ impl Judge {
             }
         }
         let bodies = ranges.iter().zip(&self.scene.bodies);
-        bodies.map(|(ranges, body)| amplitudes(ranges, body.kind)).collect()
+        bodies
+            .map(|(ranges, body)| amplitudes(ranges, (body.kind.coordinates)(&body.values)))
+            .collect()
     }
 }
 
@@ -198,9 +219,9 @@ fn components(stepper: &dyn Stepper) -> impl Iterator<Item = f64> {
 }
 
 /// The amplitude of each component, from what the truth covers.
-fn amplitudes(ranges: &[(f64, f64)], kind: &Kind) -> Vec<f64> {
+fn amplitudes(ranges: &[(f64, f64)], coordinates: &[Coordinate]) -> Vec<f64> {
     let n = ranges.len() / 2;
-    let unit = |i: usize| kind.coordinates[(i % n).min(kind.coordinates.len() - 1)].unit;
+    let unit = |i: usize| coordinates[i % n].unit;
     let alike = |i: usize| (0..2 * n).filter(move |&j| i / n == j / n && unit(i) == unit(j));
     let most =
         |of: fn(&(f64, f64)) -> f64, i: usize| alike(i).map(|j| of(&ranges[j])).fold(0.0, f64::max);
@@ -214,6 +235,25 @@ fn amplitudes(ranges: &[(f64, f64)], kind: &Kind) -> Vec<f64> {
         }
     };
     (0..2 * n).map(amplitude).collect()
+}
+
+/// Whether a body is seen to be linear: the same in two states.
+fn alike(a: &Stability, b: &Stability) -> bool {
+    let near = |a: f64, b: f64| a == b || (a - b).abs() <= 1e-6 * (1e-3 + a.abs());
+    near(a.spectral_radius, b.spectral_radius) && near(a.growth_per_s, b.growth_per_s)
+}
+
+fn mean(states: &[Stability]) -> Stability {
+    let of =
+        |value: fn(&Stability) -> f64| states.iter().map(value).sum::<f64>() / states.len() as f64;
+    let errors: Vec<f64> = states.iter().filter_map(|s| s.frequency_error).collect();
+    let frequency_error = errors.iter().sum::<f64>() / errors.len() as f64;
+    Stability {
+        spectral_radius: of(|s| s.spectral_radius),
+        growth_per_s: of(|s| s.growth_per_s),
+        loss_per_s: of(|s| s.loss_per_s),
+        frequency_error: (!errors.is_empty()).then_some(frequency_error),
+    }
 }
 
 fn worse(a: Stability, b: Stability) -> Stability {
@@ -236,7 +276,7 @@ mod tests {
 
     #[test]
     fn the_amplitude_is_half_the_range_or_what_is_kept() {
-        let ship = kind("ship").unwrap();
+        let ship = kind("ship").unwrap().plain_coordinates();
         assert_eq!(amplitudes(&[(-1.0, 3.0), (20.0, 20.0)], ship), [2.0, 20.0]);
         assert_eq!(amplitudes(&[(0.0, 0.0), (5.0, 5.0 + 1e-12)], ship), [1.0, 5.0 + 1e-12]);
     }

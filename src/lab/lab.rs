@@ -31,6 +31,7 @@ pub struct Lab {
     clock: Clock,
     running: bool,
     throttle: f64,
+    rudder: f64,
     dropped: u64,
     next_scripted: usize,
     display: Display,
@@ -59,6 +60,7 @@ impl Lab {
             active: entry,
             running: true,
             throttle: 1.0,
+            rudder: 0.0,
             dropped: 0,
             next_scripted: 0,
             display: Display {
@@ -109,6 +111,10 @@ impl Lab {
     pub fn throttle(&self) -> f64 {
         self.throttle
     }
+    /// The rudder, from -1, hard right, to 1, hard left.
+    pub fn rudder(&self) -> f64 {
+        self.rudder
+    }
     /// Ticks given up since the scene was opened or restarted.
     pub fn dropped(&self) -> u64 {
         self.dropped
@@ -138,9 +144,9 @@ impl Lab {
     pub fn is_thinking(&self) -> bool {
         self.thinking.more()
     }
-    /// Whether the truth has a ship to steer: whether the throttle does anything.
-    pub fn has_throttle(&self) -> bool {
-        self.scene.bodies.iter().any(|body| body.kind.inputs.contains(&"throttle"))
+    /// Whether any body takes an input, by its name on the body's [card](crate::sim::bodies::Kind).
+    pub fn takes(&self, input: &str) -> bool {
+        self.scene.bodies.iter().any(|body| body.kind.inputs.contains(&input))
     }
 
     /// Says how the bodies move when nothing is to fade or glide.
@@ -202,6 +208,9 @@ impl Lab {
             Command::Throttle(_)
             | Command::ThrottleUp
             | Command::ThrottleDown
+            | Command::Rudder(_)
+            | Command::RudderLeft
+            | Command::RudderRight
             | Command::Kick(_) => {
                 self.perform(command);
             }
@@ -312,11 +321,11 @@ impl Lab {
                 self.race.set_tick_hz(self.clock.tick_hz());
             }
             Command::Throttle(part) => self.set_throttle(part),
-            // In whole tenths, so that ten steps up and down end where they began.
-            Command::ThrottleUp => self.set_throttle(((self.throttle * 10.0).round() + 1.0) / 10.0),
-            Command::ThrottleDown => {
-                self.set_throttle(((self.throttle * 10.0).round() - 1.0) / 10.0)
-            }
+            Command::ThrottleUp => self.set_throttle(tenths(self.throttle, 1.0)),
+            Command::ThrottleDown => self.set_throttle(tenths(self.throttle, -1.0)),
+            Command::Rudder(part) => self.set_rudder(part),
+            Command::RudderLeft => self.set_rudder(tenths(self.rudder, 1.0)),
+            Command::RudderRight => self.set_rudder(tenths(self.rudder, -1.0)),
             Command::Kick(times) => self.race.input(Input::Kick(times)),
             _ => {}
         }
@@ -334,6 +343,11 @@ impl Lab {
         self.race.input(Input::Throttle(self.throttle));
     }
 
+    fn set_rudder(&mut self, part: f64) {
+        self.rudder = part.clamp(-1.0, 1.0);
+        self.race.input(Input::Rudder(self.rudder));
+    }
+
     fn restart(&mut self) {
         let lanes = self.entries.iter().copied().enumerate();
         self.active = self.choice.entry;
@@ -346,6 +360,7 @@ impl Lab {
         self.clock.set_tick_hz(self.choice.tick_hz);
         self.clock.restart();
         self.throttle = 1.0;
+        self.rudder = 0.0;
         self.dropped = 0;
         self.next_scripted = 0;
         self.notice = None;
@@ -394,4 +409,9 @@ impl Lab {
         let body = self.display.body;
         self.race.entrants().iter().map(move |e| (e.entry, &e.histories[body]))
     }
+}
+
+/// `part` and so many tenths more, in whole tenths, so that ten steps up and down end where they began.
+fn tenths(part: f64, more: f64) -> f64 {
+    ((part * 10.0).round() + more) / 10.0
 }

@@ -30,7 +30,7 @@ pub use history::{CAPACITY, History, Sample};
 pub use judge::{Judge, LONGEST_HORIZON_S, Outcome, TOLERANCE};
 pub use lab::Lab;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody};
-pub use metrics::{METRICS, Metric, Scale};
+pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use race::{Entrant, Race};
 pub use scene::{
     BuiltIn, LARGEST_FILE, LAST_TICK, LaneSpec, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS,

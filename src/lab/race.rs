@@ -44,7 +44,7 @@ impl Race {
             histories: scene.bodies.iter().map(|_| History::new()).collect(),
         });
         let mut race = Self {
-            truth: Lane::new(scene, Solver::Exact, 1),
+            truth: Lane::new(scene, Solver::Truth, 1),
             truth_histories: scene.bodies.iter().map(|_| History::new()).collect(),
             entrants: entrants.collect(),
             tick: 0,
@@ -74,7 +74,7 @@ impl Race {
     pub fn last_step_s(&self) -> f64 {
         self.last_step_s
     }
-    /// The exact solution.
+    /// The truth: the exact solution, or a reference where a body has no closed form.
     pub fn truth(&self) -> &Lane {
         &self.truth
     }

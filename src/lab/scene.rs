@@ -85,7 +85,8 @@ pub struct SceneBody {
     pub name: String,
     /// What it is.
     pub kind: &'static Kind,
-    /// What [`Kind::build`] takes: one value for each of the kind's parameters, in their order.
+    /// What [`Kind::build`] takes: one value for each of the kind's parameters, in their order, and for
+    /// a curve two for each point.
     pub values: Vec<f64>,
 }
 
@@ -151,4 +152,9 @@ pub static SCENES: &[BuiltIn] = &[
     BuiltIn { name: "ship", text: include_str!("../../assets/scenes/ship.toml") },
     BuiltIn { name: "spring", text: include_str!("../../assets/scenes/spring.toml") },
     BuiltIn { name: "stiff", text: include_str!("../../assets/scenes/stiff.toml") },
+    BuiltIn { name: "surge", text: include_str!("../../assets/scenes/surge.toml") },
+    BuiltIn { name: "chain", text: include_str!("../../assets/scenes/chain.toml") },
+    BuiltIn { name: "pendulum", text: include_str!("../../assets/scenes/pendulum.toml") },
+    BuiltIn { name: "orbit", text: include_str!("../../assets/scenes/orbit.toml") },
+    BuiltIn { name: "helm", text: include_str!("../../assets/scenes/helm.toml") },
 ];

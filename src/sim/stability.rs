@@ -5,22 +5,22 @@
 //! method on any body: two-sided, at distances scaled to the state. The input stays as it is.
 //!
 //! - A method that carries something from step to step is followed over three ticks, and the map is that
-//!   of state and memory together.
+//!   of state and memory together; on a nonlinear body, under the forces of here and now, straightened.
 //! - A method that chooses its substeps steps the differenced copies as one, with the same substeps for
 //!   all: the map is that of the steps it takes here, its control frozen.
 //! - On a nonlinear body the map is that of small deviations here and now. What grows in truth, such as
 //!   a pendulum's fall from the top, is not held against a method.
 
-use nalgebra::DMatrix;
-
 use super::integrators::{Method, StepFailure};
 use super::{Solver, Stepper};
 
 mod flock;
+mod probe;
 mod search;
 mod spectrum;
 
 use flock::Flock;
+use probe::{COPIES, Carrier, Probe, rates, scale, state_of};
 pub use search::{RATES_HZ, RateSearch};
 use spectrum::{Derivatives, Eigenvalue};
 
@@ -114,6 +114,9 @@ impl Mode {
 /// the differences.
 const STILL: f64 = 1e-9;
 
+/// What grows in truth may grow by this part faster: neither rate says much of the long run.
+const OWN_GROWTH: f64 = 0.1;
+
 fn against(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
     let (swinging, creeping): (Vec<Mode>, Vec<Mode>) =
         truth.iter().partition(|m| m.frequency > 0.0);
@@ -155,11 +158,13 @@ fn against(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
     let unpaired = rest.iter().chain(&memory).map(|&value| (None, Mode::new(value, h)));
     pairs.extend(unpaired);
 
-    let own = |truth: Option<Mode>| match truth {
-        Some(mode) if mode.growth_per_s * h > STILL => mode.growth_per_s,
-        _ => 0.0,
-    };
-    let excess = pairs.iter().map(|&(truth, found)| found.growth_per_s - own(truth));
+    let excess = pairs.iter().map(|&(truth, found)| match truth {
+        Some(Mode { growth_per_s: own, .. }) if own * h > STILL => {
+            let excess = found.growth_per_s - own;
+            if excess.abs() < OWN_GROWTH * own { 0.0 } else { excess }
+        }
+        _ => found.growth_per_s,
+    });
     let conserved = |mode: Mode| (mode.growth_per_s * h).abs() < STILL;
     let losses = pairs.iter().filter(|(truth, _)| truth.is_some_and(conserved));
     Stability {
@@ -190,9 +195,22 @@ fn eigenvalues(
         let [map] = probe.derivatives(&here, &scale)?;
         return Ok(spectrum::of_map(&map));
     }
-    let [one, two, three] = probe.derivatives(&here, &scale)?;
-    let [later_one, later_two] = probe.derivatives(&there, &scale)?;
-    let derivatives = Derivatives { now: [one, two, three], later: [later_one, later_two] };
+    let derivatives = Derivatives {
+        now: probe.derivatives(&here, &scale)?,
+        later: probe.derivatives(&there, &scale)?,
+    };
+    if derivatives.has_memory() && derivatives.bends() {
+        // Over three ticks the forces change more than the memory does: only a body with the forces of
+        // here and now can tell it.
+        let rates = rates(body, &here, &scale, tick.t);
+        let flock = Flock::straightened(body, rates, tick.t, method, COPIES.len());
+        let mut probe = Probe { carrier: Carrier::Together(flock), tick };
+        let derivatives = Derivatives {
+            now: probe.derivatives(&here, &scale)?,
+            later: probe.derivatives(&here, &scale)?,
+        };
+        return Ok(spectrum::eigenvalues(&derivatives));
+    }
     Ok(spectrum::eigenvalues(&derivatives))
 }
 
@@ -200,11 +218,11 @@ fn eigenvalues(
 /// short enough for no mode to make more than a quarter turn.
 fn true_modes(body: &dyn Stepper, tick: Tick) -> Result<Vec<Mode>, StepFailure> {
     let at = |h: f64| -> Result<Vec<Mode>, StepFailure> {
-        let mut there = body.with_solver(Solver::Exact, tick.t);
+        let mut there = body.with_solver(Solver::Truth, tick.t);
         there.advance(tick.t, h, 1)?;
         let here = state_of(body);
         let scale = scale(&here, &state_of(&*there), h);
-        let mut probe = Probe::new(body, Solver::Exact, Tick { h, substeps: 1, ..tick });
+        let mut probe = Probe::new(body, Solver::Truth, Tick { h, substeps: 1, ..tick });
         let [map] = probe.derivatives(&here, &scale)?;
         let values = spectrum::of_map(&map).unwrap_or_default();
         Ok(values.into_iter().map(|value| Mode::new(value, h)).collect())
@@ -226,156 +244,3 @@ fn true_modes(body: &dyn Stepper, tick: Tick) -> Result<Vec<Mode>, StepFailure> 
 
 /// From a second down to a microsecond.
 const MOST_HALVINGS: u32 = 20;
-
-/// How far the state is differenced in units of its scale: far, which loses nothing to rounding where
-/// the map is linear, and nearer until the map is straight over the distance.
-const DISTANCES: [f64; 5] = [1.0 / 16.0, 9.8e-4, 1.5e-5, 2.4e-7, 3.7e-9];
-/// A map is straight where differences over once and twice the distance agree to this: their
-/// extrapolation is then right to its square.
-const STRAIGHT: f64 = 1e-7;
-/// Where each copy stands, in distances.
-const COPIES: [f64; 4] = [1.0, -1.0, 2.0, -2.0];
-
-fn state_of(stepper: &dyn Stepper) -> Vec<f64> {
-    [stepper.q(), stepper.v()].concat()
-}
-
-/// The size of each component: that of the largest of its half of the state, now or a tick on.
-fn scale(here: &[f64], there: &[f64], h: f64) -> Vec<f64> {
-    let n = here.len() / 2;
-    let largest = |half: std::ops::Range<usize>| {
-        let both = here[half.clone()].iter().chain(&there[half]);
-        let largest = both.filter(|x| x.is_finite()).fold(0.0, |most: f64, x| most.max(x.abs()));
-        // Below, a distance would have no digits left.
-        if largest > 1e-290 { Some(largest) } else { None }
-    };
-    let v = largest(n..2 * n);
-    let q = largest(0..n).or(v.map(|v| v * h)).unwrap_or(1.0);
-    [vec![q; n], vec![v.unwrap_or(1.0); n]].concat()
-}
-
-/// Carries the body through ticks from states near its own.
-struct Probe {
-    carrier: Carrier,
-    tick: Tick,
-}
-
-enum Carrier {
-    /// The lane's own stepper, once for each copy.
-    Alone(Box<dyn Stepper>),
-    /// All copies under one choice of substeps.
-    Together(Flock),
-}
-
-impl Probe {
-    fn new(body: &dyn Stepper, solver: Solver, tick: Tick) -> Self {
-        let own = body.with_solver(solver, tick.t);
-        let carrier = match solver {
-            Solver::Method(method) if method.tolerance.is_some() => {
-                Carrier::Together(Flock::new(own, method, COPIES.len()))
-            }
-            _ => Carrier::Alone(own),
-        };
-        Self { carrier, tick }
-    }
-
-    /// The states of all copies after each of `ticks` ticks.
-    fn run(&mut self, from: &[Vec<f64>], ticks: usize) -> Result<Vec<Vec<Vec<f64>>>, StepFailure> {
-        let Tick { t, h, substeps } = self.tick;
-        let begins = |tick: usize| t + h * tick as f64;
-        match &mut self.carrier {
-            Carrier::Together(flock) => {
-                flock.set(from);
-                let tick = |k| {
-                    flock.advance(begins(k), h, substeps)?;
-                    Ok((0..from.len()).map(|copy| flock.state(copy)).collect())
-                };
-                (0..ticks).map(tick).collect()
-            }
-            Carrier::Alone(stepper) => {
-                let mut states = vec![Vec::with_capacity(from.len()); ticks];
-                for state in from {
-                    let (q, v) = state.split_at(state.len() / 2);
-                    stepper.set(t, q, v);
-                    for (k, states) in states.iter_mut().enumerate() {
-                        stepper.advance(begins(k), h, substeps)?;
-                        states.push(state_of(&**stepper));
-                    }
-                }
-                Ok(states)
-            }
-        }
-    }
-
-    /// The derivatives of the state after 1, 2 … `TICKS` ticks with respect to the state before them,
-    /// in units of `scale`.
-    fn derivatives<const TICKS: usize>(
-        &mut self,
-        at: &[f64],
-        scale: &[f64],
-    ) -> Result<[DMatrix<f64>; TICKS], StepFailure> {
-        let n = at.len();
-        let mut derivatives = [(); TICKS].map(|()| DMatrix::zeros(n, n));
-        for j in 0..n {
-            for (derivative, column) in
-                derivatives.iter_mut().zip(self.column(at, scale, j, TICKS)?)
-            {
-                derivative.set_column(j, &nalgebra::DVector::from_vec(column));
-            }
-        }
-        Ok(derivatives)
-    }
-
-    /// The derivatives with respect to component `j`, after each of `ticks` ticks: at the first distance
-    /// over which the map is straight, or else at the one where it is straightest.
-    fn column(
-        &mut self,
-        at: &[f64],
-        scale: &[f64],
-        j: usize,
-        ticks: usize,
-    ) -> Result<Vec<Vec<f64>>, StepFailure> {
-        let mut best = (f64::INFINITY, Err(StepFailure::NoClosedForm));
-        for distance in DISTANCES {
-            let moved: Vec<Vec<f64>> = COPIES
-                .iter()
-                .map(|copies| {
-                    let mut moved = at.to_vec();
-                    moved[j] += copies * distance * scale[j];
-                    moved
-                })
-                .collect();
-            // A copy that fails, as in the middle of an orbit, was put too far out.
-            let states = match self.run(&moved, ticks) {
-                Ok(states) => states,
-                Err(failure) if best.1.is_err() => {
-                    best.1 = Err(failure);
-                    continue;
-                }
-                Err(_) => continue,
-            };
-            let (near, far) = (moved[0][j] - moved[1][j], moved[2][j] - moved[3][j]);
-            let mut bend: f64 = 0.0;
-            let columns = states.iter().map(|after| {
-                let row = |i: usize| {
-                    let unit = scale[j] / scale[i];
-                    let once = (after[0][i] - after[1][i]) / near * unit;
-                    let twice = (after[2][i] - after[3][i]) / far * unit;
-                    bend = bend.max((once - twice).abs());
-                    once + (once - twice) / 3.0
-                };
-                (0..at.len()).map(row).collect()
-            });
-            let columns: Vec<Vec<f64>> = columns.collect();
-            let size = columns.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-            let bend = bend / size.max(1.0);
-            if bend < best.0 || best.1.is_err() {
-                best = (bend, Ok(columns));
-            }
-            if bend <= STRAIGHT {
-                break;
-            }
-        }
-        best.1
-    }
-}

@@ -29,7 +29,7 @@ pub(super) fn by_method(scene: &Scene, id: &str, seconds: f64) -> Vec<Moment> {
 
 /// The exact motion of the scene's first body, `per_second` times a second.
 pub(super) fn exactly(scene: &Scene, seconds: f64, per_second: f64) -> Vec<Moment> {
-    sail(scene, Solver::Exact, seconds, per_second)
+    sail(scene, Solver::Truth, seconds, per_second)
 }
 
 fn sail(scene: &Scene, solver: Solver, seconds: f64, hz: f64) -> Vec<Moment> {

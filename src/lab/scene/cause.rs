@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use super::LARGEST_FILE;
 use super::errors::clip;
-use crate::sim::bodies::{self, BODIES};
+use crate::sim::bodies::{self, BODIES, Fault};
 
 /// What is wrong. The display says that, [`Cause::remedy`] what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -44,6 +44,12 @@ pub(super) enum Cause {
     WrongType { subject: String, found: String, wanted: Wanted },
     #[error("`{key}` is {value}, out of range")]
     OutOfRange { key: &'static str, value: String, wanted: Wanted },
+    #[error("`{key}` has {found} point{}", if *found == 1 { "" } else { "s" })]
+    PointCount { key: &'static str, found: usize, wanted: Wanted },
+    #[error("`{key}` goes from {before} to {value}")]
+    NotRising { key: &'static str, value: f64, before: f64 },
+    #[error("{}", .0.what)]
+    Fault(Fault),
     #[error("`{key}` is empty")]
     EmptyText { key: &'static str, wanted: Wanted },
     #[error("`{key}` has {chars} characters")]
@@ -90,6 +96,10 @@ pub(super) enum Wanted {
     Number(bodies::Range),
     /// A whole number.
     Whole(RangeInclusive<u64>),
+    /// A list of points.
+    Curve(bodies::Range),
+    /// One of them.
+    Point,
     /// The id of a method.
     Method,
     /// A list of methods' ids.
@@ -124,8 +134,13 @@ impl Cause {
             Cause::UnknownMethod { nearest, known, .. } => offer(*nearest, known, '"'),
             Cause::WrongType { wanted, .. }
             | Cause::OutOfRange { wanted, .. }
+            | Cause::PointCount { wanted, .. }
             | Cause::EmptyText { wanted, .. }
             | Cause::LongText { wanted, .. } => format!("write {wanted}"),
+            Cause::NotRising { .. } => {
+                "order the points by their first numbers, each greater than the one before".into()
+            }
+            Cause::Fault(fault) => fault.remedy.clone(),
             Cause::ControlCharacter { .. } => "remove it".into(),
             Cause::NoBody => {
                 let kinds: Vec<_> = BODIES.iter().map(|kind| kind.id).collect();
@@ -167,7 +182,8 @@ impl Wanted {
             Wanted::Text(_) | Wanted::Method => "a string",
             Wanted::Number(_) => "a number",
             Wanted::Whole(_) => "an integer",
-            Wanted::Methods => "a list",
+            Wanted::Methods | Wanted::Curve(_) => "a list",
+            Wanted::Point => "a pair of numbers",
             Wanted::Tables(_) => "an array of tables",
         }
     }
@@ -181,6 +197,8 @@ impl fmt::Display for Wanted {
             Wanted::Whole(range) => {
                 write!(f, "a whole number from {} to {}", range.start(), range.end())
             }
+            Wanted::Curve(range) => write!(f, "a list of {range}"),
+            Wanted::Point => write!(f, "two numbers in brackets, such as [0.0, 1.0]"),
             Wanted::Method => write!(f, "a method's name in double quotes, such as \"rk4\""),
             Wanted::Methods => write!(f, "a list of methods' names, such as [\"rk4\"]"),
             Wanted::Tables(name) => write!(f, "`[[{name}]]` in double brackets and its keys below"),

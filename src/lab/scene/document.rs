@@ -56,7 +56,7 @@ struct Action {
     read: fn(&mut Table<'_>, Field) -> Option<Command>,
 }
 
-static ACTIONS: [Action; 4] = [
+static ACTIONS: [Action; 5] = [
     Action {
         field: optional("method"),
         input: None,
@@ -66,6 +66,11 @@ static ACTIONS: [Action; 4] = [
         field: optional("throttle"),
         input: Some("throttle"),
         read: |table, field| table.number(field, Range::Within(1.0)).map(Command::Throttle),
+    },
+    Action {
+        field: optional("rudder"),
+        input: Some("rudder"),
+        read: |table, field| table.number(field, Range::Within(1.0)).map(Command::Rudder),
     },
     Action {
         field: optional("kick"),
@@ -191,11 +196,20 @@ fn read_values(kind: &Kind, row: &mut Table<'_>) -> Option<Vec<f64>> {
     let read = |parameter: &Parameter| {
         let Parameter { key, about, default, range } = *parameter;
         let field = if default.is_some() { optional(key) } else { required(key, about) };
-        row.number(field, range).or(default)
+        let given = match range {
+            Range::Curve { .. } => row.curve(field, range).map(|points| points.concat()),
+            Range::Count(most) => row.whole(field, 1..=most).map(|count| vec![f64::from(count)]),
+            _ => row.number(field, range).map(|number| vec![number]),
+        };
+        given.or(default.map(|number| vec![number]))
     };
     // All are read before any is missed, so that every fault is found.
     let values: Vec<_> = kind.parameters.iter().map(read).collect();
-    values.into_iter().collect()
+    let values = values.into_iter().collect::<Option<Vec<_>>>()?.concat();
+    if let Err(fault) = (kind.check)(&values) {
+        row.complain(row.span(fault.key), Cause::Fault(fault));
+    }
+    Some(values)
 }
 
 fn check_names(text: &str, bodies: &[Described], top: &mut Table<'_>) {

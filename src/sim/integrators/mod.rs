@@ -120,9 +120,6 @@ pub enum StepFailure {
         /// The value that was too large.
         value: f64,
     },
-    /// The exact solution was asked of a body that has no closed form.
-    #[error("has no closed form")]
-    NoClosedForm,
 }
 
 /// How a method works, for menus and tables.

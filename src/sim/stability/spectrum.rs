@@ -28,6 +28,26 @@ pub(super) struct Derivatives {
     pub(super) later: [DMatrix<f64>; 2],
 }
 
+impl Derivatives {
+    /// Whether two ticks are more than one after the other.
+    pub(super) fn has_memory(&self) -> bool {
+        remembers(&self.now, &self.later).1
+    }
+
+    /// Whether the map changes as the body moves.
+    pub(super) fn bends(&self) -> bool {
+        (&self.now[0] - &self.later[0]).amax() > BEND * (1.0 + self.now[0].amax())
+    }
+}
+
+/// How far two ticks are from the product of the two, and whether that is memory.
+fn remembers(now: &[DMatrix<f64>; 3], later: &[DMatrix<f64>; 2]) -> (f64, bool) {
+    let off = (&now[1] - &later[0] * &now[0]).amax();
+    (off, off > MEMORY * (1.0 + now[1].amax()))
+}
+
+/// A map that differs by more than this a tick later is that of a nonlinear body.
+const BEND: f64 = 1e-9;
 /// How far two ticks may be from the product of the two before it is memory: well above the rounding
 /// of the differences, well below what a step of a multistep method adds where its order can be seen.
 const MEMORY: f64 = 1e-10;
@@ -52,9 +72,7 @@ pub(super) fn eigenvalues(derivatives: &Derivatives) -> Option<Vec<Eigenvalue>> 
     for part in parts(&all.collect::<Vec<_>>()) {
         let cut = |matrix: &DMatrix<f64>| matrix.select_rows(&part).select_columns(&part);
         let (now, later) = (now.each_ref().map(cut), later.each_ref().map(cut));
-        let product = &later[0] * &now[0];
-        let off = (&now[1] - product).amax();
-        let has_memory = off > MEMORY * (1.0 + now[1].amax());
+        let (off, has_memory) = remembers(&now, &later);
         let (map, blur) = match has_memory {
             true => (&with_memory(&now, &later)?, MEMORY_BLUR),
             false => (&now[0], BLUR * off),

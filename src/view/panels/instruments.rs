@@ -21,7 +21,6 @@ const PHASE_SAMPLES: usize = 360;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let height = ui.available_height();
-    let body = &lab.scene().bodies[lab.display().body];
     ui.horizontal(|ui| {
         for (index, body) in lab.scene().bodies.iter().enumerate() {
             let selected = index == lab.display().body;
@@ -29,8 +28,10 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
                 commands.push(Command::Body(index));
             }
         }
-        let coordinate = &body.kind.coordinates[0];
-        let title = format!("{} ({}), exact in white", coordinate.name, coordinate.unit);
+        let truth = &lab.race().truth().bodies()[lab.display().body];
+        let coordinate = &truth.coordinates[0];
+        let words = truth.truth_in_words();
+        let title = format!("{} ({}), {words} in white", coordinate.name, coordinate.unit);
         ui.label(RichText::new(title).color(QUIET));
     });
     value(ui, lab, (height * 0.5 - 26.0).max(10.0));
@@ -80,13 +81,15 @@ fn value(ui: &mut Ui, lab: &Lab, height: f32) {
     plot("value", height).show(ui, |plot| {
         let bounds = bounds(lab, y);
         draw(plot, &bounds, &lanes);
-        let line = Line::new("exact", PlotPoints::from(exact)).allow_hover(false);
+        let line = Line::new("truth", PlotPoints::from(exact)).allow_hover(false);
         plot.line(line.color(colour(palette::TRUTH)).width(1.2));
     });
 }
 
 fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
     let metric = &METRICS[index];
+    let body = &lab.race().truth().bodies()[lab.display().body];
+    let unit = metric.unit.on(&body.coordinates[0]);
     match metric.scale {
         Scale::Log => {
             let log = |s: &Sample| match s.metrics[index] {
@@ -100,7 +103,7 @@ fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
                 if (mark.value - exponent).abs() > 1e-6 {
                     return String::new();
                 }
-                format!("10{} {}", superscript(exponent as i32), metric.unit)
+                format!("10{} {unit}", superscript(exponent as i32))
             });
             plot.y_grid_spacer(decades).show(ui, |plot| draw(plot, &bounds(lab, y), &lanes));
         }
@@ -108,7 +111,6 @@ fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
             let lanes = curves(lab, |s| s.t, |s| s.metrics[index]);
             let y = spread(&lanes, 300.0);
             let plot = plot("metric", height);
-            let unit = metric.unit;
             let plot =
                 plot.y_axis_formatter(move |mark, _| format!("{} {unit}", tick_text(mark.value)));
             plot.show(ui, |plot| draw(plot, &bounds(lab, y), &lanes));
@@ -129,7 +131,7 @@ fn phase(ui: &mut Ui, lab: &Lab, height: f32) {
     plot("phase", height).x_axis_formatter(formatter).show(ui, |plot| {
         let bounds = PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]);
         draw(plot, &bounds, &lanes);
-        let line = Line::new("exact", PlotPoints::from(exact)).allow_hover(false);
+        let line = Line::new("truth", PlotPoints::from(exact)).allow_hover(false);
         plot.line(line.color(colour(palette::TRUTH)).width(1.2));
     });
 }

@@ -244,7 +244,8 @@ fn metric(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column, id: &s
     let metric = METRICS.iter().find(|metric| metric.id == id);
     let text = metric.and_then(|metric| {
         let value = row.measure(metric)?;
-        Some(format!("{} {}", significant(value, 3), metric.unit))
+        let body = &row.lab.race().truth().bodies()[row.lab.display().body];
+        Some(format!("{} {}", significant(value, 3), metric.unit.on(&body.coordinates[0])))
     });
     write(ui, row, rect, left, column, text.unwrap_or_default(), false);
 }
