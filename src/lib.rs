@@ -11,7 +11,8 @@
 //! - [`lab`] is the experiment: a [`Scene`](lab::Scene) is read from text, a [`Clock`](lab::Clock)
 //!   turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the truth, and a
 //!   [`Picture`](lab::picture::Picture) says what to draw. A lane is one method on its own copy of the
-//!   scene's bodies; the truth is a lane whose solver is the exact flow. The layer knows no GPU and no
+//!   scene's bodies; the truth is a lane whose solver is the exact flow, or where a body has none a
+//!   [reference](sim::REFERENCE_ACCURACY). The layer knows no GPU and no
 //!   wall clock: time comes in as integers, text as `&str`.
 //! - `view` is pixels: a graphics device, two pipelines for the stage, panels in egui, and
 //!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
@@ -48,7 +49,8 @@
 //! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
 //!   `methods!`. If its card claims too much or too little, `tests/conformance.rs` fails.
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
-//!   [`BODIES`](sim::bodies::BODIES). `tests/exact_flows.rs` holds its exact flow against its equation.
+//!   [`BODIES`](sim::bodies::BODIES). `tests/exact_flows.rs` and `tests/bodies` hold its exact flow, or
+//!   what stands in for one, against its equation.
 //! - **A scene**: add a file to `assets/scenes` and its line to [`SCENES`](lab::SCENES).
 //! - **A metric**: one entry of [`METRICS`](lab::METRICS). **A key**: one entry of [`KEYS`](lab::KEYS).
 //!

@@ -13,7 +13,7 @@ use winit::event::{ElementState, KeyEvent, StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, Window, WindowId};
 
-use crate::lab::{Ask, Command, Lab, command_for};
+use crate::lab::{Ask, Command, Key, Lab, command_for};
 use crate::view::GpuError;
 
 mod canvas;
@@ -24,12 +24,13 @@ mod screenshot;
 use canvas::{Canvas, Drawn};
 use pace::Meter;
 
-/// Between ticks of a hidden window: well inside the clock's longest frame, so that none is dropped.
-const HIDDEN_FRAME: Duration = Duration::from_millis(100);
+/// How long the simulation waits for a frame: well inside the clock's longest, so that a window that is
+/// hidden, or that the window system asks no frames of, drops no ticks.
+const LONGEST_WAIT: Duration = Duration::from_millis(100);
 /// The frame rate where neither the display nor the driver sets one.
 const USUAL_REFRESH_MHZ: u32 = 60_000;
-/// The first frame of a window and the first after a pause count as this long: how long it really was
-/// says nothing about the simulation.
+/// The first frame after a pause counts as this long: how long it really was says nothing about the
+/// simulation.
 const FIRST_FRAME: Duration = Duration::ZERO;
 
 /// Why the window could not be opened or kept.
@@ -63,7 +64,9 @@ pub fn run(lab: Lab, seconds: Option<f64>) -> Result<(), WindowError> {
         shift: false,
         other_modifier: false,
         last_frame: None,
-        hidden: false,
+        redraw_owed: false,
+        occluded: false,
+        minimised: false,
         meter: Meter::default(),
         title: String::new(),
         screenshot: false,
@@ -97,7 +100,10 @@ struct App {
     other_modifier: bool,
     /// When the last frame began; `None` where time did not run.
     last_frame: Option<Instant>,
-    hidden: bool,
+    /// Whether a frame was asked for that the window system has not called for yet.
+    redraw_owed: bool,
+    occluded: bool,
+    minimised: bool,
     meter: Meter,
     title: String,
     screenshot: bool,
@@ -109,27 +115,26 @@ impl App {
     /// One frame: events → commands → lab → picture → screen.
     fn frame(&mut self, event_loop: &ActiveEventLoop) {
         let now = Instant::now();
+        self.redraw_owed = false;
         self.simulate(event_loop, now);
+        if self.hidden() {
+            return self.wait(event_loop);
+        }
         let Some(canvas) = &mut self.canvas else { return };
-        let title = self.lab.title();
-        if title != self.title {
-            canvas.window.set_title(&title);
-            self.title = title;
-        }
-        if self.hidden {
-            return;
-        }
         if std::mem::take(&mut self.screenshot) {
             let Canvas { window, gpu, .. } = canvas;
             let size = window.inner_size();
             let scale = window.scale_factor() as f32;
             let notice = screenshot::save(gpu, [size.width, size.height], scale, &self.lab);
             self.lab.set_notice(notice);
+            self.stand_still();
         }
+        let Some(canvas) = &mut self.canvas else { return };
         match canvas.draw(&self.lab) {
             Ok(Drawn::Shown { commands, repaint_after }) => {
                 if self.meter.first_frame() {
                     log::info!("first frame after {} ms", self.started.elapsed().as_millis());
+                    self.stand_still();
                 }
                 self.meter.frame(now, self.lab.race().t());
                 let again = self.lab.running()
@@ -139,9 +144,16 @@ impl App {
                 self.asked.extend(commands);
                 self.schedule(event_loop, now, if again { Duration::ZERO } else { repaint_after });
             }
-            Ok(Drawn::Skipped) => self.wait(event_loop, now + HIDDEN_FRAME),
+            Ok(Drawn::Skipped) => {
+                event_loop.set_control_flow(ControlFlow::WaitUntil(now + LONGEST_WAIT));
+            }
             Err(error) => self.end(event_loop, Err(error)),
         }
+    }
+
+    /// Leaves out of the simulation the time since the frame began: it went into work of ours.
+    fn stand_still(&mut self) {
+        self.last_frame = self.last_frame.map(|_| Instant::now());
     }
 
     /// Applies what was asked for and steps what is due.
@@ -163,23 +175,49 @@ impl App {
         if self.seconds.is_some_and(|seconds| self.lab.race().t() >= seconds) {
             self.end(event_loop, Ok(()));
         }
+        let title = self.lab.title();
+        if title != self.title
+            && let Some(canvas) = &self.canvas
+        {
+            canvas.window.set_title(&title);
+            self.title = title;
+        }
     }
 
     /// Asks for the next frame: at the display's pace if `after` is over by then.
-    fn schedule(&self, event_loop: &ActiveEventLoop, began: Instant, after: Duration) {
+    fn schedule(&mut self, event_loop: &ActiveEventLoop, began: Instant, after: Duration) {
         let Some(canvas) = &self.canvas else { return };
         let refresh = canvas.refresh_mhz.unwrap_or(USUAL_REFRESH_MHZ);
         // A driver that waits for the display has used this time up already; a software one has not.
         let shortest = Duration::from_secs_f64(1000.0 / f64::from(refresh)).mul_f64(0.95);
         match began.checked_add(shortest.max(after)) {
-            Some(due) if due <= Instant::now() => canvas.window.request_redraw(),
-            Some(due) => self.wait(event_loop, due),
+            Some(due) if due <= Instant::now() => {
+                self.request_redraw();
+                self.wait(event_loop);
+            }
+            Some(due) => event_loop.set_control_flow(ControlFlow::WaitUntil(due)),
             None => event_loop.set_control_flow(ControlFlow::Wait),
         }
     }
 
-    fn wait(&self, event_loop: &ActiveEventLoop, until: Instant) {
-        event_loop.set_control_flow(ControlFlow::WaitUntil(until));
+    /// Waits for an event; while time runs, not for long.
+    fn wait(&self, event_loop: &ActiveEventLoop) {
+        event_loop.set_control_flow(if self.lab.running() {
+            ControlFlow::WaitUntil(Instant::now() + LONGEST_WAIT)
+        } else {
+            ControlFlow::Wait
+        });
+    }
+
+    fn request_redraw(&mut self) {
+        if let Some(canvas) = &self.canvas {
+            self.redraw_owed = true;
+            canvas.window.request_redraw();
+        }
+    }
+
+    fn hidden(&self) -> bool {
+        self.occluded || self.minimised
     }
 
     fn toggle_full_screen(&self) {
@@ -194,28 +232,19 @@ impl App {
         event_loop.exit();
     }
 
-    fn key(&mut self, event: &KeyEvent, taken_by_widget: bool) {
+    fn key(&mut self, event: &KeyEvent, widget_has_focus: bool, menu_is_open: bool) {
         if event.state != ElementState::Pressed || self.other_modifier {
             return;
         }
         let Some(key) = keys::key(event, self.shift) else { return };
-        // A widget with the focus is worked by these; all other keys stay ours.
-        if taken_by_widget && keys::works_widgets(key) {
+        // A widget with the focus is worked by these, and Escape closes a menu; all other keys stay ours.
+        if widget_has_focus && keys::works_widgets(key) || menu_is_open && key == Key::Escape {
             return;
         }
         if let Some((command, binding)) = command_for(key)
             && (!event.repeat || binding.repeats)
         {
             self.asked.push(command);
-        }
-    }
-
-    fn set_hidden(&mut self, event_loop: &ActiveEventLoop, hidden: bool) {
-        if hidden != self.hidden {
-            self.hidden = hidden;
-            if hidden {
-                self.wait(event_loop, Instant::now() + HIDDEN_FRAME);
-            }
         }
     }
 }
@@ -240,8 +269,8 @@ impl ApplicationHandler<accesskit_winit::Event> for App {
         match Canvas::new(event_loop, window, self.proxy.clone()) {
             Ok(canvas) => {
                 canvas.window.set_visible(true);
-                canvas.window.request_redraw();
                 self.canvas = Some(canvas);
+                self.request_redraw();
             }
             Err(error) => self.end(event_loop, Err(error)),
         }
@@ -251,19 +280,18 @@ impl ApplicationHandler<accesskit_winit::Event> for App {
         if !matches!(cause, StartCause::ResumeTimeReached { .. }) {
             return;
         }
-        event_loop.set_control_flow(ControlFlow::Wait);
-        if self.hidden {
-            self.frame(event_loop);
-            self.wait(event_loop, Instant::now() + HIDDEN_FRAME);
-        } else if let Some(canvas) = &self.canvas {
-            canvas.window.request_redraw();
+        if self.hidden() || self.redraw_owed {
+            self.simulate(event_loop, Instant::now());
+        } else {
+            self.request_redraw();
         }
+        self.wait(event_loop);
     }
 
     fn user_event(&mut self, _: &ActiveEventLoop, event: accesskit_winit::Event) {
         if let Some(canvas) = &mut self.canvas {
             canvas.accessibility(event);
-            canvas.window.request_redraw();
+            self.request_redraw();
         }
     }
 
@@ -274,9 +302,12 @@ impl ApplicationHandler<accesskit_winit::Event> for App {
         let Some(canvas) = &mut self.canvas else { return };
         let response = canvas.egui.on_window_event(&canvas.window, &event);
         match &event {
-            WindowEvent::CloseRequested => return self.end(event_loop, Ok(())),
+            WindowEvent::CloseRequested | WindowEvent::Destroyed => {
+                return self.end(event_loop, Ok(()));
+            }
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => {
-                self.key(event, response.consumed);
+                let menu_is_open = egui::Popup::is_any_open(canvas.egui.egui_ctx());
+                self.key(event, response.consumed, menu_is_open);
             }
             WindowEvent::ModifiersChanged(modifiers) => {
                 let state = modifiers.state();
@@ -285,20 +316,18 @@ impl ApplicationHandler<accesskit_winit::Event> for App {
             }
             // The release of a key pressed here may go to another window.
             WindowEvent::Focused(false) => (self.shift, self.other_modifier) = (false, false),
-            WindowEvent::Occluded(hidden) => self.set_hidden(event_loop, *hidden),
+            WindowEvent::Occluded(occluded) => self.occluded = *occluded,
             WindowEvent::Resized(size) => {
                 canvas.resize();
                 // How Windows says that a window is minimised.
-                let hidden = size.width == 0 || size.height == 0;
-                self.set_hidden(event_loop, hidden);
+                self.minimised = size.width == 0 || size.height == 0;
             }
             WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Moved(_) => canvas.resize(),
             _ => {}
         }
-        if (response.repaint || !self.asked.is_empty())
-            && let Some(canvas) = &self.canvas
-        {
-            canvas.window.request_redraw();
+        // While time runs a frame is due soon, and a mouse that moves is no reason for more.
+        if (response.repaint || !self.asked.is_empty()) && !self.lab.running() {
+            self.request_redraw();
         }
     }
 }

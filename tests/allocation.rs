@@ -105,6 +105,7 @@ fn a_race_does_not_allocate_while_its_histories_fill_and_turn_over() {
                 if tick % 500 == 0 {
                     race.input(Input::Kick(1.0));
                     race.input(Input::Throttle(0.5));
+                    race.input(Input::Rudder(-0.5));
                 }
             }
         });

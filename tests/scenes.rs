@@ -48,6 +48,8 @@ fn every_built_in_scene_parses_names_its_methods_and_says_what_to_try() {
         let parsed = built_in(scene.name);
         assert_eq!(parsed.name, scene.name);
         assert!(!parsed.about.is_empty() && parsed.hint.is_some(), "{}", scene.name);
+        // Few enough to tell apart, and each with a digit key.
+        assert!((2..=9).contains(&parsed.lanes.len()), "{}", scene.name);
         // By name, so that a new method changes no scene.
         assert!(scene.text.contains("\nmethods = ["), "{}", scene.name);
         assert!(parsed.lanes.contains(&LaneSpec { method: &METHODS[0], substeps: 1 }));
@@ -269,7 +271,7 @@ fn a_chain_and_a_helm_are_read_with_their_counts_and_points() {
         coordinates.map(|c| format!("{} {}", c.name, c.velocity)).collect::<Vec<_>>()
     };
     assert_eq!(names(&scene.bodies[0]), ["x1 v1", "x2 v2", "x3 v3"]);
-    assert_eq!(names(&scene.bodies[1]), ["x vx", "y vy", "ψ r"]);
+    assert_eq!(names(&scene.bodies[1]), ["x vx", "y vy", "psi r"]);
 }
 
 #[test]

@@ -293,20 +293,55 @@ fn solo_to_race_and_back_flies_the_method_that_was_selected() {
 }
 
 #[test]
-fn a_race_under_way_takes_no_newcomers_and_solo_does() {
+fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_others() {
     let text = "title = \"pair\"\ntick_hz = 60\nseconds = 5\nmethods = [\"rk4\", \"improved-euler\"]\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
-    let newcomer = Command::Method(method("explicit-euler").unwrap());
+    let racing = |lab: &Lab| lab.race().entrants().iter().map(|e| e.entry).collect::<Vec<_>>();
     let mut lab = Lab::new(Scene::parse("pair.toml", text).unwrap());
+    assert_eq!(lab.entries().len(), METHODS.len(), "every method can be flown");
     lab.apply(Command::ToggleRace);
+    assert_eq!(racing(&lab), [0, 1]);
     for _ in 0..30 {
         lab.tick();
     }
-    lab.apply(newcomer);
-    assert_eq!((lab.race().tick(), lab.race().entrants().len(), lab.active()), (30, 2, 0));
+    lab.apply(Command::Pick(3));
+    assert_eq!((lab.race().tick(), racing(&lab), lab.active()), (30, vec![0, 1], 0));
+    lab.apply(Command::PreviousMethod);
+    assert_eq!(lab.active(), 1);
+    lab.apply(Command::NextMethod);
+    assert_eq!(lab.active(), 0);
+
     lab.apply(Command::ToggleRace);
-    lab.apply(newcomer);
-    assert_eq!(lab.mode(), Mode::Solo);
-    assert_eq!((lab.entries().len(), lab.active()), (3, 2));
-    assert_eq!(lab.race().entrants()[0].lane.solver(), Solver::Method(lab.entries()[2].method));
+    lab.apply(Command::Pick(3));
+    let lane = &lab.race().entrants()[0].lane;
+    assert_eq!(lane.solver(), Solver::Method(lab.entries()[3].method));
+    lab.apply(Command::ToggleRace);
+    assert_eq!((racing(&lab), lab.active()), (vec![0, 1, 3], 3));
+}
+
+#[test]
+fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_after_a_restart() {
+    let mut lab = Lab::new(scene("helm"));
+    assert!(lab.takes("rudder") && lab.takes("throttle") && !lab.takes("anchor"));
+    assert_eq!((lab.rudder(), lab.throttle()), (0.0, 1.0));
+    for (command, times, rudder) in [
+        (Command::RudderLeft, 3, 0.3),
+        (Command::RudderRight, 3, 0.0),
+        (Command::RudderRight, 14, -1.0),
+        (Command::RudderLeft, 10, 0.0),
+        (Command::Rudder(7.0), 1, 1.0),
+    ] {
+        for _ in 0..times {
+            lab.apply(command);
+        }
+        assert_eq!(lab.rudder(), rudder);
+    }
+    for _ in 0..10 {
+        lab.tick();
+    }
+    let heading = |lab: &Lab| lab.race().entrants()[0].lane.bodies()[0].stepper.q()[2];
+    assert!(heading(&lab) > 0.1, "left is counter-clockwise");
+    lab.apply(Command::Restart);
+    assert_eq!((lab.rudder(), heading(&lab)), (0.0, 0.0));
+    assert!(!Lab::new(scene("ship")).takes("rudder"));
 }

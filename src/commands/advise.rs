@@ -52,7 +52,7 @@ struct Row {
 
 pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(Lineup::Everyone)?;
-    let scene = experiment.scene();
+    let scene = &experiment.scene;
     let specs = if args.experiment.names_no_method() {
         METHODS.iter().map(|method| LaneSpec { method, substeps: 1 }).collect()
     } else {

@@ -8,17 +8,19 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::folder::{Existing, Folder, FolderError, Ours};
+use super::frame_folder::FrameFolderError;
 use super::{Error, tell};
 use crate::view::{AdapterPreference, Artist, Gpu, GpuError, ReadbackError, png};
 
 mod adaptive;
 mod figures;
+mod folder;
 mod printed;
 mod run;
 mod speeds;
 
 use figures::Diagram;
+use folder::FigureFolder;
 
 const EXAMPLES: &str = "\
 A tick stands beside each number that equals the printed one to the last digit. Figures 7-5 and 7-8 show
@@ -44,9 +46,18 @@ pub(super) struct ChapterArgs {
 /// Why there are not all figures.
 #[derive(Debug, thiserror::Error)]
 pub enum ChapterError {
+    /// The folder is in use.
+    #[error(
+        "{} is not empty; give another --out, or --force to replace the figures in it",
+        .path.display()
+    )]
+    NotEmpty {
+        /// The folder.
+        path: PathBuf,
+    },
     /// The folder cannot be used, or no longer.
     #[error(transparent)]
-    Folder(#[from] FolderError),
+    Folder(#[from] FrameFolderError),
     /// There is nothing to draw with.
     #[error(transparent)]
     Gpu(#[from] GpuError),
@@ -58,9 +69,8 @@ pub enum ChapterError {
 impl ChapterError {
     pub(super) fn exit_code(&self) -> u8 {
         match self {
-            ChapterError::Folder(
-                FolderError::NotEmpty { .. } | FolderError::NotADirectory { .. },
-            ) => 2,
+            ChapterError::NotEmpty { .. }
+            | ChapterError::Folder(FrameFolderError::NotADirectory { .. }) => 2,
             _ => 1,
         }
     }
@@ -68,9 +78,10 @@ impl ChapterError {
 
 pub(super) fn run(args: &ChapterArgs) -> Result<(), Error> {
     if let Some(out) = &args.out {
-        let existing = if args.force { Existing::Replace } else { Existing::Refuse };
-        let ours = Ours { what: "figures", is_ours };
-        let folder = Folder::inspect(out, ours, existing).map_err(ChapterError::from)?;
+        let folder = FigureFolder::inspect(out)?;
+        if !folder.is_empty() && !args.force {
+            return Err(ChapterError::NotEmpty { path: out.clone() }.into());
+        }
         draw(folder)?;
     }
     let text = [speeds::table_7_1(), speeds::displacements(), adaptive::listings()].join("\n");
@@ -84,7 +95,7 @@ pub(super) fn run(args: &ChapterArgs) -> Result<(), Error> {
 const SIZE_PX: [u32; 2] = [1600, 1000];
 const SCALE: f32 = 1.6;
 
-fn draw(mut folder: Folder) -> Result<(), ChapterError> {
+fn draw(mut folder: FigureFolder) -> Result<(), ChapterError> {
     let gpu = Gpu::headless(AdapterPreference::Any)?;
     let mut artist = Artist::new(gpu, SIZE_PX, SCALE)?;
     folder.clear()?;
@@ -104,11 +115,4 @@ fn draw(mut folder: Folder) -> Result<(), ChapterError> {
         tell(&format!("left alone in {path}: {}", others.join(", ")));
     }
     Ok(())
-}
-
-/// Whether a file of this name is a figure or its data.
-fn is_ours(name: &str) -> bool {
-    let stem = name.strip_suffix(".png").or_else(|| name.strip_suffix(".csv"));
-    let number = stem.and_then(|stem| stem.strip_prefix("figure-7-"));
-    number.is_some_and(|n| n.len() == 1 && n.bytes().all(|b| (b'2'..=b'8').contains(&b)))
 }

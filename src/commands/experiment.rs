@@ -40,15 +40,18 @@ pub(super) enum Lineup {
 
 /// A scene and who sails it.
 pub(super) struct Experiment {
-    scene: Scene,
-    selected: Option<&'static Method>,
-    lineup: Lineup,
+    /// With the options applied.
+    pub(super) scene: Scene,
+    /// The scene file's text, as it was.
+    pub(super) text: String,
+    pub(super) selected: Option<&'static Method>,
+    pub(super) lineup: Lineup,
 }
 
 impl ExperimentArgs {
     /// Reads the scene and applies the other options to it.
     pub(super) fn load(&self, lineup: Lineup) -> Result<Experiment, SceneFileError> {
-        let mut scene = scene_file::load(&self.scene)?;
+        let (mut scene, text) = scene_file::load(&self.scene)?;
         if let Some(tick_hz) = self.tick_hz {
             scene.tick_hz = tick_hz;
         }
@@ -57,7 +60,7 @@ impl ExperimentArgs {
             scene.lanes = lanes_of(&scene, &self.methods);
             lineup = Lineup::Everyone;
         }
-        Ok(Experiment { scene, selected: self.methods.first().copied(), lineup })
+        Ok(Experiment { scene, text, selected: self.methods.first().copied(), lineup })
     }
 
     /// The lanes of the methods named, as `scene` has them.
@@ -89,18 +92,13 @@ fn lanes_of(scene: &Scene, methods: &[&'static Method]) -> Vec<LaneSpec> {
 }
 
 impl Experiment {
-    /// The scene, with the options applied.
-    pub(super) fn scene(&self) -> &Scene {
-        &self.scene
-    }
-
     /// The lab at tick 0. One lane alone sails solo.
     pub(super) fn lab(&self) -> Lab {
         let mut lab = Lab::new(self.scene.clone());
         if let Some(method) = self.selected {
             lab.apply(Command::Method(method));
         }
-        if self.lineup == Lineup::Everyone && lab.entries().len() > 1 {
+        if self.lineup == Lineup::Everyone && lab.scene().lanes.len() > 1 {
             lab.apply(Command::ToggleRace);
         } else {
             lab.apply(Command::Restart);

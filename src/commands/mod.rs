@@ -14,13 +14,20 @@ mod capture;
 mod chapter;
 mod completions;
 mod experiment;
-mod folder;
+mod fingerprint;
 mod frame_folder;
 mod list;
+mod logbook;
+pub mod manifest;
+mod pipeline;
 mod play;
+mod recording;
 mod scene_file;
+mod settings;
 mod table;
 mod trace;
+mod verify;
+mod voyage;
 
 use advise::AdviseArgs;
 use capture::{CaptureArgs, CaptureError};
@@ -30,6 +37,7 @@ use list::ListArgs;
 use play::PlayArgs;
 use scene_file::SceneFileError;
 use trace::TraceArgs;
+use verify::{VerifyArgs, VerifyError};
 
 use crate::window::WindowError;
 
@@ -42,6 +50,7 @@ Examples:
   regatta capture --scene spring --race --out clip
   regatta advise --scene stiff
   regatta chapter --out figures
+  regatta verify clip
   regatta list methods
 
 In the window, H shows the keys. `regatta help COMMAND` explains a command.";
@@ -61,6 +70,7 @@ pub struct Cli {
 enum Command {
     Play(PlayArgs),
     Capture(CaptureArgs),
+    Verify(VerifyArgs),
     Trace(TraceArgs),
     Advise(AdviseArgs),
     Chapter(ChapterArgs),
@@ -76,6 +86,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
     let done = match cli.command.unwrap_or(Command::Play(cli.play)) {
         Command::Play(args) => play::run(&args),
         Command::Capture(args) => capture::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Advise(args) => advise::run(&args),
         Command::Chapter(args) => chapter::run(&args),
@@ -100,6 +111,9 @@ pub enum Error {
     /// The chapter's figures could not be drawn or written.
     #[error(transparent)]
     Chapter(#[from] ChapterError),
+    /// Frames are not what they were, or cannot be judged.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
     /// The window could not be opened, or failed.
     #[error(transparent)]
     Window(#[from] WindowError),
@@ -116,6 +130,7 @@ impl Error {
             Error::SceneFile(_) => 2,
             Error::Capture(error) => error.exit_code(),
             Error::Chapter(error) => error.exit_code(),
+            Error::Verify(error) => error.exit_code(),
             Error::Window(_) | Error::Output(_) => 1,
         }
     }

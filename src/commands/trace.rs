@@ -65,9 +65,9 @@ const TIE: f64 = 1e-6;
 pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let lineup = if args.experiment.names_no_method() { Lineup::Everyone } else { Lineup::Solo };
     let experiment = args.experiment.load(lineup)?;
-    let seconds = args.seconds.unwrap_or(experiment.scene().seconds);
+    let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
     let mut lab = experiment.lab();
-    let mut trace = Trace::new(args, &experiment.scene().bodies);
+    let mut trace = Trace::new(args, &experiment.scene.bodies);
     let mut halts = Halts::default();
 
     trace.begin()?;
@@ -78,7 +78,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
         halts.note(&lab);
     }
     trace.finish()?;
-    tell_accuracy(&experiment.scene().bodies);
+    tell_accuracy(&experiment.scene.bodies);
     halts.lines.iter().for_each(|line| tell(line));
     Ok(())
 }

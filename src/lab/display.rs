@@ -7,7 +7,7 @@ use super::metrics::METRICS;
 pub enum Mode {
     /// One lane, whose method is switched in flight.
     Solo,
-    /// A lane for every method on the list.
+    /// A lane for every method that the scene lists, and one for the method last flown solo.
     Race,
 }
 

@@ -10,6 +10,7 @@ use super::scene::{LaneSpec, SCENES, Scene};
 use super::thinking::{Moment, Thinking};
 use super::verdict::Verdict;
 use crate::sim::bodies::Input;
+use crate::sim::integrators::METHODS;
 
 /// What a person chose and a restart keeps; a script's changes are not in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +22,7 @@ struct Choice {
 /// A scene being run and looked at.
 pub struct Lab {
     scene: Scene,
-    /// The list of methods that digits and lanes refer to.
+    /// The list of methods that digits and lanes refer to: the scene's lanes, then all other methods.
     entries: Vec<LaneSpec>,
     choice: Choice,
     mode: Mode,
@@ -47,7 +48,9 @@ impl Lab {
     /// Opens a scene, running, in solo mode, under Runge-Kutta where it is on the list and else under
     /// the first method listed.
     pub fn new(scene: Scene) -> Self {
-        let entries = scene.lanes.clone();
+        let mut entries = scene.lanes.clone();
+        let others = METHODS.iter().filter(|m| !scene.lanes.iter().any(|spec| spec.method == *m));
+        entries.extend(others.map(|method| LaneSpec { method, substeps: 1 }));
         let entry = entries.iter().position(|spec| spec.method.id == OPENING_METHOD).unwrap_or(0);
         let choice = Choice { entry, tick_hz: scene.tick_hz };
         let mut lab = Self {
@@ -83,7 +86,7 @@ impl Lab {
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
-    /// The methods that digits and lanes refer to.
+    /// The methods that digits and lanes refer to: the scene's lanes, which race, then all others.
     pub fn entries(&self) -> &[LaneSpec] {
         &self.entries
     }
@@ -267,6 +270,11 @@ impl Lab {
     /// Takes in a frame of `frame_ns` nanoseconds of real time, steps what is due, and [thinks](Self::think)
     /// for a bit.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
+        self.advance_seen(frame_ns, |_| ())
+    }
+
+    /// As [`Lab::advance`], and shows itself to `after_tick` after every tick.
+    pub fn advance_seen(&mut self, frame_ns: i64, mut after_tick: impl FnMut(&Lab)) -> Due {
         self.think();
         if !self.running {
             return Due::default();
@@ -274,6 +282,7 @@ impl Lab {
         let due = self.clock.advance(frame_ns);
         for _ in 0..due.ticks {
             self.tick();
+            after_tick(self);
         }
         self.dropped += due.dropped;
         due
@@ -301,21 +310,11 @@ impl Lab {
         match command {
             Command::Method(method) => {
                 let listed = self.entries.iter().position(|spec| spec.method == method);
-                // A race under way takes no newcomers.
-                if listed.is_none() && self.mode == Mode::Race {
-                    return;
-                }
-                let entry = listed.unwrap_or(self.entries.len());
-                if listed.is_none() {
-                    self.entries.push(LaneSpec { method, substeps: 1 });
-                }
-                self.pick(entry);
+                self.pick(listed.expect("every method is on the list"));
             }
-            Command::Pick(entry) if entry < self.entries.len() => self.pick(entry),
-            Command::NextMethod => self.pick((self.active + 1) % self.entries.len()),
-            Command::PreviousMethod => {
-                self.pick((self.active + self.entries.len() - 1) % self.entries.len());
-            }
+            Command::Pick(entry) => self.pick(entry),
+            Command::NextMethod => self.pick_beside(1),
+            Command::PreviousMethod => self.pick_beside(-1),
             Command::TickHz(tick_hz) => {
                 self.clock.set_tick_hz(tick_hz);
                 self.race.set_tick_hz(self.clock.tick_hz());
@@ -331,11 +330,32 @@ impl Lab {
         }
     }
 
+    /// Whether there is something to pick at this place of the list: in a race, a lane.
+    fn can_pick(&self, entry: usize) -> bool {
+        match self.mode {
+            Mode::Solo => entry < self.entries.len(),
+            Mode::Race => self.race.entrants().iter().any(|entrant| entrant.entry == entry),
+        }
+    }
+
     fn pick(&mut self, entry: usize) {
+        if !self.can_pick(entry) {
+            return;
+        }
         if self.mode == Mode::Solo && entry != self.active {
             self.race.switch(0, entry, self.entries[entry]);
         }
         self.active = entry;
+    }
+
+    /// The next place on the list that can be picked, round, `step` forward or back.
+    fn pick_beside(&mut self, step: isize) {
+        let count = self.entries.len() as isize;
+        let around = (1..=count).map(|i| (self.active as isize + i * step).rem_euclid(count));
+        if let Some(entry) = around.map(|entry| entry as usize).find(|&entry| self.can_pick(entry))
+        {
+            self.pick(entry);
+        }
     }
 
     fn set_throttle(&mut self, part: f64) {
@@ -349,12 +369,14 @@ impl Lab {
     }
 
     fn restart(&mut self) {
-        let lanes = self.entries.iter().copied().enumerate();
-        self.active = self.choice.entry;
-        self.race = match self.mode {
-            Mode::Solo => Race::new(&self.scene, lanes.skip(self.active).take(1)),
-            Mode::Race => Race::new(&self.scene, lanes),
+        let chosen = self.choice.entry;
+        let racing = |&(entry, _): &(usize, LaneSpec)| match self.mode {
+            Mode::Solo => entry == chosen,
+            Mode::Race => entry < self.scene.lanes.len() || entry == chosen,
         };
+        let lanes = self.entries.iter().copied().enumerate().filter(racing);
+        self.race = Race::new(&self.scene, lanes);
+        self.active = chosen;
         self.race.set_tick_hz(self.choice.tick_hz);
         self.race.record();
         self.clock.set_tick_hz(self.choice.tick_hz);

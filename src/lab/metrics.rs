@@ -109,7 +109,7 @@ pub const METRICS: &[Metric] = &[
         name: "lost time",
         unit: Unit::Of("s"),
         scale: Scale::Linear,
-        measure: |lane, _| Some(lane.lost_time()),
+        measure: |lane, _| (lane.lost_time() > 0.0).then(|| lane.lost_time()),
     },
 ];
 
@@ -146,7 +146,7 @@ mod tests {
         assert_eq!(of("velocity_error", &*lane), Some(2.0));
         assert_eq!(of("energy_drift", &*lane), Some(100.0));
         assert_eq!(of("evaluations", &*lane), Some(0.0));
-        assert_eq!(of("lost_time", &*lane), Some(0.0));
+        assert_eq!(of("lost_time", &*lane), None);
     }
 
     #[test]

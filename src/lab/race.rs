@@ -87,10 +87,9 @@ impl Race {
         &self.entrants
     }
 
-    /// Keeps only the lane at this place.
-    pub(super) fn keep_only(&mut self, index: usize) {
-        self.entrants.swap(0, index);
-        self.entrants.truncate(1);
+    /// Keeps only the lane that flies the method on this place of the list.
+    pub(super) fn keep_only(&mut self, entry: usize) {
+        self.entrants.retain(|entrant| entrant.entry == entry);
     }
 
     /// Changes the tick rate from here on. Methods begin anew, from the states as they are; to set the rate
@@ -165,17 +164,18 @@ impl Race {
     pub fn state_hash(&self) -> u64 {
         let mut hash = Fnv::new();
         hash.word(self.tick);
-        for Entrant { lane, .. } in &self.entrants {
-            hash.word(u64::from(lane.substeps()));
-            hash.word(lane.halted().map_or(u64::MAX, |halt| halt.tick));
-            for body in lane.bodies() {
-                let stepper: &dyn Stepper = &*body.stepper;
-                for &value in stepper.q().iter().chain(stepper.v()) {
-                    hash.word(if value == 0.0 { 0 } else { value.to_bits() });
-                }
-            }
-        }
+        self.entrants.iter().for_each(|entrant| hash.lane(&entrant.lane));
         hash.0
+    }
+
+    /// [`Race::state_hash`] as it would be for a race of this lane alone, for each lane.
+    pub fn lane_hashes(&self) -> impl Iterator<Item = u64> {
+        self.entrants.iter().map(|entrant| {
+            let mut hash = Fnv::new();
+            hash.word(self.tick);
+            hash.lane(&entrant.lane);
+            hash.0
+        })
     }
 }
 
@@ -184,6 +184,17 @@ struct Fnv(u64);
 impl Fnv {
     fn new() -> Self {
         Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    fn lane(&mut self, lane: &Lane) {
+        self.word(u64::from(lane.substeps()));
+        self.word(lane.halted().map_or(u64::MAX, |halt| halt.tick));
+        for body in lane.bodies() {
+            let stepper: &dyn Stepper = &*body.stepper;
+            for &value in stepper.q().iter().chain(stepper.v()) {
+                self.word(if value == 0.0 { 0 } else { value.to_bits() });
+            }
+        }
     }
 
     fn word(&mut self, word: u64) {

@@ -118,9 +118,8 @@ trait Drive<B: Body>: Send + 'static {
     /// Takes notice that at time `t` (s) the state jumped to this one, or the forces did.
     fn jumped(&mut self, t: f64, state: &State<B::Vector>);
 
-    /// Forgets what it carried from step to step. An exact flow carries nothing that a state jump or a
-    /// change of rate would touch.
-    fn reset(&mut self) {}
+    /// Forgets what is carried from step to step.
+    fn reset(&mut self);
 
     /// The seconds that it was asked to advance and did not.
     fn lost_time(&self) -> f64 {
@@ -253,6 +252,8 @@ impl<B: Body> Drive<B> for ExactFlow<B::Vector> {
         self.anchor.assign(state);
         self.anchored_at = t;
     }
+
+    fn reset(&mut self) {}
 }
 
 impl<B: Body> Drive<B> for Reference<B::Vector> {
@@ -269,6 +270,10 @@ impl<B: Body> Drive<B> for Reference<B::Vector> {
     }
 
     fn jumped(&mut self, _t: f64, _state: &State<B::Vector>) {
+        self.reset();
+    }
+
+    fn reset(&mut self) {
         self.reset();
     }
 }

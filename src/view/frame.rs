@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::figure::{self, Figure};
 use super::gpu::Gpu;
-use super::panels;
+use super::panels::{self, Panels};
 use super::stage::StageRenderer;
 use crate::lab::picture::{self, Align, Label, Picture};
 use crate::lab::{Command, Lab};
@@ -38,6 +38,7 @@ pub struct FrameOutput {
 /// Draws frames on texture views of one format.
 pub struct FrameRenderer {
     context: egui::Context,
+    shown: Panels,
     panels: egui_wgpu::Renderer,
     stage: StageRenderer,
 }
@@ -50,9 +51,15 @@ impl FrameRenderer {
         let options = egui_wgpu::RendererOptions::PREDICTABLE;
         Self {
             context,
+            shown: Panels::Shown,
             panels: egui_wgpu::Renderer::new(&gpu.device, format, options),
             stage: StageRenderer::new(gpu, format),
         }
+    }
+
+    /// The same renderer with or without panels, which it shows at first.
+    pub fn with_panels(self, shown: Panels) -> Self {
+        Self { shown, ..self }
     }
 
     /// The context that panels live in: for style, and for translating a window's events.
@@ -72,9 +79,16 @@ impl FrameRenderer {
         lab: &Lab,
     ) -> (Vec<Command>, FrameOutput) {
         let mut commands = Vec::new();
+        let shown = self.shown;
         let output = self.draw_with(gpu, target, size_px, scale, input, |ui| {
-            let (asked, rect) = panels::show(ui, lab);
-            commands.extend(asked);
+            let rect = match shown {
+                Panels::Shown => {
+                    let (asked, rect) = panels::show(ui, lab);
+                    commands.extend(asked);
+                    rect
+                }
+                Panels::Off => ui.max_rect(),
+            };
             let size = rect.size().max(egui::Vec2::ZERO);
             Some(Stage { rect, picture: picture::compose(lab, size.into()) })
         });

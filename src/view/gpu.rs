@@ -29,7 +29,7 @@ pub enum GpuError {
         reasons: String,
     },
     /// Adapters exist, but none of them made a device.
-    #[error("no graphics device: {refusals}; update the driver, or try WGPU_BACKEND=gl")]
+    #[error("no graphics device: {refusals}; update the driver, or try another WGPU_BACKEND")]
     DeviceRefused {
         /// Each adapter tried, with its refusal.
         refusals: String,
@@ -93,7 +93,7 @@ impl Gpu {
     /// [`GpuError::NoAdapter`] or [`GpuError::DeviceRefused`].
     pub fn headless(preference: AdapterPreference) -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-        Self::choose(&wgpu::Instance::new(descriptor), None, preference)
+        Self::choose(&instance(descriptor), None, preference)
     }
 
     /// A device of the best ranked adapter that can present to `surface`, where there is one.
@@ -180,6 +180,13 @@ impl Gpu {
             Ok(())
         }
     }
+}
+
+/// An instance that does not check indirect draws, of which there are none here: the check needs compute
+/// shaders, which some drivers' GL lacks.
+pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instance {
+    descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
+    wgpu::Instance::new(descriptor)
 }
 
 fn title(info: &wgpu::AdapterInfo) -> String {

@@ -27,5 +27,6 @@ pub use figure::{Figure, FigureCurve};
 pub use frame::{FrameOutput, FrameRenderer};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use offscreen::Offscreen;
+pub use panels::Panels;
 pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;

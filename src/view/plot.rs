@@ -1,7 +1,9 @@
 //! Curves in a plot: what the window's instruments and the chapter's figures have in common.
 
 use egui::{Color32, Painter, Pos2, Stroke, pos2, vec2};
-use egui_plot::{Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoints, PlotUi, Points};
+use egui_plot::{
+    AxisHints, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoints, PlotUi, Points,
+};
 
 use crate::lab::number::round;
 use crate::lab::picture::Rgba;
@@ -20,6 +22,10 @@ pub(super) fn colour([r, g, b, a]: Rgba) -> Color32 {
     Color32::from_rgba_unmultiplied(r, g, b, a)
 }
 
+/// The height of a time axis in points, at least that of its text: a plot that had to learn it would be
+/// laid out anew in its second frame, and the first would not match.
+const X_AXIS: f32 = 16.0;
+
 /// An empty plot, to be looked at and not to be moved.
 pub(super) fn plot<'a>(id: &'static str, height: f32) -> Plot<'a> {
     Plot::new(id)
@@ -32,6 +38,7 @@ pub(super) fn plot<'a>(id: &'static str, height: f32) -> Plot<'a> {
         .allow_double_click_reset(false)
         .set_margin_fraction(vec2(0.0, 0.0))
         .y_axis_min_width(52.0)
+        .custom_x_axes(vec![AxisHints::new_x().min_thickness(X_AXIS)])
         .x_axis_formatter(|mark, _| format!("{} s", tick_text(mark.value)))
         .y_axis_formatter(|mark, _| tick_text(mark.value))
         .grid_color(Color32::from_rgb(64, 86, 116))

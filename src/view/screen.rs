@@ -1,6 +1,6 @@
 //! A window's surface, and the instance that can make it again.
 
-use super::gpu::{AdapterPreference, Gpu, GpuError};
+use super::gpu::{AdapterPreference, Gpu, GpuError, instance};
 
 /// What a window shows frames on. Which frames, and when, is the window's business.
 #[derive(Debug)]
@@ -13,14 +13,20 @@ impl Screen {
     /// A surface for `window`, on the display that it is on: GL needs the display to present.
     ///
     /// # Errors
-    /// [`GpuError::NoSurface`].
+    /// [`GpuError::NoSurface`], or what keeps any device from being made.
     pub fn new(
         display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>,
         window: impl Into<wgpu::SurfaceTarget<'static>>,
     ) -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_with_display_handle_from_env(display);
-        let instance = wgpu::Instance::new(descriptor);
-        let surface = instance.create_surface(window)?;
+        let instance = instance(descriptor);
+        let surface = instance.create_surface(window).map_err(|refusal| {
+            // Where there is no driver there is no surface either, but the driver is what is missing.
+            match Gpu::choose(&instance, None, AdapterPreference::Any) {
+                Ok(_) => refusal.into(),
+                Err(error) => error,
+            }
+        })?;
         Ok(Self { instance, surface })
     }
 

@@ -18,8 +18,9 @@ pub(super) struct Canvas {
     pub(super) renderer: FrameRenderer,
     /// The display's refresh rate in millihertz, where it is known.
     pub(super) refresh_mhz: Option<u32>,
-    /// `None` only while the surface is being renewed.
+    /// `None` only where the surface could not be renewed.
     screen: Option<Screen>,
+    surface_is_lost: bool,
     size_px: [u32; 2],
 }
 
@@ -56,6 +57,7 @@ impl Canvas {
             renderer,
             refresh_mhz: None,
             screen: Some(screen),
+            surface_is_lost: false,
             size_px: [0, 0],
         };
         canvas.resize();
@@ -65,7 +67,8 @@ impl Canvas {
     /// Follows the window's size and the display it is on.
     pub(super) fn resize(&mut self) {
         let display = self.window.current_monitor();
-        self.refresh_mhz = display.and_then(|display| display.refresh_rate_millihertz());
+        self.refresh_mhz =
+            display.and_then(|display| display.refresh_rate_millihertz()).filter(|&mhz| mhz > 0);
         let size = self.window.inner_size();
         let size_px = [size.width, size.height];
         if size_px != self.size_px && !size_px.contains(&0) {
@@ -82,25 +85,10 @@ impl Canvas {
 
     /// Draws one frame and shows it.
     pub(super) fn draw(&mut self, lab: &Lab) -> Result<Drawn, WindowError> {
-        if self.gpu.is_lost() {
-            self.renew_device()?;
+        if self.surface_is_lost || self.gpu.is_lost() {
+            self.renew()?;
         }
-        let Some(screen) = &self.screen else { return Ok(Drawn::Skipped) };
-        let (texture, reconfigure) = match screen.surface().get_current_texture() {
-            wgpu::CurrentSurfaceTexture::Success(texture) => (texture, false),
-            wgpu::CurrentSurfaceTexture::Suboptimal(texture) => (texture, true),
-            wgpu::CurrentSurfaceTexture::Timeout | wgpu::CurrentSurfaceTexture::Occluded => {
-                return Ok(Drawn::Skipped);
-            }
-            wgpu::CurrentSurfaceTexture::Outdated | wgpu::CurrentSurfaceTexture::Validation => {
-                self.configure();
-                return Ok(Drawn::Skipped);
-            }
-            wgpu::CurrentSurfaceTexture::Lost => {
-                self.renew_surface()?;
-                return Ok(Drawn::Skipped);
-            }
-        };
+        let Some((texture, reconfigure)) = self.acquire() else { return Ok(Drawn::Skipped) };
         let size_px = [texture.texture.width(), texture.texture.height()];
         let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let input = self.egui.take_egui_input(&self.window);
@@ -115,25 +103,41 @@ impl Canvas {
         Ok(Drawn::Shown { commands, repaint_after: output.repaint_delay })
     }
 
-    fn renew_surface(&mut self) -> Result<(), WindowError> {
-        log::warn!("the surface was lost; making another");
-        if let Some(screen) = self.screen.take() {
-            self.screen = Some(screen.renewed(Arc::clone(&self.window))?);
+    /// What to draw on, and whether the surface asks to be configured anew after that.
+    fn acquire(&mut self) -> Option<(wgpu::SurfaceTexture, bool)> {
+        use wgpu::CurrentSurfaceTexture::*;
+        for _ in 0..2 {
+            match self.screen.as_ref()?.surface().get_current_texture() {
+                Success(texture) => return Some((texture, false)),
+                Suboptimal(texture) => return Some((texture, true)),
+                Timeout | Occluded => return None,
+                Outdated | Validation => self.configure(),
+                Lost => {
+                    log::info!("the surface was lost");
+                    // Renewed with the next frame: if the window is gone too, an event says so first.
+                    self.surface_is_lost = true;
+                    return None;
+                }
+            }
         }
-        self.configure();
-        Ok(())
+        None
     }
 
-    fn renew_device(&mut self) -> Result<(), WindowError> {
-        self.renew_surface()?;
-        if let Some(screen) = &self.screen {
-            self.gpu = screen.gpu()?;
-            // With a context of its own, since the old one thinks its fonts are on the device.
-            self.renderer = FrameRenderer::new(&self.gpu, screen.format(&self.gpu));
-            let accessibility = self.egui.accesskit.take();
-            self.egui = translator(&self.renderer, &self.window, &self.gpu);
-            self.egui.accesskit = accessibility;
+    /// Makes another surface, and another device where the old one is gone or cannot present there.
+    fn renew(&mut self) -> Result<(), WindowError> {
+        if let Some(screen) = self.screen.take() {
+            let screen = screen.renewed(Arc::clone(&self.window))?;
+            if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {
+                self.gpu = screen.gpu()?;
+                // With a context of its own, since the old one thinks its fonts are on the device.
+                self.renderer = FrameRenderer::new(&self.gpu, screen.format(&self.gpu));
+                let accessibility = self.egui.accesskit.take();
+                self.egui = translator(&self.renderer, &self.window, &self.gpu);
+                self.egui.accesskit = accessibility;
+            }
+            self.screen = Some(screen);
         }
+        self.surface_is_lost = false;
         self.configure();
         Ok(())
     }

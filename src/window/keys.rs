@@ -19,9 +19,11 @@ pub(super) fn works_widgets(key: Key) -> bool {
 }
 
 fn from_parts(physical: PhysicalKey, logical: &Logical, shift: bool) -> Option<Key> {
-    // By place, since on some layouts the digits are shifted.
+    // By place, since on some layouts the digits are shifted; but where a layout has these signs on a
+    // digit's key, they are meant, being behind Shift or AltGr.
     if let PhysicalKey::Code(code) = physical
         && let Some(digit) = digit(code)
+        && !matches!(logical, Logical::Character(sign) if ["[", "]", "="].contains(&sign.as_str()))
     {
         return Some(Key::Digit(digit));
     }
@@ -85,6 +87,8 @@ mod tests {
         assert_eq!(pressed(KeyCode::KeyM, "M", true), Some(Key::ShiftSign('m')));
         assert_eq!(pressed(KeyCode::KeyM, "M", false), Some(Key::Sign('m')));
         assert_eq!(pressed(KeyCode::Slash, "?", true), Some(Key::Sign('?')));
+        assert_eq!(pressed(KeyCode::Digit8, "[", false), Some(Key::Sign('[')));
+        assert_eq!(pressed(KeyCode::Digit0, "=", true), Some(Key::Sign('=')));
     }
 
     #[test]

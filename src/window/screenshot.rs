@@ -22,7 +22,7 @@ fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> Result<PathB
         .map_err(|error| error.to_string())?
         .draw(lab, &mut rgba)
         .map_err(|error| error.to_string())?;
-    write_new(Path::new("."), &name(lab), &png::encode(size_px, &rgba))
+    write_new(Path::new(""), &name(lab), &png::encode(size_px, &rgba))
         .map_err(|error| format!("cannot write {}.png here: {error}", name(lab)))
 }
 

@@ -57,6 +57,15 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
             assert_eq!(listed["default"], Value::from(parameter.default));
         }
     }
+    for (object, body) in bodies.iter().zip(BODIES) {
+        assert_eq!(object["truth"], body.truth.id());
+        assert_eq!(object["accuracy"], Value::from(body.truth.accuracy()));
+        let coordinates = object["coordinates"].as_array().unwrap();
+        let names: Vec<_> = coordinates.iter().map(|c| c["name"].as_str().unwrap()).collect();
+        let expected: Vec<_> = body.plain_coordinates().iter().map(|c| c.name).collect();
+        assert_eq!(names, expected);
+        assert!(!names.is_empty() && names.iter().all(|name| name.is_ascii()));
+    }
     let text = stdout_of("list bodies");
     assert!(text.contains("[[spring]]\n"), "{text}");
     assert!(text.contains("  stiffness_n_per_m  "), "{text}");

@@ -8,8 +8,11 @@ mod advise;
 mod capture;
 mod chapter;
 mod list;
+mod manifest;
+mod mishaps;
 mod mistakes;
 mod trace;
+mod verify;
 
 /// The program, with nothing of this machine's display or settings.
 fn regatta() -> Command {

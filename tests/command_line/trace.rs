@@ -66,6 +66,26 @@ fn a_trace_is_tidy_and_begins_at_tick_0_with_the_truth_as_lane_0() {
 }
 
 #[test]
+fn a_body_without_a_closed_form_has_a_reference_for_truth_and_its_accuracy_is_told() {
+    let output = run_in(&std::env::temp_dir(), "trace --scene helm --method rk4 --seconds 0.2");
+    let csv = String::from_utf8(output.stdout.clone()).unwrap();
+    let heads: Vec<_> = rows(&csv).iter().map(|row| row[..6].join(",")).collect();
+    let expected = ["x", "y", "psi"].map(|q| format!("0,0.0,0,reference,helm,{q}"));
+    assert_eq!(heads[..3], expected);
+    assert_eq!(heads.len(), 2 * 2 * 3);
+    let said = "lane 0, helm: has no closed form; its reference is good to 1e-10, relative\n";
+    assert_eq!(stderr(&output), said);
+}
+
+#[test]
+fn a_chain_has_a_row_for_each_of_its_masses() {
+    let csv = stdout_of("trace --scene chain --method rk4 --seconds 0");
+    let names: Vec<_> = rows(&csv).iter().map(|row| row[5].to_owned()).collect();
+    let expected: Vec<_> = (0..2).flat_map(|_| (1..=16).map(|n| format!("x{n}"))).collect();
+    assert_eq!(names, expected);
+}
+
+#[test]
 fn numbers_are_the_shortest_that_read_back_the_same() {
     fn digits(number: &str) -> String {
         let mantissa = number.split('e').next().unwrap();

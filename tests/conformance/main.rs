@@ -3,6 +3,7 @@
 //! Each test loops over `METHODS`: a new method is held to its own card without a line here. What a
 //! result is compared with is the exact flow, which `tests/exact_flows.rs` has checked before.
 
+mod abouts;
 mod cards;
 mod cost;
 mod geometry;

@@ -20,6 +20,8 @@ const ROOM_FOR_MARKS: f32 = 330.0;
 const ROOM_FOR_CAPTION: [f32; 2] = [70.0, 30.0];
 /// From this width of a cell on, in points, numbers fit beside its caption.
 const ROOM_FOR_NUMBERS: f32 = 330.0;
+/// From this width of a cell on, in points, the method's name fits beside the body's.
+const ROOM_FOR_METHOD: f32 = 450.0;
 
 /// Names a lane at the left of its row, with a bar where it is selected.
 pub(super) fn lane(picture: &mut Picture, rect: Rect, lab: &Lab, entrant: &Entrant) {
@@ -68,12 +70,16 @@ pub(super) fn solo(
     let Some(at) = caption_place(rect) else { return };
     let body = &lab.scene().bodies[index];
     let method = lab.entries()[lab.active()].method;
-    let text = format!("{}: {}", body.name, method.name);
+    let width = rect.max[0] - rect.min[0];
+    let text = if width > ROOM_FOR_METHOD {
+        format!("{}: {}", body.name, method.name)
+    } else {
+        body.name.clone()
+    };
     let (colour, size) = (style(method).0, 12.0);
     picture.labels.push(Label { at, align: Align::Left, size, colour, text });
 
     let at = [rect.max[0] - 9.0, at[1]];
-    let width = rect.max[0] - rect.min[0];
     if let Some(halt) = lab.race().entrants()[0].lane.halted() {
         let (colour, text) = (palette::ALARM, format!("halted at tick {}", halt.tick));
         picture.labels.push(Label { at, align: Align::Right, size, colour, text });

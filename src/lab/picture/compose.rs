@@ -17,7 +17,7 @@ const HEAD: f64 = 20.0;
 const MARGIN: f32 = 6.0;
 /// The column of lane names at the left of a race, in points: on a stage wide enough for names, and on
 /// others, where only the number fits.
-const GUTTERS: (f32, f32) = (112.0, 18.0);
+const GUTTERS: (f32, f32) = (120.0, 18.0);
 /// From this width of the stage on, in points, lane names fit.
 const ROOM_FOR_NAMES: f32 = 520.0;
 /// The part of a scene's duration that a chart recorder's paper holds: three swings of the harbour's

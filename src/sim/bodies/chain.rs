@@ -31,7 +31,7 @@ static COORDINATES: LazyLock<Vec<Coordinate>> = LazyLock::new(|| {
 
 pub(super) const KIND: Kind = Kind {
     id: "chain",
-    about: "m xᵢ″ = k (xᵢ₋₁ - 2 xᵢ + xᵢ₊₁) + c (xᵢ₋₁ - 2 xᵢ + xᵢ₊₁)′: masses joined by springs between two walls",
+    about: "m xᵢ″ = Σ k (xⱼ - xᵢ) + c (xⱼ - xᵢ)′, j = i ± 1: masses joined by springs between two walls",
     coordinates: |values| &COORDINATES[..values[0] as usize],
     parameters: &[
         Parameter {

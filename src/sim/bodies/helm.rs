@@ -17,7 +17,7 @@ pub(super) const KIND: Kind = Kind {
         &[
             Coordinate { name: "x", velocity: "vx", unit: "m" },
             Coordinate { name: "y", velocity: "vy", unit: "m" },
-            Coordinate { name: "ψ", velocity: "r", unit: "rad" },
+            Coordinate { name: "psi", velocity: "r", unit: "rad" },
         ]
     },
     parameters: &[

@@ -96,7 +96,8 @@ pub(super) fn period(mu: f64, beta: f64) -> Option<f64> {
 /// centre.
 fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64 {
     let sign = dt.signum();
-    let is_beyond = |time: f64| !(time * sign < 0.0);
+    // What overflows is far beyond.
+    let is_beyond = |time: f64| time.is_nan() || time * sign >= 0.0;
     // Less than a round; on an open path as far as it takes.
     let mut far = if beta > 0.0 { sign * TAU / beta.sqrt() } else { guess };
     while beta <= 0.0 && !is_beyond(late(far).0) {

@@ -186,7 +186,7 @@ pub struct Fault {
 /// One coordinate of a body.
 #[derive(Debug)]
 pub struct Coordinate {
-    /// Its letter, as in the CSV's `coordinate` column.
+    /// Its name, as in the CSV's `coordinate` column: fit to be typed.
     pub name: &'static str,
     /// The letter of its velocity.
     pub velocity: &'static str,

@@ -8,7 +8,7 @@ use crate::sim::{State, System, stepper};
 pub(super) const KIND: Kind = Kind {
     id: "pendulum",
     about: "m l² θ″ = -m g l sin θ - c θ′: a bob on a rod, at any angle",
-    coordinates: |_| &[Coordinate { name: "θ", velocity: "ω", unit: "rad" }],
+    coordinates: |_| &[Coordinate { name: "theta", velocity: "omega", unit: "rad" }],
     parameters: &[
         Parameter {
             key: "length_m",

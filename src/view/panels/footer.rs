@@ -2,9 +2,10 @@
 
 use egui::{Align, Layout, RichText, Ui};
 
-use super::{ACCENT, QUIET, TEXT};
+use super::{ACCENT, QUIET, TEXT, colour};
 use crate::lab::Lab;
 use crate::lab::number::round;
+use crate::lab::picture::palette;
 
 pub(super) const HEIGHT: f32 = 26.0;
 
@@ -14,7 +15,11 @@ const ROOM_FOR_KEYS: f32 = 900.0;
 pub(super) fn show(ui: &mut Ui, lab: &Lab) {
     let width = ui.available_width();
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        if width >= ROOM_FOR_KEYS {
+        if lab.dropped() > 0 {
+            let text = format!("{} ticks dropped", lab.dropped());
+            ui.label(RichText::new(text).color(colour(palette::ALARM)))
+                .on_hover_text("the simulation fell behind real time and gave these up");
+        } else if width >= ROOM_FOR_KEYS {
             let part = |input, keys: &str, part: f64| {
                 let text = format!("{keys} {input} {} %  ", round(part * 100.0, 3));
                 if lab.takes(input) { text } else { String::new() }

@@ -5,6 +5,9 @@ use egui::{Align2, Grid, Order, RichText, ScrollArea, Ui, Window};
 use super::{ACCENT, QUIET};
 use crate::lab::{Command, KEYS};
 
+/// What the names of the keys and the scroll bar take of the width, in points.
+const ROOM_FOR_KEYS: f32 = 130.0;
+
 pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
     let screen = ui.ctx().content_rect();
     let window = Window::new("Keys").order(Order::Foreground).collapsible(false).resizable(false);
@@ -13,7 +16,9 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
         ui.ctx(),
         |ui| {
             ScrollArea::vertical().show(ui, |ui| {
-                Grid::new("keys").num_columns(2).spacing([18.0, 5.0]).show(ui, |ui| {
+                let room = (size.x - ROOM_FOR_KEYS).max(0.0);
+                let grid = Grid::new("keys").num_columns(2).spacing([18.0, 5.0]);
+                grid.max_col_width(room).show(ui, |ui| {
                     for binding in KEYS {
                         ui.label(RichText::new(binding.shown).monospace().color(ACCENT));
                         ui.label(binding.about);

@@ -3,7 +3,7 @@
 //! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
 //! arrow in its colour says so.
 
-use egui::{RichText, Ui};
+use egui::{ComboBox, Label, RichText, Ui};
 use egui_plot::{Line, PlotBounds, PlotPoints};
 
 use super::{QUIET, advice, colour};
@@ -16,41 +16,75 @@ use crate::view::plot::{Curve, draw, plot, tick_text};
 const HEALTHY: f64 = 1.6;
 /// Errors below this are round-off: the plot's floor, as a power of ten.
 const FLOOR: f64 = -17.0;
+/// From this width on, in points, bodies and instruments are tabs.
+const ROOM_FOR_TABS: f32 = 430.0;
+/// From this height on, in points, both plots can be read; below, the stage has to show the value.
+const ROOM_FOR_BOTH: f32 = 200.0;
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 const PHASE_SAMPLES: usize = 360;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let height = ui.available_height();
-    ui.horizontal(|ui| {
-        for (index, body) in lab.scene().bodies.iter().enumerate() {
-            let selected = index == lab.display().body;
-            if ui.selectable_label(selected, &body.name).clicked() {
-                commands.push(Command::Body(index));
-            }
-        }
-        let truth = &lab.race().truth().bodies()[lab.display().body];
-        let coordinate = &truth.coordinates[0];
-        let words = truth.truth_in_words();
-        let title = format!("{} ({}), {words} in white", coordinate.name, coordinate.unit);
-        ui.label(RichText::new(title).color(QUIET));
-    });
-    value(ui, lab, (height * 0.5 - 26.0).max(10.0));
-
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing.x = 0.0;
-        ui.spacing_mut().button_padding.x = 4.0;
-        for instrument in Instrument::all() {
-            let selected = instrument == lab.display().instrument;
-            if ui.selectable_label(selected, instrument.name()).clicked() {
-                commands.push(Command::Instrument(instrument));
-            }
-        }
-    });
+    if height >= ROOM_FOR_BOTH {
+        ui.horizontal(|ui| {
+            body_choice(ui, lab, commands);
+            let truth = &lab.race().truth().bodies()[lab.display().body];
+            let (coordinate, words) = (&truth.coordinates[0], truth.truth_in_words());
+            let title = format!("{} ({}), {words} in white", coordinate.name, coordinate.unit);
+            ui.add(Label::new(RichText::new(title).color(QUIET)).truncate());
+        });
+        value(ui, lab, height * 0.5 - 26.0);
+        ui.horizontal(|ui| instrument_choice(ui, lab, commands));
+    } else {
+        ui.horizontal(|ui| {
+            body_choice(ui, lab, commands);
+            instrument_choice(ui, lab, commands);
+        });
+    }
     let room = (ui.available_height() - 2.0).max(10.0);
     match lab.display().instrument {
         Instrument::Metric(index) => metric(ui, lab, room, index),
         Instrument::Phase => phase(ui, lab, room),
         Instrument::Advice => advice::show(ui, lab),
+    }
+}
+
+fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
+    let options: Vec<_> = (0..).map(Command::Body).zip(names).collect();
+    choice(ui, "body", &options, Command::Body(lab.display().body), commands);
+}
+
+fn instrument_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let option = |instrument: Instrument| (Command::Instrument(instrument), instrument.name());
+    let options: Vec<_> = Instrument::all().map(option).collect();
+    ui.spacing_mut().button_padding.x = 3.0;
+    choice(ui, "instrument", &options, Command::Instrument(lab.display().instrument), commands);
+}
+
+/// Offers commands by name: as tabs where they fit, else as a menu.
+fn choice(
+    ui: &mut Ui,
+    id: &str,
+    options: &[(Command, &str)],
+    chosen: Command,
+    commands: &mut Vec<Command>,
+) {
+    let mut offer = |ui: &mut Ui| {
+        for &(command, name) in options {
+            if ui.selectable_label(command == chosen, name).clicked() {
+                commands.push(command);
+            }
+        }
+    };
+    if ui.available_width() >= ROOM_FOR_TABS || options.len() == 1 {
+        ui.scope(|ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            offer(ui);
+        });
+    } else {
+        let name = options.iter().find(|(command, _)| *command == chosen).map(|(_, name)| *name);
+        ComboBox::from_id_salt(id).selected_text(name.unwrap_or_default()).show_ui(ui, offer);
     }
 }
 

@@ -1,6 +1,8 @@
 //! The list of methods: key, colour, what the card says, and how each is doing.
 
-use egui::{Align2, Color32, FontId, Pos2, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
+use egui::{
+    Align, Align2, Color32, FontId, Id, Pos2, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2,
+};
 
 use super::{QUIET, RAISED, TEXT, colour};
 use crate::lab::number::significant;
@@ -11,8 +13,12 @@ use crate::view::plot;
 const ROW: f32 = 20.0;
 const HEAD: f32 = 16.0;
 
+/// Rows in sight, where the window is high enough: the lanes of a usual race. The rest is scrolled to.
+const ROWS: std::ops::RangeInclusive<usize> = 5..=8;
+
 pub(super) fn height(lab: &Lab) -> f32 {
-    HEAD + ROW * lab.entries().len() as f32 + 12.0
+    let rows = lab.scene().lanes.len().clamp(*ROWS.start(), *ROWS.end());
+    HEAD + ROW * rows as f32 + 12.0
 }
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
@@ -47,11 +53,27 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             for (column, left) in columns.iter().zip(&lefts) {
                 (column.paint)(ui, &row, rect, *left, column);
             }
+            if row.active {
+                follow(ui, index, rect);
+            }
             if response.on_hover_text(spec.method.about).clicked() {
                 commands.push(Command::Pick(index));
             }
         }
     });
+}
+
+/// Scrolls to the active row when it becomes so, and not again: a person may scroll away.
+fn follow(ui: &Ui, index: usize, rect: Rect) {
+    let id = Id::unique("active lane");
+    let known = ui.data_mut(|data| {
+        let known = data.get_temp::<usize>(id);
+        data.insert_temp(id, index);
+        known
+    });
+    if known != Some(index) {
+        ui.scroll_to_rect(rect, Some(Align::Center));
+    }
 }
 
 /// One line of the list.
@@ -150,7 +172,7 @@ const COLUMNS: &[Column] = &[
     },
     Column {
         head: |_| "order".into(),
-        width: 70.0,
+        width: 92.0,
         grows: false,
         from_width: 560.0,
         align: Side::Left,
@@ -199,7 +221,7 @@ const COLUMNS: &[Column] = &[
         head: |_| "energy drift".into(),
         width: 104.0,
         grows: false,
-        from_width: 640.0,
+        from_width: 560.0,
         align: Side::Right,
         paint: |ui, row, rect, left, column| metric(ui, row, rect, left, column, "energy_drift"),
     },

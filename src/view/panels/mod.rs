@@ -13,6 +13,16 @@ mod instruments;
 mod lanes;
 mod top_bar;
 
+/// What a frame shows beside the stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Panels {
+    /// Every panel that fits.
+    #[default]
+    Shown,
+    /// Nothing: the stage fills the frame.
+    Off,
+}
+
 /// Below these sizes, in points, a panel gives its room to the stage.
 const WIDTH_FOR_INSTRUMENTS: f32 = 420.0;
 const HEIGHT_FOR_TOP_BAR: f32 = 120.0;

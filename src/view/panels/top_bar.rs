@@ -1,14 +1,14 @@
 //! The top bar: what runs, how fast, and where time has got to.
 
-use egui::{Align, Button, ComboBox, Layout, RichText, Ui};
+use egui::{Align, Button, ComboBox, Label, Layout, RichText, Ui};
 
-use super::{ACCENT, QUIET, colour};
-use crate::lab::picture::palette;
+use super::{ACCENT, QUIET};
 use crate::lab::{Command, Lab, Mode, SCENES, SPEED_LADDER, TICK_LADDER};
 
 pub(super) const HEIGHT: f32 = 34.0;
 
 /// Widths of the bar, in points, at which more of it fits.
+const ROOM_FOR_MENUS: f32 = 600.0;
 const ROOM_FOR_LADDERS: f32 = 840.0;
 const ROOM_FOR_PACE: f32 = 1100.0;
 
@@ -24,8 +24,17 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         button(ui, text, hover, Command::ToggleRace, commands);
         if width >= ROOM_FOR_LADDERS {
             ui.separator();
-            speed(ui, lab, commands);
-            tick_rate(ui, lab, commands);
+            ui.label(RichText::new("speed").color(QUIET));
+            button(ui, "−", "slower (-)", Command::SpeedDown, commands);
+            speed_menu(ui, lab, commands);
+            button(ui, "+", "faster (=)", Command::SpeedUp, commands);
+            ui.label(RichText::new("  tick rate").color(QUIET));
+            button(ui, "[", "lower tick rate ([)", Command::TickRateDown, commands);
+            tick_rate_menu(ui, lab, commands);
+            button(ui, "]", "higher tick rate (])", Command::TickRateUp, commands);
+        } else if width >= ROOM_FOR_MENUS {
+            speed_menu(ui, lab, commands);
+            tick_rate_menu(ui, lab, commands);
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             button(ui, "?", "help (H)", Command::ToggleHelp, commands);
@@ -35,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             }
             let race = lab.race();
             let time = format!("t = {:.3} s · tick {}", race.t(), race.tick());
-            ui.monospace(time);
+            ui.add(Label::new(RichText::new(time).monospace()).truncate());
         });
     });
 }
@@ -51,7 +60,10 @@ fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         }
     });
     let about = format!("{}\n{}", lab.scene().title, lab.scene().about);
-    response.response.on_hover_text(about);
+    response.response.on_hover_ui(|ui| {
+        ui.set_max_width(ui.max_rect().width().min(ui.ctx().content_rect().width() - 32.0));
+        ui.label(about);
+    });
 }
 
 fn transport(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
@@ -62,10 +74,8 @@ fn transport(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     button(ui, "⏭", "one tick forward (.)", Command::TickForward, commands);
 }
 
-fn speed(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn speed_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let percent = lab.clock().speed_percent();
-    ui.label(RichText::new("speed").color(QUIET));
-    button(ui, "−", "slower (-)", Command::SpeedDown, commands);
     let text = RichText::new(format!("{:>3}×", multiple(percent))).monospace();
     ComboBox::from_id_salt("speed").selected_text(text).width(48.0).show_ui(ui, |ui| {
         for rung in SPEED_LADDER {
@@ -75,7 +85,6 @@ fn speed(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             }
         }
     });
-    button(ui, "+", "faster (=)", Command::SpeedUp, commands);
 }
 
 fn multiple(percent: u32) -> String {
@@ -87,10 +96,8 @@ fn multiple(percent: u32) -> String {
     }
 }
 
-fn tick_rate(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn tick_rate_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let tick_hz = lab.clock().tick_hz();
-    ui.label(RichText::new("  tick rate").color(QUIET));
-    button(ui, "[", "lower tick rate ([)", Command::TickRateDown, commands);
     let text = RichText::new(format!("{tick_hz:>4} Hz")).monospace();
     ComboBox::from_id_salt("tick rate").selected_text(text).width(64.0).show_ui(ui, |ui| {
         for rung in TICK_LADDER {
@@ -99,7 +106,6 @@ fn tick_rate(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             }
         }
     });
-    button(ui, "]", "higher tick rate (])", Command::TickRateUp, commands);
 }
 
 fn pace(ui: &mut Ui, lab: &Lab) {
@@ -111,11 +117,7 @@ fn pace(ui: &mut Ui, lab: &Lab) {
     };
     ui.label(RichText::new(text).monospace().color(QUIET))
         .on_hover_text("frames drawn a second · simulated seconds in a second");
-    if lab.dropped() > 0 {
-        let text = format!("{} ticks dropped ·", lab.dropped());
-        ui.label(RichText::new(text).monospace().color(colour(palette::ALARM)))
-            .on_hover_text("the simulation fell behind real time and gave these up");
-    } else if !lab.running() {
+    if !lab.running() {
         ui.label(RichText::new("paused").color(ACCENT));
     }
 }

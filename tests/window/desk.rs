@@ -1,0 +1,344 @@
+//! A display, the program on it, and a person at keyboard and mouse.
+
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::path::PathBuf;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+use image::{Rgba, RgbaImage};
+use tempfile::TempDir;
+use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask, ImageFormat, Window};
+use x11rb::rust_connection::RustConnection;
+
+/// Software draws some ten frames a second where every core is busy; a start takes a few seconds.
+const PATIENCE: Duration = Duration::from_secs(30);
+const POLL: Duration = Duration::from_millis(15);
+
+/// Waits for `found` to find something.
+#[track_caller]
+pub(crate) fn until<T>(what: &str, mut found: impl FnMut() -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        if let Some(value) = found() {
+            return value;
+        }
+        assert!(start.elapsed() < PATIENCE, "waited {PATIENCE:?} for {what}");
+        std::thread::sleep(POLL);
+    }
+}
+
+/// The program in its window. Display and program end with this value.
+pub(crate) struct Desk {
+    pub(crate) program: Program,
+    pub(crate) window: String,
+    display: Display,
+}
+
+impl Desk {
+    /// Starts the program with these words, and the focus on its window. Where that cannot be done here
+    /// for want of a display server or a driver, says so in the name of `test`.
+    #[track_caller]
+    pub(crate) fn open(test: &str, arguments: &str) -> Option<Self> {
+        Self::open_with(test, arguments, &[])
+    }
+
+    /// The same with environment variables set.
+    #[track_caller]
+    pub(crate) fn open_with(
+        test: &str,
+        arguments: &str,
+        variables: &[(&str, &str)],
+    ) -> Option<Self> {
+        let display = Display::open(test)?;
+        let mut program = display.start(arguments, variables);
+        let window = until("a window", || {
+            if let Some(status) = program.ended() {
+                return Some(Err(status));
+            }
+            let found = display.xdotool("search --onlyvisible --name ^Regatta").ok()?;
+            found.lines().last().map(|window| Ok(window.to_owned()))
+        });
+        let window = match window {
+            Ok(window) => window,
+            Err(status) => {
+                let said = program.said();
+                assert!(said.contains("no usable graphics adapter"), "{status}: {said}");
+                return skip(test, said.trim_end());
+            }
+        };
+        let desk = Self { program, window, display };
+        desk.focus();
+        Some(desk)
+    }
+
+    /// Gives the window the focus: there is no window manager to do it.
+    #[track_caller]
+    pub(crate) fn focus(&self) {
+        until("the focus", || {
+            let _ = self.display.xdotool(&format!("windowfocus {}", self.window));
+            let focus = self.display.xdotool("getwindowfocus").ok()?;
+            (focus.trim() == self.window).then_some(())
+        });
+    }
+
+    /// Has xdotool do something; `WINDOW` stands for the window.
+    #[track_caller]
+    pub(crate) fn xdotool(&self, words: &str) -> String {
+        self.display.xdotool(&words.replace("WINDOW", &self.window)).unwrap()
+    }
+
+    /// Presses and releases keys, by their names in X.
+    #[track_caller]
+    pub(crate) fn press(&self, keys: &str) {
+        self.xdotool(&format!("key {keys}"));
+    }
+
+    /// Clicks at this place of the window, in pixels.
+    #[track_caller]
+    pub(crate) fn click(&self, x: u32, y: u32) {
+        self.xdotool(&format!("mousemove --window WINDOW {x} {y} click 1"));
+    }
+
+    #[track_caller]
+    pub(crate) fn title(&self) -> String {
+        self.xdotool("getwindowname WINDOW").trim_end().to_owned()
+    }
+
+    /// Waits for the title to be this.
+    #[track_caller]
+    pub(crate) fn titled(&self, expected: &str) {
+        let mut title = String::new();
+        let start = Instant::now();
+        while title != expected {
+            assert!(start.elapsed() < PATIENCE, "\"{title}\" did not become \"{expected}\"");
+            std::thread::sleep(POLL);
+            title = self.title();
+        }
+    }
+
+    /// Has the program take a screenshot. Returns the tick it shows, and what it shows.
+    #[track_caller]
+    pub(crate) fn screenshot(&self) -> (u64, RgbaImage) {
+        self.press("p");
+        self.next_screenshot()
+    }
+
+    /// The screenshot that was asked for, once it is there.
+    #[track_caller]
+    pub(crate) fn next_screenshot(&self) -> (u64, RgbaImage) {
+        until("a screenshot", || {
+            let path = self.display.picture()?;
+            // Until it is written to its end it cannot be read.
+            let image = image::open(&path).ok()?.to_rgba8();
+            let (_, rest) = path.to_str()?.rsplit_once("-tick-")?;
+            let tick = rest.strip_suffix(".png")?.parse().unwrap();
+            std::fs::remove_file(path).unwrap();
+            Some((tick, image))
+        })
+    }
+
+    /// What the window shows.
+    #[track_caller]
+    pub(crate) fn sight(&self) -> RgbaImage {
+        let (connection, window) = self.connect();
+        let size = connection.get_geometry(window).unwrap().reply().unwrap();
+        let (width, height) = (size.width, size.height);
+        let format = ImageFormat::Z_PIXMAP;
+        let image = connection.get_image(format, window, 0, 0, width, height, u32::MAX).unwrap();
+        let mut pixels = image.reply().unwrap().data;
+        for pixel in pixels.chunks_exact_mut(4) {
+            pixel.swap(0, 2);
+            pixel[3] = 255;
+        }
+        RgbaImage::from_raw(width.into(), height.into(), pixels).unwrap()
+    }
+
+    /// Waits for the window to show this screenshot of it, paused, `scale` pixels to a point.
+    #[track_caller]
+    pub(crate) fn shows(&self, picture: &RgbaImage, scale: u32) {
+        // The bar above tells of the frame rate, and the footer, now, of the screenshot.
+        let between = |y: u32| (34 * scale..picture.height() - 26 * scale).contains(&y);
+        let differ = |a: &Rgba<u8>, b: &Rgba<u8>| (0..4).any(|i| a[i].abs_diff(b[i]) > 1);
+        until("the screenshot in the window", || {
+            let sight = self.sight();
+            assert_eq!(sight.dimensions(), picture.dimensions());
+            let pairs = sight.enumerate_pixels().zip(picture.pixels());
+            let off = pairs.filter(|((_, y, a), b)| between(*y) && differ(a, b)).count();
+            // Now and then a letter falls on the other side of a quarter of a pixel.
+            (off < 100).then_some(())
+        });
+    }
+
+    /// Presses a key, and waits for something to change in a paused window.
+    #[track_caller]
+    pub(crate) fn press_and_see(&self, key: &str) {
+        let before = self.sight();
+        self.press(key);
+        until("a change", || (self.sight() != before).then_some(()));
+    }
+
+    /// Asks the window to close, as the cross in its frame would.
+    #[track_caller]
+    pub(crate) fn close(&self) {
+        let (connection, window) = self.connect();
+        let atom = |name: &[u8]| connection.intern_atom(false, name).unwrap().reply().unwrap().atom;
+        let data = [atom(b"WM_DELETE_WINDOW"), 0, 0, 0, 0];
+        let event = ClientMessageEvent::new(32, window, atom(b"WM_PROTOCOLS"), data);
+        connection.send_event(false, window, EventMask::NO_EVENT, event).unwrap().check().unwrap();
+    }
+
+    #[track_caller]
+    fn connect(&self) -> (RustConnection, Window) {
+        let (connection, _) = RustConnection::connect(Some(&self.display.name)).unwrap();
+        (connection, self.window.parse().unwrap())
+    }
+
+    /// Lays another window of the program over this one.
+    #[track_caller]
+    pub(crate) fn cover(&self) -> Program {
+        let cover = self.display.start("--scene stiff", &[]);
+        until("the cover", || {
+            self.display.xdotool("search --onlyvisible --name ^Regatta\\s-\\sstiff").ok()
+        });
+        cover
+    }
+
+    /// How much of a core the program uses from now on for so long.
+    pub(crate) fn load_over(&self, span: Duration) -> f64 {
+        let start = self.program.processor_time();
+        std::thread::sleep(span);
+        (self.program.processor_time() - start).as_secs_f64() / span.as_secs_f64()
+    }
+
+    /// Ends the program as people do.
+    #[track_caller]
+    pub(crate) fn quit(self) {
+        self.press("Escape");
+        self.ends();
+    }
+
+    /// Waits for the program to end of itself, which it has to do well and in silence.
+    #[track_caller]
+    pub(crate) fn ends(mut self) {
+        let status = until("the end", || self.program.ended());
+        assert_eq!((status.code(), self.program.said().as_str()), (Some(0), ""));
+    }
+}
+
+/// A display server without a screen, and a folder for its programs to work in.
+pub(crate) struct Display {
+    server: Child,
+    name: String,
+    folder: TempDir,
+}
+
+impl Display {
+    /// Starts a server, or says in the name of `test` why there is none.
+    pub(crate) fn open(test: &str) -> Option<Self> {
+        if let Err(error) = Command::new("xdotool").arg("version").output() {
+            return skip(test, &format!("xdotool: {error}"));
+        }
+        let server = Command::new("Xvfb")
+            .args("-displayfd 1 -noreset -nolisten tcp -screen 0 2600x1500x24".split(' '))
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn();
+        let mut server = match server {
+            Ok(server) => server,
+            Err(error) => return skip(test, &format!("Xvfb: {error}")),
+        };
+        let mut number = String::new();
+        let stdout = server.stdout.take().expect("it is piped");
+        BufReader::new(stdout).read_line(&mut number).expect("Xvfb writes its display's number");
+        let folder = TempDir::new().unwrap();
+        Some(Self { server, name: format!(":{}", number.trim()), folder })
+    }
+
+    /// Starts the program on this display.
+    pub(crate) fn start(&self, arguments: &str, variables: &[(&str, &str)]) -> Program {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_regatta"));
+        for variable in ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "WGPU_BACKEND", "RUST_LOG"] {
+            command.env_remove(variable);
+        }
+        command
+            .args(arguments.split_whitespace())
+            .current_dir(self.folder.path())
+            .env("DISPLAY", &self.name)
+            .env("WINIT_X11_SCALE_FACTOR", "1")
+            // Where it is unset, libwayland says so on standard error.
+            .env("XDG_RUNTIME_DIR", self.folder.path())
+            .envs(variables.iter().copied())
+            .stdin(Stdio::null())
+            .stderr(Stdio::piped());
+        Program(command.spawn().unwrap())
+    }
+
+    fn xdotool(&self, words: &str) -> Result<String, String> {
+        let mut command = Command::new("xdotool");
+        let output = command.args(words.split(' ')).env("DISPLAY", &self.name).output().unwrap();
+        let [said, complaint] =
+            [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+        if output.status.success() { Ok(said) } else { Err(format!("{words}: {complaint}")) }
+    }
+
+    fn picture(&self) -> Option<PathBuf> {
+        let mut files = self.folder.path().read_dir().unwrap().map(|file| file.unwrap().path());
+        files.find(|path| path.extension().is_some_and(|extension| extension == "png"))
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        end(&mut self.server);
+    }
+}
+
+/// The program running.
+pub(crate) struct Program(Child);
+
+impl Program {
+    /// How it ended, if it did.
+    pub(crate) fn ended(&mut self) -> Option<ExitStatus> {
+        self.0.try_wait().unwrap()
+    }
+
+    /// What it said on standard error until its end.
+    pub(crate) fn said(&mut self) -> String {
+        let mut said = String::new();
+        self.0.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+        said
+    }
+
+    fn processor_time(&self) -> Duration {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.0.id())).unwrap();
+        // The name, in brackets, may hold spaces.
+        let (_, fields) = stat.rsplit_once(") ").unwrap();
+        let ticks = fields.split(' ').skip(11).take(2).map(|field| field.parse::<u64>().unwrap());
+        // Linux shows a hundred of them a second, whatever the kernel counts in.
+        Duration::from_millis(10 * ticks.sum::<u64>())
+    }
+
+    /// Sends it a signal by name, such as `STOP`.
+    pub(crate) fn signal(&self, name: &str) {
+        let id = self.0.id().to_string();
+        assert!(Command::new("kill").args(["-s", name, &id]).status().unwrap().success());
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        end(&mut self.0);
+    }
+}
+
+fn end(child: &mut Child) {
+    let _ = child.kill();
+    let _ = child.wait();
+}
+
+fn skip<T>(test: &str, reason: &str) -> Option<T> {
+    // Not `eprintln!`, which the test runner hides when a test passes.
+    let _ = writeln!(io::stderr(), "SKIPPED {test}: {reason}");
+    None
+}

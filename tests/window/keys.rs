@@ -1,0 +1,134 @@
+//! What keys do, read from the title; the lab, given the same commands, says what it should be.
+
+use std::time::{Duration, Instant};
+
+use regatta::lab::{Command, KEYS, Key, Lab, SCENES, Scene, TICK_LADDER};
+
+use crate::desk::Desk;
+
+fn lab(scene: &str) -> Lab {
+    Lab::new(Scene::built_in(scene).unwrap())
+}
+
+/// The key's name in X, with its modifier.
+fn x_name(key: Key) -> String {
+    match key {
+        Key::Digit(digit) => digit.to_string(),
+        Key::Sign('.') => "period".into(),
+        Key::Sign('[') => "bracketleft".into(),
+        Key::Sign(']') => "bracketright".into(),
+        Key::Sign('-') => "minus".into(),
+        Key::Sign('=') => "equal".into(),
+        Key::Sign('?') => "question".into(),
+        Key::Sign(letter) => letter.to_string(),
+        Key::ShiftSign(letter) => format!("shift+{letter}"),
+        Key::Space => "space".into(),
+        Key::Up => "Up".into(),
+        Key::Left => "Left".into(),
+        Key::Right => "Right".into(),
+        Key::Down => "Down".into(),
+        Key::Home => "Home".into(),
+        Key::Escape => "Escape".into(),
+        Key::Function(number) => format!("F{number}"),
+    }
+}
+
+#[test]
+fn every_key_of_the_table_does_what_the_table_says() {
+    let test = "every_key_of_the_table_does_what_the_table_says";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz");
+    let mut lab = lab("spring");
+    for (key, command) in KEYS.iter().flat_map(|binding| binding.keys) {
+        if ![Command::Screenshot, Command::ToggleFullScreen, Command::Escape].contains(command) {
+            desk.press(&x_name(*key));
+            assert_eq!(lab.apply(*command), None);
+            desk.titled(&lab.title());
+        }
+    }
+    // Three keys opened, closed and opened the help.
+    assert!(lab.display().help);
+    assert!(!lab.running());
+    desk.press_and_see("Escape");
+    desk.press("space");
+    lab.apply(Command::TogglePause);
+    desk.titled(&lab.title());
+    desk.quit();
+}
+
+#[test]
+fn a_race_is_titled_by_its_selected_lane() {
+    let test = "a_race_is_titled_by_its_selected_lane";
+    let Some(desk) = Desk::open(test, "--scene stiff") else { return };
+    desk.titled("Regatta - stiff - Runge-Kutta 4 - 60 Hz");
+    desk.press("c");
+    desk.titled("Regatta - stiff - race: Runge-Kutta 4 - 60 Hz");
+    desk.press("1 space");
+    desk.titled("Regatta - stiff - race: Explicit Euler - 60 Hz (paused)");
+    desk.press("c");
+    desk.titled("Regatta - stiff - Explicit Euler - 60 Hz (paused)");
+    desk.quit();
+}
+
+#[test]
+fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
+    let test = "brackets_walk_the_tick_rates_and_n_and_b_the_scenes";
+    let Some(desk) = Desk::open(test, "--scene spring --tick-hz 2") else { return };
+    for hz in TICK_LADDER {
+        desk.titled(&format!("Regatta - spring - Runge-Kutta 4 - {hz} Hz"));
+        desk.press("bracketright");
+    }
+    for hz in TICK_LADDER.into_iter().rev() {
+        desk.titled(&format!("Regatta - spring - Runge-Kutta 4 - {hz} Hz"));
+        desk.press("bracketleft");
+    }
+    let (mut lab, start) = (lab("spring"), "Regatta - spring - Runge-Kutta 4 - 2 Hz");
+    desk.titled(start);
+    for (key, command) in [("n", Command::NextScene), ("b", Command::PreviousScene)] {
+        for _ in SCENES {
+            desk.press(key);
+            lab.apply(command);
+            desk.titled(&lab.title());
+        }
+    }
+    desk.quit();
+}
+
+#[test]
+fn a_tick_forward_is_one_tick() {
+    let test = "a_tick_forward_is_one_tick";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.press("period");
+    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+    let (first, _) = desk.screenshot();
+    desk.press("period period period");
+    assert_eq!(desk.screenshot().0, first + 3);
+    desk.quit();
+}
+
+#[test]
+fn a_held_key_repeats_where_that_helps_and_never_a_toggle() {
+    let test = "a_held_key_repeats_where_that_helps_and_never_a_toggle";
+    let Some(desk) = Desk::open(test, "--scene spring --tick-hz 1000") else { return };
+    desk.xdotool("keydown bracketleft");
+    desk.titled("Regatta - spring - Runge-Kutta 4 - 2 Hz");
+    desk.xdotool("keyup bracketleft keydown space");
+    let paused = "Regatta - spring - Runge-Kutta 4 - 2 Hz (paused)";
+    desk.titled(paused);
+    // The server repeats a key after two thirds of a second, then 25 times a second.
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_secs(1) {
+        assert_eq!(desk.title(), paused);
+    }
+    desk.quit();
+}
+
+#[test]
+fn a_chord_with_control_or_alt_is_not_ours() {
+    let test = "a_chord_with_control_or_alt_is_not_ours";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.press("ctrl+n alt+1 ctrl+space super+c Caps_Lock m");
+    // With capitals locked, M is still the next method.
+    desk.titled("Regatta - spring - Adaptive Euler - 60 Hz");
+    desk.quit();
+}

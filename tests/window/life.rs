@@ -1,0 +1,127 @@
+//! Starting, ending, and what happens while nobody looks.
+
+use std::io::{self, Write};
+use std::time::{Duration, Instant};
+
+use image::{Rgba, RgbaImage};
+use regatta::lab::picture::palette;
+
+use crate::desk::{Desk, Display, until};
+
+#[test]
+fn a_window_opens_under_vulkan_and_under_gl() {
+    let test = "a_window_opens_under_vulkan_and_under_gl";
+    for backend in ["vulkan", "gl"] {
+        let test = format!("{test} ({backend})");
+        let variables = [("WGPU_BACKEND", backend)];
+        let Some(desk) = Desk::open_with(&test, "", &variables) else { continue };
+        desk.titled("Regatta - harbour - Runge-Kutta 4 - 60 Hz");
+        desk.press("1");
+        desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
+        desk.press("space");
+        desk.titled("Regatta - harbour - Explicit Euler - 60 Hz (paused)");
+        desk.shows(&desk.screenshot().1, 1);
+        desk.quit();
+    }
+}
+
+#[test]
+fn it_ends_when_its_seconds_are_over_or_its_window_is_closed() {
+    let test = "it_ends_when_its_seconds_are_over_or_its_window_is_closed";
+    let Some(desk) = Desk::open(test, "--scene spring --seconds 1") else { return };
+    desk.ends();
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.close();
+    desk.ends();
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    // Not a request: the window is gone.
+    desk.xdotool("windowclose WINDOW");
+    desk.ends();
+}
+
+#[test]
+fn without_an_adapter_it_says_so_and_ends_within_two_seconds() {
+    let test = "without_an_adapter_it_says_so_and_ends_within_two_seconds";
+    let Some(display) = Display::open(test) else { return };
+    let start = Instant::now();
+    let mut program = display.start("", &[("WGPU_BACKEND", "metal")]);
+    let status = until("the end", || program.ended());
+    let took = start.elapsed();
+    let said = program.said();
+    assert_eq!(status.code(), Some(1), "{said}");
+    assert!(said.starts_with("error: no usable graphics adapter: "), "{said}");
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(took < Duration::from_secs(2), "{took:?}");
+}
+
+#[test]
+fn a_window_that_is_not_mapped_goes_on_in_real_time() {
+    let test = "a_window_that_is_not_mapped_goes_on_in_real_time";
+    let Some(desk) = Desk::open(test, "--scene spring --seconds 3") else { return };
+    let start = Instant::now();
+    desk.xdotool("windowunmap WINDOW");
+    desk.ends();
+    let took = start.elapsed();
+    assert!((Duration::from_secs(2)..Duration::from_secs(6)).contains(&took), "{took:?}");
+}
+
+/// Whether ticks were dropped: the footer says so in this colour.
+fn tells_of_dropped_ticks(picture: &RgbaImage) -> bool {
+    let footer = picture.height() - 26;
+    let alarm = |pixel: &Rgba<u8>| (0..3).all(|i| pixel[i].abs_diff(palette::ALARM[i]) < 40);
+    picture.enumerate_pixels().filter(|(_, y, pixel)| *y >= footer && alarm(pixel)).count() > 20
+}
+
+#[test]
+fn a_covered_window_goes_on_in_real_time_and_draws_nothing() {
+    let test = "a_covered_window_goes_on_in_real_time_and_draws_nothing";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    let (before, _) = desk.screenshot();
+    let start = Instant::now();
+    let cover = desk.cover();
+    desk.press("1");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
+    // A picture is owed until it can be shown.
+    desk.press("p");
+    let load = desk.load_over(Duration::from_secs(1));
+    drop(cover);
+    let (after, picture) = desk.next_screenshot();
+    let seconds = start.elapsed().as_secs_f64();
+    let simulated = (after - before) as f64 / 60.0;
+    assert!((0.5 * seconds..seconds).contains(&simulated), "{simulated} s in {seconds} s");
+    assert!(load < 0.1, "{load} of a core while covered");
+    assert!(!tells_of_dropped_ticks(&picture));
+    desk.quit();
+}
+
+#[test]
+fn a_hitch_drops_ticks_and_says_so() {
+    let test = "a_hitch_drops_ticks_and_says_so";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    assert!(!tells_of_dropped_ticks(&desk.screenshot().1));
+    desk.program.signal("STOP");
+    std::thread::sleep(Duration::from_secs(1));
+    desk.program.signal("CONT");
+    assert!(tells_of_dropped_ticks(&desk.screenshot().1));
+    // A pause is no hitch.
+    desk.press("Home space");
+    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+    std::thread::sleep(Duration::from_secs(1));
+    desk.press("space");
+    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz");
+    assert!(!tells_of_dropped_ticks(&desk.screenshot().1));
+    desk.quit();
+}
+
+#[test]
+fn a_paused_window_leaves_the_machine_alone() {
+    let test = "a_paused_window_leaves_the_machine_alone";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.press("space");
+    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+    until("stillness", || (desk.load_over(Duration::from_millis(200)) == 0.0).then_some(()));
+    let load = desk.load_over(Duration::from_secs(2));
+    let _ = writeln!(io::stderr(), "{test}: {:.1} % of a core", 100.0 * load);
+    assert!(load < 0.1, "{load} of a core");
+    desk.quit();
+}

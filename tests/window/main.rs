@@ -1,0 +1,9 @@
+//! The window as people meet it: the program on a display of its own, keys and clicks in; title, pictures
+//! and exit code out.
+#![cfg(all(feature = "desktop", target_os = "linux"))]
+
+mod desk;
+mod keys;
+mod life;
+mod mouse;
+mod shape;

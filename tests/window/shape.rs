@@ -1,0 +1,53 @@
+//! The window's size, and what is on it.
+
+use std::collections::HashSet;
+
+use crate::desk::{Desk, until};
+
+#[test]
+fn the_window_shows_what_a_screenshot_saves_at_every_scale() {
+    let test = "the_window_shows_what_a_screenshot_saves_at_every_scale";
+    for scale in [1, 2] {
+        let factor = scale.to_string();
+        let variables = [("WINIT_X11_SCALE_FACTOR", factor.as_str())];
+        let Some(desk) = Desk::open_with(test, "--scene spring", &variables) else { return };
+        desk.press("space");
+        desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+        let (_, picture) = desk.screenshot();
+        assert_eq!(picture.dimensions(), (1280 * scale, 720 * scale));
+        let colours: HashSet<_> = picture.pixels().collect();
+        assert!(colours.len() > 100, "{} colours", colours.len());
+        desk.shows(&picture, scale);
+        desk.quit();
+    }
+}
+
+#[test]
+fn a_window_of_one_pixel_and_back_goes_on() {
+    let test = "a_window_of_one_pixel_and_back_goes_on";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    for (key, [width, height], method) in [
+        ("1", [1, 1], "Explicit Euler"),
+        ("2", [2500, 3], "Semi-implicit Euler"),
+        ("3", [640, 360], "Improved Euler"),
+    ] {
+        desk.xdotool(&format!("windowsize WINDOW {width} {height}"));
+        until("the size", || (desk.sight().dimensions() == (width, height)).then_some(()));
+        desk.press(key);
+        desk.titled(&format!("Regatta - spring - {method} - 60 Hz"));
+        assert_eq!(desk.screenshot().1.dimensions(), (width, height));
+    }
+    desk.press("space");
+    desk.titled("Regatta - spring - Improved Euler - 60 Hz (paused)");
+    desk.shows(&desk.screenshot().1, 1);
+    desk.quit();
+}
+
+#[test]
+fn full_screen_and_back_goes_on() {
+    let test = "full_screen_and_back_goes_on";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.press("F11 1 F11 space");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
+    desk.quit();
+}
