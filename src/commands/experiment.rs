@@ -63,6 +63,11 @@ impl ExperimentArgs {
         Ok(Experiment { scene, text, selected: self.methods.first().copied(), lineup })
     }
 
+    /// The lanes of the methods named, as `scene` has them.
+    pub(super) fn lanes_named(&self, scene: &Scene) -> Vec<LaneSpec> {
+        lanes_of(scene, &self.methods)
+    }
+
     /// Whether no method is named.
     pub(super) fn names_no_method(&self) -> bool {
         self.methods.is_empty()

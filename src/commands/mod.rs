@@ -9,7 +9,9 @@ use std::io::{self, IsTerminal, Write};
 use annotate_snippets::{Group, Level, Renderer};
 use clap::{Parser, Subcommand, ValueEnum};
 
+mod advise;
 mod capture;
+mod chapter;
 mod completions;
 mod experiment;
 mod fingerprint;
@@ -27,7 +29,9 @@ mod trace;
 mod verify;
 mod voyage;
 
+use advise::AdviseArgs;
 use capture::{CaptureArgs, CaptureError};
+use chapter::{ChapterArgs, ChapterError};
 use completions::CompletionsArgs;
 use list::ListArgs;
 use play::PlayArgs;
@@ -44,6 +48,8 @@ Examples:
   regatta --scene ship --method explicit-euler --tick-hz 2
   regatta trace --scene ship --method rk4 > ship.csv
   regatta capture --scene spring --race --out clip
+  regatta advise --scene stiff
+  regatta chapter --out figures
   regatta verify clip
   regatta list methods
 
@@ -66,6 +72,8 @@ enum Command {
     Capture(CaptureArgs),
     Verify(VerifyArgs),
     Trace(TraceArgs),
+    Advise(AdviseArgs),
+    Chapter(ChapterArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
 }
@@ -80,6 +88,8 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Capture(args) => capture::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Trace(args) => trace::run(&args),
+        Command::Advise(args) => advise::run(&args),
+        Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args),
     };
@@ -98,6 +108,9 @@ pub enum Error {
     /// Frames could not be drawn or written.
     #[error(transparent)]
     Capture(#[from] CaptureError),
+    /// The chapter's figures could not be drawn or written.
+    #[error(transparent)]
+    Chapter(#[from] ChapterError),
     /// Frames are not what they were, or cannot be judged.
     #[error(transparent)]
     Verify(#[from] VerifyError),
@@ -116,6 +129,7 @@ impl Error {
         match self {
             Error::SceneFile(_) => 2,
             Error::Capture(error) => error.exit_code(),
+            Error::Chapter(error) => error.exit_code(),
             Error::Verify(error) => error.exit_code(),
             Error::Window(_) | Error::Output(_) => 1,
         }

@@ -3,7 +3,7 @@
 //! Keyboard, panels, scene scripts and tests all make the same [`Command`]s; [`KEYS`] is the one table
 //! from which the window, the help overlay and `regatta list keys` are made.
 
-use super::lab::Instrument;
+use super::display::Instrument;
 use crate::sim::integrators::Method;
 
 /// Something to be done, at the next tick where it touches the bodies.

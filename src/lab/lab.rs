@@ -1,105 +1,16 @@
 //! The lab: a race, the clock that drives it, and how it is looked at. Commands in, state out.
 
+use super::advice::Adviser;
 use super::clock::{Clock, Due};
 use super::command::{Command, SPEED_LADDER, TICK_LADDER};
+use super::display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
 use super::history::History;
-use super::metrics::METRICS;
 use super::race::Race;
 use super::scene::{LaneSpec, SCENES, Scene};
+use super::thinking::{Moment, Thinking};
+use super::verdict::Verdict;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::METHODS;
-
-/// One method at a time, or all of them at once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
-    /// One lane, whose method is switched in flight.
-    Solo,
-    /// A lane for every method that the scene lists, and one for the method last flown solo.
-    Race,
-}
-
-/// How a body is drawn between two ticks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interpolation {
-    /// The last tick's state as it is.
-    Raw,
-    /// A straight line between the last two ticks.
-    Linear,
-    /// A cubic through the last two ticks with the velocities known there.
-    Hermite,
-}
-
-impl Interpolation {
-    /// The name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Interpolation::Raw => "raw",
-            Interpolation::Linear => "linear",
-            Interpolation::Hermite => "Hermite",
-        }
-    }
-}
-
-/// The instruments of the lower plot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Instrument {
-    /// The metric on this place of [`METRICS`], over time.
-    Metric(usize),
-    /// Velocity over coordinate.
-    Phase,
-}
-
-impl Instrument {
-    /// Every instrument, in the order of the tabs.
-    pub fn all() -> impl Iterator<Item = Instrument> {
-        (0..METRICS.len()).map(Instrument::Metric).chain([Instrument::Phase])
-    }
-
-    /// The name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Instrument::Metric(index) => METRICS[index].name,
-            Instrument::Phase => "phase",
-        }
-    }
-}
-
-/// How the lab is looked at; nothing here touches the physics.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Display {
-    /// Whether the exact ghost is drawn.
-    pub ghost: bool,
-    /// How bodies are drawn between ticks.
-    pub interpolation: Interpolation,
-    /// What the lower plot shows.
-    pub instrument: Instrument,
-    /// The body that the plots and the lane list speak of, by its place in the scene.
-    pub body: usize,
-    /// Whether the help overlay is open.
-    pub help: bool,
-    /// Whether trails fade and the camera follows smoothly.
-    pub motion: bool,
-}
-
-/// How fast the driver of the lab goes; only it can know.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pace {
-    /// Frames drawn in a second of real time.
-    pub frames_per_second: f64,
-    /// Simulated seconds in a second of real time.
-    pub real_time_factor: f64,
-}
-
-/// What the lab asks of its driver after a command that is not the lab's business.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ask {
-    /// Save what is shown to a file.
-    Screenshot,
-    /// Enter or leave full screen.
-    ToggleFullScreen,
-    /// End the program.
-    Quit,
-}
 
 /// What a person chose and a restart keeps; a script's changes are not in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,6 +38,7 @@ pub struct Lab {
     display: Display,
     pace: Option<Pace>,
     notice: Option<String>,
+    thinking: Thinking,
 }
 
 /// The method that the program opens with: right on every scene it is not meant to fail on.
@@ -164,6 +76,7 @@ impl Lab {
             },
             pace: None,
             notice: None,
+            thinking: Thinking::default(),
         };
         lab.restart();
         lab
@@ -220,6 +133,19 @@ impl Lab {
     /// The latest thing worth telling, such as a screenshot's file name.
     pub fn notice(&self) -> Option<&str> {
         self.notice.as_deref()
+    }
+    /// What is to be said of the method on this place of the list, over the scene from its start at the
+    /// present tick rate and throttle; `None` until it was [thought of](Self::think).
+    pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
+        self.thinking.verdict(entry)
+    }
+    /// What is known of every method on this scene, as far as it was [thought of](Self::think).
+    pub fn advice(&self) -> Option<&Adviser> {
+        self.thinking.advice()
+    }
+    /// Whether there is more to [think](Self::think) of, so that another frame is worth drawing.
+    pub fn is_thinking(&self) -> bool {
+        self.thinking.more()
     }
     /// Whether any body takes an input, by its name on the body's [card](crate::sim::bodies::Kind).
     pub fn takes(&self, input: &str) -> bool {
@@ -332,13 +258,24 @@ impl Lab {
         None
     }
 
-    /// Takes in a frame of `frame_ns` nanoseconds of real time and steps what is due.
+    /// Judges one method more: each of the list once for every tick rate and throttle, and for advice,
+    /// while it is shown, each of the table at every rate that is worth trying. Returns whether there is
+    /// more to think of.
+    pub fn think(&mut self) -> bool {
+        let now = Moment { tick_hz: self.clock.tick_hz(), throttle: self.throttle };
+        let advice = self.display.instrument == Instrument::Advice;
+        self.thinking.go_on(&self.scene, &self.entries, now, advice)
+    }
+
+    /// Takes in a frame of `frame_ns` nanoseconds of real time, steps what is due, and [thinks](Self::think)
+    /// for a bit.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
         self.advance_seen(frame_ns, |_| ())
     }
 
     /// As [`Lab::advance`], and shows itself to `after_tick` after every tick.
     pub fn advance_seen(&mut self, frame_ns: i64, mut after_tick: impl FnMut(&Lab)) -> Due {
+        self.think();
         if !self.running {
             return Due::default();
         }

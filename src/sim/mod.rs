@@ -7,6 +7,7 @@
 pub mod bodies;
 pub mod integrators;
 mod reference;
+pub mod stability;
 mod stepper;
 mod system;
 

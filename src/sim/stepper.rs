@@ -50,6 +50,9 @@ pub trait Stepper: Send {
     /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
     fn input(&mut self, t: f64, input: Input) -> bool;
 
+    /// Overwrites `a` with the acceleration in the given state under the present input; not counted.
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
+
     /// Evaluations of the acceleration since the start, under whatever methods.
     fn evaluations(&self) -> u64;
     /// Seconds by which the body is behind, because methods it was under
@@ -178,6 +181,14 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
             self.drive.jumped(t, &self.state);
         }
         taken
+    }
+
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        let mut at = self.state.clone();
+        write(&mut at, q, v);
+        let mut acceleration = self.state.q.clone();
+        self.body.system.acceleration(t, &at.q, &at.v, &mut acceleration);
+        a.copy_from_slice(acceleration.components());
     }
 
     fn evaluations(&self) -> u64 {

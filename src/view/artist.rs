@@ -1,7 +1,7 @@
 //! Frames without a window: the same renderer, on a texture of our own. Captures, screenshots and tests
 //! draw so.
 
-use super::{FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback, ReadbackError};
+use super::{Figure, FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback, ReadbackError};
 use crate::lab::Lab;
 
 /// Draws a lab into memory.
@@ -74,5 +74,19 @@ impl Artist {
     /// If no frame is in flight.
     pub fn collect(&mut self, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
         self.readback.finish(&self.gpu, rgba)
+    }
+
+    /// Replaces `rgba` by the pixels of a diagram, top row first.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`] where the device does not give the picture back.
+    pub fn draw_figure(
+        &mut self,
+        figure: &Figure,
+        rgba: &mut Vec<u8>,
+    ) -> Result<(), ReadbackError> {
+        let Self { gpu, renderer, canvas, readback, scale } = self;
+        renderer.draw_figure(gpu, &canvas.view, canvas.size_px, *scale, figure);
+        readback.read(gpu, &canvas.texture, rgba)
     }
 }

@@ -4,7 +4,9 @@
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+mod advise;
 mod capture;
+mod chapter;
 mod list;
 mod manifest;
 mod mishaps;

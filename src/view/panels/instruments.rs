@@ -3,15 +3,14 @@
 //! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
 //! arrow in its colour says so.
 
-use egui::{Color32, ComboBox, Label, RichText, Ui, vec2};
-use egui_plot::{
-    AxisHints, Line, LineStyle, MarkerShape, Plot, PlotBounds, PlotPoints, PlotUi, Points,
-};
+use egui::{ComboBox, Label, RichText, Ui};
+use egui_plot::{Line, PlotBounds, PlotPoints};
 
-use super::{QUIET, colour};
-use crate::lab::number::{round, superscript};
+use super::{QUIET, advice, colour};
+use crate::lab::number::superscript;
 use crate::lab::picture::palette;
 use crate::lab::{Command, History, Instrument, Lab, METRICS, Sample, Scale};
+use crate::view::plot::{Curve, draw, plot, tick_text};
 
 /// A lane this many times further out than the truth no longer stretches the axes.
 const HEALTHY: f64 = 1.6;
@@ -21,9 +20,6 @@ const FLOOR: f64 = -17.0;
 const ROOM_FOR_TABS: f32 = 430.0;
 /// From this height on, in points, both plots can be read; below, the stage has to show the value.
 const ROOM_FOR_BOTH: f32 = 200.0;
-/// The height of a time axis in points, at least that of its text: a plot that had to learn it would be
-/// laid out anew in its second frame, and the first would not match.
-const X_AXIS: f32 = 16.0;
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 const PHASE_SAMPLES: usize = 360;
 
@@ -49,6 +45,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     match lab.display().instrument {
         Instrument::Metric(index) => metric(ui, lab, room, index),
         Instrument::Phase => phase(ui, lab, room),
+        Instrument::Advice => advice::show(ui, lab),
     }
 }
 
@@ -91,16 +88,12 @@ fn choice(
     }
 }
 
-/// A curve to be drawn: its colour, its dash, and its points.
-struct Curve {
-    name: &'static str,
-    colour: Color32,
-    dash: [f32; 2],
-    points: Vec<[f64; 2]>,
-}
-
 /// One curve for each lane, of what `y` makes of its samples.
-fn curves(lab: &Lab, x: impl Fn(&Sample) -> f64, y: impl Fn(&Sample) -> f64) -> Vec<Curve> {
+fn curves(
+    lab: &Lab,
+    x: impl Fn(&Sample) -> f64,
+    y: impl Fn(&Sample) -> f64,
+) -> Vec<Curve<'static>> {
     let curve = |(entry, history): (usize, &History)| {
         let method = lab.entries()[entry].method;
         let (rgba, dash) = palette::style(method);
@@ -119,7 +112,7 @@ fn value(ui: &mut Ui, lab: &Lab, height: f32) {
     let exact: Vec<[f64; 2]> = truth(lab).samples().map(|s| [s.t, s.q]).collect();
     let lanes = curves(lab, |s| s.t, |s| s.q);
     let y = healthy_range(1, &exact, &lanes);
-    plot("value", height).y_axis_formatter(|mark, _| tick_text(mark.value)).show(ui, |plot| {
+    plot("value", height).show(ui, |plot| {
         let bounds = bounds(lab, y);
         draw(plot, &bounds, &lanes);
         let line = Line::new("truth", PlotPoints::from(exact)).allow_hover(false);
@@ -169,32 +162,12 @@ fn phase(ui: &mut Ui, lab: &Lab, height: f32) {
     }
     let [x, y] = [0, 1].map(|axis| healthy_range(axis, &exact, &lanes));
     let formatter = |mark: egui_plot::GridMark, _: &_| tick_text(mark.value);
-    plot("phase", height).x_axis_formatter(formatter).y_axis_formatter(formatter).show(
-        ui,
-        |plot| {
-            let bounds = PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]);
-            draw(plot, &bounds, &lanes);
-            let line = Line::new("truth", PlotPoints::from(exact)).allow_hover(false);
-            plot.line(line.color(colour(palette::TRUTH)).width(1.2));
-        },
-    );
-}
-
-fn plot<'a>(id: &'static str, height: f32) -> Plot<'a> {
-    Plot::new(id)
-        .height(height)
-        .show_background(false)
-        .allow_zoom(false)
-        .allow_drag(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_double_click_reset(false)
-        .set_margin_fraction(vec2(0.0, 0.0))
-        .y_axis_min_width(52.0)
-        .custom_x_axes(vec![AxisHints::new_x().min_thickness(X_AXIS)])
-        .x_axis_formatter(|mark, _| format!("{} s", tick_text(mark.value)))
-        .grid_color(Color32::from_rgb(64, 86, 116))
-        .label_formatter(|_| None)
+    plot("phase", height).x_axis_formatter(formatter).show(ui, |plot| {
+        let bounds = PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]);
+        draw(plot, &bounds, &lanes);
+        let line = Line::new("truth", PlotPoints::from(exact)).allow_hover(false);
+        plot.line(line.color(colour(palette::TRUTH)).width(1.2));
+    });
 }
 
 /// The window of time in view, and the given range of values.
@@ -204,37 +177,8 @@ fn bounds(lab: &Lab, (low, high): (f64, f64)) -> PlotBounds {
     PlotBounds::from_min_max([(now - span).max(0.0), low], [now.max(span), high])
 }
 
-/// Draws the lanes, each cut off at the bounds, with an arrow where its newest point is beyond them.
-fn draw(plot: &mut PlotUi<'_>, bounds: &PlotBounds, lanes: &[Curve]) {
-    plot.set_plot_bounds(*bounds);
-    let ([left, low], [right, high]) = (bounds.min(), bounds.max());
-    // Far enough out for a line to leave at its own slope, near enough for the f32 of the painter.
-    let (wide, tall) = (10.0 * (right - left), 10.0 * (high - low));
-    for lane in lanes {
-        let Some(&[x, y]) = lane.points.last() else { continue };
-        let cut = |[x, y]: &[f64; 2]| {
-            [x.clamp(left - wide, right + wide), y.clamp(low - tall, high + tall)]
-        };
-        let points: Vec<[f64; 2]> = lane.points.iter().map(cut).collect();
-        let style = match lane.dash {
-            [_, 0.0] => LineStyle::Solid,
-            [drawn, _] => LineStyle::Dashed { length: drawn },
-        };
-        let line = Line::new(lane.name, PlotPoints::from(points)).allow_hover(false);
-        plot.line(line.color(lane.colour).width(1.6).style(style));
-        if y > high || y < low {
-            let (shape, inset) =
-                if y > high { (MarkerShape::Up, -0.04) } else { (MarkerShape::Down, 0.04) };
-            let edge = if y > high { high } else { low };
-            let at = [x.clamp(left, right - 0.012 * (right - left)), edge + inset * (high - low)];
-            let arrow = Points::new(lane.name, PlotPoints::from(vec![at])).allow_hover(false);
-            plot.points(arrow.shape(shape).radius(5.0).color(lane.colour));
-        }
-    }
-}
-
 /// The range of the truth along an axis, stretched to take in what is not far outside it.
-fn healthy_range(axis: usize, exact: &[[f64; 2]], lanes: &[Curve]) -> (f64, f64) {
+fn healthy_range(axis: usize, exact: &[[f64; 2]], lanes: &[Curve<'_>]) -> (f64, f64) {
     let along = |point: &[f64; 2]| point[axis];
     let (low, high) = range(exact.iter().map(along)).unwrap_or((-1.0, 1.0));
     let half = ((high - low) / 2.0).max(1e-3 * high.abs()).max(1e-9);
@@ -247,7 +191,7 @@ fn healthy_range(axis: usize, exact: &[[f64; 2]], lanes: &[Curve]) -> (f64, f64)
 }
 
 /// The decades that hold the errors, up to ten times the truth's own range: beyond that a lane is lost.
-fn log_range(lab: &Lab, lanes: &[Curve]) -> (f64, f64) {
+fn log_range(lab: &Lab, lanes: &[Curve<'_>]) -> (f64, f64) {
     let size = truth(lab).samples().map(|s| s.q.abs().max(s.v.abs())).fold(1e-300, f64::max);
     let lost = libm::log10(size).ceil() + 1.0;
     let all = lanes.iter().flat_map(|lane| lane.points.iter().map(|p| p[1]));
@@ -256,7 +200,7 @@ fn log_range(lab: &Lab, lanes: &[Curve]) -> (f64, f64) {
 }
 
 /// The range of all lanes within `most` of zero.
-fn spread(lanes: &[Curve], most: f64) -> (f64, f64) {
+fn spread(lanes: &[Curve<'_>], most: f64) -> (f64, f64) {
     let all = lanes.iter().flat_map(|lane| lane.points.iter().map(|p| p[1]));
     let (low, high) = range(all.filter(|y| y.abs() <= most)).unwrap_or((-1.0, 1.0));
     let pad = 0.08 * (high - low).max(1e-9);
@@ -278,9 +222,4 @@ fn decades(input: egui_plot::GridInput) -> Vec<egui_plot::GridMark> {
     let last = (high / step).floor() as i64;
     let mark = |i: i64| egui_plot::GridMark { value: i as f64 * step, step_size: step };
     (first..=last).map(mark).collect()
-}
-
-/// A number on an axis; what the axis computes for its zero may miss it by a rounding.
-fn tick_text(value: f64) -> String {
-    round((value * 1e9).round() / 1e9, 4)
 }

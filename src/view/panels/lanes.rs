@@ -1,13 +1,14 @@
 //! The list of methods: key, colour, what the card says, and how each is doing.
 
 use egui::{
-    Align, Align2, Color32, FontId, Id, Pos2, Rect, ScrollArea, Sense, Stroke, Ui, Vec2, pos2, vec2,
+    Align, Align2, Color32, FontId, Id, Pos2, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2,
 };
 
 use super::{QUIET, RAISED, TEXT, colour};
 use crate::lab::number::significant;
 use crate::lab::picture::palette;
 use crate::lab::{Command, Entrant, Lab, LaneSpec, METRICS, Metric, Mode};
+use crate::view::plot;
 
 const ROW: f32 = 20.0;
 const HEAD: f32 = 16.0;
@@ -227,7 +228,7 @@ const COLUMNS: &[Column] = &[
         paint: |ui, row, rect, left, column| metric(ui, row, rect, left, column, "energy_drift"),
     },
     Column {
-        head: |_| String::new(),
+        head: |lab| format!("  verdict at {} Hz", lab.clock().tick_hz()),
         width: 60.0,
         grows: true,
         from_width: 940.0,
@@ -275,19 +276,14 @@ fn metric(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column, id: &s
 
 /// A piece of the lane's line, as the plots draw it.
 fn swatch(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, _column: &Column) {
-    let (rgba, [drawn, gap]) = palette::style(row.spec.method);
+    let (rgba, dash) = palette::style(row.spec.method);
     let colour =
         if row.entrant.is_some() { colour(rgba) } else { colour(palette::faded(rgba, 0.6)) };
-    let (y, from, to) = (rect.center().y, rect.left() + left, rect.left() + left + 34.0);
-    let mut x = from;
-    while x < to {
-        let end = if gap > 0.0 { (x + drawn).min(to) } else { to };
-        ui.painter().line_segment([pos2(x, y), pos2(end, y)], Stroke::new(3.0, colour));
-        x = end + gap.max(1.0);
-    }
+    let from = pos2(rect.left() + left, rect.center().y);
+    plot::swatch(ui.painter(), from, 34.0, dash, colour);
 }
 
-/// What became of the lane.
+/// What became of the lane, or else what is to be said of its method.
 fn fate(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column) {
     let at = column.align.anchor(rect, left + 8.0, column.width);
     let (text, colour) = match row.entrant.map(|entrant| entrant.lane.halted()) {
@@ -296,7 +292,10 @@ fn fate(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column) {
             let text = format!("halted at tick {}: {body} {}", halt.tick, halt.failure);
             (text, colour(palette::ALARM))
         }
-        _ => (row.spec.method.about.to_owned(), QUIET),
+        _ => match row.lab.verdict(row.index) {
+            Some(verdict) => (verdict.to_string(), super::tone(verdict.word)),
+            None => return,
+        },
     };
     let font = FontId::proportional(11.5);
     let room = Rect::from_min_max(pos2(at.x, rect.top()), rect.max);
