@@ -1,7 +1,8 @@
 //! Linear equations: Gaussian elimination with partial pivoting, in storage that is made once.
 //!
-//! Written out because the well-kept crates allocate in every factorisation (nalgebra) or take longer to
-//! compile than everything else here (faer); a body has few coordinates, and this is forty lines.
+//! Written out because nalgebra allocates in every factorisation of a size not known to the compiler, and
+//! faer would be many times the size of this whole layer; a body has few coordinates, and this is forty
+//! lines.
 
 /// A square matrix and, after [`Lu::factor`], its triangular factors in the same place.
 pub(super) struct Lu {
