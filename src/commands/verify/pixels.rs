@@ -94,14 +94,8 @@ pub(super) fn judge(
     let progress = progress(frames);
     let mut lab = recording.lab(experiment);
     let mut logbook = Logbook::new(u64::MAX, &lab);
-    let run = Run {
-        artist,
-        lab: &mut lab,
-        logbook: &mut logbook,
-        schedule,
-        first: 0,
-        interrupted: &interrupted,
-    };
+    let run =
+        Run { artist, lab: &mut lab, logbook: &mut logbook, schedule, interrupted: &interrupted };
     let (mut entries, mut changes) = (manifest.frames.iter(), Vec::new());
     let size_px = recording.size_px;
     let drawn = run.to_end(|drawn| {
