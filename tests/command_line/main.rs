@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 mod capture;
+mod formats;
 mod list;
 mod manifest;
 mod mishaps;
