@@ -53,7 +53,7 @@ pub(super) fn record(
     };
     let written =
         Movie::begin(format, &mut outlet, &recording).map_err(Stop::Taken).and_then(|mut movie| {
-            let done = run.to_end(|drawn| {
+            let done = run.draw_all(|drawn| {
                 movie.push(&drawn.rgba)?;
                 progress.inc(1);
                 Ok(())

@@ -48,7 +48,7 @@ pub(super) struct Run<'a> {
 
 impl Run<'_> {
     /// Draws every frame and has `take` take it. Returns how many frames were drawn.
-    pub(super) fn to_end<E: Send>(
+    pub(super) fn draw_all<E: Send>(
         self,
         mut take: impl FnMut(&Drawn) -> Result<(), E> + Send,
     ) -> Result<u32, Stop<E>> {
@@ -137,7 +137,7 @@ mod tests {
         let mut logbook = Logbook::new(1, &lab);
         let (lab, logbook) = (&mut lab, &mut logbook);
         let run = Run { artist, lab, logbook, schedule: SCHEDULE, interrupted };
-        run.to_end(take)
+        run.draw_all(take)
     }
 
     #[test]

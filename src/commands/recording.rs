@@ -81,7 +81,7 @@ pub(super) fn record(
         schedule,
         interrupted: &interrupted,
     };
-    let drawn = run.to_end(|drawn| {
+    let drawn = run.draw_all(|drawn| {
         folder.push(&png::encode(size_px, &drawn.rgba))?;
         let file = frame_name(entries.len() as u32);
         entries.push(entry(file, drawn.tick, drawn.alpha, &drawn.rgba));

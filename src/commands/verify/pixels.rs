@@ -98,7 +98,7 @@ pub(super) fn judge(
         Run { artist, lab: &mut lab, logbook: &mut logbook, schedule, interrupted: &interrupted };
     let (mut entries, mut changes) = (manifest.frames.iter(), Vec::new());
     let size_px = recording.size_px;
-    let drawn = run.to_end(|drawn| {
+    let drawn = run.draw_all(|drawn| {
         let entry = entries.next().expect("as many frames are drawn as are listed");
         let change = compare(entry, size_px, &drawn.rgba, limits, folder)?;
         changes.extend(change.map(|what| FrameChange { file: entry.file.clone(), what }));
