@@ -19,7 +19,8 @@ pub(super) enum Existing {
     Refuse,
     /// Frames make way for the new ones; other entries stay.
     Replace,
-    /// Frames from the first on, without a gap, stay; whatever else a capture left makes way.
+    /// Frames from the first on, without a gap, stay, and so does a manifest; whatever else a capture
+    /// left makes way.
     Continue,
 }
 
@@ -108,6 +109,8 @@ impl FrameFolder {
             return Err(FrameFolderError::NotEmpty { path: path.to_owned() });
         }
         if existing == Existing::Continue {
+            // The manifest of what is there holds until another is whole.
+            folder.old.retain(|name| name != manifest::FILE_NAME);
             folder.kept = (0..MOST_FRAMES)
                 .find(|&frame| !folder.old.contains(&frame_name(frame).into()))
                 .unwrap_or(MOST_FRAMES);

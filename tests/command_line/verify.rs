@@ -1,6 +1,7 @@
 //! `verify`: what is the same, what is another, and what cannot be judged.
 
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use regatta::commands::manifest::{Manifest, fingerprint};
@@ -191,6 +192,34 @@ fn another_driver_is_said_and_has_its_limits() {
     assert!(stderr.starts_with("drawn then with another card ("), "{stderr}");
     assert!(stderr.contains("a channel may differ by 2, and 0.01 % "), "{stderr}");
     assert!(stdout.ends_with("pixels: same within the limits: 7 frames\n"), "{stdout}");
+}
+
+/// Mesa draws in software under both interfaces; elsewhere one of them may be missing.
+#[cfg(target_os = "linux")]
+#[test]
+fn opengl_draws_what_vulkan_drew_within_the_limits() {
+    let test = "opengl_draws_what_vulkan_drew_within_the_limits";
+    let folder = tempfile::tempdir().unwrap();
+    let with = |backend: &str, arguments: &str| {
+        let mut command = regatta();
+        command.current_dir(folder.path()).env("WGPU_BACKEND", backend);
+        command.args(arguments.split(' ')).output().unwrap()
+    };
+    let capture = "capture --scene harbour --race --frames 9 --fps 3 --size 640x360 --out clip";
+    for (backend, arguments) in [("vulkan", capture), ("gl", "verify clip --diff off")] {
+        let output = with(backend, arguments);
+        let said = stderr(&output);
+        if said.contains("no usable graphics adapter") {
+            let _ = writeln!(io::stderr(), "SKIPPED {test}: {said}");
+            return;
+        }
+        let stdout = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{stdout}{said}");
+        if backend == "gl" {
+            assert!(said.starts_with("drawn then with "), "{said}");
+            assert!(stdout.starts_with("physics: same to the bit: "), "{stdout}");
+        }
+    }
 }
 
 #[test]
