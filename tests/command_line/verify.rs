@@ -146,6 +146,13 @@ fn a_changed_constant_is_a_change_of_physics_at_the_first_tick() {
     assert_eq!(code, Some(1));
     assert!(stdout.starts_with("physics: differs first at tick 1: lane 1, "), "{stdout}");
     assert!(stderr.contains("the built-in scene spring is another"), "{stderr}");
+    let verify = regatta()
+        .current_dir(folder.path())
+        .env("WGPU_BACKEND", "dx12")
+        .args(["verify", "clip"])
+        .output()
+        .unwrap();
+    assert_eq!(verify.status.code(), Some(1), "different, though the pixels cannot be judged");
 }
 
 #[test]
@@ -167,6 +174,10 @@ fn what_cannot_be_judged_says_why() {
     refused(&|manifest| manifest.settings.scene.text.push(' '), "the scene's text was altered");
     refused(&|manifest| manifest.settings.scale = 0.75, "its settings were altered");
     refused(&|manifest| manifest.schema = 9, "it is of schema 9, and this program reads 1");
+    refused(
+        &|manifest| manifest.frames[1].file = "../x.png".into(),
+        "in the place of frame-000001",
+    );
     let rehash = |manifest: &mut Manifest| manifest.settings_hash = manifest.settings.hash();
     refused(
         &|manifest| {
@@ -174,6 +185,13 @@ fn what_cannot_be_judged_says_why() {
             rehash(manifest);
         },
         "this program has no method \"rk5\"",
+    );
+    refused(
+        &|manifest| {
+            manifest.settings.scale = 0.0;
+            rehash(manifest);
+        },
+        "its scale is out of range",
     );
     for (text, said) in [("{", "it is no JSON"), ("{}", "does not name its schema")] {
         fs::write(manifest_of(folder.path()), text).unwrap();
