@@ -20,6 +20,9 @@ pub const LONGEST_HORIZON_S: f64 = 60.0;
 /// Moments at which a lane is held against the truth: some twenty a turn of what turns once a second.
 const MOMENTS: u64 = 512;
 
+/// An error in amplitudes that no lane makes which only lags or leads: twice the range of the motion.
+const ASTRAY: f64 = 4.0;
+
 /// States of the true motion over which a nonlinear body's stability is averaged.
 const STATES: u32 = 32;
 
@@ -96,6 +99,11 @@ impl Judge {
     /// and, of a nonlinear body, in the mean over its true motion. `None` where the method cannot get
     /// through its first ticks.
     pub fn stability(&self, spec: LaneSpec, tick_hz: u32) -> Option<Stability> {
+        Some(self.over_the_motion(spec, tick_hz)?.0)
+    }
+
+    /// The same, and whether all bodies are linear.
+    fn over_the_motion(&self, spec: LaneSpec, tick_hz: u32) -> Option<(Stability, bool)> {
         let each = self.truth().into_iter().map(|mut body| {
             let h = 1.0 / f64::from(tick_hz);
             let of = |body: &dyn Stepper, t: f64| {
@@ -109,13 +117,13 @@ impl Judge {
                 body.advance(t, stretch, 1).ok()?;
                 states.push(of(&*body, t + stretch)?);
                 if i == 0 && alike(&states[0], &states[1]) {
-                    return Some(states[0]);
+                    return Some((states[0], true));
                 }
             }
-            Some(mean(&states))
+            Some((mean(&states), false))
         });
-        let all: Option<Vec<Stability>> = each.collect();
-        all?.into_iter().reduce(worse)
+        let all: Option<Vec<(Stability, bool)>> = each.collect();
+        all?.into_iter().reduce(|(a, a_linear), (b, b_linear)| (worse(a, b), a_linear && b_linear))
     }
 
     /// How a lane fares over the horizon at this tick rate, but no further than the error is within [`TOLERANCE`].
@@ -123,9 +131,14 @@ impl Judge {
         self.run(spec, tick_hz, self.horizon_s, TOLERANCE)
     }
 
-    /// Whether no body's deviations grow.
+    /// Whether no body's deviations grow and, where one is nonlinear and small deviations do not tell
+    /// all, none strays further than twice the range of its motion.
     pub fn is_stable(&self, spec: LaneSpec, tick_hz: u32) -> bool {
-        self.stability(spec, tick_hz).is_some_and(|stability| stability.is_bounded())
+        let Some((stability, is_linear)) = self.over_the_motion(spec, tick_hz) else {
+            return false;
+        };
+        stability.is_bounded()
+            && (is_linear || self.run(spec, tick_hz, self.horizon_s, ASTRAY).error <= ASTRAY)
     }
 
     /// Coordinates of all bodies together.

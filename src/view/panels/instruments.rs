@@ -18,6 +18,8 @@ const HEALTHY: f64 = 1.6;
 const FLOOR: f64 = -17.0;
 /// From this width on, in points, bodies and instruments are tabs.
 const ROOM_FOR_TABS: f32 = 430.0;
+/// And from this width on all instruments fit in one row.
+const ROOM_FOR_ONE_ROW: f32 = 620.0;
 /// From this height on, in points, both plots can be read; below, the stage has to show the value.
 const ROOM_FOR_BOTH: f32 = 200.0;
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
@@ -34,11 +36,11 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             ui.add(Label::new(RichText::new(title).color(QUIET)).truncate());
         });
         value(ui, lab, height * 0.5 - 26.0);
-        ui.horizontal(|ui| instrument_choice(ui, lab, commands));
+        ui.horizontal_wrapped(|ui| instrument_choice(ui, lab, ROOM_FOR_TABS, commands));
     } else {
         ui.horizontal(|ui| {
             body_choice(ui, lab, commands);
-            instrument_choice(ui, lab, commands);
+            instrument_choice(ui, lab, ROOM_FOR_ONE_ROW, commands);
         });
     }
     let room = (ui.available_height() - 2.0).max(10.0);
@@ -52,22 +54,25 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
     let options: Vec<_> = (0..).map(Command::Body).zip(names).collect();
-    choice(ui, "body", &options, Command::Body(lab.display().body), commands);
+    let chosen = Command::Body(lab.display().body);
+    choice(ui, "body", &options, chosen, ROOM_FOR_TABS, commands);
 }
 
-fn instrument_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn instrument_choice(ui: &mut Ui, lab: &Lab, room: f32, commands: &mut Vec<Command>) {
     let option = |instrument: Instrument| (Command::Instrument(instrument), instrument.name());
     let options: Vec<_> = Instrument::all().map(option).collect();
     ui.spacing_mut().button_padding.x = 3.0;
-    choice(ui, "instrument", &options, Command::Instrument(lab.display().instrument), commands);
+    let chosen = Command::Instrument(lab.display().instrument);
+    choice(ui, "instrument", &options, chosen, room, commands);
 }
 
-/// Offers commands by name: as tabs where they fit, else as a menu.
+/// Offers commands by name: as tabs from `room` points on, else as a menu.
 fn choice(
     ui: &mut Ui,
     id: &str,
     options: &[(Command, &str)],
     chosen: Command,
+    room: f32,
     commands: &mut Vec<Command>,
 ) {
     let mut offer = |ui: &mut Ui| {
@@ -77,11 +82,10 @@ fn choice(
             }
         }
     };
-    if ui.available_width() >= ROOM_FOR_TABS || options.len() == 1 {
-        ui.scope(|ui| {
-            ui.spacing_mut().item_spacing.x = 0.0;
-            offer(ui);
-        });
+    if ui.available_width() >= room || options.len() == 1 {
+        let spacing = std::mem::replace(&mut ui.spacing_mut().item_spacing.x, 0.0);
+        offer(ui);
+        ui.spacing_mut().item_spacing.x = spacing;
     } else {
         let name = options.iter().find(|(command, _)| *command == chosen).map(|(_, name)| *name);
         ComboBox::from_id_salt(id).selected_text(name.unwrap_or_default()).show_ui(ui, offer);
