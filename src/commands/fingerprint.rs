@@ -4,17 +4,16 @@
 /// last one filled up with zeros, and folded after each by `hash ^= hash >> 32`; the number of bytes is
 /// the first word. A change of any one word changes the hash.
 pub fn fingerprint(bytes: &[u8]) -> String {
-    let word = |chunk: &[u8]| {
-        let mut word = [0; 8];
-        word[..chunk.len()].copy_from_slice(chunk);
-        u64::from_le_bytes(word)
-    };
     let fold = |hash: u64, word: u64| {
         let hash = (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3);
         hash ^ (hash >> 32)
     };
+    let (words, rest) = bytes.as_chunks::<8>();
+    let mut last = [0; 8];
+    last[..rest.len()].copy_from_slice(rest);
     let start = fold(0xcbf2_9ce4_8422_2325, bytes.len() as u64);
-    let hash = bytes.chunks(8).fold(start, |hash, chunk| fold(hash, word(chunk)));
+    let hash = words.iter().fold(start, |hash, word| fold(hash, u64::from_le_bytes(*word)));
+    let hash = if rest.is_empty() { hash } else { fold(hash, u64::from_le_bytes(last)) };
     format!("{hash:016x}")
 }
 

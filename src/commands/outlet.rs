@@ -29,7 +29,8 @@ impl Outlet {
             }
             return Ok(Outlet::Stdout(BufWriter::new(io::stdout())));
         }
-        let is_taken = fs::symlink_metadata(path).is_ok_and(|entry| entry.is_dir() || !replace);
+        // A device or a link is nothing to be replaced by a picture.
+        let is_taken = fs::symlink_metadata(path).is_ok_and(|entry| !entry.is_file() || !replace);
         if is_taken {
             return Err(CaptureError::Taken { path: path.to_owned() });
         }

@@ -33,6 +33,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             let truth = &lab.race().truth().bodies()[lab.display().body];
             let (coordinate, words) = (&truth.coordinates[0], truth.truth_in_words());
             let title = format!("{} ({}), {words} in white", coordinate.name, coordinate.unit);
+            ui.add_space(6.0);
             ui.add(Label::new(RichText::new(title).color(QUIET)).truncate());
         });
         value(ui, lab, height * 0.5 - 26.0);

@@ -72,9 +72,12 @@ fn offset_to_follow(ui: &Ui, lab: &Lab) -> Option<f32> {
         data.insert_temp(id, active);
         known
     });
-    let hidden = (ROW * lab.entries().len() as f32 - ui.available_height()).max(0.0);
-    let centred = ROW * (active as f32 + 0.5) - ui.available_height() / 2.0;
-    (known != Some(active)).then(|| centred.clamp(0.0, hidden))
+    let room = ui.available_height();
+    let bottom = ROW * (active + 1) as f32;
+    let hidden = (ROW * lab.entries().len() as f32 - room).max(0.0);
+    // From the top, as long as the row is in sight there: a race shows its lanes.
+    let offset = if bottom <= room { 0.0 } else { bottom - (ROW + room) / 2.0 };
+    (known != Some(active)).then(|| offset.clamp(0.0, hidden))
 }
 
 /// One line of the list.
