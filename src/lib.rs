@@ -18,7 +18,9 @@
 //! - `view` is pixels: a graphics device, two pipelines for the stage, panels in egui, and
 //!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
 //!   and differ only in where time comes from and where the texture goes.
-//! - `window` and `commands` are the drivers: they alone touch files and real time.
+//! - `window` and `commands` are the drivers: they alone touch files and real time. A capture's frames
+//!   pass from the thread that draws to one that encodes (`commands/pipeline.rs`); what it drew is in a
+//!   manifest (`commands::manifest` has the schema), by which `regatta verify` judges.
 //!
 //! `view`, `window` and `commands` are there with the default feature `desktop`. Without it the
 //! package is `sim` and `lab`, pulls in no graphics crate, and builds in seconds: what a game's own

@@ -285,3 +285,14 @@ fn each_lane_has_the_hash_of_a_race_of_its_own() {
     let alone = solos.iter().map(|lab| lab.race().state_hash());
     assert!(race.race().lane_hashes().eq(alone));
 }
+
+#[test]
+fn the_recipe_in_the_readme_has_its_hash() {
+    let mut lab = Lab::new(built_in("stiff"));
+    for _ in 0..600 {
+        lab.tick();
+    }
+    let hash = format!("\"{:016x}\"", lab.race().state_hash());
+    let readme = include_str!("../README.md");
+    assert!(readme.contains(&hash), "the README's test expects another hash than {hash}");
+}

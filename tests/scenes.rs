@@ -5,8 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use regatta::lab::{
-    Command, LAST_TICK, Lab, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ, SCENES,
-    Scene, SceneBody, TICK_LADDER,
+    Command, LAST_TICK, Lab, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ, Race,
+    SCENES, Scene, SceneBody, TICK_LADDER,
 };
 use regatta::sim::bodies::Chain;
 use regatta::sim::integrators::{METHODS, method};
@@ -52,7 +52,7 @@ fn every_built_in_scene_parses_names_its_methods_and_says_what_to_try() {
         assert!((2..=9).contains(&parsed.lanes.len()), "{}", scene.name);
         // By name, so that a new method changes no scene.
         assert!(scene.text.contains("\nmethods = ["), "{}", scene.name);
-        assert!(parsed.lanes.contains(&LaneSpec { method: &METHODS[0], substeps: 1 }));
+        assert!(parsed.lanes.contains(&LaneSpec::plain(&METHODS[0])));
     }
     assert!(Scene::built_in("no-such-scene").is_none());
 }
@@ -289,12 +289,39 @@ fn a_scene_without_lanes_races_every_method_and_optional_keys_have_defaults() {
 
 #[test]
 fn lanes_keep_their_order_and_differ_by_method_or_substeps() {
-    let lane = |id, substeps| LaneSpec { method: method(id).unwrap(), substeps };
+    let lane = |id, substeps| LaneSpec { substeps, ..LaneSpec::plain(method(id).unwrap()) };
     let scene = parse_body(&format!("methods = ['rk4', 'explicit-euler']\n{SPRING}"));
     assert_eq!(scene.lanes, [lane("rk4", 1), lane("explicit-euler", 1)]);
     let lanes = "[[lane]]\nmethod = 'rk4'\n[[lane]]\nmethod = 'rk4'\nsubsteps = 1000\n";
     let scene = parse_body(&format!("{lanes}{SPRING}"));
     assert_eq!(scene.lanes, [lane("rk4", 1), lane("rk4", 1000)]);
+}
+
+#[test]
+fn a_lane_sails_within_the_tolerance_that_it_is_given() {
+    let lane = "[[lane]]\nmethod = 'dormand-prince-54'\n";
+    let lanes = format!("{lane}{lane}tolerance = 1\n{lane}tolerance = 1e-12\n{lane}substeps = 2\n");
+    let mut scene = parse_body(&format!("{lanes}{SPRING}"));
+    let given: Vec<_> = scene.lanes.iter().map(|lane| lane.tolerance).collect();
+    assert_eq!(given, [None, Some(1.0), Some(1e-12), None]);
+    scene.tick_hz = 2;
+
+    let mut race = Race::new(&scene, scene.lanes.iter().copied().enumerate());
+    // The last one comes into its tolerance on the way.
+    race.switch(3, 2, scene.lanes[2]);
+    for _ in 0..20 {
+        race.step();
+    }
+    let truth = race.truth().bodies()[0].stepper.q()[0];
+    let of_lane = |i: usize| {
+        let lane = &race.entrants()[i].lane;
+        assert_eq!(lane.solver(), scene.lanes[i.min(2)].solver());
+        ((lane.bodies()[0].stepper.q()[0] - truth).abs(), lane.evaluations())
+    };
+    let [plain, loose, tight, switched] = [0, 1, 2, 3].map(of_lane);
+    assert!(loose.0 > 1e-3 && plain.0 < 1e-4 && tight.0 < 1e-9, "{loose:?} {plain:?} {tight:?}");
+    assert!(loose.1 < plain.1 && plain.1 < tight.1, "{loose:?} {plain:?} {tight:?}");
+    assert_eq!(switched, tight);
 }
 
 #[test]

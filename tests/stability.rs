@@ -268,7 +268,7 @@ fn a_method_with_memory_shows_the_map_of_state_and_memory_together() {
 /// On a built-in scene, over all of its motion.
 fn over_the_motion(scene: &str, id: &str, tick_hz: u32) -> Stability {
     let judge = Judge::new(&Scene::built_in(scene).expect("a built-in scene"), 1.0);
-    let spec = LaneSpec { method: method(id).expect("a method"), substeps: 1 };
+    let spec = LaneSpec::plain(method(id).expect("a method"));
     judge.stability(spec, tick_hz).expect("it gets through its first ticks")
 }
 

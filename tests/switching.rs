@@ -11,7 +11,7 @@ fn scene(name: &str) -> Scene {
 }
 
 fn solo(scene: &Scene, id: &str) -> Race {
-    Race::new(scene, [(0, LaneSpec { method: method(id).unwrap(), substeps: 1 })])
+    Race::new(scene, [(0, LaneSpec::plain(method(id).unwrap()))])
 }
 
 fn bits(lane: &Lane) -> Vec<u64> {
@@ -33,12 +33,12 @@ fn a_switch_carries_the_state_to_the_bit() {
             let mut race = solo(&scene("harbour"), from.id);
             run(&mut race, 100);
             let (before, hash) = (bits(&race.entrants()[0].lane), race.state_hash());
-            race.switch(0, 1, LaneSpec { method: to, substeps: 1 });
+            race.switch(0, 1, LaneSpec::plain(to));
             let lane = &race.entrants()[0].lane;
             assert_eq!(bits(lane), before, "{} to {}", from.id, to.id);
             assert_eq!(lane.solver(), Solver::Method(to));
             assert_eq!(race.state_hash(), hash);
-            race.switch(0, 0, LaneSpec { method: from, substeps: 1 });
+            race.switch(0, 0, LaneSpec::plain(from));
             assert_eq!(race.state_hash(), hash, "{} to {} and back", from.id, to.id);
         }
     }
@@ -52,8 +52,8 @@ fn there_and_back_in_one_tick_changes_nothing_that_follows() {
         let mut detour = solo(&scene("harbour"), method.id);
         run(&mut straight, 500);
         run(&mut detour, 100);
-        detour.switch(0, 1, LaneSpec { method: METHODS.last().unwrap(), substeps: 3 });
-        detour.switch(0, 0, LaneSpec { method, substeps: 1 });
+        detour.switch(0, 1, LaneSpec { substeps: 3, ..LaneSpec::plain(METHODS.last().unwrap()) });
+        detour.switch(0, 0, LaneSpec::plain(method));
         run(&mut detour, 400);
         assert_eq!(detour.state_hash(), straight.state_hash(), "{}", method.id);
     }
@@ -74,7 +74,7 @@ fn goes_on_as_if_started_there(from: &'static Method, to: &'static Method, chang
     run(&mut race, 77);
     change(&mut race);
     if from != to {
-        race.switch(0, 0, LaneSpec { method: to, substeps: 1 });
+        race.switch(0, 0, LaneSpec::plain(to));
     }
     let State { q, v } = state(&race.entrants()[0].lane);
     let mut there = scene.clone();
@@ -132,7 +132,7 @@ fn to_set_the_tick_rate_that_is_set_already_changes_nothing() {
 fn evaluations_go_on_counting_across_a_switch() {
     let mut race = solo(&scene("spring"), "rk4");
     run(&mut race, 10);
-    race.switch(0, 1, LaneSpec { method: method("explicit-euler").unwrap(), substeps: 1 });
+    race.switch(0, 1, LaneSpec::plain(method("explicit-euler").unwrap()));
     run(&mut race, 5);
     assert_eq!(race.entrants()[0].lane.evaluations(), 4 * 10 + 5);
 }
@@ -246,7 +246,7 @@ fn a_halted_lane_that_is_switched_goes_on_from_its_last_good_state() {
     let last = bits(&race.entrants()[0].lane);
     run(&mut race, 10);
     assert_eq!(bits(&race.entrants()[0].lane), last, "a halted lane stays where it is");
-    race.switch(0, 1, LaneSpec { method: method("rk4").unwrap(), substeps: 1 });
+    race.switch(0, 1, LaneSpec::plain(method("rk4").unwrap()));
     assert_eq!(race.entrants()[0].lane.halted(), None);
     assert_eq!(bits(&race.entrants()[0].lane), last);
     run(&mut race, 1000);
@@ -263,7 +263,7 @@ fn a_throttle_set_while_a_lane_was_halted_holds_when_it_goes_on() {
     let last = bits(&race.entrants()[0].lane);
     race.input(Input::Kick(1.0));
     assert_eq!(bits(&race.entrants()[0].lane), last, "a halted lane feels no kick");
-    race.switch(0, 1, LaneSpec { method: method("rk4").unwrap(), substeps: 1 });
+    race.switch(0, 1, LaneSpec::plain(method("rk4").unwrap()));
     run(&mut race, 3000);
     // After 30 time constants both ships have the speed that the throttle asks for.
     let (lane, truth) = (state(&race.entrants()[0].lane), state(race.truth()));
@@ -278,11 +278,14 @@ fn solo_to_race_and_back_flies_the_method_that_was_selected() {
         lab.apply(Command::Method(method));
         lab.apply(Command::ToggleRace);
         assert_eq!(lab.mode(), Mode::Race);
-        assert_eq!(lab.race().entrants().len(), lab.entries().len());
+        let guest = lab.scene().lanes.iter().all(|spec| spec.method != method);
+        assert_eq!(lab.race().entrants().len(), lab.scene().lanes.len() + usize::from(guest));
         for _ in 0..50 {
             lab.tick();
         }
-        let selected = &lab.race().entrants()[lab.active()].lane;
+        let active = lab.active();
+        let mut entrants = lab.race().entrants().iter();
+        let selected = &entrants.find(|entrant| entrant.entry == active).unwrap().lane;
         assert_eq!(selected.solver(), Solver::Method(method));
         let before = bits(selected);
         lab.apply(Command::ToggleRace);

@@ -54,7 +54,7 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(Lineup::Everyone)?;
     let scene = &experiment.scene;
     let specs = if args.experiment.names_no_method() {
-        METHODS.iter().map(|method| LaneSpec { method, substeps: 1 }).collect()
+        METHODS.iter().map(LaneSpec::plain).collect()
     } else {
         args.experiment.lanes_named(scene)
     };

@@ -9,9 +9,11 @@ use clap::{Args, ValueEnum};
 use super::Error;
 use super::experiment::{self, ExperimentArgs, Lineup};
 use super::frame_folder::{Existing, FrameFolder, FrameFolderError, MOST_FRAMES};
-use super::logbook;
+use super::movie::{self, MOST_GIF_FPS, MovieFormat};
+use super::outlet::Outlet;
 use super::recording::{Recording, record};
 use super::voyage::Schedule;
+use super::{logbook, sheet};
 use crate::view::{GpuError, Panels, ReadbackError};
 
 const EXAMPLES: &str = "\
@@ -21,7 +23,8 @@ written last, says what was drawn; `regatta verify` judges by it.
 Examples:
   regatta capture --scene spring --race --out clip
   regatta capture --scene ship --method rk4 --frames 1 --size 1920x1080 --out still
-  ffmpeg -framerate 30 -i clip/frame-%06d.png -pix_fmt yuv420p clip.mp4";
+  regatta capture --scene stiff --race --format sheet --out stiff.png
+  regatta capture --race --format y4m --out - | ffmpeg -i - -pix_fmt yuv420p race.mp4";
 
 /// Draw a run into numbered pictures, without a window
 #[derive(Debug, Args)]
@@ -34,11 +37,12 @@ pub(super) struct CaptureArgs {
     #[arg(long)]
     race: bool,
 
-    /// The directory for frame-000000.png and so on; made where there is none
-    #[arg(long, value_name = "DIR")]
+    /// The directory for frame-000000.png and so on, made where there is none; in other formats than
+    /// png a file, or - for standard output
+    #[arg(long, value_name = "DIR|FILE")]
     out: PathBuf,
 
-    /// How many frames to draw, 1 to 1000000
+    /// How many frames to draw, 1 to 1000000; in a sheet how many across [sheet: 6]
     #[arg(long, value_name = "N", conflicts_with = "seconds")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_FRAMES)))]
     frames: Option<u32>,
@@ -48,33 +52,34 @@ pub(super) struct CaptureArgs {
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// Frames in a simulated second, 1 to 1000
-    #[arg(long, value_name = "F", default_value_t = FPS)]
+    /// Frames in a simulated second, 1 to 1000 [default: 30; sheet: 1]
+    #[arg(long, value_name = "F")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
-    fps: u32,
+    fps: Option<u32>,
 
-    /// Width and height in pixels, 1x1 to 8192x8192
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
-    size: [u32; 2],
+    /// Width and height in pixels, 1x1 to 8192x8192; in a sheet of each cell [default: 1280x720;
+    /// sheet: 320x180]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<[u32; 2]>,
 
     /// Pixels to a point, 0.5 to 4: the size of text and lines
     #[arg(long, value_name = "S", default_value = "1", value_parser = scale)]
     scale: f32,
 
-    /// Whether panels are shown around the stage: on or off
-    #[arg(long, value_name = "WHEN", default_value = "on", hide_possible_values = true)]
-    panels: Shown,
+    /// Whether panels are shown around the stage: on or off [default: on; sheet: off]
+    #[arg(long, value_name = "WHEN", hide_possible_values = true)]
+    panels: Option<Shown>,
 
     /// Ticks from one state in the manifest to the next [default: about 500 states in all]
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     mark_every: Option<u64>,
 
-    /// How to write pictures: png
+    /// How to write pictures: png, apng, gif, y4m, rgba or sheet
     #[arg(long, value_name = "FORMAT", default_value = "png", hide_possible_values = true)]
     format: PictureFormat,
 
-    /// Replace the frames that DIR holds; other files in it stay
+    /// Replace the frames that DIR holds, other files in it stay; or replace FILE
     #[arg(long)]
     force: bool,
 
@@ -83,9 +88,27 @@ pub(super) struct CaptureArgs {
     resume: bool,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum PictureFormat {
+    /// Numbered pictures and a manifest in a directory
     Png,
+    /// One animated PNG
+    Apng,
+    /// One GIF, each frame with a palette of its own
+    Gif,
+    /// YUV4MPEG2, for a video encoder
+    Y4m,
+    /// Raw RGBA bytes, for a video encoder
+    Rgba,
+    /// One picture, time across, lanes down
+    Sheet,
+}
+
+impl PictureFormat {
+    /// What a sheet wants instead of what all others do.
+    fn or_sheet<T>(self, others: T, sheet: T) -> T {
+        if self == PictureFormat::Sheet { sheet } else { others }
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -96,6 +119,12 @@ enum Shown {
 
 /// Smooth enough for every scene, at half the files and half the time of 60.
 pub(super) const FPS: u32 = 30;
+
+/// A moment a second: enough to see a method go astray on every scene.
+const SHEET_FPS: u32 = 1;
+
+/// As many cells as stand beside each other on a page.
+const SHEET_COLUMNS: u32 = 6;
 
 /// The longest side of a frame in pixels: what nearly every adapter can draw on.
 const LONGEST_SIDE_PX: u32 = 8192;
@@ -145,6 +174,24 @@ pub enum CaptureError {
     /// A frame was drawn but did not come back.
     #[error(transparent)]
     Readback(#[from] ReadbackError),
+    /// A file that would be replaced, or a directory.
+    #[error("{} is there already; give another --out, or --force to replace a file", .path.display())]
+    Taken {
+        /// The path.
+        path: PathBuf,
+    },
+    /// Bytes that are no text would go to a terminal.
+    #[error("pictures do not go to a terminal; give --out FILE, or send standard output elsewhere")]
+    Terminal,
+    /// Only a directory can be taken up again.
+    #[error("only pictures in a directory can be resumed; leave out --resume, or --format")]
+    NotResumable,
+    /// A GIF would be played slower.
+    #[error("a GIF has at most {MOST_GIF_FPS} frames a second, not {fps}; give a lower --fps")]
+    TooFastForGif {
+        /// Asked for.
+        fps: u32,
+    },
     /// Standard output took no more.
     #[error("cannot write to standard output: {0}")]
     Output(#[from] io::Error),
@@ -167,6 +214,10 @@ impl CaptureError {
         match self {
             CaptureError::TooManyFrames { .. }
             | CaptureError::TooManyPixels { .. }
+            | CaptureError::Taken { .. }
+            | CaptureError::Terminal
+            | CaptureError::NotResumable
+            | CaptureError::TooFastForGif { .. }
             | CaptureError::Folder(
                 FrameFolderError::NotEmpty { .. }
                 | FrameFolderError::NotADirectory { .. }
@@ -180,19 +231,23 @@ impl CaptureError {
 }
 
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
-    let lineup = if args.race { Lineup::Everyone } else { Lineup::Solo };
+    let format = args.format;
+    let everyone = args.race || format == PictureFormat::Sheet && args.experiment.names_no_method();
+    let lineup = if everyone { Lineup::Everyone } else { Lineup::Solo };
     let experiment = args.experiment.load(lineup)?;
-    let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
-    let frames = match args.frames {
-        Some(frames) => frames,
-        None => frames_in(seconds, args.fps)?,
+    let fps = args.fps.unwrap_or(format.or_sheet(FPS, SHEET_FPS));
+    let frames = match (args.frames, args.seconds) {
+        (Some(frames), _) => frames,
+        (None, Some(seconds)) => frames_in(seconds, fps)?,
+        (None, None) if format == PictureFormat::Sheet => SHEET_COLUMNS,
+        (None, None) => frames_in(experiment.scene.seconds, fps)?,
     };
-    let schedule = Schedule { frames, fps: args.fps };
+    let schedule = Schedule { frames, fps };
     let recording = Recording {
         schedule,
-        size_px: args.size,
+        size_px: args.size.unwrap_or(format.or_sheet([1280, 720], [320, 180])),
         scale: args.scale,
-        panels: match args.panels {
+        panels: match args.panels.unwrap_or(format.or_sheet(Shown::On, Shown::Off)) {
             Shown::On => Panels::Shown,
             Shown::Off => Panels::Off,
         },
@@ -201,14 +256,33 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
             .mark_every
             .unwrap_or_else(|| logbook::usual_stride(schedule.ticks(experiment.scene.tick_hz))),
     };
-    let PictureFormat::Png = args.format;
-    let existing = match (args.force, args.resume) {
-        (true, _) => Existing::Replace,
-        (_, true) => Existing::Continue,
-        _ => Existing::Refuse,
+    if format != PictureFormat::Png && args.resume {
+        return Err(CaptureError::NotResumable.into());
+    }
+    let movie = match format {
+        PictureFormat::Png => {
+            let existing = match (args.force, args.resume) {
+                (true, _) => Existing::Replace,
+                (_, true) => Existing::Continue,
+                _ => Existing::Refuse,
+            };
+            let folder = FrameFolder::inspect(&args.out, existing).map_err(CaptureError::from)?;
+            return Ok(record(&experiment, recording, folder)?);
+        }
+        PictureFormat::Sheet => {
+            let outlet = Outlet::open(&args.out, args.force)?;
+            return Ok(sheet::draw(&experiment, recording, outlet)?);
+        }
+        PictureFormat::Gif if fps > MOST_GIF_FPS => {
+            return Err(CaptureError::TooFastForGif { fps }.into());
+        }
+        PictureFormat::Gif => MovieFormat::Gif,
+        PictureFormat::Apng => MovieFormat::Apng,
+        PictureFormat::Y4m => MovieFormat::Y4m,
+        PictureFormat::Rgba => MovieFormat::Rgba,
     };
-    let folder = FrameFolder::inspect(&args.out, existing).map_err(CaptureError::from)?;
-    Ok(record(&experiment, recording, folder)?)
+    let outlet = Outlet::open(&args.out, args.force)?;
+    Ok(movie::record(&experiment, recording, movie, outlet)?)
 }
 
 /// How many frames cover this many seconds; the start is one of them in any case.

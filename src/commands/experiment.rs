@@ -85,7 +85,7 @@ fn lanes_of(scene: &Scene, methods: &[&'static Method]) -> Vec<LaneSpec> {
         let listed = lanes.len();
         lanes.extend(scene.lanes.iter().filter(|lane| lane.method == method));
         if lanes.len() == listed {
-            lanes.push(LaneSpec { method, substeps: 1 });
+            lanes.push(LaneSpec::plain(method));
         }
     }
     lanes

@@ -19,7 +19,8 @@ pub(super) enum Existing {
     Refuse,
     /// Frames make way for the new ones; other entries stay.
     Replace,
-    /// Frames from the first on, without a gap, stay; whatever else a capture left makes way.
+    /// Frames from the first on, without a gap, stay, and so does a manifest; whatever else a capture
+    /// left makes way.
     Continue,
 }
 
@@ -108,6 +109,8 @@ impl FrameFolder {
             return Err(FrameFolderError::NotEmpty { path: path.to_owned() });
         }
         if existing == Existing::Continue {
+            // The manifest of what is there holds until another is whole.
+            folder.old.retain(|name| name != manifest::FILE_NAME);
             folder.kept = (0..MOST_FRAMES)
                 .find(|&frame| !folder.old.contains(&frame_name(frame).into()))
                 .unwrap_or(MOST_FRAMES);
@@ -137,11 +140,6 @@ impl FrameFolder {
         &self.path
     }
 
-    /// How many frames of an earlier capture stay, the first ones.
-    pub(super) fn kept(&self) -> u32 {
-        self.kept
-    }
-
     /// Makes the folder where there is none, and removes what an earlier capture left but for the
     /// first `frames` of the frames to be kept, so that it never holds frames of two.
     pub(super) fn clear(&mut self, frames: u32) -> Result<(), FrameFolderError> {
@@ -154,13 +152,6 @@ impl FrameFolder {
             fs::remove_file(&path).map_err(failure("replace", &path))?;
         }
         Ok(())
-    }
-
-    /// The file of the next frame, which is one that stays, and counts it.
-    pub(super) fn keep(&mut self) -> Result<Vec<u8>, FrameFolderError> {
-        let path = self.path.join(frame_name(self.frames));
-        self.frames += 1;
-        fs::read(&path).map_err(failure("read", &path))
     }
 
     /// Adds the next frame; one that stays has to be the same to the byte.
@@ -301,8 +292,8 @@ mod tests {
         }
         let mut frames = FrameFolder::inspect(folder.path(), Existing::Continue).unwrap();
         frames.clear(9).unwrap();
-        assert_eq!((frames.kept(), fs::read_dir(folder.path()).unwrap().count()), (2, 2));
-        assert_eq!(frames.keep().unwrap(), b"old");
+        assert_eq!((frames.kept, fs::read_dir(folder.path()).unwrap().count()), (2, 2));
+        frames.push(b"old").unwrap();
         let error = frames.push(b"new").unwrap_err();
         assert!(matches!(error, FrameFolderError::Foreign { .. }), "{error}");
         frames.push(b"old").unwrap();

@@ -83,10 +83,7 @@ pub(super) fn ends(lab: &Lab) -> Vec<LaneEnd> {
 }
 
 fn method_id(solver: Solver) -> &'static str {
-    match solver {
-        Solver::Method(method) => method.id,
-        Solver::Truth => "exact",
-    }
+    solver.method().map_or("exact", |method| method.id)
 }
 
 #[cfg(test)]

@@ -7,7 +7,8 @@
 //! - `schema`: the number of this description. `regatta`: the version of the program that drew.
 //! - `settings`: all that the run depends on.
 //!   - `scene`: `name`, `text` (the TOML) and the text's `hash`.
-//!   - `lanes`: what the scene's lanes are, after the command line: each a `method` and its `substeps`.
+//!   - `lanes`: what the scene's lanes are, after the command line: each a `method`, its `substeps` and, where
+//!     the scene gives one, its `tolerance`.
 //!   - `race`: whether all of them race; else the `selected` method sails alone, `null` for the one
 //!     that the window opens with.
 //!   - `tick_hz` at the start, `frames` asked for, `fps`, `size` in pixels, `scale` in pixels a point,
@@ -99,6 +100,9 @@ pub struct SceneText {
 pub struct LaneEntry {
     pub method: String,
     pub substeps: u32,
+    /// The tolerance in place of the method's own, where the scene gives one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
 }
 
 /// What drew.

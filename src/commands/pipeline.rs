@@ -38,19 +38,17 @@ pub(super) enum Stop<E> {
 /// A run on its way.
 pub(super) struct Run<'a> {
     pub(super) artist: &'a mut Artist,
-    /// Stands at the frame before `first`.
+    /// Stands at the start.
     pub(super) lab: &'a mut Lab,
     pub(super) logbook: &'a mut Logbook,
     pub(super) schedule: Schedule,
-    /// The first frame to be drawn.
-    pub(super) first: u32,
     /// Once it is set, the frames in hand are the last.
     pub(super) interrupted: &'a AtomicBool,
 }
 
 impl Run<'_> {
-    /// Draws every frame from the first on and has `take` take it. Returns how many frames were drawn.
-    pub(super) fn to_end<E: Send>(
+    /// Draws every frame and has `take` take it. Returns how many frames were drawn.
+    pub(super) fn draw_all<E: Send>(
         self,
         mut take: impl FnMut(&Drawn) -> Result<(), E> + Send,
     ) -> Result<u32, Stop<E>> {
@@ -81,10 +79,10 @@ impl Run<'_> {
         to_taker: &mpsc::SyncSender<Drawn>,
         spare: &mpsc::Receiver<Vec<u8>>,
     ) -> Result<u32, ReadbackError> {
-        let Self { artist, lab, logbook, schedule, first, interrupted } = self;
+        let Self { artist, lab, logbook, schedule, interrupted } = self;
         let mut moments = VecDeque::new();
         let mut drawn = 0;
-        let mut next = first;
+        let mut next = 0;
         loop {
             let more = next < schedule.frames && !interrupted.load(Ordering::Relaxed);
             if more {
@@ -138,8 +136,8 @@ mod tests {
         let mut lab = race();
         let mut logbook = Logbook::new(1, &lab);
         let (lab, logbook) = (&mut lab, &mut logbook);
-        let run = Run { artist, lab, logbook, schedule: SCHEDULE, first: 0, interrupted };
-        run.to_end(take)
+        let run = Run { artist, lab, logbook, schedule: SCHEDULE, interrupted };
+        run.draw_all(take)
     }
 
     #[test]

@@ -74,22 +74,16 @@ pub(super) fn record(
     let mut lab = recording.lab(experiment);
     let mut logbook = Logbook::new(recording.mark_every, &lab);
     let mut entries = Vec::new();
-    // The last of the frames that stay is drawn again, for proof that they are of this run.
-    let first = folder.kept().saturating_sub(1);
-    for frame in 0..first {
-        schedule.advance(&mut lab, frame, |lab| logbook.note(lab));
-        entries.push(kept_entry(&mut folder, frame, &lab)?);
-        progress.inc(1);
-    }
+    // The frames that stay are drawn again: for proof that they are of this run, and because a glyph's
+    // place in egui's atlas, and with it the last bit of a few pixels, depends on the frames before.
     let run = Run {
         artist: &mut artist,
         lab: &mut lab,
         logbook: &mut logbook,
         schedule,
-        first,
         interrupted: &interrupted,
     };
-    let drawn = run.to_end(|drawn| {
+    let drawn = run.draw_all(|drawn| {
         folder.push(&png::encode(size_px, &drawn.rgba))?;
         let file = frame_name(entries.len() as u32);
         entries.push(entry(file, drawn.tick, drawn.alpha, &drawn.rgba));
@@ -142,16 +136,6 @@ pub(super) fn closing_line(recording: &Recording, place: &str) -> String {
 /// What the manifest says of a frame.
 fn entry(file: String, tick: u64, (numerator, denominator): (u64, u64), rgba: &[u8]) -> FrameEntry {
     FrameEntry { file, tick, alpha: [numerator, denominator], pixels: fingerprint(rgba) }
-}
-
-/// What the manifest says of a frame that is there already, the lab standing at it.
-fn kept_entry(folder: &mut FrameFolder, frame: u32, lab: &Lab) -> Result<FrameEntry, CaptureError> {
-    let file = frame_name(frame);
-    let path = folder.path().join(&file);
-    let picture = image::load_from_memory(&folder.keep()?)
-        .map_err(|_| FrameFolderError::Foreign { path })?
-        .into_rgba8();
-    Ok(entry(file, lab.race().tick(), lab.clock().alpha_fraction(), picture.as_raw()))
 }
 
 /// What the manifest says of what draws.

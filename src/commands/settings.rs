@@ -2,18 +2,22 @@
 
 use super::experiment::{Experiment, Lineup};
 use super::fingerprint::fingerprint;
+use super::frame_folder::frame_name;
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::recording::Recording;
 use super::voyage::Schedule;
-use crate::lab::{Clock, LaneSpec, Scene};
+use crate::lab::{Clock, LaneSpec, MOST_LANES, MOST_SUBSTEPS, Scene};
 use crate::sim::integrators::method;
 use crate::view::Panels;
 
 /// What a manifest says of a run that is about to be recorded.
 pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Settings {
     let scene = &experiment.scene;
-    let lane =
-        |lane: &LaneSpec| LaneEntry { method: lane.method.id.to_owned(), substeps: lane.substeps };
+    let lane = |lane: &LaneSpec| LaneEntry {
+        method: lane.method.id.to_owned(),
+        substeps: lane.substeps,
+        tolerance: lane.tolerance,
+    };
     Settings {
         scene: SceneText {
             name: scene.name.clone(),
@@ -41,13 +45,23 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
     let known = |id: &str| method(id).ok_or_else(|| format!("this program has no method {id:?}"));
     let mut scene = Scene::parse(&format!("{name}.toml"), text)
         .map_err(|errors| format!("this program does not take the scene: {errors}"))?;
-    if !Clock::TICK_HZ.contains(&settings.tick_hz) || settings.fps == 0 || settings.mark_every == 0
-    {
-        return Err("tick_hz, fps or mark_every is out of range".into());
+    let substeps = |lane: &LaneEntry| (1..=MOST_SUBSTEPS).contains(&lane.substeps);
+    for (key, is_in_range) in [
+        ("tick_hz", Clock::TICK_HZ.contains(&settings.tick_hz)),
+        ("fps", settings.fps > 0),
+        ("scale", (0.5..=4.0).contains(&settings.scale)),
+        ("mark_every", settings.mark_every > 0),
+        ("lanes", (1..=MOST_LANES).contains(&settings.lanes.len())),
+        ("substeps", settings.lanes.iter().all(substeps)),
+    ] {
+        if !is_in_range {
+            return Err(format!("its {key} is out of range; capture anew"));
+        }
     }
     scene.tick_hz = settings.tick_hz;
     let lane = |lane: &LaneEntry| {
-        Ok(LaneSpec { method: known(&lane.method)?, substeps: lane.substeps.max(1) })
+        let method = known(&lane.method)?;
+        Ok(LaneSpec { method, substeps: lane.substeps, tolerance: lane.tolerance })
     };
     scene.lanes = settings.lanes.iter().map(lane).collect::<Result<_, String>>()?;
     let experiment = Experiment {
@@ -73,6 +87,10 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), String> {
     let scene = &settings.scene;
     if fingerprint(scene.text.as_bytes()) != scene.hash {
         return Err("the scene's text was altered, its hash says; capture anew".into());
+    }
+    let mut names = manifest.frames.iter().zip(0..).map(|(frame, n)| (&frame.file, frame_name(n)));
+    if let Some((file, name)) = names.find(|(file, name)| *file != name) {
+        return Err(format!("it has {file:?} in the place of {name}; capture anew"));
     }
     if settings.hash() == manifest.settings_hash {
         return Ok(());

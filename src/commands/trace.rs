@@ -212,10 +212,7 @@ impl Trace {
 }
 
 fn method_id(solver: Solver, kind: &Kind) -> &'static str {
-    match solver {
-        Solver::Method(method) => method.id,
-        Solver::Truth => kind.truth.id(),
-    }
+    solver.method().map_or(kind.truth.id(), |method| method.id)
 }
 
 /// What is known of the bodies that have no closed form.

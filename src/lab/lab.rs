@@ -50,7 +50,7 @@ impl Lab {
     pub fn new(scene: Scene) -> Self {
         let mut entries = scene.lanes.clone();
         let others = METHODS.iter().filter(|m| !scene.lanes.iter().any(|spec| spec.method == *m));
-        entries.extend(others.map(|method| LaneSpec { method, substeps: 1 }));
+        entries.extend(others.map(LaneSpec::plain));
         let entry = entries.iter().position(|spec| spec.method.id == OPENING_METHOD).unwrap_or(0);
         let choice = Choice { entry, tick_hz: scene.tick_hz };
         let mut lab = Self {

@@ -35,6 +35,6 @@ pub use race::{Entrant, Race};
 pub use scene::{
     BuiltIn, LARGEST_FILE, LAST_TICK, LaneSpec, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS,
     MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene, SceneBody, SceneError,
-    SceneErrors, Scripted, nearest,
+    SceneErrors, Scripted, TOLERANCES, nearest,
 };
 pub use verdict::{Fate, Verdict, Word, duration};

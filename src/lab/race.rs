@@ -40,7 +40,7 @@ impl Race {
     pub fn new(scene: &Scene, lanes: impl IntoIterator<Item = (usize, LaneSpec)>) -> Self {
         let entrants = lanes.into_iter().map(|(entry, spec)| Entrant {
             entry,
-            lane: Lane::new(scene, Solver::Method(spec.method), spec.substeps),
+            lane: Lane::new(scene, spec.solver(), spec.substeps),
             histories: scene.bodies.iter().map(|_| History::new()).collect(),
         });
         let mut race = Self {
@@ -155,7 +155,7 @@ impl Race {
         let t = self.t();
         let entrant = &mut self.entrants[index];
         entrant.entry = entry;
-        entrant.lane.switch(Solver::Method(spec.method), spec.substeps, t);
+        entrant.lane.switch(spec.solver(), spec.substeps, t);
     }
 
     /// A hash of the tick and of every lane's state to the bit, the truth left out: equal for equal

@@ -76,7 +76,7 @@ impl Thinking {
         if !advice {
             return false;
         }
-        let specs = || METHODS.iter().map(|method| LaneSpec { method, substeps: 1 }).collect();
+        let specs = || METHODS.iter().map(LaneSpec::plain).collect();
         let (_, adviser) = match self.adviser.take().filter(|(at, _)| *at == now) {
             Some(known) => self.adviser.insert(known),
             None => {

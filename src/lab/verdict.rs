@@ -160,7 +160,7 @@ mod tests {
 
     fn verdict(scene: &str, id: &str, tick_hz: u32) -> Verdict {
         let judge = Judge::new(&Scene::built_in(scene).unwrap(), 1.0);
-        judge.verdict(LaneSpec { method: method(id).unwrap(), substeps: 1 }, tick_hz)
+        judge.verdict(LaneSpec::plain(method(id).unwrap()), tick_hz)
     }
 
     #[test]

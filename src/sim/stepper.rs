@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::bodies::{Body, Input, Pen, View};
-use super::integrators::{Construct, Integrator, Method, StepFailure, construct};
+use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
 use super::reference::Reference;
 use super::system::{Counted, State, Vector};
 
@@ -12,9 +12,21 @@ use super::system::{Counted, State, Vector};
 pub enum Solver {
     /// A method from the table.
     Method(&'static Method),
+    /// An adaptive method from the table with this tolerance, in all its parts, for its card's.
+    Within(&'static Method, f64),
     /// The exact flow, from the last moment at which the input changed; for a body without a closed
     /// form, a reference solution.
     Truth,
+}
+
+impl Solver {
+    /// The method that steps, if one does.
+    pub fn method(self) -> Option<&'static Method> {
+        match self {
+            Solver::Method(method) | Solver::Within(method, _) => Some(method),
+            Solver::Truth => None,
+        }
+    }
 }
 
 /// A body under a solver. Everything above this layer sees bodies only so.
@@ -63,7 +75,7 @@ pub trait Stepper: Send {
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    Launch { body: Counted::new(body), state, behind: 0.0 }.under(solver, 0.0)
+    Launch { body: Counted::new(body), state, behind: 0.0, tolerance: None }.under(solver, 0.0)
 }
 
 /// A body about to come under a solver.
@@ -72,12 +84,17 @@ struct Launch<B: Body> {
     state: State<B::Vector>,
     /// The time lost so far, in seconds.
     behind: f64,
+    /// For an adaptive method's own.
+    tolerance: Option<Tolerance>,
 }
 
 impl<B: Body> Launch<B> {
     fn under(self, solver: Solver, t: f64) -> Box<dyn Stepper> {
         match solver {
-            Solver::Method(method) => construct::<Counted<B>, _>(method, self),
+            Solver::Method(method) => construct(method, self),
+            Solver::Within(method, tolerance) => {
+                construct(method, Self { tolerance: Some(Tolerance::uniform(tolerance)), ..self })
+            }
             Solver::Truth if self.body.system.exact(0.0, &self.state).is_some() => {
                 let drive = ExactFlow { anchor: self.state.clone(), anchored_at: t };
                 self.driven(drive)
@@ -90,7 +107,7 @@ impl<B: Body> Launch<B> {
     }
 
     fn driven<D: Drive<B>>(self, drive: D) -> Box<dyn Stepper> {
-        let Self { body, state, behind } = self;
+        let Self { body, state, behind, .. } = self;
         Box::new(Driven { body, drive, state, behind })
     }
 }
@@ -99,8 +116,11 @@ impl<B: Body> Construct<Counted<B>> for Launch<B> {
     type Output = Box<dyn Stepper>;
 
     fn of<I: Integrator<Counted<B>> + 'static>(self) -> Self::Output {
-        let drive = ByMethod(I::new(&self.state.q));
-        self.driven(drive)
+        let mut integrator = I::new(&self.state.q);
+        if let Some(tolerance) = self.tolerance {
+            integrator.set_tolerance(tolerance);
+        }
+        self.driven(ByMethod(integrator))
     }
 }
 
@@ -196,7 +216,7 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
         let (body, state, behind) = (self.body.clone(), self.state.clone(), self.lost_time());
-        Launch { body, state, behind }.under(solver, t)
+        Launch { body, state, behind, tolerance: None }.under(solver, t)
     }
 }
 

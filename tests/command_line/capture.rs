@@ -84,12 +84,12 @@ fn force_replaces_all_frames_and_nothing_else() {
 }
 
 #[test]
-fn the_smallest_and_odd_sizes_are_drawn() {
+fn the_smallest_the_largest_and_odd_sizes_are_drawn() {
     let folder = tempfile::tempdir().unwrap();
-    for (width, height) in [(1, 1), (3, 997), (1001, 2)] {
+    for (width, height) in [(1, 1), (3, 997), (1001, 2), (3840, 2160)] {
         let size = format!("{width}x{height}");
         let capture = format!("capture --race --frames 1 --size {size} --scale 2 --out {size}");
-        let test = "the_smallest_and_odd_sizes_are_drawn";
+        let test = "the_smallest_the_largest_and_odd_sizes_are_drawn";
         let Some(output) = drawn_or_skip(test, folder.path(), &capture) else { return };
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let picture = folder.path().join(size).join("frame-000000.png");

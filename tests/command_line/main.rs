@@ -7,6 +7,7 @@ use std::process::{Command, Output, Stdio};
 mod advise;
 mod capture;
 mod chapter;
+mod formats;
 mod list;
 mod manifest;
 mod mishaps;

@@ -1,6 +1,7 @@
 //! `verify`: what is the same, what is another, and what cannot be judged.
 
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use regatta::commands::manifest::{Manifest, fingerprint};
@@ -145,6 +146,13 @@ fn a_changed_constant_is_a_change_of_physics_at_the_first_tick() {
     assert_eq!(code, Some(1));
     assert!(stdout.starts_with("physics: differs first at tick 1: lane 1, "), "{stdout}");
     assert!(stderr.contains("the built-in scene spring is another"), "{stderr}");
+    let verify = regatta()
+        .current_dir(folder.path())
+        .env("WGPU_BACKEND", "dx12")
+        .args(["verify", "clip"])
+        .output()
+        .unwrap();
+    assert_eq!(verify.status.code(), Some(1), "different, though the pixels cannot be judged");
 }
 
 #[test]
@@ -166,6 +174,10 @@ fn what_cannot_be_judged_says_why() {
     refused(&|manifest| manifest.settings.scene.text.push(' '), "the scene's text was altered");
     refused(&|manifest| manifest.settings.scale = 0.75, "its settings were altered");
     refused(&|manifest| manifest.schema = 9, "it is of schema 9, and this program reads 1");
+    refused(
+        &|manifest| manifest.frames[1].file = "../x.png".into(),
+        "in the place of frame-000001",
+    );
     let rehash = |manifest: &mut Manifest| manifest.settings_hash = manifest.settings.hash();
     refused(
         &|manifest| {
@@ -173,6 +185,13 @@ fn what_cannot_be_judged_says_why() {
             rehash(manifest);
         },
         "this program has no method \"rk5\"",
+    );
+    refused(
+        &|manifest| {
+            manifest.settings.scale = 0.0;
+            rehash(manifest);
+        },
+        "its scale is out of range",
     );
     for (text, said) in [("{", "it is no JSON"), ("{}", "does not name its schema")] {
         fs::write(manifest_of(folder.path()), text).unwrap();
@@ -191,6 +210,34 @@ fn another_driver_is_said_and_has_its_limits() {
     assert!(stderr.starts_with("drawn then with another card ("), "{stderr}");
     assert!(stderr.contains("a channel may differ by 2, and 0.01 % "), "{stderr}");
     assert!(stdout.ends_with("pixels: same within the limits: 7 frames\n"), "{stdout}");
+}
+
+/// Mesa draws in software under both interfaces; elsewhere one of them may be missing.
+#[cfg(target_os = "linux")]
+#[test]
+fn opengl_draws_what_vulkan_drew_within_the_limits() {
+    let test = "opengl_draws_what_vulkan_drew_within_the_limits";
+    let folder = tempfile::tempdir().unwrap();
+    let with = |backend: &str, arguments: &str| {
+        let mut command = regatta();
+        command.current_dir(folder.path()).env("WGPU_BACKEND", backend);
+        command.args(arguments.split(' ')).output().unwrap()
+    };
+    let capture = "capture --scene harbour --race --frames 9 --fps 3 --size 640x360 --out clip";
+    for (backend, arguments) in [("vulkan", capture), ("gl", "verify clip --diff off")] {
+        let output = with(backend, arguments);
+        let said = stderr(&output);
+        if said.contains("no usable graphics adapter") {
+            let _ = writeln!(io::stderr(), "SKIPPED {test}: {said}");
+            return;
+        }
+        let stdout = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{stdout}{said}");
+        if backend == "gl" {
+            assert!(said.starts_with("drawn then with "), "{said}");
+            assert!(stdout.starts_with("physics: same to the bit: "), "{stdout}");
+        }
+    }
 }
 
 #[test]

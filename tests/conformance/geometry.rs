@@ -3,7 +3,7 @@
 use regatta::sim::integrators::{METHODS, Method, integrator, method};
 use regatta::sim::{State, System};
 
-use super::systems::{Kepler, Pendulum, fresh, kepler_orbit, spring};
+use super::systems::{Kepler, Pendulum, kepler_orbit, spring, unbound};
 
 /// Large enough that what a method does not keep is far above round-off.
 const STEP: f64 = 0.8;
@@ -15,7 +15,7 @@ fn map<S: System<Vector = f64> + 'static>(
     system: &S,
     mut state: State<f64>,
 ) -> State<f64> {
-    fresh::<S>(method).step(system, 0.0, STEP, &mut state).unwrap();
+    unbound::<S>(method, &0.0).step(system, 0.0, STEP, &mut state).unwrap();
     state
 }
 
@@ -41,9 +41,13 @@ fn keeps_area(method: &Method) -> bool {
     println!("{:26} {:.1e} {:.1e}", method.id, off[0], off[1]);
     assert!(off.iter().all(|off| off.is_finite()), "{}", method.id);
     let kept = off.map(|off| off < 1e-10);
-    assert_eq!(kept[0], kept[1], "{}: {off:?}", method.id);
-    assert!(kept[0] || off.iter().all(|&off| off > 1e-6), "{}: {off:?}, undecided", method.id);
-    kept[0]
+    for (kept, off) in kept.into_iter().zip(off) {
+        assert!(kept || off > 1e-6, "{}: {off:e}, undecided", method.id);
+    }
+    // On a straight force Newmark's is the implicit midpoint rule, on a curved one it is not.
+    let only_where_straight = method.id == "newmark";
+    assert_eq!(kept[0] != kept[1], only_where_straight, "{}: {off:?}", method.id);
+    kept[0] && kept[1]
 }
 
 #[test]
@@ -55,7 +59,7 @@ fn symplectic_methods_and_no_others_keep_area() {
 
 /// How far from its start a step of `h` and a step of `-h` leave the state.
 fn there_and_back<S: System<Vector = f64> + 'static>(method: &Method, system: &S) -> f64 {
-    let mut integrator = fresh::<S>(method);
+    let mut integrator = unbound::<S>(method, &0.0);
     let mut state = FROM;
     integrator.step(system, 0.0, STEP, &mut state).unwrap();
     integrator.step(system, STEP, -STEP, &mut state).unwrap();

@@ -4,9 +4,11 @@
 //! result is compared with is the exact flow, which `tests/exact_flows.rs` has checked before.
 
 mod abouts;
+mod adaptive;
 mod cards;
 mod cost;
 mod geometry;
+mod implicit;
 mod limits;
 mod long_run;
 mod memory;

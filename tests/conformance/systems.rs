@@ -4,12 +4,23 @@ use std::cell::RefCell;
 
 use glam::DVec2;
 use regatta::sim::bodies::{Ship, Spring};
-use regatta::sim::integrators::{Integrator, Method, integrator};
+use regatta::sim::integrators::{Integrator, Method, Tolerance, integrator};
 use regatta::sim::{State, System, Vector};
 
 /// A fresh integrator for systems of one coordinate.
 pub(crate) fn fresh<S: System<Vector = f64> + 'static>(method: &Method) -> Box<dyn Integrator<S>> {
     integrator(method, &0.0)
+}
+
+/// A fresh integrator that takes the steps it is given: an adaptive one with a tolerance that does not
+/// bind.
+pub(crate) fn unbound<S: System + 'static>(
+    method: &Method,
+    like: &S::Vector,
+) -> Box<dyn Integrator<S>> {
+    let mut integrator = integrator(method, like);
+    integrator.set_tolerance(Tolerance::uniform(1e100));
+    integrator
 }
 
 /// A spring of this angular frequency and damping ratio.

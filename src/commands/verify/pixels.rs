@@ -22,7 +22,6 @@ const OTHER_DRIVER: (u8, f64) = (2, 0.01);
 /// How much a frame may differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Limits {
-    pub(super) same_driver: bool,
     /// The largest difference of a channel.
     pub(super) max_channel: u8,
     /// The most pixels off by more than 1, in percent.
@@ -34,7 +33,6 @@ impl Limits {
     pub(super) fn of(same_driver: bool, max_channel: Option<u8>, max_pixels: Option<f64>) -> Self {
         let (channel, pixels) = if same_driver { (0, 0.0) } else { OTHER_DRIVER };
         Self {
-            same_driver,
             max_channel: max_channel.unwrap_or(channel),
             max_pixels_percent: max_pixels.unwrap_or(pixels),
         }
@@ -94,17 +92,11 @@ pub(super) fn judge(
     let progress = progress(frames);
     let mut lab = recording.lab(experiment);
     let mut logbook = Logbook::new(u64::MAX, &lab);
-    let run = Run {
-        artist,
-        lab: &mut lab,
-        logbook: &mut logbook,
-        schedule,
-        first: 0,
-        interrupted: &interrupted,
-    };
+    let run =
+        Run { artist, lab: &mut lab, logbook: &mut logbook, schedule, interrupted: &interrupted };
     let (mut entries, mut changes) = (manifest.frames.iter(), Vec::new());
     let size_px = recording.size_px;
-    let drawn = run.to_end(|drawn| {
+    let drawn = run.draw_all(|drawn| {
         let entry = entries.next().expect("as many frames are drawn as are listed");
         let change = compare(entry, size_px, &drawn.rgba, limits, folder)?;
         changes.extend(change.map(|what| FrameChange { file: entry.file.clone(), what }));

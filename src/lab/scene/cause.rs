@@ -3,9 +3,10 @@
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use super::LARGEST_FILE;
 use super::errors::clip;
+use super::{LARGEST_FILE, LaneSpec};
 use crate::sim::bodies::{self, BODIES, Fault};
+use crate::sim::integrators::METHODS;
 
 /// What is wrong. The display says that, [`Cause::remedy`] what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -66,10 +67,12 @@ pub(super) enum Cause {
     NoLanes,
     #[error("the scene has {found} lanes")]
     TooManyLanes { found: usize, most: usize },
-    #[error("a lane \"{method}\" with `substeps = {substeps}` is on line {line} already")]
-    DuplicateLane { method: &'static str, substeps: u32, line: usize },
+    #[error("a lane {} is on line {line} already", describe(lane))]
+    DuplicateLane { lane: LaneSpec, line: usize },
     #[error("lanes are given twice, as `methods` and as `[[lane]]`")]
     TwoLaneLists,
+    #[error("`{key}` means nothing to {method:?}")]
+    NoTolerance { key: &'static str, method: &'static str },
     #[error("the command does nothing")]
     NoAction { known: Vec<&'static str> },
     #[error("the command does {} things: {}", found.len(), list(found, '`', " and "))]
@@ -150,10 +153,17 @@ impl Cause {
             Cause::DuplicateName { .. } => "give it another".into(),
             Cause::NoLanes => "name a method, or remove the line and all of them race".into(),
             Cause::TooManyLanes { most, .. } => format!("keep at most {most}"),
-            Cause::DuplicateLane { .. } => {
-                "remove one, or give it other `substeps` in a `[[lane]]`".into()
+            Cause::DuplicateLane { lane, .. } => {
+                let or =
+                    if lane.method.tolerance.is_some() { " or another `tolerance`" } else { "" };
+                format!("remove one, or give it other `substeps`{or} in a `[[lane]]`")
             }
             Cause::TwoLaneLists => "keep one of them".into(),
+            Cause::NoTolerance { .. } => {
+                let adaptive = METHODS.iter().filter(|method| method.tolerance.is_some());
+                let adaptive: Vec<_> = adaptive.map(|method| method.id).collect();
+                format!("remove it, or take an adaptive method: {}", list(&adaptive, '"', ", "))
+            }
             Cause::NoAction { known } => format!("write one of {}", list(known, '`', ", ")),
             Cause::ManyActions { .. } => {
                 "write a `[[command]]` with the same `tick` for each".into()
@@ -204,6 +214,12 @@ impl fmt::Display for Wanted {
             Wanted::Tables(name) => write!(f, "`[[{name}]]` in double brackets and its keys below"),
         }
     }
+}
+
+fn describe(lane: &LaneSpec) -> String {
+    let LaneSpec { method, substeps, tolerance } = lane;
+    let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
+    format!("{:?} with `substeps = {substeps}`{}", method.id, within.unwrap_or_default())
 }
 
 fn offer(nearest: Option<&str>, known: &[&str], quote: char) -> String {

@@ -226,6 +226,8 @@ pub enum Range {
         /// The unit of y.
         y: &'static str,
     },
+    /// From the one to the other.
+    Between(f64, f64),
 }
 
 /// The most points of a curve: what a person still types in.
@@ -240,13 +242,15 @@ impl Range {
             Range::Within(most) => value >= -most && value <= most,
             Range::Count(most) => value >= 1.0 && value <= f64::from(most) && value.fract() == 0.0,
             Range::Curve { .. } => Range::Within(LARGEST).contains(value),
+            Range::Between(least, most) => value >= least && value <= most,
         }
     }
 }
 
 impl std::fmt::Display for Range {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let short = |x: f64| if x.abs() < 1e9 { format!("{x}") } else { format!("{x:e}") };
+        let is_plain = |x: f64| x == 0.0 || (1e-4..1e9).contains(&x.abs());
+        let short = |x: f64| if is_plain(x) { format!("{x}") } else { format!("{x:e}") };
         match *self {
             Range::Positive(most) => write!(f, "greater than 0 and at most {}", short(most)),
             Range::NonNegative(most) => write!(f, "from 0 to {}", short(most)),
@@ -255,6 +259,7 @@ impl std::fmt::Display for Range {
             Range::Curve { x, y } => {
                 write!(f, "2 to {MOST_POINTS} points [{x}, {y}] in rising order")
             }
+            Range::Between(least, most) => write!(f, "from {} to {}", short(least), short(most)),
         }
     }
 }

@@ -82,6 +82,10 @@ impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
         Ok(())
     }
 
+    fn set_tolerance(&mut self, tolerance: Tolerance) {
+        self.tolerance = tolerance;
+    }
+
     fn lost_time(&self) -> f64 {
         self.lost
     }

@@ -9,10 +9,17 @@ use super::system::{State, System, Vector};
 mod adams_bashforth_2;
 mod adaptive_euler;
 mod adaptive_euler_as_printed;
+mod bdf2;
+mod bogacki_shampine_32;
+mod dormand_prince_54;
 mod explicit_euler;
+mod gauss_legendre_4;
+mod implicit_euler;
+mod implicit_midpoint;
 mod improved_euler;
 mod improved_euler_as_printed;
 mod midpoint;
+mod newmark;
 mod pefrl;
 mod position_verlet;
 mod rk4;
@@ -25,17 +32,26 @@ mod velocity_verlet;
 mod yoshida4;
 
 pub use adams_bashforth_2::AdamsBashforth2;
-pub use adaptive_euler::{AdaptiveEuler, Tolerance};
+pub use adaptive_euler::AdaptiveEuler;
 pub use adaptive_euler_as_printed::AdaptiveEulerAsPrinted;
+pub use bdf2::Bdf2;
+pub use bogacki_shampine_32::BogackiShampine32;
+pub use dormand_prince_54::DormandPrince54;
 pub use explicit_euler::ExplicitEuler;
+pub use gauss_legendre_4::GaussLegendre4;
+pub use implicit_euler::ImplicitEuler;
+pub use implicit_midpoint::ImplicitMidpoint;
 pub use improved_euler::ImprovedEuler;
 pub use improved_euler_as_printed::ImprovedEulerAsPrinted;
 pub use midpoint::Midpoint;
+pub use newmark::Newmark;
 pub use pefrl::Pefrl;
 pub use position_verlet::PositionVerlet;
 pub use rk4::Rk4;
 pub use rk4_as_printed::Rk4AsPrinted;
 pub use semi_implicit_euler::SemiImplicitEuler;
+pub use shared::embedded_pair::{EmbeddedPair, Pair};
+pub use shared::step_size::Tolerance;
 pub use ssp_rk3::SspRk3;
 pub use stormer_verlet::StormerVerlet;
 pub use velocity_verlet::VelocityVerlet;
@@ -88,6 +104,9 @@ pub trait Integrator<S: System>: Send {
     /// jump.
     fn reset(&mut self) {}
 
+    /// Sets the error that an adaptive method allows in a substep; the others take no notice.
+    fn set_tolerance(&mut self, _tolerance: Tolerance) {}
+
     /// The seconds that this integrator, since it was made, was asked to advance and did not; a reset
     /// changes nothing about it. 0 for every method that [keeps time](Method::keeps_time).
     fn lost_time(&self) -> f64 {
@@ -102,6 +121,14 @@ pub enum StepFailure {
     #[error("needs more than {limit} substeps for one tick; raise the tick rate or the tolerance")]
     TooManySubsteps {
         /// The most attempts that a tick may take.
+        limit: u32,
+    },
+    /// An implicit method found no solution to its equations.
+    #[error(
+        "needs more than {limit} of Newton's iterations for one step; raise the tick rate or the substeps"
+    )]
+    NewtonFailed {
+        /// The most iterations that a step may take.
         limit: u32,
     },
     /// A value became infinite or undefined.
@@ -131,6 +158,8 @@ pub enum Family {
     Symplectic,
     /// Chooses its own substeps to meet a tolerance.
     Adaptive,
+    /// Solves an equation for the end of the step.
+    Implicit,
     /// The chapter's listing, faults and all.
     AsPrinted,
 }
@@ -142,6 +171,7 @@ impl Family {
             Family::Explicit => "explicit",
             Family::Symplectic => "symplectic",
             Family::Adaptive => "adaptive",
+            Family::Implicit => "implicit",
             Family::AsPrinted => "as-printed",
         }
     }
@@ -170,8 +200,8 @@ pub struct Method {
     pub symplectic: bool,
     /// Whether a step of `-h` undoes a step of `h`, up to round-off.
     pub reversible: bool,
-    /// The largest `h ω` at which the undamped oscillator stays bounded; `None` where the method
-    /// chooses its own substeps.
+    /// The largest `h ω` at which the undamped oscillator stays bounded; `None` where there is none: for
+    /// implicit methods, and for those that choose their own substeps.
     pub stability_limit: Option<f64>,
     /// The error that an adaptive method allows in a substep.
     pub tolerance: Option<Tolerance>,
@@ -233,6 +263,13 @@ methods! {
     yoshida4::Yoshida4,
     pefrl::Pefrl,
     adaptive_euler::AdaptiveEuler,
+    bogacki_shampine_32::BogackiShampine32,
+    dormand_prince_54::DormandPrince54,
+    implicit_euler::ImplicitEuler,
+    implicit_midpoint::ImplicitMidpoint,
+    newmark::Newmark,
+    bdf2::Bdf2,
+    gauss_legendre_4::GaussLegendre4,
     improved_euler_as_printed::ImprovedEulerAsPrinted,
     rk4_as_printed::Rk4AsPrinted,
     adaptive_euler_as_printed::AdaptiveEulerAsPrinted,

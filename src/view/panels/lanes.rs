@@ -167,7 +167,9 @@ const COLUMNS: &[Column] = &[
         paint: |ui, row, rect, left, column| {
             let substeps = row.spec.substeps;
             let times = if substeps > 1 { format!(" ×{substeps}") } else { String::new() };
-            write(ui, row, rect, left, column, format!("{}{times}", row.spec.method.name), false);
+            let within = row.spec.tolerance.map(|tolerance| format!(" {tolerance:e}"));
+            let name = format!("{}{times}{}", row.spec.method.name, within.unwrap_or_default());
+            write(ui, row, rect, left, column, name, false);
         },
     },
     Column {
