@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::sim::integrators::{Integrator, Method, StepFailure, integrator};
+use crate::sim::integrators::{Integrator, Method, StepFailure, Tolerance, integrator};
 use crate::sim::{State, Stepper, System};
 
 /// An equation of motion on plain slices: time, coordinates, velocities, acceleration.
@@ -72,6 +72,12 @@ impl Flock {
         Self { copies: Copies { acceleration, coordinates: n }, integrator, state }
     }
 
+    /// The same, with a tolerance other than the method's own.
+    pub(super) fn within(mut self, tolerance: Tolerance) -> Self {
+        self.integrator.set_tolerance(tolerance);
+        self
+    }
+
     /// Puts each copy into a state, coordinates first; the method begins afresh.
     pub(super) fn set(&mut self, states: &[Vec<f64>]) {
         let n = self.copies.coordinates;
@@ -116,7 +122,11 @@ mod tests {
                 stepper.set(0.0, &from[..1], &from[1..]);
                 stepper.advance(0.0, 0.05, 3).unwrap();
                 let alone = [stepper.q(), stepper.v()].concat();
-                assert_eq!(flock.state(copy), alone, "{}", method.id);
+                for (a, b) in flock.state(copy).iter().zip(alone) {
+                    // A method that solves an equation in the step solves it for all copies at once.
+                    let allowed = if method.evaluations.is_some() { 0.0 } else { 1e-12 };
+                    assert!((a - b).abs() <= allowed * b.abs(), "{}: {a}, {b}", method.id);
+                }
             }
         }
     }
