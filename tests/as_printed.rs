@@ -6,7 +6,7 @@ use regatta::sim::bodies::{Body, Ship, Spring};
 use regatta::sim::integrators::{
     AdaptiveEulerAsPrinted, Integrator, METHODS, Method, Tolerance, integrator, method,
 };
-use regatta::sim::{Counted, State};
+use regatta::sim::{Counted, State, System};
 
 const SHIP: Ship = Ship {
     thrust: 20_000.0,
@@ -108,6 +108,28 @@ fn adaptive_euler_as_printed_sails_in_slow_motion() {
         assert!((17 * 3..=17 * 4).contains(&evaluations), "{evaluations} evaluations");
         assert_eq!(evaluations == 17 * 4, absolute_v < 1e-2, "{evaluations} evaluations");
     }
+}
+
+/// `q″ = t`.
+struct Rising;
+
+impl System for Rising {
+    type Vector = f64;
+    fn acceleration(&self, t: f64, _q: &f64, _v: &f64, a: &mut f64) {
+        *a = t;
+    }
+}
+
+#[test]
+fn adaptive_euler_as_printed_sees_a_force_change_within_the_step() {
+    let card = method("adaptive-euler-as-printed").expect("a method");
+    let mut integrator = integrator::<Rising>(card, &0.0);
+    let mut state = State { q: 0.0, v: 0.0 };
+    integrator.step(&Rising, 3.0, 0.5, &mut state).unwrap();
+    // The second half step feels a force greater by h/2: e = h² / 4.
+    let h = 0.5 * (1e-3_f64 / 0.0625).sqrt();
+    assert!((0.5 - integrator.lost_time() - h).abs() < 1e-12, "{}", integrator.lost_time());
+    assert!((state.v - 3.0 * h).abs() < 1e-12, "{state:?}");
 }
 
 #[test]

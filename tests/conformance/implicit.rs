@@ -124,6 +124,20 @@ fn one_step_multiplies_the_amplitude_as_the_formula_says() {
 }
 
 #[test]
+fn bdf2_takes_less_energy_than_implicit_euler_for_the_same_work() {
+    let left = |id| {
+        let system = Counted::new(spring(1.0, 0.0));
+        let mut state = State { q: 1.0, v: 0.7 };
+        let mut integrator = fresh(method(id).expect("a method"));
+        integrator.steps(&system, 0.0, 100.0, 1000, &mut state).unwrap();
+        (state.q * state.q + state.v * state.v, system.evaluations())
+    };
+    let (bdf2, euler) = (left("bdf2"), left("implicit-euler"));
+    assert!(bdf2.0 > 0.5 && euler.0 < 1e-3 && euler.0 > 0.0, "{bdf2:?}, {euler:?}");
+    assert!(bdf2.1 <= euler.1 + 3, "its first step is two solutions: {bdf2:?}, {euler:?}");
+}
+
+#[test]
 fn implicit_euler_halves_the_swing_of_the_1_hz_spring_as_tabled() {
     for (tick_hz, seconds) in [(240, 8.43), (60, 2.12), (30, 1.08), (10, 0.42), (5, 0.29)] {
         let h = 1.0 / f64::from(tick_hz);

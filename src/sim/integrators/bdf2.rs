@@ -7,7 +7,7 @@ use super::{Family, Integrator, Method, State, StepFailure, System};
 pub(super) const CARD: Method = Method {
     id: "bdf2",
     name: "BDF2",
-    about: "stable at any step, and takes less energy than implicit Euler for the same work; needs a step to start",
+    about: "stable at any step, and takes less energy than implicit Euler for the same work",
     family: Family::Implicit,
     order: 2,
     order_with_drag: 2,

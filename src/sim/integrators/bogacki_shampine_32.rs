@@ -6,7 +6,7 @@ use super::{Family, Method, Tolerance};
 pub(super) const CARD: Method = Method {
     id: "bogacki-shampine-32",
     name: "Bogacki-Shampine 3(2)",
-    about: "adaptive and cheap at a loose tolerance: covers each tick in as many substeps as its tolerance asks",
+    about: "adaptive: covers each tick in as many substeps of three evaluations as its tolerance asks",
     family: Family::Adaptive,
     order: 3,
     order_with_drag: 3,

@@ -6,7 +6,7 @@ use super::{Family, Method, Tolerance};
 pub(super) const CARD: Method = Method {
     id: "dormand-prince-54",
     name: "Dormand-Prince 5(4)",
-    about: "the usual choice where accuracy is paid for: covers each tick in as many substeps as its tolerance asks",
+    about: "adaptive and accurate: covers each tick in as many substeps of six evaluations as its tolerance asks",
     family: Family::Adaptive,
     order: 5,
     order_with_drag: 5,

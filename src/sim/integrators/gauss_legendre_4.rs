@@ -6,7 +6,7 @@ use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
 pub(super) const CARD: Method = Method {
     id: "gauss-legendre-4",
     name: "Gauss-Legendre 4",
-    about: "stable at any step, accurate, and keeps the energy of springs: the best of the implicit ones, and the dearest",
+    about: "stable at any step, accurate, and keeps the energy of springs; the dearest of the implicit ones",
     family: Family::Implicit,
     order: 4,
     order_with_drag: 4,

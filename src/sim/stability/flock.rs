@@ -122,11 +122,10 @@ mod tests {
                 stepper.set(0.0, &from[..1], &from[1..]);
                 stepper.advance(0.0, 0.05, 3).unwrap();
                 let alone = [stepper.q(), stepper.v()].concat();
-                for (a, b) in flock.state(copy).iter().zip(alone) {
-                    // A method that solves an equation in the step solves it for all copies at once.
-                    let allowed = if method.evaluations.is_some() { 0.0 } else { 1e-12 };
-                    assert!((a - b).abs() <= allowed * b.abs(), "{}: {a}, {b}", method.id);
-                }
+                let apart = flock.state(copy).into_iter().zip(&alone).map(|(a, b)| (a - b).abs());
+                // A method that solves stops when the last of the copies is solved.
+                let allowed = if method.evaluations.is_some() { 0.0 } else { 1e-12 };
+                assert!(apart.fold(0.0, f64::max) <= allowed, "{}", method.id);
             }
         }
     }

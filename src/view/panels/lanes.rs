@@ -1,8 +1,6 @@
 //! The list of methods: key, colour, what the card says, and how each is doing.
 
-use egui::{
-    Align, Align2, Color32, FontId, Id, Pos2, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2,
-};
+use egui::{Align2, Color32, FontId, Id, Pos2, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
 use super::{QUIET, RAISED, TEXT, colour};
 use crate::lab::number::significant;
@@ -38,7 +36,11 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             QUIET,
         );
     }
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    let mut list = ScrollArea::vertical().auto_shrink(false);
+    if let Some(offset) = offset_to_follow(ui, lab) {
+        list = list.vertical_scroll_offset(offset);
+    }
+    list.show(ui, |ui| {
         for (index, spec) in lab.entries().iter().enumerate() {
             let row = Row::new(lab, index, spec);
             let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
@@ -53,9 +55,6 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             for (column, left) in columns.iter().zip(&lefts) {
                 (column.paint)(ui, &row, rect, *left, column);
             }
-            if row.active {
-                follow(ui, index, rect);
-            }
             if response.on_hover_text(spec.method.about).clicked() {
                 commands.push(Command::Pick(index));
             }
@@ -63,17 +62,19 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     });
 }
 
-/// Scrolls to the active row when it becomes so, and not again: a person may scroll away.
-fn follow(ui: &Ui, index: usize, rect: Rect) {
+/// How far to scroll for the active row to be seen when it becomes so, in this very frame; `None` at all
+/// other times: a person may scroll away.
+fn offset_to_follow(ui: &Ui, lab: &Lab) -> Option<f32> {
     let id = Id::unique("active lane");
+    let active = lab.active();
     let known = ui.data_mut(|data| {
         let known = data.get_temp::<usize>(id);
-        data.insert_temp(id, index);
+        data.insert_temp(id, active);
         known
     });
-    if known != Some(index) {
-        ui.scroll_to_rect(rect, Some(Align::Center));
-    }
+    let hidden = (ROW * lab.entries().len() as f32 - ui.available_height()).max(0.0);
+    let centred = ROW * (active as f32 + 0.5) - ui.available_height() / 2.0;
+    (known != Some(active)).then(|| centred.clamp(0.0, hidden))
 }
 
 /// One line of the list.
