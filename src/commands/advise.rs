@@ -14,7 +14,6 @@ use crate::lab::number::significant;
 use crate::lab::{
     Advised, Adviser, Good, Lane, LaneSpec, Scene, Stability, TOLERANCE, cheapest, duration,
 };
-use crate::sim::Solver;
 use crate::sim::integrators::METHODS;
 
 const ABOUT: &str = "\
@@ -127,7 +126,7 @@ const STRETCHES: u32 = 5;
 /// Nanoseconds that a lane takes for a simulated second at this rate.
 fn nanoseconds(scene: &Scene, spec: LaneSpec, tick_hz: u32) -> f64 {
     let hz = f64::from(tick_hz);
-    let mut lane = Lane::new(scene, Solver::Method(spec.method), spec.substeps);
+    let mut lane = Lane::new(scene, spec.solver(), spec.substeps);
     let mut tick = 0_u64;
     let mut best = f64::INFINITY;
     for _ in 0..STRETCHES {

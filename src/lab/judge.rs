@@ -108,7 +108,7 @@ impl Judge {
             let h = 1.0 / f64::from(tick_hz);
             let of = |body: &dyn Stepper, t: f64| {
                 let tick = Tick { t, h, substeps: spec.substeps };
-                Stability::of(body, spec.method, tick).ok()
+                Stability::of(body, spec.solver(), tick).ok()
             };
             let mut states = vec![of(&*body, 0.0)?];
             let stretch = self.horizon_s / f64::from(STATES);
@@ -158,7 +158,7 @@ impl Judge {
         let hz = f64::from(tick_hz);
         let ticks = ((horizon_s * hz).round() as u64).max(1);
         let stride = (ticks / MOMENTS).max(1);
-        let mut lane = Lane::new(&self.scene, Solver::Method(spec.method), spec.substeps);
+        let mut lane = Lane::new(&self.scene, spec.solver(), spec.substeps);
         lane.input(0.0, Input::Throttle(self.throttle));
         let mut truth = self.truth();
         let (mut error, mut worst, mut tick, mut compared) = (0.0, 0, 0, 0);

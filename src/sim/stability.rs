@@ -11,7 +11,7 @@
 //! - On a nonlinear body the map is that of small deviations here and now. What grows in truth, such as
 //!   a pendulum's fall from the top, is not held against a method.
 
-use super::integrators::{Method, StepFailure};
+use super::integrators::StepFailure;
 use super::{Solver, Stepper};
 
 mod flock;
@@ -56,17 +56,13 @@ pub struct Stability {
 pub const FOREVER_S: f64 = 365.0 * 86_400.0;
 
 impl Stability {
-    /// Of `body` as it is, under `method`.
+    /// Of `body` as it is, under `solver`.
     ///
     /// # Errors
     /// The failure of the method, or of the exact flow, in the first ticks from here.
-    pub fn of(
-        body: &dyn Stepper,
-        method: &'static Method,
-        tick: Tick,
-    ) -> Result<Self, StepFailure> {
+    pub fn of(body: &dyn Stepper, solver: Solver, tick: Tick) -> Result<Self, StepFailure> {
         let truth = true_modes(body, tick)?;
-        let Some(values) = eigenvalues(body, method, tick)? else {
+        let Some(values) = eigenvalues(body, solver, tick)? else {
             return Ok(Self {
                 spectral_radius: f64::INFINITY,
                 growth_per_s: f64::INFINITY,
@@ -175,13 +171,12 @@ fn against(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
     }
 }
 
-/// The eigenvalues of `body` under `method`, from its present state; `None` where the map overflows.
+/// The eigenvalues of `body` under `solver`, from its present state; `None` where the map overflows.
 fn eigenvalues(
     body: &dyn Stepper,
-    method: &'static Method,
+    solver: Solver,
     tick: Tick,
 ) -> Result<Option<Vec<Eigenvalue>>, StepFailure> {
-    let solver = Solver::Method(method);
     let mut first = body.with_solver(solver, tick.t);
     first.set(tick.t, body.q(), body.v());
     let here = state_of(&*first);
@@ -191,7 +186,7 @@ fn eigenvalues(
     let mut probe = Probe::new(body, solver, tick);
     let scale = scale(&here, &there, tick.h);
     // What such a method carries is the length of its steps, and that is frozen.
-    if method.tolerance.is_some() {
+    if solver.method().is_some_and(|method| method.tolerance.is_some()) {
         let [map] = probe.derivatives(&here, &scale)?;
         return Ok(spectrum::of_map(&map));
     }
@@ -199,7 +194,10 @@ fn eigenvalues(
         now: probe.derivatives(&here, &scale)?,
         later: probe.derivatives(&there, &scale)?,
     };
-    if derivatives.has_memory() && derivatives.bends() {
+    if let Some(method) = solver.method()
+        && derivatives.has_memory()
+        && derivatives.bends()
+    {
         // Over three ticks the forces change more than the memory does: only a body with the forces of
         // here and now can tell it.
         let rates = rates(body, &here, &scale, tick.t);

@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::sim::integrators::{Integrator, Method, StepFailure, integrator};
+use crate::sim::integrators::{Integrator, Method, StepFailure, Tolerance, integrator};
 use crate::sim::{State, Stepper, System};
 
 /// An equation of motion on plain slices: time, coordinates, velocities, acceleration.
@@ -70,6 +70,12 @@ impl Flock {
         let state = State { q: vec![0.0; n * count], v: vec![0.0; n * count] };
         let integrator = integrator(method, &state.q);
         Self { copies: Copies { acceleration, coordinates: n }, integrator, state }
+    }
+
+    /// The same, with a tolerance other than the method's own.
+    pub(super) fn within(mut self, tolerance: Tolerance) -> Self {
+        self.integrator.set_tolerance(tolerance);
+        self
     }
 
     /// Puts each copy into a state, coordinates first; the method begins afresh.

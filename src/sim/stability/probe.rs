@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::Tick;
 use super::flock::Flock;
-use crate::sim::integrators::StepFailure;
+use crate::sim::integrators::{StepFailure, Tolerance};
 use crate::sim::{Solver, Stepper};
 
 /// How far the state is differenced in units of its scale: far, which loses nothing to rounding where
@@ -53,6 +53,10 @@ impl Probe {
         let carrier = match solver {
             Solver::Method(method) if method.tolerance.is_some() => {
                 Carrier::Together(Flock::new(own, method, COPIES.len()))
+            }
+            Solver::Within(method, tolerance) => {
+                let flock = Flock::new(own, method, COPIES.len());
+                Carrier::Together(flock.within(Tolerance::uniform(tolerance)))
             }
             _ => Carrier::Alone(own),
         };
