@@ -36,21 +36,21 @@
 //!
 //! - **The same bits everywhere.** Stepped state is `f64` and uses only `+ - × ÷ √` and `libm`; time
 //!   is counted in whole ticks. Frame rate, drawing, platform and build profile change nothing, and
-//!   `tests/determinism.rs` compares [`Race::state_hash`](lab::Race::state_hash) with committed values.
+//!   `tests/determinism.rs` compares [`Race::lane_hashes`](lab::Race::lane_hashes) with committed values.
 //! - **Claims are measured.** Every field of a [`Method`](sim::integrators::Method) card is tested
-//!   both ways by `tests/conformance.rs`, with drag and without.
+//!   both ways by `tests/conformance`, with drag and without.
 //! - **The step allocates nothing**, takes no lock and touches no file (`tests/allocation.rs`).
 //! - **A body that blows up is data.** Its lane halts, keeps its last good state and says why; the
 //!   others go on, unchanged to the bit.
 //! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
 //!   [metrics](lab::METRICS), [scenes](lab::SCENES) and [keys](lab::KEYS): menus, help, command line
 //!   and tests loop over them.
-//! - Who may import whom is enforced by `tests/tidy.rs`.
+//! - Who may import whom is enforced by `tests/tidy`.
 //!
 //! # Adding a thing
 //!
 //! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
-//!   `methods!`. If its card claims too much or too little, `tests/conformance.rs` fails.
+//!   `methods!`. If its card claims too much or too little, `tests/conformance` fails.
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
 //!   [`BODIES`](sim::bodies::BODIES). `tests/exact_flows.rs` and `tests/bodies` hold its exact flow, or
 //!   what stands in for one, against its equation.
