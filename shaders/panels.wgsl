@@ -11,7 +11,7 @@ struct Frame {
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(1) @binding(0) var atlas: texture_2d<f32>;
 
-// As `LINE` in `panels/curves.rs`.
+// As `LINE` in `src/view/curves.rs`.
 const LINE = 2.0;
 // Half the width of what is no line, in pixels: wider than any target.
 const EVERYWHERE_PX = 1e6;

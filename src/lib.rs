@@ -7,16 +7,20 @@
 //!
 //! - [`sim`] is mathematics: a [`State`](sim::State), an equation of motion ([`System`](sim::System)),
 //!   and ways to step it ([`Integrator`](sim::integrators::Integrator)). It knows no files, clocks or
-//!   pixels. RK4's formula is in `sim/integrators/rk4.rs`.
+//!   pixels. RK4's formula is in `sim/integrators/rk4.rs`. [`sim::stability`] finds what a method makes of
+//!   a body in one tick.
 //! - [`lab`] is the experiment: a [`Scene`](lab::Scene) is read from text, a [`Clock`](lab::Clock)
 //!   turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the truth, and a
 //!   [`Picture`](lab::picture::Picture) says what to draw. A lane is one method on its own copy of the
-//!   scene's bodies; the truth is a lane whose solver is the exact flow. The layer knows no GPU and no
-//!   wall clock: time comes in as integers, text as `&str`.
+//!   scene's bodies; a [`Judge`](lab::Judge) says how far one strays. The truth is a lane whose solver is
+//!   the exact flow, or where a body has none a [reference](sim::REFERENCE_ACCURACY). The layer knows no
+//!   GPU and no wall clock: time comes in as integers, text as `&str`.
 //! - `view` is pixels: a graphics device, two pipelines for the stage, panels in egui, and
 //!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
 //!   and differ only in where time comes from and where the texture goes.
-//! - `window` and `commands` are the drivers: they alone touch files and real time.
+//! - `window` and `commands` are the drivers: they alone touch files and real time. A capture's frames
+//!   pass from the thread that draws to one that encodes (`commands/pipeline.rs`); what it drew is in a
+//!   manifest (`commands::manifest` has the schema), by which `regatta verify` judges.
 //!
 //! `view`, `window` and `commands` are there with the default feature `desktop`. Without it the
 //! package is `sim` and `lab`, pulls in no graphics crate, and builds in seconds: what a game's own
@@ -32,23 +36,24 @@
 //!
 //! - **The same bits everywhere.** Stepped state is `f64` and uses only `+ - × ÷ √` and `libm`; time
 //!   is counted in whole ticks. Frame rate, drawing, platform and build profile change nothing, and
-//!   `tests/determinism.rs` compares [`Race::state_hash`](lab::Race::state_hash) with committed values.
+//!   `tests/determinism.rs` compares [`Race::lane_hashes`](lab::Race::lane_hashes) with committed values.
 //! - **Claims are measured.** Every field of a [`Method`](sim::integrators::Method) card is tested
-//!   both ways by `tests/conformance.rs`, with drag and without.
+//!   both ways by `tests/conformance`, with drag and without.
 //! - **The step allocates nothing**, takes no lock and touches no file (`tests/allocation.rs`).
 //! - **A body that blows up is data.** Its lane halts, keeps its last good state and says why; the
 //!   others go on, unchanged to the bit.
 //! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
 //!   [metrics](lab::METRICS), [scenes](lab::SCENES) and [keys](lab::KEYS): menus, help, command line
 //!   and tests loop over them.
-//! - Who may import whom is enforced by `tests/tidy.rs`.
+//! - Who may import whom is enforced by `tests/tidy`.
 //!
 //! # Adding a thing
 //!
 //! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
-//!   `methods!`. If its card claims too much or too little, `tests/conformance.rs` fails.
+//!   `methods!`. If its card claims too much or too little, `tests/conformance` fails.
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
-//!   [`BODIES`](sim::bodies::BODIES). `tests/exact_flows.rs` holds its exact flow against its equation.
+//!   [`BODIES`](sim::bodies::BODIES). `tests/exact_flows.rs` and `tests/bodies` hold its exact flow, or
+//!   what stands in for one, against its equation.
 //! - **A scene**: add a file to `assets/scenes` and its line to [`SCENES`](lab::SCENES).
 //! - **A metric**: one entry of [`METRICS`](lab::METRICS). **A key**: one entry of [`KEYS`](lab::KEYS).
 //!

@@ -137,7 +137,10 @@ impl App {
                     self.stand_still();
                 }
                 self.meter.frame(now, self.lab.race().t());
-                let again = self.lab.running() || !commands.is_empty() || self.screenshot;
+                let again = self.lab.running()
+                    || self.lab.is_thinking()
+                    || !commands.is_empty()
+                    || self.screenshot;
                 self.asked.extend(commands);
                 self.schedule(event_loop, now, if again { Duration::ZERO } else { repaint_after });
             }

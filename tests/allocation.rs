@@ -105,6 +105,7 @@ fn a_race_does_not_allocate_while_its_histories_fill_and_turn_over() {
                 if tick % 500 == 0 {
                     race.input(Input::Kick(1.0));
                     race.input(Input::Throttle(0.5));
+                    race.input(Input::Rudder(-0.5));
                 }
             }
         });
@@ -121,6 +122,7 @@ fn a_lab_does_not_allocate_in_a_tick() {
         for _ in 0..3000 {
             lab.tick();
         }
+        while lab.think() {}
         let count = allocations_in(|| {
             for _ in 0..3000 {
                 lab.tick();

@@ -13,7 +13,7 @@ fn stiff() -> Scene {
 }
 
 fn entries(without: &str) -> impl Iterator<Item = (usize, LaneSpec)> {
-    let lanes = METHODS.iter().map(|method| LaneSpec { method, substeps: 1 }).enumerate();
+    let lanes = METHODS.iter().map(LaneSpec::plain).enumerate();
     lanes.filter(move |(_, spec)| spec.method.id != without)
 }
 

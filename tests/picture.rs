@@ -40,15 +40,71 @@ fn bodies_at_the_edge_of_what_is_followed_are_drawn() {
     let text = "title = \"far\"\ntick_hz = 10000\nseconds = 1\n\
          [[ship]]\nthrust_n = 0\ndrag_n_s_per_m = 0\nmass_kg = 1e-3\ns0_m = 1e15\nv0_m_per_s = 1e15\n\
          [[spring]]\nmass_kg = 1e15\nstiffness_n_per_m = 1e-3\nx0_m = -1e15\nv0_m_per_s = -1e15\n\
-         [[spring]]\nname = \"small\"\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 1e-12\n";
-    let mut lab = Lab::new(Scene::parse("far.toml", text).unwrap());
-    lab.apply(Command::ToggleRace);
-    for _ in 0..20 {
-        lab.advance(16_666_667);
-        assert_drawable(&compose(&lab, [780.0, 500.0]), "far");
-        lab.apply(Command::Kick(1e12));
-        assert!(lab.race().truth().bodies()[0].stepper.v()[0].abs() < ESCAPE);
+         [[spring]]\nname = \"small\"\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 1e-12\n\
+         [[chain]]\nmasses = 64\nmass_kg = 1e15\nstiffness_n_per_m = 1e-3\nx0_m = -1e15\n\
+         [[pendulum]]\nlength_m = 1e15\ngravity_m_per_s2 = 0\nomega0_rad_per_s = 1e15\n\
+         [[orbit]]\nname = \"far\"\nmu_m3_per_s2 = 1e-9\nx0_m = 1e15\nvy0_m_per_s = 1e15\n\
+         [[orbit]]\nname = \"near\"\nmu_m3_per_s2 = 1e15\nx0_m = 1e-9\nvy0_m_per_s = 0\n\
+         [[helm]]\nmass_kg = 1\ninertia_kg_m2 = 1\ndrag_n_s_per_m = 0\nside_drag_n_s_per_m = 0\n\
+         yaw_drag_n_m_s = 0\nrudder_n_s = 1\nx0_m = 1e15\ny0_m = -1e15\npsi0_rad = 1e15\n\
+         u0_m_per_s = 1e15\nthrust_curve = [[0, 0], [1, 0]]\n";
+    let scene = Scene::parse("far.toml", text).unwrap();
+    // One after the other, so that one that halts stops no other; then all at once.
+    let alone = (0..scene.bodies.len()).map(|body| {
+        let bodies = vec![scene.bodies[body].clone()];
+        Scene { bodies, ..scene.clone() }
+    });
+    for scene in alone.chain([scene.clone()]) {
+        let what = format!("far {}", scene.bodies.last().expect("a body").name);
+        let mut lab = Lab::new(scene);
+        lab.apply(Command::ToggleRace);
+        for _ in 0..20 {
+            lab.advance(16_666_667);
+            assert_drawable(&compose(&lab, [780.0, 500.0]), &what);
+            lab.apply(Command::Kick(1e12));
+            assert!(lab.race().truth().bodies()[0].stepper.v()[0].abs() < ESCAPE);
+        }
     }
+}
+
+#[test]
+fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape() {
+    for name in ["chain", "pendulum", "orbit", "helm"] {
+        let mut lab = Lab::new(Scene::built_in(name).unwrap());
+        lab.apply(Command::ToggleRace);
+        lab.advance(100_000_000);
+        let size = [780.0, 500.0];
+        let picture = compose(&lab, size);
+        let lanes = lab.race().entrants().iter();
+        assert_eq!(picture.seas.len(), lanes.len(), "{name}");
+        for (i, sea) in picture.seas.iter().enumerate() {
+            let ([left, top], [right, bottom]) = (sea.rect.min, sea.rect.max);
+            assert!(left >= 0.0 && top >= 0.0 && right <= size[0] && bottom <= size[1], "{name}");
+            let aspect = (right - left) / (bottom - top);
+            assert!((0.5..4.0).contains(&aspect) && bottom - top > 120.0, "{name}: {sea:?}");
+            let place = |other: &regatta::lab::picture::Sea| other.rect.min;
+            assert!(picture.seas[..i].iter().all(|other| place(other) != sea.rect.min), "{name}");
+        }
+        let names = lanes.map(|lane| lab.entries()[lane.entry].method.name);
+        for name in names {
+            assert!(picture.labels.iter().any(|label| label.text.ends_with(name)), "{name}");
+        }
+    }
+}
+
+#[test]
+fn an_orbits_trail_lies_on_its_ellipse() {
+    let mut lab = Lab::new(Scene::built_in("orbit").unwrap());
+    for _ in 0..400 {
+        lab.advance(16_666_667);
+    }
+    let history = &lab.race().truth_histories()[0];
+    for sample in history.samples() {
+        // The distances from the two foci of a = 10 m, e = 0.6 add up to 2 a.
+        let sum = sample.at.length() + (sample.at + glam::DVec2::new(12.0, 0.0)).length();
+        assert!((sum - 20.0).abs() < 1e-9, "{sample:?}");
+    }
+    assert!(history.samples().len() > 150);
 }
 
 #[test]
@@ -72,7 +128,7 @@ fn every_body_of_every_lane_has_a_cell_inside_the_stage() {
     lab.apply(Command::ToggleRace);
     lab.advance(100_000_000);
     let picture = compose(&lab, size);
-    assert_eq!(picture.seas.len(), 3 * lab.entries().len());
+    assert_eq!(picture.seas.len(), 3 * lab.race().entrants().len());
     for (i, sea) in picture.seas.iter().enumerate() {
         let ([left, top], [right, bottom]) = (sea.rect.min, sea.rect.max);
         assert!(left >= 0.0 && top >= 0.0 && right <= size[0] && bottom <= size[1], "{sea:?}");

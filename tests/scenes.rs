@@ -5,9 +5,10 @@ use std::fs;
 use std::path::Path;
 
 use regatta::lab::{
-    Command, LAST_TICK, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ, SCENES,
-    Scene, SceneBody, TICK_LADDER,
+    Command, LAST_TICK, Lab, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ, Race,
+    SCENES, Scene, SceneBody, TICK_LADDER,
 };
+use regatta::sim::bodies::Chain;
 use regatta::sim::integrators::{METHODS, method};
 use regatta::sim::{Solver, Stepper};
 
@@ -42,15 +43,27 @@ fn with(id: &str) -> Solver {
 }
 
 #[test]
-fn every_built_in_scene_parses_races_all_methods_and_says_what_to_try() {
+fn every_built_in_scene_parses_names_its_methods_and_says_what_to_try() {
     for scene in SCENES {
         let parsed = built_in(scene.name);
         assert_eq!(parsed.name, scene.name);
         assert!(!parsed.about.is_empty() && parsed.hint.is_some(), "{}", scene.name);
-        let methods: Vec<_> = parsed.lanes.iter().map(|lane| lane.method).collect();
-        assert_eq!(methods, METHODS.iter().collect::<Vec<_>>(), "{}", scene.name);
+        // Few enough to tell apart, and each with a digit key.
+        assert!((2..=9).contains(&parsed.lanes.len()), "{}", scene.name);
+        // By name, so that a new method changes no scene.
+        assert!(scene.text.contains("\nmethods = ["), "{}", scene.name);
+        assert!(parsed.lanes.contains(&LaneSpec::plain(&METHODS[0])));
     }
     assert!(Scene::built_in("no-such-scene").is_none());
+}
+
+#[test]
+fn the_digits_of_the_chapters_scenes_are_those_that_their_hints_name() {
+    let ids = ["explicit-euler", "semi-implicit-euler", "improved-euler", "rk4", "adaptive-euler"];
+    for name in ["harbour", "ship", "spring", "stiff"] {
+        let lanes: Vec<_> = built_in(name).lanes.iter().map(|lane| lane.method.id).collect();
+        assert_eq!(lanes, ids, "{name}");
+    }
 }
 
 #[test]
@@ -77,12 +90,13 @@ fn the_ship_is_the_chapters_and_as_wrong_as_its_scene_says() {
     assert_eq!(scene.tick_hz, 2);
     let body = &scene.bodies[0];
     let speed = |solver, ticks| run(body, solver, 2, ticks).0.v()[0];
-    let exact = speed(Solver::Exact, 17);
+    let exact = speed(Solver::Truth, 17);
     assert!((speed(with("explicit-euler"), 17) / exact - 1.016).abs() < 5e-4);
     assert!((speed(with("rk4"), 17) / exact - 1.0).abs() < 1e-6);
     let ticks = (scene.seconds * f64::from(scene.tick_hz)) as u32;
-    for method in METHODS {
-        assert!((speed(Solver::Method(method), ticks) - 20.0).abs() < 0.1, "{}", method.id);
+    for lane in &scene.lanes {
+        let reached = speed(Solver::Method(lane.method), ticks);
+        assert!((reached - 20.0).abs() < 0.1, "{}: {reached} m/s", lane.method.id);
     }
 }
 
@@ -106,9 +120,9 @@ fn the_harbours_springs_grow_under_explicit_euler_within_ten_seconds_and_stay_un
         let grown = largest(with("explicit-euler"));
         assert!((5.0..50.0).contains(&grown), "{}: {grown} m", spring.name);
         assert!(largest(with("semi-implicit-euler")) < 1.1);
-        assert!(largest(Solver::Exact) < 1.0 + 1e-9);
+        assert!(largest(Solver::Truth) < 1.0 + 1e-9);
     }
-    let late = |spring: &SceneBody| run(spring, Solver::Exact, 1, 20).0.q()[0].abs();
+    let late = |spring: &SceneBody| run(spring, Solver::Truth, 1, 20).0.q()[0].abs();
     assert!(
         (late(&scene.bodies[0]) - 1.0).abs() < 1e-6,
         "the free spring is back after 20 periods"
@@ -127,6 +141,140 @@ fn the_stiff_spring_is_bounded_at_60_hz_and_explodes_two_presses_lower_as_its_sc
 }
 
 #[test]
+fn the_chapters_ship_settles_swings_and_diverges_under_explicit_euler_as_its_scene_says() {
+    let scene = built_in("surge");
+    assert_eq!(scene.tick_hz, 1);
+    let speeds = |body: usize, solver, hz: u32| {
+        [1, 2, 3, 4, 29, 30].map(|n| run(&scene.bodies[body], solver, hz, n * hz).0.v()[0])
+    };
+    let euler = |body| speeds(body, with("explicit-euler"), 1);
+    let near = |found: [f64; 6], wanted: [f64; 4], within: f64| {
+        let pairs = found.iter().zip(wanted);
+        assert!(pairs.clone().all(|(a, b)| (a - b).abs() < within), "{found:?}, {wanted:?}");
+    };
+    let [settles, swings, diverges] = [euler(0), euler(1), euler(2)];
+    near(settles, [30.0, 15.0, 22.5, 18.75], 1e-9);
+    assert!(settles[4..].iter().all(|v| (v - 20.0).abs() < 1e-3), "{settles:?}");
+    near(swings, [40.0, 0.0, 40.0, 0.0], 1e-9);
+    assert!(swings[4] > 39.99 && swings[5] < 0.01, "{swings:?}");
+    near(diverges, [42.0, -4.2, 46.62, -9.282], 1e-9);
+    assert!(diverges[4] > 300.0 && diverges[5] < -300.0, "{diverges:?}");
+    for body in 0..3 {
+        let at_2_hz = speeds(body, with("explicit-euler"), 2);
+        assert!(at_2_hz.iter().all(|v| (v - 20.0).abs() < 5.01), "{at_2_hz:?}");
+        assert!((at_2_hz[5] - 20.0).abs() < 1e-9);
+        let exact = speeds(body, Solver::Truth, 1);
+        assert!((exact[5] - 20.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_chain_is_lost_as_its_scene_says() {
+    let scene = built_in("chain");
+    let body = &scene.bodies[0];
+    let &[masses, mass, stiffness, damping, plucked, x0, kick] = &body.values[..] else {
+        panic!("{:?}", body.values)
+    };
+    let chain = Chain::new(masses as usize, mass, stiffness, damping, plucked as usize, x0, kick);
+    let hz = |n| chain.angular_frequency(n) / (2.0 * PI);
+    assert!((hz(1) - 0.83).abs() < 0.01 && (hz(16) - 8.97).abs() < 0.01, "{} {}", hz(1), hz(16));
+    let largest = |id, hz: u32, seconds: u32| run(body, with(id), hz, seconds * hz).1;
+    assert!(largest("explicit-euler", 60, 3) > 1e6);
+    assert!(largest("improved-euler", 60, 4) > 1e3);
+    assert!(largest("semi-implicit-euler", 60, 20) < 1.0);
+    // 2 / ω of the fastest mode is between these two rates.
+    assert!(largest("semi-implicit-euler", 30, 20) < 2.0);
+    assert!(largest("semi-implicit-euler", 20, 5) > 1e3);
+    let place = |hz| TICK_LADDER.iter().position(|rung| *rung == hz).unwrap();
+    assert_eq!(place(60) - place(20), 4, "four presses");
+}
+
+#[test]
+fn the_pendulum_goes_over_the_top_as_its_scene_says() {
+    let scene = built_in("pendulum");
+    let body = &scene.bodies[0];
+    let largest = |solver| run(body, solver, 60, 20 * 60).1;
+    assert!((PI - body.values[4] - 20f64.to_radians()).abs() < 0.01);
+    assert!(run(body, with("explicit-euler"), 60, 3 * 60).1 > PI, "within seconds");
+    for id in ["semi-implicit-euler", "rk4"] {
+        assert!(largest(with(id)) < 2.9, "{id}");
+    }
+    assert!((largest(Solver::Truth) - 2.8).abs() < 1e-3);
+}
+
+#[test]
+fn the_orbit_is_an_ellipse_of_6_s_and_strays_as_its_scene_says() {
+    let scene = built_in("orbit");
+    let body = &scene.bodies[0];
+    let after = |solver, seconds: u32| run(body, solver, 30, 30 * seconds).0;
+    let start = after(Solver::Truth, 0);
+    assert!((after(Solver::Truth, 6).place() - start.place()).length() < 1e-9);
+    assert!((after(Solver::Truth, 3).place().x + 16.0).abs() < 1e-9, "farthest at a (1 + e)");
+    let drift = |id, seconds| {
+        let drift = after(with(id), seconds).energy().unwrap() - start.energy().unwrap();
+        drift / start.energy().unwrap().abs()
+    };
+    // How far the axis has turned, in degrees.
+    let turned = |id, seconds| {
+        let stepper = after(with(id), seconds);
+        let (&[x, y], &[vx, vy]) = (stepper.q(), stepper.v()) else { panic!("two coordinates") };
+        let (r, momentum) = (libm::hypot(x, y), (x * vy - y * vx) / body.values[0]);
+        libm::atan2(-vx * momentum - y / r, vy * momentum - x / r).to_degrees()
+    };
+    assert!(drift("explicit-euler", 12) > 0.5);
+    assert!(drift("improved-euler", 30) > 0.05 && drift("improved-euler", 12) > 0.02);
+    for seconds in [12, 18, 24, 30] {
+        assert!(drift("semi-implicit-euler", seconds).abs() < 0.1);
+        assert!((turned("semi-implicit-euler", seconds) - 7.3).abs() < 0.6);
+        assert!(drift("rk4", seconds).abs() < 1e-4 && turned("rk4", seconds).abs() < 0.01);
+    }
+}
+
+#[test]
+fn the_helm_turns_to_its_script_and_the_methods_part_there_as_its_scene_says() {
+    let scene = built_in("helm");
+    let rudder: Vec<_> = scene.script.iter().map(|scripted| scripted.command).collect();
+    assert_eq!(rudder, [Command::Rudder(1.0), Command::Rudder(-1.0), Command::Rudder(0.0)]);
+    let mut lab = Lab::new(scene.clone());
+    lab.apply(Command::ToggleRace);
+    let heading = |lab: &Lab| lab.race().truth().bodies()[0].stepper.q()[2];
+    let error = |lab: &Lab| {
+        let [lane, truth] = [&lab.race().entrants()[0].lane, lab.race().truth()];
+        (lane.bodies()[0].stepper.place() - truth.bodies()[0].stepper.place()).length()
+    };
+    let run_to = |lab: &mut Lab, tick| {
+        while lab.race().tick() < tick {
+            lab.tick();
+        }
+    };
+    run_to(&mut lab, 15);
+    assert!(heading(&lab) == 0.0 && error(&lab) < 0.5, "{}", error(&lab));
+    run_to(&mut lab, 90);
+    let left = heading(&lab);
+    assert!(left > PI, "to the left");
+    run_to(&mut lab, 170);
+    assert!(heading(&lab) < left - PI / 2.0, "to the right");
+    assert!(error(&lab) > 2.0, "{}", error(&lab));
+}
+
+#[test]
+fn a_chain_and_a_helm_are_read_with_their_counts_and_points() {
+    let chain = "[[chain]]\nmass_kg = 1\nstiffness_n_per_m = 40\nmasses = 3\nplucked_mass = 3\n";
+    let helm = "[[helm]]\nmass_kg = 1\ninertia_kg_m2 = 1\ndrag_n_s_per_m = 1\n\
+                side_drag_n_s_per_m = 1\nyaw_drag_n_m_s = 1\nrudder_n_s = 1\n\
+                thrust_curve = [[-2, 7.5], [0x10, -1e3], [1e15, 0]]\n";
+    let scene = parse_body(&format!("{chain}{helm}"));
+    assert_eq!(scene.bodies[0].values, [3.0, 1.0, 40.0, 0.0, 3.0, 1.0, 3.0]);
+    assert_eq!(scene.bodies[1].values[11..], [-2.0, 7.5, 16.0, -1e3, 1e15, 0.0]);
+    let names = |body: &SceneBody| {
+        let coordinates = (body.kind.coordinates)(&body.values).iter();
+        coordinates.map(|c| format!("{} {}", c.name, c.velocity)).collect::<Vec<_>>()
+    };
+    assert_eq!(names(&scene.bodies[0]), ["x1 v1", "x2 v2", "x3 v3"]);
+    assert_eq!(names(&scene.bodies[1]), ["x vx", "y vy", "psi r"]);
+}
+
+#[test]
 fn a_scene_without_lanes_races_every_method_and_optional_keys_have_defaults() {
     let scene = parse_body(SPRING);
     assert_eq!((scene.name.as_str(), scene.title.as_str()), ("mine", "Mine"));
@@ -141,12 +289,39 @@ fn a_scene_without_lanes_races_every_method_and_optional_keys_have_defaults() {
 
 #[test]
 fn lanes_keep_their_order_and_differ_by_method_or_substeps() {
-    let lane = |id, substeps| LaneSpec { method: method(id).unwrap(), substeps };
+    let lane = |id, substeps| LaneSpec { substeps, ..LaneSpec::plain(method(id).unwrap()) };
     let scene = parse_body(&format!("methods = ['rk4', 'explicit-euler']\n{SPRING}"));
     assert_eq!(scene.lanes, [lane("rk4", 1), lane("explicit-euler", 1)]);
     let lanes = "[[lane]]\nmethod = 'rk4'\n[[lane]]\nmethod = 'rk4'\nsubsteps = 1000\n";
     let scene = parse_body(&format!("{lanes}{SPRING}"));
     assert_eq!(scene.lanes, [lane("rk4", 1), lane("rk4", 1000)]);
+}
+
+#[test]
+fn a_lane_sails_within_the_tolerance_that_it_is_given() {
+    let lane = "[[lane]]\nmethod = 'dormand-prince-54'\n";
+    let lanes = format!("{lane}{lane}tolerance = 1\n{lane}tolerance = 1e-12\n{lane}substeps = 2\n");
+    let mut scene = parse_body(&format!("{lanes}{SPRING}"));
+    let given: Vec<_> = scene.lanes.iter().map(|lane| lane.tolerance).collect();
+    assert_eq!(given, [None, Some(1.0), Some(1e-12), None]);
+    scene.tick_hz = 2;
+
+    let mut race = Race::new(&scene, scene.lanes.iter().copied().enumerate());
+    // The last one comes into its tolerance on the way.
+    race.switch(3, 2, scene.lanes[2]);
+    for _ in 0..20 {
+        race.step();
+    }
+    let truth = race.truth().bodies()[0].stepper.q()[0];
+    let of_lane = |i: usize| {
+        let lane = &race.entrants()[i].lane;
+        assert_eq!(lane.solver(), scene.lanes[i.min(2)].solver());
+        ((lane.bodies()[0].stepper.q()[0] - truth).abs(), lane.evaluations())
+    };
+    let [plain, loose, tight, switched] = [0, 1, 2, 3].map(of_lane);
+    assert!(loose.0 > 1e-3 && plain.0 < 1e-4 && tight.0 < 1e-9, "{loose:?} {plain:?} {tight:?}");
+    assert!(loose.1 < plain.1 && plain.1 < tight.1, "{loose:?} {plain:?} {tight:?}");
+    assert_eq!(switched, tight);
 }
 
 #[test]

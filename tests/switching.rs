@@ -3,7 +3,7 @@
 
 use regatta::lab::{Command, Lab, Lane, LaneSpec, Mode, Race, Scene, SceneBody};
 use regatta::sim::bodies::{Body, Input, Ship, Spring};
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{METHODS, Method, method};
 use regatta::sim::{Solver, State};
 
 fn scene(name: &str) -> Scene {
@@ -11,7 +11,7 @@ fn scene(name: &str) -> Scene {
 }
 
 fn solo(scene: &Scene, id: &str) -> Race {
-    Race::new(scene, [(0, LaneSpec { method: method(id).unwrap(), substeps: 1 })])
+    Race::new(scene, [(0, LaneSpec::plain(method(id).unwrap()))])
 }
 
 fn bits(lane: &Lane) -> Vec<u64> {
@@ -33,12 +33,12 @@ fn a_switch_carries_the_state_to_the_bit() {
             let mut race = solo(&scene("harbour"), from.id);
             run(&mut race, 100);
             let (before, hash) = (bits(&race.entrants()[0].lane), race.state_hash());
-            race.switch(0, 1, LaneSpec { method: to, substeps: 1 });
+            race.switch(0, 1, LaneSpec::plain(to));
             let lane = &race.entrants()[0].lane;
             assert_eq!(bits(lane), before, "{} to {}", from.id, to.id);
             assert_eq!(lane.solver(), Solver::Method(to));
             assert_eq!(race.state_hash(), hash);
-            race.switch(0, 0, LaneSpec { method: from, substeps: 1 });
+            race.switch(0, 0, LaneSpec::plain(from));
             assert_eq!(race.state_hash(), hash, "{} to {} and back", from.id, to.id);
         }
     }
@@ -46,42 +46,85 @@ fn a_switch_carries_the_state_to_the_bit() {
 
 #[test]
 fn there_and_back_in_one_tick_changes_nothing_that_follows() {
-    // An adaptive method forgets the step it carried, as it must: it starts anew.
-    for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+    // A method that carries something forgets it, as it must: it starts anew.
+    for method in METHODS.iter().filter(|method| method.restart.is_none()) {
         let mut straight = solo(&scene("harbour"), method.id);
         let mut detour = solo(&scene("harbour"), method.id);
         run(&mut straight, 500);
         run(&mut detour, 100);
-        detour.switch(0, 1, LaneSpec { method: METHODS.last().unwrap(), substeps: 3 });
-        detour.switch(0, 0, LaneSpec { method, substeps: 1 });
+        detour.switch(0, 1, LaneSpec { substeps: 3, ..LaneSpec::plain(METHODS.last().unwrap()) });
+        detour.switch(0, 0, LaneSpec::plain(method));
         run(&mut detour, 400);
         assert_eq!(detour.state_hash(), straight.state_hash(), "{}", method.id);
     }
 }
 
+/// A spring with drag, at whose ticks every method carries what it can.
+fn damped_spring() -> Scene {
+    let mut scene = scene("spring");
+    scene.bodies[0].values[2] = 0.8;
+    scene
+}
+
+/// Runs a race for 77 ticks under one method, lets `change` interrupt it, and compares what follows with
+/// a race that starts under the second method where the first then is.
+fn goes_on_as_if_started_there(from: &'static Method, to: &'static Method, change: fn(&mut Race)) {
+    let scene = damped_spring();
+    let mut race = solo(&scene, from.id);
+    run(&mut race, 77);
+    change(&mut race);
+    if from != to {
+        race.switch(0, 0, LaneSpec::plain(to));
+    }
+    let State { q, v } = state(&race.entrants()[0].lane);
+    let mut there = scene.clone();
+    there.tick_hz = race.tick_hz();
+    there.bodies[0].values[3..5].copy_from_slice(&[q, v]);
+    let mut fresh = solo(&there, to.id);
+    let start = fresh.entrants()[0].lane.bodies()[0].stepper.q()[0];
+    run(&mut race, 100);
+    run(&mut fresh, 100);
+    let (race, fresh) = (&race.entrants()[0].lane, &fresh.entrants()[0].lane);
+    assert_eq!(bits(race), bits(fresh), "{} to {}", from.id, to.id);
+    assert_ne!(state(fresh).q, start, "{} moves", to.id);
+}
+
 #[test]
 fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
-    let scene = scene("spring");
     for to in METHODS {
-        let mut race = solo(&scene, "rk4");
-        run(&mut race, 77);
-        race.switch(0, 0, LaneSpec { method: to, substeps: 2 });
-        let mut lane = Lane::new(&scene, Solver::Method(to), 2);
-        let (q, v) = {
-            let body = &race.entrants()[0].lane.bodies()[0].stepper;
-            (body.q()[0], body.v()[0])
-        };
-        let mut scene_there = scene.clone();
-        scene_there.bodies[0].values[3..5].copy_from_slice(&[q, v]);
-        let mut there = Lane::new(&scene_there, Solver::Method(to), 2);
-        let h = 1.0 / f64::from(scene.tick_hz);
-        for tick in 77..177 {
-            race.step();
-            there.tick(tick, tick as f64 * h, h);
-            lane.tick(tick, tick as f64 * h, h);
-        }
-        assert_eq!(bits(&race.entrants()[0].lane), bits(&there), "{}", to.id);
-        assert_ne!(bits(&there), bits(&lane), "{} moves", to.id);
+        let from = method(if to.id == "rk4" { "improved-euler" } else { "rk4" }).unwrap();
+        goes_on_as_if_started_there(from, to, |_| ());
+    }
+}
+
+#[test]
+fn after_a_kick_every_method_goes_on_as_if_started_there() {
+    for method in METHODS {
+        goes_on_as_if_started_there(method, method, |race| race.input(Input::Kick(1.0)));
+        // A kick of nothing leaves the state as it is, but a kick it is.
+        goes_on_as_if_started_there(method, method, |race| race.input(Input::Kick(0.0)));
+    }
+}
+
+#[test]
+fn after_a_change_of_tick_rate_every_method_goes_on_as_if_started_there() {
+    for method in METHODS {
+        goes_on_as_if_started_there(method, method, |race| race.set_tick_hz(100));
+        goes_on_as_if_started_there(method, method, |race| race.set_tick_hz(49));
+    }
+}
+
+#[test]
+fn to_set_the_tick_rate_that_is_set_already_changes_nothing() {
+    for method in METHODS {
+        let [mut told, mut left] = [(); 2].map(|()| solo(&damped_spring(), method.id));
+        run(&mut told, 77);
+        run(&mut left, 77);
+        told.set_tick_hz(told.tick_hz());
+        run(&mut told, 100);
+        run(&mut left, 100);
+        assert_eq!(told.t().to_bits(), left.t().to_bits());
+        assert_eq!(told.state_hash(), left.state_hash(), "{}", method.id);
     }
 }
 
@@ -89,7 +132,7 @@ fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
 fn evaluations_go_on_counting_across_a_switch() {
     let mut race = solo(&scene("spring"), "rk4");
     run(&mut race, 10);
-    race.switch(0, 1, LaneSpec { method: method("explicit-euler").unwrap(), substeps: 1 });
+    race.switch(0, 1, LaneSpec::plain(method("explicit-euler").unwrap()));
     run(&mut race, 5);
     assert_eq!(race.entrants()[0].lane.evaluations(), 4 * 10 + 5);
 }
@@ -203,7 +246,7 @@ fn a_halted_lane_that_is_switched_goes_on_from_its_last_good_state() {
     let last = bits(&race.entrants()[0].lane);
     run(&mut race, 10);
     assert_eq!(bits(&race.entrants()[0].lane), last, "a halted lane stays where it is");
-    race.switch(0, 1, LaneSpec { method: method("rk4").unwrap(), substeps: 1 });
+    race.switch(0, 1, LaneSpec::plain(method("rk4").unwrap()));
     assert_eq!(race.entrants()[0].lane.halted(), None);
     assert_eq!(bits(&race.entrants()[0].lane), last);
     run(&mut race, 1000);
@@ -220,7 +263,7 @@ fn a_throttle_set_while_a_lane_was_halted_holds_when_it_goes_on() {
     let last = bits(&race.entrants()[0].lane);
     race.input(Input::Kick(1.0));
     assert_eq!(bits(&race.entrants()[0].lane), last, "a halted lane feels no kick");
-    race.switch(0, 1, LaneSpec { method: method("rk4").unwrap(), substeps: 1 });
+    race.switch(0, 1, LaneSpec::plain(method("rk4").unwrap()));
     run(&mut race, 3000);
     // After 30 time constants both ships have the speed that the throttle asks for.
     let (lane, truth) = (state(&race.entrants()[0].lane), state(race.truth()));
@@ -235,11 +278,14 @@ fn solo_to_race_and_back_flies_the_method_that_was_selected() {
         lab.apply(Command::Method(method));
         lab.apply(Command::ToggleRace);
         assert_eq!(lab.mode(), Mode::Race);
-        assert_eq!(lab.race().entrants().len(), lab.entries().len());
+        let guest = lab.scene().lanes.iter().all(|spec| spec.method != method);
+        assert_eq!(lab.race().entrants().len(), lab.scene().lanes.len() + usize::from(guest));
         for _ in 0..50 {
             lab.tick();
         }
-        let selected = &lab.race().entrants()[lab.active()].lane;
+        let active = lab.active();
+        let mut entrants = lab.race().entrants().iter();
+        let selected = &entrants.find(|entrant| entrant.entry == active).unwrap().lane;
         assert_eq!(selected.solver(), Solver::Method(method));
         let before = bits(selected);
         lab.apply(Command::ToggleRace);
@@ -274,4 +320,31 @@ fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_other
     assert_eq!(lane.solver(), Solver::Method(lab.entries()[3].method));
     lab.apply(Command::ToggleRace);
     assert_eq!((racing(&lab), lab.active()), (vec![0, 1, 3], 3));
+}
+
+#[test]
+fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_after_a_restart() {
+    let mut lab = Lab::new(scene("helm"));
+    assert!(lab.takes("rudder") && lab.takes("throttle") && !lab.takes("anchor"));
+    assert_eq!((lab.rudder(), lab.throttle()), (0.0, 1.0));
+    for (command, times, rudder) in [
+        (Command::RudderLeft, 3, 0.3),
+        (Command::RudderRight, 3, 0.0),
+        (Command::RudderRight, 14, -1.0),
+        (Command::RudderLeft, 10, 0.0),
+        (Command::Rudder(7.0), 1, 1.0),
+    ] {
+        for _ in 0..times {
+            lab.apply(command);
+        }
+        assert_eq!(lab.rudder(), rudder);
+    }
+    for _ in 0..10 {
+        lab.tick();
+    }
+    let heading = |lab: &Lab| lab.race().entrants()[0].lane.bodies()[0].stepper.q()[2];
+    assert!(heading(&lab) > 0.1, "left is counter-clockwise");
+    lab.apply(Command::Restart);
+    assert_eq!((lab.rudder(), heading(&lab)), (0.0, 0.0));
+    assert!(!Lab::new(scene("ship")).takes("rudder"));
 }

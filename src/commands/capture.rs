@@ -1,26 +1,30 @@
-//! `regatta capture`: a run drawn frame by frame into numbered pictures, by a clock that is computed
-//! and not read, so that the same command makes the same bytes.
+//! `regatta capture`: a run drawn frame by frame, by a clock that is computed and not read, so that the
+//! same command makes the same bytes.
 
+use std::io;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 
+use super::Error;
 use super::experiment::{self, ExperimentArgs, Lineup};
 use super::frame_folder::{Existing, FrameFolder, FrameFolderError, MOST_FRAMES};
-use super::{Error, tell};
-use crate::lab::{Clock, Lab};
-use crate::view::{AdapterPreference, Artist, Gpu, GpuError, ReadbackError, png};
+use super::movie::{self, MOST_GIF_FPS, MovieFormat};
+use super::outlet::Outlet;
+use super::recording::{Recording, record};
+use super::voyage::Schedule;
+use super::{logbook, sheet};
+use crate::view::{GpuError, Panels, ReadbackError};
 
 const EXAMPLES: &str = "\
-Frame i shows the run at i / fps seconds. The same command makes the same bytes.
+Frame i shows the run at i / fps seconds. The same command makes the same bytes. manifest.json,
+written last, says what was drawn; `regatta verify` judges by it.
 
 Examples:
   regatta capture --scene spring --race --out clip
   regatta capture --scene ship --method rk4 --frames 1 --size 1920x1080 --out still
-  ffmpeg -framerate 30 -i clip/frame-%06d.png -pix_fmt yuv420p clip.mp4";
+  regatta capture --scene stiff --race --format sheet --out stiff.png
+  regatta capture --race --format y4m --out - | ffmpeg -i - -pix_fmt yuv420p race.mp4";
 
 /// Draw a run into numbered pictures, without a window
 #[derive(Debug, Args)]
@@ -33,11 +37,12 @@ pub(super) struct CaptureArgs {
     #[arg(long)]
     race: bool,
 
-    /// The directory for frame-000000.png and so on; made where there is none
-    #[arg(long, value_name = "DIR")]
+    /// The directory for frame-000000.png and so on, made where there is none; in other formats than
+    /// png a file, or - for standard output
+    #[arg(long, value_name = "DIR|FILE")]
     out: PathBuf,
 
-    /// How many frames to draw, 1 to 1000000
+    /// How many frames to draw, 1 to 1000000; in a sheet how many across [sheet: 6]
     #[arg(long, value_name = "N", conflicts_with = "seconds")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_FRAMES)))]
     frames: Option<u32>,
@@ -47,52 +52,82 @@ pub(super) struct CaptureArgs {
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// Frames in a simulated second, 1 to 1000
-    #[arg(long, value_name = "F", default_value_t = FPS)]
+    /// Frames in a simulated second, 1 to 1000 [default: 30; sheet: 1]
+    #[arg(long, value_name = "F")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
-    fps: u32,
+    fps: Option<u32>,
 
-    /// Width and height in pixels, 1x1 to 8192x8192
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
-    size: [u32; 2],
+    /// Width and height in pixels, 1x1 to 8192x8192; in a sheet of each cell [default: 1280x720;
+    /// sheet: 320x180]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<[u32; 2]>,
 
     /// Pixels to a point, 0.5 to 4: the size of text and lines
     #[arg(long, value_name = "S", default_value = "1", value_parser = scale)]
     scale: f32,
 
-    /// How to write pictures: png
+    /// Whether panels are shown around the stage: on or off [default: on; sheet: off]
+    #[arg(long, value_name = "WHEN", hide_possible_values = true)]
+    panels: Option<Shown>,
+
+    /// Ticks from one state in the manifest to the next [default: about 500 states in all]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    mark_every: Option<u64>,
+
+    /// How to write pictures: png, apng, gif, y4m, rgba or sheet
     #[arg(long, value_name = "FORMAT", default_value = "png", hide_possible_values = true)]
     format: PictureFormat,
 
-    /// Replace the frames that DIR holds; other files in it stay
+    /// Replace the frames that DIR holds, other files in it stay; or replace FILE
     #[arg(long)]
     force: bool,
+
+    /// Keep the frames that the same command left when it was stopped, and draw the rest
+    #[arg(long, conflicts_with = "force")]
+    resume: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PictureFormat {
+    /// Numbered pictures and a manifest in a directory
+    Png,
+    /// One animated PNG
+    Apng,
+    /// One GIF, each frame with a palette of its own
+    Gif,
+    /// YUV4MPEG2, for a video encoder
+    Y4m,
+    /// Raw RGBA bytes, for a video encoder
+    Rgba,
+    /// One picture, time across, lanes down
+    Sheet,
+}
+
+impl PictureFormat {
+    /// What a sheet wants instead of what all others do.
+    fn or_sheet<T>(self, others: T, sheet: T) -> T {
+        if self == PictureFormat::Sheet { sheet } else { others }
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum PictureFormat {
-    Png,
+enum Shown {
+    On,
+    Off,
 }
 
 /// Smooth enough for every scene, at half the files and half the time of 60.
 pub(super) const FPS: u32 = 30;
 
+/// A moment a second: enough to see a method go astray on every scene.
+const SHEET_FPS: u32 = 1;
+
+/// As many cells as stand beside each other on a page.
+const SHEET_COLUMNS: u32 = 6;
+
 /// The longest side of a frame in pixels: what nearly every adapter can draw on.
 const LONGEST_SIDE_PX: u32 = 8192;
-
-/// The most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files.
-/// More is a slip of the fingers.
-const MOST_PIXELS: u64 = 1_000_000_000_000;
-
-/// What is drawn: how often, how large.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Recording {
-    pub(super) frames: u32,
-    pub(super) fps: u32,
-    pub(super) size_px: [u32; 2],
-    /// Pixels to a point.
-    pub(super) scale: f32,
-}
 
 /// Why there are not all frames.
 #[derive(Debug, thiserror::Error)]
@@ -110,7 +145,7 @@ pub enum CaptureError {
     #[error(
         "{frames} frames of {}x{} are {} gigapixels, and a capture has at most {}; \
          give fewer --frames or a smaller --size",
-        size_px[0], size_px[1], pixels / GIGA, MOST_PIXELS / GIGA
+        size_px[0], size_px[1], pixels / GIGA, most / GIGA
     )]
     TooManyPixels {
         /// Asked for.
@@ -119,6 +154,8 @@ pub enum CaptureError {
         size_px: [u32; 2],
         /// In all.
         pixels: u64,
+        /// The most there may be.
+        most: u64,
     },
     /// The folder cannot be used.
     #[error(transparent)]
@@ -137,6 +174,27 @@ pub enum CaptureError {
     /// A frame was drawn but did not come back.
     #[error(transparent)]
     Readback(#[from] ReadbackError),
+    /// A file that would be replaced, or a directory.
+    #[error("{} is there already; give another --out, or --force to replace a file", .path.display())]
+    Taken {
+        /// The path.
+        path: PathBuf,
+    },
+    /// Bytes that are no text would go to a terminal.
+    #[error("pictures do not go to a terminal; give --out FILE, or send standard output elsewhere")]
+    Terminal,
+    /// Only a directory can be taken up again.
+    #[error("only pictures in a directory can be resumed; leave out --resume, or --format")]
+    NotResumable,
+    /// A GIF would be played slower.
+    #[error("a GIF has at most {MOST_GIF_FPS} frames a second, not {fps}; give a lower --fps")]
+    TooFastForGif {
+        /// Asked for.
+        fps: u32,
+    },
+    /// Standard output took no more.
+    #[error("cannot write to standard output: {0}")]
+    Output(#[from] io::Error),
     /// Somebody pressed Ctrl-C.
     #[error("interrupted after {done} of {frames} frames; whole: {whole}")]
     Interrupted {
@@ -156,8 +214,14 @@ impl CaptureError {
         match self {
             CaptureError::TooManyFrames { .. }
             | CaptureError::TooManyPixels { .. }
+            | CaptureError::Taken { .. }
+            | CaptureError::Terminal
+            | CaptureError::NotResumable
+            | CaptureError::TooFastForGif { .. }
             | CaptureError::Folder(
-                FrameFolderError::NotEmpty { .. } | FrameFolderError::NotADirectory { .. },
+                FrameFolderError::NotEmpty { .. }
+                | FrameFolderError::NotADirectory { .. }
+                | FrameFolderError::Foreign { .. },
             )
             | CaptureError::Gpu(GpuError::TooLarge { .. } | GpuError::Empty { .. }) => 2,
             CaptureError::Interrupted { .. } => 130,
@@ -167,19 +231,58 @@ impl CaptureError {
 }
 
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
-    let lineup = if args.race { Lineup::Everyone } else { Lineup::Solo };
+    let format = args.format;
+    let everyone = args.race || format == PictureFormat::Sheet && args.experiment.names_no_method();
+    let lineup = if everyone { Lineup::Everyone } else { Lineup::Solo };
     let experiment = args.experiment.load(lineup)?;
-    let seconds = args.seconds.unwrap_or(experiment.scene().seconds);
-    let frames = match args.frames {
-        Some(frames) => frames,
-        None => frames_in(seconds, args.fps)?,
+    let fps = args.fps.unwrap_or(format.or_sheet(FPS, SHEET_FPS));
+    let frames = match (args.frames, args.seconds) {
+        (Some(frames), _) => frames,
+        (None, Some(seconds)) => frames_in(seconds, fps)?,
+        (None, None) if format == PictureFormat::Sheet => SHEET_COLUMNS,
+        (None, None) => frames_in(experiment.scene.seconds, fps)?,
     };
-    let PictureFormat::Png = args.format;
-    let recording = Recording { frames, fps: args.fps, size_px: args.size, scale: args.scale };
-    let existing = if args.force { Existing::Replace } else { Existing::Refuse };
-    let folder = FrameFolder::inspect(&args.out, existing).map_err(CaptureError::from)?;
-    record(&mut experiment.lab(), recording, folder)?;
-    Ok(())
+    let schedule = Schedule { frames, fps };
+    let recording = Recording {
+        schedule,
+        size_px: args.size.unwrap_or(format.or_sheet([1280, 720], [320, 180])),
+        scale: args.scale,
+        panels: match args.panels.unwrap_or(format.or_sheet(Shown::On, Shown::Off)) {
+            Shown::On => Panels::Shown,
+            Shown::Off => Panels::Off,
+        },
+        motion: true,
+        mark_every: args
+            .mark_every
+            .unwrap_or_else(|| logbook::usual_stride(schedule.ticks(experiment.scene.tick_hz))),
+    };
+    if format != PictureFormat::Png && args.resume {
+        return Err(CaptureError::NotResumable.into());
+    }
+    let movie = match format {
+        PictureFormat::Png => {
+            let existing = match (args.force, args.resume) {
+                (true, _) => Existing::Replace,
+                (_, true) => Existing::Continue,
+                _ => Existing::Refuse,
+            };
+            let folder = FrameFolder::inspect(&args.out, existing).map_err(CaptureError::from)?;
+            return Ok(record(&experiment, recording, folder)?);
+        }
+        PictureFormat::Sheet => {
+            let outlet = Outlet::open(&args.out, args.force)?;
+            return Ok(sheet::draw(&experiment, recording, outlet)?);
+        }
+        PictureFormat::Gif if fps > MOST_GIF_FPS => {
+            return Err(CaptureError::TooFastForGif { fps }.into());
+        }
+        PictureFormat::Gif => MovieFormat::Gif,
+        PictureFormat::Apng => MovieFormat::Apng,
+        PictureFormat::Y4m => MovieFormat::Y4m,
+        PictureFormat::Rgba => MovieFormat::Rgba,
+    };
+    let outlet = Outlet::open(&args.out, args.force)?;
+    Ok(movie::record(&experiment, recording, movie, outlet)?)
 }
 
 /// How many frames cover this many seconds; the start is one of them in any case.
@@ -189,87 +292,6 @@ pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, CaptureError> {
         return Err(CaptureError::TooManyFrames { frames });
     }
     Ok(frames as u32)
-}
-
-/// Draws a run from where `lab` stands into `folder`, and says on standard error what it wrote.
-pub(super) fn record(
-    lab: &mut Lab,
-    recording: Recording,
-    mut folder: FrameFolder,
-) -> Result<(), CaptureError> {
-    let Recording { frames, fps, size_px, scale } = recording;
-    let pixels = u64::from(frames) * u64::from(size_px[0]) * u64::from(size_px[1]);
-    if pixels > MOST_PIXELS {
-        return Err(CaptureError::TooManyPixels { frames, size_px, pixels });
-    }
-    let gpu = Gpu::headless(AdapterPreference::Any)?;
-    log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
-    let mut artist = Artist::new(gpu, size_px, scale)?;
-    folder.clear()?;
-
-    let interrupted = watch_for_interrupt();
-    let progress = ProgressBar::new(u64::from(frames)).with_style(progress_style());
-    let mut rgba = Vec::new();
-    for frame in 0..frames {
-        if interrupted.load(Ordering::Relaxed) {
-            progress.finish_and_clear();
-            let whole = folder.range();
-            return Err(CaptureError::Interrupted { done: frame, frames, whole });
-        }
-        if frame > 0 {
-            advance(lab, time_ns(frame, fps) - time_ns(frame - 1, fps));
-        }
-        artist.draw(lab, &mut rgba)?;
-        folder
-            .push(&png::encode(size_px, &rgba))
-            .map_err(|source| CaptureError::Write { source, whole: folder.range() })?;
-        progress.inc(1);
-    }
-    progress.finish_and_clear();
-    let [width, height] = size_px;
-    let plural = if frames == 1 { "" } else { "s" };
-    tell(&format!(
-        "wrote {frames} frame{plural} of {width}x{height}, {fps} a second: {}",
-        folder.range()
-    ));
-    if !folder.others().is_empty() {
-        let others: Vec<_> =
-            folder.others().iter().map(|name| name.display().to_string()).collect();
-        tell(&format!("left alone in {}: {}", folder.path().display(), others.join(", ")));
-    }
-    Ok(())
-}
-
-/// When `frame` is, in nanoseconds: rounded up, so that a tick due at that very moment is done.
-fn time_ns(frame: u32, fps: u32) -> u64 {
-    (u64::from(frame) * GIGA).div_ceil(u64::from(fps))
-}
-
-/// Advances by `ns` nanoseconds in stretches that the clock takes whole.
-fn advance(lab: &mut Lab, ns: u64) {
-    let longest = u64::from(Clock::LONGEST_FRAME_MS) * 1_000_000;
-    let mut left = ns;
-    while left > 0 {
-        let stretch = left.min(longest);
-        let due = lab.advance(stretch as i64);
-        assert_eq!(due.dropped, 0, "a stretch is no longer than the clock's longest frame");
-        left -= stretch;
-    }
-}
-
-/// Set once Ctrl-C is pressed.
-fn watch_for_interrupt() -> Arc<AtomicBool> {
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let set = Arc::clone(&interrupted);
-    if let Err(error) = ctrlc::set_handler(move || set.store(true, Ordering::Relaxed)) {
-        log::warn!("Ctrl-C will stop the capture at once: {error}");
-    }
-    interrupted
-}
-
-fn progress_style() -> ProgressStyle {
-    ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left")
-        .expect("the template is a constant")
 }
 
 fn size(written: &str) -> Result<[u32; 2], String> {
@@ -293,23 +315,6 @@ fn scale(written: &str) -> Result<f32, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
-
-    #[test]
-    fn each_frame_has_just_the_ticks_that_are_due() {
-        for (tick_hz, fps) in
-            [(60, 30), (60, 60), (49, 30), (60, 24), (7, 1), (10_000, 3), (1, 1000)]
-        {
-            let mut scene = Scene::built_in("spring").unwrap();
-            scene.tick_hz = tick_hz;
-            let mut lab = Lab::new(scene);
-            for frame in 1..=2 * fps {
-                advance(&mut lab, time_ns(frame, fps) - time_ns(frame - 1, fps));
-                let due = u64::from(frame) * u64::from(tick_hz) / u64::from(fps);
-                assert_eq!(lab.race().tick(), due, "frame {frame}, {tick_hz} Hz, {fps} fps");
-            }
-        }
-    }
 
     #[test]
     fn sizes_are_two_sides_within_the_limit() {

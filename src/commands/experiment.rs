@@ -40,15 +40,18 @@ pub(super) enum Lineup {
 
 /// A scene and who sails it.
 pub(super) struct Experiment {
-    scene: Scene,
-    selected: Option<&'static Method>,
-    lineup: Lineup,
+    /// With the options applied.
+    pub(super) scene: Scene,
+    /// The scene file's text, as it was.
+    pub(super) text: String,
+    pub(super) selected: Option<&'static Method>,
+    pub(super) lineup: Lineup,
 }
 
 impl ExperimentArgs {
     /// Reads the scene and applies the other options to it.
     pub(super) fn load(&self, lineup: Lineup) -> Result<Experiment, SceneFileError> {
-        let mut scene = scene_file::load(&self.scene)?;
+        let (mut scene, text) = scene_file::load(&self.scene)?;
         if let Some(tick_hz) = self.tick_hz {
             scene.tick_hz = tick_hz;
         }
@@ -57,7 +60,12 @@ impl ExperimentArgs {
             scene.lanes = lanes_of(&scene, &self.methods);
             lineup = Lineup::Everyone;
         }
-        Ok(Experiment { scene, selected: self.methods.first().copied(), lineup })
+        Ok(Experiment { scene, text, selected: self.methods.first().copied(), lineup })
+    }
+
+    /// The lanes of the methods named, as `scene` has them.
+    pub(super) fn lanes_named(&self, scene: &Scene) -> Vec<LaneSpec> {
+        lanes_of(scene, &self.methods)
     }
 
     /// Whether no method is named.
@@ -77,18 +85,13 @@ fn lanes_of(scene: &Scene, methods: &[&'static Method]) -> Vec<LaneSpec> {
         let listed = lanes.len();
         lanes.extend(scene.lanes.iter().filter(|lane| lane.method == method));
         if lanes.len() == listed {
-            lanes.push(LaneSpec { method, substeps: 1 });
+            lanes.push(LaneSpec::plain(method));
         }
     }
     lanes
 }
 
 impl Experiment {
-    /// The scene, with the options applied.
-    pub(super) fn scene(&self) -> &Scene {
-        &self.scene
-    }
-
     /// The lab at tick 0. One lane alone sails solo.
     pub(super) fn lab(&self) -> Lab {
         let mut lab = Lab::new(self.scene.clone());

@@ -1,9 +1,13 @@
-//! The directory that a capture fills with numbered pictures, each of which appears whole or not at all.
+//! The directory that a capture fills with numbered pictures and a manifest, each of which appears whole
+//! or not at all.
 
+use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+
+use super::manifest;
 
 /// The most frames in a folder: as many as six digits number.
 pub(super) const MOST_FRAMES: u32 = 1_000_000;
@@ -15,6 +19,9 @@ pub(super) enum Existing {
     Refuse,
     /// Frames make way for the new ones; other entries stay.
     Replace,
+    /// Frames from the first on, without a gap, stay, and so does a manifest; whatever else a capture
+    /// left makes way.
+    Continue,
 }
 
 /// Why frames could not be kept in a folder.
@@ -28,11 +35,22 @@ pub enum FrameFolderError {
     },
     /// The folder is in use.
     #[error(
-        "{} is not empty; give another --out, or --force to replace the frames in it",
+        "{} is not empty; give another --out, or --force to replace the frames in it, or --resume \
+         to add those that are missing",
         .path.display()
     )]
     NotEmpty {
         /// The folder.
+        path: PathBuf,
+    },
+    /// A frame that is there already is none of this capture.
+    #[error(
+        "{} is not what this command draws here; give the command that drew it, or --force to draw \
+         all anew",
+        .path.display()
+    )]
+    Foreign {
+        /// The frame.
         path: PathBuf,
     },
     /// The system refused.
@@ -51,10 +69,12 @@ pub enum FrameFolderError {
 #[derive(Debug)]
 pub(super) struct FrameFolder {
     path: PathBuf,
-    /// Frames of an earlier capture, whole or not.
-    old_frames: Vec<OsString>,
-    /// Names of the entries that are none of our frames.
+    /// What an earlier capture left, whole or not, and is to go.
+    old: Vec<OsString>,
+    /// Names of the entries that are none of ours.
     others: Vec<OsString>,
+    /// Frames of an earlier capture that stay.
+    kept: u32,
     frames: u32,
 }
 
@@ -69,8 +89,8 @@ impl FrameFolder {
                     let entry = entry.map_err(&fail)?;
                     let is_directory = entry.file_type().map_err(&fail)?.is_dir();
                     let name = entry.file_name();
-                    let list = if is_frame(&name) && !is_directory {
-                        &mut folder.old_frames
+                    let list = if is_ours(&name) && !is_directory {
+                        &mut folder.old
                     } else {
                         &mut folder.others
                     };
@@ -84,9 +104,16 @@ impl FrameFolder {
             Err(error) => return Err(fail(error)),
         }
         folder.others.sort();
-        let is_empty = folder.old_frames.is_empty() && folder.others.is_empty();
+        let is_empty = folder.old.is_empty() && folder.others.is_empty();
         if existing == Existing::Refuse && !is_empty {
             return Err(FrameFolderError::NotEmpty { path: path.to_owned() });
+        }
+        if existing == Existing::Continue {
+            // The manifest of what is there holds until another is whole.
+            folder.old.retain(|name| name != manifest::FILE_NAME);
+            folder.kept = (0..MOST_FRAMES)
+                .find(|&frame| !folder.old.contains(&frame_name(frame).into()))
+                .unwrap_or(MOST_FRAMES);
         }
         Ok(folder)
     }
@@ -105,7 +132,7 @@ impl FrameFolder {
     }
 
     fn empty(path: &Path) -> Self {
-        Self { path: path.to_owned(), old_frames: Vec::new(), others: Vec::new(), frames: 0 }
+        Self { path: path.to_owned(), old: Vec::new(), others: Vec::new(), kept: 0, frames: 0 }
     }
 
     /// Where it is.
@@ -113,29 +140,37 @@ impl FrameFolder {
         &self.path
     }
 
-    /// Makes the folder where there is none, and removes the frames of an earlier capture, so that
-    /// it never holds frames of two.
-    pub(super) fn clear(&mut self) -> Result<(), FrameFolderError> {
+    /// Makes the folder where there is none, and removes what an earlier capture left but for the
+    /// first `frames` of the frames to be kept, so that it never holds frames of two.
+    pub(super) fn clear(&mut self, frames: u32) -> Result<(), FrameFolderError> {
         fs::create_dir_all(&self.path).map_err(failure("make the directory", &self.path))?;
-        for name in self.old_frames.drain(..) {
+        self.kept = self.kept.min(frames);
+        let kept: BTreeSet<OsString> =
+            (0..self.kept).map(|frame| frame_name(frame).into()).collect();
+        for name in self.old.drain(..).filter(|name| !kept.contains(name)) {
             let path = self.path.join(name);
             fs::remove_file(&path).map_err(failure("replace", &path))?;
         }
         Ok(())
     }
 
-    /// Adds the next frame: under a name of its own until it is whole.
+    /// Adds the next frame; one that stays has to be the same to the byte.
     pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), FrameFolderError> {
         let path = self.path.join(frame_name(self.frames));
-        let part = path.with_extension("png.part");
-        let written = fs::write(&part, picture).and_then(|()| fs::rename(&part, &path));
-        if let Err(error) = written {
-            // It may never have come to be; then there is nothing to remove.
-            let _ = fs::remove_file(&part);
-            return Err(failure("write", &path)(error));
+        if self.frames < self.kept {
+            if fs::read(&path).map_err(failure("read", &path))? != picture {
+                return Err(FrameFolderError::Foreign { path });
+            }
+        } else {
+            write_whole(&path, picture)?;
         }
         self.frames += 1;
         Ok(())
+    }
+
+    /// Writes the manifest.
+    pub(super) fn write_manifest(&self, text: &str) -> Result<(), FrameFolderError> {
+        write_whole(&self.path.join(manifest::FILE_NAME), text.as_bytes())
     }
 
     /// The frames written, by the names of the first and the last.
@@ -154,20 +189,37 @@ impl FrameFolder {
     }
 }
 
-fn frame_name(frame: u32) -> String {
+/// Writes a file that appears whole or not at all: under a name of its own until it is.
+pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FrameFolderError> {
+    let part = part_of(path);
+    fs::write(&part, bytes).and_then(|()| fs::rename(&part, path)).map_err(|error| {
+        // It may never have come to be; then there is nothing to remove.
+        let _ = fs::remove_file(&part);
+        failure("write", path)(error)
+    })
+}
+
+/// What a file is called until it is whole.
+pub(super) fn part_of(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".part");
+    name.into()
+}
+
+pub(super) fn frame_name(frame: u32) -> String {
     format!("frame-{frame:06}.png")
 }
 
-/// Whether a capture gives files this name, for whole frames or for those under way.
-fn is_frame(name: &OsStr) -> bool {
-    let digits = name.to_str().and_then(|name| {
-        let name = name.strip_suffix(".part").unwrap_or(name);
-        name.strip_prefix("frame-")?.strip_suffix(".png")
-    });
-    digits.is_some_and(|digits| digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit()))
+/// Whether a capture gives files this name, for whole ones or for those under way.
+fn is_ours(name: &OsStr) -> bool {
+    let Some(name) = name.to_str() else { return false };
+    let name = name.strip_suffix(".part").unwrap_or(name);
+    let digits = name.strip_prefix("frame-").and_then(|name| name.strip_suffix(".png"));
+    let is_frame = |digits: &str| digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit());
+    name == manifest::FILE_NAME || digits.is_some_and(is_frame)
 }
 
-fn failure(doing: &'static str, path: &Path) -> impl Fn(io::Error) -> FrameFolderError {
+pub(super) fn failure(doing: &'static str, path: &Path) -> impl Fn(io::Error) -> FrameFolderError {
     let path = path.to_owned();
     move |source| FrameFolderError::Io { doing, path: path.clone(), source }
 }
@@ -186,13 +238,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_numbered_pictures_are_frames() {
-        for name in ["frame-000000.png", "frame-999999.png", "frame-000012.png.part"] {
-            assert!(is_frame(OsStr::new(name)), "{name}");
+    fn only_numbered_pictures_and_the_manifest_are_ours() {
+        for name in
+            ["frame-000000.png", "frame-999999.png", "frame-000012.png.part", "manifest.json"]
+        {
+            assert!(is_ours(OsStr::new(name)), "{name}");
         }
         for name in ["frame-00000.png", "frame-0000000.png", "frame-+00001.png", "frame-000001.gif"]
         {
-            assert!(!is_frame(OsStr::new(name)), "{name}");
+            assert!(!is_ours(OsStr::new(name)), "{name}");
         }
     }
 
@@ -216,7 +270,7 @@ mod tests {
             fs::write(file(name), "old").unwrap();
         }
         let mut frames = FrameFolder::inspect(folder.path(), Existing::Replace).unwrap();
-        frames.clear().unwrap();
+        frames.clear(9).unwrap();
         frames.push(b"new").unwrap();
         let mut names: Vec<_> =
             fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
@@ -228,10 +282,30 @@ mod tests {
     }
 
     #[test]
+    fn frames_up_to_the_first_gap_are_kept_and_have_to_be_the_same() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| folder.path().join(name);
+        for name in
+            ["frame-000000.png", "frame-000001.png", "frame-000002.png.part", "frame-000003.png"]
+        {
+            fs::write(file(name), "old").unwrap();
+        }
+        let mut frames = FrameFolder::inspect(folder.path(), Existing::Continue).unwrap();
+        frames.clear(9).unwrap();
+        assert_eq!((frames.kept, fs::read_dir(folder.path()).unwrap().count()), (2, 2));
+        frames.push(b"old").unwrap();
+        let error = frames.push(b"new").unwrap_err();
+        assert!(matches!(error, FrameFolderError::Foreign { .. }), "{error}");
+        frames.push(b"old").unwrap();
+        frames.push(b"new").unwrap();
+        assert_eq!(fs::read(file("frame-000002.png")).unwrap(), b"new");
+    }
+
+    #[test]
     fn a_frame_that_cannot_be_written_leaves_nothing_behind() {
         let parent = tempfile::tempdir().unwrap();
         let mut frames = FrameFolder::inspect(parent.path(), Existing::Refuse).unwrap();
-        frames.clear().unwrap();
+        frames.clear(9).unwrap();
         // A directory of that name cannot be replaced by a file.
         fs::create_dir_all(parent.path().join("frame-000000.png/in the way")).unwrap();
         let error = frames.push(b"new").unwrap_err().to_string();

@@ -126,6 +126,8 @@ const METHOD: &[Column<Method>] = &[
             })
         },
     },
+    Column { key: "restart", heading: None, value: |method| json!(method.restart) },
+    Column { key: "keeps_time", heading: None, value: |method| json!(method.keeps_time) },
     Column { key: "as_printed", heading: Some("AS PRINTED"), value: |m| json!(m.as_printed) },
     Column { key: "about", heading: Some("ABOUT"), value: |method| json!(method.about) },
     Column { key: "source", heading: None, value: |method| json!(method.source) },
@@ -137,8 +139,10 @@ const BODY: &[Column<Kind>] = &[
     Column {
         key: "coordinates",
         heading: None,
-        value: |body| table::json(COORDINATE, body.coordinates),
+        value: |body| table::json(COORDINATE, body.plain_coordinates()),
     },
+    Column { key: "truth", heading: Some("TRUTH"), value: |body| json!(body.truth.id()) },
+    Column { key: "accuracy", heading: None, value: |body| json!(body.truth.accuracy()) },
     Column { key: "inputs", heading: Some("INPUTS"), value: |body| json!(body.inputs) },
     Column {
         key: "parameters",
@@ -163,7 +167,7 @@ const PARAMETER: &[Column<Parameter>] = &[
 const METRIC: &[Column<Metric>] = &[
     Column { key: "id", heading: Some("ID"), value: |metric| json!(metric.id) },
     Column { key: "name", heading: Some("NAME"), value: |metric| json!(metric.name) },
-    Column { key: "unit", heading: Some("UNIT"), value: |metric| json!(metric.unit) },
+    Column { key: "unit", heading: Some("UNIT"), value: |metric| json!(metric.unit.to_string()) },
     Column {
         key: "scale",
         heading: Some("SCALE"),

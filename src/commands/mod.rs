@@ -9,22 +9,38 @@ use std::io::{self, IsTerminal, Write};
 use annotate_snippets::{Group, Level, Renderer};
 use clap::{Parser, Subcommand, ValueEnum};
 
+mod advise;
 mod capture;
+mod chapter;
 mod completions;
 mod experiment;
+mod fingerprint;
 mod frame_folder;
 mod list;
+mod logbook;
+pub mod manifest;
+mod movie;
+mod outlet;
+mod pipeline;
 mod play;
+mod recording;
 mod scene_file;
+mod settings;
+mod sheet;
 mod table;
 mod trace;
+mod verify;
+mod voyage;
 
+use advise::AdviseArgs;
 use capture::{CaptureArgs, CaptureError};
+use chapter::{ChapterArgs, ChapterError};
 use completions::CompletionsArgs;
 use list::ListArgs;
 use play::PlayArgs;
 use scene_file::SceneFileError;
 use trace::TraceArgs;
+use verify::{VerifyArgs, VerifyError};
 
 use crate::window::WindowError;
 
@@ -35,6 +51,9 @@ Examples:
   regatta --scene ship --method explicit-euler --tick-hz 2
   regatta trace --scene ship --method rk4 > ship.csv
   regatta capture --scene spring --race --out clip
+  regatta advise --scene stiff
+  regatta chapter --out figures
+  regatta verify clip
   regatta list methods
 
 In the window, H shows the keys. `regatta help COMMAND` explains a command.";
@@ -54,7 +73,10 @@ pub struct Cli {
 enum Command {
     Play(PlayArgs),
     Capture(CaptureArgs),
+    Verify(VerifyArgs),
     Trace(TraceArgs),
+    Advise(AdviseArgs),
+    Chapter(ChapterArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
 }
@@ -67,7 +89,10 @@ pub fn run(cli: Cli) -> Result<(), Error> {
     let done = match cli.command.unwrap_or(Command::Play(cli.play)) {
         Command::Play(args) => play::run(&args),
         Command::Capture(args) => capture::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::Trace(args) => trace::run(&args),
+        Command::Advise(args) => advise::run(&args),
+        Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args),
     };
@@ -86,6 +111,12 @@ pub enum Error {
     /// Frames could not be drawn or written.
     #[error(transparent)]
     Capture(#[from] CaptureError),
+    /// The chapter's figures could not be drawn or written.
+    #[error(transparent)]
+    Chapter(#[from] ChapterError),
+    /// Frames are not what they were, or cannot be judged.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
     /// The window could not be opened, or failed.
     #[error(transparent)]
     Window(#[from] WindowError),
@@ -101,6 +132,8 @@ impl Error {
         match self {
             Error::SceneFile(_) => 2,
             Error::Capture(error) => error.exit_code(),
+            Error::Chapter(error) => error.exit_code(),
+            Error::Verify(error) => error.exit_code(),
             Error::Window(_) | Error::Output(_) => 1,
         }
     }

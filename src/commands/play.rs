@@ -2,10 +2,14 @@
 
 use clap::Args;
 
-use super::capture::{self, CaptureError, FPS, Recording};
+use super::capture::{self, CaptureError, FPS};
 use super::experiment::{self, ExperimentArgs, Lineup};
 use super::frame_folder::FrameFolder;
+use super::logbook;
+use super::recording::{self, Recording};
+use super::voyage::Schedule;
 use super::{Error, tell};
+use crate::view::Panels;
 use crate::window::{self, WindowError};
 
 const EXAMPLES: &str = "\
@@ -48,14 +52,11 @@ const SIZE_PX: [u32; 2] = [1280, 720];
 pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let lineup = if args.race { Lineup::Everyone } else { Lineup::Solo };
     let experiment = args.experiment.load(lineup)?;
-    let lab = || {
-        let mut lab = experiment.lab();
-        lab.set_motion(!args.reduced_motion);
-        lab
-    };
-    let tick_hz = f64::from(experiment.scene().tick_hz);
+    let mut lab = experiment.lab();
+    lab.set_motion(!args.reduced_motion);
+    let tick_hz = f64::from(experiment.scene.tick_hz);
     let seconds = args.seconds.map(|seconds| (seconds * tick_hz).round() / tick_hz);
-    match window::run(lab(), seconds) {
+    match window::run(lab, seconds) {
         Err(WindowError::NoDisplay(reason)) => {
             let frames = match seconds {
                 Some(seconds) => capture::frames_in(seconds, FPS)?,
@@ -67,8 +68,16 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
                 f64::from(frames) / f64::from(FPS),
                 folder.path().display(),
             ));
-            let recording = Recording { frames, fps: FPS, size_px: SIZE_PX, scale: 1.0 };
-            Ok(capture::record(&mut lab(), recording, folder)?)
+            let schedule = Schedule { frames, fps: FPS };
+            let recording = Recording {
+                schedule,
+                size_px: SIZE_PX,
+                scale: 1.0,
+                panels: Panels::Shown,
+                motion: !args.reduced_motion,
+                mark_every: logbook::usual_stride(schedule.ticks(experiment.scene.tick_hz)),
+            };
+            Ok(recording::record(&experiment, recording, folder)?)
         }
         done => Ok(done?),
     }

@@ -36,12 +36,14 @@ pub enum SceneFileError {
     Invalid(#[from] SceneErrors),
 }
 
-/// The built-in scene of that name, or the scene in the file at that path.
-pub(super) fn load(path: &Path) -> Result<Scene, SceneFileError> {
-    match path.to_str().and_then(Scene::built_in) {
-        Some(scene) => Ok(scene),
-        None => Ok(Scene::from_bytes(&path.display().to_string(), &read(path)?)?),
+/// The built-in scene of that name, or the scene in the file at that path, and its text.
+pub(super) fn load(path: &Path) -> Result<(Scene, String), SceneFileError> {
+    if let Some(built_in) = SCENES.iter().find(|scene| path.to_str() == Some(scene.name)) {
+        return Ok((Scene::parse(built_in.name, built_in.text)?, built_in.text.to_owned()));
     }
+    let bytes = read(path)?;
+    let scene = Scene::from_bytes(&path.display().to_string(), &bytes)?;
+    Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
 }
 
 /// The first bytes of a file: enough for a scene to be read, or to be found too large.

@@ -8,12 +8,14 @@ use super::experiment::{self, ExperimentArgs, Lineup};
 use super::{Error, tell};
 use crate::lab::{Lab, Lane, METRICS, SceneBody};
 use crate::sim::Solver;
+use crate::sim::bodies::Kind;
 
 const EXAMPLES: &str = "\
 One row for each tick, lane, body and coordinate:
   tick,t,lane,method,body,coordinate,q,v
-Lane 0 is the exact solution; q is in metres, v in metres a second, t in seconds. With --metrics a
-row for each metric follows, its id as coordinate, its value as q, and v empty.
+Lane 0 is the truth: `exact`, or for a body without a closed form `reference`, whose accuracy is
+stated. q is in metres or radians, v the same a second, t in seconds. With --metrics a row for each
+metric follows, its id as coordinate, its value as q, and v empty.
 
 The scene's script is played. A method that it switches to is flown where one lane sails alone; in a
 race each lane keeps its own.
@@ -23,7 +25,7 @@ Examples:
   regatta trace --scene spring --every 60 --metrics --format json
   regatta trace --scene my.toml --method rk4 --method semi-implicit-euler > run.csv";
 
-/// Write the exact solution and every lane's numbers, tick by tick, to standard output
+/// Write the truth and every lane's numbers, tick by tick, to standard output
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct TraceArgs {
@@ -63,9 +65,9 @@ const TIE: f64 = 1e-6;
 pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let lineup = if args.experiment.names_no_method() { Lineup::Everyone } else { Lineup::Solo };
     let experiment = args.experiment.load(lineup)?;
-    let seconds = args.seconds.unwrap_or(experiment.scene().seconds);
+    let seconds = args.seconds.unwrap_or(experiment.scene.seconds);
     let mut lab = experiment.lab();
-    let mut trace = Trace::new(args, &experiment.scene().bodies);
+    let mut trace = Trace::new(args, &experiment.scene.bodies);
     let mut halts = Halts::default();
 
     trace.begin()?;
@@ -76,6 +78,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
         halts.note(&lab);
     }
     trace.finish()?;
+    tell_accuracy(&experiment.scene.bodies);
     halts.lines.iter().for_each(|line| tell(line));
     Ok(())
 }
@@ -152,10 +155,10 @@ impl Trace {
         if lane.halted().is_some() {
             return Ok(());
         }
-        let method = method_id(lane.solver());
         for (n, body) in lane.bodies().iter().enumerate() {
+            let method = method_id(lane.solver(), body.kind);
             let values = body.stepper.q().iter().zip(body.stepper.v());
-            for (coordinate, (&q, &v)) in body.kind.coordinates.iter().zip(values) {
+            for (coordinate, (&q, &v)) in body.coordinates.iter().zip(values) {
                 self.row(number, method, n, coordinate.name, q, Some(v))?;
             }
             let Some(truth) = truth.filter(|truth| self.metrics && truth.halted().is_none()) else {
@@ -208,10 +211,19 @@ impl Trace {
     }
 }
 
-fn method_id(solver: Solver) -> &'static str {
-    match solver {
-        Solver::Method(method) => method.id,
-        Solver::Exact => "exact",
+fn method_id(solver: Solver, kind: &Kind) -> &'static str {
+    solver.method().map_or(kind.truth.id(), |method| method.id)
+}
+
+/// What is known of the bodies that have no closed form.
+fn tell_accuracy(bodies: &[SceneBody]) {
+    for SceneBody { name, kind, .. } in bodies {
+        if let Some(accuracy) = kind.truth.accuracy() {
+            tell(&format!(
+                "lane 0, {name}: has no closed form; its {} is good to {accuracy:e}, relative",
+                kind.truth.id(),
+            ));
+        }
     }
 }
 
@@ -240,7 +252,7 @@ impl Halts {
                 let body = &lab.scene().bodies[halt.body].name;
                 self.lines.push(format!(
                     "lane {number}, {}, halted at tick {} (t = {:.3} s): {body} {}; its rows end there",
-                    method_id(lane.solver()),
+                    method_id(lane.solver(), lane.bodies()[halt.body].kind),
                     halt.tick,
                     race.t() - 1.0 / f64::from(race.tick_hz()),
                     halt.failure,

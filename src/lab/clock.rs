@@ -87,6 +87,11 @@ impl Clock {
         self.owed as f64 / TICK as f64
     }
 
+    /// [`Clock::alpha`] as an exact fraction: numerator and denominator, the latter always the same.
+    pub fn alpha_fraction(&self) -> (u64, u64) {
+        (self.owed as u64, TICK as u64)
+    }
+
     /// Owes nothing again.
     pub fn restart(&mut self) {
         self.owed = 0;
@@ -161,6 +166,17 @@ mod tests {
         let mut clock = Clock::new(1);
         let total = run(&mut clock, std::iter::repeat_n(100_000_000, 30));
         assert_eq!(total, (3, 0));
+    }
+
+    #[test]
+    fn alpha_is_an_exact_fraction() {
+        let mut clock = Clock::new(60);
+        clock.advance(1_000_000_000 / 64);
+        let (numerator, denominator) = clock.alpha_fraction();
+        assert_eq!(64 * numerator, 60 * denominator);
+        assert_eq!(clock.alpha(), numerator as f64 / denominator as f64);
+        clock.advance(1_000_000_000 / 60);
+        assert_eq!(clock.alpha_fraction().1, denominator);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! Keyboard, panels, scene scripts and tests all make the same [`Command`]s; [`KEYS`] is the one table
 //! from which the window, the help overlay and `regatta list keys` are made.
 
-use super::lab::Instrument;
+use super::display::Instrument;
 use crate::sim::integrators::Method;
 
 /// Something to be done, at the next tick where it touches the bodies.
@@ -44,6 +44,12 @@ pub enum Command {
     ThrottleUp,
     /// A tenth less throttle.
     ThrottleDown,
+    /// Lays the rudder of every body that has one, from -1, hard right, to 1, hard left.
+    Rudder(f64),
+    /// A tenth more rudder to the left.
+    RudderLeft,
+    /// A tenth more rudder to the right.
+    RudderRight,
     /// Gives every body an impulse of this many times its own kick.
     Kick(f64),
     /// Opens the built-in scene on this place of [`SCENES`](super::SCENES), from 0.
@@ -94,6 +100,10 @@ pub enum Key {
     Up,
     /// The down arrow.
     Down,
+    /// The left arrow.
+    Left,
+    /// The right arrow.
+    Right,
     /// Home.
     Home,
     /// Escape.
@@ -181,8 +191,14 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "↑ ↓",
-        about: "throttle (ship)",
+        about: "throttle (ship, helm)",
         keys: &[(Key::Up, Command::ThrottleUp), (Key::Down, Command::ThrottleDown)],
+        repeats: true,
+    },
+    Binding {
+        shown: "← →",
+        about: "rudder (helm)",
+        keys: &[(Key::Left, Command::RudderLeft), (Key::Right, Command::RudderRight)],
         repeats: true,
     },
     Binding {

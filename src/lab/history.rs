@@ -3,6 +3,8 @@
 
 use std::collections::VecDeque;
 
+use glam::DVec2;
+
 use super::metrics::METRICS;
 use crate::sim::Stepper;
 
@@ -18,6 +20,8 @@ pub struct Sample {
     pub q: f64,
     /// Its velocity.
     pub v: f64,
+    /// Where the body was, in metres.
+    pub at: DVec2,
     /// The lane's place on the list of methods at that moment: a trail changes colour at a switch.
     pub entry: usize,
     /// One value for each of [`METRICS`]; NaN where it has no meaning.
@@ -49,7 +53,7 @@ impl History {
         let (q, v) = (lane.q()[0], lane.v()[0]);
         let metrics =
             std::array::from_fn(|i| (METRICS[i].measure)(lane, truth).unwrap_or(f64::NAN));
-        self.samples.push_back(Sample { t, q, v, entry, metrics });
+        self.samples.push_back(Sample { t, q, v, at: lane.place(), entry, metrics });
     }
 }
 

@@ -1,105 +1,16 @@
 //! The lab: a race, the clock that drives it, and how it is looked at. Commands in, state out.
 
+use super::advice::Adviser;
 use super::clock::{Clock, Due};
 use super::command::{Command, SPEED_LADDER, TICK_LADDER};
+use super::display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
 use super::history::History;
-use super::metrics::METRICS;
 use super::race::Race;
 use super::scene::{LaneSpec, SCENES, Scene};
+use super::thinking::{Moment, Thinking};
+use super::verdict::Verdict;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::METHODS;
-
-/// One method at a time, or all of them at once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
-    /// One lane, whose method is switched in flight.
-    Solo,
-    /// A lane for every method that the scene lists, and one for the method last flown solo.
-    Race,
-}
-
-/// How a body is drawn between two ticks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interpolation {
-    /// The last tick's state as it is.
-    Raw,
-    /// A straight line between the last two ticks.
-    Linear,
-    /// A cubic through the last two ticks with the velocities known there.
-    Hermite,
-}
-
-impl Interpolation {
-    /// The name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Interpolation::Raw => "raw",
-            Interpolation::Linear => "linear",
-            Interpolation::Hermite => "Hermite",
-        }
-    }
-}
-
-/// The instruments of the lower plot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Instrument {
-    /// The metric on this place of [`METRICS`], over time.
-    Metric(usize),
-    /// Velocity over coordinate.
-    Phase,
-}
-
-impl Instrument {
-    /// Every instrument, in the order of the tabs.
-    pub fn all() -> impl Iterator<Item = Instrument> {
-        (0..METRICS.len()).map(Instrument::Metric).chain([Instrument::Phase])
-    }
-
-    /// The name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Instrument::Metric(index) => METRICS[index].name,
-            Instrument::Phase => "phase",
-        }
-    }
-}
-
-/// How the lab is looked at; nothing here touches the physics.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Display {
-    /// Whether the exact ghost is drawn.
-    pub ghost: bool,
-    /// How bodies are drawn between ticks.
-    pub interpolation: Interpolation,
-    /// What the lower plot shows.
-    pub instrument: Instrument,
-    /// The body that the plots and the lane list speak of, by its place in the scene.
-    pub body: usize,
-    /// Whether the help overlay is open.
-    pub help: bool,
-    /// Whether trails fade and the camera follows smoothly.
-    pub motion: bool,
-}
-
-/// How fast the driver of the lab goes; only it can know.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pace {
-    /// Frames drawn in a second of real time.
-    pub frames_per_second: f64,
-    /// Simulated seconds in a second of real time.
-    pub real_time_factor: f64,
-}
-
-/// What the lab asks of its driver after a command that is not the lab's business.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ask {
-    /// Save what is shown to a file.
-    Screenshot,
-    /// Enter or leave full screen.
-    ToggleFullScreen,
-    /// End the program.
-    Quit,
-}
 
 /// What a person chose and a restart keeps; a script's changes are not in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,11 +32,13 @@ pub struct Lab {
     clock: Clock,
     running: bool,
     throttle: f64,
+    rudder: f64,
     dropped: u64,
     next_scripted: usize,
     display: Display,
     pace: Option<Pace>,
     notice: Option<String>,
+    thinking: Thinking,
 }
 
 /// The method that the program opens with: right on every scene it is not meant to fail on.
@@ -137,7 +50,7 @@ impl Lab {
     pub fn new(scene: Scene) -> Self {
         let mut entries = scene.lanes.clone();
         let others = METHODS.iter().filter(|m| !scene.lanes.iter().any(|spec| spec.method == *m));
-        entries.extend(others.map(|method| LaneSpec { method, substeps: 1 }));
+        entries.extend(others.map(LaneSpec::plain));
         let entry = entries.iter().position(|spec| spec.method.id == OPENING_METHOD).unwrap_or(0);
         let choice = Choice { entry, tick_hz: scene.tick_hz };
         let mut lab = Self {
@@ -150,6 +63,7 @@ impl Lab {
             active: entry,
             running: true,
             throttle: 1.0,
+            rudder: 0.0,
             dropped: 0,
             next_scripted: 0,
             display: Display {
@@ -162,6 +76,7 @@ impl Lab {
             },
             pace: None,
             notice: None,
+            thinking: Thinking::default(),
         };
         lab.restart();
         lab
@@ -199,6 +114,10 @@ impl Lab {
     pub fn throttle(&self) -> f64 {
         self.throttle
     }
+    /// The rudder, from -1, hard right, to 1, hard left.
+    pub fn rudder(&self) -> f64 {
+        self.rudder
+    }
     /// Ticks given up since the scene was opened or restarted.
     pub fn dropped(&self) -> u64 {
         self.dropped
@@ -215,9 +134,22 @@ impl Lab {
     pub fn notice(&self) -> Option<&str> {
         self.notice.as_deref()
     }
-    /// Whether the truth has a ship to steer: whether the throttle does anything.
-    pub fn has_throttle(&self) -> bool {
-        self.scene.bodies.iter().any(|body| body.kind.inputs.contains(&"throttle"))
+    /// What is to be said of the method on this place of the list, over the scene from its start at the
+    /// present tick rate and throttle; `None` until it was [thought of](Self::think).
+    pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
+        self.thinking.verdict(entry)
+    }
+    /// What is known of every method on this scene, as far as it was [thought of](Self::think).
+    pub fn advice(&self) -> Option<&Adviser> {
+        self.thinking.advice()
+    }
+    /// Whether there is more to [think](Self::think) of, so that another frame is worth drawing.
+    pub fn is_thinking(&self) -> bool {
+        self.thinking.more()
+    }
+    /// Whether any body takes an input, by its name on the body's [card](crate::sim::bodies::Kind).
+    pub fn takes(&self, input: &str) -> bool {
+        self.scene.bodies.iter().any(|body| body.kind.inputs.contains(&input))
     }
 
     /// Says how the bodies move when nothing is to fade or glide.
@@ -279,6 +211,9 @@ impl Lab {
             Command::Throttle(_)
             | Command::ThrottleUp
             | Command::ThrottleDown
+            | Command::Rudder(_)
+            | Command::RudderLeft
+            | Command::RudderRight
             | Command::Kick(_) => {
                 self.perform(command);
             }
@@ -323,14 +258,31 @@ impl Lab {
         None
     }
 
-    /// Takes in a frame of `frame_ns` nanoseconds of real time and steps what is due.
+    /// Judges one method more: each of the list once for every tick rate and throttle, and for advice,
+    /// while it is shown, each of the table at every rate that is worth trying. Returns whether there is
+    /// more to think of.
+    pub fn think(&mut self) -> bool {
+        let now = Moment { tick_hz: self.clock.tick_hz(), throttle: self.throttle };
+        let advice = self.display.instrument == Instrument::Advice;
+        self.thinking.go_on(&self.scene, &self.entries, now, advice)
+    }
+
+    /// Takes in a frame of `frame_ns` nanoseconds of real time, steps what is due, and [thinks](Self::think)
+    /// for a bit.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
+        self.advance_seen(frame_ns, |_| ())
+    }
+
+    /// As [`Lab::advance`], and shows itself to `after_tick` after every tick.
+    pub fn advance_seen(&mut self, frame_ns: i64, mut after_tick: impl FnMut(&Lab)) -> Due {
+        self.think();
         if !self.running {
             return Due::default();
         }
         let due = self.clock.advance(frame_ns);
         for _ in 0..due.ticks {
             self.tick();
+            after_tick(self);
         }
         self.dropped += due.dropped;
         due
@@ -368,11 +320,11 @@ impl Lab {
                 self.race.set_tick_hz(self.clock.tick_hz());
             }
             Command::Throttle(part) => self.set_throttle(part),
-            // In whole tenths, so that ten steps up and down end where they began.
-            Command::ThrottleUp => self.set_throttle(((self.throttle * 10.0).round() + 1.0) / 10.0),
-            Command::ThrottleDown => {
-                self.set_throttle(((self.throttle * 10.0).round() - 1.0) / 10.0)
-            }
+            Command::ThrottleUp => self.set_throttle(tenths(self.throttle, 1.0)),
+            Command::ThrottleDown => self.set_throttle(tenths(self.throttle, -1.0)),
+            Command::Rudder(part) => self.set_rudder(part),
+            Command::RudderLeft => self.set_rudder(tenths(self.rudder, 1.0)),
+            Command::RudderRight => self.set_rudder(tenths(self.rudder, -1.0)),
             Command::Kick(times) => self.race.input(Input::Kick(times)),
             _ => {}
         }
@@ -411,6 +363,11 @@ impl Lab {
         self.race.input(Input::Throttle(self.throttle));
     }
 
+    fn set_rudder(&mut self, part: f64) {
+        self.rudder = part.clamp(-1.0, 1.0);
+        self.race.input(Input::Rudder(self.rudder));
+    }
+
     fn restart(&mut self) {
         let chosen = self.choice.entry;
         let racing = |&(entry, _): &(usize, LaneSpec)| match self.mode {
@@ -425,6 +382,7 @@ impl Lab {
         self.clock.set_tick_hz(self.choice.tick_hz);
         self.clock.restart();
         self.throttle = 1.0;
+        self.rudder = 0.0;
         self.dropped = 0;
         self.next_scripted = 0;
         self.notice = None;
@@ -473,4 +431,9 @@ impl Lab {
         let body = self.display.body;
         self.race.entrants().iter().map(move |e| (e.entry, &e.histories[body]))
     }
+}
+
+/// `part` and so many tenths more, in whole tenths, so that ten steps up and down end where they began.
+fn tenths(part: f64, more: f64) -> f64 {
+    ((part * 10.0).round() + more) / 10.0
 }

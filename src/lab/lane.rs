@@ -1,7 +1,8 @@
 //! A solver on its own copy of the scene's bodies; the truth is one too.
 
+use super::number::superscript;
 use super::scene::Scene;
-use crate::sim::bodies::{Input, Kind};
+use crate::sim::bodies::{Coordinate, Input, Kind};
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
 
@@ -24,6 +25,8 @@ pub struct Halt {
 pub struct LaneBody {
     /// Its card.
     pub kind: &'static Kind,
+    /// Its coordinates, in state order.
+    pub coordinates: &'static [Coordinate],
     /// Itself, under the lane's solver.
     pub stepper: Box<dyn Stepper>,
     /// Coordinates one tick ago, for drawing between ticks.
@@ -33,6 +36,17 @@ pub struct LaneBody {
 }
 
 impl LaneBody {
+    /// What is known of the body's motion, for people: `exact`, or how far a reference can be believed.
+    pub fn truth_in_words(&self) -> String {
+        match self.kind.truth.accuracy() {
+            None => self.kind.truth.id().into(),
+            Some(accuracy) => {
+                let exponent = libm::round(libm::log10(accuracy)) as i32;
+                format!("{} to 10{}", self.kind.truth.id(), superscript(exponent))
+            }
+        }
+    }
+
     fn remember(&mut self) {
         self.previous_q.copy_from_slice(self.stepper.q());
         self.previous_v.copy_from_slice(self.stepper.v());
@@ -40,7 +54,7 @@ impl LaneBody {
 
     /// The first value that is not finite or beyond [`ESCAPE`].
     fn check(&self) -> Result<(), StepFailure> {
-        let names = self.kind.coordinates.iter();
+        let names = self.coordinates.iter();
         let q = names.clone().map(|c| c.name).zip(self.stepper.q());
         let v = names.map(|c| c.velocity).zip(self.stepper.v());
         for (coordinate, &value) in q.chain(v) {
@@ -69,7 +83,8 @@ impl Lane {
         let bodies = scene.bodies.iter().map(|body| {
             let stepper = (body.kind.build)(&body.values, solver);
             let (previous_q, previous_v) = (stepper.q().to_vec(), stepper.v().to_vec());
-            LaneBody { kind: body.kind, stepper, previous_q, previous_v }
+            let coordinates = (body.kind.coordinates)(&body.values);
+            LaneBody { kind: body.kind, coordinates, stepper, previous_q, previous_v }
         });
         Self { solver, substeps, bodies: bodies.collect(), halted: None }
     }
@@ -126,6 +141,13 @@ impl Lane {
             for body in &mut self.bodies {
                 body.stepper.input(t, input);
             }
+        }
+    }
+
+    /// Makes the solver begin anew from the state as it is: the steps to come are of another length.
+    pub fn reset(&mut self) {
+        for body in &mut self.bodies {
+            body.stepper.reset();
         }
     }
 

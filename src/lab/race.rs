@@ -40,11 +40,11 @@ impl Race {
     pub fn new(scene: &Scene, lanes: impl IntoIterator<Item = (usize, LaneSpec)>) -> Self {
         let entrants = lanes.into_iter().map(|(entry, spec)| Entrant {
             entry,
-            lane: Lane::new(scene, Solver::Method(spec.method), spec.substeps),
+            lane: Lane::new(scene, spec.solver(), spec.substeps),
             histories: scene.bodies.iter().map(|_| History::new()).collect(),
         });
         let mut race = Self {
-            truth: Lane::new(scene, Solver::Exact, 1),
+            truth: Lane::new(scene, Solver::Truth, 1),
             truth_histories: scene.bodies.iter().map(|_| History::new()).collect(),
             entrants: entrants.collect(),
             tick: 0,
@@ -74,7 +74,7 @@ impl Race {
     pub fn last_step_s(&self) -> f64 {
         self.last_step_s
     }
-    /// The exact solution.
+    /// The truth: the exact solution, or a reference where a body has no closed form.
     pub fn truth(&self) -> &Lane {
         &self.truth
     }
@@ -92,11 +92,18 @@ impl Race {
         self.entrants.retain(|entrant| entrant.entry == entry);
     }
 
-    /// Changes the tick rate from here on.
+    /// Changes the tick rate from here on. Methods begin anew, from the states as they are; to set the rate
+    /// that is set already changes nothing.
     pub fn set_tick_hz(&mut self, tick_hz: u32) {
+        if tick_hz == self.tick_hz {
+            return;
+        }
         self.origin = (self.tick, self.t());
         self.tick_hz = tick_hz;
         self.set_stride();
+        for entrant in &mut self.entrants {
+            entrant.lane.reset();
+        }
     }
 
     fn set_stride(&mut self) {
@@ -148,7 +155,7 @@ impl Race {
         let t = self.t();
         let entrant = &mut self.entrants[index];
         entrant.entry = entry;
-        entrant.lane.switch(Solver::Method(spec.method), spec.substeps, t);
+        entrant.lane.switch(spec.solver(), spec.substeps, t);
     }
 
     /// A hash of the tick and of every lane's state to the bit, the truth left out: equal for equal
@@ -157,17 +164,18 @@ impl Race {
     pub fn state_hash(&self) -> u64 {
         let mut hash = Fnv::new();
         hash.word(self.tick);
-        for Entrant { lane, .. } in &self.entrants {
-            hash.word(u64::from(lane.substeps()));
-            hash.word(lane.halted().map_or(u64::MAX, |halt| halt.tick));
-            for body in lane.bodies() {
-                let stepper: &dyn Stepper = &*body.stepper;
-                for &value in stepper.q().iter().chain(stepper.v()) {
-                    hash.word(if value == 0.0 { 0 } else { value.to_bits() });
-                }
-            }
-        }
+        self.entrants.iter().for_each(|entrant| hash.lane(&entrant.lane));
         hash.0
+    }
+
+    /// [`Race::state_hash`] as it would be for a race of this lane alone, for each lane.
+    pub fn lane_hashes(&self) -> impl Iterator<Item = u64> {
+        self.entrants.iter().map(|entrant| {
+            let mut hash = Fnv::new();
+            hash.word(self.tick);
+            hash.lane(&entrant.lane);
+            hash.0
+        })
     }
 }
 
@@ -176,6 +184,17 @@ struct Fnv(u64);
 impl Fnv {
     fn new() -> Self {
         Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    fn lane(&mut self, lane: &Lane) {
+        self.word(u64::from(lane.substeps()));
+        self.word(lane.halted().map_or(u64::MAX, |halt| halt.tick));
+        for body in lane.bodies() {
+            let stepper: &dyn Stepper = &*body.stepper;
+            for &value in stepper.q().iter().chain(stepper.v()) {
+                self.word(if value == 0.0 { 0 } else { value.to_bits() });
+            }
+        }
     }
 
     fn word(&mut self, word: u64) {

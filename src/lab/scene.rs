@@ -7,6 +7,7 @@
 use std::path::Path;
 
 use super::Command;
+use crate::sim::Solver;
 use crate::sim::bodies::Kind;
 use crate::sim::integrators::Method;
 
@@ -43,6 +44,10 @@ pub const MOST_LANES: usize = 32;
 /// The most substeps in a tick of a lane.
 pub const MOST_SUBSTEPS: u32 = 1_000;
 
+/// The tolerances that a lane may be given: below the least, round-off alone is more; with the largest, an
+/// error may be as large as the value.
+pub const TOLERANCES: (f64, f64) = (1e-14, 1.0);
+
 /// The most characters in a body's name: it stands in one line beside its cell.
 pub const MOST_NAME_CHARS: usize = 64;
 
@@ -76,6 +81,24 @@ pub struct LaneSpec {
     pub method: &'static Method,
     /// Equal steps in a tick, 1 to [`MOST_SUBSTEPS`].
     pub substeps: u32,
+    /// The absolute and the relative error that an adaptive method allows in a substep of its own, within
+    /// [`TOLERANCES`]; `None` leaves it at its card's, and does for all other methods.
+    pub tolerance: Option<f64>,
+}
+
+impl LaneSpec {
+    /// A method as its card has it, in one step a tick.
+    pub fn plain(method: &'static Method) -> Self {
+        Self { method, substeps: 1, tolerance: None }
+    }
+
+    /// What carries the lane's bodies forward.
+    pub fn solver(&self) -> Solver {
+        match self.tolerance {
+            Some(tolerance) => Solver::Within(self.method, tolerance),
+            None => Solver::Method(self.method),
+        }
+    }
 }
 
 /// A body of a scene.
@@ -85,7 +108,8 @@ pub struct SceneBody {
     pub name: String,
     /// What it is.
     pub kind: &'static Kind,
-    /// What [`Kind::build`] takes: one value for each of the kind's parameters, in their order.
+    /// What [`Kind::build`] takes: one value for each of the kind's parameters, in their order, and for
+    /// a curve two for each point.
     pub values: Vec<f64>,
 }
 
@@ -151,4 +175,9 @@ pub static SCENES: &[BuiltIn] = &[
     BuiltIn { name: "ship", text: include_str!("../../assets/scenes/ship.toml") },
     BuiltIn { name: "spring", text: include_str!("../../assets/scenes/spring.toml") },
     BuiltIn { name: "stiff", text: include_str!("../../assets/scenes/stiff.toml") },
+    BuiltIn { name: "surge", text: include_str!("../../assets/scenes/surge.toml") },
+    BuiltIn { name: "chain", text: include_str!("../../assets/scenes/chain.toml") },
+    BuiltIn { name: "pendulum", text: include_str!("../../assets/scenes/pendulum.toml") },
+    BuiltIn { name: "orbit", text: include_str!("../../assets/scenes/orbit.toml") },
+    BuiltIn { name: "helm", text: include_str!("../../assets/scenes/helm.toml") },
 ];

@@ -6,8 +6,11 @@
 
 pub mod bodies;
 pub mod integrators;
+mod reference;
+pub mod stability;
 mod stepper;
 mod system;
 
+pub use reference::REFERENCE_ACCURACY;
 pub use stepper::{Solver, Stepper, stepper};
 pub use system::{Counted, State, System, Vector};

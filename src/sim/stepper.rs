@@ -1,7 +1,10 @@
 //! One body, its solver and its state behind one object-safe face: one dynamic call a tick.
 
+use glam::DVec2;
+
 use super::bodies::{Body, Input, Pen, View};
-use super::integrators::{Construct, Integrator, Method, StepFailure, construct};
+use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
+use super::reference::Reference;
 use super::system::{Counted, State, Vector};
 
 /// What carries a body forward.
@@ -9,8 +12,21 @@ use super::system::{Counted, State, Vector};
 pub enum Solver {
     /// A method from the table.
     Method(&'static Method),
-    /// The exact flow, from the last moment at which the input changed.
-    Exact,
+    /// An adaptive method from the table with this tolerance, in all its parts, for its card's.
+    Within(&'static Method, f64),
+    /// The exact flow, from the last moment at which the input changed; for a body without a closed
+    /// form, a reference solution.
+    Truth,
+}
+
+impl Solver {
+    /// The method that steps, if one does.
+    pub fn method(self) -> Option<&'static Method> {
+        match self {
+            Solver::Method(method) | Solver::Within(method, _) => Some(method),
+            Solver::Truth => None,
+        }
+    }
 }
 
 /// A body under a solver. Everything above this layer sees bodies only so.
@@ -18,24 +34,35 @@ pub trait Stepper: Send {
     /// Advances from `t` to `t + h` (s), a method in `substeps` equal steps.
     ///
     /// # Errors
-    /// As [`Integrator::step`]; [`StepFailure::NoClosedForm`] from an exact solver whose body has none.
+    /// As [`Integrator::step`].
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure>;
 
-    /// The coordinates, in the order of the body kind's [`coordinates`](super::bodies::Kind::coordinates).
+    /// The coordinates, in the order of the body kind's
+    /// [`coordinates`](super::bodies::Kind::coordinates).
     fn q(&self) -> &[f64];
     /// Their velocities.
     fn v(&self) -> &[f64];
     /// Puts the body into a state at time `t` (s) and makes the solver forget what it carried.
     fn set(&mut self, t: f64, q: &[f64], v: &[f64]);
+    /// Makes the solver forget what it carried from step to step, the state left as it is.
+    fn reset(&mut self);
 
     /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
     fn input(&mut self, t: f64, input: Input) -> bool;
 
+    /// Overwrites `a` with the acceleration in the given state under the present input; not counted.
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
+
     /// Evaluations of the acceleration since the start, under whatever methods.
     fn evaluations(&self) -> u64;
+    /// Seconds by which the body is behind, because methods it was under
+    /// [did not keep time](Method::keeps_time).
+    fn lost_time(&self) -> f64;
     /// The conserved energy in joules, where the body conserves one under its present input.
     fn energy(&self) -> Option<f64>;
 
+    /// Where the body is, in metres. Never allocates.
+    fn place(&self) -> DVec2;
     /// Draws the body in the given state, in metres.
     fn outline(&self, q: &[f64], v: &[f64], pen: &mut Pen);
     /// How the body wants to be looked at.
@@ -48,102 +75,90 @@ pub trait Stepper: Send {
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    under(Counted::new(body), state, solver, 0.0)
+    Launch { body: Counted::new(body), state, behind: 0.0, tolerance: None }.under(solver, 0.0)
 }
 
-fn under<B: Body>(
-    body: Counted<B>,
-    state: State<B::Vector>,
-    solver: Solver,
-    t: f64,
-) -> Box<dyn Stepper> {
-    match solver {
-        Solver::Method(method) => construct::<Counted<B>, _>(method, Launch { body, state }),
-        Solver::Exact => Box::new(Follower { body, anchor: state.clone(), anchored_at: t, state }),
-    }
-}
-
+/// A body about to come under a solver.
 struct Launch<B: Body> {
     body: Counted<B>,
     state: State<B::Vector>,
+    /// The time lost so far, in seconds.
+    behind: f64,
+    /// For an adaptive method's own.
+    tolerance: Option<Tolerance>,
+}
+
+impl<B: Body> Launch<B> {
+    fn under(self, solver: Solver, t: f64) -> Box<dyn Stepper> {
+        match solver {
+            Solver::Method(method) => construct(method, self),
+            Solver::Within(method, tolerance) => {
+                construct(method, Self { tolerance: Some(Tolerance::uniform(tolerance)), ..self })
+            }
+            Solver::Truth if self.body.system.exact(0.0, &self.state).is_some() => {
+                let drive = ExactFlow { anchor: self.state.clone(), anchored_at: t };
+                self.driven(drive)
+            }
+            Solver::Truth => {
+                let drive = Reference::new(&self.state);
+                self.driven(drive)
+            }
+        }
+    }
+
+    fn driven<D: Drive<B>>(self, drive: D) -> Box<dyn Stepper> {
+        let Self { body, state, behind, .. } = self;
+        Box::new(Driven { body, drive, state, behind })
+    }
 }
 
 impl<B: Body> Construct<Counted<B>> for Launch<B> {
     type Output = Box<dyn Stepper>;
 
     fn of<I: Integrator<Counted<B>> + 'static>(self) -> Self::Output {
-        let Self { body, state } = self;
-        Box::new(Stepped { integrator: I::new(&state.q), body, state })
-    }
-}
-
-/// A body under a method; monomorphic, so that force law and method become one loop.
-struct Stepped<B: Body, I> {
-    body: Counted<B>,
-    integrator: I,
-    state: State<B::Vector>,
-}
-
-impl<B: Body, I: Integrator<Counted<B>>> Stepper for Stepped<B, I> {
-    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure> {
-        self.integrator.steps(&self.body, t, h, substeps, &mut self.state)
-    }
-
-    fn q(&self) -> &[f64] {
-        self.state.q.components()
-    }
-    fn v(&self) -> &[f64] {
-        self.state.v.components()
-    }
-    fn set(&mut self, _t: f64, q: &[f64], v: &[f64]) {
-        write(&mut self.state, q, v);
-        self.integrator.reset();
-    }
-
-    fn input(&mut self, _t: f64, input: Input) -> bool {
-        let taken = self.body.system.input(input, &mut self.state);
-        if taken {
-            self.integrator.reset();
+        let mut integrator = I::new(&self.state.q);
+        if let Some(tolerance) = self.tolerance {
+            integrator.set_tolerance(tolerance);
         }
-        taken
-    }
-
-    fn evaluations(&self) -> u64 {
-        self.body.evaluations()
-    }
-    fn energy(&self) -> Option<f64> {
-        self.body.system.energy(&self.state)
-    }
-
-    fn outline(&self, q: &[f64], v: &[f64], pen: &mut Pen) {
-        outline(&self.body.system, &self.state, q, v, pen);
-    }
-    fn view(&self) -> View {
-        self.body.system.view()
-    }
-
-    fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        under(self.body.clone(), self.state.clone(), solver, t)
+        self.driven(ByMethod(integrator))
     }
 }
 
-/// A body on its exact flow, always computed in one stride from `anchor`, so that nothing accumulates.
-struct Follower<B: Body> {
-    /// Costs nothing here, but keeps the count of what it cost before.
+/// What carries a body of one type forward.
+trait Drive<B: Body>: Send + 'static {
+    fn advance(
+        &mut self,
+        body: &Counted<B>,
+        t: f64,
+        h: f64,
+        substeps: u32,
+        state: &mut State<B::Vector>,
+    ) -> Result<(), StepFailure>;
+
+    /// Takes notice that at time `t` (s) the state jumped to this one, or the forces did.
+    fn jumped(&mut self, t: f64, state: &State<B::Vector>);
+
+    /// Forgets what is carried from step to step.
+    fn reset(&mut self);
+
+    /// The seconds that it was asked to advance and did not.
+    fn lost_time(&self) -> f64 {
+        0.0
+    }
+}
+
+/// A body under what drives it; monomorphic, so that force law and method become one loop.
+struct Driven<B: Body, D> {
     body: Counted<B>,
-    anchor: State<B::Vector>,
-    anchored_at: f64,
+    drive: D,
     state: State<B::Vector>,
+    /// The time lost under earlier solvers, in seconds.
+    behind: f64,
 }
 
-impl<B: Body> Stepper for Follower<B> {
-    fn advance(&mut self, t: f64, h: f64, _substeps: u32) -> Result<(), StepFailure> {
-        self.state = self
-            .body
-            .system
-            .exact(t + h - self.anchored_at, &self.anchor)
-            .ok_or(StepFailure::NoClosedForm)?;
-        Ok(())
+impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
+    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure> {
+        self.drive.advance(&self.body, t, h, substeps, &mut self.state)
     }
 
     fn q(&self) -> &[f64] {
@@ -154,45 +169,136 @@ impl<B: Body> Stepper for Follower<B> {
     }
     fn set(&mut self, t: f64, q: &[f64], v: &[f64]) {
         write(&mut self.state, q, v);
-        self.anchor.assign(&self.state);
-        self.anchored_at = t;
+        self.drive.jumped(t, &self.state);
+    }
+    fn reset(&mut self) {
+        self.drive.reset();
     }
 
     fn input(&mut self, t: f64, input: Input) -> bool {
         let taken = self.body.system.input(input, &mut self.state);
         if taken {
-            self.anchor.assign(&self.state);
-            self.anchored_at = t;
+            self.drive.jumped(t, &self.state);
         }
         taken
+    }
+
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        let mut at = self.state.clone();
+        write(&mut at, q, v);
+        let mut acceleration = self.state.q.clone();
+        self.body.system.acceleration(t, &at.q, &at.v, &mut acceleration);
+        a.copy_from_slice(acceleration.components());
     }
 
     fn evaluations(&self) -> u64 {
         self.body.evaluations()
     }
+    fn lost_time(&self) -> f64 {
+        self.behind + self.drive.lost_time()
+    }
     fn energy(&self) -> Option<f64> {
         self.body.system.energy(&self.state)
     }
 
+    fn place(&self) -> DVec2 {
+        self.body.system.place(&self.state.q)
+    }
     fn outline(&self, q: &[f64], v: &[f64], pen: &mut Pen) {
-        outline(&self.body.system, &self.state, q, v, pen);
+        let mut shown = self.state.clone();
+        write(&mut shown, q, v);
+        pen.at = self.body.system.place(&shown.q);
+        self.body.system.outline(&shown, pen);
     }
     fn view(&self) -> View {
         self.body.system.view()
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        under(self.body.clone(), self.state.clone(), solver, t)
+        let (body, state, behind) = (self.body.clone(), self.state.clone(), self.lost_time());
+        Launch { body, state, behind, tolerance: None }.under(solver, t)
+    }
+}
+
+/// A method from the table.
+struct ByMethod<I>(I);
+
+impl<B: Body, I: Integrator<Counted<B>> + 'static> Drive<B> for ByMethod<I> {
+    fn advance(
+        &mut self,
+        body: &Counted<B>,
+        t: f64,
+        h: f64,
+        substeps: u32,
+        state: &mut State<B::Vector>,
+    ) -> Result<(), StepFailure> {
+        self.0.steps(body, t, h, substeps, state)
+    }
+
+    fn jumped(&mut self, _t: f64, _state: &State<B::Vector>) {
+        self.0.reset();
+    }
+
+    fn reset(&mut self) {
+        self.0.reset();
+    }
+
+    fn lost_time(&self) -> f64 {
+        self.0.lost_time()
+    }
+}
+
+/// The exact flow, always computed in one stride from `anchor`, so that nothing accumulates.
+struct ExactFlow<V> {
+    anchor: State<V>,
+    anchored_at: f64,
+}
+
+impl<B: Body> Drive<B> for ExactFlow<B::Vector> {
+    fn advance(
+        &mut self,
+        body: &Counted<B>,
+        t: f64,
+        h: f64,
+        _substeps: u32,
+        state: &mut State<B::Vector>,
+    ) -> Result<(), StepFailure> {
+        let is_known = body.system.exact_into(t + h - self.anchored_at, &self.anchor, state);
+        assert!(is_known, "a body has a closed form always or never");
+        Ok(())
+    }
+
+    fn jumped(&mut self, t: f64, state: &State<B::Vector>) {
+        self.anchor.assign(state);
+        self.anchored_at = t;
+    }
+
+    fn reset(&mut self) {}
+}
+
+impl<B: Body> Drive<B> for Reference<B::Vector> {
+    fn advance(
+        &mut self,
+        body: &Counted<B>,
+        t: f64,
+        h: f64,
+        _substeps: u32,
+        state: &mut State<B::Vector>,
+    ) -> Result<(), StepFailure> {
+        // Not through `body`, which counts: the truth is no contender.
+        self.solve(&body.system, t, h, state)
+    }
+
+    fn jumped(&mut self, _t: f64, _state: &State<B::Vector>) {
+        self.reset();
+    }
+
+    fn reset(&mut self) {
+        self.reset();
     }
 }
 
 fn write<V: Vector>(state: &mut State<V>, q: &[f64], v: &[f64]) {
     state.q.components_mut().copy_from_slice(q);
     state.v.components_mut().copy_from_slice(v);
-}
-
-fn outline<B: Body>(body: &B, like: &State<B::Vector>, q: &[f64], v: &[f64], pen: &mut Pen) {
-    let mut shown = like.clone();
-    write(&mut shown, q, v);
-    body.outline(&shown, pen);
 }

@@ -12,6 +12,13 @@ pub trait Vector: Clone + Send + 'static {
     fn assign(&mut self, from: &Self);
     /// `self += h x`, rounded after the product and after the sum.
     fn add_scaled(&mut self, h: f64, x: &Self);
+    /// `self = h x`, for an `x` with as many components. Never allocates.
+    #[inline]
+    fn assign_scaled(&mut self, h: f64, x: &Self) {
+        for (component, x) in self.components_mut().iter_mut().zip(x.components()) {
+            *component = h * x;
+        }
+    }
     /// The components in order.
     fn components(&self) -> &[f64];
     /// The components in order, to be written.

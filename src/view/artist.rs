@@ -1,7 +1,7 @@
 //! Frames without a window: the same renderer, on a texture of our own. Captures, screenshots and tests
 //! draw so.
 
-use super::{FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback, ReadbackError};
+use super::{Figure, FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback, ReadbackError};
 use crate::lab::Lab;
 
 /// Draws a lab into memory.
@@ -29,20 +29,64 @@ impl Artist {
         Self { renderer: self.renderer.with_panels(shown), ..self }
     }
 
+    /// Name, backend and driver of the adapter that draws.
+    pub fn adapter(&self) -> &wgpu::AdapterInfo {
+        &self.gpu.info
+    }
+
     /// Width and height of the frames, in pixels.
     pub fn size_px(&self) -> [u32; 2] {
         self.canvas.size_px
     }
 
-    /// Replaces `rgba` by the frame's pixels, top row first.
+    /// Replaces `rgba` by the frame's pixels, top row first. Nothing may be in flight.
     ///
     /// # Errors
     /// A [`ReadbackError`] where the device does not give the frame back.
     pub fn draw(&mut self, lab: &Lab, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
+        self.submit(lab)?;
+        self.collect(rgba)
+    }
+
+    /// Sets the device to draw a frame, and does not wait for it.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`] where the device is lost.
+    pub fn submit(&mut self, lab: &Lab) -> Result<(), ReadbackError> {
         let Self { gpu, renderer, canvas, readback, scale } = self;
         let input = egui::RawInput { time: Some(lab.race().t()), ..Default::default() };
         // Nobody is there to click, so there are no commands to carry out.
         let _ = renderer.draw(gpu, &canvas.view, canvas.size_px, *scale, input, lab);
+        readback.begin(gpu, &canvas.texture)
+    }
+
+    /// How many frames are submitted and not collected.
+    pub fn in_flight(&self) -> usize {
+        self.readback.pending()
+    }
+
+    /// Waits for the first frame in flight, and replaces `rgba` by its pixels, top row first.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`] where the device does not give the frame back.
+    ///
+    /// # Panics
+    /// If no frame is in flight.
+    pub fn collect(&mut self, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
+        self.readback.finish(&self.gpu, rgba)
+    }
+
+    /// Replaces `rgba` by the pixels of a diagram, top row first.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`] where the device does not give the picture back.
+    pub fn draw_figure(
+        &mut self,
+        figure: &Figure,
+        rgba: &mut Vec<u8>,
+    ) -> Result<(), ReadbackError> {
+        let Self { gpu, renderer, canvas, readback, scale } = self;
+        renderer.draw_figure(gpu, &canvas.view, canvas.size_px, *scale, figure);
         readback.read(gpu, &canvas.texture, rgba)
     }
 }

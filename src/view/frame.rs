@@ -4,6 +4,7 @@
 
 use std::time::Duration;
 
+use super::figure::{self, Figure};
 use super::gpu::Gpu;
 use super::meshes::MeshRenderer;
 use super::panels::{self, Panels};
@@ -94,6 +95,24 @@ impl FrameRenderer {
             Some(Stage { rect, picture: picture::compose(lab, size.into()) })
         });
         (commands, output)
+    }
+
+    /// Draws a diagram on all of `target`, which has `size_px` pixels, `scale` of them to a point.
+    pub fn draw_figure(
+        &mut self,
+        gpu: &Gpu,
+        target: &wgpu::TextureView,
+        size_px: [u32; 2],
+        scale: f32,
+        figure: &Figure,
+    ) {
+        // Once for the axes to learn how much room their labels take.
+        for _ in 0..2 {
+            self.draw_with(gpu, target, size_px, scale, egui::RawInput::default(), |ui| {
+                figure::show(ui, figure);
+                None
+            });
+        }
     }
 
     /// Draws panels and a stage.

@@ -6,12 +6,15 @@
 //! as they are stored, in gamma space, so all targets have a format without `Srgb` in its name.
 
 mod artist;
+mod curves;
+mod figure;
 mod frame;
 mod gpu;
 mod instances;
 mod meshes;
 mod offscreen;
 mod panels;
+mod plot;
 pub mod png;
 mod readback;
 mod screen;
@@ -22,6 +25,7 @@ mod strokes;
 mod testing;
 
 pub use artist::Artist;
+pub use figure::{Figure, FigureCurve};
 pub use frame::{FrameOutput, FrameRenderer};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use offscreen::Offscreen;

@@ -1,5 +1,6 @@
 //! From a texture to tightly packed RGBA rows.
 
+use std::collections::VecDeque;
 use std::sync::mpsc;
 use std::time::Duration;
 
@@ -32,15 +33,28 @@ pub enum ReadbackError {
     },
 }
 
-/// Reads textures, keeping its buffer from one frame to the next.
+/// Reads textures, keeping its buffers from one frame to the next.
 #[derive(Debug, Default)]
 pub struct Readback {
-    buffer: Option<wgpu::Buffer>,
+    spare: Vec<wgpu::Buffer>,
+    /// Oldest first.
+    pending: VecDeque<Pending>,
+}
+
+/// A texture on its way back.
+#[derive(Debug)]
+struct Pending {
+    buffer: wgpu::Buffer,
+    submission: wgpu::SubmissionIndex,
+    mapped: mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
+    row_bytes: u32,
+    blue_first: bool,
 }
 
 impl Readback {
     /// Waits for all work submitted so far and replaces `rows` by the texture's pixels: red, green,
-    /// blue, alpha, top row first, no padding. The texture needs `COPY_SRC`.
+    /// blue, alpha, top row first, no padding. The texture needs `COPY_SRC`. Nothing else may be
+    /// pending.
     ///
     /// # Errors
     /// A [`ReadbackError`]; `rows` is then unspecified.
@@ -50,6 +64,21 @@ impl Readback {
         texture: &wgpu::Texture,
         rows: &mut Vec<u8>,
     ) -> Result<(), ReadbackError> {
+        self.begin(gpu, texture)?;
+        self.finish(gpu, rows)
+    }
+
+    /// How many textures are on their way back.
+    pub fn pending(&self) -> usize {
+        self.pending.len()
+    }
+
+    /// Asks for the texture as it is once all work submitted so far is done. The texture may be drawn
+    /// on again at once.
+    ///
+    /// # Errors
+    /// [`ReadbackError::Format`] or [`ReadbackError::DeviceLost`].
+    pub fn begin(&mut self, gpu: &Gpu, texture: &wgpu::Texture) -> Result<(), ReadbackError> {
         let format = texture.format();
         let blue_first = match format {
             wgpu::TextureFormat::Rgba8Unorm => false,
@@ -62,7 +91,7 @@ impl Readback {
         let row_bytes = 4 * texture.width();
         let padded_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let bytes = u64::from(padded_row_bytes) * u64::from(texture.height());
-        let buffer = self.buffer_of(gpu, bytes).clone();
+        let buffer = self.buffer_of(gpu, bytes);
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         encoder.copy_texture_to_buffer(
@@ -77,24 +106,45 @@ impl Readback {
             },
             texture.size(),
         );
-        gpu.queue.submit([encoder.finish()]);
-        if let Err(error) = wait_until_mapped(gpu, &buffer.slice(..bytes)) {
-            // It may be mapped any time later, and a mapped buffer cannot be copied to.
-            self.buffer = None;
+        let submission = gpu.queue.submit([encoder.finish()]);
+        let (sender, mapped) = mpsc::channel();
+        buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            // The receiver is gone only when nobody waits any more.
+            sender.send(result).ok();
+        });
+        self.pending.push_back(Pending { buffer, submission, mapped, row_bytes, blue_first });
+        Ok(())
+    }
+
+    /// Waits for the texture that was asked for first, and replaces `rows` by its pixels as
+    /// [`Readback::read`] does.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`]; `rows` is then unspecified, and nothing is pending any more.
+    ///
+    /// # Panics
+    /// If nothing is pending.
+    pub fn finish(&mut self, gpu: &Gpu, rows: &mut Vec<u8>) -> Result<(), ReadbackError> {
+        let pending = self.pending.pop_front().expect("a texture was asked for");
+        if let Err(error) = wait_until_mapped(gpu, &pending) {
+            // The buffers may be mapped any time later, and mapped ones cannot be copied to.
+            self.pending.clear();
             return Err(error);
         }
-
+        let Pending { buffer, row_bytes, blue_first, .. } = pending;
+        let padded_row_bytes = row_bytes.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         rows.clear();
-        rows.reserve_exact(row_bytes as usize * texture.height() as usize);
         {
             let mapped = buffer
-                .get_mapped_range(..bytes)
+                .get_mapped_range(..)
                 .map_err(|error| ReadbackError::Unreadable { reason: error.to_string() })?;
+            rows.reserve_exact(mapped.len() / padded_row_bytes as usize * row_bytes as usize);
             for row in mapped.chunks_exact(padded_row_bytes as usize) {
                 rows.extend_from_slice(&row[..row_bytes as usize]);
             }
         }
         buffer.unmap();
+        self.spare.push(buffer);
         if blue_first {
             for pixel in rows.chunks_exact_mut(4) {
                 pixel.swap(0, 2);
@@ -103,9 +153,9 @@ impl Readback {
         Ok(())
     }
 
-    fn buffer_of(&mut self, gpu: &Gpu, bytes: u64) -> &wgpu::Buffer {
-        self.buffer.take_if(|buffer| buffer.size() != bytes);
-        self.buffer.get_or_insert_with(|| {
+    fn buffer_of(&mut self, gpu: &Gpu, bytes: u64) -> wgpu::Buffer {
+        self.spare.retain(|buffer| buffer.size() == bytes);
+        self.spare.pop().unwrap_or_else(|| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("readback"),
                 size: bytes,
@@ -116,15 +166,11 @@ impl Readback {
     }
 }
 
-fn wait_until_mapped(gpu: &Gpu, slice: &wgpu::BufferSlice<'_>) -> Result<(), ReadbackError> {
-    let (sender, receiver) = mpsc::channel();
-    slice.map_async(wgpu::MapMode::Read, move |result| {
-        // The receiver is gone only when nobody waits any more.
-        sender.send(result).ok();
-    });
-    let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
+fn wait_until_mapped(gpu: &Gpu, pending: &Pending) -> Result<(), ReadbackError> {
+    let submission_index = Some(pending.submission.clone());
+    let wait = wgpu::PollType::Wait { submission_index, timeout: Some(PATIENCE) };
     let polled = gpu.device.poll(wait);
-    match receiver.try_recv() {
+    match pending.mapped.try_recv() {
         Ok(Ok(())) => Ok(()),
         _ if gpu.is_lost() => Err(ReadbackError::DeviceLost),
         Ok(Err(error)) => Err(ReadbackError::Unreadable { reason: error.to_string() }),
@@ -178,6 +224,23 @@ mod tests {
             let texture = uploaded(&gpu, format, [width, height], &sent);
             readback.read(&gpu, &texture, &mut rows).unwrap();
             assert_eq!(rows, sent, "{width}x{height}");
+        }
+    }
+
+    #[test]
+    fn textures_come_back_in_the_order_in_which_they_were_asked_for() {
+        let test = "textures_come_back_in_the_order_in_which_they_were_asked_for";
+        let Some(gpu) = gpu_or_skip(test) else { return };
+        let mut readback = Readback::default();
+        let format = wgpu::TextureFormat::Rgba8Unorm;
+        for shade in [1, 2, 3] {
+            readback.begin(&gpu, &uploaded(&gpu, format, [1, 1], &[shade; 4])).unwrap();
+        }
+        let mut rows = Vec::new();
+        for shade in [1, 2, 3] {
+            assert_eq!(readback.pending(), 4 - usize::from(shade));
+            readback.finish(&gpu, &mut rows).unwrap();
+            assert_eq!(rows, [shade; 4]);
         }
     }
 

@@ -12,7 +12,10 @@ pub(super) fn key(event: &KeyEvent, shift: bool) -> Option<Key> {
 
 /// Whether a widget with the focus is worked by this key.
 pub(super) fn works_widgets(key: Key) -> bool {
-    matches!(key, Key::Space | Key::Up | Key::Down | Key::Home | Key::Escape)
+    matches!(
+        key,
+        Key::Space | Key::Up | Key::Down | Key::Left | Key::Right | Key::Home | Key::Escape
+    )
 }
 
 fn from_parts(physical: PhysicalKey, logical: &Logical, shift: bool) -> Option<Key> {
@@ -29,6 +32,8 @@ fn from_parts(physical: PhysicalKey, logical: &Logical, shift: bool) -> Option<K
             NamedKey::Space => Key::Space,
             NamedKey::ArrowUp => Key::Up,
             NamedKey::ArrowDown => Key::Down,
+            NamedKey::ArrowLeft => Key::Left,
+            NamedKey::ArrowRight => Key::Right,
             NamedKey::Home => Key::Home,
             NamedKey::Escape => Key::Escape,
             NamedKey::F1 => Key::Function(1),

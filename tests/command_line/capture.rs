@@ -1,24 +1,26 @@
 //! `capture`, and `play` where there is no display: what is in the directory, whatever happens.
 
 use std::fs;
+use std::io::{self, Write};
 use std::path::Path;
 use std::process::Output;
 
 use crate::{regatta, run_in, stderr};
 
 /// Runs a command that draws. Where there is nothing to draw with, says that `test` is skipped.
-fn drawn_or_skip(test: &str, directory: &Path, arguments: &str) -> Option<Output> {
+pub(crate) fn drawn_or_skip(test: &str, directory: &Path, arguments: &str) -> Option<Output> {
     let output = run_in(directory, arguments);
     let said = stderr(&output);
     if said.contains("no usable graphics adapter") || said.contains("no graphics device") {
         assert_eq!(output.status.code(), Some(1), "{said}");
-        eprintln!("SKIPPED {test}: {said}");
+        // Not `eprintln!`, which the test runner hides when a test passes.
+        let _ = writeln!(io::stderr(), "SKIPPED {test}: {said}");
         return None;
     }
     Some(output)
 }
 
-fn names(directory: &Path) -> Vec<String> {
+pub(crate) fn names(directory: &Path) -> Vec<String> {
     let entries = fs::read_dir(directory).unwrap();
     let mut names: Vec<_> =
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
@@ -26,7 +28,7 @@ fn names(directory: &Path) -> Vec<String> {
     names
 }
 
-fn dimensions(picture: &Path) -> (u32, u32) {
+pub(crate) fn dimensions(picture: &Path) -> (u32, u32) {
     image::open(picture).unwrap().into_rgba8().dimensions()
 }
 
@@ -46,13 +48,14 @@ fn the_same_command_makes_the_same_bytes() {
         assert_eq!(last, format!("wrote 3 frames of 320x180, 10 a second: {names}"));
     }
     let [a, b] = ["a", "b/c"].map(|out| folder.path().join(out));
-    assert_eq!(names(&a), ["frame-000000.png", "frame-000001.png", "frame-000002.png"]);
+    let frames = ["frame-000000.png", "frame-000001.png", "frame-000002.png"];
+    assert_eq!(names(&a), [&frames[..], &["manifest.json"]].concat());
     assert_eq!(names(&a), names(&b));
     let bytes = |directory: &Path, name: &String| fs::read(directory.join(name)).unwrap();
     for name in names(&a) {
         assert!(bytes(&a, &name) == bytes(&b, &name), "{name} differs");
-        assert_eq!(dimensions(&a.join(name)), (320, 180));
     }
+    assert!(frames.iter().all(|frame| dimensions(&a.join(frame)) == (320, 180)));
     let [first, last] = ["frame-000000.png", "frame-000002.png"].map(String::from);
     assert!(bytes(&a, &first) != bytes(&a, &last), "nothing moved");
 }
@@ -75,18 +78,18 @@ fn force_replaces_all_frames_and_nothing_else() {
     let Some(forced) = forced else { return };
     assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
     assert!(stderr(&forced).contains("left alone in clip: notes.txt"), "{}", stderr(&forced));
-    assert_eq!(names(&clip), ["frame-000000.png", "notes.txt"]);
+    assert_eq!(names(&clip), ["frame-000000.png", "manifest.json", "notes.txt"]);
     assert_eq!(dimensions(&clip.join("frame-000000.png")), (32, 32));
     assert_eq!(fs::read(clip.join("notes.txt")).unwrap(), b"old");
 }
 
 #[test]
-fn the_smallest_and_odd_sizes_are_drawn() {
+fn the_smallest_the_largest_and_odd_sizes_are_drawn() {
     let folder = tempfile::tempdir().unwrap();
-    for (width, height) in [(1, 1), (3, 997), (1001, 2)] {
+    for (width, height) in [(1, 1), (3, 997), (1001, 2), (3840, 2160)] {
         let size = format!("{width}x{height}");
         let capture = format!("capture --race --frames 1 --size {size} --scale 2 --out {size}");
-        let test = "the_smallest_and_odd_sizes_are_drawn";
+        let test = "the_smallest_the_largest_and_odd_sizes_are_drawn";
         let Some(output) = drawn_or_skip(test, folder.path(), &capture) else { return };
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         let picture = folder.path().join(size).join("frame-000000.png");
@@ -138,7 +141,8 @@ fn an_interrupt_leaves_whole_frames_and_says_how_many() {
     let output = child.wait_with_output().unwrap();
     let said = stderr(&output);
     assert_eq!(output.status.code(), Some(130), "{said}");
-    let frames = names(&clip);
+    let mut frames = names(&clip);
+    assert_eq!(frames.pop().unwrap(), "manifest.json");
     let last = frames.last().unwrap();
     let expected = format!("interrupted after {} of 100000 frames; whole: ", frames.len());
     assert!(said.contains(&expected), "{said}");
@@ -160,6 +164,6 @@ fn without_a_display_the_demo_is_drawn_into_a_fresh_directory() {
         assert!(said.contains(&format!("0.1 s of it into {out} instead\n")), "{said}");
         let wrote = format!("wrote 3 frames of 1280x720, 30 a second: {out}/frame-000000.png");
         assert!(said.contains(&wrote), "{said}");
-        assert_eq!(names(&folder.path().join(out)).len(), 3);
+        assert_eq!(names(&folder.path().join(out)).len(), 4);
     }
 }

@@ -36,7 +36,7 @@ fn a_method_is_listed_with_all_of_its_card() {
     for (object, method) in methods.iter().zip(METHODS) {
         let keys: Vec<_> = object.as_object().unwrap().keys().map(String::as_str).collect();
         let expected = "id name family order order_with_drag evaluations symplectic reversible \
-                        stability_limit tolerance as_printed about source";
+                        stability_limit tolerance restart keeps_time as_printed about source";
         assert_eq!(keys.join(" "), expected);
         assert_eq!(object["order"], method.order);
         assert_eq!(object["order_with_drag"], method.order_with_drag);
@@ -56,6 +56,15 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
             assert_eq!(listed["key"], parameter.key);
             assert_eq!(listed["default"], Value::from(parameter.default));
         }
+    }
+    for (object, body) in bodies.iter().zip(BODIES) {
+        assert_eq!(object["truth"], body.truth.id());
+        assert_eq!(object["accuracy"], Value::from(body.truth.accuracy()));
+        let coordinates = object["coordinates"].as_array().unwrap();
+        let names: Vec<_> = coordinates.iter().map(|c| c["name"].as_str().unwrap()).collect();
+        let expected: Vec<_> = body.plain_coordinates().iter().map(|c| c.name).collect();
+        assert_eq!(names, expected);
+        assert!(!names.is_empty() && names.iter().all(|name| name.is_ascii()));
     }
     let text = stdout_of("list bodies");
     assert!(text.contains("[[spring]]\n"), "{text}");

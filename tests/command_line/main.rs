@@ -4,10 +4,16 @@
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+mod advise;
 mod capture;
+mod chapter;
+mod formats;
 mod list;
+mod manifest;
+mod mishaps;
 mod mistakes;
 mod trace;
+mod verify;
 
 /// The program, with nothing of this machine's display or settings.
 fn regatta() -> Command {

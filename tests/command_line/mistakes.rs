@@ -10,7 +10,10 @@ fn each_mistake_is_named_with_its_remedy() {
         ("trace --scene shp", "is called \"shp\"; did you mean ship?"),
         ("trace --scene Stiff", "did you mean stiff?"),
         ("trace --scene nosuch.toml", "give one of these, or the path of a scene file"),
-        ("trace --scene nosuch.toml", "(harbour, ship, spring, stiff)"),
+        (
+            "trace --scene nosuch.toml",
+            "(harbour, ship, spring, stiff, surge, chain, pendulum, orbit, helm)",
+        ),
         ("trace --scene .", ". is a directory; give a scene file in it"),
         ("trace --method rk5", "did you mean rk4? `regatta list methods` names all"),
         ("trace --method x", "no such method. `regatta list methods` names all"),
@@ -29,7 +32,7 @@ fn each_mistake_is_named_with_its_remedy() {
         ("list method", "a similar value exists: 'methods'"),
         ("sail", "unrecognized subcommand 'sail'"),
         ("completions", "<SHELL>"),
-        ("capture --scene ship", "--out <DIR>"),
+        ("capture --scene ship", "--out <DIR|FILE>"),
         ("capture --out x --size 0x720", "each side has 1 to 8192 pixels"),
         ("capture --out x --size 1280x8193", "each side has 1 to 8192 pixels"),
         ("capture --out x --size big", "such as 1280x720"),
@@ -41,6 +44,18 @@ fn each_mistake_is_named_with_its_remedy() {
         ("capture --out x --fps 1000 --seconds 9999", "a lower --fps or fewer --seconds"),
         ("capture --out Cargo.toml", "Cargo.toml is not a directory; give another --out"),
         ("capture --out src", "src is not empty; give another --out, or --force"),
+        ("capture --out x --panels some", "on, off"),
+        ("capture --out x --format avi", "png, apng, gif, y4m, rgba, sheet"),
+        ("capture --out x --format gif --fps 51", "at most 50 frames a second, not 51"),
+        ("capture --out x --format gif --resume", "only pictures in a directory can be resumed"),
+        ("capture --out src --format gif", "src is there already; give another --out"),
+        ("capture --out Cargo.toml --format y4m", "Cargo.toml is there already"),
+        ("capture --out x --format sheet --frames 9999", "fewer --frames or a smaller --size"),
+        ("capture --out x --mark-every 0", "0 is not in 1..="),
+        ("verify src", "cannot judge src/manifest.json: No such file"),
+        ("verify nowhere", "`regatta capture` writes it"),
+        ("verify src --max-pixels 101", "give a percentage from 0 to 100"),
+        ("verify src --report xml x", "no report format is called \"xml\"; give junit or json"),
     ] {
         let message = refusal(arguments, 2);
         assert!(message.starts_with("error: "), "{arguments}: {message}");
@@ -100,7 +115,9 @@ fn help_and_version_are_data() {
 
 #[test]
 fn every_help_fits_a_hundred_columns_and_has_examples() {
-    for command in ["play", "capture", "trace", "list", "completions"] {
+    for command in
+        ["play", "capture", "verify", "trace", "advise", "chapter", "list", "completions"]
+    {
         let output = regatta().args([command, "--help"]).env("COLUMNS", "200").output().unwrap();
         let help = String::from_utf8(output.stdout).unwrap();
         assert!(help.contains("Examples:\n  regatta "), "{help}");

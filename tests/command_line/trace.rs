@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{BufRead, BufReader, Read};
 use std::process::Stdio;
 
-use regatta::sim::integrators::METHODS;
+use regatta::lab::Scene;
 use serde_json::Value;
 
 use crate::{regatta, run_in, stderr, stdout_of};
@@ -52,16 +52,37 @@ fn the_chapters_table_7_1_comes_out_digit_by_digit() {
 fn a_trace_is_tidy_and_begins_at_tick_0_with_the_truth_as_lane_0() {
     let csv = stdout_of("trace --scene ship --seconds 2");
     assert_eq!(csv.lines().next(), Some(HEADER));
-    let lanes = 1 + METHODS.len();
+    let scene = Scene::built_in("ship").unwrap();
+    let lanes = 1 + scene.lanes.len();
     assert_eq!(csv.lines().count(), 1 + 5 * lanes);
     assert!(csv.lines().all(|line| line.split(',').count() == 8));
     for (n, row) in rows(&csv).into_iter().enumerate() {
         let (tick, lane) = (n / lanes, n % lanes);
         let t = format!("{:?}", tick as f64 / 2.0);
-        let method = if lane == 0 { "exact" } else { METHODS[lane - 1].id };
+        let method = if lane == 0 { "exact" } else { scene.lanes[lane - 1].method.id };
         let start = [&tick.to_string(), &t, &lane.to_string(), method, "ship", "s"];
         assert_eq!(row[..6], start);
     }
+}
+
+#[test]
+fn a_body_without_a_closed_form_has_a_reference_for_truth_and_its_accuracy_is_told() {
+    let output = run_in(&std::env::temp_dir(), "trace --scene helm --method rk4 --seconds 0.2");
+    let csv = String::from_utf8(output.stdout.clone()).unwrap();
+    let heads: Vec<_> = rows(&csv).iter().map(|row| row[..6].join(",")).collect();
+    let expected = ["x", "y", "psi"].map(|q| format!("0,0.0,0,reference,helm,{q}"));
+    assert_eq!(heads[..3], expected);
+    assert_eq!(heads.len(), 2 * 2 * 3);
+    let said = "lane 0, helm: has no closed form; its reference is good to 1e-10, relative\n";
+    assert_eq!(stderr(&output), said);
+}
+
+#[test]
+fn a_chain_has_a_row_for_each_of_its_masses() {
+    let csv = stdout_of("trace --scene chain --method rk4 --seconds 0");
+    let names: Vec<_> = rows(&csv).iter().map(|row| row[5].to_owned()).collect();
+    let expected: Vec<_> = (0..2).flat_map(|_| (1..=16).map(|n| format!("x{n}"))).collect();
+    assert_eq!(names, expected);
 }
 
 #[test]

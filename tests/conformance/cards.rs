@@ -27,10 +27,26 @@ fn every_card_says_what_to_expect_and_where_it_comes_from() {
 #[test]
 fn families_agree_with_the_fields_they_sum_up() {
     for card in METHODS {
-        assert_eq!(card.family == Family::Symplectic, card.symplectic, "{}", card.id);
-        let adaptive = card.family == Family::Adaptive;
-        assert_eq!(adaptive, card.tolerance.is_some(), "{}", card.id);
-        assert_eq!(adaptive, card.evaluations.is_none(), "{}", card.id);
-        assert_eq!(adaptive, card.stability_limit.is_none(), "{}", card.id);
+        assert_eq!(card.family == Family::AsPrinted, card.as_printed, "{}", card.id);
+        let is_implicit = card.family == Family::Implicit;
+        let asks_at_will = card.tolerance.is_some() || is_implicit;
+        assert_eq!(asks_at_will, card.evaluations.is_none(), "{}", card.id);
+        if !card.as_printed {
+            let adaptive = card.family == Family::Adaptive;
+            assert_eq!(adaptive, card.tolerance.is_some(), "{}", card.id);
+            assert_eq!(adaptive || is_implicit, card.stability_limit.is_none(), "{}", card.id);
+        }
+        if !card.as_printed && !is_implicit {
+            assert_eq!(card.family == Family::Symplectic, card.symplectic, "{}", card.id);
+        }
     }
+}
+
+#[test]
+fn the_table_runs_family_by_family_with_the_listings_last() {
+    let mut families: Vec<Family> = METHODS.iter().map(|card| card.family).collect();
+    families.dedup();
+    let distinct: HashSet<_> = families.iter().map(|family| family.id()).collect();
+    assert_eq!(families.len(), distinct.len(), "{families:?}");
+    assert_eq!(families.last(), Some(&Family::AsPrinted));
 }

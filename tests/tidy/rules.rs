@@ -30,7 +30,7 @@ const LAYERS: [Layer; 5] = [
     Layer {
         name: "sim",
         above: &["lab", "view", "window", "commands"],
-        crates: Crates::Only(&["glam", "libm", "thiserror"]),
+        crates: Crates::Only(&["glam", "libm", "nalgebra", "thiserror"]),
         std: &["fs", "time", "thread", "env", "io", "net", "process", "path"],
     },
     Layer {

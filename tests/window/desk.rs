@@ -1,14 +1,16 @@
 //! A display, the program on it, and a person at keyboard and mouse.
 
-use std::io::{self, BufRead, BufReader, Read, Write};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::PathBuf;
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use image::{Rgba, RgbaImage};
 use tempfile::TempDir;
 use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask, ImageFormat, Window};
 use x11rb::rust_connection::RustConnection;
+
+use crate::program::{Program, end};
 
 /// Software draws some ten frames a second where every core is busy; a start takes a few seconds.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -60,10 +62,8 @@ impl Desk {
         });
         let window = match window {
             Ok(window) => window,
-            Err(status) => {
-                let said = program.said();
-                assert!(said.contains("no usable graphics adapter"), "{status}: {said}");
-                return skip(test, said.trim_end());
+            Err(_) => {
+                return skip_for_want_of_an_adapter(test, &program.said());
             }
         };
         let desk = Self { program, window, display };
@@ -169,12 +169,30 @@ impl Desk {
         });
     }
 
+    /// Waits for a paused window to have drawn all that it had to.
+    #[track_caller]
+    pub(crate) fn still(&self) {
+        let mut still = 0;
+        until("stillness", || {
+            still = if self.program.sleeps() { still + 1 } else { 0 };
+            (still > 15).then_some(())
+        });
+    }
+
     /// Presses a key, and waits for something to change in a paused window.
     #[track_caller]
     pub(crate) fn press_and_see(&self, key: &str) {
+        self.still();
         let before = self.sight();
         self.press(key);
         until("a change", || (self.sight() != before).then_some(()));
+    }
+
+    /// Makes the window this large, in pixels.
+    #[track_caller]
+    pub(crate) fn resize(&self, width: u32, height: u32) {
+        self.xdotool(&format!("windowsize WINDOW {width} {height}"));
+        until("the size", || (self.sight().dimensions() == (width, height)).then_some(()));
     }
 
     /// Asks the window to close, as the cross in its frame would.
@@ -257,21 +275,8 @@ impl Display {
 
     /// Starts the program on this display.
     pub(crate) fn start(&self, arguments: &str, variables: &[(&str, &str)]) -> Program {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_regatta"));
-        for variable in ["WAYLAND_DISPLAY", "WAYLAND_SOCKET", "WGPU_BACKEND", "RUST_LOG"] {
-            command.env_remove(variable);
-        }
-        command
-            .args(arguments.split_whitespace())
-            .current_dir(self.folder.path())
-            .env("DISPLAY", &self.name)
-            .env("WINIT_X11_SCALE_FACTOR", "1")
-            // Where it is unset, libwayland says so on standard error.
-            .env("XDG_RUNTIME_DIR", self.folder.path())
-            .envs(variables.iter().copied())
-            .stdin(Stdio::null())
-            .stderr(Stdio::piped());
-        Program(command.spawn().unwrap())
+        let here = [("DISPLAY", self.name.as_str()), ("WINIT_X11_SCALE_FACTOR", "1")];
+        Program::start(self.folder.path(), arguments, &[&here, variables].concat())
     }
 
     fn xdotool(&self, words: &str) -> Result<String, String> {
@@ -294,50 +299,13 @@ impl Drop for Display {
     }
 }
 
-/// The program running.
-pub(crate) struct Program(Child);
-
-impl Program {
-    /// How it ended, if it did.
-    pub(crate) fn ended(&mut self) -> Option<ExitStatus> {
-        self.0.try_wait().unwrap()
-    }
-
-    /// What it said on standard error until its end.
-    pub(crate) fn said(&mut self) -> String {
-        let mut said = String::new();
-        self.0.stderr.take().unwrap().read_to_string(&mut said).unwrap();
-        said
-    }
-
-    fn processor_time(&self) -> Duration {
-        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.0.id())).unwrap();
-        // The name, in brackets, may hold spaces.
-        let (_, fields) = stat.rsplit_once(") ").unwrap();
-        let ticks = fields.split(' ').skip(11).take(2).map(|field| field.parse::<u64>().unwrap());
-        // Linux shows a hundred of them a second, whatever the kernel counts in.
-        Duration::from_millis(10 * ticks.sum::<u64>())
-    }
-
-    /// Sends it a signal by name, such as `STOP`.
-    pub(crate) fn signal(&self, name: &str) {
-        let id = self.0.id().to_string();
-        assert!(Command::new("kill").args(["-s", name, &id]).status().unwrap().success());
-    }
+#[track_caller]
+pub(crate) fn skip_for_want_of_an_adapter<T>(test: &str, said: &str) -> Option<T> {
+    assert!(said.contains("no usable graphics adapter"), "{said}");
+    skip(test, said.trim_end())
 }
 
-impl Drop for Program {
-    fn drop(&mut self) {
-        end(&mut self.0);
-    }
-}
-
-fn end(child: &mut Child) {
-    let _ = child.kill();
-    let _ = child.wait();
-}
-
-fn skip<T>(test: &str, reason: &str) -> Option<T> {
+pub(crate) fn skip<T>(test: &str, reason: &str) -> Option<T> {
     // Not `eprintln!`, which the test runner hides when a test passes.
     let _ = writeln!(io::stderr(), "SKIPPED {test}: {reason}");
     None

@@ -24,6 +24,8 @@ fn x_name(key: Key) -> String {
         Key::ShiftSign(letter) => format!("shift+{letter}"),
         Key::Space => "space".into(),
         Key::Up => "Up".into(),
+        Key::Left => "Left".into(),
+        Key::Right => "Right".into(),
         Key::Down => "Down".into(),
         Key::Home => "Home".into(),
         Key::Escape => "Escape".into(),

@@ -6,4 +6,6 @@ mod desk;
 mod keys;
 mod life;
 mod mouse;
+mod program;
 mod shape;
+mod wayland;

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::desk::{Desk, until};
+use crate::desk::Desk;
 
 #[test]
 fn the_window_shows_what_a_screenshot_saves_at_every_scale() {
@@ -31,8 +31,7 @@ fn a_window_of_one_pixel_and_back_goes_on() {
         ("2", [2500, 3], "Semi-implicit Euler"),
         ("3", [640, 360], "Improved Euler"),
     ] {
-        desk.xdotool(&format!("windowsize WINDOW {width} {height}"));
-        until("the size", || (desk.sight().dimensions() == (width, height)).then_some(()));
+        desk.resize(width, height);
         desk.press(key);
         desk.titled(&format!("Regatta - spring - {method} - 60 Hz"));
         assert_eq!(desk.screenshot().1.dimensions(), (width, height));

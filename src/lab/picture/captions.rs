@@ -8,6 +8,7 @@ use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::Lab;
 use crate::lab::number::{round, significant};
 use crate::lab::race::Entrant;
+use crate::sim::bodies::Coordinate;
 
 /// The least height of a cell, in points, that marks along its bottom do not crowd.
 const ROOM_FOR_BAR: f32 = 64.0;
@@ -30,7 +31,8 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, lab: &Lab, entrant: &Entra
     let middle = (rect.min[1] + rect.max[1]) / 2.0;
     if entrant.entry == lab.active() {
         let (top, bottom) = (rect.min[1] + 4.0, rect.max[1] - 4.0);
-        let bar = line([2.5, top], [2.5, bottom.max(top)], 3.0, colour, rect);
+        let x = rect.min[0] + 2.5;
+        let bar = line([x, top], [x, bottom.max(top)], 3.0, colour, rect);
         picture.strokes.push(bar);
     }
     let mut write = |y, colour, text: String| {
@@ -58,7 +60,13 @@ pub(super) fn column(picture: &mut Picture, rect: Rect, lab: &Lab, index: usize)
 }
 
 /// Names the body and the method that it flies under, and says where it is.
-pub(super) fn solo(picture: &mut Picture, rect: Rect, lab: &Lab, index: usize, (q, v): (f64, f64)) {
+pub(super) fn solo(
+    picture: &mut Picture,
+    rect: Rect,
+    lab: &Lab,
+    index: usize,
+    (coordinate, q, v): (&Coordinate, f64, f64),
+) {
     let Some(at) = caption_place(rect) else { return };
     let body = &lab.scene().bodies[index];
     let method = lab.entries()[lab.active()].method;
@@ -76,7 +84,6 @@ pub(super) fn solo(picture: &mut Picture, rect: Rect, lab: &Lab, index: usize, (
         let (colour, text) = (palette::ALARM, format!("halted at tick {}", halt.tick));
         picture.labels.push(Label { at, align: Align::Right, size, colour, text });
     } else if width > ROOM_FOR_NUMBERS {
-        let coordinate = &body.kind.coordinates[0];
         let text = format!(
             "{} = {} {unit}   {} = {} {unit}/s",
             coordinate.name,
@@ -97,26 +104,28 @@ fn caption_place(rect: Rect) -> Option<[f32; 2]> {
 
 /// An arrow at the edge of the cell for a body beyond it, with its place as a number.
 pub(super) fn arrow(picture: &mut Picture, camera: &Camera, at: DVec2, colour: Rgba) {
-    let (left, right) = camera.span_m();
     let Rect { min, max } = camera.rect;
-    let y = camera.at[1];
-    let (tip, back, align) = if at.x < left {
-        (min[0] + 5.0, min[0] + 17.0, Align::Left)
-    } else if at.x > right {
-        (max[0] - 5.0, max[0] - 17.0, Align::Right)
-    } else {
-        return;
+    let place = camera.points(at);
+    // Left and right before up and down: a ship's lane is low.
+    let Some(axis) = (0..2).find(|&i| place[i] < min[i] || place[i] > max[i]) else { return };
+    let other = 1 - axis;
+    let (edge, inwards) = if place[axis] < min[axis] { (min, 1.0) } else { (max, -1.0) };
+    let along = place[other].clamp(min[other], max[other].max(min[other]));
+    let point = |inset: f32| {
+        let mut point = [along; 2];
+        point[axis] = edge[axis] + inwards * inset;
+        point
     };
-    let mut arrow = line([back, y], [tip, y], 1.0, colour, camera.rect);
+    let mut arrow = line(point(17.0), point(5.0), 1.0, colour, camera.rect);
     arrow.radii = [7.0, 0.8];
     picture.strokes.push(arrow);
-    picture.labels.push(Label {
-        at: [back + (back - tip).signum() * 11.0, y - 12.0],
-        align,
-        size: 12.0,
-        colour,
-        text: format!("{} m", significant(at.x, 3)),
-    });
+    let (at_text, align) = match (axis, inwards > 0.0) {
+        (0, true) => ([point(28.0)[0], along - 12.0], Align::Left),
+        (0, false) => ([point(28.0)[0], along - 12.0], Align::Right),
+        _ => ([along + 12.0, point(12.0)[1]], Align::Left),
+    };
+    let text = format!("{} m", significant(at[axis], 3));
+    picture.labels.push(Label { at: at_text, align, size: 12.0, colour, text });
 }
 
 /// Distance marks along a ship's course.

@@ -9,6 +9,10 @@ use crate::lab::race::Entrant;
 use crate::lab::{History, Interpolation, Lab, LaneBody, Mode};
 use crate::sim::bodies::{Pen, View};
 
+/// The head of a cell in which its lane is named, and may have halted, in points.
+const CAPTION: f32 = 32.0;
+/// The head of a cell that a body with a fixed camera leaves to the caption, in points.
+const HEAD: f64 = 20.0;
 /// Space round the stage and between its cells, in points.
 const MARGIN: f32 = 6.0;
 /// The column of lane names at the left of a race, in points: on a stage wide enough for names, and on
@@ -16,11 +20,11 @@ const MARGIN: f32 = 6.0;
 const GUTTERS: (f32, f32) = (120.0, 18.0);
 /// From this width of the stage on, in points, lane names fit.
 const ROOM_FOR_NAMES: f32 = 520.0;
-/// The part of a scene's duration that a trail reaches back: three swings of the harbour's 1 Hz spring,
-/// and no more of a faster one than can be told apart.
-const TRAIL: f64 = 0.15;
-/// The longest trail, in seconds: a ship under way has left the stage by then.
-const LONGEST_TRAIL_S: f64 = 3.0;
+/// The part of a scene's duration that a chart recorder's paper holds: three swings of the harbour's
+/// 1 Hz spring, and no more of a faster one than can be told apart.
+const PAPER: f64 = 0.15;
+/// The most that the paper holds, in seconds.
+const LONGEST_PAPER_S: f64 = 3.0;
 
 /// The picture of the lab on a stage of `size` points.
 pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
@@ -35,7 +39,7 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
             Interpolation::Raw => race.t(),
             _ => race.t() - (1.0 - lab.clock().alpha()) * h,
         },
-        trail_s: (TRAIL * lab.scene().seconds).min(LONGEST_TRAIL_S),
+        paper_s: (PAPER * lab.scene().seconds).min(LONGEST_PAPER_S),
     };
     let bodies = lab.scene().bodies.len();
     match lab.mode() {
@@ -43,6 +47,16 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
             let stage = Rect { min: [0.0; 2], max: size };
             for (index, cell) in grid(stage, bodies, 1).into_iter().enumerate() {
                 shown.body(&mut picture, cell, &race.entrants()[0], index);
+            }
+        }
+        Mode::Race if let Some(shape) = shown.shape() => {
+            let stage = Rect { min: [0.0; 2], max: size };
+            let cells = mosaic(stage, race.entrants().len(), shape);
+            for (entrant, cell) in race.entrants().iter().zip(cells) {
+                shown.body(&mut picture, cell, entrant, 0);
+                let bottom = (cell.min[1] + CAPTION).min(cell.max[1]);
+                let head = Rect { min: cell.min, max: [cell.max[0], bottom] };
+                captions::lane(&mut picture, head, lab, entrant);
             }
         }
         Mode::Race => {
@@ -55,6 +69,9 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
                 for (index, cell) in row.iter().enumerate() {
                     shown.body(&mut picture, *cell, entrant, index);
                 }
+            }
+            for (index, cell) in cells.iter().take(bodies).enumerate() {
+                captions::column(&mut picture, *cell, lab, index);
             }
         }
     }
@@ -78,6 +95,18 @@ fn grid(stage: Rect, rows: usize, columns: usize) -> Vec<Rect> {
     (0..rows).flat_map(|row| (0..columns).map(move |column| cell(row, column))).collect()
 }
 
+/// So many cells in rows, cut so that a picture of this `shape` is as large as may be in each.
+fn mosaic(stage: Rect, count: usize, shape: DVec2) -> Vec<Rect> {
+    let scale = |cells: &Vec<Rect>| {
+        let Rect { min, max } = cells[0];
+        (f64::from(max[0] - min[0]) / shape.x).min(f64::from(max[1] - min[1]) / shape.y)
+    };
+    let grids = (1..=count).map(|columns| grid(stage, count.div_ceil(columns), columns));
+    let mut cells = grids.max_by(|a, b| scale(a).total_cmp(&scale(b))).unwrap_or_default();
+    cells.truncate(count);
+    cells
+}
+
 /// The moment that is drawn.
 pub(super) struct Shown<'a> {
     pub(super) lab: &'a Lab,
@@ -87,11 +116,24 @@ pub(super) struct Shown<'a> {
     h: f64,
     /// The moment in seconds.
     pub(super) t: f64,
-    /// How far trails reach back, in seconds.
-    pub(super) trail_s: f64,
+    /// How far a chart recorder's trail reaches back, in seconds.
+    pub(super) paper_s: f64,
 }
 
 impl Shown<'_> {
+    /// The width and height, in metres, of what is to be seen of a body that is alone in its scene and
+    /// moves both across and up. Other bodies move along rows.
+    fn shape(&self) -> Option<DVec2> {
+        let [body] = self.lab.race().truth().bodies() else { return None };
+        match body.stepper.view() {
+            View::Fixed { half_m, .. } => Some(half_m),
+            View::Follow { width_m, height_m, .. } if turns(body) => {
+                Some(DVec2::new(width_m, height_m))
+            }
+            View::Follow { .. } | View::Recorder { .. } => None,
+        }
+    }
+
     /// A body's coordinates and velocities at the moment drawn.
     fn state(&self, body: &LaneBody) -> (Vec<f64>, Vec<f64>) {
         let (q0, v0) = (&body.previous_q, &body.previous_v);
@@ -121,21 +163,30 @@ impl Shown<'_> {
         body.stepper.outline(&q, &v, &mut pen);
 
         let view = truth.stepper.view();
-        let camera = self.camera(rect, view, ghost.at, truth_history);
+        let camera = self.camera(rect, truth, ghost.at, truth_history);
         let (colour, _) = style(self.lab.entries()[entrant.entry].method);
         let own = Paint { colour, line_width: 2.0, grow: 0.0 };
         let exact = Paint { colour: faded(palette::TRUTH, 0.75), line_width: 1.0, grow: 1.6 };
 
+        let white = faded(palette::TRUTH, 0.55);
+
         picture.seas.push(self.sea(&camera, view));
         match view {
-            View::Follow { .. } => self.wake(picture, &camera, pen.at, history),
-            View::Fixed { .. } => {
+            View::Follow { width_m, wake_s, .. } => {
+                self.wake(picture, &camera, pen.at, history, width_m, wake_s);
+            }
+            View::Recorder { .. } => {
                 if self.lab.display().ghost {
-                    let white = faded(palette::TRUTH, 0.55);
-                    self.trail(picture, &camera, ghost.at, truth_history, |_| white);
+                    self.recorded(picture, &camera, ghost.at, truth_history, |_| white);
                 }
-                self.trail(picture, &camera, pen.at, history, |sample| self.colour(sample));
+                self.recorded(picture, &camera, pen.at, history, |sample| self.colour(sample));
                 envelope(picture, &camera, truth_history);
+            }
+            View::Fixed { trail_s, .. } => {
+                if self.lab.display().ghost {
+                    self.path(picture, &camera, ghost.at, truth_history, trail_s, |_| white);
+                }
+                self.path(picture, &camera, pen.at, history, trail_s, |s| self.colour(s));
             }
         }
         if self.lab.display().ghost {
@@ -145,43 +196,55 @@ impl Shown<'_> {
 
         captions::arrow(picture, &camera, pen.at, colour);
         let race = self.lab.race().entrants();
-        let first = entrant.entry == race[0].entry;
         if self.lab.mode() == Mode::Solo || entrant.entry == race[race.len() - 1].entry {
             captions::scale_bar(picture, &camera);
         }
-        if let View::Follow { .. } = view {
+        if let (View::Follow { .. }, false) = (view, turns(body)) {
             captions::distance_marks(picture, &camera);
         }
         match self.lab.mode() {
-            Mode::Solo => captions::solo(picture, rect, self.lab, index, (q[0], v[0])),
-            Mode::Race if first => captions::column(picture, rect, self.lab, index),
+            Mode::Solo => {
+                let shown = (&body.coordinates[0], q[0], v[0]);
+                captions::solo(picture, rect, self.lab, index, shown);
+            }
             Mode::Race => {}
         }
     }
 
-    fn camera(&self, rect: Rect, view: View, truth_at: DVec2, truth: &History) -> Camera {
+    fn camera(&self, rect: Rect, body: &LaneBody, truth_at: DVec2, truth: &History) -> Camera {
         let [width, height] = [0, 1].map(|i| f64::from(rect.max[i] - rect.min[i]).max(1.0));
         let middle = [0, 1].map(|i| (rect.min[i] + rect.max[i]) / 2.0);
-        match view {
-            View::Follow { width_m } => {
+        match body.stepper.view() {
+            View::Follow { width_m, height_m, .. } => {
                 let centre_m = if self.lab.display().motion {
                     truth_at
                 } else {
                     // In pages, so that nothing but the ship moves.
-                    let page = 0.6 * width_m;
-                    DVec2::new((libm::floor(truth_at.x / page) + 0.5) * page, truth_at.y)
+                    let (page, leaf) = (0.6 * width_m, 0.5 * height_m);
+                    let x = (libm::floor(truth_at.x / page) + 0.5) * page;
+                    DVec2::new(x, libm::round(truth_at.y / leaf) * leaf)
                 };
-                // Half a ship's length ahead of the middle leaves room for the wake.
-                let at = [middle[0] + 0.1 * width as f32, middle[1] + 0.06 * height as f32];
-                let points_per_metre = (width / width_m).min(height / 9.0);
+                // On a straight course half a ship's length ahead of the middle leaves room for the
+                // wake.
+                let ahead = if turns(body) { 0.0 } else { 0.1 };
+                let at = [middle[0] + ahead * width as f32, middle[1] + 0.06 * height as f32];
+                let points_per_metre = (width / width_m).min(height / height_m);
                 Camera { rect, centre_m, at, points_per_metre }
             }
-            View::Fixed { half_width_m } => {
-                let swing = truth.samples().map(|s| s.q.abs()).fold(0.0, f64::max);
+            View::Recorder { half_width_m } => {
+                let swing = swing(truth);
                 let half_width_m = half_width_m.max(1.15 * swing);
                 let at = [middle[0] + 0.05 * width as f32, rect.min[1] + 0.46 * height as f32];
                 let points_per_metre = (width / 2.1).min(height * 1.1) / half_width_m;
                 Camera { rect, centre_m: DVec2::ZERO, at, points_per_metre }
+            }
+            View::Fixed { centre_m, half_m, .. } => {
+                let off = truth.samples().map(|s| (s.at - centre_m).abs() * 1.05);
+                let half_m = off.fold(half_m, DVec2::max);
+                let head = HEAD.min(height / 4.0);
+                let at = [middle[0], middle[1] + head as f32 / 2.0];
+                let points_per_metre = (width / half_m.x).min((height - head) / half_m.y) / 2.0;
+                Camera { rect, centre_m, at, points_per_metre }
             }
         }
     }
@@ -189,7 +252,7 @@ impl Shown<'_> {
     fn sea(&self, camera: &Camera, view: View) -> Sea {
         let step_m = camera.round_length_m(48.0);
         // The nearest grid line to the camera, so that no large number reaches an f32.
-        let line = DVec2::new(libm::round(camera.centre_m.x / step_m) * step_m, 0.0);
+        let line = (camera.centre_m / step_m).round() * step_m;
         Sea {
             rect: camera.rect,
             grid_origin: camera.points(line),
@@ -204,9 +267,19 @@ impl Shown<'_> {
     }
 }
 
+/// Whether a body leaves the line that it starts on: the one coordinate of the others is along it.
+fn turns(body: &LaneBody) -> bool {
+    body.coordinates.len() > 1
+}
+
+/// How far the truth has been from the origin along x, in metres.
+fn swing(truth: &History) -> f64 {
+    truth.samples().map(|s| s.at.x.abs()).fold(0.0, f64::max)
+}
+
 /// Two ticks at the largest swing of the truth: a mass beyond them has gained energy.
 fn envelope(picture: &mut Picture, camera: &Camera, truth: &History) {
-    let swing = truth.samples().map(|s| s.q.abs()).fold(0.0, f64::max);
+    let swing = swing(truth);
     let colour = faded(palette::TRUTH, 0.6);
     for x in [-swing, swing] {
         let [x, y] = camera.points(DVec2::new(x, 0.0));

@@ -35,6 +35,16 @@ pub fn style(method: &Method) -> (Rgba, [f32; 2]) {
     (COLOURS[index % COLOURS.len()], DASHES[index % DASHES.len()])
 }
 
+/// Chart paper, as the shader paints it.
+const PAPER: Rgba = [11, 19, 30, 255];
+
+/// The same colour at this part of its strength on chart paper, opaque.
+pub fn dimmed(colour: Rgba, part: f32) -> Rgba {
+    let part = part.clamp(0.0, 1.0) * f32::from(colour[3]) / 255.0;
+    let mix = |i: usize| f32::from(PAPER[i]) + part * (f32::from(colour[i]) - f32::from(PAPER[i]));
+    [mix(0) as u8, mix(1) as u8, mix(2) as u8, 255]
+}
+
 /// The same colour, less opaque.
 pub fn faded([r, g, b, a]: Rgba, part: f32) -> Rgba {
     [r, g, b, (f32::from(a) * part.clamp(0.0, 1.0)) as u8]

@@ -89,8 +89,8 @@ pub(super) fn strokes<'a>(
                 let radii = [camera.length(from_radius), camera.length(to_radius)];
                 stroke(from, to, radii, Cap::Round)
             }
-            Mark::Block { centre, half } => {
-                let side = DVec2::X * (half + f64::from(grow) / camera.points_per_metre);
+            Mark::Block { centre, along, half } => {
+                let side = along * (half + f64::from(grow) / camera.points_per_metre);
                 let radius = camera.length(half);
                 stroke(centre - side, centre + side, [radius, radius], Cap::Butt)
             }

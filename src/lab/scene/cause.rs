@@ -3,9 +3,10 @@
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use super::LARGEST_FILE;
 use super::errors::clip;
-use crate::sim::bodies::{self, BODIES};
+use super::{LARGEST_FILE, LaneSpec};
+use crate::sim::bodies::{self, BODIES, Fault};
+use crate::sim::integrators::METHODS;
 
 /// What is wrong. The display says that, [`Cause::remedy`] what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -44,6 +45,12 @@ pub(super) enum Cause {
     WrongType { subject: String, found: String, wanted: Wanted },
     #[error("`{key}` is {value}, out of range")]
     OutOfRange { key: &'static str, value: String, wanted: Wanted },
+    #[error("`{key}` has {found} point{}", if *found == 1 { "" } else { "s" })]
+    PointCount { key: &'static str, found: usize, wanted: Wanted },
+    #[error("`{key}` goes from {before} to {value}")]
+    NotRising { key: &'static str, value: f64, before: f64 },
+    #[error("{}", .0.what)]
+    Fault(Fault),
     #[error("`{key}` is empty")]
     EmptyText { key: &'static str, wanted: Wanted },
     #[error("`{key}` has {chars} characters")]
@@ -60,10 +67,12 @@ pub(super) enum Cause {
     NoLanes,
     #[error("the scene has {found} lanes")]
     TooManyLanes { found: usize, most: usize },
-    #[error("a lane \"{method}\" with `substeps = {substeps}` is on line {line} already")]
-    DuplicateLane { method: &'static str, substeps: u32, line: usize },
+    #[error("a lane {} is on line {line} already", describe(lane))]
+    DuplicateLane { lane: LaneSpec, line: usize },
     #[error("lanes are given twice, as `methods` and as `[[lane]]`")]
     TwoLaneLists,
+    #[error("`{key}` means nothing to {method:?}")]
+    NoTolerance { key: &'static str, method: &'static str },
     #[error("the command does nothing")]
     NoAction { known: Vec<&'static str> },
     #[error("the command does {} things: {}", found.len(), list(found, '`', " and "))]
@@ -90,6 +99,10 @@ pub(super) enum Wanted {
     Number(bodies::Range),
     /// A whole number.
     Whole(RangeInclusive<u64>),
+    /// A list of points.
+    Curve(bodies::Range),
+    /// One of them.
+    Point,
     /// The id of a method.
     Method,
     /// A list of methods' ids.
@@ -124,8 +137,13 @@ impl Cause {
             Cause::UnknownMethod { nearest, known, .. } => offer(*nearest, known, '"'),
             Cause::WrongType { wanted, .. }
             | Cause::OutOfRange { wanted, .. }
+            | Cause::PointCount { wanted, .. }
             | Cause::EmptyText { wanted, .. }
             | Cause::LongText { wanted, .. } => format!("write {wanted}"),
+            Cause::NotRising { .. } => {
+                "order the points by their first numbers, each greater than the one before".into()
+            }
+            Cause::Fault(fault) => fault.remedy.clone(),
             Cause::ControlCharacter { .. } => "remove it".into(),
             Cause::NoBody => {
                 let kinds: Vec<_> = BODIES.iter().map(|kind| kind.id).collect();
@@ -135,10 +153,17 @@ impl Cause {
             Cause::DuplicateName { .. } => "give it another".into(),
             Cause::NoLanes => "name a method, or remove the line and all of them race".into(),
             Cause::TooManyLanes { most, .. } => format!("keep at most {most}"),
-            Cause::DuplicateLane { .. } => {
-                "remove one, or give it other `substeps` in a `[[lane]]`".into()
+            Cause::DuplicateLane { lane, .. } => {
+                let or =
+                    if lane.method.tolerance.is_some() { " or another `tolerance`" } else { "" };
+                format!("remove one, or give it other `substeps`{or} in a `[[lane]]`")
             }
             Cause::TwoLaneLists => "keep one of them".into(),
+            Cause::NoTolerance { .. } => {
+                let adaptive = METHODS.iter().filter(|method| method.tolerance.is_some());
+                let adaptive: Vec<_> = adaptive.map(|method| method.id).collect();
+                format!("remove it, or take an adaptive method: {}", list(&adaptive, '"', ", "))
+            }
             Cause::NoAction { known } => format!("write one of {}", list(known, '`', ", ")),
             Cause::ManyActions { .. } => {
                 "write a `[[command]]` with the same `tick` for each".into()
@@ -167,7 +192,8 @@ impl Wanted {
             Wanted::Text(_) | Wanted::Method => "a string",
             Wanted::Number(_) => "a number",
             Wanted::Whole(_) => "an integer",
-            Wanted::Methods => "a list",
+            Wanted::Methods | Wanted::Curve(_) => "a list",
+            Wanted::Point => "a pair of numbers",
             Wanted::Tables(_) => "an array of tables",
         }
     }
@@ -181,11 +207,19 @@ impl fmt::Display for Wanted {
             Wanted::Whole(range) => {
                 write!(f, "a whole number from {} to {}", range.start(), range.end())
             }
+            Wanted::Curve(range) => write!(f, "a list of {range}"),
+            Wanted::Point => write!(f, "two numbers in brackets, such as [0.0, 1.0]"),
             Wanted::Method => write!(f, "a method's name in double quotes, such as \"rk4\""),
             Wanted::Methods => write!(f, "a list of methods' names, such as [\"rk4\"]"),
             Wanted::Tables(name) => write!(f, "`[[{name}]]` in double brackets and its keys below"),
         }
     }
+}
+
+fn describe(lane: &LaneSpec) -> String {
+    let LaneSpec { method, substeps, tolerance } = lane;
+    let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
+    format!("{:?} with `substeps = {substeps}`{}", method.id, within.unwrap_or_default())
 }
 
 fn offer(nearest: Option<&str>, known: &[&str], quote: char) -> String {

@@ -10,7 +10,7 @@ use super::syntax;
 use super::table::{Field, Table};
 use super::{
     LAST_TICK, LaneSpec, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS, MOST_SUBSTEPS,
-    MOST_TICK_HZ, Scene, SceneBody, Scripted,
+    MOST_TICK_HZ, Scene, SceneBody, Scripted, TOLERANCES,
 };
 use crate::lab::Command;
 use crate::sim::bodies::{BODIES, Kind, LARGEST, Parameter, Range};
@@ -37,6 +37,7 @@ const NAME: Field = optional("name");
 
 const LANE_METHOD: Field = required("method", "the method that races");
 const SUBSTEPS: Field = optional("substeps");
+const TOLERANCE: Field = optional("tolerance");
 
 const TICK: Field = required("tick", "the tick before which it is done");
 
@@ -56,7 +57,7 @@ struct Action {
     read: fn(&mut Table<'_>, Field) -> Option<Command>,
 }
 
-static ACTIONS: [Action; 4] = [
+static ACTIONS: [Action; 5] = [
     Action {
         field: optional("method"),
         input: None,
@@ -66,6 +67,11 @@ static ACTIONS: [Action; 4] = [
         field: optional("throttle"),
         input: Some("throttle"),
         read: |table, field| table.number(field, Range::Within(1.0)).map(Command::Throttle),
+    },
+    Action {
+        field: optional("rudder"),
+        input: Some("rudder"),
+        read: |table, field| table.number(field, Range::Within(1.0)).map(Command::Rudder),
     },
     Action {
         field: optional("kick"),
@@ -125,8 +131,7 @@ fn read_lanes(text: &str, top: &mut Table<'_>) -> Vec<LaneSpec> {
     let listed = top.methods(METHOD_LIST, MOST_LANES);
     let is_listed = listed.is_some();
     let listed = listed.into_iter().flatten();
-    let mut lanes: Vec<_> =
-        listed.map(|(span, method)| (span, LaneSpec { method, substeps: 1 })).collect();
+    let mut lanes: Vec<_> = listed.map(|(span, method)| (span, LaneSpec::plain(method))).collect();
 
     let rows = top.rows("lane");
     if let (true, Some(row)) = (is_listed, rows.first()) {
@@ -140,22 +145,28 @@ fn read_lanes(text: &str, top: &mut Table<'_>) -> Vec<LaneSpec> {
     for mut row in rows.into_iter().take(MOST_LANES) {
         let method = row.method(LANE_METHOD);
         let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS).unwrap_or(1);
-        let lane = method.map(|method| (row.span(LANE_METHOD.key), LaneSpec { method, substeps }));
-        lanes.extend(lane);
+        let tolerance = row.number(TOLERANCE, Range::Between(TOLERANCES.0, TOLERANCES.1));
+        if let (Some(method), true) = (method, row.has(TOLERANCE.key))
+            && method.tolerance.is_none()
+        {
+            let cause = Cause::NoTolerance { key: TOLERANCE.key, method: method.id };
+            row.complain(row.span(TOLERANCE.key), cause);
+        }
+        let span = row.span(LANE_METHOD.key);
+        lanes.extend(method.map(|method| (span, LaneSpec { method, substeps, tolerance })));
         top.adopt(row, &TOP);
     }
 
     for (n, (span, lane)) in lanes.iter().enumerate() {
         if let Some((first, _)) = lanes[..n].iter().find(|(_, earlier)| earlier == lane) {
             let (line, _) = position(text, first.start);
-            let (method, substeps) = (lane.method.id, lane.substeps);
-            top.complain(span.clone(), Cause::DuplicateLane { method, substeps, line });
+            top.complain(span.clone(), Cause::DuplicateLane { lane: *lane, line });
         }
     }
     if is_given {
         lanes.into_iter().map(|(_, lane)| lane).collect()
     } else {
-        METHODS.iter().map(|method| LaneSpec { method, substeps: 1 }).collect()
+        METHODS.iter().map(LaneSpec::plain).collect()
     }
 }
 
@@ -191,11 +202,20 @@ fn read_values(kind: &Kind, row: &mut Table<'_>) -> Option<Vec<f64>> {
     let read = |parameter: &Parameter| {
         let Parameter { key, about, default, range } = *parameter;
         let field = if default.is_some() { optional(key) } else { required(key, about) };
-        row.number(field, range).or(default)
+        let given = match range {
+            Range::Curve { .. } => row.curve(field, range).map(|points| points.concat()),
+            Range::Count(most) => row.whole(field, 1..=most).map(|count| vec![f64::from(count)]),
+            _ => row.number(field, range).map(|number| vec![number]),
+        };
+        given.or(default.map(|number| vec![number]))
     };
     // All are read before any is missed, so that every fault is found.
     let values: Vec<_> = kind.parameters.iter().map(read).collect();
-    values.into_iter().collect()
+    let values = values.into_iter().collect::<Option<Vec<_>>>()?.concat();
+    if let Err(fault) = (kind.check)(&values) {
+        row.complain(row.span(fault.key), Cause::Fault(fault));
+    }
+    Some(values)
 }
 
 fn check_names(text: &str, bodies: &[Described], top: &mut Table<'_>) {

@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 use super::cause::{Cause, Place, Wanted};
 use super::errors::{SceneError, clip};
 use super::nearest::nearest;
-use crate::sim::bodies;
+use crate::sim::bodies::{self, LARGEST, MOST_POINTS};
 use crate::sim::integrators::{METHODS, Method};
 
 /// A key that a table may or must have.
@@ -87,13 +87,49 @@ impl<'t> Table<'t> {
     pub(super) fn number(&mut self, field: Field, range: bodies::Range) -> Option<f64> {
         let wanted = Wanted::Number(range);
         let value = self.value(field, &wanted)?;
-        let number = match value.get_ref() {
-            // What does not fit is out of every range.
-            DeValue::Integer(_) => integer(value).map_or(f64::INFINITY, |whole| whole as f64),
-            DeValue::Float(float) => float.as_str().parse().unwrap_or(f64::NAN),
-            _ => return self.wrong_type(format!("`{}`", field.key), value, wanted),
+        let Some(number) = number(value) else {
+            return self.wrong_type(format!("`{}`", field.key), value, wanted);
         };
         self.within(field, value, range.contains(number).then_some(number), wanted)
+    }
+
+    /// The points of a curve, in rising order of their first numbers. No more than [`MOST_POINTS`]
+    /// are looked at.
+    pub(super) fn curve(&mut self, field: Field, range: bodies::Range) -> Option<Vec<[f64; 2]>> {
+        let key = field.key;
+        let wanted = Wanted::Curve(range);
+        let value = self.value(field, &wanted)?;
+        let Some(entries) = value.get_ref().as_array() else {
+            return self.wrong_type(format!("`{key}`"), value, wanted);
+        };
+        let found = entries.len();
+        if !(2..=MOST_POINTS).contains(&found) {
+            self.complain(value.span(), Cause::PointCount { key, found, wanted });
+        }
+        let mut points: Vec<[f64; 2]> = Vec::new();
+        for entry in entries.iter().take(MOST_POINTS) {
+            let point = self.point(field, entry)?;
+            if let Some([before, _]) = points.last().filter(|last| last[0] >= point[0]) {
+                let cause = Cause::NotRising { key, value: point[0], before: *before };
+                self.complain(entry.span(), cause);
+            }
+            points.push(point);
+        }
+        (points.len() == found).then_some(points)
+    }
+
+    fn point(&mut self, field: Field, entry: &Spanned<DeValue<'_>>) -> Option<[f64; 2]> {
+        let pair = entry.get_ref().as_array().filter(|pair| pair.len() == 2);
+        let numbers = pair.and_then(|pair| Some([number(&pair[0])?, number(&pair[1])?]));
+        let (Some(pair), Some(numbers)) = (pair, numbers) else {
+            return self.wrong_type(format!("a point of `{}`", field.key), entry, Wanted::Point);
+        };
+        let range = bodies::Range::Within(LARGEST);
+        for (value, number) in pair.iter().zip(numbers) {
+            let number = range.contains(number).then_some(number);
+            self.within(field, value, number, Wanted::Number(range))?;
+        }
+        Some(numbers)
     }
 
     pub(super) fn whole<T>(&mut self, field: Field, range: RangeInclusive<T>) -> Option<T>
@@ -284,6 +320,15 @@ impl<'t> Table<'t> {
 fn is_table(value: &DeValue<'_>) -> bool {
     let first = value.as_array().and_then(|array| array.first());
     value.is_table() || first.is_some_and(|first| first.get_ref().is_table())
+}
+
+/// A number, whole or not; what does not fit is out of every range.
+fn number(value: &Spanned<DeValue<'_>>) -> Option<f64> {
+    match value.get_ref() {
+        DeValue::Integer(_) => Some(integer(value).map_or(f64::INFINITY, |whole| whole as f64)),
+        DeValue::Float(float) => Some(float.as_str().parse().unwrap_or(f64::NAN)),
+        _ => None,
+    }
 }
 
 fn integer(value: &Spanned<DeValue<'_>>) -> Option<i128> {

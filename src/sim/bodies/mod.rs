@@ -4,14 +4,27 @@
 //! outline. Its [`Kind`] card says how a scene describes it. To add one, copy `spring.rs`, declare it,
 //! and name it in [`BODIES`].
 
+use glam::DVec2;
+
+use super::reference::REFERENCE_ACCURACY;
 use super::stepper::{Solver, Stepper};
 use super::system::{State, System};
 
+mod chain;
+mod helm;
+mod kepler;
+mod orbit;
+mod oscillator;
 mod pen;
+mod pendulum;
 mod ship;
 mod spring;
 
+pub use chain::Chain;
+pub use helm::{Helm, ThrustCurve};
+pub use orbit::Orbit;
 pub use pen::{Mark, Pen};
+pub use pendulum::Pendulum;
 pub use ship::Ship;
 pub use spring::Spring;
 
@@ -20,14 +33,33 @@ pub trait Body: System + Clone + Send + 'static {
     /// The state at tick 0.
     fn start(&self) -> State<Self::Vector>;
 
-    /// The exact flow over `dt` (s) under constant input, or `None` where there is no closed form.
+    /// The exact flow over `dt` (s) under constant input. `None`, whatever the arguments, says that
+    /// there is no closed form: the truth is then a reference solution.
     fn exact(&self, dt: f64, from: &State<Self::Vector>) -> Option<State<Self::Vector>>;
+
+    /// Overwrites `to` with the same flow, and returns whether there is one. A body whose coordinates
+    /// are on the heap does it without allocating.
+    fn exact_into(
+        &self,
+        dt: f64,
+        from: &State<Self::Vector>,
+        to: &mut State<Self::Vector>,
+    ) -> bool {
+        let flown = self.exact(dt, from);
+        flown.is_some_and(|state| {
+            *to = state;
+            true
+        })
+    }
 
     /// The conserved energy in joules, or `None` where none is conserved.
     fn energy(&self, state: &State<Self::Vector>) -> Option<f64>;
 
     /// Changes the body or its state at once. Returns whether the body takes that kind of input.
     fn input(&mut self, input: Input, state: &mut State<Self::Vector>) -> bool;
+
+    /// Where the body is, in metres: the point that the camera, trails and arrows refer to.
+    fn place(&self, q: &Self::Vector) -> DVec2;
 
     /// Draws the body in metres, x right and y up, colourless: the lane brings the colour.
     fn outline(&self, state: &State<Self::Vector>, pen: &mut Pen);
@@ -41,6 +73,8 @@ pub trait Body: System + Clone + Send + 'static {
 pub enum Input {
     /// Sets the thrust to this part of the full thrust, -1 to 1.
     Throttle(f64),
+    /// Lays the rudder to this part of its full angle: -1 is hard right, 1 hard left.
+    Rudder(f64),
     /// Adds an impulse: this many times the body's own kick.
     Kick(f64),
 }
@@ -48,17 +82,64 @@ pub enum Input {
 /// How a body wants to be looked at: what part of its world the stage shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum View {
-    /// The camera follows the true body; this many metres are shown across.
+    /// Afloat: the camera follows the true body over the water, and a wake lies where the body has
+    /// been.
     Follow {
-        /// Metres across.
+        /// The metres shown across, at least; a sixth of that is about a hull.
         width_m: f64,
+        /// The metres shown from top to bottom, at least.
+        height_m: f64,
+        /// How far the wake reaches back, in seconds.
+        wake_s: f64,
     },
     /// The camera stays on the origin and shows this many metres to each side, more if the true
-    /// body swings further.
-    Fixed {
+    /// body swings further. The body moves along x only, and its trail is drawn as a chart recorder
+    /// would.
+    Recorder {
         /// Metres from the middle to the edge.
         half_width_m: f64,
     },
+    /// The camera stays and shows a rectangle, more if the true body moves further. The trail lies
+    /// where the body has been.
+    Fixed {
+        /// The rectangle's middle.
+        centre_m: DVec2,
+        /// Metres from there to the edges.
+        half_m: DVec2,
+        /// How far the trail reaches back, in seconds.
+        trail_s: f64,
+    },
+}
+
+/// What is known of a body's motion, for methods to be held against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Truth {
+    /// A closed form, computed afresh at every tick.
+    Exact,
+    /// No closed form: a numerical solution whose error stays below [`REFERENCE_ACCURACY`].
+    ///
+    /// [`REFERENCE_ACCURACY`]: crate::sim::REFERENCE_ACCURACY
+    Reference,
+}
+
+impl Truth {
+    /// The name of the truth's lane in output.
+    pub fn id(self) -> &'static str {
+        match self {
+            Truth::Exact => "exact",
+            Truth::Reference => "reference",
+        }
+    }
+
+    /// The stated error of what is not exact; see [`REFERENCE_ACCURACY`].
+    ///
+    /// [`REFERENCE_ACCURACY`]: crate::sim::REFERENCE_ACCURACY
+    pub fn accuracy(self) -> Option<f64> {
+        match self {
+            Truth::Exact => None,
+            Truth::Reference => Some(REFERENCE_ACCURACY),
+        }
+    }
 }
 
 /// A body kind's card: its name, its coordinates, and the keys by which a scene describes it.
@@ -68,20 +149,44 @@ pub struct Kind {
     pub id: &'static str,
     /// Its equation of motion, in one line.
     pub about: &'static str,
-    /// The coordinates, in state order.
-    pub coordinates: &'static [Coordinate],
+    /// The coordinates of a body with these parameter values, in state order.
+    pub coordinates: fn(&[f64]) -> &'static [Coordinate],
     /// The keys of its table, in the order [`Kind::build`] takes their values.
     pub parameters: &'static [Parameter],
-    /// The kinds of input it takes: `throttle`, `kick`.
+    /// The kinds of input it takes: `throttle`, `rudder`, `kick`.
     pub inputs: &'static [&'static str],
-    /// Puts a body with these parameter values at its start under a solver.
+    /// Whether its motion has a closed form.
+    pub truth: Truth,
+    /// Says what is wrong with values that are each in range but do not go together.
+    pub check: fn(&[f64]) -> Result<(), Fault>,
+    /// Puts a body with these parameter values at its start under a solver: one value for each
+    /// parameter, but of a curve, which is the last, all its points, each as two values.
     pub build: fn(&[f64], Solver) -> Box<dyn Stepper>,
+}
+
+impl Kind {
+    /// The coordinates of a body that says no more than it must.
+    pub fn plain_coordinates(&self) -> &'static [Coordinate] {
+        let default = |parameter: &Parameter| parameter.default.unwrap_or(1.0);
+        (self.coordinates)(&self.parameters.iter().map(default).collect::<Vec<_>>())
+    }
+}
+
+/// What is wrong with a body's parameters taken together, in lower case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The key whose value would have to change.
+    pub key: &'static str,
+    /// What is wrong.
+    pub what: String,
+    /// What to do about it.
+    pub remedy: String,
 }
 
 /// One coordinate of a body.
 #[derive(Debug)]
 pub struct Coordinate {
-    /// Its letter, as in the CSV's `coordinate` column.
+    /// Its name, as in the CSV's `coordinate` column: fit to be typed.
     pub name: &'static str,
     /// The letter of its velocity.
     pub velocity: &'static str,
@@ -111,26 +216,50 @@ pub enum Range {
     NonNegative(f64),
     /// From minus this to this.
     Within(f64),
+    /// Whole numbers from 1 to this.
+    Count(u32),
+    /// A curve of 2 to [`MOST_POINTS`] points `[x, y]` with rising x, each number from minus
+    /// [`LARGEST`] to that. Only a kind's last parameter can be one.
+    Curve {
+        /// The unit of x.
+        x: &'static str,
+        /// The unit of y.
+        y: &'static str,
+    },
+    /// From the one to the other.
+    Between(f64, f64),
 }
 
+/// The most points of a curve: what a person still types in.
+pub const MOST_POINTS: usize = 64;
+
 impl Range {
-    /// Whether `value` is possible.
+    /// Whether `value` is possible: of a curve, whether it may be a number of a point.
     pub fn contains(self, value: f64) -> bool {
         match self {
             Range::Positive(most) => value > 0.0 && value <= most,
             Range::NonNegative(most) => value >= 0.0 && value <= most,
             Range::Within(most) => value >= -most && value <= most,
+            Range::Count(most) => value >= 1.0 && value <= f64::from(most) && value.fract() == 0.0,
+            Range::Curve { .. } => Range::Within(LARGEST).contains(value),
+            Range::Between(least, most) => value >= least && value <= most,
         }
     }
 }
 
 impl std::fmt::Display for Range {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let short = |x: f64| if x.abs() < 1e9 { format!("{x}") } else { format!("{x:e}") };
+        let is_plain = |x: f64| x == 0.0 || (1e-4..1e9).contains(&x.abs());
+        let short = |x: f64| if is_plain(x) { format!("{x}") } else { format!("{x:e}") };
         match *self {
             Range::Positive(most) => write!(f, "greater than 0 and at most {}", short(most)),
             Range::NonNegative(most) => write!(f, "from 0 to {}", short(most)),
             Range::Within(most) => write!(f, "from {} to {}", short(-most), short(most)),
+            Range::Count(most) => write!(f, "whole, from 1 to {most}"),
+            Range::Curve { x, y } => {
+                write!(f, "2 to {MOST_POINTS} points [{x}, {y}] in rising order")
+            }
+            Range::Between(least, most) => write!(f, "from {} to {}", short(least), short(most)),
         }
     }
 }
@@ -139,7 +268,8 @@ impl std::fmt::Display for Range {
 pub const LARGEST: f64 = 1e15;
 
 /// Every kind of body, in menu order.
-pub static BODIES: &[Kind] = &[ship::KIND, spring::KIND];
+pub static BODIES: &[Kind] =
+    &[ship::KIND, spring::KIND, chain::KIND, pendulum::KIND, orbit::KIND, helm::KIND];
 
 /// The kind with this id.
 pub fn kind(id: &str) -> Option<&'static Kind> {

@@ -25,10 +25,12 @@ pub enum Mark {
         /// The second disc's radius.
         to_radius: f64,
     },
-    /// A filled upright square.
+    /// A filled square.
     Block {
         /// Its centre.
         centre: DVec2,
+        /// The direction of two of its sides, of length 1.
+        along: DVec2,
         /// Half its side.
         half: f64,
     },
@@ -39,7 +41,7 @@ pub enum Mark {
 pub struct Pen {
     /// What was drawn, the first at the bottom.
     pub marks: Vec<Mark>,
-    /// Where the body is: the point that trails and arrows refer to.
+    /// Where the body is, as its [`place`](super::Body::place) says.
     pub at: DVec2,
 }
 
@@ -54,9 +56,20 @@ impl Pen {
         self.marks.push(Mark::Taper { from, to, from_radius, to_radius });
     }
 
-    /// Draws a filled square.
-    pub fn block(&mut self, centre: DVec2, half: f64) {
-        self.marks.push(Mark::Block { centre, half });
+    /// Draws a filled square, two of its sides in the direction `along`.
+    pub fn block(&mut self, centre: DVec2, along: DVec2, half: f64) {
+        self.marks.push(Mark::Block { centre, along, half });
+    }
+
+    /// Draws the hull of a ship `length` metres long at [`Pen::at`], its bow in the direction `bow`.
+    pub fn hull(&mut self, bow: DVec2, length: f64) {
+        let unit = length / 9.0;
+        let at = self.at;
+        let along = |x: f64| at + bow * (x * unit);
+        let (stern, waist) = (along(-4.0), along(0.5));
+        self.taper(stern, 1.3 * unit, waist, 1.7 * unit);
+        self.taper(waist, 1.7 * unit, along(5.0), 0.2 * unit);
+        self.block(along(-2.2), bow, 0.9 * unit);
     }
 
     /// Draws a coil spring of `turns` turns and radius `radius`, with straight ends.

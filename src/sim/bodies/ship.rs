@@ -2,13 +2,13 @@
 
 use glam::DVec2;
 
-use super::{Body, Coordinate, Input, Kind, LARGEST, Parameter, Pen, Range, View};
+use super::{Body, Coordinate, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
     id: "ship",
     about: "m s″ = T - C s′: full thrust times throttle, against linear drag",
-    coordinates: &[Coordinate { name: "s", velocity: "v", unit: "m" }],
+    coordinates: |_| &[Coordinate { name: "s", velocity: "v", unit: "m" }],
     parameters: &[
         Parameter {
             key: "thrust_n",
@@ -48,6 +48,8 @@ pub(super) const KIND: Kind = Kind {
         },
     ],
     inputs: &["throttle", "kick"],
+    truth: Truth::Exact,
+    check: |_| Ok(()),
     build: |values, solver| {
         let &[thrust, drag, mass, s0, v0, kick] = values else { unreachable!("one value a key") };
         stepper(Ship { thrust, throttle: 1.0, drag, mass, s0, v0, kick }, solver)
@@ -112,21 +114,21 @@ impl Body for Ship {
         match input {
             Input::Throttle(part) => self.throttle = part,
             Input::Kick(times) => state.v += times * self.kick / self.mass,
+            Input::Rudder(_) => return false,
         }
         true
     }
 
-    fn outline(&self, state: &State<f64>, pen: &mut Pen) {
-        pen.at = DVec2::new(state.q, 0.0);
-        let along = |x: f64| DVec2::new(state.q + x, 0.0);
-        let (stern, waist, bow) = (along(-4.0), along(0.5), along(5.0));
-        pen.taper(stern, 1.3, waist, 1.7);
-        pen.taper(waist, 1.7, bow, 0.2);
-        pen.block(along(-2.2), 0.9);
+    fn place(&self, s: &f64) -> DVec2 {
+        DVec2::new(*s, 0.0)
+    }
+
+    fn outline(&self, _state: &State<f64>, pen: &mut Pen) {
+        pen.hull(DVec2::X, 9.0);
     }
 
     fn view(&self) -> View {
-        View::Follow { width_m: 60.0 }
+        View::Follow { width_m: 60.0, height_m: 9.0, wake_s: 3.0 }
     }
 }
 

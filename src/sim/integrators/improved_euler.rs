@@ -14,6 +14,8 @@ pub(super) const CARD: Method = Method {
     reversible: false,
     stability_limit: Some(0.0),
     tolerance: None,
+    restart: None,
+    keeps_time: true,
     as_printed: false,
     source: "Heun, Neue Methoden zur approximativen Integration (1900); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
 };

@@ -6,17 +6,56 @@
 
 use super::system::{State, System, Vector};
 
+mod adams_bashforth_2;
 mod adaptive_euler;
+mod adaptive_euler_as_printed;
+mod bdf2;
+mod bogacki_shampine_32;
+mod dormand_prince_54;
 mod explicit_euler;
+mod gauss_legendre_4;
+mod implicit_euler;
+mod implicit_midpoint;
 mod improved_euler;
+mod improved_euler_as_printed;
+mod midpoint;
+mod newmark;
+mod pefrl;
+mod position_verlet;
 mod rk4;
+mod rk4_as_printed;
 mod semi_implicit_euler;
+mod shared;
+mod ssp_rk3;
+mod stormer_verlet;
+mod velocity_verlet;
+mod yoshida4;
 
-pub use adaptive_euler::{AdaptiveEuler, Tolerance};
+pub use adams_bashforth_2::AdamsBashforth2;
+pub use adaptive_euler::AdaptiveEuler;
+pub use adaptive_euler_as_printed::AdaptiveEulerAsPrinted;
+pub use bdf2::Bdf2;
+pub use bogacki_shampine_32::BogackiShampine32;
+pub use dormand_prince_54::DormandPrince54;
 pub use explicit_euler::ExplicitEuler;
+pub use gauss_legendre_4::GaussLegendre4;
+pub use implicit_euler::ImplicitEuler;
+pub use implicit_midpoint::ImplicitMidpoint;
 pub use improved_euler::ImprovedEuler;
+pub use improved_euler_as_printed::ImprovedEulerAsPrinted;
+pub use midpoint::Midpoint;
+pub use newmark::Newmark;
+pub use pefrl::Pefrl;
+pub use position_verlet::PositionVerlet;
 pub use rk4::Rk4;
+pub use rk4_as_printed::Rk4AsPrinted;
 pub use semi_implicit_euler::SemiImplicitEuler;
+pub use shared::embedded_pair::{EmbeddedPair, Pair};
+pub use shared::step_size::Tolerance;
+pub use ssp_rk3::SspRk3;
+pub use stormer_verlet::StormerVerlet;
+pub use velocity_verlet::VelocityVerlet;
+pub use yoshida4::Yoshida4;
 
 /// A way to advance a system by one step.
 ///
@@ -28,7 +67,8 @@ pub trait Integrator<S: System>: Send {
     where
         Self: Sized;
 
-    /// Advances `state` from `t` to exactly `t + h` (s). Never allocates.
+    /// Advances `state` from `t` to exactly `t + h` (s), but for methods whose card says that they do
+    /// not [keep time](Method::keeps_time). Never allocates.
     ///
     /// # Errors
     /// A [`StepFailure`] of the method's own; `state` is then somewhere on the way. Values that
@@ -60,8 +100,18 @@ pub trait Integrator<S: System>: Send {
         Ok(())
     }
 
-    /// Forgets whatever is carried between steps. Called when the state or the forces jump.
+    /// Forgets whatever is carried between steps. Called when the state, the forces or the step's length
+    /// jump.
     fn reset(&mut self) {}
+
+    /// Sets the error that an adaptive method allows in a substep; the others take no notice.
+    fn set_tolerance(&mut self, _tolerance: Tolerance) {}
+
+    /// The seconds that this integrator, since it was made, was asked to advance and did not; a reset
+    /// changes nothing about it. 0 for every method that [keeps time](Method::keeps_time).
+    fn lost_time(&self) -> f64 {
+        0.0
+    }
 }
 
 /// Why a body could not be carried to the end of its tick.
@@ -71,6 +121,14 @@ pub enum StepFailure {
     #[error("needs more than {limit} substeps for one tick; raise the tick rate or the tolerance")]
     TooManySubsteps {
         /// The most attempts that a tick may take.
+        limit: u32,
+    },
+    /// An implicit method found no solution to its equations.
+    #[error(
+        "needs more than {limit} of Newton's iterations for one step; raise the tick rate or the substeps"
+    )]
+    NewtonFailed {
+        /// The most iterations that a step may take.
         limit: u32,
     },
     /// A value became infinite or undefined.
@@ -89,9 +147,6 @@ pub enum StepFailure {
         /// The value that was too large.
         value: f64,
     },
-    /// The exact solution was asked of a body that has no closed form.
-    #[error("has no closed form")]
-    NoClosedForm,
 }
 
 /// How a method works, for menus and tables.
@@ -103,6 +158,10 @@ pub enum Family {
     Symplectic,
     /// Chooses its own substeps to meet a tolerance.
     Adaptive,
+    /// Solves an equation for the end of the step.
+    Implicit,
+    /// The chapter's listing, faults and all.
+    AsPrinted,
 }
 
 impl Family {
@@ -112,6 +171,8 @@ impl Family {
             Family::Explicit => "explicit",
             Family::Symplectic => "symplectic",
             Family::Adaptive => "adaptive",
+            Family::Implicit => "implicit",
+            Family::AsPrinted => "as-printed",
         }
     }
 }
@@ -127,21 +188,29 @@ pub struct Method {
     pub about: &'static str,
     /// How it works.
     pub family: Family,
-    /// Global order of the error in `q` and `v` where forces depend on position only.
+    /// Global order of the error of the whole state, where forces depend on position only. As printed,
+    /// `v` may do better than `q`; else both have it.
     pub order: u32,
     /// Global order where forces depend on velocity too.
     pub order_with_drag: u32,
-    /// Evaluations of the acceleration in one step; `None` where the method decides.
+    /// Evaluations of the acceleration in one step, in the long run; `None` where the method decides. A
+    /// method with a [restart](Method::restart) owes one more at its first step.
     pub evaluations: Option<u32>,
     /// Whether the one-step map conserves phase-space area on a system without drag.
     pub symplectic: bool,
     /// Whether a step of `-h` undoes a step of `h`, up to round-off.
     pub reversible: bool,
-    /// The largest `h ω` at which the undamped oscillator stays bounded; `None` where the method
-    /// chooses its own substeps.
+    /// The largest `h ω` at which the undamped oscillator stays bounded; `None` where there is none: for
+    /// implicit methods, and for those that choose their own substeps.
     pub stability_limit: Option<f64>,
     /// The error that an adaptive method allows in a substep.
     pub tolerance: Option<Tolerance>,
+    /// How the method begins, where it carries something from step to step: at the start, after a kick, a
+    /// switch or a change of the step, and whenever it is given a state other than it left. `None` where
+    /// it carries nothing.
+    pub restart: Option<&'static str>,
+    /// Whether a step of `h` always advances by `h`; else [`Integrator::lost_time`] says what is missing.
+    pub keeps_time: bool,
     /// Whether this is the chapter's listing with its faults.
     pub as_printed: bool,
     /// Where the method comes from.
@@ -182,10 +251,28 @@ macro_rules! methods {
 
 methods! {
     explicit_euler::ExplicitEuler,
-    semi_implicit_euler::SemiImplicitEuler,
+    midpoint::Midpoint,
     improved_euler::ImprovedEuler,
+    ssp_rk3::SspRk3,
     rk4::Rk4,
+    adams_bashforth_2::AdamsBashforth2,
+    semi_implicit_euler::SemiImplicitEuler,
+    velocity_verlet::VelocityVerlet,
+    position_verlet::PositionVerlet,
+    stormer_verlet::StormerVerlet,
+    yoshida4::Yoshida4,
+    pefrl::Pefrl,
     adaptive_euler::AdaptiveEuler,
+    bogacki_shampine_32::BogackiShampine32,
+    dormand_prince_54::DormandPrince54,
+    implicit_euler::ImplicitEuler,
+    implicit_midpoint::ImplicitMidpoint,
+    newmark::Newmark,
+    bdf2::Bdf2,
+    gauss_legendre_4::GaussLegendre4,
+    improved_euler_as_printed::ImprovedEulerAsPrinted,
+    rk4_as_printed::Rk4AsPrinted,
+    adaptive_euler_as_printed::AdaptiveEulerAsPrinted,
 }
 
 /// The method with this id.

@@ -14,6 +14,8 @@ pub(super) const CARD: Method = Method {
     reversible: false,
     stability_limit: Some(2.0 * std::f64::consts::SQRT_2),
     tolerance: None,
+    restart: None,
+    keeps_time: true,
     as_printed: false,
     source: "Kutta, Beitrag zur näherungsweisen Integration totaler Differentialgleichungen (1901); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
 };

@@ -14,6 +14,8 @@ pub(super) const CARD: Method = Method {
     reversible: false,
     stability_limit: Some(2.0),
     tolerance: None,
+    restart: None,
+    keeps_time: true,
     as_printed: false,
     source: "de Vogelaere, Methods of integration which preserve the contact transformation property of the Hamilton equations (1956)",
 };

@@ -4,6 +4,7 @@ use egui::{Align, Layout, RichText, Ui};
 
 use super::{ACCENT, QUIET, TEXT, colour};
 use crate::lab::Lab;
+use crate::lab::number::round;
 use crate::lab::picture::palette;
 
 pub(super) const HEIGHT: f32 = 26.0;
@@ -19,10 +20,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) {
             ui.label(RichText::new(text).color(colour(palette::ALARM)))
                 .on_hover_text("the simulation fell behind real time and gave these up");
         } else if width >= ROOM_FOR_KEYS {
-            let throttle = lab
-                .has_throttle()
-                .then(|| format!("↑↓ throttle {:.0} %  ", lab.throttle() * 100.0));
-            let keys = format!("{}K kick  Space pause  H all keys", throttle.unwrap_or_default());
+            let part = |input, keys: &str, part: f64| {
+                let text = format!("{keys} {input} {} %  ", round(part * 100.0, 3));
+                if lab.takes(input) { text } else { String::new() }
+            };
+            let keys = format!(
+                "{}{}K kick  Space pause  H all keys",
+                part("throttle", "↑ ↓", lab.throttle()),
+                part("rudder", "← →", lab.rudder()),
+            );
             ui.label(RichText::new(keys).color(QUIET));
         }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {

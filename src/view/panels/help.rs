@@ -26,7 +26,7 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
                     }
                 });
                 ui.add_space(6.0);
-                let note = "White is the exact solution; each method has its own colour and dash.";
+                let note = "White is the truth; each method has its own colour and dash.";
                 ui.label(RichText::new(note).color(QUIET));
                 if ui.button("Close (Esc)").clicked() {
                     commands.push(Command::ToggleHelp);

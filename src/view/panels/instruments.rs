@@ -3,13 +3,14 @@
 //! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
 //! arrow in its colour says so.
 
-use egui::{Color32, ComboBox, Label, RichText, Ui, vec2};
-use egui_plot::{AxisHints, Plot, PlotBounds, PlotPoint};
+use egui::{ComboBox, Label, RichText, Ui};
+use egui_plot::PlotBounds;
 
-use super::{QUIET, colour, curves};
-use crate::lab::number::{round, superscript};
+use super::{QUIET, advice, colour};
+use crate::lab::number::superscript;
 use crate::lab::picture::palette;
 use crate::lab::{Command, History, Instrument, Lab, METRICS, Sample, Scale};
+use crate::view::plot::{CURVE, Curve, draw, plot, tick_text};
 
 /// A lane this many times further out than the truth no longer stretches the axes.
 const HEALTHY: f64 = 1.6;
@@ -17,14 +18,12 @@ const HEALTHY: f64 = 1.6;
 const FLOOR: f64 = -17.0;
 /// From this width on, in points, bodies and instruments are tabs.
 const ROOM_FOR_TABS: f32 = 430.0;
+/// And from this width on all instruments fit in one row.
+const ROOM_FOR_ONE_ROW: f32 = 620.0;
 /// From this height on, in points, both plots can be read; below, the stage has to show the value.
 const ROOM_FOR_BOTH: f32 = 200.0;
-/// The height of a time axis in points, at least that of its text: a plot that had to learn it would be
-/// laid out anew in its second frame, and the first would not match.
-const X_AXIS: f32 = 16.0;
-/// The width of the lanes' curves and of the exact one, in points.
-const LANE_WIDTH: f32 = 1.6;
-const TRUTH_WIDTH: f32 = 1.4;
+/// The width of the truth's curve, in points.
+const TRUTH_CURVE: f32 = 1.4;
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 const PHASE_SAMPLES: usize = 360;
 
@@ -33,44 +32,50 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     if height >= ROOM_FOR_BOTH {
         ui.horizontal(|ui| {
             body_choice(ui, lab, commands);
-            let coordinate = &lab.scene().bodies[lab.display().body].kind.coordinates[0];
-            let title = format!("{} ({}), exact in white", coordinate.name, coordinate.unit);
+            let truth = &lab.race().truth().bodies()[lab.display().body];
+            let (coordinate, words) = (&truth.coordinates[0], truth.truth_in_words());
+            let title = format!("{} ({}), {words} in white", coordinate.name, coordinate.unit);
+            ui.add_space(6.0);
             ui.add(Label::new(RichText::new(title).color(QUIET)).truncate());
         });
         value(ui, lab, height * 0.5 - 26.0);
-        ui.horizontal(|ui| instrument_choice(ui, lab, commands));
+        ui.horizontal_wrapped(|ui| instrument_choice(ui, lab, ROOM_FOR_TABS, commands));
     } else {
         ui.horizontal(|ui| {
             body_choice(ui, lab, commands);
-            instrument_choice(ui, lab, commands);
+            instrument_choice(ui, lab, ROOM_FOR_ONE_ROW, commands);
         });
     }
     let room = (ui.available_height() - 2.0).max(10.0);
     match lab.display().instrument {
         Instrument::Metric(index) => metric(ui, lab, room, index),
         Instrument::Phase => phase(ui, lab, room),
+        Instrument::Advice => advice::show(ui, lab),
     }
 }
 
 fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
     let options: Vec<_> = (0..).map(Command::Body).zip(names).collect();
-    choice(ui, "body", &options, Command::Body(lab.display().body), commands);
+    let chosen = Command::Body(lab.display().body);
+    choice(ui, "body", &options, chosen, ROOM_FOR_TABS, commands);
 }
 
-fn instrument_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn instrument_choice(ui: &mut Ui, lab: &Lab, room: f32, commands: &mut Vec<Command>) {
     let option = |instrument: Instrument| (Command::Instrument(instrument), instrument.name());
     let options: Vec<_> = Instrument::all().map(option).collect();
-    ui.spacing_mut().button_padding.x = 4.0;
-    choice(ui, "instrument", &options, Command::Instrument(lab.display().instrument), commands);
+    ui.spacing_mut().button_padding.x = 3.0;
+    let chosen = Command::Instrument(lab.display().instrument);
+    choice(ui, "instrument", &options, chosen, room, commands);
 }
 
-/// Offers commands by name: as tabs where they fit, else as a menu.
+/// Offers commands by name: as tabs from `room` points on, else as a menu.
 fn choice(
     ui: &mut Ui,
     id: &str,
     options: &[(Command, &str)],
     chosen: Command,
+    room: f32,
     commands: &mut Vec<Command>,
 ) {
     let mut offer = |ui: &mut Ui| {
@@ -80,24 +85,14 @@ fn choice(
             }
         }
     };
-    if ui.available_width() >= ROOM_FOR_TABS || options.len() == 1 {
-        ui.scope(|ui| {
-            ui.spacing_mut().item_spacing.x = 0.0;
-            offer(ui);
-        });
+    if ui.available_width() >= room || options.len() == 1 {
+        let spacing = std::mem::replace(&mut ui.spacing_mut().item_spacing.x, 0.0);
+        offer(ui);
+        ui.spacing_mut().item_spacing.x = spacing;
     } else {
         let name = options.iter().find(|(command, _)| *command == chosen).map(|(_, name)| *name);
         ComboBox::from_id_salt(id).selected_text(name.unwrap_or_default()).show_ui(ui, offer);
     }
-}
-
-/// A curve to be drawn.
-struct Curve {
-    colour: Color32,
-    /// Drawn length and gap in points.
-    dash: [f32; 2],
-    /// Time and value, or whatever else the axes are for.
-    points: Vec<[f64; 2]>,
 }
 
 /// One curve for each lane, of what `y` makes of its samples.
@@ -106,9 +101,15 @@ fn curves(lab: &Lab, x: impl Fn(&Sample) -> f64, y: impl Fn(&Sample) -> f64) -> 
         let (rgba, dash) = palette::style(lab.entries()[entry].method);
         let points = history.samples().map(|s| [x(s), y(s)]);
         let points = points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect();
-        Curve { colour: colour(rgba), dash, points }
+        Curve { colour: colour(rgba), width: CURVE, dash, dots: 0.0, points }
     };
     lab.plotted().map(curve).collect()
+}
+
+/// The curve of the truth, to be drawn over the others.
+fn white(points: Vec<[f64; 2]>) -> Curve {
+    let colour = colour(palette::TRUTH);
+    Curve { colour, width: TRUTH_CURVE, dash: [1.0, 0.0], dots: 0.0, points }
 }
 
 fn truth(lab: &Lab) -> &History {
@@ -117,14 +118,16 @@ fn truth(lab: &Lab) -> &History {
 
 fn value(ui: &mut Ui, lab: &Lab, height: f32) {
     let exact: Vec<[f64; 2]> = truth(lab).samples().map(|s| [s.t, s.q]).collect();
-    let lanes = curves(lab, |s| s.t, |s| s.q);
-    let y = healthy_range(1, &exact, &lanes);
-    let plot = plot("value", height).y_axis_formatter(|mark, _| tick_text(mark.value));
-    draw(ui, plot, bounds(lab, y), &lanes, &exact);
+    let mut all = curves(lab, |s| s.t, |s| s.q);
+    let y = healthy_range(1, &exact, &all);
+    all.push(white(exact));
+    draw(ui, plot("value", height), bounds(lab, y), &all);
 }
 
 fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
     let metric = &METRICS[index];
+    let body = &lab.race().truth().bodies()[lab.display().body];
+    let unit = metric.unit.on(&body.coordinates[0]);
     match metric.scale {
         Scale::Log => {
             let log = |s: &Sample| match s.metrics[index] {
@@ -138,18 +141,17 @@ fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
                 if (mark.value - exponent).abs() > 1e-6 {
                     return String::new();
                 }
-                format!("10{} {}", superscript(exponent as i32), metric.unit)
+                format!("10{} {unit}", superscript(exponent as i32))
             });
-            draw(ui, plot.y_grid_spacer(decades), bounds(lab, y), &lanes, &[]);
+            draw(ui, plot.y_grid_spacer(decades), bounds(lab, y), &lanes);
         }
         Scale::Linear => {
             let lanes = curves(lab, |s| s.t, |s| s.metrics[index]);
             let y = spread(&lanes, 300.0);
             let plot = plot("metric", height);
-            let unit = metric.unit;
             let plot =
                 plot.y_axis_formatter(move |mark, _| format!("{} {unit}", tick_text(mark.value)));
-            draw(ui, plot, bounds(lab, y), &lanes, &[]);
+            draw(ui, plot, bounds(lab, y), &lanes);
         }
     }
 }
@@ -158,31 +160,14 @@ fn phase(ui: &mut Ui, lab: &Lab, height: f32) {
     let latest =
         |points: Vec<[f64; 2]>| points[points.len().saturating_sub(PHASE_SAMPLES)..].to_vec();
     let exact = latest(truth(lab).samples().map(|s| [s.q, s.v]).collect());
-    let mut lanes = curves(lab, |s| s.q, |s| s.v);
-    for lane in &mut lanes {
+    let mut all = curves(lab, |s| s.q, |s| s.v);
+    for lane in &mut all {
         lane.points = latest(std::mem::take(&mut lane.points));
     }
-    let [x, y] = [0, 1].map(|axis| healthy_range(axis, &exact, &lanes));
-    let formatter = |mark: egui_plot::GridMark, _: &_| tick_text(mark.value);
-    let plot = plot("phase", height).x_axis_formatter(formatter).y_axis_formatter(formatter);
-    draw(ui, plot, PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]), &lanes, &exact);
-}
-
-fn plot<'a>(id: &'static str, height: f32) -> Plot<'a> {
-    Plot::new(id)
-        .height(height)
-        .show_background(false)
-        .allow_zoom(false)
-        .allow_drag(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_double_click_reset(false)
-        .set_margin_fraction(vec2(0.0, 0.0))
-        .y_axis_min_width(52.0)
-        .custom_x_axes(vec![AxisHints::new_x().min_thickness(X_AXIS)])
-        .x_axis_formatter(|mark, _| format!("{} s", tick_text(mark.value)))
-        .grid_color(Color32::from_rgb(64, 86, 116))
-        .label_formatter(|_| None)
+    let [x, y] = [0, 1].map(|axis| healthy_range(axis, &exact, &all));
+    all.push(white(exact));
+    let plot = plot("phase", height).x_axis_formatter(|mark, _| tick_text(mark.value));
+    draw(ui, plot, PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]), &all);
 }
 
 /// The window of time in view, and the given range of values.
@@ -190,28 +175,6 @@ fn bounds(lab: &Lab, (low, high): (f64, f64)) -> PlotBounds {
     let span = lab.scene().seconds;
     let now = lab.race().t();
     PlotBounds::from_min_max([(now - span).max(0.0), low], [now.max(span), high])
-}
-
-/// Draws the lanes, each cut off at the bounds, with an arrow where its newest point is beyond them,
-/// and the exact curve over them.
-fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, lanes: &[Curve], exact: &[[f64; 2]]) {
-    let shown = plot.show(ui, |plot| plot.set_plot_bounds(bounds));
-    let painter = ui.painter().with_clip_rect(*shown.transform.frame());
-    let ([left, low], [right, high]) = (bounds.min(), bounds.max());
-    // Far enough out for a line to leave at its own slope, near enough for the f32 of the painter.
-    let (wide, tall) = (10.0 * (right - left), 10.0 * (high - low));
-    let on_screen = |[x, y]: &[f64; 2]| {
-        let (x, y) = (x.clamp(left - wide, right + wide), y.clamp(low - tall, high + tall));
-        shown.transform.position_from_point(&PlotPoint::new(x, y))
-    };
-    for Curve { colour, dash, points } in lanes {
-        curves::paint(&painter, points.iter().map(on_screen), *colour, LANE_WIDTH, *dash);
-        if let Some(newest) = points.last() {
-            curves::paint_arrow(&painter, on_screen(newest), *colour);
-        }
-    }
-    let white = colour(palette::TRUTH);
-    curves::paint(&painter, exact.iter().map(on_screen), white, TRUTH_WIDTH, [1.0, 0.0]);
 }
 
 /// The range of the truth along an axis, stretched to take in what is not far outside it.
@@ -259,9 +222,4 @@ fn decades(input: egui_plot::GridInput) -> Vec<egui_plot::GridMark> {
     let last = (high / step).floor() as i64;
     let mark = |i: i64| egui_plot::GridMark { value: i as f64 * step, step_size: step };
     (first..=last).map(mark).collect()
-}
-
-/// A number on an axis; what the axis computes for its zero may miss it by a rounding.
-fn tick_text(value: f64) -> String {
-    round((value * 1e9).round() / 1e9, 4)
 }

@@ -1,17 +1,22 @@
 //! The list of methods: key, colour, what the card says, and how each is doing.
 
-use egui::{Align2, Color32, FontId, Pos2, Rect, ScrollArea, Sense, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, Color32, FontId, Id, Pos2, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
 use super::{QUIET, RAISED, TEXT, colour};
 use crate::lab::number::significant;
 use crate::lab::picture::palette;
 use crate::lab::{Command, Entrant, Lab, LaneSpec, METRICS, Metric, Mode};
+use crate::view::plot;
 
 const ROW: f32 = 20.0;
 const HEAD: f32 = 16.0;
 
+/// Rows in sight, where the window is high enough: the lanes of a usual race. The rest is scrolled to.
+const ROWS: std::ops::RangeInclusive<usize> = 5..=8;
+
 pub(super) fn height(lab: &Lab) -> f32 {
-    HEAD + ROW * lab.entries().len() as f32 + 12.0
+    let rows = lab.scene().lanes.len().clamp(*ROWS.start(), *ROWS.end());
+    HEAD + ROW * rows as f32 + 12.0
 }
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
@@ -31,7 +36,11 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             QUIET,
         );
     }
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    let mut list = ScrollArea::vertical().auto_shrink(false);
+    if let Some(offset) = offset_to_follow(ui, lab) {
+        list = list.vertical_scroll_offset(offset);
+    }
+    list.show(ui, |ui| {
         for (index, spec) in lab.entries().iter().enumerate() {
             let row = Row::new(lab, index, spec);
             let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
@@ -51,6 +60,24 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             }
         }
     });
+}
+
+/// How far to scroll for the active row to be seen when it becomes so, in this very frame; `None` at all
+/// other times: a person may scroll away.
+fn offset_to_follow(ui: &Ui, lab: &Lab) -> Option<f32> {
+    let id = Id::unique("active lane");
+    let active = lab.active();
+    let known = ui.data_mut(|data| {
+        let known = data.get_temp::<usize>(id);
+        data.insert_temp(id, active);
+        known
+    });
+    let room = ui.available_height();
+    let bottom = ROW * (active + 1) as f32;
+    let hidden = (ROW * lab.entries().len() as f32 - room).max(0.0);
+    // From the top, as long as the row is in sight there: a race shows its lanes.
+    let offset = if bottom <= room { 0.0 } else { bottom - (ROW + room) / 2.0 };
+    (known != Some(active)).then(|| offset.clamp(0.0, hidden))
 }
 
 /// One line of the list.
@@ -144,12 +171,14 @@ const COLUMNS: &[Column] = &[
         paint: |ui, row, rect, left, column| {
             let substeps = row.spec.substeps;
             let times = if substeps > 1 { format!(" ×{substeps}") } else { String::new() };
-            write(ui, row, rect, left, column, format!("{}{times}", row.spec.method.name), false);
+            let within = row.spec.tolerance.map(|tolerance| format!(" {tolerance:e}"));
+            let name = format!("{}{times}{}", row.spec.method.name, within.unwrap_or_default());
+            write(ui, row, rect, left, column, name, false);
         },
     },
     Column {
         head: |_| "order".into(),
-        width: 70.0,
+        width: 92.0,
         grows: false,
         from_width: 560.0,
         align: Side::Left,
@@ -203,7 +232,7 @@ const COLUMNS: &[Column] = &[
         paint: |ui, row, rect, left, column| metric(ui, row, rect, left, column, "energy_drift"),
     },
     Column {
-        head: |_| String::new(),
+        head: |lab| format!("  verdict at {} Hz", lab.clock().tick_hz()),
         width: 60.0,
         grows: true,
         from_width: 940.0,
@@ -243,26 +272,22 @@ fn metric(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column, id: &s
     let metric = METRICS.iter().find(|metric| metric.id == id);
     let text = metric.and_then(|metric| {
         let value = row.measure(metric)?;
-        Some(format!("{} {}", significant(value, 3), metric.unit))
+        let body = &row.lab.race().truth().bodies()[row.lab.display().body];
+        Some(format!("{} {}", significant(value, 3), metric.unit.on(&body.coordinates[0])))
     });
     write(ui, row, rect, left, column, text.unwrap_or_default(), false);
 }
 
 /// A piece of the lane's line, as the plots draw it.
 fn swatch(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, _column: &Column) {
-    let (rgba, [drawn, gap]) = palette::style(row.spec.method);
+    let (rgba, dash) = palette::style(row.spec.method);
     let colour =
         if row.entrant.is_some() { colour(rgba) } else { colour(palette::faded(rgba, 0.6)) };
-    let (y, from, to) = (rect.center().y, rect.left() + left, rect.left() + left + 34.0);
-    let mut x = from;
-    while x < to {
-        let end = if gap > 0.0 { (x + drawn).min(to) } else { to };
-        ui.painter().line_segment([pos2(x, y), pos2(end, y)], Stroke::new(3.0, colour));
-        x = end + gap.max(1.0);
-    }
+    let from = pos2(rect.left() + left, rect.center().y);
+    plot::swatch(ui.painter(), from, 34.0, dash, colour);
 }
 
-/// What became of the lane.
+/// What became of the lane, or else what is to be said of its method.
 fn fate(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column) {
     let at = column.align.anchor(rect, left + 8.0, column.width);
     let (text, colour) = match row.entrant.map(|entrant| entrant.lane.halted()) {
@@ -271,7 +296,10 @@ fn fate(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column) {
             let text = format!("halted at tick {}: {body} {}", halt.tick, halt.failure);
             (text, colour(palette::ALARM))
         }
-        _ => (row.spec.method.about.to_owned(), QUIET),
+        _ => match row.lab.verdict(row.index) {
+            Some(verdict) => (verdict.to_string(), super::tone(verdict.word)),
+            None => return,
+        },
     };
     let font = FontId::proportional(11.5);
     let room = Rect::from_min_max(pos2(at.x, rect.top()), rect.max);

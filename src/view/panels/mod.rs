@@ -2,9 +2,11 @@
 
 use egui::{Color32, CornerRadius, Frame, Margin, Rect, Stroke, Ui};
 
-use crate::lab::{Command, Lab, picture::Rgba};
+pub(super) use super::plot::colour;
+use crate::lab::picture::palette;
+use crate::lab::{Command, Lab, Word};
 
-mod curves;
+mod advice;
 mod footer;
 mod help;
 mod instruments;
@@ -59,11 +61,13 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
     (commands, stage)
 }
 
-const BACKDROP: Color32 = Color32::from_rgb(8, 14, 23);
+pub(super) const BACKDROP: Color32 = Color32::from_rgb(8, 14, 23);
 const PANEL: Color32 = Color32::from_rgb(16, 26, 40);
 const RAISED: Color32 = Color32::from_rgb(29, 44, 65);
-const TEXT: Color32 = Color32::from_rgb(206, 218, 232);
-const QUIET: Color32 = Color32::from_rgb(138, 156, 180);
+pub(super) const TEXT: Color32 = Color32::from_rgb(206, 218, 232);
+pub(super) const QUIET: Color32 = Color32::from_rgb(138, 156, 180);
+const WELL: Color32 = Color32::from_rgb(122, 204, 164);
+const DOUBTFUL: Color32 = Color32::from_rgb(230, 190, 110);
 const ACCENT: Color32 = Color32::from_rgb(86, 180, 233);
 
 /// The look of every widget: a night chart. Set once for each context.
@@ -119,6 +123,11 @@ fn frame(fill: Color32) -> Frame {
     Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 4))
 }
 
-fn colour([r, g, b, a]: Rgba) -> Color32 {
-    Color32::from_rgba_unmultiplied(r, g, b, a)
+/// The colour of a verdict: quiet where all is well.
+fn tone(word: Word) -> Color32 {
+    match word {
+        Word::Exact | Word::Accurate => WELL,
+        Word::Drifting | Word::Decays => DOUBTFUL,
+        Word::Grows | Word::Lost | Word::Halted => colour(palette::ALARM),
+    }
 }

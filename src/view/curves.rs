@@ -6,6 +6,8 @@
 use egui::epaint::{Mesh, PathStroke, Vertex};
 use egui::{Color32, Painter, Pos2, Rect, Shape, Vec2, pos2, vec2};
 
+use super::plot::Curve;
+
 /// Added to half the width of a line in pixels, where other vertices have a place on the atlas; the
 /// second coordinate is then the distance from the line's middle. As `LINE` in `shaders/panels.wgsl`.
 const LINE: f32 = 2.0;
@@ -24,15 +26,9 @@ const BEGINNING: f32 = 8.0;
 const ARROW: f32 = 5.0;
 const ARROW_INSET: f32 = 9.0;
 
-/// Draws a curve through `points`, as far as the painter's clip shows it, in a pattern of drawn length
-/// and gap; a gap of 0 is solid.
-pub(super) fn paint(
-    painter: &Painter,
-    points: impl Iterator<Item = Pos2>,
-    colour: Color32,
-    width: f32,
-    [drawn, gap]: [f32; 2],
-) {
+/// Draws a curve's line through `points` on the screen, as far as the painter's clip shows it.
+pub(super) fn paint(painter: &Painter, points: impl Iterator<Item = Pos2>, curve: &Curve) {
+    let &Curve { colour, width, dash: [drawn, gap], .. } = curve;
     let runs: Vec<Vec<Pos2>> =
         visible(points, painter.clip_rect().expand(width)).iter().map(|run| simple(run)).collect();
     let px_per_point = painter.pixels_per_point();

@@ -1,0 +1,118 @@
+//! `regatta chapter`: the numbers and figures of the chapter that this program began with, from the
+//! running code, beside what is printed there.
+//!
+//! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::frame_folder::FrameFolderError;
+use super::{Error, tell};
+use crate::view::{AdapterPreference, Artist, Gpu, GpuError, ReadbackError, png};
+
+mod adaptive;
+mod figures;
+mod folder;
+mod printed;
+mod run;
+mod speeds;
+
+use figures::Diagram;
+use folder::FigureFolder;
+
+const EXAMPLES: &str = "\
+A tick stands beside each number that equals the printed one to the last digit. Figures 7-5 and 7-8 show
+a spring whose parameters the chapter does not print; those are ours.
+
+Examples:
+  regatta chapter
+  regatta chapter --out figures";
+
+/// Print the chapter's tables, and draw its Figures 7-2 to 7-8
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct ChapterArgs {
+    /// The directory for figure-7-2.png, figure-7-2.csv and so on; made where there is none
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Replace the figures that DIR holds; other files in it stay
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+/// Why there are not all figures.
+#[derive(Debug, thiserror::Error)]
+pub enum ChapterError {
+    /// The folder is in use.
+    #[error(
+        "{} is not empty; give another --out, or --force to replace the figures in it",
+        .path.display()
+    )]
+    NotEmpty {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder cannot be used, or no longer.
+    #[error(transparent)]
+    Folder(#[from] FrameFolderError),
+    /// There is nothing to draw with.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A figure was drawn but did not come back.
+    #[error(transparent)]
+    Readback(#[from] ReadbackError),
+}
+
+impl ChapterError {
+    pub(super) fn exit_code(&self) -> u8 {
+        match self {
+            ChapterError::NotEmpty { .. }
+            | ChapterError::Folder(FrameFolderError::NotADirectory { .. }) => 2,
+            _ => 1,
+        }
+    }
+}
+
+pub(super) fn run(args: &ChapterArgs) -> Result<(), Error> {
+    if let Some(out) = &args.out {
+        let folder = FigureFolder::inspect(out)?;
+        if !folder.is_empty() && !args.force {
+            return Err(ChapterError::NotEmpty { path: out.clone() }.into());
+        }
+        draw(folder)?;
+    }
+    let text = [speeds::table_7_1(), speeds::displacements(), adaptive::listings()].join("\n");
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()?;
+    Ok(())
+}
+
+/// Pixels of a figure, and pixels to a point: legible in a page's width.
+const SIZE_PX: [u32; 2] = [1600, 1000];
+const SCALE: f32 = 1.6;
+
+fn draw(mut folder: FigureFolder) -> Result<(), ChapterError> {
+    let gpu = Gpu::headless(AdapterPreference::Any)?;
+    let mut artist = Artist::new(gpu, SIZE_PX, SCALE)?;
+    folder.clear()?;
+    let mut rgba = Vec::new();
+    let diagrams = figures::all();
+    for Diagram { number, figure } in &diagrams {
+        artist.draw_figure(figure, &mut rgba)?;
+        let name = format!("figure-{number}");
+        folder.write(&format!("{name}.csv"), figures::csv(figure).as_bytes())?;
+        folder.write(&format!("{name}.png"), &png::encode(SIZE_PX, &rgba))?;
+    }
+    let path = folder.path().display();
+    tell(&format!("wrote {} figures and their data: {path}/figure-7-2.png …", diagrams.len()));
+    if !folder.others().is_empty() {
+        let others: Vec<_> =
+            folder.others().iter().map(|name| name.display().to_string()).collect();
+        tell(&format!("left alone in {path}: {}", others.join(", ")));
+    }
+    Ok(())
+}

@@ -1,0 +1,181 @@
+//! Figures 7-2 to 7-8, as curves, and their data as a table.
+
+use super::run::{Moment, by_method, exactly, method_of, scene};
+use crate::lab::Scene;
+use crate::lab::picture::palette;
+use crate::view::{Figure, FigureCurve};
+
+/// A figure of the chapter.
+pub(super) struct Diagram {
+    /// Its number there.
+    pub(super) number: &'static str,
+    pub(super) figure: Figure,
+}
+
+/// All of them, in order.
+pub(super) fn all() -> Vec<Diagram> {
+    let (ship, spring) = (scene("ship"), scene("spring"));
+    let euler = |seconds| vec![exact(&ship, seconds), speed(&ship, "explicit-euler", seconds)];
+    let all = |seconds| {
+        let mut curves = vec![exact(&ship, seconds)];
+        let ids = ["explicit-euler", "improved-euler", "rk4"];
+        curves.extend(ids.map(|id| speed(&ship, id, seconds)));
+        curves
+    };
+    let of_ship = |title: &str, view, steps, curves| Figure {
+        title: title.into(),
+        note: ship_note(&ship),
+        axes: ["time (s)", "speed (m/s)"],
+        view,
+        steps,
+        curves,
+    };
+    let of_spring = |title: &str, view, steps, curves| Figure {
+        title: title.into(),
+        note: spring_note(&spring),
+        axes: ["time (s)", "displacement (m)"],
+        view,
+        steps,
+        curves,
+    };
+    let swings = |seconds, ids: &[&str]| {
+        let mut curves = vec![swing_exactly(&spring, seconds)];
+        curves.extend(ids.iter().map(|id| swing(&spring, id, seconds)));
+        curves
+    };
+    let zoom = [[6.46, 8.54], [9.4, 11.8]];
+    let diagram = |number, figure| Diagram { number, figure };
+    vec![
+        diagram(
+            "7-2",
+            of_ship(
+                "Figure 7-2: speed by Euler's method",
+                [[0.0, 10.2], [0.0, 14.4]],
+                [1.0, 2.0],
+                euler(10.0),
+            ),
+        ),
+        diagram(
+            "7-3",
+            of_ship("Figure 7-3: the same, from 6.5 to 8.5 s", zoom, [0.5, 0.5], euler(8.5)),
+        ),
+        diagram(
+            "7-4",
+            of_ship(
+                "Figure 7-4: in time it converges",
+                [[0.0, 61.0], [0.0, 22.0]],
+                [10.0, 5.0],
+                euler(60.0),
+            ),
+        ),
+        diagram(
+            "7-5",
+            of_spring(
+                "Figure 7-5: a spring grows without end under explicit Euler",
+                [[0.0, 6.1], [-8.4, 8.4]],
+                [1.0, 2.0],
+                swings(6.0, &["explicit-euler"]),
+            ),
+        ),
+        diagram(
+            "7-6",
+            of_ship("Figure 7-6: three methods", [[0.0, 10.2], [0.0, 14.4]], [1.0, 2.0], all(10.0)),
+        ),
+        diagram(
+            "7-7",
+            of_ship(
+                "Figure 7-7: only Euler's can be told from the exact curve",
+                zoom,
+                [0.5, 0.5],
+                all(8.5),
+            ),
+        ),
+        diagram(
+            "7-8",
+            of_spring(
+                "Figure 7-8: the same spring under improved Euler and Runge-Kutta",
+                [[0.0, 6.1], [-1.6, 1.6]],
+                [1.0, 0.5],
+                swings(6.0, &["improved-euler", "rk4"]),
+            ),
+        ),
+    ]
+}
+
+/// The points of all curves in one tidy table: `curve`, then the axes.
+pub(super) fn csv(figure: &Figure) -> String {
+    let [x, y] = figure.axes.map(|axis| axis.replace(['(', ')'], "").replace('/', " per "));
+    let mut csv = format!("curve,{},{}\n", x.replace(' ', "_"), y.replace(' ', "_"));
+    for curve in &figure.curves {
+        for [x, y] in &curve.points {
+            csv += &format!("{},{x},{y}\n", curve.name);
+        }
+    }
+    csv
+}
+
+/// Points of an exact curve in a second: far closer than can be seen.
+const SMOOTH_HZ: f64 = 100.0;
+
+fn exact(ship: &Scene, seconds: f64) -> FigureCurve {
+    truth(exactly(ship, seconds, SMOOTH_HZ).iter().map(|m| [m.t, m.v]).collect())
+}
+
+fn swing_exactly(spring: &Scene, seconds: f64) -> FigureCurve {
+    truth(exactly(spring, seconds, SMOOTH_HZ).iter().map(|m| [m.t, m.q]).collect())
+}
+
+fn truth(points: Vec<[f64; 2]>) -> FigureCurve {
+    let dash = [1.0, 0.0];
+    FigureCurve { name: "exact".into(), colour: palette::TRUTH, dash, dots: 0.0, points }
+}
+
+/// The speed by this method, a dot at every step.
+fn speed(ship: &Scene, id: &str, seconds: f64) -> FigureCurve {
+    let dots = if seconds > 20.0 { 0.0 } else { 2.6 };
+    stepped(id, dots, &by_method(ship, id, seconds), |m| [m.t, m.v])
+}
+
+fn swing(spring: &Scene, id: &str, seconds: f64) -> FigureCurve {
+    stepped(id, 0.0, &by_method(spring, id, seconds), |m| [m.t, m.q])
+}
+
+fn stepped(
+    id: &str,
+    dots: f32,
+    moments: &[Moment],
+    point: impl Fn(&Moment) -> [f64; 2],
+) -> FigureCurve {
+    let method = method_of(id);
+    let (colour, dash) = palette::style(method);
+    let points = moments.iter().map(point).collect();
+    FigureCurve { name: method.name.into(), colour, dash, dots, points }
+}
+
+fn ship_note(scene: &Scene) -> String {
+    format!(
+        "The chapter's ship from rest: {}. Step {} s.",
+        parameters(scene),
+        1.0 / f64::from(scene.tick_hz),
+    )
+}
+
+fn spring_note(scene: &Scene) -> String {
+    format!(
+        "The chapter prints no parameters for its spring; these are ours: {}. Step 1/{} s.",
+        parameters(scene),
+        scene.tick_hz,
+    )
+}
+
+/// The first body's parameters as its scene gives them.
+fn parameters(scene: &Scene) -> String {
+    let body = &scene.bodies[0];
+    let shown = body.kind.parameters.iter().zip(&body.values).filter_map(|(parameter, value)| {
+        let symbol = parameter.about.split(',').next().filter(|symbol| symbol.len() == 1)?;
+        let unit = parameter.key.split_once('_').map_or("", |(_, unit)| unit);
+        let unit = unit.replace("_per_", "/").replace('_', "·").replace("n", "N");
+        Some(format!("{symbol} = {} {unit}", crate::lab::number::round(*value, 5)))
+    });
+    shown.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,47 @@
+//! Runs of the built-in scenes that the chapter's numbers and figures are read off.
+
+use crate::lab::{Lane, Scene};
+use crate::sim::Solver;
+use crate::sim::integrators::{Method, method};
+
+/// A moment of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Moment {
+    pub(super) t: f64,
+    pub(super) q: f64,
+    pub(super) v: f64,
+}
+
+/// The built-in scene of this name.
+pub(super) fn scene(name: &str) -> Scene {
+    Scene::built_in(name).expect("the chapter's scenes are built in")
+}
+
+/// The method with this id.
+pub(super) fn method_of(id: &str) -> &'static Method {
+    method(id).expect("the chapter's methods are in the table")
+}
+
+/// The scene's first body at every tick up to `seconds`, the start included, at the scene's tick rate.
+pub(super) fn by_method(scene: &Scene, id: &str, seconds: f64) -> Vec<Moment> {
+    sail(scene, Solver::Method(method_of(id)), seconds, f64::from(scene.tick_hz))
+}
+
+/// The exact motion of the scene's first body, `per_second` times a second.
+pub(super) fn exactly(scene: &Scene, seconds: f64, per_second: f64) -> Vec<Moment> {
+    sail(scene, Solver::Truth, seconds, per_second)
+}
+
+fn sail(scene: &Scene, solver: Solver, seconds: f64, hz: f64) -> Vec<Moment> {
+    let mut lane = Lane::new(scene, solver, 1);
+    let at = |lane: &Lane, tick: u64| {
+        let stepper = &lane.bodies()[0].stepper;
+        Moment { t: tick as f64 / hz, q: stepper.q()[0], v: stepper.v()[0] }
+    };
+    let mut moments = vec![at(&lane, 0)];
+    for tick in 0..(seconds * hz).round() as u64 {
+        lane.tick(tick, tick as f64 / hz, 1.0 / hz);
+        moments.push(at(&lane, tick + 1));
+    }
+    moments
+}

@@ -1,0 +1,117 @@
+//! What is written down of a run's physics: every lane's state at every so many ticks and at the end.
+
+use serde_json::{Map, Value};
+
+use super::manifest::{LaneEnd, LaneMark, Mark};
+use crate::lab::{Lab, METRICS};
+use crate::sim::Solver;
+
+/// About as many marks are made of a run that asks for no other number: a change is found to a few
+/// ticks, and the manifest of a race stays below a megabyte.
+const USUAL_MARKS: u64 = 500;
+
+/// The ticks between two marks of a run of this many ticks.
+pub(super) fn usual_stride(ticks: u64) -> u64 {
+    ticks.div_ceil(USUAL_MARKS).max(1)
+}
+
+/// The marks of one run, from its start.
+#[derive(Debug)]
+pub(super) struct Logbook {
+    every: u64,
+    marks: Vec<Mark>,
+}
+
+impl Logbook {
+    /// A book that begins with `lab` as it stands.
+    pub(super) fn new(every: u64, lab: &Lab) -> Self {
+        Self { every, marks: vec![mark(lab)] }
+    }
+
+    /// Looks at the lab after a tick.
+    pub(super) fn note(&mut self, lab: &Lab) {
+        if lab.race().tick().is_multiple_of(self.every) {
+            self.marks.push(mark(lab));
+        }
+    }
+
+    /// All marks, with `lab` as it stands for the last.
+    pub(super) fn close(mut self, lab: &Lab) -> Vec<Mark> {
+        if self.marks.last().is_none_or(|last| last.tick != lab.race().tick()) {
+            self.marks.push(mark(lab));
+        }
+        self.marks
+    }
+}
+
+fn mark(lab: &Lab) -> Mark {
+    let race = lab.race();
+    let lanes = race.entrants().iter().zip(race.lane_hashes()).map(|(entrant, hash)| {
+        let bodies = entrant.lane.bodies().iter();
+        LaneMark {
+            hash: format!("{hash:016x}"),
+            q: bodies.clone().map(|body| body.stepper.q().to_vec()).collect(),
+            v: bodies.map(|body| body.stepper.v().to_vec()).collect(),
+        }
+    });
+    Mark { tick: race.tick(), lanes: lanes.collect() }
+}
+
+/// How each lane ended, and how far from the truth.
+pub(super) fn ends(lab: &Lab) -> Vec<LaneEnd> {
+    let race = lab.race();
+    let end = |(entrant, hash): (&crate::lab::Entrant, u64)| {
+        let lane = &entrant.lane;
+        let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(&lab.scene().bodies);
+        let bodies = bodies.map(|((body, truth), named)| {
+            let mut entry = Map::from_iter([("name".to_owned(), Value::from(&*named.name))]);
+            for metric in METRICS {
+                let value = (metric.measure)(&*body.stepper, &*truth.stepper);
+                entry.insert(metric.id.to_owned(), value.into());
+            }
+            entry
+        });
+        LaneEnd {
+            method: method_id(lane.solver()).to_owned(),
+            substeps: lane.substeps(),
+            hash: format!("{hash:016x}"),
+            halted: lane.halted().map(|halt| halt.tick),
+            bodies: bodies.collect(),
+        }
+    };
+    race.entrants().iter().zip(race.lane_hashes()).map(end).collect()
+}
+
+fn method_id(solver: Solver) -> &'static str {
+    solver.method().map_or("exact", |method| method.id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Scene;
+
+    #[test]
+    fn marks_are_made_at_the_start_at_each_stride_and_at_the_end() {
+        for (every, expected) in [(1, vec![0, 1, 2, 3, 4, 5, 6, 7]), (3, vec![0, 3, 6, 7])] {
+            let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+            let mut logbook = Logbook::new(every, &lab);
+            for _ in 0..7 {
+                lab.tick();
+                logbook.note(&lab);
+            }
+            let marks = logbook.close(&lab);
+            assert_eq!(marks.iter().map(|mark| mark.tick).collect::<Vec<_>>(), expected);
+            let last = &marks.last().unwrap().lanes[0];
+            assert_eq!(last.hash, format!("{:016x}", lab.race().state_hash()));
+            assert_eq!(last.q.len(), lab.scene().bodies.len());
+        }
+    }
+
+    #[test]
+    fn the_usual_stride_makes_at_most_some_five_hundred_marks() {
+        for (ticks, stride) in [(0, 1), (500, 1), (501, 2), (1200, 3), (1_000_000, 2000)] {
+            assert_eq!(usual_stride(ticks), stride, "{ticks}");
+        }
+    }
+}

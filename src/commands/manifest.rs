@@ -1,0 +1,199 @@
+//! `manifest.json`: what a capture drew, so that it can be judged later.
+//!
+//! The file stands beside the frames, is UTF-8 JSON, and appears whole, after the frames that it
+//! lists. Its numbers are exact: floats are the shortest decimals that read back to the same bits.
+//! This is [`SCHEMA`] 1:
+//!
+//! - `schema`: the number of this description. `regatta`: the version of the program that drew.
+//! - `settings`: all that the run depends on.
+//!   - `scene`: `name`, `text` (the TOML) and the text's `hash`.
+//!   - `lanes`: what the scene's lanes are, after the command line: each a `method`, its `substeps` and, where
+//!     the scene gives one, its `tolerance`.
+//!   - `race`: whether all of them race; else the `selected` method sails alone, `null` for the one
+//!     that the window opens with.
+//!   - `tick_hz` at the start, `frames` asked for, `fps`, `size` in pixels, `scale` in pixels a point,
+//!     whether there are `panels`, whether there is `motion`, and `mark_every`, in ticks.
+//! - `settings_hash`: the hash of `settings` as JSON without spaces.
+//! - `adapter`: what drew: `name`, `driver`, `driver_info`, `backend`, `kind`.
+//! - `complete`: `false` where the capture was interrupted.
+//! - `frames`: for each frame its `file`, the `tick` reached, `alpha` as numerator and denominator of
+//!   the part of the next tick that is drawn, and `pixels`, the hash of its RGBA bytes.
+//! - `lanes`: each lane at the end: `method`, `substeps`, the `hash` of its state, the tick at which it
+//!   `halted` or `null`, and for each of its `bodies` its `name` and, at the end, every metric of
+//!   `regatta list metrics` against the exact solution, `null` where it has no meaning.
+//! - `marks`: the state of each lane at every `mark_every`th `tick` and at the end: for each of the
+//!   `lanes` its `hash` and, body by body, `q` and `v`.
+//!
+//! A lane's `hash` is [`Race::lane_hashes`](crate::lab::Race::lane_hashes). The other hashes are 64
+//! bits ([`fingerprint`]), as FNV-1a but over little-endian words of 8 bytes, the last one filled up with zeros, each
+//! followed by `hash ^= hash >> 32`; the number of bytes is the first word. All are hexadecimal. There
+//! is no seed, for nothing in a run is random.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+pub use super::fingerprint::fingerprint;
+
+/// The number of the description above. A manifest of another one cannot be judged.
+pub const SCHEMA: u32 = 1;
+
+/// The manifest's file name.
+pub const FILE_NAME: &str = "manifest.json";
+
+/// The whole file.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module describes every field")]
+pub struct Manifest {
+    pub schema: u32,
+    pub regatta: String,
+    pub settings: Settings,
+    pub settings_hash: String,
+    pub adapter: Adapter,
+    pub complete: bool,
+    pub frames: Vec<FrameEntry>,
+    pub lanes: Vec<LaneEnd>,
+    pub marks: Vec<Mark>,
+}
+
+/// All that a run depends on.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module describes every field")]
+pub struct Settings {
+    pub scene: SceneText,
+    pub lanes: Vec<LaneEntry>,
+    pub race: bool,
+    pub selected: Option<String>,
+    pub tick_hz: u32,
+    pub frames: u32,
+    pub fps: u32,
+    pub size: [u32; 2],
+    pub scale: f64,
+    pub panels: bool,
+    pub motion: bool,
+    pub mark_every: u64,
+}
+
+impl Settings {
+    /// The hash by which altered settings are known.
+    pub fn hash(&self) -> String {
+        let text = serde_json::to_string(self).expect("all keys are strings");
+        fingerprint(text.as_bytes())
+    }
+}
+
+/// A scene file as it was.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module describes every field")]
+pub struct SceneText {
+    pub name: String,
+    pub hash: String,
+    pub text: String,
+}
+
+/// A lane of the scene.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module describes every field")]
+pub struct LaneEntry {
+    pub method: String,
+    pub substeps: u32,
+    /// The tolerance in place of the method's own, where the scene gives one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+}
+
+/// What drew.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module describes every field")]
+pub struct Adapter {
+    pub name: String,
+    pub driver: String,
+    pub driver_info: String,
+    pub backend: String,
+    pub kind: String,
+}
+
+/// One frame.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module describes every field")]
+pub struct FrameEntry {
+    pub file: String,
+    pub tick: u64,
+    pub alpha: [u64; 2],
+    pub pixels: String,
+}
+
+/// A lane at the end.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module describes every field")]
+pub struct LaneEnd {
+    pub method: String,
+    pub substeps: u32,
+    pub hash: String,
+    pub halted: Option<u64>,
+    /// For each body its name and its metrics.
+    pub bodies: Vec<Map<String, Value>>,
+}
+
+/// All lanes at a tick.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module describes every field")]
+pub struct Mark {
+    pub tick: u64,
+    pub lanes: Vec<LaneMark>,
+}
+
+/// A lane at a tick.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+#[expect(missing_docs, reason = "the module describes every field")]
+pub struct LaneMark {
+    pub hash: String,
+    pub q: Vec<Vec<f64>>,
+    pub v: Vec<Vec<f64>>,
+}
+
+impl Manifest {
+    /// The file: a line for each entry of a list, so that a difference of two can be read.
+    pub fn to_text(&self) -> String {
+        let value = serde_json::to_value(self).expect("all keys are strings");
+        let mut text = String::new();
+        lay_out(&value, 0, &mut text);
+        text.push('\n');
+        text
+    }
+}
+
+/// Breaks objects and lists on the outer two levels into lines.
+fn lay_out(value: &Value, depth: usize, text: &mut String) {
+    let indent = "  ".repeat(depth + 1);
+    let mut separator = "\n";
+    match value {
+        Value::Object(entries) if depth < 2 && !entries.is_empty() => {
+            text.push('{');
+            for (key, value) in entries {
+                text.push_str(&format!("{separator}{indent}{}: ", Value::from(key.as_str())));
+                // The entries of a list are one line each.
+                lay_out(value, depth + 1, text);
+                separator = ",\n";
+            }
+            text.push_str(&format!("\n{}}}", &indent[2..]));
+        }
+        Value::Array(entries) if depth < 2 && !entries.is_empty() => {
+            text.push('[');
+            for value in entries {
+                text.push_str(&format!("{separator}{indent}{value}"));
+                separator = ",\n";
+            }
+            text.push_str(&format!("\n{}]", &indent[2..]));
+        }
+        value => text.push_str(&value.to_string()),
+    }
+}

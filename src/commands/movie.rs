@@ -1,0 +1,209 @@
+//! A run as one stream: an animated picture, or frames for a video encoder.
+
+use std::io::{self, Write};
+
+use super::capture::CaptureError;
+use super::experiment::Experiment;
+use super::logbook::Logbook;
+use super::outlet::Outlet;
+use super::pipeline::{Run, Stop};
+use super::recording::{Recording, closing_line, progress, watch_for_interrupt};
+use super::tell;
+use super::voyage::Schedule;
+
+/// A format of one stream.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum MovieFormat {
+    /// Animated PNG, every bit of every frame.
+    Apng,
+    /// GIF, with a palette of 256 colours for each frame.
+    Gif,
+    /// YUV4MPEG2, 4:4:4, BT.601 in the limited range.
+    Y4m,
+    /// Red, green, blue, alpha, and nothing else.
+    Rgba,
+}
+
+/// Players show a GIF's frame for two hundredths of a second at least.
+pub(super) const MOST_GIF_FPS: u32 = 50;
+
+/// The colours of one pixel in so many are looked at for a GIF's palette: the least care, twice as fast
+/// as middling care, and on flat colours no worse.
+const GIF_SPEED: i32 = 30;
+
+/// Draws a run into `outlet`, and says on standard error what it wrote.
+pub(super) fn record(
+    experiment: &Experiment,
+    recording: Recording,
+    format: MovieFormat,
+    mut outlet: Outlet,
+) -> Result<(), CaptureError> {
+    let mut artist = recording.artist()?;
+    let interrupted = watch_for_interrupt();
+    let Schedule { frames, .. } = recording.schedule;
+    let progress = progress(frames);
+    let mut lab = recording.lab(experiment);
+    let mut logbook = Logbook::new(u64::MAX, &lab);
+    let run = Run {
+        artist: &mut artist,
+        lab: &mut lab,
+        logbook: &mut logbook,
+        schedule: recording.schedule,
+        interrupted: &interrupted,
+    };
+    let written =
+        Movie::begin(format, &mut outlet, &recording).map_err(Stop::Taken).and_then(|mut movie| {
+            let done = run.draw_all(|drawn| {
+                movie.push(&drawn.rgba)?;
+                progress.inc(1);
+                Ok(())
+            })?;
+            if done == frames {
+                movie.end().map_err(Stop::Taken)?;
+            }
+            Ok(done)
+        });
+    progress.finish_and_clear();
+    match written {
+        Err(Stop::Readback(error)) => Err(error.into()),
+        Err(Stop::Taken(error)) => Err(outlet.failed(error)),
+        Ok(done) if done < frames => {
+            let whole = match outlet {
+                Outlet::Stdout(_) => "those on standard output".into(),
+                Outlet::File { .. } => "none, a stream is whole at its end".into(),
+            };
+            Err(CaptureError::Interrupted { done, frames, whole })
+        }
+        Ok(_) => {
+            let name = outlet.name();
+            outlet.close()?;
+            tell(&closing_line(&recording, &name));
+            Ok(())
+        }
+    }
+}
+
+/// A stream of frames being encoded.
+enum Movie<'a> {
+    Apng(Box<png::Writer<&'a mut Outlet>>),
+    Gif { encoder: gif::Encoder<&'a mut Outlet>, size_px: [u16; 2], fps: u32, frame: u32 },
+    Y4m { out: &'a mut Outlet, planes: Vec<u8> },
+    Rgba(&'a mut Outlet),
+}
+
+impl<'a> Movie<'a> {
+    fn begin(
+        format: MovieFormat,
+        out: &'a mut Outlet,
+        recording: &Recording,
+    ) -> Result<Self, io::Error> {
+        let [width, height] = recording.size_px;
+        let Schedule { frames, fps } = recording.schedule;
+        let small = |value: u32| u16::try_from(value).expect("the command line's limits fit");
+        Ok(match format {
+            MovieFormat::Apng => {
+                let mut encoder = png::Encoder::new(out, width, height);
+                encoder.set_color(png::ColorType::Rgba);
+                encoder.set_depth(png::BitDepth::Eight);
+                encoder.set_compression(png::Compression::Fast);
+                encoder.set_filter(png::Filter::Up);
+                encoder.set_animated(frames, 0).map_err(of_png)?;
+                encoder.set_frame_delay(1, small(fps)).map_err(of_png)?;
+                Movie::Apng(Box::new(encoder.write_header().map_err(of_png)?))
+            }
+            MovieFormat::Gif => {
+                let size_px = [small(width), small(height)];
+                let mut encoder =
+                    gif::Encoder::new(out, size_px[0], size_px[1], &[]).map_err(of_gif)?;
+                encoder.set_repeat(gif::Repeat::Infinite).map_err(of_gif)?;
+                Movie::Gif { encoder, size_px, fps, frame: 0 }
+            }
+            MovieFormat::Y4m => {
+                writeln!(
+                    out,
+                    "YUV4MPEG2 W{width} H{height} F{fps}:1 Ip A1:1 C444 XCOLORRANGE=LIMITED"
+                )?;
+                Movie::Y4m { out, planes: Vec::new() }
+            }
+            MovieFormat::Rgba => Movie::Rgba(out),
+        })
+    }
+
+    fn push(&mut self, rgba: &[u8]) -> Result<(), io::Error> {
+        match self {
+            Movie::Apng(writer) => writer.write_image_data(rgba).map_err(of_png),
+            Movie::Gif { encoder, size_px: [width, height], fps, frame } => {
+                let mut pixels = rgba.to_vec();
+                let mut picture =
+                    gif::Frame::from_rgba_speed(*width, *height, &mut pixels, GIF_SPEED);
+                // In hundredths of a second, the rest carried on.
+                let ends = |frame: u32| u64::from(frame) * 100 / u64::from(*fps);
+                picture.delay = (ends(*frame + 1) - ends(*frame)) as u16;
+                *frame += 1;
+                encoder.write_frame(&picture).map_err(of_gif)
+            }
+            Movie::Y4m { out, planes } => {
+                to_yuv(rgba, planes);
+                out.write_all(b"FRAME\n")?;
+                out.write_all(planes)
+            }
+            Movie::Rgba(out) => out.write_all(rgba),
+        }
+    }
+
+    fn end(self) -> Result<(), io::Error> {
+        match self {
+            Movie::Apng(writer) => writer.finish().map_err(of_png),
+            Movie::Gif { encoder, .. } => encoder.into_inner().map(drop).map_err(of_gif),
+            Movie::Y4m { .. } | Movie::Rgba(_) => Ok(()),
+        }
+    }
+}
+
+fn of_png(error: png::EncodingError) -> io::Error {
+    match error {
+        png::EncodingError::IoError(error) => error,
+        error => io::Error::other(error),
+    }
+}
+
+fn of_gif(error: gif::EncodingError) -> io::Error {
+    match error {
+        gif::EncodingError::Io(error) => error,
+        error => io::Error::other(error),
+    }
+}
+
+/// Replaces `planes` by all Y, all Cb and all Cr: BT.601, 16 to 235 and 16 to 240.
+fn to_yuv(rgba: &[u8], planes: &mut Vec<u8>) {
+    let pixels = rgba.len() / 4;
+    planes.resize(3 * pixels, 0);
+    let (luma, chroma) = planes.split_at_mut(pixels);
+    let (blue, red) = chroma.split_at_mut(pixels);
+    for (n, pixel) in rgba.chunks_exact(4).enumerate() {
+        let [r, g, b] = [0, 1, 2].map(|channel| i32::from(pixel[channel]));
+        luma[n] = (16 + ((66 * r + 129 * g + 25 * b + 128) >> 8)) as u8;
+        blue[n] = (128 + ((-38 * r - 74 * g + 112 * b + 128) >> 8)) as u8;
+        red[n] = (128 + ((112 * r - 94 * g - 18 * b + 128) >> 8)) as u8;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_those_of_bt_601() {
+        let mut planes = Vec::new();
+        let rgba: Vec<u8> = [[0, 0, 0], [255, 255, 255], [255, 0, 0], [0, 255, 0], [0, 0, 255]]
+            .iter()
+            .flat_map(|&[r, g, b]| [r, g, b, 255])
+            .collect();
+        to_yuv(&rgba, &mut planes);
+        let expected = [[16, 235, 82, 145, 41], [128, 128, 90, 54, 240], [128, 128, 240, 34, 110]];
+        for (plane, expected) in planes.chunks_exact(5).zip(expected) {
+            let off = plane.iter().zip(expected).map(|(is, be): (&u8, u8)| is.abs_diff(be));
+            assert!(off.max() <= Some(1), "{plane:?}, not {expected:?}");
+        }
+    }
+}

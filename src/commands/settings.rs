@@ -1,0 +1,116 @@
+//! From an experiment and a recording to the settings in a manifest, and back.
+
+use super::experiment::{Experiment, Lineup};
+use super::fingerprint::fingerprint;
+use super::frame_folder::frame_name;
+use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
+use super::recording::Recording;
+use super::voyage::Schedule;
+use crate::lab::{Clock, LaneSpec, MOST_LANES, MOST_SUBSTEPS, Scene};
+use crate::sim::integrators::method;
+use crate::view::Panels;
+
+/// What a manifest says of a run that is about to be recorded.
+pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Settings {
+    let scene = &experiment.scene;
+    let lane = |lane: &LaneSpec| LaneEntry {
+        method: lane.method.id.to_owned(),
+        substeps: lane.substeps,
+        tolerance: lane.tolerance,
+    };
+    Settings {
+        scene: SceneText {
+            name: scene.name.clone(),
+            hash: fingerprint(experiment.text.as_bytes()),
+            text: experiment.text.clone(),
+        },
+        lanes: scene.lanes.iter().map(lane).collect(),
+        race: experiment.lineup == Lineup::Everyone,
+        selected: experiment.selected.map(|method| method.id.to_owned()),
+        tick_hz: scene.tick_hz,
+        frames: recording.schedule.frames,
+        fps: recording.schedule.fps,
+        size: recording.size_px,
+        // The shortest decimal of an f32 is the same number as an f64 for people, and reads back.
+        scale: recording.scale.to_string().parse().expect("a number's own text"),
+        panels: recording.panels == Panels::Shown,
+        motion: recording.motion,
+        mark_every: recording.mark_every,
+    }
+}
+
+/// The run that these settings describe, or why there is none.
+pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), String> {
+    let SceneText { name, text, .. } = &settings.scene;
+    let known = |id: &str| method(id).ok_or_else(|| format!("this program has no method {id:?}"));
+    let mut scene = Scene::parse(&format!("{name}.toml"), text)
+        .map_err(|errors| format!("this program does not take the scene: {errors}"))?;
+    let substeps = |lane: &LaneEntry| (1..=MOST_SUBSTEPS).contains(&lane.substeps);
+    for (key, is_in_range) in [
+        ("tick_hz", Clock::TICK_HZ.contains(&settings.tick_hz)),
+        ("fps", settings.fps > 0),
+        ("scale", (0.5..=4.0).contains(&settings.scale)),
+        ("mark_every", settings.mark_every > 0),
+        ("lanes", (1..=MOST_LANES).contains(&settings.lanes.len())),
+        ("substeps", settings.lanes.iter().all(substeps)),
+    ] {
+        if !is_in_range {
+            return Err(format!("its {key} is out of range; capture anew"));
+        }
+    }
+    scene.tick_hz = settings.tick_hz;
+    let lane = |lane: &LaneEntry| {
+        let method = known(&lane.method)?;
+        Ok(LaneSpec { method, substeps: lane.substeps, tolerance: lane.tolerance })
+    };
+    scene.lanes = settings.lanes.iter().map(lane).collect::<Result<_, String>>()?;
+    let experiment = Experiment {
+        scene,
+        text: text.clone(),
+        selected: settings.selected.as_deref().map(known).transpose()?,
+        lineup: if settings.race { Lineup::Everyone } else { Lineup::Solo },
+    };
+    let recording = Recording {
+        schedule: Schedule { frames: settings.frames, fps: settings.fps },
+        size_px: settings.size,
+        scale: settings.scale as f32,
+        panels: if settings.panels { Panels::Shown } else { Panels::Off },
+        motion: settings.motion,
+        mark_every: settings.mark_every,
+    };
+    Ok((experiment, recording))
+}
+
+/// Whether a manifest's settings are those that its capture had; else what was altered.
+pub(super) fn check(manifest: &Manifest) -> Result<(), String> {
+    let settings = &manifest.settings;
+    let scene = &settings.scene;
+    if fingerprint(scene.text.as_bytes()) != scene.hash {
+        return Err("the scene's text was altered, its hash says; capture anew".into());
+    }
+    let mut names = manifest.frames.iter().zip(0..).map(|(frame, n)| (&frame.file, frame_name(n)));
+    if let Some((file, name)) = names.find(|(file, name)| *file != name) {
+        return Err(format!("it has {file:?} in the place of {name}; capture anew"));
+    }
+    if settings.hash() == manifest.settings_hash {
+        return Ok(());
+    }
+    match drawn_at_hz(manifest) {
+        Some(hz) if hz != u64::from(settings.tick_hz) => Err(format!(
+            "it says {} Hz, and at {} frames a second its frames are of {hz} Hz: another tick rate \
+             is another run; capture anew",
+            settings.tick_hz, settings.fps
+        )),
+        _ => Err("its settings were altered, their hash says; capture anew".into()),
+    }
+}
+
+/// The tick rate that the last frame's place in time tells of, where nothing changes it on the way.
+fn drawn_at_hz(manifest: &Manifest) -> Option<u64> {
+    let last = manifest.frames.len().checked_sub(1)?;
+    let FrameEntry { tick, alpha: [numerator, denominator], .. } = manifest.frames[last];
+    let Settings { frames, fps, .. } = manifest.settings;
+    let ns = Schedule { frames, fps: fps.max(1) }.time_ns(u32::try_from(last).ok()?);
+    let ticks = tick as f64 + numerator as f64 / denominator as f64;
+    (ns > 0).then(|| (ticks * 1e9 / ns as f64).round() as u64)
+}

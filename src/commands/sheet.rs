@@ -1,0 +1,75 @@
+//! A contact sheet: one picture of a race, time across, lanes down.
+
+use std::io::Write;
+
+use super::capture::CaptureError;
+use super::experiment::{Experiment, Lineup};
+use super::outlet::Outlet;
+use super::recording::{Recording, progress};
+use super::tell;
+use crate::lab::LaneSpec;
+use crate::view::png;
+
+/// The most pixels of a sheet, a gigabyte of memory.
+const MOST_SHEET_PIXELS: u64 = 1 << 28;
+
+/// Draws every lane of the experiment alone, at the moments of the recording, into one picture.
+pub(super) fn draw(
+    experiment: &Experiment,
+    recording: Recording,
+    mut outlet: Outlet,
+) -> Result<(), CaptureError> {
+    let [width, height] = recording.size_px;
+    let columns = recording.schedule.frames;
+    let lab = experiment.lab();
+    let lanes = lab.race().entrants().iter().map(|entrant| lab.entries()[entrant.entry]);
+    let lanes: Vec<LaneSpec> = lanes.collect();
+    let methods: Vec<&str> = lanes.iter().map(|lane| lane.method.id).collect();
+    let rows = lanes.len() as u32;
+    let cells = rows * columns;
+    let pixels = u64::from(cells) * u64::from(width) * u64::from(height);
+    if pixels > MOST_SHEET_PIXELS {
+        let (frames, size_px) = (cells, recording.size_px);
+        return Err(CaptureError::TooManyPixels {
+            frames,
+            size_px,
+            pixels,
+            most: MOST_SHEET_PIXELS,
+        });
+    }
+    let mut artist = recording.artist()?;
+    let progress = progress(cells);
+    let row_bytes = 4 * width as usize;
+    let sheet_row_bytes = row_bytes * columns as usize;
+    let mut sheet = vec![0; sheet_row_bytes * (rows * height) as usize];
+    let mut cell = Vec::new();
+    for (row, lane) in lanes.into_iter().enumerate() {
+        let mut scene = experiment.scene.clone();
+        scene.lanes = vec![lane];
+        let text = experiment.text.clone();
+        let alone = Experiment { scene, text, selected: Some(lane.method), lineup: Lineup::Solo };
+        let mut lab = recording.lab(&alone);
+        for column in 0..columns {
+            recording.schedule.advance(&mut lab, column, |_| ());
+            artist.draw(&lab, &mut cell)?;
+            let top = row * height as usize;
+            for (y, line) in cell.chunks_exact(row_bytes).enumerate() {
+                let at = (top + y) * sheet_row_bytes + column as usize * row_bytes;
+                sheet[at..at + row_bytes].copy_from_slice(line);
+            }
+            progress.inc(1);
+        }
+    }
+    progress.finish_and_clear();
+    let size_px = [columns * width, rows * height];
+    outlet.write_all(&png::encode(size_px, &sheet)).map_err(|error| outlet.failed(error))?;
+    let name = outlet.name();
+    outlet.close()?;
+    tell(&format!(
+        "wrote a sheet of {}x{}: {name}; {columns} moments across; down: {}",
+        size_px[0],
+        size_px[1],
+        methods.join(", ")
+    ));
+    Ok(())
+}

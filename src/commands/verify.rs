@@ -1,0 +1,226 @@
+//! `regatta verify`: does this program still do what it did when the frames were captured?
+//!
+//! The physics is judged first, bit by bit and without a GPU; then the pixels, which may move when the
+//! physics has not.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::capture::CaptureError;
+use super::experiment::Experiment;
+use super::frame_folder::{Existing, FrameFolder, FrameFolderError, write_whole};
+use super::manifest::{Adapter, FILE_NAME, Manifest, SCHEMA};
+use super::recording::{self, Recording, record};
+use super::{Error, settings, tell};
+use crate::lab::SCENES;
+
+mod physics;
+mod pixels;
+mod report;
+
+use pixels::Limits;
+use report::Report;
+
+const EXAMPLES: &str = "\
+The manifest in DIR says what was drawn. It is run again: first the physics, to the bit, then the
+frames. On the adapter and driver that drew the frames, every pixel has to be the same; on others a
+channel may differ by 2, and one pixel in ten thousand by more than 1.
+
+Exit code 0: the same. 1: different. 2: cannot be judged, and why.
+
+Examples:
+  regatta verify clip
+  regatta verify clip --physics-only
+  regatta verify clip --report junit verify.xml --diff differences
+  regatta verify clip --bless";
+
+/// Run a capture again and say whether physics or pixels have changed
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct VerifyArgs {
+    /// The directory that `regatta capture` filled
+    #[arg(value_name = "DIR")]
+    dir: PathBuf,
+
+    /// Judge the physics alone; needs no graphics
+    #[arg(long)]
+    physics_only: bool,
+
+    /// Write the result to FILE too, as junit or json
+    #[arg(long, num_args = 2, value_names = ["FORMAT", "FILE"])]
+    report: Option<Vec<String>>,
+
+    /// Write a picture of the difference into DIR for each frame that differs
+    #[arg(long, value_name = "DIR", conflicts_with = "physics_only")]
+    diff: Option<PathBuf>,
+
+    /// The largest difference of a channel, 0 to 255 [default: 0, or 2 on another driver]
+    #[arg(long, value_name = "N")]
+    max_channel: Option<u8>,
+
+    /// The most pixels of a frame off by more than 1, in percent [default: 0, or 0.01]
+    #[arg(long, value_name = "P", value_parser = percent)]
+    max_pixels: Option<f64>,
+
+    /// Draw all anew and take that for right from now on
+    #[arg(long, conflicts_with_all = ["physics_only", "report", "diff"])]
+    bless: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ReportFormat {
+    Junit,
+    Json,
+}
+
+/// Why frames do not pass.
+#[derive(Debug, thiserror::Error)]
+pub enum VerifyError {
+    /// It was judged, and is not the same.
+    #[error("{what} differ from {}; if that is meant, --bless", .manifest.display())]
+    Different {
+        /// Physics, pixels or both.
+        what: &'static str,
+        /// What they differ from.
+        manifest: PathBuf,
+    },
+    /// It cannot be judged.
+    #[error("cannot judge {}: {reason}", .manifest.display())]
+    Unjudged {
+        /// What it would be judged by.
+        manifest: PathBuf,
+        /// Why not.
+        reason: String,
+    },
+    /// `--report` with something else than a known format.
+    #[error("no report format is called {0:?}; give junit or json")]
+    Format(String),
+    /// A report or a difference could not be written.
+    #[error(transparent)]
+    Write(#[from] FrameFolderError),
+    /// The frames could not be drawn.
+    #[error("the pixels cannot be judged: {0}")]
+    Capture(#[from] CaptureError),
+}
+
+impl VerifyError {
+    pub(super) fn exit_code(&self) -> u8 {
+        match self {
+            VerifyError::Different { .. }
+            | VerifyError::Write(_)
+            | VerifyError::Capture(CaptureError::Output(_)) => 1,
+            VerifyError::Capture(CaptureError::Interrupted { .. }) => 130,
+            _ => 2,
+        }
+    }
+}
+
+pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
+    Ok(judge(args)?)
+}
+
+fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
+    let report_to = args.report.as_deref().map(report_file).transpose()?;
+    let path = args.dir.join(FILE_NAME);
+    let unjudged = |reason| VerifyError::Unjudged { manifest: path.clone(), reason };
+    let manifest = read(&path).map_err(unjudged)?;
+    let (experiment, recording) = settings::read(&manifest.settings).map_err(unjudged)?;
+    if args.bless {
+        let folder = FrameFolder::inspect(&args.dir, Existing::Replace)?;
+        return match record(&experiment, recording, folder) {
+            Err(CaptureError::Write { source, .. }) => Err(VerifyError::Write(source)),
+            done => Ok(done?),
+        };
+    }
+    let scene = &manifest.settings.scene;
+    if SCENES.iter().any(|built_in| built_in.name == scene.name && built_in.text != scene.text) {
+        let name = &scene.name;
+        tell(&format!("the built-in scene {name} is another; the one in the manifest is run"));
+    }
+    let mut report = Report::new(&args.dir);
+    physics::judge(&manifest, &experiment, &recording, &mut report);
+    report.say_physics()?;
+    if !args.physics_only {
+        match judge_pixels(args, &manifest, &experiment, &recording, &mut report) {
+            // That the physics is another is a judgement, whatever keeps the pixels from theirs.
+            Err(error) if report.physics.is_some() && error.exit_code() == 2 => {
+                tell(&error.to_string());
+            }
+            judged => judged?,
+        }
+    }
+    if let Some((format, file)) = report_to {
+        let text = match format {
+            ReportFormat::Junit => report.to_junit(),
+            ReportFormat::Json => report.to_json(),
+        };
+        write_whole(&file, text.as_bytes())?;
+    }
+    match report.what_differs() {
+        None => Ok(()),
+        Some(what) => Err(VerifyError::Different { what, manifest: path }),
+    }
+}
+
+fn judge_pixels(
+    args: &VerifyArgs,
+    manifest: &Manifest,
+    experiment: &Experiment,
+    recording: &Recording,
+    report: &mut Report,
+) -> Result<(), VerifyError> {
+    let mut artist = recording.artist()?;
+    let (was, is) = (&manifest.adapter, recording::adapter(&artist));
+    let limits = Limits::of(*was == is, args.max_channel, args.max_pixels);
+    if *was != is {
+        let name = |a: &Adapter| format!("{} ({}, {})", a.name, a.backend, a.driver_info);
+        tell(&format!(
+            "drawn then with {}, now with {}: a channel may differ by {}, and {} % of a frame's \
+             pixels by more than 1",
+            name(was),
+            name(&is),
+            limits.max_channel,
+            limits.max_pixels_percent,
+        ));
+    }
+    let folder = pixels::Folder { frames: &args.dir, differences: args.diff.as_deref() };
+    pixels::judge(manifest, experiment, recording, &mut artist, limits, folder, report)?;
+    report.say_pixels()
+}
+
+/// The manifest at `path`, if it is whole and as a capture wrote it; else why it cannot be used.
+fn read(path: &Path) -> Result<Manifest, String> {
+    let text = fs::read_to_string(path)
+        .map_err(|error| format!("{error}; `regatta capture` writes it"))?;
+    let value: serde_json::Value = serde_json::from_str(&text)
+        .map_err(|error| format!("it is no JSON: {error}; capture anew"))?;
+    match value["schema"].as_u64() {
+        Some(schema) if schema == u64::from(SCHEMA) => {}
+        Some(schema) => {
+            return Err(format!(
+                "it is of schema {schema}, and this program reads {SCHEMA}; capture anew"
+            ));
+        }
+        None => return Err("it does not name its schema; capture anew".into()),
+    }
+    let manifest: Manifest = serde_json::from_str(&text)
+        .map_err(|error| format!("it is not as schema {SCHEMA} has it: {error}; capture anew"))?;
+    settings::check(&manifest)?;
+    Ok(manifest)
+}
+
+fn report_file(words: &[String]) -> Result<(ReportFormat, PathBuf), VerifyError> {
+    let [format, file] = words else { unreachable!("clap takes two words") };
+    let format =
+        ReportFormat::from_str(format, false).map_err(|_| VerifyError::Format(format.clone()))?;
+    Ok((format, file.into()))
+}
+
+fn percent(written: &str) -> Result<f64, String> {
+    match written.parse::<f64>() {
+        Ok(percent) if (0.0..=100.0).contains(&percent) => Ok(percent),
+        _ => Err("give a percentage from 0 to 100".into()),
+    }
+}

@@ -1,0 +1,88 @@
+//! The run again, against the marks in the manifest.
+
+use super::super::experiment::Experiment;
+use super::super::logbook::Logbook;
+use super::super::manifest::{LaneMark, Manifest, Mark};
+use super::super::recording::Recording;
+use super::report::{PhysicsChange, Report};
+use crate::lab::Lab;
+
+/// Runs to where the manifest's run ended, and reports the first mark that is another now.
+pub(super) fn judge(
+    manifest: &Manifest,
+    experiment: &Experiment,
+    recording: &Recording,
+    report: &mut Report,
+) {
+    let mut lab = recording.lab(experiment);
+    let mut logbook = Logbook::new(recording.mark_every, &lab);
+    for frame in 0..manifest.frames.len() as u32 {
+        recording.schedule.advance(&mut lab, frame, |lab| logbook.note(lab));
+    }
+    let now = logbook.close(&lab);
+    report.lanes = lab.race().entrants().len();
+    report.last_tick = lab.race().tick();
+    report.mark_every = recording.mark_every;
+    report.physics = manifest
+        .marks
+        .iter()
+        .zip(&now)
+        .find_map(|(then, now)| change(then, now, &lab))
+        .or_else(|| other_length(&manifest.marks, &now));
+}
+
+/// What is another at this tick, if anything is.
+fn change(then: &Mark, now: &Mark, lab: &Lab) -> Option<PhysicsChange> {
+    if then.tick != now.tick || then.lanes.len() != now.lanes.len() {
+        let what = format!(
+            "{} lanes at tick {} in the manifest, {} at tick {} now",
+            then.lanes.len(),
+            then.tick,
+            now.lanes.len(),
+            now.tick
+        );
+        return Some(PhysicsChange { tick: then.tick.min(now.tick), lane: None, what });
+    }
+    let lanes = then.lanes.iter().zip(&now.lanes).enumerate();
+    lanes
+        .filter(|(_, (then, now))| then != now)
+        .map(|(n, (was, is))| {
+            let entrant = &lab.race().entrants()[n];
+            let method = lab.entries()[entrant.entry].method.id;
+            PhysicsChange {
+                tick: then.tick,
+                lane: Some((n + 1, method)),
+                what: first_coordinate(was, is, lab, n),
+            }
+        })
+        .next()
+}
+
+/// The first coordinate or velocity of a lane that is another, and by how much.
+fn first_coordinate(then: &LaneMark, now: &LaneMark, lab: &Lab, lane: usize) -> String {
+    let bodies = lab.race().entrants()[lane].lane.bodies();
+    for (n, body) in bodies.iter().enumerate() {
+        let values = |mark: &LaneMark| {
+            let row = |rows: &[Vec<f64>]| rows.get(n).cloned().unwrap_or_default();
+            row(&mark.q).into_iter().chain(row(&mark.v)).collect::<Vec<_>>()
+        };
+        let names = body.coordinates.iter();
+        let names = names.clone().map(|c| c.name).chain(names.map(|c| c.velocity));
+        for ((name, was), is) in names.zip(values(then)).zip(values(now)) {
+            if was != is {
+                let body = &lab.scene().bodies[n].name;
+                let off = (is - was).abs();
+                return format!("{body}, {name}: {was} in the manifest, {is} now, off by {off:e}");
+            }
+        }
+    }
+    let (was, is) = (&then.hash, &now.hash);
+    format!("every coordinate is the same, but the hash is {was} in the manifest and {is} now")
+}
+
+fn other_length(then: &[Mark], now: &[Mark]) -> Option<PhysicsChange> {
+    let shorter = then.len().min(now.len());
+    let first = then.get(shorter).or(now.get(shorter))?;
+    let what = format!("{} marks in the manifest, {} now", then.len(), now.len());
+    Some(PhysicsChange { tick: first.tick, lane: None, what })
+}

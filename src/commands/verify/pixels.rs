@@ -1,0 +1,193 @@
+//! The frames again, against the files.
+
+use std::fs;
+use std::path::Path;
+
+use super::super::capture::CaptureError;
+use super::super::experiment::Experiment;
+use super::super::fingerprint::fingerprint;
+use super::super::frame_folder::{failure, write_whole};
+use super::super::logbook::Logbook;
+use super::super::manifest::{FrameEntry, Manifest};
+use super::super::pipeline::{Run, Stop};
+use super::super::recording::{Recording, progress, watch_for_interrupt};
+use super::super::voyage::Schedule;
+use super::VerifyError;
+use super::report::{FrameChange, Report};
+use crate::view::{Artist, png};
+
+/// What another driver's frames differ by, and a little more.
+const OTHER_DRIVER: (u8, f64) = (2, 0.01);
+
+/// How much a frame may differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Limits {
+    /// The largest difference of a channel.
+    pub(super) max_channel: u8,
+    /// The most pixels off by more than 1, in percent.
+    pub(super) max_pixels_percent: f64,
+}
+
+impl Limits {
+    /// None on the driver that drew the frames, except for what was asked for.
+    pub(super) fn of(same_driver: bool, max_channel: Option<u8>, max_pixels: Option<f64>) -> Self {
+        let (channel, pixels) = if same_driver { (0, 0.0) } else { OTHER_DRIVER };
+        Self {
+            max_channel: max_channel.unwrap_or(channel),
+            max_pixels_percent: max_pixels.unwrap_or(pixels),
+        }
+    }
+
+    fn allow(self, difference: &Difference) -> bool {
+        let percent = 100.0 * difference.off_by_more_than_one as f64 / difference.pixels as f64;
+        difference.worst <= self.max_channel && percent <= self.max_pixels_percent
+    }
+}
+
+/// Where frames are, and where pictures of their differences go.
+#[derive(Clone, Copy)]
+pub(super) struct Folder<'a> {
+    pub(super) frames: &'a Path,
+    pub(super) differences: Option<&'a Path>,
+}
+
+/// What two pictures of one size differ by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Difference {
+    pixels: usize,
+    off: usize,
+    off_by_more_than_one: usize,
+    worst: u8,
+}
+
+fn difference(a: &[u8], b: &[u8]) -> Difference {
+    let mut difference = Difference { pixels: a.len() / 4, ..Difference::default() };
+    if a != b {
+        for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
+            let worst = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
+            difference.off += usize::from(worst > 0);
+            difference.off_by_more_than_one += usize::from(worst > 1);
+            difference.worst = difference.worst.max(worst);
+        }
+    }
+    difference
+}
+
+/// Draws every frame of the manifest and reports those that are others now.
+pub(super) fn judge(
+    manifest: &Manifest,
+    experiment: &Experiment,
+    recording: &Recording,
+    artist: &mut Artist,
+    limits: Limits,
+    folder: Folder<'_>,
+    report: &mut Report,
+) -> Result<(), VerifyError> {
+    let frames = manifest.frames.len() as u32;
+    let schedule = Schedule { frames, ..recording.schedule };
+    if let Some(path) = folder.differences {
+        fs::create_dir_all(path).map_err(failure("make the directory", path))?;
+    }
+    let interrupted = watch_for_interrupt();
+    let progress = progress(frames);
+    let mut lab = recording.lab(experiment);
+    let mut logbook = Logbook::new(u64::MAX, &lab);
+    let run =
+        Run { artist, lab: &mut lab, logbook: &mut logbook, schedule, interrupted: &interrupted };
+    let (mut entries, mut changes) = (manifest.frames.iter(), Vec::new());
+    let size_px = recording.size_px;
+    let drawn = run.draw_all(|drawn| {
+        let entry = entries.next().expect("as many frames are drawn as are listed");
+        let change = compare(entry, size_px, &drawn.rgba, limits, folder)?;
+        changes.extend(change.map(|what| FrameChange { file: entry.file.clone(), what }));
+        progress.inc(1);
+        Ok(())
+    });
+    progress.finish_and_clear();
+    let done = match drawn {
+        Ok(done) => done,
+        Err(Stop::Readback(error)) => return Err(CaptureError::from(error).into()),
+        Err(Stop::Taken(error)) => return Err(error),
+    };
+    if done < frames {
+        let whole = "nothing is written".into();
+        return Err(CaptureError::Interrupted { done, frames, whole }.into());
+    }
+    report.frames = Some(manifest.frames.iter().map(|entry| entry.file.clone()).collect());
+    report.is_exact = limits.max_channel == 0;
+    report.pixels = changes;
+    Ok(())
+}
+
+/// What is wrong with a frame, if anything is.
+fn compare(
+    entry: &FrameEntry,
+    size_px: [u32; 2],
+    now: &[u8],
+    limits: Limits,
+    folder: Folder<'_>,
+) -> Result<Option<String>, VerifyError> {
+    let path = folder.frames.join(&entry.file);
+    let then = match fs::read(&path) {
+        Ok(file) => match image::load_from_memory(&file) {
+            Ok(picture) => picture.into_rgba8(),
+            Err(error) => return Ok(Some(format!("cannot be decoded: {error}"))),
+        },
+        Err(error) => return Ok(Some(format!("cannot be read: {error}"))),
+    };
+    if then.dimensions() != size_px.into() {
+        let (width, height) = then.dimensions();
+        return Ok(Some(format!("is {width}x{height}, not {}x{}", size_px[0], size_px[1])));
+    }
+    let difference = difference(&then, now);
+    let was_altered = fingerprint(&then) != entry.pixels;
+    if limits.allow(&difference) && !was_altered {
+        return Ok(None);
+    }
+    let mut what = format!("{} pixels off, the worst by {}", difference.off, difference.worst);
+    if was_altered {
+        what.push_str("; the file was altered after the capture, its hash says");
+    }
+    if let Some(directory) = folder.differences.filter(|_| difference.off > 0) {
+        let path = directory.join(&entry.file);
+        let picture = picture_of(&then, now, difference.worst);
+        write_whole(&path, &png::encode(size_px, &picture))?;
+        what.push_str(&format!("; see {}", path.display()));
+    }
+    Ok(Some(what))
+}
+
+/// Each channel's difference, the worst as 255.
+fn picture_of(a: &[u8], b: &[u8], worst: u8) -> Vec<u8> {
+    let scaled =
+        |(a, b): (&u8, &u8)| (u32::from(a.abs_diff(*b)) * 255 / u32::from(worst.max(1))) as u8;
+    let mut picture: Vec<u8> = a.iter().zip(b).map(scaled).collect();
+    picture.iter_mut().skip(3).step_by(4).for_each(|alpha| *alpha = 255);
+    picture
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_pixel_and_one_level_are_seen() {
+        let black = vec![0; 4 * 200];
+        let mut other = black.clone();
+        assert_eq!(difference(&black, &other), Difference { pixels: 200, ..Default::default() });
+        other[7] = 1;
+        let one = difference(&black, &other);
+        assert_eq!((one.off, one.off_by_more_than_one, one.worst), (1, 0, 1));
+        assert!(!Limits::of(true, None, None).allow(&one));
+        assert!(Limits::of(false, None, None).allow(&one));
+        other[40] = 3;
+        let two = difference(&black, &other);
+        assert_eq!((two.off, two.off_by_more_than_one, two.worst), (2, 1, 3));
+        assert!(!Limits::of(false, None, None).allow(&two));
+        assert!(!Limits::of(false, Some(3), Some(0.4)).allow(&two));
+        assert!(Limits::of(false, Some(3), Some(0.6)).allow(&two));
+        let picture = picture_of(&black, &other, two.worst);
+        assert_eq!(picture[4..8], [0, 0, 0, 255]);
+        assert_eq!(picture[40..44], [255, 0, 0, 255]);
+    }
+}

@@ -1,0 +1,63 @@
+//! From frame to frame of a recording, by a clock that is computed and not read.
+
+use crate::lab::{Clock, Lab};
+
+/// When frames are: `frames` of them, the first at the start, `fps` in a simulated second.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Schedule {
+    pub(super) frames: u32,
+    pub(super) fps: u32,
+}
+
+const SECOND_NS: u64 = 1_000_000_000;
+
+impl Schedule {
+    /// When `frame` is, in nanoseconds: rounded up, so that a tick due at that very moment is done.
+    pub(super) fn time_ns(self, frame: u32) -> u64 {
+        (u64::from(frame) * SECOND_NS).div_ceil(u64::from(self.fps))
+    }
+
+    /// The tick of the last frame, at a rate that stays.
+    pub(super) fn ticks(self, tick_hz: u32) -> u64 {
+        u64::from(self.frames.saturating_sub(1)) * u64::from(tick_hz) / u64::from(self.fps)
+    }
+
+    /// Advances a lab that stands at the frame before `frame`, or at the start, to `frame`.
+    pub(super) fn advance(self, lab: &mut Lab, frame: u32, mut after_tick: impl FnMut(&Lab)) {
+        let Some(before) = frame.checked_sub(1) else { return };
+        let longest = u64::from(Clock::LONGEST_FRAME_MS) * 1_000_000;
+        let mut left = self.time_ns(frame) - self.time_ns(before);
+        // In stretches that the clock takes whole.
+        while left > 0 {
+            let stretch = left.min(longest);
+            let due = lab.advance_seen(stretch as i64, &mut after_tick);
+            assert_eq!(due.dropped, 0, "a stretch is no longer than the clock's longest frame");
+            left -= stretch;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Scene;
+
+    #[test]
+    fn each_frame_has_just_the_ticks_that_are_due() {
+        for (tick_hz, fps) in
+            [(60, 30), (60, 60), (49, 30), (60, 24), (7, 1), (10_000, 3), (1, 1000)]
+        {
+            let mut scene = Scene::built_in("spring").unwrap();
+            scene.tick_hz = tick_hz;
+            let mut lab = Lab::new(scene);
+            let schedule = Schedule { frames: 2 * fps, fps };
+            let mut seen = 0;
+            for frame in 0..=schedule.frames {
+                schedule.advance(&mut lab, frame, |_| seen += 1);
+                let due = u64::from(frame) * u64::from(tick_hz) / u64::from(fps);
+                assert_eq!(lab.race().tick(), due, "frame {frame}, {tick_hz} Hz, {fps} fps");
+                assert_eq!(seen, due);
+            }
+        }
+    }
+}

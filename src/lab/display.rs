@@ -1,0 +1,98 @@
+//! How a lab is looked at, and what it asks of its driver.
+
+use super::metrics::METRICS;
+
+/// One method at a time, or all of them at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// One lane, whose method is switched in flight.
+    Solo,
+    /// A lane for every method that the scene lists, and one for the method last flown solo.
+    Race,
+}
+
+/// How a body is drawn between two ticks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// The last tick's state as it is.
+    Raw,
+    /// A straight line between the last two ticks.
+    Linear,
+    /// A cubic through the last two ticks with the velocities known there.
+    Hermite,
+}
+
+impl Interpolation {
+    /// The name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Interpolation::Raw => "raw",
+            Interpolation::Linear => "linear",
+            Interpolation::Hermite => "Hermite",
+        }
+    }
+}
+
+/// The instruments of the lower plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Instrument {
+    /// The metric on this place of [`METRICS`], over time.
+    Metric(usize),
+    /// Velocity over coordinate.
+    Phase,
+    /// Which method to take, and at what rate.
+    Advice,
+}
+
+impl Instrument {
+    /// Every instrument, in the order of the tabs.
+    pub fn all() -> impl Iterator<Item = Instrument> {
+        (0..METRICS.len()).map(Instrument::Metric).chain([Instrument::Phase, Instrument::Advice])
+    }
+
+    /// The name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Instrument::Metric(index) => METRICS[index].name,
+            Instrument::Phase => "phase",
+            Instrument::Advice => "advice",
+        }
+    }
+}
+
+/// How the lab is looked at; nothing here touches the physics.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Display {
+    /// Whether the exact ghost is drawn.
+    pub ghost: bool,
+    /// How bodies are drawn between ticks.
+    pub interpolation: Interpolation,
+    /// What the lower plot shows.
+    pub instrument: Instrument,
+    /// The body that the plots and the lane list speak of, by its place in the scene.
+    pub body: usize,
+    /// Whether the help overlay is open.
+    pub help: bool,
+    /// Whether trails fade and the camera follows smoothly.
+    pub motion: bool,
+}
+
+/// How fast the driver of the lab goes; only it can know.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// Frames drawn in a second of real time.
+    pub frames_per_second: f64,
+    /// Simulated seconds in a second of real time.
+    pub real_time_factor: f64,
+}
+
+/// What the lab asks of its driver after a command that is not the lab's business.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ask {
+    /// Save what is shown to a file.
+    Screenshot,
+    /// Enter or leave full screen.
+    ToggleFullScreen,
+    /// End the program.
+    Quit,
+}

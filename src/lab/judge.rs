@@ -1,0 +1,306 @@
+//! How far a lane strays from the truth over a scene, and whether it holds: what verdicts and advice
+//! are made of.
+//!
+//! A scene is judged from its start, without its script, under one throttle from beginning to end.
+
+use super::lane::Lane;
+use super::scene::{LaneSpec, Scene};
+use super::verdict::{Fate, Verdict};
+use crate::sim::bodies::{Coordinate, Input};
+use crate::sim::stability::{Stability, Tick};
+use crate::sim::{Solver, Stepper};
+
+/// The error that still counts as accurate: a hundredth of the amplitude, about what can be seen.
+pub const TOLERANCE: f64 = 0.01;
+
+/// The longest stretch that is judged, in simulated seconds. Shorter scenes are judged whole; longer
+/// ones would make a search for a rate take minutes.
+pub const LONGEST_HORIZON_S: f64 = 60.0;
+
+/// Moments at which a lane is held against the truth: some twenty a turn of what turns once a second.
+const MOMENTS: u64 = 512;
+
+/// An error in amplitudes that no lane makes which only lags or leads: twice the range of the motion.
+const ASTRAY: f64 = 4.0;
+
+/// States of the true motion over which a nonlinear body's stability is averaged.
+const STATES: u32 = 32;
+
+/// A half range this small against the largest value is rounding: the body keeps that value.
+const KEEPS_STILL: f64 = 1e-9;
+
+/// The truth over a scene, to hold lanes against.
+pub struct Judge {
+    scene: Scene,
+    throttle: f64,
+    horizon_s: f64,
+    /// For each body, the amplitude of each component of its state, coordinates first.
+    amplitudes: Vec<Vec<f64>>,
+}
+
+/// How a lane fared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// The largest error of a coordinate or a velocity, as a part of its amplitude; infinite for a lane
+    /// that did not get through.
+    pub error: f64,
+    /// The body that is furthest off, or that failed, by its place in the scene.
+    pub body: usize,
+    /// What ended the lane, if something did.
+    pub fate: Option<Fate>,
+    /// Evaluations of all bodies' accelerations.
+    pub evaluations: u64,
+    /// How far the lane came, in simulated seconds.
+    pub seconds: f64,
+}
+
+impl Outcome {
+    /// Whether the error stayed within [`TOLERANCE`].
+    pub fn is_accurate(&self) -> bool {
+        self.error <= TOLERANCE
+    }
+}
+
+impl Judge {
+    /// For `scene` under this throttle, -1 to 1.
+    ///
+    /// The amplitude of a component is half the range that the truth covers in it, or in another
+    /// component of the same body and unit that covers more; of what keeps its value, that value.
+    pub fn new(scene: &Scene, throttle: f64) -> Self {
+        let horizon_s = scene.seconds.min(LONGEST_HORIZON_S);
+        let mut judge = Self { scene: scene.clone(), throttle, horizon_s, amplitudes: Vec::new() };
+        judge.amplitudes = judge.measure();
+        judge
+    }
+
+    /// The throttle that the scene is judged under.
+    pub fn throttle(&self) -> f64 {
+        self.throttle
+    }
+
+    /// The simulated seconds that lanes are held against the truth.
+    pub fn horizon_s(&self) -> f64 {
+        self.horizon_s
+    }
+
+    /// What is to be said of a lane at this tick rate.
+    pub fn verdict(&self, spec: LaneSpec, tick_hz: u32) -> Verdict {
+        self.verdict_within(spec, tick_hz, f64::INFINITY)
+    }
+
+    /// The same over no more than `most_s` seconds. Amplitudes stay those of the whole.
+    pub fn verdict_within(&self, spec: LaneSpec, tick_hz: u32, most_s: f64) -> Verdict {
+        let horizon_s = self.horizon_s.min(most_s);
+        let outcome = self.run(spec, tick_hz, horizon_s, f64::INFINITY);
+        Verdict::new(self.stability(spec, tick_hz), outcome, horizon_s)
+    }
+
+    /// How the method treats small deviations, the worst of all bodies in each respect: about the start
+    /// and, of a nonlinear body, in the mean over its true motion. `None` where the method cannot get
+    /// through its first ticks.
+    pub fn stability(&self, spec: LaneSpec, tick_hz: u32) -> Option<Stability> {
+        Some(self.over_the_motion(spec, tick_hz)?.0)
+    }
+
+    /// The same, and whether all bodies are linear.
+    fn over_the_motion(&self, spec: LaneSpec, tick_hz: u32) -> Option<(Stability, bool)> {
+        let each = self.truth().into_iter().map(|mut body| {
+            let h = 1.0 / f64::from(tick_hz);
+            let of = |body: &dyn Stepper, t: f64| {
+                let tick = Tick { t, h, substeps: spec.substeps };
+                Stability::of(body, spec.solver(), tick).ok()
+            };
+            let mut states = vec![of(&*body, 0.0)?];
+            let stretch = self.horizon_s / f64::from(STATES);
+            for i in 0..STATES {
+                let t = stretch * f64::from(i);
+                body.advance(t, stretch, 1).ok()?;
+                states.push(of(&*body, t + stretch)?);
+                if i == 0 && alike(&states[0], &states[1]) {
+                    return Some((states[0], true));
+                }
+            }
+            Some((mean(&states), false))
+        });
+        let all: Option<Vec<(Stability, bool)>> = each.collect();
+        all?.into_iter().reduce(|(a, a_linear), (b, b_linear)| (worse(a, b), a_linear && b_linear))
+    }
+
+    /// How a lane fares over the horizon at this tick rate, but no further than the error is within [`TOLERANCE`].
+    pub fn outcome_while_accurate(&self, spec: LaneSpec, tick_hz: u32) -> Outcome {
+        self.run(spec, tick_hz, self.horizon_s, TOLERANCE)
+    }
+
+    /// Whether no body's deviations grow and, where one is nonlinear and small deviations do not tell
+    /// all, none strays further than twice the range of its motion.
+    pub fn is_stable(&self, spec: LaneSpec, tick_hz: u32) -> bool {
+        let Some((stability, is_linear)) = self.over_the_motion(spec, tick_hz) else {
+            return false;
+        };
+        stability.is_bounded()
+            && (is_linear || self.run(spec, tick_hz, self.horizon_s, ASTRAY).error <= ASTRAY)
+    }
+
+    /// Coordinates of all bodies together.
+    pub(super) fn coordinates(&self) -> u64 {
+        self.amplitudes.iter().map(|body| body.len() as u64 / 2).sum()
+    }
+
+    /// What [`Self::stability`] takes, in evaluations of one coordinate's acceleration, roughly: some
+    /// twenty ticks of the body for each component, and the eigenvalues.
+    pub(super) fn work_for_stability(&self) -> u64 {
+        let of_body = |n: u64| 100 * n * n + 10 * n * n * n;
+        self.amplitudes.iter().map(|body| of_body(body.len() as u64)).sum()
+    }
+
+    /// Steps a lane to the horizon, or until its error is more than `enough`.
+    fn run(&self, spec: LaneSpec, tick_hz: u32, horizon_s: f64, enough: f64) -> Outcome {
+        let hz = f64::from(tick_hz);
+        let ticks = ((horizon_s * hz).round() as u64).max(1);
+        let stride = (ticks / MOMENTS).max(1);
+        let mut lane = Lane::new(&self.scene, spec.solver(), spec.substeps);
+        lane.input(0.0, Input::Throttle(self.throttle));
+        let mut truth = self.truth();
+        let (mut error, mut worst, mut tick, mut compared) = (0.0, 0, 0, 0);
+        while tick < ticks && error <= enough {
+            lane.tick(tick, tick as f64 / hz, 1.0 / hz);
+            tick += 1;
+            if lane.halted().is_some() {
+                break;
+            }
+            if tick.is_multiple_of(stride) || tick == ticks {
+                let (from, to) = (compared as f64 / hz, tick as f64 / hz);
+                compared = tick;
+                for (i, body) in truth.iter_mut().enumerate() {
+                    if body.advance(from, to - from, 1).is_err() {
+                        continue;
+                    }
+                    let off = self.error(i, &*lane.bodies()[i].stepper, &**body);
+                    if off > error {
+                        (error, worst) = (off, i);
+                    }
+                }
+            }
+        }
+        let fate = lane.halted().map(|halt| {
+            (error, worst) = (f64::INFINITY, halt.body);
+            Fate { t: halt.tick as f64 / hz, failure: halt.failure.clone() }
+        });
+        let (evaluations, seconds) = (lane.evaluations(), tick as f64 / hz);
+        Outcome { error, body: worst, fate, evaluations, seconds }
+    }
+
+    /// The largest error of a component of this body, in amplitudes.
+    fn error(&self, body: usize, lane: &dyn Stepper, truth: &dyn Stepper) -> f64 {
+        let pairs = components(lane).zip(components(truth)).zip(&self.amplitudes[body]);
+        pairs.map(|((lane, truth), amplitude)| (lane - truth).abs() / amplitude).fold(0.0, f64::max)
+    }
+
+    /// Every body at its start on the exact flow.
+    fn truth(&self) -> Vec<Box<dyn Stepper>> {
+        let bodies = self.scene.bodies.iter().map(|body| {
+            let mut stepper = (body.kind.build)(&body.values, Solver::Truth);
+            stepper.input(0.0, Input::Throttle(self.throttle));
+            stepper
+        });
+        bodies.collect()
+    }
+
+    fn measure(&self) -> Vec<Vec<f64>> {
+        let mut truth = self.truth();
+        let mut ranges: Vec<Vec<(f64, f64)>> =
+            truth.iter().map(|body| components(&**body).map(|x| (x, x)).collect()).collect();
+        let at = |moment: u64| self.horizon_s * moment as f64 / MOMENTS as f64;
+        for moment in 0..MOMENTS {
+            for (body, ranges) in truth.iter_mut().zip(&mut ranges) {
+                if body.advance(at(moment), at(moment + 1) - at(moment), 1).is_ok() {
+                    for (range, x) in ranges.iter_mut().zip(components(&**body)) {
+                        *range = (range.0.min(x), range.1.max(x));
+                    }
+                }
+            }
+        }
+        let bodies = ranges.iter().zip(&self.scene.bodies);
+        bodies
+            .map(|(ranges, body)| amplitudes(ranges, (body.kind.coordinates)(&body.values)))
+            .collect()
+    }
+}
+
+fn components(stepper: &dyn Stepper) -> impl Iterator<Item = f64> {
+    stepper.q().iter().chain(stepper.v()).copied()
+}
+
+/// The amplitude of each component, from what the truth covers.
+fn amplitudes(ranges: &[(f64, f64)], coordinates: &[Coordinate]) -> Vec<f64> {
+    let n = ranges.len() / 2;
+    let unit = |i: usize| coordinates[i % n].unit;
+    let alike = |i: usize| (0..2 * n).filter(move |&j| i / n == j / n && unit(i) == unit(j));
+    let most =
+        |of: fn(&(f64, f64)) -> f64, i: usize| alike(i).map(|j| of(&ranges[j])).fold(0.0, f64::max);
+    let amplitude = |i: usize| {
+        let half = most(|(low, high)| (high - low) / 2.0, i);
+        let largest = most(|(low, high)| low.abs().max(high.abs()), i);
+        match (half > KEEPS_STILL * largest, largest > 0.0) {
+            (true, _) => half,
+            (false, true) => largest,
+            (false, false) => 1.0,
+        }
+    };
+    (0..2 * n).map(amplitude).collect()
+}
+
+/// Whether a body is seen to be linear: the same in two states.
+fn alike(a: &Stability, b: &Stability) -> bool {
+    let near = |a: f64, b: f64| a == b || (a - b).abs() <= 1e-6 * (1e-3 + a.abs());
+    near(a.spectral_radius, b.spectral_radius) && near(a.growth_per_s, b.growth_per_s)
+}
+
+fn mean(states: &[Stability]) -> Stability {
+    let of =
+        |value: fn(&Stability) -> f64| states.iter().map(value).sum::<f64>() / states.len() as f64;
+    let errors: Vec<f64> = states.iter().filter_map(|s| s.frequency_error).collect();
+    let frequency_error = errors.iter().sum::<f64>() / errors.len() as f64;
+    Stability {
+        spectral_radius: of(|s| s.spectral_radius),
+        growth_per_s: of(|s| s.growth_per_s),
+        loss_per_s: of(|s| s.loss_per_s),
+        frequency_error: (!errors.is_empty()).then_some(frequency_error),
+    }
+}
+
+fn worse(a: Stability, b: Stability) -> Stability {
+    let frequency_error = match (a.frequency_error, b.frequency_error) {
+        (Some(a), Some(b)) => Some(if a.abs() > b.abs() { a } else { b }),
+        (a, b) => a.or(b),
+    };
+    Stability {
+        spectral_radius: a.spectral_radius.max(b.spectral_radius),
+        growth_per_s: a.growth_per_s.max(b.growth_per_s),
+        loss_per_s: a.loss_per_s.max(b.loss_per_s),
+        frequency_error,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::bodies::kind;
+
+    #[test]
+    fn the_amplitude_is_half_the_range_or_what_is_kept() {
+        let ship = kind("ship").unwrap().plain_coordinates();
+        assert_eq!(amplitudes(&[(-1.0, 3.0), (20.0, 20.0)], ship), [2.0, 20.0]);
+        assert_eq!(amplitudes(&[(0.0, 0.0), (5.0, 5.0 + 1e-12)], ship), [1.0, 5.0 + 1e-12]);
+    }
+
+    #[test]
+    fn a_swing_of_one_metre_has_an_amplitude_of_one_metre() {
+        let judge = Judge::new(&Scene::built_in("spring").unwrap(), 1.0);
+        let [q, v] = judge.amplitudes[0][..] else { panic!("one coordinate") };
+        assert!(
+            (q - 1.0).abs() < 1e-4 && (v / std::f64::consts::TAU - 1.0).abs() < 1e-3,
+            "{q}, {v}"
+        );
+    }
+}

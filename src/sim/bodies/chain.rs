@@ -1,0 +1,287 @@
+//! Equal masses in a row, joined by equal springs with dash-pots to each other and to a wall at either
+//! end.
+//!
+//! A dash-pot in each spring, as one on each mass would, acts on every normal mode by itself: the modes
+//! stay apart, and the motion has a closed form. Here the damping of a mode grows with the square of its
+//! frequency, so that one chain has modes that swing and modes that creep.
+
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+use glam::DVec2;
+
+use super::{
+    Body, Coordinate, Fault, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View, oscillator,
+};
+use crate::sim::{State, System, stepper};
+
+/// The most masses in a chain: as many as can be told apart on a wide stage. The closed form takes the
+/// square of this many multiplications for a tick.
+const MOST_MASSES: u32 = 256;
+
+/// x1, x2 …
+static COORDINATES: LazyLock<Vec<Coordinate>> = LazyLock::new(|| {
+    let coordinate = |n| Coordinate {
+        name: String::leak(format!("x{n}")),
+        velocity: String::leak(format!("v{n}")),
+        unit: "m",
+    };
+    (1..=MOST_MASSES).map(coordinate).collect()
+});
+
+pub(super) const KIND: Kind = Kind {
+    id: "chain",
+    about: "m xᵢ″ = Σ k (xⱼ - xᵢ) + c (xⱼ - xᵢ)′, j = i ± 1: masses joined by springs between two walls",
+    coordinates: |values| &COORDINATES[..values[0] as usize],
+    parameters: &[
+        Parameter {
+            key: "masses",
+            about: "how many masses there are",
+            default: Some(8.0),
+            range: Range::Count(MOST_MASSES),
+        },
+        Parameter {
+            key: "mass_kg",
+            about: "m, each mass",
+            default: None,
+            range: Range::Positive(LARGEST),
+        },
+        Parameter {
+            key: "stiffness_n_per_m",
+            about: "k, the force of each spring for each metre of stretch",
+            default: None,
+            range: Range::Positive(LARGEST),
+        },
+        Parameter {
+            key: "damping_n_s_per_m",
+            about: "c, the force of each spring's dash-pot for each metre per second of stretching",
+            default: Some(0.0),
+            range: Range::NonNegative(LARGEST),
+        },
+        Parameter {
+            key: "plucked_mass",
+            about: "the mass that is held aside at the start, and that a kick hits",
+            default: Some(1.0),
+            range: Range::Count(MOST_MASSES),
+        },
+        Parameter {
+            key: "x0_m",
+            about: "how far aside it is held; the others are in line between it and the walls",
+            default: Some(1.0),
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "kick_n_s",
+            about: "the impulse of one kick",
+            default: Some(3.0),
+            range: Range::Within(LARGEST),
+        },
+    ],
+    inputs: &["kick"],
+    truth: Truth::Exact,
+    check: |values| match values {
+        [masses, .., plucked, _, _] if plucked > masses => Err(Fault {
+            key: "plucked_mass",
+            what: format!("`plucked_mass` is {plucked}, of {masses} masses"),
+            remedy: format!("write a whole number from 1 to {masses}, or more `masses`"),
+        }),
+        _ => Ok(()),
+    },
+    build: |values, solver| {
+        let &[masses, mass, stiffness, damping, plucked, x0, kick] = values else {
+            unreachable!("one value a key")
+        };
+        let (masses, plucked) = (masses as usize, plucked as usize);
+        stepper(Chain::new(masses, mass, stiffness, damping, plucked, x0, kick), solver)
+    },
+};
+
+/// A chain of masses. Its coordinates are their displacements, in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    /// How many masses there are.
+    masses: usize,
+    /// m, in kilograms.
+    mass: f64,
+    /// k, in newtons per metre.
+    stiffness: f64,
+    /// c, in newtons for each metre per second.
+    damping: f64,
+    /// The mass that is plucked and kicked, from 1.
+    plucked: usize,
+    /// Its displacement at the start, in metres.
+    x0: f64,
+    /// The impulse of one kick, in newton seconds.
+    kick: f64,
+    /// `sin(π i / (N + 1))` for i from 0 to 2 N + 1: mass j in mode n moves as far as i = j n, round,
+    /// says.
+    sines: Vec<f64>,
+}
+
+impl Chain {
+    /// `masses` of `mass` kg, joined by springs of `stiffness` N/m with dash-pots of `damping` N·s/m;
+    /// number `plucked`, from 1, is held at `x0` m and kicked with `kick` N·s.
+    ///
+    /// # Panics
+    /// If `plucked` is not from 1 to `masses`.
+    pub fn new(
+        masses: usize,
+        mass: f64,
+        stiffness: f64,
+        damping: f64,
+        plucked: usize,
+        x0: f64,
+        kick: f64,
+    ) -> Self {
+        assert!((1..=masses).contains(&plucked), "mass {plucked} of {masses}");
+        let sine = |i: usize| libm::sin(PI * i as f64 / (masses + 1) as f64);
+        // By the symmetry of the sine, so that equal numbers are equal to the bit.
+        let quarter = |i: usize| sine(i.min(masses + 1 - i));
+        let half = (0..=masses).map(quarter);
+        let sines = half.clone().chain(half.map(|sine| -sine)).collect();
+        Self { masses, mass, stiffness, damping, plucked, x0, kick, sines }
+    }
+
+    /// The undamped angular frequency of mode `n`, from 1, in radians per second.
+    pub fn angular_frequency(&self, n: usize) -> f64 {
+        let half = PI * n as f64 / (2 * (self.masses + 1)) as f64;
+        2.0 * (self.stiffness / self.mass).sqrt() * libm::sin(half)
+    }
+
+    /// How far each mass moves in mode `n`, from 1, of amplitude 1.
+    fn shape(&self, n: usize) -> impl Iterator<Item = f64> {
+        let mut i = 0;
+        (0..self.masses).map(move |_| {
+            i += n;
+            if i >= self.sines.len() {
+                i -= self.sines.len();
+            }
+            self.sines[i]
+        })
+    }
+
+    /// The displacement of the plucked mass at the start, for scale, in metres.
+    fn amplitude(&self) -> f64 {
+        if self.x0 == 0.0 { 1.0 } else { self.x0.abs() }
+    }
+}
+
+impl System for Chain {
+    type Vector = Vec<f64>;
+
+    #[inline]
+    fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        let (k, c) = (self.stiffness / self.mass, self.damping / self.mass);
+        // What each mass gives to either side; the walls give nothing.
+        let mut left = 0.0;
+        let mut here = k * q[0] + c * v[0];
+        let last = q.len() - 1;
+        for ((a, q), v) in a.iter_mut().zip(&q[1..]).zip(&v[1..]) {
+            let right = k * q + c * v;
+            *a = left - 2.0 * here + right;
+            left = here;
+            here = right;
+        }
+        a[last] = left - 2.0 * here;
+    }
+}
+
+impl Body for Chain {
+    fn start(&self) -> State<Vec<f64>> {
+        let (held, walls) = (self.plucked as f64, (self.masses + 1) as f64);
+        let aside = |j: usize| {
+            let j = j as f64;
+            self.x0 * if j <= held { j / held } else { (walls - j) / (walls - held) }
+        };
+        State { q: (1..=self.masses).map(aside).collect(), v: vec![0.0; self.masses] }
+    }
+
+    fn exact(&self, dt: f64, from: &State<Vec<f64>>) -> Option<State<Vec<f64>>> {
+        let mut to = from.clone();
+        self.exact_into(dt, from, &mut to).then_some(to)
+    }
+
+    fn exact_into(&self, dt: f64, from: &State<Vec<f64>>, to: &mut State<Vec<f64>>) -> bool {
+        to.q.fill(0.0);
+        to.v.fill(0.0);
+        let norm = 2.0 / (self.masses + 1) as f64;
+        for n in 1..=self.masses {
+            let mut mode = State { q: 0.0, v: 0.0 };
+            for ((q, v), shape) in from.q.iter().zip(&from.v).zip(self.shape(n)) {
+                mode.q += norm * shape * q;
+                mode.v += norm * shape * v;
+            }
+            let omega = self.angular_frequency(n);
+            let alpha = self.damping / self.stiffness * omega * omega / 2.0;
+            let mode = oscillator::flow(omega * omega, alpha, dt, &mode);
+            for ((q, v), shape) in to.q.iter_mut().zip(&mut to.v).zip(self.shape(n)) {
+                *q += shape * mode.q;
+                *v += shape * mode.v;
+            }
+        }
+        true
+    }
+
+    fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
+        let kinetic: f64 = state.v.iter().map(|v| self.mass * v * v).sum();
+        let mut last = 0.0;
+        let mut potential = 0.0;
+        for &q in state.q.iter().chain([&0.0]) {
+            potential += self.stiffness * (q - last) * (q - last);
+            last = q;
+        }
+        (self.damping == 0.0).then_some((kinetic + potential) / 2.0)
+    }
+
+    fn input(&mut self, input: Input, state: &mut State<Vec<f64>>) -> bool {
+        match input {
+            Input::Kick(times) => state.v[self.plucked - 1] += times * self.kick / self.mass,
+            Input::Throttle(_) | Input::Rudder(_) => return false,
+        }
+        true
+    }
+
+    fn place(&self, q: &Vec<f64>) -> DVec2 {
+        self.drawn(self.plucked, q[self.plucked - 1])
+    }
+
+    /// The displacements are along the chain; they are drawn across it, where they do not hide each
+    /// other.
+    fn outline(&self, state: &State<Vec<f64>>, pen: &mut Pen) {
+        let unit = self.amplitude();
+        let half_wall = DVec2::Y * 0.5 * unit;
+        let mut last = self.drawn(0, 0.0);
+        for (j, &q) in (1..).zip(state.q.iter().chain([&0.0])) {
+            let next = self.drawn(j, q);
+            pen.line(last, next, 0.7);
+            last = next;
+        }
+        for end in [self.drawn(0, 0.0), last] {
+            pen.line(end - half_wall, end + half_wall, 2.0);
+        }
+        let room = 2.0 * HALF_LENGTH * unit / (self.masses + 1) as f64;
+        for (j, &q) in (1..).zip(&state.q) {
+            let at = self.drawn(j, q);
+            pen.taper(at, (0.28 * room).min(0.11 * unit), at, (0.28 * room).min(0.11 * unit));
+        }
+    }
+
+    fn view(&self) -> View {
+        View::Fixed {
+            centre_m: DVec2::ZERO,
+            half_m: DVec2::new(1.08 * HALF_LENGTH, 1.15) * self.amplitude(),
+            trail_s: 0.0,
+        }
+    }
+}
+
+/// Half the length of the chain as drawn, in units of how far it is plucked.
+const HALF_LENGTH: f64 = 2.4;
+
+impl Chain {
+    /// Where mass `j`, from 1, is drawn when it is displaced by `x`.
+    fn drawn(&self, j: usize, x: f64) -> DVec2 {
+        let part = j as f64 / (self.masses + 1) as f64;
+        DVec2::new((2.0 * part - 1.0) * HALF_LENGTH * self.amplitude(), x)
+    }
+}

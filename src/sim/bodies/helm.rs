@@ -1,0 +1,254 @@
+//! A ship that is steered: surge and sway of its centre of mass, and yaw, the angular equation of
+//! motion. Its thrust is read off a table over its speed.
+//!
+//! In the water's frame, so that the coordinates are what the equation is of second order in:
+//! `m (vx, vy)′ = (δₜ T(u) - C u) bow - S w port` and `I r′ = δᵣ L u - D r`, with the surge `u` along
+//! the bow and the sway `w` to port.
+
+use glam::{DVec2, DVec3};
+
+use super::{Body, Coordinate, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View};
+use crate::sim::{State, System, stepper};
+
+pub(super) const KIND: Kind = Kind {
+    id: "helm",
+    about: "m v′ = thrust(u) - C u ahead, - S w abeam; I r′ = rudder L u - D r: a ship that is steered",
+    coordinates: |_| {
+        &[
+            Coordinate { name: "x", velocity: "vx", unit: "m" },
+            Coordinate { name: "y", velocity: "vy", unit: "m" },
+            Coordinate { name: "psi", velocity: "r", unit: "rad" },
+        ]
+    },
+    parameters: &[
+        Parameter {
+            key: "mass_kg",
+            about: "m, the mass",
+            default: None,
+            range: Range::Positive(LARGEST),
+        },
+        Parameter {
+            key: "inertia_kg_m2",
+            about: "I, the moment of inertia about the upright axis",
+            default: None,
+            range: Range::Positive(LARGEST),
+        },
+        Parameter {
+            key: "drag_n_s_per_m",
+            about: "C, the drag for each metre per second ahead",
+            default: None,
+            range: Range::NonNegative(LARGEST),
+        },
+        Parameter {
+            key: "side_drag_n_s_per_m",
+            about: "S, the drag for each metre per second sideways",
+            default: None,
+            range: Range::NonNegative(LARGEST),
+        },
+        Parameter {
+            key: "yaw_drag_n_m_s",
+            about: "D, the moment against turning for each radian per second",
+            default: None,
+            range: Range::NonNegative(LARGEST),
+        },
+        Parameter {
+            key: "rudder_n_s",
+            about: "L, the moment of the full rudder for each metre per second ahead",
+            default: None,
+            range: Range::NonNegative(LARGEST),
+        },
+        Parameter {
+            key: "x0_m",
+            about: "x at the start",
+            default: Some(0.0),
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "y0_m",
+            about: "y at the start",
+            default: Some(0.0),
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "psi0_rad",
+            about: "the heading at the start, counter-clockwise from x",
+            default: Some(0.0),
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "u0_m_per_s",
+            about: "the speed ahead at the start",
+            default: Some(0.0),
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "kick_n_s",
+            about: "the impulse of one kick, ahead",
+            default: Some(20_000.0),
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "thrust_curve",
+            about: "the full thrust at speeds ahead: straight between them, level beyond them",
+            default: None,
+            range: Range::Curve { x: "m/s", y: "N" },
+        },
+    ],
+    inputs: &["throttle", "rudder", "kick"],
+    truth: Truth::Reference,
+    check: |_| Ok(()),
+    build: |values, solver| {
+        let &[
+            mass,
+            inertia,
+            drag,
+            side_drag,
+            yaw_drag,
+            rudder_moment,
+            x0,
+            y0,
+            psi0,
+            u0,
+            kick,
+            ref points @ ..,
+        ] = values
+        else {
+            unreachable!("one value a key, and two a point")
+        };
+        let helm = Helm {
+            mass,
+            inertia,
+            drag,
+            side_drag,
+            yaw_drag,
+            rudder_moment,
+            thrust: ThrustCurve::new(points.chunks_exact(2).map(|point| [point[0], point[1]])),
+            throttle: 1.0,
+            rudder: 0.0,
+            q0: DVec3::new(x0, y0, psi0),
+            u0,
+            kick,
+        };
+        stepper(helm, solver)
+    },
+};
+
+/// Thrust over speed, from a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThrustCurve {
+    /// Speeds in metres per second with the thrust there in newtons, in order of speed.
+    points: Vec<[f64; 2]>,
+}
+
+impl ThrustCurve {
+    /// The curve through points of a speed in m/s and a thrust in N.
+    ///
+    /// # Panics
+    /// If there is none, or if the speeds do not rise.
+    pub fn new(points: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        let points: Vec<_> = points.into_iter().collect();
+        assert!(!points.is_empty(), "a curve without a point");
+        assert!(points.is_sorted_by(|a, b| a[0] < b[0]), "speeds that do not rise: {points:?}");
+        Self { points }
+    }
+
+    /// The thrust at `speed`, in newtons: straight between the points, level beyond them.
+    #[inline]
+    pub fn at(&self, speed: f64) -> f64 {
+        let above = self.points.partition_point(|point| point[0] <= speed);
+        match (above.checked_sub(1).map(|below| self.points[below]), self.points.get(above)) {
+            (Some([x0, y0]), Some([x1, y1])) => y0 + (speed - x0) / (x1 - x0) * (y1 - y0),
+            (Some([_, y]), None) | (None, Some(&[_, y])) => y,
+            (None, None) => unreachable!("a curve has a point"),
+        }
+    }
+}
+
+/// A ship that is steered. Its coordinates are its place, x and y in metres, and its heading ψ, in
+/// radians counter-clockwise from x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Helm {
+    /// m, in kilograms.
+    pub mass: f64,
+    /// I, in kilogram square metres.
+    pub inertia: f64,
+    /// C, in newtons for each metre per second ahead.
+    pub drag: f64,
+    /// S, in newtons for each metre per second sideways.
+    pub side_drag: f64,
+    /// D, in newton metres for each radian per second.
+    pub yaw_drag: f64,
+    /// L, in newton metres for each metre per second ahead.
+    pub rudder_moment: f64,
+    /// T, over the speed ahead.
+    pub thrust: ThrustCurve,
+    /// The part of the full thrust that is set, -1 to 1.
+    pub throttle: f64,
+    /// The part of the full rudder that is laid, -1 to 1; positive turns left.
+    pub rudder: f64,
+    /// Place and heading at the start.
+    pub q0: DVec3,
+    /// Speed ahead at the start, in metres per second.
+    pub u0: f64,
+    /// The impulse of one kick, in newton seconds.
+    pub kick: f64,
+}
+
+fn bow(heading: f64) -> DVec2 {
+    DVec2::new(libm::cos(heading), libm::sin(heading))
+}
+
+impl System for Helm {
+    type Vector = DVec3;
+
+    #[inline]
+    fn acceleration(&self, _t: f64, q: &DVec3, v: &DVec3, a: &mut DVec3) {
+        let (bow, r) = (bow(q.z), v.z);
+        let port = bow.perp();
+        let (u, w) = (bow.dot(v.truncate()), port.dot(v.truncate()));
+        let ahead = self.throttle * self.thrust.at(u) - self.drag * u;
+        let abeam = -self.side_drag * w;
+        let turning = self.rudder * self.rudder_moment * u - self.yaw_drag * r;
+        *a = ((ahead * bow + abeam * port) / self.mass).extend(turning / self.inertia);
+    }
+}
+
+impl Body for Helm {
+    fn start(&self) -> State<DVec3> {
+        State { q: self.q0, v: (self.u0 * bow(self.q0.z)).extend(0.0) }
+    }
+
+    fn exact(&self, _dt: f64, _from: &State<DVec3>) -> Option<State<DVec3>> {
+        None
+    }
+
+    fn energy(&self, _state: &State<DVec3>) -> Option<f64> {
+        None
+    }
+
+    fn input(&mut self, input: Input, state: &mut State<DVec3>) -> bool {
+        match input {
+            Input::Throttle(part) => self.throttle = part,
+            Input::Rudder(part) => self.rudder = part,
+            Input::Kick(times) => {
+                state.v += (times * self.kick / self.mass * bow(state.q.z)).extend(0.0);
+            }
+        }
+        true
+    }
+
+    fn place(&self, q: &DVec3) -> DVec2 {
+        q.truncate()
+    }
+
+    fn outline(&self, state: &State<DVec3>, pen: &mut Pen) {
+        pen.hull(bow(state.q.z), 0.15 * WIDTH_M);
+    }
+
+    fn view(&self) -> View {
+        View::Follow { width_m: WIDTH_M, height_m: 0.6 * WIDTH_M, wake_s: 10.0 }
+    }
+}
+
+/// What is shown across, in metres: a turning circle.
+const WIDTH_M: f64 = 150.0;

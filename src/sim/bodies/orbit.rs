@@ -1,0 +1,170 @@
+//! A satellite about a fixed centre that pulls as Newton's law says: `r″ = -μ r / |r|³`.
+
+use glam::DVec2;
+
+use super::{
+    Body, Coordinate, Fault, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View, kepler,
+};
+use crate::sim::{State, System, stepper};
+
+pub(super) const KIND: Kind = Kind {
+    id: "orbit",
+    about: "r″ = -μ r / |r|³: a satellite about a fixed centre, on an ellipse, parabola or hyperbola",
+    coordinates: |_| {
+        &[
+            Coordinate { name: "x", velocity: "vx", unit: "m" },
+            Coordinate { name: "y", velocity: "vy", unit: "m" },
+        ]
+    },
+    parameters: &[
+        Parameter {
+            key: "mu_m3_per_s2",
+            about: "μ, the pull of the centre, at the origin, times the distance squared",
+            default: None,
+            range: Range::Positive(LARGEST),
+        },
+        Parameter {
+            key: "x0_m",
+            about: "x at the start",
+            default: None,
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "y0_m",
+            about: "y at the start",
+            default: Some(0.0),
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "vx0_m_per_s",
+            about: "the velocity along x at the start",
+            default: Some(0.0),
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "vy0_m_per_s",
+            about: "the velocity along y at the start",
+            default: None,
+            range: Range::Within(LARGEST),
+        },
+        Parameter {
+            key: "kick_m_per_s",
+            about: "what one kick adds to the speed, along the path",
+            default: Some(0.1),
+            range: Range::Within(LARGEST),
+        },
+    ],
+    inputs: &["kick"],
+    truth: Truth::Exact,
+    check: |values| match values {
+        [_, 0.0, 0.0, ..] => Err(Fault {
+            key: "x0_m",
+            what: "the orbit starts at its centre, where the pull is infinite".into(),
+            remedy: "write an `x0_m` or a `y0_m` other than 0".into(),
+        }),
+        _ => Ok(()),
+    },
+    build: |values, solver| {
+        let &[mu, x0, y0, vx0, vy0, kick] = values else { unreachable!("one value a key") };
+        let (q0, v0) = (DVec2::new(x0, y0), DVec2::new(vx0, vy0));
+        stepper(Orbit { mu, q0, v0, kick }, solver)
+    },
+};
+
+/// A satellite of no mass to speak of; its energy is for each kilogram. Its coordinates are its place
+/// from the centre, in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Orbit {
+    /// μ, in cubic metres per second squared.
+    pub mu: f64,
+    /// Place at the start, in metres; not the centre.
+    pub q0: DVec2,
+    /// Velocity at the start, in metres per second.
+    pub v0: DVec2,
+    /// What one kick adds to the speed, in metres per second.
+    pub kick: f64,
+}
+
+/// An ellipse about the centre.
+struct Ellipse {
+    middle: DVec2,
+    /// How far it reaches from there along x and along y.
+    half: DVec2,
+    period_s: f64,
+}
+
+impl Orbit {
+    /// The ellipse that the start lies on, if it is one.
+    fn ellipse(&self) -> Option<Ellipse> {
+        let Self { mu, q0, v0, .. } = *self;
+        let beta = 2.0 * mu / q0.length() - v0.length_squared();
+        let period_s = kepler::period(mu, beta)?;
+        let semi_major = mu / beta;
+        // Towards the periapsis, as long as the orbit is eccentric.
+        let momentum = q0.perp_dot(v0);
+        let eccentricity = -v0.perp() * momentum / mu - q0 / q0.length();
+        let minor_squared = (1.0 - eccentricity.length_squared()).max(0.0);
+        let along = eccentricity.try_normalize().unwrap_or(DVec2::X);
+        let reach = |along: f64, across: f64| {
+            semi_major * (along * along + minor_squared * across * across).sqrt()
+        };
+        let half = DVec2::new(reach(along.x, along.y), reach(along.y, along.x));
+        Some(Ellipse { middle: -semi_major * eccentricity, half, period_s })
+    }
+}
+
+impl System for Orbit {
+    type Vector = DVec2;
+
+    #[inline]
+    fn acceleration(&self, _t: f64, q: &DVec2, _v: &DVec2, a: &mut DVec2) {
+        let r2 = q.dot(*q);
+        *a = *q * (-self.mu / (r2 * r2.sqrt()));
+    }
+}
+
+impl Body for Orbit {
+    fn start(&self) -> State<DVec2> {
+        State { q: self.q0, v: self.v0 }
+    }
+
+    fn exact(&self, dt: f64, from: &State<DVec2>) -> Option<State<DVec2>> {
+        Some(kepler::flow(self.mu, dt, from))
+    }
+
+    fn energy(&self, state: &State<DVec2>) -> Option<f64> {
+        Some(state.v.length_squared() / 2.0 - self.mu / libm::hypot(state.q.x, state.q.y))
+    }
+
+    fn input(&mut self, input: Input, state: &mut State<DVec2>) -> bool {
+        match input {
+            Input::Kick(times) => state.v += times * self.kick * state.v.normalize_or_zero(),
+            Input::Throttle(_) | Input::Rudder(_) => return false,
+        }
+        true
+    }
+
+    fn place(&self, q: &DVec2) -> DVec2 {
+        *q
+    }
+
+    fn outline(&self, _state: &State<DVec2>, pen: &mut Pen) {
+        let unit = self.ellipse().map_or(self.q0.length(), |ellipse| ellipse.half.max_element());
+        let (centre, at) = (DVec2::ZERO, pen.at);
+        pen.taper(centre, 0.075 * unit, centre, 0.075 * unit);
+        pen.taper(at, 0.045 * unit, at, 0.045 * unit);
+    }
+
+    fn view(&self) -> View {
+        match self.ellipse() {
+            Some(Ellipse { middle, half, period_s }) => {
+                View::Fixed { centre_m: middle, half_m: 1.12 * half, trail_s: period_s }
+            }
+            None => {
+                let half_m = DVec2::splat(3.0 * self.q0.length());
+                let trail_s = 10.0 * self.q0.length() / self.v0.length();
+                View::Fixed { centre_m: DVec2::ZERO, half_m, trail_s }
+            }
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! The damped oscillator `x″ = -ω² x - 2 α x′`, solved: a spring is one, a chain is one for each mode.
+
+use crate::sim::State;
+
+/// The exact flow over `dt` (s), for `omega2` = ω² > 0 and `alpha` = α ≥ 0: swinging, critical or
+/// creeping.
+pub(super) fn flow(omega2: f64, alpha: f64, dt: f64, from: &State<f64>) -> State<f64> {
+    let State { q: x, v } = *from;
+    let w2 = omega2 - alpha * alpha;
+    let u = w2 * dt * dt;
+    if u <= -NEAR_CRITICAL {
+        // Two decays, at the rates of the creep and of the recoil, each kept whole: as hyperbolic
+        // functions they would overflow, and cancel in the velocity.
+        let w = (-w2).sqrt();
+        let (slow, fast) = (omega2 / (alpha + w), alpha + w);
+        let creep = (fast * x + v) * libm::exp(-slow * dt) / (2.0 * w);
+        let recoil = (slow * x + v) * libm::exp(-fast * dt) / (2.0 * w);
+        return State { q: creep - recoil, v: fast * recoil - slow * creep };
+    }
+    // e^(-alpha t) (x C + (v + alpha x) S), with C = cos(w t) and S = sin(w t) / w.
+    let (c, s) = if u < NEAR_CRITICAL {
+        let (c, s) = near_critical(u);
+        (c, s * dt)
+    } else {
+        let w = w2.sqrt();
+        (libm::cos(w * dt), libm::sin(w * dt) / w)
+    };
+    let decay = libm::exp(-alpha * dt);
+    State {
+        q: decay * (x * c + (v + alpha * x) * s),
+        v: decay * (v * c - (omega2 * x + alpha * v) * s),
+    }
+}
+
+/// The `|w t|²` below which the flow is a series: much smaller, and `sin(w t) / w` loses digits beside
+/// it; larger, and the series needs more terms.
+const NEAR_CRITICAL: f64 = 1e-3;
+
+/// `cos √u` and `sin √u / √u` as their Taylor series in `u`, which know no difference between swinging
+/// and creeping; for |u| < [`NEAR_CRITICAL`] the first term left out is below 1e-19.
+fn near_critical(u: f64) -> (f64, f64) {
+    let c = 1.0 - u / 2.0 * (1.0 - u / 12.0 * (1.0 - u / 30.0 * (1.0 - u / 56.0)));
+    let s = 1.0 - u / 6.0 * (1.0 - u / 20.0 * (1.0 - u / 42.0 * (1.0 - u / 72.0)));
+    (c, s)
+}

@@ -1,0 +1,97 @@
+//! Adaptive Euler as the chapter prints it: a step that is cut short ends the tick all the same.
+
+use super::{Family, Integrator, Method, State, StepFailure, System, Tolerance, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "adaptive-euler-as-printed",
+    name: "Adaptive Euler (as printed)",
+    about: "the chapter's listing: under drag it runs in slow motion, for it never makes up what it cuts off a step; without drag it is semi-implicit Euler",
+    family: Family::AsPrinted,
+    order: 1,
+    order_with_drag: 1,
+    evaluations: None,
+    symplectic: true,
+    reversible: false,
+    stability_limit: Some(2.0),
+    tolerance: Some(TOLERANCE),
+    restart: None,
+    keeps_time: false,
+    as_printed: true,
+    source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the adaptive step size",
+};
+
+/// The listing looks at the velocity only, and absolutely. It prints no value; this one is ours, at which
+/// the chapter's ship sails 2.55 s in 8.5 s.
+const TOLERANCE: Tolerance =
+    Tolerance { absolute_q: f64::INFINITY, absolute_v: 1e-3, relative: 0.0 };
+
+/// `v1` by one step of `h`, `v2` by two of `h/2`, `e = |v1 - v2|`. If `h √(tolerance / e)` is less than
+/// `h`, a step of so much is taken, unchecked, and nothing after it.
+pub struct AdaptiveEulerAsPrinted<V> {
+    tolerance: Tolerance,
+    /// What was cut off, in all, in seconds.
+    lost: f64,
+    a: V,
+    v1: V,
+    v2: V,
+}
+
+impl<V: Vector> AdaptiveEulerAsPrinted<V> {
+    /// The method with a tolerance other than its card's, of which only `absolute_v` counts.
+    pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
+        Self { tolerance, lost: 0.0, a: like.clone(), v1: like.clone(), v2: like.clone() }
+    }
+}
+
+impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self::with_tolerance(like, TOLERANCE)
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        State { q, v }: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { tolerance, lost, a, v1, v2 } = self;
+        system.acceleration(t, q, v, a);
+        v1.assign(v);
+        v1.add_scaled(h, a);
+
+        // The same force again: the listing evaluates it anew wherever it stands.
+        system.acceleration(t, q, v, a);
+        v2.assign(v);
+        v2.add_scaled(h / 2.0, a);
+        system.acceleration(t + h / 2.0, q, v2, a);
+        v2.add_scaled(h / 2.0, a);
+
+        let factor = (tolerance.absolute_v / largest_difference(v1, v2)).sqrt();
+        if factor < 1.0 {
+            let h_new = h * factor;
+            system.acceleration(t, q, v, a);
+            v.add_scaled(h_new, a);
+            q.add_scaled(h_new, v);
+            *lost += h - h_new;
+        } else {
+            v.assign(v1);
+            q.add_scaled(h, v);
+        }
+        Ok(())
+    }
+
+    fn set_tolerance(&mut self, tolerance: Tolerance) {
+        self.tolerance = tolerance;
+    }
+
+    fn lost_time(&self) -> f64 {
+        self.lost
+    }
+}
+
+fn largest_difference<V: Vector>(v1: &V, v2: &V) -> f64 {
+    let pairs = v1.components().iter().zip(v2.components());
+    pairs.map(|(v1, v2)| (v1 - v2).abs()).fold(0.0, f64::max)
+}

@@ -1,0 +1,79 @@
+//! BDF2: the slope at the end from a parabola through the last two states and the new one.
+
+use super::shared::newton::Newton;
+use super::shared::seam::Seam;
+use super::{Family, Integrator, Method, State, StepFailure, System};
+
+pub(super) const CARD: Method = Method {
+    id: "bdf2",
+    name: "BDF2",
+    about: "stable at any step, and takes less energy than implicit Euler for the same work",
+    family: Family::Implicit,
+    order: 2,
+    order_with_drag: 2,
+    evaluations: None,
+    symplectic: false,
+    reversible: false,
+    stability_limit: None,
+    tolerance: None,
+    restart: Some(
+        "by a step of Alexander's two-stage SDIRK, which damps as much and has the same order",
+    ),
+    keeps_time: true,
+    as_printed: false,
+    source: "Curtiss & Hirschfelder, Integration of stiff equations (1952); started by Alexander, Diagonally implicit Runge-Kutta methods for stiff ODEs (1977), the SDIRK of two stages",
+};
+
+/// `y' = y + (y - y") / 3 + 2/3 h f(t + h, y')`, with `y"` the state one step before `y`.
+pub struct Bdf2<V> {
+    newton: Newton<V, 1>,
+    /// `y"`
+    before: State<V>,
+    /// `y`, while `y'` is made in its place.
+    start: State<V>,
+    /// The first stage of the first step.
+    stage: State<V>,
+    /// Where `before` belongs.
+    seam: Seam<V>,
+}
+
+/// The diagonal of the starting method, with which it damps like this one: `1 - 1/√2`.
+const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+
+impl<S: System> Integrator<S> for Bdf2<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let zero = State { q: like.clone(), v: like.clone() };
+        let [before, start, stage] = [zero.clone(), zero.clone(), zero];
+        Self { newton: Newton::new(like), before, start, stage, seam: Seam::new(like) }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { newton, before, start, stage, seam } = self;
+        start.assign(y);
+        if seam.joins(h, y) {
+            y.add_scaled(1.0 / 3.0, start);
+            y.add_scaled(-1.0 / 3.0, before);
+            newton.backward(system, t + h, h * 2.0 / 3.0, y)?;
+        } else {
+            stage.assign(y);
+            newton.backward(system, t + h * GAMMA, h * GAMMA, stage)?;
+            // y + (1 - γ) h f(stage), of which γ h f(stage) = stage - y is at hand.
+            y.add_scaled((1.0 - GAMMA) / GAMMA, stage);
+            y.add_scaled((GAMMA - 1.0) / GAMMA, start);
+            newton.backward(system, t + h, h * GAMMA, y)?;
+        }
+        std::mem::swap(before, start);
+        seam.end(h, y);
+        Ok(())
+    }
+
+    fn reset(&mut self) {
+        self.seam.cut();
+    }
+}

@@ -1,0 +1,42 @@
+//! Bogacki-Shampine 3(2): order 3 kept, order 2 beside it for the error, four slopes of which three are new.
+
+use super::shared::embedded_pair::{EmbeddedPair, Pair};
+use super::{Family, Method, Tolerance};
+
+pub(super) const CARD: Method = Method {
+    id: "bogacki-shampine-32",
+    name: "Bogacki-Shampine 3(2)",
+    about: "adaptive: covers each tick in as many substeps of three evaluations as its tolerance asks",
+    family: Family::Adaptive,
+    order: 3,
+    order_with_drag: 3,
+    evaluations: None,
+    symplectic: false,
+    reversible: false,
+    stability_limit: None,
+    tolerance: Some(Tableau::TOLERANCE),
+    restart: Some("by trying the whole tick as one step"),
+    keeps_time: true,
+    as_printed: false,
+    source: "Bogacki & Shampine, A 3(2) pair of Runge-Kutta formulas (1989)",
+};
+
+/// `y' = y + h Σ a4j kj`, with the error `h Σ ei ki`.
+pub type BogackiShampine32<V> = EmbeddedPair<V, Tableau, 4>;
+
+/// The coefficients of the paper.
+pub struct Tableau;
+
+impl Pair<4> for Tableau {
+    const ORDER: u32 = 3;
+    const C: [f64; 4] = [0.0, 1.0 / 2.0, 3.0 / 4.0, 1.0];
+    const A: [[f64; 4]; 4] = [
+        [0.0; 4],
+        [1.0 / 2.0, 0.0, 0.0, 0.0],
+        [0.0, 3.0 / 4.0, 0.0, 0.0],
+        [2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0, 0.0],
+    ];
+    const E: [f64; 4] = [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0];
+    /// A tenth of a millimetre and of a millimetre per second, or a ten thousandth of the value.
+    const TOLERANCE: Tolerance = Tolerance::uniform(1e-4);
+}

@@ -1,0 +1,69 @@
+//! Gauss-Legendre of two stages: collocation at the two points of Gauss's quadrature.
+
+use super::shared::newton::{Newton, Stages};
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "gauss-legendre-4",
+    name: "Gauss-Legendre 4",
+    about: "stable at any step, accurate, and keeps the energy of springs; the dearest of the implicit ones",
+    family: Family::Implicit,
+    order: 4,
+    order_with_drag: 4,
+    evaluations: None,
+    symplectic: true,
+    reversible: true,
+    stability_limit: None,
+    tolerance: None,
+    restart: None,
+    keeps_time: true,
+    as_printed: false,
+    source: "Butcher, Implicit Runge-Kutta processes (1964); Hairer, Lubich & Wanner, Geometric Numerical Integration, II.1.3",
+};
+
+/// `√3 / 6`
+const R: f64 = 0.288_675_134_594_812_9;
+const C: [f64; 2] = [0.5 - R, 0.5 + R];
+const A: [[f64; 2]; 2] = [[0.25, 0.25 - R], [0.25 + R, 0.25]];
+/// The square of `A`: the weights of accelerations in coordinates.
+const A2: [[f64; 2]; 2] = [[1.0 / 24.0, 0.125 - R / 2.0], [0.125 + R / 2.0, 1.0 / 24.0]];
+
+/// `Yi = y + h Σ aij f(t + ci h, Yj)`, then `y' = y + h (f(Y1) + f(Y2)) / 2`.
+pub struct GaussLegendre4<V> {
+    newton: Newton<V, 2>,
+}
+
+impl<S: System> Integrator<S> for GaussLegendre4<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { newton: Newton::new(like) }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { newton } = self;
+        for (known, c) in newton.known.iter_mut().zip(C) {
+            known.assign(y);
+            known.q.add_scaled(h * c, &y.v);
+        }
+        newton.solve(
+            system,
+            &Stages {
+                t: C.map(|c| t + h * c),
+                alpha: A2.map(|row| row.map(|a| h * h * a)),
+                beta: A.map(|row| row.map(|a| h * a)),
+            },
+        )?;
+        let [a1, a2] = &newton.a;
+        y.q.add_scaled(h, &y.v);
+        y.q.add_scaled(h * h / 2.0 * C[1], a1);
+        y.q.add_scaled(h * h / 2.0 * C[0], a2);
+        y.v.add_scaled(h / 2.0, a1);
+        y.v.add_scaled(h / 2.0, a2);
+        Ok(())
+    }
+}

@@ -1,0 +1,51 @@
+//! Implicit midpoint: the slope half-way along the chord, followed for the whole step.
+
+use super::shared::newton::Newton;
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "implicit-midpoint",
+    name: "Implicit midpoint",
+    about: "stable at any step and keeps the energy of springs; at a coarse tick they swing too slowly",
+    family: Family::Implicit,
+    order: 2,
+    order_with_drag: 2,
+    evaluations: None,
+    symplectic: true,
+    reversible: true,
+    stability_limit: None,
+    tolerance: None,
+    restart: None,
+    keeps_time: true,
+    as_printed: false,
+    source: "Feng Kang, On difference schemes and symplectic geometry (1985); Hairer, Lubich & Wanner, Geometric Numerical Integration, VI.4",
+};
+
+/// `m = y + h/2 f(t + h/2, m)`, then `y' = 2 m - y`, on the whole state `y = (q, v)`.
+pub struct ImplicitMidpoint<V> {
+    newton: Newton<V, 1>,
+    /// `m`
+    middle: State<V>,
+}
+
+impl<S: System> Integrator<S> for ImplicitMidpoint<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let middle = State { q: like.clone(), v: like.clone() };
+        Self { newton: Newton::new(like), middle }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { newton, middle } = self;
+        middle.assign(y);
+        newton.backward(system, t + h / 2.0, h / 2.0, middle)?;
+        y.q.add_scaled(h, &middle.v);
+        y.v.add_scaled(h, &newton.a[0]);
+        Ok(())
+    }
+}

@@ -1,0 +1,54 @@
+//! Improved Euler as the chapter prints it: the velocity alone is improved, and moves the position.
+
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "improved-euler-as-printed",
+    name: "Improved Euler (as printed)",
+    about: "the chapter's listing: the position stays first order; without drag it is semi-implicit Euler at twice the cost",
+    family: Family::AsPrinted,
+    order: 1,
+    order_with_drag: 1,
+    evaluations: Some(2),
+    symplectic: true,
+    reversible: false,
+    stability_limit: Some(2.0),
+    tolerance: None,
+    restart: None,
+    keeps_time: true,
+    as_printed: true,
+    source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the improved Euler method",
+};
+
+/// `k1 = a(t, q, v)`, `k2 = a(t + h, q, v + h k1)`, `v' = v + h (k1 + k2) / 2`, then `q' = q + h v'`.
+pub struct ImprovedEulerAsPrinted<V> {
+    k1: V,
+    k2: V,
+    /// The predicted velocity at the end of the step.
+    end: V,
+}
+
+impl<S: System> Integrator<S> for ImprovedEulerAsPrinted<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { k1: like.clone(), k2: like.clone(), end: like.clone() }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        State { q, v }: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { k1, k2, end } = self;
+        system.acceleration(t, q, v, k1);
+        end.assign(v);
+        end.add_scaled(h, k1);
+        system.acceleration(t + h, q, end, k2);
+        v.add_scaled(h / 2.0, k1);
+        v.add_scaled(h / 2.0, k2);
+        q.add_scaled(h, v);
+        Ok(())
+    }
+}

@@ -1,0 +1,53 @@
+//! Midpoint: the slope halfway, followed for the whole step.
+
+use super::{Family, Integrator, Method, State, StepFailure, System};
+
+pub(super) const CARD: Method = Method {
+    id: "midpoint",
+    name: "Midpoint",
+    about: "as accurate as improved Euler at the same cost; an undamped spring gains energy as slowly",
+    family: Family::Explicit,
+    order: 2,
+    order_with_drag: 2,
+    evaluations: Some(2),
+    symplectic: false,
+    reversible: false,
+    stability_limit: Some(0.0),
+    tolerance: None,
+    restart: None,
+    keeps_time: true,
+    as_printed: false,
+    source: "Runge, Über die numerische Auflösung von Differentialgleichungen (1895)",
+};
+
+/// `k1 = f(t, y)`, `k2 = f(t + h/2, y + h k1 / 2)`, `y' = y + h k2`.
+pub struct Midpoint<V> {
+    k1: State<V>,
+    k2: State<V>,
+    /// The predicted middle of the step.
+    middle: State<V>,
+}
+
+impl<S: System> Integrator<S> for Midpoint<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let zero = State { q: like.clone(), v: like.clone() };
+        Self { k1: zero.clone(), k2: zero.clone(), middle: zero }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { k1, k2, middle } = self;
+        system.derivative(t, y, k1);
+        middle.assign(y);
+        middle.add_scaled(h / 2.0, k1);
+        system.derivative(t + h / 2.0, middle, k2);
+        y.add_scaled(h, k2);
+        Ok(())
+    }
+}

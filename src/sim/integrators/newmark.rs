@@ -1,0 +1,61 @@
+//! Newmark's method with β = 1/4 and γ = 1/2: the mean of the accelerations at both ends of the step.
+
+use super::shared::newton::{Newton, Stages};
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "newmark",
+    name: "Newmark",
+    about: "stable at any step and keeps the energy of springs, though not phase-space area where forces are curved",
+    family: Family::Implicit,
+    order: 2,
+    order_with_drag: 2,
+    evaluations: None,
+    symplectic: false,
+    reversible: true,
+    stability_limit: None,
+    tolerance: None,
+    restart: None,
+    keeps_time: true,
+    as_printed: false,
+    source: "Newmark, A method of computation for structural dynamics (1959)",
+};
+
+/// `q' = q + h v + h² ((1/2 - β) a + β a')` and `v' = v + h ((1 - γ) a + γ a')`, with
+/// `a' = a(t + h, q', v')`.
+pub struct Newmark<V> {
+    a: V,
+    newton: Newton<V, 1>,
+}
+
+/// The mean acceleration over the step. Other β are stable up to some step only.
+const BETA: f64 = 0.25;
+/// The only γ of second order.
+const GAMMA: f64 = 0.5;
+
+impl<S: System> Integrator<S> for Newmark<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { a: like.clone(), newton: Newton::new(like) }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { a, newton } = self;
+        system.acceleration(t, &y.q, &y.v, a);
+        y.q.add_scaled(h, &y.v);
+        y.q.add_scaled(h * h * (0.5 - BETA), a);
+        y.v.add_scaled(h * (1.0 - GAMMA), a);
+
+        newton.known[0].assign(y);
+        let (alpha, beta) = (h * h * BETA, h * GAMMA);
+        newton.solve(system, &Stages { t: [t + h], alpha: [[alpha]], beta: [[beta]] })?;
+        y.q.add_scaled(alpha, &newton.a[0]);
+        y.v.add_scaled(beta, &newton.a[0]);
+        Ok(())
+    }
+}

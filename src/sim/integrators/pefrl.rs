@@ -1,0 +1,58 @@
+//! PEFRL, position-extended Forest-Ruth-like: one kick more than Yoshida 4 buys a far smaller error.
+
+use super::shared::composition::compose;
+use super::{Family, Integrator, Method, State, StepFailure, System};
+
+pub(super) const CARD: Method = Method {
+    id: "pefrl",
+    name: "PEFRL",
+    about: "fourth order and symplectic for four evaluations, more accurate than Yoshida 4; drag leaves it first order",
+    family: Family::Symplectic,
+    order: 4,
+    order_with_drag: 1,
+    evaluations: Some(4),
+    symplectic: true,
+    reversible: true,
+    stability_limit: Some(2.989),
+    tolerance: None,
+    restart: None,
+    keeps_time: true,
+    as_printed: false,
+    source: "Omelyan, Mryglod & Folk, Optimized Forest-Ruth- and Suzuki-like algorithms for integration of motion in many-body systems (2002)",
+};
+
+const XI: f64 = 0.178_617_895_844_809_1;
+const LAMBDA: f64 = -0.212_341_831_062_605_4;
+const CHI: f64 = -0.066_264_582_669_818_5;
+/// Drift and kick of each stage, in parts of the step.
+const STAGES: [(f64, f64); 4] = [
+    (XI, (1.0 - 2.0 * LAMBDA) / 2.0),
+    (CHI, LAMBDA),
+    (1.0 - 2.0 * (CHI + XI), LAMBDA),
+    (CHI, (1.0 - 2.0 * LAMBDA) / 2.0),
+];
+/// The drift after the last kick.
+const LAST: f64 = XI;
+
+/// Drifts by ξ, χ, 1-2(χ+ξ), χ, ξ of the step, and between them kicks by (1-2λ)/2, λ, λ, (1-2λ)/2.
+pub struct Pefrl<V> {
+    a: V,
+}
+
+impl<S: System> Integrator<S> for Pefrl<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { a: like.clone() }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        compose(system, t, h, y, &mut self.a, &STAGES, LAST);
+        Ok(())
+    }
+}

@@ -1,0 +1,69 @@
+//! Runge-Kutta 4 as the chapter prints it: four slopes of the velocity alone, which moves the position.
+
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "rk4-as-printed",
+    name: "Runge-Kutta 4 (as printed)",
+    about: "the chapter's listing: the position stays first order; without drag it is semi-implicit Euler at four times the cost",
+    family: Family::AsPrinted,
+    order: 1,
+    order_with_drag: 1,
+    evaluations: Some(4),
+    symplectic: true,
+    reversible: false,
+    stability_limit: Some(2.0),
+    tolerance: None,
+    restart: None,
+    keeps_time: true,
+    as_printed: true,
+    source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the Runge-Kutta method",
+};
+
+/// `v' = v + h (k1 + 2 k2 + 2 k3 + k4) / 6`, all four at the position `q`, then `q' = q + h v'`.
+pub struct Rk4AsPrinted<V> {
+    k1: V,
+    k2: V,
+    k3: V,
+    k4: V,
+    /// The velocity at which a stage is evaluated.
+    stage: V,
+}
+
+impl<S: System> Integrator<S> for Rk4AsPrinted<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let [k1, k2, k3, k4] = [like.clone(), like.clone(), like.clone(), like.clone()];
+        Self { k1, k2, k3, k4, stage: like.clone() }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        State { q, v }: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { k1, k2, k3, k4, stage } = self;
+        system.acceleration(t, q, v, k1);
+
+        stage.assign(v);
+        stage.add_scaled(h / 2.0, k1);
+        system.acceleration(t + h / 2.0, q, stage, k2);
+
+        stage.assign(v);
+        stage.add_scaled(h / 2.0, k2);
+        system.acceleration(t + h / 2.0, q, stage, k3);
+
+        stage.assign(v);
+        stage.add_scaled(h, k3);
+        system.acceleration(t + h, q, stage, k4);
+
+        v.add_scaled(h / 6.0, k1);
+        v.add_scaled(h / 3.0, k2);
+        v.add_scaled(h / 3.0, k3);
+        v.add_scaled(h / 6.0, k4);
+        q.add_scaled(h, v);
+        Ok(())
+    }
+}

@@ -1,0 +1,27 @@
+//! Drifts and kicks in turn, by which the higher symplectic methods are composed.
+
+use crate::sim::{State, System, Vector};
+
+/// For each `(c, d)` of `stages` a drift `q += c h v` and a kick `v += d h a`, then the `last` drift.
+///
+/// Time passes with the drifts, and a kick takes the velocity as it finds it: forces that depend on
+/// velocity cost the composition its order.
+#[inline]
+pub(in crate::sim::integrators) fn compose<S: System>(
+    system: &S,
+    t: f64,
+    h: f64,
+    State { q, v }: &mut State<S::Vector>,
+    a: &mut S::Vector,
+    stages: &[(f64, f64)],
+    last: f64,
+) {
+    let mut drifted = 0.0;
+    for (c, d) in stages {
+        q.add_scaled(c * h, v);
+        drifted += c;
+        system.acceleration(t + drifted * h, q, v, a);
+        v.add_scaled(d * h, a);
+    }
+    q.add_scaled(last * h, v);
+}

@@ -1,0 +1,122 @@
+//! Explicit Runge-Kutta pairs: two solutions of neighbouring orders from the same stages, of which the
+//! better is kept and the difference is the error.
+
+use std::marker::PhantomData;
+
+use super::super::{Integrator, State, StepFailure, System, Tolerance, Vector};
+use super::seam::Seam;
+use super::step_size::{StepSize, steady_factor};
+
+/// The tableau of a pair of `N` stages whose last stage is the kept solution, so that its slope is the
+/// first of the next step.
+pub trait Pair<const N: usize>: Send + 'static {
+    /// The order of the kept solution.
+    const ORDER: u32;
+    /// The stages' times, in parts of the step.
+    const C: [f64; N];
+    /// The stages' weights; the last row is the kept solution.
+    const A: [[f64; N]; N];
+    /// The kept solution's weights less those of the other.
+    const E: [f64; N];
+    /// What is allowed where nobody says otherwise.
+    const TOLERANCE: Tolerance;
+}
+
+/// An adaptive method that steps by the pair `P`.
+pub struct EmbeddedPair<V, P, const N: usize> {
+    step_size: StepSize,
+    /// The slopes at the stages; the first outlives the tick.
+    k: [State<V>; N],
+    /// Where the first slope belongs.
+    seam: Seam<V>,
+    /// The state at which a stage is evaluated.
+    stage: State<V>,
+    error: State<V>,
+    zero: State<V>,
+    pair: PhantomData<P>,
+}
+
+impl<V: Vector, P: Pair<N>, const N: usize> EmbeddedPair<V, P, N> {
+    /// The method with a tolerance other than its card's.
+    pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
+        let mut zero = State { q: like.clone(), v: like.clone() };
+        zero.q.components_mut().fill(0.0);
+        zero.v.components_mut().fill(0.0);
+        Self {
+            step_size: StepSize::new(tolerance),
+            k: std::array::from_fn(|_| zero.clone()),
+            seam: Seam::new(like),
+            stage: zero.clone(),
+            error: zero.clone(),
+            zero,
+            pair: PhantomData,
+        }
+    }
+
+    /// Substeps accepted since construction or reset.
+    pub fn accepted(&self) -> u64 {
+        self.step_size.accepted()
+    }
+
+    /// Substeps rejected since construction or reset.
+    pub fn rejected(&self) -> u64 {
+        self.step_size.rejected()
+    }
+}
+
+impl<S: System, P: Pair<N>, const N: usize> Integrator<S> for EmbeddedPair<S::Vector, P, N> {
+    fn new(like: &S::Vector) -> Self {
+        Self::with_tolerance(like, P::TOLERANCE)
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { step_size, k, seam, stage, error, zero, .. } = self;
+        if !seam.joins(h, y) {
+            system.derivative(t, y, &mut k[0]);
+        }
+        seam.cut();
+        let mut cover = step_size.cover(h);
+        while !cover.is_over() {
+            let (t, h) = (t + cover.gone(), cover.trial()?);
+            for i in 1..N {
+                let (known, next) = k.split_at_mut(i);
+                weigh(stage, y, h, &P::A[i], known);
+                system.derivative(t + h * P::C[i], stage, &mut next[0]);
+            }
+            weigh(error, zero, 1.0, &P::E, k);
+            let error = cover.error(h, error, y);
+            if cover.accepts(error, |error| steady_factor(error, P::ORDER)) {
+                y.assign(stage);
+                k.swap(0, N - 1);
+            }
+        }
+        seam.end(h, y);
+        Ok(())
+    }
+
+    fn reset(&mut self) {
+        self.step_size.reset();
+        self.seam.cut();
+    }
+
+    fn set_tolerance(&mut self, tolerance: Tolerance) {
+        self.step_size.tolerance = tolerance;
+    }
+}
+
+/// `sum = y + h Σ weights k`.
+#[inline(always)]
+fn weigh<V: Vector>(sum: &mut State<V>, y: &State<V>, h: f64, weights: &[f64], k: &[State<V>]) {
+    sum.assign(y);
+    for (weight, k) in weights.iter().zip(k) {
+        if *weight != 0.0 {
+            sum.add_scaled(h * weight, k);
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! How an adaptive method covers a tick: which substep it tries, whether it keeps it, and what it tries
+//! next. The step is carried from tick to tick.
+//!
+//! The error of a substep is held against the tolerance as it is, not divided by the step: as all pairs
+//! here keep the better of their two solutions, the error for each second is then proportional to the
+//! tolerance, and a method of order p takes `tolerance^(-1/p)` substeps.
+
+use super::super::{State, StepFailure, Vector};
+
+/// Aims below the tolerance, so that the next attempt is rarely rejected.
+const SAFETY: f64 = 0.9;
+/// The least and the most by which one attempt changes the step.
+const FACTORS: (f64, f64) = (0.2, 5.0);
+/// A step that could grow by less is left as it is, which saves a power; larger, and the step is shorter
+/// than it need be.
+const WORTH_WHILE: f64 = 1.25;
+/// So is one whose error is at most this part of what is allowed; larger, and the next is often rejected.
+const COMFORTABLE: f64 = 0.8;
+/// Attempts in one tick. Usual ticks take 1 to 50; without a limit a force that jumps would hang.
+const MAX_ATTEMPTS: u32 = 10_000;
+
+/// The error that a substep may make: `absolute + relative |y|` in every component.
+///
+/// `f64::INFINITY` in an absolute part leaves that half of the state out of the control.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Absolute part for coordinates, in metres or radians.
+    pub absolute_q: f64,
+    /// Absolute part for velocities, per second.
+    pub absolute_v: f64,
+    /// Part relative to the component's magnitude.
+    pub relative: f64,
+}
+
+impl Tolerance {
+    /// The same number for all three parts.
+    pub const fn uniform(tolerance: f64) -> Self {
+        Self { absolute_q: tolerance, absolute_v: tolerance, relative: tolerance }
+    }
+
+    /// The largest component of `h error`, in units of what is allowed beside `y`.
+    #[inline]
+    pub(in crate::sim::integrators) fn measure<V: Vector>(
+        &self,
+        h: f64,
+        error: &State<V>,
+        y: &State<V>,
+    ) -> f64 {
+        let worst = |absolute: f64, error: &V, y: &V| {
+            let rows = error.components().iter().zip(y.components());
+            rows.fold(0.0, |worst: f64, (error, y)| {
+                let error = (h * error).abs() / (absolute + self.relative * y.abs());
+                larger(worst, error)
+            })
+        };
+        larger(worst(self.absolute_q, &error.q, &y.q), worst(self.absolute_v, &error.v, &y.v))
+    }
+}
+
+/// As `a.max(b)`, which would drop a NaN, and with it the news that the step is worthless.
+#[inline]
+fn larger(a: f64, b: f64) -> f64 {
+    if b <= a || a.is_nan() { a } else { b }
+}
+
+/// What the step is to be multiplied by, where `root` is the error in units of what is allowed, to the
+/// power 1 / p.
+#[inline]
+pub(in crate::sim::integrators) fn factor(root: f64) -> f64 {
+    let factor = (SAFETY / root).clamp(FACTORS.0, FACTORS.1);
+    if factor.is_nan() { FACTORS.0 } else { factor }
+}
+
+/// As [`factor`] for an error of the order p, but 1 where the step is good and could hardly grow.
+#[inline]
+pub(in crate::sim::integrators) fn steady_factor(error: f64, order: u32) -> f64 {
+    let steady = (0..order).fold(1.0, |product, _| product * (SAFETY / WORTH_WHILE));
+    if (steady..=COMFORTABLE).contains(&error) {
+        1.0
+    } else {
+        factor(libm::pow(error, 1.0 / f64::from(order)))
+    }
+}
+
+/// The step size of an adaptive method.
+pub(in crate::sim::integrators) struct StepSize {
+    pub(in crate::sim::integrators) tolerance: Tolerance,
+    /// The step to try next, carried from tick to tick; `None` tries the whole tick.
+    next: Option<f64>,
+    accepted: u64,
+    rejected: u64,
+}
+
+impl StepSize {
+    pub(in crate::sim::integrators) fn new(tolerance: Tolerance) -> Self {
+        Self { tolerance, next: None, accepted: 0, rejected: 0 }
+    }
+
+    /// Substeps accepted since construction or reset.
+    pub(in crate::sim::integrators) fn accepted(&self) -> u64 {
+        self.accepted
+    }
+
+    /// Substeps rejected since construction or reset.
+    pub(in crate::sim::integrators) fn rejected(&self) -> u64 {
+        self.rejected
+    }
+
+    pub(in crate::sim::integrators) fn reset(&mut self) {
+        *self = Self::new(self.tolerance);
+    }
+
+    /// Sets out to cover a tick of `h`.
+    #[inline]
+    pub(in crate::sim::integrators) fn cover(&mut self, h: f64) -> Cover<'_> {
+        let carried = self.next.map_or(h, |next| next.copysign(h));
+        Cover { size: self, h, left: h, carried, trial: h, attempts: 0 }
+    }
+}
+
+/// A tick on the way to its end.
+pub(in crate::sim::integrators) struct Cover<'a> {
+    size: &'a mut StepSize,
+    h: f64,
+    left: f64,
+    carried: f64,
+    trial: f64,
+    attempts: u32,
+}
+
+impl Cover<'_> {
+    /// The substep to try next; the last one ends exactly where the tick does.
+    #[inline]
+    pub(in crate::sim::integrators) fn trial(&mut self) -> Result<f64, StepFailure> {
+        if self.attempts == MAX_ATTEMPTS {
+            return Err(StepFailure::TooManySubsteps { limit: MAX_ATTEMPTS });
+        }
+        self.attempts += 1;
+        // By magnitude, so that a negative `h` steps back.
+        self.trial = if self.carried.abs() < self.left.abs() { self.carried } else { self.left };
+        Ok(self.trial)
+    }
+
+    /// The time from the start of the tick to the start of the substep.
+    #[inline]
+    pub(in crate::sim::integrators) fn gone(&self) -> f64 {
+        self.h - self.left
+    }
+
+    #[inline]
+    pub(in crate::sim::integrators) fn is_over(&self) -> bool {
+        self.left == 0.0
+    }
+
+    /// The error of the substep just tried, in units of what is allowed.
+    #[inline]
+    pub(in crate::sim::integrators) fn error<V: Vector>(
+        &self,
+        h: f64,
+        error: &State<V>,
+        y: &State<V>,
+    ) -> f64 {
+        self.size.tolerance.measure(h, error, y)
+    }
+
+    /// Whether a substep with this error is kept. `factor` says what to multiply the step by, where that
+    /// is asked for: one cut short by the end of the tick tells nothing about the next.
+    #[inline]
+    pub(in crate::sim::integrators) fn accepts(
+        &mut self,
+        error: f64,
+        factor: impl FnOnce(f64) -> f64,
+    ) -> bool {
+        let is_good = error <= 1.0;
+        if is_good {
+            self.size.accepted += 1;
+            if self.trial == self.carried {
+                self.carried *= factor(error);
+            }
+            self.left -= self.trial;
+            if self.is_over() {
+                self.size.next = Some(self.carried);
+            }
+        } else {
+            self.size.rejected += 1;
+            self.carried = self.trial * factor(error);
+        }
+        is_good
+    }
+}

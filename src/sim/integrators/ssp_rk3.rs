@@ -1,0 +1,66 @@
+//! Strong-stability-preserving Runge-Kutta 3: three Euler steps, averaged.
+
+use super::{Family, Integrator, Method, State, StepFailure, System};
+
+pub(super) const CARD: Method = Method {
+    id: "ssp-rk3",
+    name: "SSP Runge-Kutta 3",
+    about: "the cheapest explicit method here whose undamped spring stays bounded: it dies away",
+    family: Family::Explicit,
+    order: 3,
+    order_with_drag: 3,
+    evaluations: Some(3),
+    symplectic: false,
+    reversible: false,
+    // √3, where z⁴ (z² - 3) / 36, by which the squared amplitude grows in a step, changes sign.
+    stability_limit: Some(1.732_050_807_568_877_2),
+    tolerance: None,
+    restart: None,
+    keeps_time: true,
+    as_printed: false,
+    source: "Shu & Osher, Efficient implementation of essentially non-oscillatory shock-capturing schemes (1988)",
+};
+
+/// `y1 = y + h f(t, y)`, `y2 = (3 y + y1 + h f(t + h, y1)) / 4`,
+/// `y' = (y + 2 y2 + 2 h f(t + h/2, y2)) / 3`: written with the three slopes
+/// `y2 = y + h (k1 + k2) / 4` and `y' = y + h (k1 + k2 + 4 k3) / 6`.
+pub struct SspRk3<V> {
+    k1: State<V>,
+    k2: State<V>,
+    k3: State<V>,
+    /// The state at which a stage is evaluated.
+    stage: State<V>,
+}
+
+impl<S: System> Integrator<S> for SspRk3<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let zero = State { q: like.clone(), v: like.clone() };
+        Self { k1: zero.clone(), k2: zero.clone(), k3: zero.clone(), stage: zero }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { k1, k2, k3, stage } = self;
+        system.derivative(t, y, k1);
+
+        stage.assign(y);
+        stage.add_scaled(h, k1);
+        system.derivative(t + h, stage, k2);
+
+        stage.assign(y);
+        stage.add_scaled(h / 4.0, k1);
+        stage.add_scaled(h / 4.0, k2);
+        system.derivative(t + h / 2.0, stage, k3);
+
+        y.add_scaled(h / 6.0, k1);
+        y.add_scaled(h / 6.0, k2);
+        y.add_scaled(h / 1.5, k3);
+        Ok(())
+    }
+}

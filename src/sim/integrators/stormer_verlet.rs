@@ -1,0 +1,82 @@
+//! Störmer-Verlet: the next position from the last two and the force; the velocity is read off them.
+
+use super::shared::seam::Seam;
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "stormer-verlet",
+    name: "Störmer-Verlet",
+    about: "the form of games that keep positions only: velocity Verlet's path, its velocities from differences of positions",
+    family: Family::Symplectic,
+    order: 2,
+    order_with_drag: 2,
+    evaluations: Some(1),
+    symplectic: true,
+    reversible: true,
+    stability_limit: Some(2.0),
+    tolerance: None,
+    restart: Some("by placing the position of one step ago on the parabola through q, v and a"),
+    keeps_time: true,
+    as_printed: false,
+    source: "Störmer, Sur les trajectoires des corpuscules électrisés (1907); Verlet, Computer \"Experiments\" on Classical Fluids (1967); Jakobsen, Advanced Character Physics (2001)",
+};
+
+/// `q' = 2 q - p + h² a`, with `p` the position one step ago, and `v' = (q' - q) / h + h a' / 2`.
+///
+/// The plain difference `(q' - q) / h` is the velocity of half a step ago, and first order; half a kick
+/// by the force at the end, which the next step needs anyway, makes it second order.
+pub struct StormerVerlet<V> {
+    p: V,
+    a: V,
+    /// The position at the end of the step.
+    q_end: V,
+    /// Where `p` and `a` belong.
+    seam: Seam<V>,
+}
+
+impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let [p, a, q_end] = [like.clone(), like.clone(), like.clone()];
+        Self { p, a, q_end, seam: Seam::new(like) }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { p, a, q_end, seam } = self;
+        let joins = seam.joins(h, y);
+        let State { q, v } = y;
+        if !joins {
+            system.acceleration(t, q, v, a);
+            p.assign(q);
+            p.add_scaled(-h, v);
+            p.add_scaled(h * h / 2.0, a);
+        }
+        q_end.assign_scaled(2.0, q);
+        q_end.add_scaled(-1.0, p);
+        q_end.add_scaled(h * h, a);
+
+        // The force at the end is taken at the slope there of the parabola through all three.
+        v.assign_scaled(1.5 / h, q_end);
+        v.add_scaled(-2.0 / h, q);
+        v.add_scaled(0.5 / h, p);
+        system.acceleration(t + h, q_end, v, a);
+
+        v.assign_scaled(1.0 / h, q_end);
+        v.add_scaled(-1.0 / h, q);
+        v.add_scaled(h / 2.0, a);
+        std::mem::swap(p, q);
+        std::mem::swap(q, q_end);
+        seam.end(h, y);
+        Ok(())
+    }
+
+    fn reset(&mut self) {
+        self.seam.cut();
+    }
+}

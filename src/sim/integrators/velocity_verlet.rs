@@ -1,0 +1,72 @@
+//! Velocity Verlet: half a kick, a drift, half a kick by the force at the end.
+
+use super::shared::seam::Seam;
+use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "velocity-verlet",
+    name: "Velocity Verlet",
+    about: "second order for one evaluation a step, and bounded on a spring up to h ω = 2; drag lowers that limit",
+    family: Family::Symplectic,
+    order: 2,
+    order_with_drag: 2,
+    evaluations: Some(1),
+    symplectic: true,
+    reversible: true,
+    stability_limit: Some(2.0),
+    tolerance: None,
+    restart: Some("by evaluating the force at the start, which else is the last step's end"),
+    keeps_time: true,
+    as_printed: false,
+    source: "Swope, Andersen, Berens & Wilson, A computer simulation method for the calculation of equilibrium constants for the formation of physical clusters of molecules (1982)",
+};
+
+/// `v½ = v + h a / 2`, `q' = q + h v½`, `a' = a(t + h, q', v½ + h a / 2)`, `v' = v½ + h a' / 2`.
+///
+/// The second force is taken at the velocity predicted for the end, which keeps the order under drag; at
+/// the half-step velocity `v½` it would be 1.
+pub struct VelocityVerlet<V> {
+    a: V,
+    /// The force at the end, which the next step starts with.
+    a_end: V,
+    /// The velocity predicted for the end.
+    v_end: V,
+    /// Where `a` belongs.
+    seam: Seam<V>,
+}
+
+impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let [a, a_end, v_end] = [like.clone(), like.clone(), like.clone()];
+        Self { a, a_end, v_end, seam: Seam::new(like) }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { a, a_end, v_end, seam } = self;
+        if !seam.joins(h, y) {
+            system.acceleration(t, &y.q, &y.v, a);
+        }
+        let State { q, v } = y;
+        v.add_scaled(h / 2.0, a);
+        q.add_scaled(h, v);
+
+        v_end.assign(v);
+        v_end.add_scaled(h / 2.0, a);
+        system.acceleration(t + h, q, v_end, a_end);
+        v.add_scaled(h / 2.0, a_end);
+        std::mem::swap(a, a_end);
+        seam.end(h, y);
+        Ok(())
+    }
+
+    fn reset(&mut self) {
+        self.seam.cut();
+    }
+}

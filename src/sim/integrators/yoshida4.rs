@@ -1,0 +1,53 @@
+//! Yoshida 4: three position Verlet steps, the middle one backwards, whose errors cancel.
+
+use super::shared::composition::compose;
+use super::{Family, Integrator, Method, State, StepFailure, System};
+
+pub(super) const CARD: Method = Method {
+    id: "yoshida4",
+    name: "Yoshida 4",
+    about: "fourth order and symplectic for three evaluations; drag leaves it first order",
+    family: Family::Symplectic,
+    order: 4,
+    order_with_drag: 1,
+    evaluations: Some(3),
+    symplectic: true,
+    reversible: true,
+    stability_limit: Some(1.573),
+    tolerance: None,
+    restart: None,
+    keeps_time: true,
+    as_printed: false,
+    source: "Forest & Ruth, Fourth-order symplectic integration (1990); Yoshida, Construction of higher order symplectic integrators (1990)",
+};
+
+/// θ = 1 / (2 - ∛2): the part of the step that the outer two take; the middle one takes 1 - 2θ < 0.
+const THETA: f64 = 1.351_207_191_959_657_6;
+/// Drift and kick of each stage, in parts of the step.
+const STAGES: [(f64, f64); 3] =
+    [(THETA / 2.0, THETA), ((1.0 - THETA) / 2.0, 1.0 - 2.0 * THETA), ((1.0 - THETA) / 2.0, THETA)];
+/// The drift after the last kick.
+const LAST: f64 = THETA / 2.0;
+
+/// Drifts by θ/2, (1-θ)/2, (1-θ)/2, θ/2 of the step, and between them kicks by θ, 1-2θ, θ.
+pub struct Yoshida4<V> {
+    a: V,
+}
+
+impl<S: System> Integrator<S> for Yoshida4<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { a: like.clone() }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        compose(system, t, h, y, &mut self.a, &STAGES, LAST);
+        Ok(())
+    }
+}

@@ -1,0 +1,244 @@
+//! What a method makes of a body in one tick: the map about the present state, how it grows, and how
+//! fast it turns, against the exact flow.
+//!
+//! The map is found by differencing the stepper itself, never from a formula, so that it holds for any
+//! method on any body: two-sided, at distances scaled to the state. The input stays as it is.
+//!
+//! - A method that carries something from step to step is followed over three ticks, and the map is that
+//!   of state and memory together; on a nonlinear body, under the forces of here and now, straightened.
+//! - A method that chooses its substeps steps the differenced copies as one, with the same substeps for
+//!   all: the map is that of the steps it takes here, its control frozen.
+//! - On a nonlinear body the map is that of small deviations here and now. What grows in truth, such as
+//!   a pendulum's fall from the top, is not held against a method.
+
+use super::integrators::StepFailure;
+use super::{Solver, Stepper};
+
+mod flock;
+mod probe;
+mod search;
+mod spectrum;
+
+use flock::Flock;
+use probe::{COPIES, Carrier, Probe, rates, scale, state_of};
+pub use search::{RATES_HZ, RateSearch};
+use spectrum::{Derivatives, Eigenvalue};
+
+/// One tick of a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tick {
+    /// When it begins, in seconds.
+    pub t: f64,
+    /// How long it is, in seconds.
+    pub h: f64,
+    /// Equal steps in it.
+    pub substeps: u32,
+}
+
+/// How a method treats small deviations of a body from its present state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stability {
+    /// The largest modulus of an eigenvalue of the one-tick map; infinite where the map overflows.
+    pub spectral_radius: f64,
+    /// By how much the worst mode grows in a second beyond what it does in truth or, where it decays in
+    /// truth, beyond standing still: the natural logarithm of the factor. Negative where all decays.
+    pub growth_per_s: f64,
+    /// By how much the method damps the mode that it damps most of those that truth conserves: the
+    /// natural logarithm in a second, 0 without such a mode.
+    pub loss_per_s: f64,
+    /// How much too fast the mode turns that is furthest off, as a part of its frequency; `None` where
+    /// nothing swings, or where the method no longer does.
+    pub frequency_error: Option<f64>,
+}
+
+/// An amplitude that takes longer than this to double is bounded: a year, in seconds. No game runs as
+/// long, and at 10 000 Hz less growth could not be told from rounding.
+pub const FOREVER_S: f64 = 365.0 * 86_400.0;
+
+impl Stability {
+    /// Of `body` as it is, under `solver`.
+    ///
+    /// # Errors
+    /// The failure of the method, or of the exact flow, in the first ticks from here.
+    pub fn of(body: &dyn Stepper, solver: Solver, tick: Tick) -> Result<Self, StepFailure> {
+        let truth = true_modes(body, tick)?;
+        let Some(values) = eigenvalues(body, solver, tick)? else {
+            return Ok(Self {
+                spectral_radius: f64::INFINITY,
+                growth_per_s: f64::INFINITY,
+                loss_per_s: 0.0,
+                frequency_error: None,
+            });
+        };
+        Ok(against(&truth, &values, tick.h))
+    }
+
+    /// Whether deviations stay as small as they are in truth, for as long as anybody looks.
+    pub fn is_bounded(&self) -> bool {
+        self.growth_per_s * FOREVER_S < std::f64::consts::LN_2
+    }
+
+    /// The seconds in which the amplitude doubles that in truth does not; `None` where it is bounded.
+    pub fn doubling_s(&self) -> Option<f64> {
+        (!self.is_bounded()).then(|| std::f64::consts::LN_2 / self.growth_per_s)
+    }
+
+    /// The seconds in which the amplitude halves that in truth does not; `None` where none does within
+    /// [`FOREVER_S`].
+    pub fn halving_s(&self) -> Option<f64> {
+        let halving = std::f64::consts::LN_2 / self.loss_per_s;
+        (halving > 0.0 && halving < FOREVER_S).then_some(halving)
+    }
+}
+
+/// How fast a mode grows and turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Mode {
+    /// Natural logarithm of the factor in a second.
+    growth_per_s: f64,
+    /// Radians per second, not negative.
+    frequency: f64,
+}
+
+impl Mode {
+    fn new(value: Eigenvalue, h: f64) -> Self {
+        Self { growth_per_s: libm::log(value.modulus) / h, frequency: value.angle / h }
+    }
+}
+
+/// What grows less than this in a second, as a part of a turn in a tick, stands still: the rounding of
+/// the differences.
+const STILL: f64 = 1e-9;
+
+/// What grows in truth may grow by this part faster: neither rate says much of the long run.
+const OWN_GROWTH: f64 = 0.1;
+
+fn against(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
+    let (swinging, creeping): (Vec<Mode>, Vec<Mode>) =
+        truth.iter().partition(|m| m.frequency > 0.0);
+    // Beyond as many as truth has, the faintest are what the method remembers.
+    let mut by_modulus = values.to_vec();
+    by_modulus.sort_by(|a, b| b.modulus.total_cmp(&a.modulus));
+    let memory = by_modulus.split_off(truth.len().min(by_modulus.len()));
+    let (mut turning, mut rest): (Vec<Eigenvalue>, Vec<Eigenvalue>) =
+        by_modulus.into_iter().partition(|value| value.turns());
+
+    let mut pairs: Vec<(Option<Mode>, Mode)> = Vec::new();
+    let mut frequency_error = None;
+    if turning.len() == swinging.len() {
+        turning.sort_by(|a, b| a.angle.total_cmp(&b.angle));
+        let mut swinging = swinging;
+        swinging.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+        let turning = turning.iter().map(|&value| Mode::new(value, h));
+        pairs.extend(swinging.into_iter().map(Some).zip(turning));
+        let errors = pairs.iter().filter_map(|(truth, found)| {
+            truth.map(|truth| found.frequency / truth.frequency - 1.0)
+        });
+        frequency_error = errors.max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    } else {
+        rest.append(&mut turning);
+    }
+    for mode in creeping {
+        let expected = libm::exp(mode.growth_per_s * h);
+        let distance = |value: &Eigenvalue| {
+            let re = value.modulus * libm::cos(value.angle);
+            let im = value.modulus * libm::sin(value.angle);
+            libm::hypot(re - expected, im)
+        };
+        let nearest =
+            (0..rest.len()).min_by(|&a, &b| distance(&rest[a]).total_cmp(&distance(&rest[b])));
+        if let Some(nearest) = nearest {
+            pairs.push((Some(mode), Mode::new(rest.swap_remove(nearest), h)));
+        }
+    }
+    let unpaired = rest.iter().chain(&memory).map(|&value| (None, Mode::new(value, h)));
+    pairs.extend(unpaired);
+
+    let excess = pairs.iter().map(|&(truth, found)| match truth {
+        Some(Mode { growth_per_s: own, .. }) if own * h > STILL => {
+            let excess = found.growth_per_s - own;
+            if excess.abs() < OWN_GROWTH * own { 0.0 } else { excess }
+        }
+        _ => found.growth_per_s,
+    });
+    let conserved = |mode: Mode| (mode.growth_per_s * h).abs() < STILL;
+    let losses = pairs.iter().filter(|(truth, _)| truth.is_some_and(conserved));
+    Stability {
+        spectral_radius: values.iter().map(|value| value.modulus).fold(0.0, f64::max),
+        growth_per_s: excess.fold(f64::NEG_INFINITY, f64::max),
+        loss_per_s: losses.map(|(_, found)| -found.growth_per_s).fold(0.0, f64::max),
+        frequency_error,
+    }
+}
+
+/// The eigenvalues of `body` under `solver`, from its present state; `None` where the map overflows.
+fn eigenvalues(
+    body: &dyn Stepper,
+    solver: Solver,
+    tick: Tick,
+) -> Result<Option<Vec<Eigenvalue>>, StepFailure> {
+    let mut first = body.with_solver(solver, tick.t);
+    first.set(tick.t, body.q(), body.v());
+    let here = state_of(&*first);
+    first.advance(tick.t, tick.h, tick.substeps)?;
+    let there = state_of(&*first);
+
+    let mut probe = Probe::new(body, solver, tick);
+    let scale = scale(&here, &there, tick.h);
+    // What such a method carries is the length of its steps, and that is frozen.
+    if solver.method().is_some_and(|method| method.tolerance.is_some()) {
+        let [map] = probe.derivatives(&here, &scale)?;
+        return Ok(spectrum::of_map(&map));
+    }
+    let derivatives = Derivatives {
+        now: probe.derivatives(&here, &scale)?,
+        later: probe.derivatives(&there, &scale)?,
+    };
+    if let Some(method) = solver.method()
+        && derivatives.has_memory()
+        && derivatives.bends()
+    {
+        // Over three ticks the forces change more than the memory does: only a body with the forces of
+        // here and now can tell it.
+        let rates = rates(body, &here, &scale, tick.t);
+        let flock = Flock::straightened(body, rates, tick.t, method, COPIES.len());
+        let mut probe = Probe { carrier: Carrier::Together(flock), tick };
+        let derivatives = Derivatives {
+            now: probe.derivatives(&here, &scale)?,
+            later: probe.derivatives(&here, &scale)?,
+        };
+        return Ok(spectrum::eigenvalues(&derivatives));
+    }
+    Ok(spectrum::eigenvalues(&derivatives))
+}
+
+/// The modes of the exact flow about the body's present state, over the tick or a part of it that is
+/// short enough for no mode to make more than a quarter turn.
+fn true_modes(body: &dyn Stepper, tick: Tick) -> Result<Vec<Mode>, StepFailure> {
+    let at = |h: f64| -> Result<Vec<Mode>, StepFailure> {
+        let mut there = body.with_solver(Solver::Truth, tick.t);
+        there.advance(tick.t, h, 1)?;
+        let here = state_of(body);
+        let scale = scale(&here, &state_of(&*there), h);
+        let mut probe = Probe::new(body, Solver::Truth, Tick { h, substeps: 1, ..tick });
+        let [map] = probe.derivatives(&here, &scale)?;
+        let values = spectrum::of_map(&map).unwrap_or_default();
+        Ok(values.into_iter().map(|value| Mode::new(value, h)).collect())
+    };
+    let fastest = |modes: &[Mode]| modes.iter().map(|m| m.frequency).fold(0.0, f64::max);
+    let mut h = tick.h;
+    let mut modes = at(h)?;
+    // A turn and a quarter looks like a quarter turn: only what half the stretch confirms is believed.
+    for _ in 0..MOST_HALVINGS {
+        let finer = at(h / 2.0)?;
+        let (coarse, fine) = (fastest(&modes), fastest(&finer));
+        if coarse * h < 0.25 * std::f64::consts::TAU && (coarse - fine).abs() <= 0.01 * fine {
+            break;
+        }
+        (h, modes) = (h / 2.0, finer);
+    }
+    Ok(modes)
+}
+
+/// From a second down to a microsecond.
+const MOST_HALVINGS: u32 = 20;

@@ -1,0 +1,132 @@
+//! Copies of one body stepped as one, so that a method that chooses its substeps chooses the same ones
+//! for all of them; and bodies whose forces are straightened out.
+
+use nalgebra::DMatrix;
+
+use crate::sim::integrators::{Integrator, Method, StepFailure, Tolerance, integrator};
+use crate::sim::{State, Stepper, System};
+
+/// An equation of motion on plain slices: time, coordinates, velocities, acceleration.
+type Acceleration = Box<dyn Fn(f64, &[f64], &[f64], &mut [f64])>;
+
+/// The equation of motion of several copies that do not feel each other.
+struct Copies {
+    acceleration: Acceleration,
+    coordinates: usize,
+}
+
+impl System for Copies {
+    type Vector = Vec<f64>;
+
+    fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        let n = self.coordinates;
+        for ((q, v), a) in q.chunks(n).zip(v.chunks(n)).zip(a.chunks_mut(n)) {
+            (self.acceleration)(t, q, v, a);
+        }
+    }
+}
+
+/// Copies of one body under one method.
+pub(super) struct Flock {
+    copies: Copies,
+    integrator: Box<dyn Integrator<Copies>>,
+    state: State<Vec<f64>>,
+}
+
+impl Flock {
+    /// As many copies of `body` as `count` says.
+    pub(super) fn new(body: Box<dyn Stepper>, method: &Method, count: usize) -> Self {
+        let coordinates = body.q().len();
+        let acceleration: Acceleration = Box::new(move |t, q, v, a| body.acceleration(t, q, v, a));
+        Self::of(acceleration, coordinates, method, count)
+    }
+
+    /// The same of a body whose forces are those of `body` about its state at time `t`, straight:
+    /// `derivative` is their derivative with respect to coordinates and velocities, a row for each.
+    pub(super) fn straightened(
+        body: &dyn Stepper,
+        derivative: DMatrix<f64>,
+        t: f64,
+        method: &Method,
+        count: usize,
+    ) -> Self {
+        let (q0, v0) = (body.q().to_vec(), body.v().to_vec());
+        let n = q0.len();
+        let mut a0 = vec![0.0; n];
+        body.acceleration(t, &q0, &v0, &mut a0);
+        let acceleration: Acceleration = Box::new(move |_, q, v, a| {
+            a.copy_from_slice(&a0);
+            for (i, a) in a.iter_mut().enumerate() {
+                for j in 0..n {
+                    let (by_q, by_v) = (derivative[(i, j)], derivative[(i, n + j)]);
+                    *a += by_q * (q[j] - q0[j]) + by_v * (v[j] - v0[j]);
+                }
+            }
+        });
+        Self::of(acceleration, n, method, count)
+    }
+
+    fn of(acceleration: Acceleration, n: usize, method: &Method, count: usize) -> Self {
+        let state = State { q: vec![0.0; n * count], v: vec![0.0; n * count] };
+        let integrator = integrator(method, &state.q);
+        Self { copies: Copies { acceleration, coordinates: n }, integrator, state }
+    }
+
+    /// The same, with a tolerance other than the method's own.
+    pub(super) fn within(mut self, tolerance: Tolerance) -> Self {
+        self.integrator.set_tolerance(tolerance);
+        self
+    }
+
+    /// Puts each copy into a state, coordinates first; the method begins afresh.
+    pub(super) fn set(&mut self, states: &[Vec<f64>]) {
+        let n = self.copies.coordinates;
+        for (i, state) in states.iter().enumerate() {
+            self.state.q[i * n..(i + 1) * n].copy_from_slice(&state[..n]);
+            self.state.v[i * n..(i + 1) * n].copy_from_slice(&state[n..]);
+        }
+        self.integrator.reset();
+    }
+
+    /// Advances all from `t` by `h` (s).
+    pub(super) fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure> {
+        self.integrator.steps(&self.copies, t, h, substeps, &mut self.state)
+    }
+
+    /// The state of the copy on this place, coordinates first.
+    pub(super) fn state(&self, copy: usize) -> Vec<f64> {
+        let n = self.copies.coordinates;
+        let here = copy * n..(copy + 1) * n;
+        [&self.state.q[here.clone()], &self.state.v[here]].concat()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::Solver;
+    use crate::sim::bodies::kind;
+    use crate::sim::integrators::METHODS;
+
+    #[test]
+    fn each_copy_moves_as_the_lanes_stepper_does() {
+        let spring = kind("spring").unwrap();
+        let values = [2.0, 180.0, 3.0, 1.0, 0.0, 1.0];
+        let states = [vec![1.0, 0.0], vec![-0.3, 4.0]];
+        for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+            let mut stepper = (spring.build)(&values, Solver::Method(method));
+            let mut flock = Flock::new((spring.build)(&values, Solver::Truth), method, 2);
+            flock.set(&states);
+            flock.advance(0.0, 0.05, 3).unwrap();
+            for (copy, from) in states.iter().enumerate() {
+                stepper.set(0.0, &from[..1], &from[1..]);
+                stepper.advance(0.0, 0.05, 3).unwrap();
+                let alone = [stepper.q(), stepper.v()].concat();
+                let apart = flock.state(copy).into_iter().zip(&alone).map(|(a, b)| (a - b).abs());
+                // A method that solves stops when the last of the copies is solved.
+                let allowed = if method.evaluations.is_some() { 0.0 } else { 1e-12 };
+                assert!(apart.fold(0.0, f64::max) <= allowed, "{}", method.id);
+            }
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! What a reference solution is worth: held against a closed form, and against Runge-Kutta at a step
+//! so fine that its own error is known from two steps.
+
+use regatta::lab::{SCENES, Scene, SceneBody};
+use regatta::sim::bodies::{BODIES, Body, Input, Pendulum, Truth, kind};
+use regatta::sim::integrators::{StepFailure, method};
+use regatta::sim::{REFERENCE_ACCURACY, Solver, State, stepper};
+
+/// What is stated, less a margin: what is measured.
+const MEASURED: f64 = REFERENCE_ACCURACY / 20.0;
+
+fn pendulum(theta0: f64, omega0: f64) -> Pendulum {
+    Pendulum { length: 1.0, mass: 1.0, gravity: 9.81, damping: 0.0, theta0, omega0, kick: 1.0 }
+}
+
+/// K(k) by the arithmetic-geometric mean, and sn, cn, dn at `u` by descending Landen steps: Abramowitz &
+/// Stegun 16.4.
+fn elliptic(u: f64, k: f64) -> [f64; 3] {
+    let (mut a, mut b) = (1.0, (1.0 - k * k).sqrt());
+    let mut steps = vec![];
+    // Each doubles the digits.
+    for _ in 0..7 {
+        let c = (a - b) / 2.0;
+        (a, b) = ((a + b) / 2.0, (a * b).sqrt());
+        steps.push((a, c));
+    }
+    let mut phi = libm::ldexp(a * u, steps.len() as i32);
+    for (a, c) in steps.iter().rev() {
+        phi = (phi + libm::asin(c / a * libm::sin(phi))) / 2.0;
+    }
+    let sn = libm::sin(phi);
+    [sn, libm::cos(phi), (1.0 - k * k * sn * sn).sqrt()]
+}
+
+/// The pendulum let go at rest from `theta0`, `t` seconds later: sin θ/2 = k sn(K - ω t), k = sin θ₀/2.
+fn let_go(theta0: f64, t: f64) -> State<f64> {
+    let (k, omega) = (libm::sin(theta0 / 2.0), 9.81f64.sqrt());
+    // sn(K - u) = cd(u) = cn u / dn u.
+    let [sn, cn, dn] = elliptic(omega * t, k);
+    let half = k * cn / dn;
+    let theta = 2.0 * libm::asin(half);
+    // dθ/dt of that: -2 k ω √(1 - k²) sn u / dn u.
+    State { q: theta, v: -2.0 * k * omega * (1.0 - k * k).sqrt() * sn / dn }
+}
+
+#[test]
+fn the_closed_form_it_is_held_against_satisfies_the_pendulums_equation() {
+    for theta0 in [0.1, 1.0, 2.8] {
+        for t in [0.3, 1.0, 7.7] {
+            let h = 1e-4;
+            let slope = (let_go(theta0, t + h).q - let_go(theta0, t - h).q) / (2.0 * h);
+            let bend = (let_go(theta0, t + h).v - let_go(theta0, t - h).v) / (2.0 * h);
+            let here = let_go(theta0, t);
+            assert!((slope - here.v).abs() < 1e-6, "{slope}, {here:?}");
+            assert!((bend + 9.81 * libm::sin(here.q)).abs() < 1e-6, "{bend}, {here:?}");
+        }
+    }
+}
+
+#[test]
+fn an_undamped_pendulum_follows_jacobis_elliptic_functions() {
+    for theta0 in [0.01, 1.0, 2.0, 2.8] {
+        for hz in [5, 60, 1000] {
+            let mut reference = stepper(pendulum(theta0, 0.0), Solver::Truth);
+            let mut worst = 0.0f64;
+            for tick in 0..20 * hz {
+                let (t, h) = (f64::from(tick) / f64::from(hz), 1.0 / f64::from(hz));
+                reference.advance(t, h, 1).unwrap();
+                let exact = let_go(theta0, t + h);
+                let swing = 2.0 * 9.81f64.sqrt() * libm::sin(theta0 / 2.0);
+                let q = (reference.q()[0] - exact.q).abs() / theta0;
+                let v = (reference.v()[0] - exact.v).abs() / swing;
+                worst = worst.max(q).max(v);
+            }
+            println!("{theta0} rad at {hz} Hz: {worst:.1e}");
+            assert!(worst < MEASURED, "{worst:e} from {theta0} rad at {hz} Hz");
+        }
+    }
+}
+
+/// Steps a scene's body as the scene does, script left out, with `substeps` a tick; where it is at the
+/// end, and the largest |q| and |v| on the way.
+fn sail(scene: &Scene, body: &SceneBody, solver: Solver, substeps: u32) -> [Vec<f64>; 3] {
+    let mut stepper = (body.kind.build)(&body.values, solver);
+    stepper.input(0.0, Input::Rudder(0.4));
+    let h = 1.0 / f64::from(scene.tick_hz);
+    let (mut q, mut v) = (0.0f64, 0.0f64);
+    for tick in 0..(scene.seconds / h).round() as u32 {
+        stepper.advance(f64::from(tick) * h, h, substeps).unwrap();
+        let most = |values: &[f64]| values.iter().fold(0.0, |most: f64, x| x.abs().max(most));
+        (q, v) = (q.max(most(stepper.q())), v.max(most(stepper.v())));
+    }
+    [stepper.q().to_vec(), stepper.v().to_vec(), vec![q, v]]
+}
+
+#[test]
+fn every_scenes_reference_agrees_with_runge_kutta_at_a_fine_step() {
+    let mut count = 0;
+    for scene in SCENES {
+        let scene = Scene::built_in(scene.name).unwrap();
+        for body in scene.bodies.iter().filter(|body| body.kind.truth == Truth::Reference) {
+            count += 1;
+            let [q, v, scale] = sail(&scene, body, Solver::Truth, 1);
+            // 2 kHz: its error, as two rates tell, is some 1e-12.
+            let rk4 = Solver::Method(method("rk4").unwrap());
+            let substeps = 4000 / scene.tick_hz;
+            let [q_fine, v_fine, _] = sail(&scene, body, rk4, substeps.min(1000));
+            let off = |a: &[f64], b: &[f64], scale: f64| {
+                a.iter().zip(b).map(|(a, b)| (a - b).abs() / scale).fold(0.0, f64::max)
+            };
+            let worst = off(&q, &q_fine, scale[0]).max(off(&v, &v_fine, scale[1]));
+            println!("{} in {}: {worst:.1e}", body.name, scene.name);
+            assert!(worst < MEASURED, "{worst:e} of {} in {}", body.name, scene.name);
+        }
+    }
+    assert!(count >= 2);
+}
+
+#[test]
+fn a_kind_says_exact_just_where_its_bodies_have_a_closed_form() {
+    let values = |id: &str| match id {
+        "helm" => vec![1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0],
+        id => {
+            let parameters = kind(id).unwrap().parameters.iter();
+            parameters.map(|parameter| parameter.default.unwrap_or(1.0)).collect()
+        }
+    };
+    for kind in BODIES {
+        let mut truth = (kind.build)(&values(kind.id), Solver::Truth);
+        // In one stride or in many: to the bit the same only where nothing is stepped.
+        let mut many = (kind.build)(&values(kind.id), Solver::Truth);
+        truth.advance(0.0, 0.75, 1).unwrap();
+        for step in 0..3 {
+            many.advance(0.25 * f64::from(step), 0.25, 1).unwrap();
+        }
+        let same = truth.q() == many.q() && truth.v() == many.v();
+        assert_eq!(same, kind.truth == Truth::Exact, "{}", kind.id);
+    }
+}
+
+#[test]
+fn a_damped_pendulum_comes_to_rest_and_one_in_no_gravity_is_a_ship() {
+    let body = Pendulum { gravity: 0.0, damping: 0.5, ..pendulum(0.0, 3.0) };
+    let mut reference = stepper(body, Solver::Truth);
+    for tick in 0..600 {
+        reference.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+    }
+    let (q, v) = (6.0 * -libm::expm1(-5.0), 3.0 * libm::exp(-5.0));
+    assert!((reference.q()[0] / q - 1.0).abs() < 1e-12);
+    assert!((reference.v()[0] / v - 1.0).abs() < 1e-11);
+
+    let mut damped = stepper(Pendulum { damping: 2.0, ..pendulum(3.0, 0.0) }, Solver::Truth);
+    for tick in 0..60 * 60 {
+        damped.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+    }
+    assert!(damped.q()[0].abs() < 1e-9 && damped.v()[0].abs() < 1e-9);
+}
+
+#[test]
+fn a_kick_and_a_jump_go_on_from_there_and_evaluations_are_not_counted() {
+    let mut reference = stepper(pendulum(1.0, 0.0), Solver::Truth);
+    reference.advance(0.0, 0.5, 1).unwrap();
+    let (q, v) = (reference.q()[0], reference.v()[0]);
+    assert!(reference.input(0.5, Input::Kick(2.0)));
+    assert_eq!((reference.q()[0], reference.v()[0]), (q, v + 2.0));
+    reference.advance(0.5, 0.5, 1).unwrap();
+    let mut there = stepper(pendulum(q, v + 2.0), Solver::Truth);
+    there.advance(0.5, 0.5, 1).unwrap();
+    assert_eq!((reference.q(), reference.v()), (there.q(), there.v()));
+    assert_eq!(reference.evaluations(), 0);
+    reference.set(1.0, &[1.0], &[0.0]);
+    reference.advance(1.0, 0.5, 1).unwrap();
+    assert_eq!((reference.q()[0], reference.v()[0]), (q, v));
+}
+
+#[test]
+fn a_motion_too_stiff_for_its_tick_is_given_up_in_time() {
+    let stiff = Pendulum { gravity: 1e15, ..pendulum(1.0, 0.0) };
+    let mut reference = stepper(stiff, Solver::Truth);
+    let failure = reference.advance(0.0, 1.0, 1).unwrap_err();
+    assert!(matches!(failure, StepFailure::TooManySubsteps { .. }), "{failure:?}");
+}
+
+#[test]
+fn the_pendulums_energy_is_kept_where_it_whirls() {
+    let body = pendulum(0.0, 7.0);
+    let before = body.energy(&body.start()).unwrap();
+    let mut reference = stepper(body, Solver::Truth);
+    for tick in 0..1200 {
+        reference.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+    }
+    assert!(reference.q()[0] > 50.0, "over the top again and again");
+    assert!((reference.energy().unwrap() / before - 1.0).abs() < 1e-12);
+}

@@ -1,0 +1,96 @@
+//! The manifest beside the frames: what is in it, and that its description says so.
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use regatta::commands::manifest::{Manifest, SCHEMA};
+use regatta::lab::{Command, Lab, METRICS, Scene};
+use serde_json::Value;
+
+use crate::capture::drawn_or_skip;
+use crate::stderr;
+
+/// A small capture's manifest as text.
+fn manifest_or_skip(test: &str, arguments: &str) -> Option<String> {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = format!("capture --size 32x18 --scale 0.5 --out clip {arguments}");
+    let output = drawn_or_skip(test, folder.path(), &capture)?;
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    Some(fs::read_to_string(folder.path().join("clip/manifest.json")).unwrap())
+}
+
+fn keys(value: &Value, into: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(entries) => entries.iter().for_each(|(key, value)| {
+            into.insert(key.clone());
+            keys(value, into);
+        }),
+        Value::Array(entries) => entries.iter().for_each(|value| keys(value, into)),
+        _ => {}
+    }
+}
+
+#[test]
+fn every_key_is_described_and_what_is_described_reads_back() {
+    let test = "every_key_is_described_and_what_is_described_reads_back";
+    let Some(text) = manifest_or_skip(test, "--race --frames 3") else { return };
+    let source = include_str!("../../src/commands/manifest.rs");
+    let description: String = source.lines().take_while(|line| line.starts_with("//!")).collect();
+    let mut found = BTreeSet::new();
+    keys(&serde_json::from_str(&text).unwrap(), &mut found);
+    let metrics: Vec<&str> = METRICS.iter().map(|metric| metric.id).collect();
+    for key in found.iter().filter(|key| !metrics.contains(&key.as_str())) {
+        assert!(description.contains(&format!("`{key}`")), "{key} is not described");
+    }
+    assert!(metrics.iter().all(|&id| found.contains(id)));
+    let manifest: Manifest = serde_json::from_str(&text).unwrap();
+    assert_eq!(manifest.schema, SCHEMA);
+    assert!(manifest.to_text() == text, "what is read is written again to the byte");
+}
+
+#[test]
+fn frames_and_marks_are_those_of_the_run() {
+    let test = "frames_and_marks_are_those_of_the_run";
+    let arguments = "--scene harbour --race --tick-hz 49 --frames 9 --fps 7 --mark-every 10";
+    let Some(text) = manifest_or_skip(test, arguments) else { return };
+    let manifest: Manifest = serde_json::from_str(&text).unwrap();
+    assert!(manifest.complete);
+    // 49 Hz at 7 frames a second: 7 ticks to a frame.
+    let ticks: Vec<u64> = manifest.frames.iter().map(|frame| frame.tick).collect();
+    assert_eq!(ticks, (0..9).map(|frame| 7 * frame).collect::<Vec<_>>());
+    for frame in &manifest.frames {
+        let [numerator, denominator] = frame.alpha;
+        assert!(numerator < denominator / 1_000_000, "a frame falls on a tick but for rounding");
+    }
+    let ticks: Vec<u64> = manifest.marks.iter().map(|mark| mark.tick).collect();
+    assert_eq!(ticks, [0, 10, 20, 30, 40, 50, 56]);
+
+    let mut scene = Scene::built_in("harbour").unwrap();
+    scene.tick_hz = 49;
+    let mut lab = Lab::new(scene);
+    lab.apply(Command::ToggleRace);
+    for mark in &manifest.marks {
+        while lab.race().tick() < mark.tick {
+            lab.tick();
+        }
+        let hashes = lab.race().lane_hashes().map(|hash| format!("{hash:016x}"));
+        assert!(hashes.eq(mark.lanes.iter().map(|lane| lane.hash.clone())));
+        for (lane, entrant) in mark.lanes.iter().zip(lab.race().entrants()) {
+            let q = entrant.lane.bodies().iter().map(|body| body.stepper.q().to_vec());
+            assert!(q.eq(lane.q.iter().cloned()), "coordinates to the bit");
+        }
+    }
+    let exact = lab.race().truth();
+    for (lane, entrant) in manifest.lanes.iter().zip(lab.race().entrants()) {
+        for (n, body) in lane.bodies.iter().enumerate() {
+            assert_eq!(body["name"], lab.scene().bodies[n].name);
+            for metric in METRICS {
+                let value = (metric.measure)(
+                    &*entrant.lane.bodies()[n].stepper,
+                    &*exact.bodies()[n].stepper,
+                );
+                assert_eq!(body[metric.id], Value::from(value), "{}", metric.id);
+            }
+        }
+    }
+}

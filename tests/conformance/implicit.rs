@@ -1,0 +1,343 @@
+//! Methods that solve an equation: what they keep, and what happens where there is no solution.
+
+use glam::DVec2;
+use regatta::sim::integrators::{Family, METHODS, Method, StepFailure, integrator, method};
+use regatta::sim::{Counted, State, System};
+
+use super::systems::{Kepler, fresh, kepler_orbit, spring};
+
+fn implicit() -> impl Iterator<Item = &'static Method> {
+    METHODS.iter().filter(|method| method.family == Family::Implicit)
+}
+
+/// Masses of 1 kg in a row, each joined to its neighbours and the outer ones to walls, by springs of
+/// growing stiffness.
+struct Row;
+
+impl Row {
+    fn stiffness(link: usize) -> f64 {
+        1.0 + link as f64
+    }
+
+    fn energy(State { q, v }: &State<Vec<f64>>) -> f64 {
+        let kinetic: f64 = v.iter().map(|v| v * v / 2.0).sum();
+        let ends = |link: usize| (link.checked_sub(1).map_or(0.0, |i| q[i]), q.get(link));
+        let stretch = |link| ends(link).1.unwrap_or(&0.0) - ends(link).0;
+        let potential = |link| Self::stiffness(link) * stretch(link) * stretch(link) / 2.0;
+        kinetic + (0..=q.len()).map(potential).sum::<f64>()
+    }
+}
+
+impl System for Row {
+    type Vector = Vec<f64>;
+    fn acceleration(&self, _t: f64, q: &Vec<f64>, _v: &Vec<f64>, a: &mut Vec<f64>) {
+        for i in 0..q.len() {
+            let left = i.checked_sub(1).map_or(0.0, |left| q[left]);
+            let right = q.get(i + 1).unwrap_or(&0.0);
+            a[i] = Self::stiffness(i) * (left - q[i]) + Self::stiffness(i + 1) * (right - q[i]);
+        }
+    }
+}
+
+/// The most by which the energy of a row of `n` masses strays, as a part of itself.
+fn strays(method: &Method, n: usize, h: f64, steps: u32) -> f64 {
+    let displaced = |i: usize| if i == 0 { 1.0 } else { 0.0 };
+    let mut state = State { q: (0..n).map(displaced).collect(), v: vec![0.0; n] };
+    let mut integrator = integrator::<Row>(method, &state.q);
+    let first = Row::energy(&state);
+    let mut most: f64 = 0.0;
+    for step in 0..steps {
+        integrator.step(&Row, h * f64::from(step), h, &mut state).unwrap();
+        let error = (Row::energy(&state) / first - 1.0).abs();
+        assert!(error.is_finite(), "{}", method.id);
+        most = most.max(error);
+    }
+    most
+}
+
+#[test]
+fn quadratic_energy_is_kept_by_midpoint_gauss_legendre_and_newmark_and_by_no_other() {
+    for method in implicit() {
+        let keeps = method.symplectic || method.id == "newmark";
+        // Slow and stiff: h ω is 0.4 and, of the quickest motion in the row, about 6.
+        for (n, h, steps) in [(1, 0.3, 100_000), (8, 1.0, 5_000)] {
+            let strays = strays(method, n, h, steps);
+            println!("{:22} {n}: {strays:.1e}", method.id);
+            if keeps {
+                assert!(strays < 1e-10, "{} of {n}: {strays:e}", method.id);
+            } else {
+                assert!(strays > 1e-2, "{} of {n}: {strays:e}", method.id);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_row_of_64_masses_moves_as_under_many_steps_of_runge_kutta() {
+    let run = |id: &str, steps: u32| {
+        let bump = |i: usize| 1.0 / (1.0 + (i as f64 - 20.0) * (i as f64 - 20.0) / 25.0);
+        let mut state = State { q: (0..64).map(bump).collect::<Vec<f64>>(), v: vec![0.0; 64] };
+        let mut integrator = integrator::<Row>(method(id).expect("a method"), &state.q);
+        integrator.steps(&Row, 0.0, 0.5, steps, &mut state).unwrap();
+        state
+    };
+    let truth = run("rk4", 1_000);
+    for method in implicit() {
+        let error = |steps| {
+            let found = run(method.id, steps);
+            let pairs = found.q.iter().zip(&truth.q);
+            pairs.map(|(found, truth)| (found - truth).abs()).fold(0.0, f64::max)
+        };
+        let (coarse, fine) = (error(20), error(40));
+        let order = (coarse / fine).log2();
+        println!("{:22} {fine:.1e}, order {order:.2}", method.id);
+        assert!(fine < 0.1, "{}: {fine}", method.id);
+        assert!((order - f64::from(method.order)).abs() < 0.35, "{}: {order}", method.id);
+    }
+}
+
+/// How far the amplitude squared of an undamped oscillator is multiplied in one step, from a phase.
+fn growth(id: &str, z: f64, phase: f64) -> f64 {
+    let mut state = State { q: libm::cos(phase), v: libm::sin(phase) };
+    let method = method(id).expect("a method");
+    fresh(method).step(&spring(1.0, 0.0), 0.0, z, &mut state).unwrap();
+    state.q * state.q + state.v * state.v
+}
+
+#[test]
+fn one_step_multiplies_the_amplitude_as_the_formula_says() {
+    type Square = fn(f64) -> f64;
+    let formulas: [(&str, Square); 4] = [
+        ("implicit-euler", |z| 1.0 / (1.0 + z * z)),
+        ("implicit-midpoint", |_| 1.0),
+        ("newmark", |_| 1.0),
+        ("gauss-legendre-4", |_| 1.0),
+    ];
+    for (id, square) in formulas {
+        for z in [1e-3, 0.1, 0.5, 1.0, 1.7, 2.5, 4.0, 50.0] {
+            for phase in [0.0, 0.4, 1.6, 3.0, 5.5] {
+                let error = (growth(id, z, phase) / square(z) - 1.0).abs();
+                assert!(error < 1e-12, "{id} at h ω = {z}: off by {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn bdf2_takes_less_energy_than_implicit_euler_for_the_same_work() {
+    let left = |id| {
+        let system = Counted::new(spring(1.0, 0.0));
+        let mut state = State { q: 1.0, v: 0.7 };
+        let mut integrator = fresh(method(id).expect("a method"));
+        integrator.steps(&system, 0.0, 100.0, 1000, &mut state).unwrap();
+        (state.q * state.q + state.v * state.v, system.evaluations())
+    };
+    let (bdf2, euler) = (left("bdf2"), left("implicit-euler"));
+    assert!(bdf2.0 > 0.5 && euler.0 < 1e-3 && euler.0 > 0.0, "{bdf2:?}, {euler:?}");
+    assert!(bdf2.1 <= euler.1 + 3, "its first step is two solutions: {bdf2:?}, {euler:?}");
+}
+
+#[test]
+fn implicit_euler_halves_the_swing_of_the_1_hz_spring_as_tabled() {
+    for (tick_hz, seconds) in [(240, 8.43), (60, 2.12), (30, 1.08), (10, 0.42), (5, 0.29)] {
+        let h = 1.0 / f64::from(tick_hz);
+        let rate = growth("implicit-euler", std::f64::consts::TAU * h, 0.3).ln() / 2.0;
+        let found = -std::f64::consts::LN_2 * h / rate;
+        assert!((found - seconds).abs() <= 0.005, "{tick_hz} Hz: {found} s");
+    }
+}
+
+#[test]
+fn implicit_midpoint_swings_too_slowly_as_tabled() {
+    let table = [
+        (240, -0.006, 5e-4),
+        (60, -0.091, 5e-4),
+        (30, -0.36, 5e-3),
+        (10, -3.1, 0.05),
+        (5, -10.7, 0.05),
+    ];
+    for (tick_hz, percent, resolution) in table {
+        let z = std::f64::consts::TAU / f64::from(tick_hz);
+        let step = |q, v| {
+            let mut state = State { q, v };
+            let method = method("implicit-midpoint").unwrap();
+            fresh(method).step(&spring(1.0, 0.0), 0.0, z, &mut state).unwrap();
+            state
+        };
+        // The map turns by θ a step, with 2 cos θ its trace.
+        let angle = libm::acos((step(1.0, 0.0).q + step(0.0, 1.0).v) / 2.0);
+        let found = 100.0 * (angle / z - 1.0);
+        assert!((found - percent).abs() <= resolution, "{tick_hz} Hz: {found} %");
+    }
+}
+
+#[test]
+fn a_straight_force_is_solved_in_two_iterations_at_any_scale() {
+    // One evaluation an iteration and stage, and one a component and stage for the derivatives.
+    let costs = [
+        ("implicit-euler", 3.0),
+        ("implicit-midpoint", 3.0),
+        ("newmark", 4.0),
+        ("bdf2", 3.0),
+        ("gauss-legendre-4", 8.0),
+    ];
+    assert_eq!(costs.len(), implicit().count());
+    for (id, cost) in costs {
+        for (omega, h) in [(1.0, 0.1), (100.0, 0.1), (0.01, 0.1)] {
+            let run = |scale: f64| {
+                let system = Counted::new(spring(omega, 0.1));
+                let mut state = State { q: scale, v: -0.3 * scale };
+                let mut integrator = fresh(method(id).expect("a method"));
+                for step in 0..100 {
+                    integrator.step(&system, h * f64::from(step), h, &mut state).unwrap();
+                }
+                assert!(
+                    system.evaluations() as f64 <= 100.0 * cost + 3.0,
+                    "{id} {omega} {scale:e}"
+                );
+                [state.q / scale, state.v / scale].map(f64::to_bits)
+            };
+            // Powers of two, which change no digit.
+            let plain = run(1.0);
+            assert_eq!(run(2.0_f64.powi(100)), plain, "{id} at ω = {omega}");
+            assert_eq!(run(2.0_f64.powi(-100)), plain, "{id} at ω = {omega}");
+        }
+    }
+}
+
+#[test]
+fn a_gently_curved_force_takes_hardly_more() {
+    for method in implicit() {
+        let orbit = Counted::new(Kepler);
+        let mut state = kepler_orbit(0.3, 0.0);
+        let mut integrator = integrator(method, &state.q);
+        let h = std::f64::consts::TAU / 1000.0;
+        for step in 0..1000 {
+            integrator.step(&orbit, h * f64::from(step), h, &mut state).unwrap();
+        }
+        let cost = orbit.evaluations() as f64 / 1000.0;
+        println!("{:22} {cost}", method.id);
+        // Two iterations and two derivatives; Newmark's own force, or the second stage, beside.
+        let least = match method.id {
+            "newmark" => 5.0,
+            "gauss-legendre-4" => 12.0,
+            _ => 4.0,
+        };
+        assert!(cost >= least && cost < least + 0.5, "{}: {cost} evaluations a step", method.id);
+    }
+}
+
+#[test]
+fn what_dies_away_to_nothing_is_no_failure() {
+    for method in implicit() {
+        let mut state = State { q: 1.0, v: 0.0 };
+        let mut integrator = fresh(method);
+        for step in 0..20_000 {
+            let t = 0.3 * f64::from(step);
+            integrator.step(&spring(1.0, 0.5), t, 0.3, &mut state).unwrap();
+        }
+        assert!(state.q.abs() < 1e-300, "{}: {:e}", method.id, state.q);
+    }
+}
+
+/// Dry friction: a force that jumps where the velocity turns, and has no value in between.
+struct DryFriction;
+
+impl System for DryFriction {
+    type Vector = f64;
+    fn acceleration(&self, _t: f64, _q: &f64, v: &f64, a: &mut f64) {
+        *a = if *v > 0.0 { -1.0 } else { 1.0 };
+    }
+}
+
+/// A force of one coordinate that is not a number, or infinite.
+struct Broken(f64);
+
+impl System for Broken {
+    type Vector = DVec2;
+    fn acceleration(&self, _t: f64, q: &DVec2, _v: &DVec2, a: &mut DVec2) {
+        *a = DVec2::new(-q.x, self.0);
+    }
+}
+
+/// A force that is infinite at 1, and nowhere beside it.
+struct Pole;
+
+impl System for Pole {
+    type Vector = f64;
+    fn acceleration(&self, _t: f64, q: &f64, _v: &f64, a: &mut f64) {
+        *a = 1.0 / (q - 1.0);
+    }
+}
+
+#[test]
+fn an_equation_without_solution_is_a_failure_that_says_so() {
+    for method in implicit() {
+        let mut state = State { q: 0.0, v: 0.01 };
+        let stepped = fresh(method).step(&DryFriction, 0.0, 0.1, &mut state);
+        let Err(failure @ StepFailure::NewtonFailed { limit }) = stepped else {
+            panic!("{}: {stepped:?}", method.id)
+        };
+        assert!(limit >= 10);
+        let said = failure.to_string();
+        assert!(
+            said.contains(&limit.to_string()) && said.contains("raise the tick rate"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn a_force_or_a_state_that_is_not_finite_is_a_failure_too() {
+    for method in implicit() {
+        for broken in [f64::NAN, f64::INFINITY] {
+            let mut state = State { q: DVec2::ONE, v: DVec2::ZERO };
+            let mut integrator = integrator::<Broken>(method, &state.q);
+            let stepped = integrator.step(&Broken(broken), 0.0, 0.1, &mut state);
+            assert!(matches!(stepped, Err(StepFailure::NewtonFailed { .. })), "{}", method.id);
+
+            let mut state = State { q: broken, v: 0.0 };
+            let stepped = fresh(method).step(&spring(1.0, 0.0), 0.0, 0.1, &mut state);
+            assert!(matches!(stepped, Err(StepFailure::NewtonFailed { .. })), "{}", method.id);
+        }
+    }
+}
+
+#[test]
+fn a_pole_is_no_solution() {
+    for method in implicit() {
+        let mut state = State { q: 1.0, v: 0.0 };
+        let stepped = fresh(method).step(&Pole, 0.0, 0.1, &mut state);
+        if method.id == "newmark" {
+            // It starts from the force at the start, which is its caller's business.
+            assert!(!state.q.is_finite(), "{stepped:?} at {state:?}");
+        } else {
+            assert!(matches!(stepped, Err(StepFailure::NewtonFailed { .. })), "{}", method.id);
+        }
+    }
+}
+
+#[test]
+fn a_coordinate_far_away_does_not_blur_the_others() {
+    // A point that no force holds, a million metres off, beside a spring: each as it would be alone.
+    struct Apart;
+    impl System for Apart {
+        type Vector = DVec2;
+        fn acceleration(&self, _t: f64, q: &DVec2, v: &DVec2, a: &mut DVec2) {
+            *a = DVec2::new(-0.1 * v.x * v.x.abs(), -q.y);
+        }
+    }
+    for method in implicit() {
+        let run = |far: f64| {
+            let mut state = State { q: DVec2::new(far, 1.0), v: DVec2::new(20.0, 0.0) };
+            let mut integrator = integrator::<Apart>(method, &state.q);
+            for step in 0..1000 {
+                integrator.step(&Apart, 0.01 * f64::from(step), 0.01, &mut state).unwrap();
+            }
+            [state.q.y, state.v.y, state.v.x]
+        };
+        for (near, far) in run(0.0).into_iter().zip(run(1e6)) {
+            assert!((near / far - 1.0).abs() < 1e-11, "{}: {near}, {far}", method.id);
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! The largest stable steps on damped oscillators, measured on the real stepper.
+
+use regatta::sim::State;
+use regatta::sim::integrators::{Method, method};
+
+use super::systems::{fresh, spring};
+
+/// The damping ratios of the tables.
+const RATIOS: [f64; 4] = [0.0, 0.05, 0.2, 1.0];
+
+/// The largest `h ω` at each of those, below which the one-step map of a method that begins there has no
+/// eigenvalue beyond the unit circle.
+const ONE_STEP: [(&str, [f64; 4]); 14] = [
+    ("explicit-euler", [0.0, 0.100, 0.400, 2.000]),
+    ("semi-implicit-euler", [2.0, 1.902, 1.640, 0.828]),
+    ("velocity-verlet", [2.0, 1.912, 1.757, 1.000]),
+    ("stormer-verlet", [2.0, 1.912, 1.757, 1.000]),
+    ("position-verlet", [2.0, 1.902, 1.640, 0.828]),
+    ("improved-euler", [0.0, 0.800, 1.394, 2.000]),
+    ("midpoint", [0.0, 0.800, 1.394, 2.000]),
+    ("rk4", [2.828, 2.910, 2.940, 2.785]),
+    ("yoshida4", [1.573, 2.046, 1.111, 0.584]),
+    ("pefrl", [2.989, 2.670, 2.947, 1.078]),
+    ("ssp-rk3", [1.732, 1.988, 2.369, 2.513]),
+    ("improved-euler-as-printed", [2.0, 2.011, 2.405, 1.000]),
+    ("rk4-as-printed", [2.0, 2.003, 2.062, 1.393]),
+    // What it is only at its first step.
+    ("adams-bashforth-2", [0.0, 0.800, 1.394, 2.000]),
+];
+
+/// The same, but for the undamped one, of what a method that carries something does in the long run: the
+/// Verlets go on with a force that was taken at a predicted velocity.
+const LONG_RUN: [(&str, [f64; 3]); 3] = [
+    ("velocity-verlet", [1.810, 1.354, 0.472]),
+    ("stormer-verlet", [1.810, 1.354, 0.472]),
+    ("adams-bashforth-2", [0.539, 0.765, 1.000]),
+];
+
+/// Half a unit of the tables' last digit, and a little for the search.
+const RESOLUTION: f64 = 6e-4;
+
+/// The spectral radius of the map of one step of a fresh method, by differences.
+fn radius(method: &Method, ratio: f64, h: f64) -> f64 {
+    let system = spring(1.0, ratio);
+    let step = |q: f64, v: f64| {
+        let mut state = State { q, v };
+        fresh(method).step(&system, 0.0, h, &mut state).unwrap();
+        [state.q, state.v]
+    };
+    let [from, by_q, by_v] = [step(0.3, -0.2), step(1.3, -0.2), step(0.3, 0.8)];
+    let [[a, c], [b, d]] = [by_q, by_v].map(|to| [to[0] - from[0], to[1] - from[1]]);
+    let (half_trace, determinant) = ((a + d) / 2.0, a * d - b * c);
+    assert!(half_trace.is_finite() && determinant.is_finite(), "{}", method.id);
+    match half_trace * half_trace - determinant {
+        apart if apart > 0.0 => half_trace.abs() + apart.sqrt(),
+        _ => determinant.sqrt(),
+    }
+}
+
+/// How far a swing has grown after many steps; it stops once that is beyond all doubt.
+fn growth(method: &Method, ratio: f64, h: f64) -> f64 {
+    let system = spring(1.0, ratio);
+    let mut state = State { q: 0.6, v: 0.8 };
+    let mut integrator = fresh(method);
+    for step in 0..100_000 {
+        integrator.step(&system, h * f64::from(step), h, &mut state).unwrap();
+        if state.q.abs() > 1e9 {
+            break;
+        }
+    }
+    libm::hypot(state.q, state.v)
+}
+
+/// The first `h` beyond which `stable` ends.
+fn limit(stable: impl Fn(f64) -> bool) -> f64 {
+    let coarse = 0.01;
+    let ends = (1..400).map(|n| coarse * f64::from(n)).find(|&h| !stable(h));
+    let mut beyond = ends.expect("every explicit method has a limit below 4");
+    let mut within = beyond - coarse;
+    while beyond - within > 1e-4 {
+        let middle = (within + beyond) / 2.0;
+        if stable(middle) { within = middle } else { beyond = middle }
+    }
+    within
+}
+
+#[test]
+fn the_one_step_map_of_each_form_leaves_the_unit_circle_at_the_tabled_step() {
+    for (id, limits) in ONE_STEP {
+        let method = method(id).expect("a method");
+        for (ratio, listed) in RATIOS.into_iter().zip(limits) {
+            // Without drag some are unstable at every step, but by z⁴/8: too little to see at first.
+            let lowest = if ratio == 0.0 { 0.06 } else { 0.0 };
+            let found = limit(|h| h < lowest || radius(method, ratio, h) < 1.0 + 1e-9);
+            println!("{id:26} {ratio:4} {found:.4}");
+            let at_once = listed == 0.0 && found <= lowest;
+            let off = (found - listed).abs();
+            assert!(at_once || off < RESOLUTION, "{id} at ζ = {ratio}: {found}, listed {listed}");
+        }
+    }
+}
+
+#[test]
+fn in_the_long_run_each_form_is_stable_to_its_maps_limit_or_to_the_lower_one_of_what_it_carries() {
+    for (id, one_step) in ONE_STEP {
+        let method = method(id).expect("a method");
+        let carried = LONG_RUN.iter().find(|(carrying, _)| *carrying == id);
+        assert_eq!(carried.is_some(), method.restart.is_some(), "{id}");
+        let limits = carried.map_or(&one_step[1..], |(_, limits)| limits);
+        for (ratio, limit) in RATIOS[1..].iter().zip(limits) {
+            let (within, beyond) = (limit - RESOLUTION, limit + RESOLUTION);
+            let [within, beyond] = [within, beyond].map(|h| growth(method, *ratio, h));
+            println!("{id:26} {ratio:4} {limit:.3} {within:.1e} {beyond:.1e}");
+            assert!(within < 0.5, "{id} at ζ = {ratio} grows below {limit}: {within}");
+            assert!(beyond > 5.0, "{id} at ζ = {ratio} does not grow beyond {limit}: {beyond}");
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! What shows only after many steps: whether energy drifts, and whether there is a way back.
+
+use regatta::sim::integrators::{Family, METHODS, Method};
+use regatta::sim::{State, System};
+
+use super::systems::{Pendulum, fresh, spring};
+
+/// Beyond this there is no motion left to speak of.
+const LOST: f64 = 1e6;
+
+/// The error of the energy over a run, as its amplitude and the rise of the straight line through it.
+struct Drift {
+    amplitude: f64,
+    rise: f64,
+}
+
+impl Drift {
+    /// The share of the error that is trend.
+    fn trend(&self) -> f64 {
+        (self.rise / self.amplitude).abs()
+    }
+}
+
+/// The pendulum's energy over `steps` steps of `h`; `None` if it was lost on the way.
+fn drift(method: &Method, h: f64, steps: u32) -> Option<Drift> {
+    let mut integrator = fresh(method);
+    let mut state = State { q: 1.2, v: 0.5 };
+    let energy = |s: &State<f64>| s.v * s.v / 2.0 - libm::cos(s.q);
+    let first = energy(&state);
+    let (mut least, mut most) = (0.0_f64, 0.0_f64);
+    let (middle, mut sum, mut moment, mut square) = (f64::from(steps - 1) / 2.0, 0.0, 0.0, 0.0);
+    for step in 0..steps {
+        integrator.step(&Pendulum, h * f64::from(step), h, &mut state).unwrap();
+        let error = energy(&state) - first;
+        if !error.is_finite() || error.abs() > LOST {
+            return None;
+        }
+        (least, most) = (least.min(error), most.max(error));
+        let at = f64::from(step) - middle;
+        (sum, moment, square) = (sum + error, moment + at * error, square + at * at);
+    }
+    assert!(sum.is_finite());
+    Some(Drift { amplitude: most - least, rise: moment / square * f64::from(steps) })
+}
+
+#[test]
+fn over_a_million_steps_symplectic_methods_keep_energy_bounded_without_a_trend_and_no_others() {
+    for method in METHODS {
+        let drift = drift(method, 0.3, 1_000_000);
+        let trend = drift.as_ref().map_or(f64::INFINITY, Drift::trend);
+        let amplitude = drift.map_or(f64::INFINITY, |drift| drift.amplitude);
+        println!("{:26} energy error {amplitude:.1e}, trend {trend:.1e} of it", method.id);
+        if method.symplectic {
+            assert!(amplitude < 0.3 && amplitude > 1e-9, "{}: {amplitude:e}", method.id);
+            assert!(trend < 1e-3, "{}: {trend:e}", method.id);
+        } else if [Family::Explicit, Family::Adaptive].contains(&method.family) {
+            // Others may be symplectic in coordinates of their own, and show no trend in these.
+            assert!(trend > 1e-3, "{}: {trend:e}", method.id);
+        }
+    }
+}
+
+/// How far from its start `steps` steps of `h` and as many of `-h` leave the state.
+fn out_and_back<S: System<Vector = f64> + 'static>(method: &Method, system: &S) -> f64 {
+    const H: f64 = 0.1;
+    const STEPS: u32 = 100_000;
+    let start = State { q: 1.2, v: 0.5 };
+    let mut state = start.clone();
+    let mut integrator = fresh::<S>(method);
+    let out = (0..STEPS).map(|n| (H * f64::from(n), H));
+    let back = (1..=STEPS).rev().map(|n| (H * f64::from(n), -H));
+    for (t, h) in out.chain(back) {
+        integrator.step(system, t, h, &mut state).unwrap();
+        if !state.q.is_finite() || state.q.abs() > LOST {
+            return f64::INFINITY;
+        }
+    }
+    (state.q - start.q).abs().max((state.v - start.v).abs())
+}
+
+#[test]
+fn reversible_methods_and_no_others_find_back_after_a_hundred_thousand_steps() {
+    // Backwards by steps of -h: on forces without drag the same as turning the velocity round.
+    for method in METHODS {
+        for off in [out_and_back(method, &spring(1.0, 0.0)), out_and_back(method, &Pendulum)] {
+            println!("{:26} {off:.1e}", method.id);
+            if method.reversible {
+                assert!(off < 1e-9, "{}: {off:e}", method.id);
+            } else {
+                assert!(off > 1e-6, "{}: {off:e}", method.id);
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! What a method remembers of its last step, and when it must forget it.
+
+use std::cell::RefCell;
+
+use glam::DVec2;
+use regatta::sim::State;
+use regatta::sim::bodies::Spring;
+use regatta::sim::integrators::{Integrator, METHODS, Method, integrator};
+
+use super::systems::{Timetable, bits, fresh, spring};
+
+/// Methods that carry more than a step size: a force, a slope or a position.
+fn historians() -> impl Iterator<Item = &'static Method> {
+    METHODS.iter().filter(|method| method.restart.is_some() && method.tolerance.is_none())
+}
+
+/// Steps a lively damped spring `n` times by `h`.
+fn run(integrator: &mut dyn Integrator<Spring>, state: &mut State<f64>, h: f64, n: u32) {
+    for step in 0..n {
+        integrator.step(&spring(20.0, 0.1), h * f64::from(step), h, state).unwrap();
+    }
+}
+
+#[test]
+fn after_a_reset_a_method_is_as_new() {
+    for method in METHODS {
+        let (mut used, mut elsewhere) = (fresh(method), State { q: 100.0, v: 3.0 });
+        run(&mut *used, &mut elsewhere, 0.05, 57);
+        used.reset();
+        let mut reset = State { q: -0.3, v: 11.0 };
+        let mut new = reset.clone();
+        run(&mut *used, &mut reset, 0.05, 20);
+        run(&mut *fresh(method), &mut new, 0.05, 20);
+        assert_eq!(bits(&reset), bits(&new), "{}", method.id);
+    }
+}
+
+#[test]
+fn methods_with_a_restart_and_no_others_carry_something_from_step_to_step() {
+    for method in METHODS {
+        let mut left_alone = State { q: -0.3, v: 11.0 };
+        let mut interrupted = left_alone.clone();
+        let [mut going_on, mut beginning_anew] = [fresh(method), fresh(method)];
+        for _ in 0..20 {
+            run(&mut *going_on, &mut left_alone, 0.03, 1);
+            beginning_anew.reset();
+            run(&mut *beginning_anew, &mut interrupted, 0.03, 1);
+        }
+        assert!(left_alone.q.is_finite() && interrupted.q.is_finite(), "{}", method.id);
+        let carries = bits(&left_alone) != bits(&interrupted);
+        assert_eq!(carries, method.restart.is_some(), "{}", method.id);
+    }
+}
+
+#[test]
+fn a_history_is_dropped_for_a_state_that_is_not_the_one_left() {
+    assert!(historians().count() >= 3);
+    for method in historians() {
+        for kick in [State { q: 0.0, v: 0.25 }, State { q: 0.25, v: 0.0 }] {
+            let (mut used, mut kicked) = (fresh(method), State { q: -0.3, v: 11.0 });
+            run(&mut *used, &mut kicked, 0.03, 10);
+            kicked.add_scaled(1.0, &kick);
+            let mut new = kicked.clone();
+            run(&mut *used, &mut kicked, 0.03, 10);
+            run(&mut *fresh(method), &mut new, 0.03, 10);
+            assert_eq!(bits(&kicked), bits(&new), "{} after {kick:?}", method.id);
+        }
+    }
+}
+
+#[test]
+fn a_history_is_dropped_for_a_step_of_another_length() {
+    for method in historians() {
+        for h in [0.02, 0.04, -0.03] {
+            let (mut used, mut going_on) = (fresh(method), State { q: -0.3, v: 11.0 });
+            run(&mut *used, &mut going_on, 0.03, 10);
+            let mut new = going_on.clone();
+            run(&mut *used, &mut going_on, h, 10);
+            run(&mut *fresh(method), &mut new, h, 10);
+            assert_eq!(bits(&going_on), bits(&new), "{} by {h} s", method.id);
+        }
+    }
+}
+
+#[test]
+fn a_method_that_carries_its_step_keeps_its_direction_when_time_turns() {
+    for method in METHODS {
+        let system = Timetable { power: 1, asked: RefCell::default() };
+        let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(0.0, 0.0) };
+        let mut integrator = integrator::<Timetable>(method, &state.q);
+        integrator.step(&system, 0.0, 0.1, &mut state).unwrap();
+        integrator.step(&system, 0.1, -0.1, &mut state).unwrap();
+        assert!(state.v.x.abs() < 1e-15, "{}: {} m/s left", method.id, state.v.x);
+    }
+}

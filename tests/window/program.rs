@@ -1,0 +1,98 @@
+//! The program as a process.
+
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::Duration;
+
+/// The program running.
+pub(crate) struct Program(Child);
+
+impl Program {
+    /// Starts the program in this folder, with nothing of this machine's display or settings.
+    pub(crate) fn start(folder: &Path, arguments: &str, variables: &[(&str, &str)]) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_regatta"));
+        for variable in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "WGPU_BACKEND", "RUST_LOG"]
+        {
+            command.env_remove(variable);
+        }
+        command
+            .args(arguments.split_whitespace())
+            .current_dir(folder)
+            // Where it is unset, libwayland says so on standard error.
+            .env("XDG_RUNTIME_DIR", folder)
+            .envs(variables.iter().copied())
+            .stdin(Stdio::null())
+            .stderr(Stdio::piped());
+        Self(command.spawn().unwrap())
+    }
+
+    /// Waits for a line with this text on standard error; without one, returns all that it said.
+    pub(crate) fn says(&mut self, text: &str) -> Result<(), String> {
+        let mut said = String::new();
+        let mut stderr = BufReader::new(self.0.stderr.as_mut().expect("it is piped"));
+        while !said.contains(text) {
+            if stderr.read_line(&mut said).unwrap() == 0 {
+                return Err(said);
+            }
+        }
+        Ok(())
+    }
+
+    /// How it ended, if it did.
+    pub(crate) fn ended(&mut self) -> Option<ExitStatus> {
+        self.0.try_wait().unwrap()
+    }
+
+    /// What it said on standard error until its end.
+    pub(crate) fn said(&mut self) -> String {
+        let mut said = String::new();
+        self.0.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+        said
+    }
+
+    pub(crate) fn processor_time(&self) -> Duration {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.0.id())).unwrap();
+        // The name, in brackets, may hold spaces.
+        let (_, fields) = stat.rsplit_once(") ").unwrap();
+        let ticks = fields.split(' ').skip(11).take(2).map(|field| field.parse::<u64>().unwrap());
+        // Linux shows a hundred of them a second, whatever the kernel counts in.
+        Duration::from_millis(10 * ticks.sum::<u64>())
+    }
+
+    /// Whether all of its threads wait for something.
+    pub(crate) fn sleeps(&self) -> bool {
+        let mut threads = std::fs::read_dir(format!("/proc/{}/task", self.0.id())).unwrap();
+        threads.all(|thread| {
+            let stat = std::fs::read_to_string(thread.unwrap().path().join("stat"));
+            stat.is_ok_and(|stat| stat.rsplit_once(") ").is_some_and(|(_, s)| s.starts_with('S')))
+        })
+    }
+
+    /// Has it stand still for so long, as on a busy machine.
+    pub(crate) fn stop_for(&self, span: Duration) {
+        stop_for(&self.0, span);
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        end(&mut self.0);
+    }
+}
+
+/// Stops a process for so long.
+pub(crate) fn stop_for(child: &Child, span: Duration) {
+    let signal = |name| {
+        let id = child.id().to_string();
+        assert!(Command::new("kill").args(["-s", name, &id]).status().unwrap().success());
+    };
+    signal("STOP");
+    std::thread::sleep(span);
+    signal("CONT");
+}
+
+pub(crate) fn end(child: &mut Child) {
+    let _ = child.kill();
+    let _ = child.wait();
+}
