@@ -1,9 +1,7 @@
-//! What a frame costs, stage by stage: from events to picture, to pixels, to a file; how many frames a
-//! second a capture makes of it; and how long the program takes from its start to the first frame.
+//! What a frame costs, stage by stage: from events to picture, to pixels, to a file; and how long the
+//! program takes from its start to the first frame.
 
 use std::hint::black_box;
-use std::sync::mpsc;
-use std::thread;
 use std::time::{Duration, Instant};
 
 use regatta::lab::{Command, Lab, Scene, picture};
@@ -19,10 +17,9 @@ const FRAMES: usize = 300;
 const SIZE_PX: [u32; 2] = [1280, 720];
 /// What the window of that size leaves for the stage, in points.
 const STAGE_POINTS: [f32; 2] = [793.0, 532.0];
-/// The aims, for `harbour` in race mode: the last one for a capture, in frames a second.
+/// The aims, for `harbour` in race mode.
 const MOST_FOR_A_PICTURE: Duration = Duration::from_micros(300);
 const MOST_FOR_THE_FIRST_FRAME: Duration = Duration::from_secs(1);
-const LEAST_FRAMES_A_SECOND: [(Panels, f64); 2] = [(Panels::Shown, 60.0), (Panels::Off, 150.0)];
 
 fn main() {
     let start = Instant::now();
@@ -32,7 +29,8 @@ fn main() {
     };
     let mut lab = Lab::new(Scene::built_in("harbour").expect("a built-in scene"));
     lab.apply(Command::ToggleRace);
-    draw(&mut artist(&gpu, Panels::Shown), &lab, &mut Vec::new());
+    let mut artist = Artist::new(gpu.clone(), SIZE_PX, 1.0).expect("1280x720 is within any limit");
+    artist.draw(&lab, &mut Vec::new()).expect("a fresh device gives its frame back");
     let first = start.elapsed();
 
     for _ in 0..WARM_UP {
@@ -43,7 +41,7 @@ fn main() {
     println!("harbour, race, {} lanes, {strokes} strokes, {adapter}", lab.entries().len());
     let aim = verdict(first < MOST_FOR_THE_FIRST_FRAME, "1000 ms");
     println!("start to first frame {:.0} ms{aim}", millis(first));
-    for (panels, least) in LEAST_FRAMES_A_SECOND {
+    for panels in [Panels::Shown, Panels::Off] {
         println!("\n1280x720, panels {panels:?}: a frame's stages, median and least ms");
         for (name, times) in stages(&gpu, panels, &mut lab) {
             let (median, least) = (times[FRAMES / 2], times[0]);
@@ -53,13 +51,6 @@ fn main() {
             };
             println!("{name:44} {:>8.3} {:>8.3}{aim}", millis(median), millis(least));
         }
-        let (per_second, drawing) = capture(&mut artist(&gpu, panels), &mut lab);
-        println!(
-            "{:44} {per_second:>8.1}{}",
-            "frames a second, files encoded meanwhile",
-            verdict(per_second >= least, &format!("{least}")),
-        );
-        println!("{:44} {drawing:>8.1}", "frames a second, drawn only");
     }
 }
 
@@ -106,48 +97,6 @@ fn stages(gpu: &Gpu, panels: Panels, lab: &mut Lab) -> [(&'static str, Vec<Durat
     ];
     stages.iter_mut().for_each(|(_, times)| times.sort());
     stages
-}
-
-/// Frames a second with each encoded on another thread while the next is drawn, and without files.
-fn capture(artist: &mut Artist, lab: &mut Lab) -> (f64, f64) {
-    let (drawn, to_encode) = mpsc::sync_channel::<Vec<u8>>(1);
-    let (encoded, to_draw) = mpsc::channel();
-    for _ in 0..3 {
-        encoded.send(Vec::new()).expect("the other end is open");
-    }
-    let start = Instant::now();
-    thread::scope(|scope| {
-        scope.spawn(move || {
-            for rgba in to_encode {
-                black_box(png::encode(SIZE_PX, &rgba));
-                // The artist has drawn its last frame when nobody takes the buffer back.
-                encoded.send(rgba).ok();
-            }
-        });
-        for _ in 0..FRAMES {
-            let mut rgba = to_draw.recv().expect("three buffers go round");
-            lab.advance(FRAME_NS);
-            draw(artist, lab, &mut rgba);
-            drawn.send(rgba).expect("the encoder takes every frame");
-        }
-        drop(drawn);
-    });
-    let with_files = start.elapsed();
-    let (start, mut rgba) = (Instant::now(), Vec::new());
-    for _ in 0..FRAMES {
-        lab.advance(FRAME_NS);
-        draw(artist, lab, &mut rgba);
-    }
-    [with_files, start.elapsed()].map(|time| FRAMES as f64 / time.as_secs_f64()).into()
-}
-
-fn artist(gpu: &Gpu, panels: Panels) -> Artist {
-    let artist = Artist::new(gpu.clone(), SIZE_PX, 1.0).expect("1280x720 is within any limit");
-    artist.with_panels(panels)
-}
-
-fn draw(artist: &mut Artist, lab: &Lab, rgba: &mut Vec<u8>) {
-    artist.draw(lab, rgba).expect("the device gives its frame back");
 }
 
 fn verdict(holds: bool, aim: &str) -> String {
