@@ -13,14 +13,13 @@ struct Frame {
 
 // As `LINE` in `src/view/curves.rs`.
 const LINE = 2.0;
-// Half the width of what is no line, in pixels: wider than any target.
-const EVERYWHERE_PX = 1e6;
 
 struct Varying {
     @builtin(position) position: vec4<f32>,
     @location(0) colour: vec4<f32>,
-    // On the atlas; then half the width of a line and how far from its middle, in pixels.
-    @location(1) texel_and_line: vec4<f32>,
+    @location(1) texel: vec2<f32>,
+    // Half the width of a line, and how far from its middle.
+    @location(2) line_px: vec2<f32>,
 }
 
 @vertex
@@ -33,18 +32,25 @@ fn vertex(
     var out: Varying;
     out.position = vec4(2.0 * part.x - 1.0, 1.0 - 2.0 * part.y, 0.0, 1.0);
     out.colour = colour;
-    let texel = part_of_atlas * vec2<f32>(textureDimensions(atlas));
-    let line_px = vec2(part_of_atlas.x - LINE, part_of_atlas.y);
-    let is_line = part_of_atlas.x >= LINE;
-    out.texel_and_line =
-        select(vec4(texel, EVERYWHERE_PX, 0.0), vec4(0.0, 0.0, line_px), is_line);
+    out.texel = part_of_atlas * vec2<f32>(textureDimensions(atlas));
+    out.line_px = part_of_atlas - vec2(LINE, 0.0);
     return out;
 }
 
 @fragment
-fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    let half_px = in.texel_and_line.z;
-    let across_px = in.texel_and_line.w;
+fn fill(in: Varying) -> @location(0) vec4<f32> {
+    return in.colour;
+}
+
+@fragment
+fn line(in: Varying) -> @location(0) vec4<f32> {
+    let half_px = in.line_px.x;
+    let across_px = in.line_px.y;
     let covered = min(across_px + 0.5, half_px) - max(across_px - 0.5, -half_px);
-    return in.colour * max(covered, 0.0) * textureLoad(atlas, vec2<i32>(in.texel_and_line.xy), 0);
+    return in.colour * max(covered, 0.0);
+}
+
+@fragment
+fn textured(in: Varying) -> @location(0) vec4<f32> {
+    return in.colour * textureLoad(atlas, vec2<i32>(in.texel), 0);
 }

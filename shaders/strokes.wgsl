@@ -11,34 +11,25 @@ const FAR_PX = 1e9;
 // The edge's blur reaches half a pixel, its corners a little further.
 const MARGIN_PX = 1.0;
 
-struct Instance {
+struct Quad {
     @location(0) ends: vec4<f32>,
     @location(1) radii: vec2<f32>,
-    @location(2) from_colour: vec4<f32>,
-    @location(3) to_colour: vec4<f32>,
-    // Drawn length, gap length, phase; 1 for a butt cap.
-    @location(4) dash_and_cap: vec4<f32>,
-    @location(5) clip: vec4<f32>,
+    @location(2) colour: vec4<f32>,
+    // 1 for a butt cap.
+    @location(3) butt: f32,
 }
 
 struct Varying {
     @builtin(position) position: vec4<f32>,
     @location(0) local_px: vec2<f32>,
+    @location(1) @interpolate(flat) colour: vec4<f32>,
     // Length, radii, 1 for a butt cap.
-    @location(1) @interpolate(flat) shape_px: vec4<f32>,
-    @location(2) @interpolate(flat) taper: vec3<f32>,
-    @location(3) @interpolate(flat) from_colour: vec4<f32>,
-    @location(4) @interpolate(flat) to_colour: vec4<f32>,
-    @location(5) @interpolate(flat) clip_px: vec4<f32>,
-    @location(6) @interpolate(flat) dash_px: vec3<f32>,
-}
-
-fn premultiplied(colour: vec4<f32>) -> vec4<f32> {
-    return vec4(colour.rgb * colour.a, colour.a);
+    @location(2) @interpolate(flat) shape_px: vec4<f32>,
+    @location(3) @interpolate(flat) taper: vec3<f32>,
 }
 
 @vertex
-fn vertex(@builtin(vertex_index) index: u32, stroke: Instance) -> Varying {
+fn vertex(@builtin(vertex_index) index: u32, stroke: Quad) -> Varying {
     let from_px = px_from_points(stroke.ends.xy);
     let reach_px = px_from_points(stroke.ends.zw) - from_px;
     let length_px = length(reach_px);
@@ -49,7 +40,7 @@ fn vertex(@builtin(vertex_index) index: u32, stroke: Instance) -> Varying {
 
     // The larger disc may hold the other one and reach beyond it.
     let round_reach_px = max(radii_px, radii_px.yx - length_px);
-    let cap_px = select(round_reach_px, vec2(0.0), stroke.dash_and_cap.w > 0.5);
+    let cap_px = select(round_reach_px, vec2(0.0), stroke.butt > 0.5);
     let half_width_px = max(radii_px.x, radii_px.y) + MARGIN_PX;
     let low_px = vec2(-cap_px.x - MARGIN_PX, -half_width_px);
     let high_px = vec2(length_px + cap_px.y + MARGIN_PX, half_width_px);
@@ -58,13 +49,9 @@ fn vertex(@builtin(vertex_index) index: u32, stroke: Instance) -> Varying {
     var out: Varying;
     out.position = clip_from_px(from_px + direction * local_px.x + normal * local_px.y);
     out.local_px = local_px;
-    out.shape_px = vec4(length_px, radii_px, stroke.dash_and_cap.w);
-    let round_px = max(radii_px, vec2(MIN_RADIUS_PX));
-    out.taper = taper_of(length_px, round_px);
-    out.from_colour = premultiplied(stroke.from_colour);
-    out.to_colour = premultiplied(stroke.to_colour);
-    out.dash_px = stroke.dash_and_cap.xyz * stage.px_per_point;
-    out.clip_px = vec4(px_from_points(stroke.clip.xy), px_from_points(stroke.clip.zw));
+    out.colour = vec4(stroke.colour.rgb, 1.0) * stroke.colour.a;
+    out.shape_px = vec4(length_px, radii_px, stroke.butt);
+    out.taper = taper_of(length_px, max(radii_px, vec2(MIN_RADIUS_PX)));
     return out;
 }
 
@@ -98,63 +85,29 @@ fn hull_distance_px(
 
 // How much of the pixel at `x` lies within `half_width` of 0, in one dimension.
 fn overlap(x: f32, half_width: f32) -> f32 {
-    return clamp(min(x + 0.5, half_width) - max(x - 0.5, -half_width), 0.0, 1.0);
+    return clamp(half_width + 0.5 - abs(x), 0.0, min(2.0 * half_width, 1.0));
 }
 
-// How far `along` is from the middle of the nearest dash.
-fn from_dash_middle_px(along: f32, dash_px: vec3<f32>) -> f32 {
-    let period = dash_px.x + dash_px.y;
-    let turns = (along + dash_px.z - 0.5 * dash_px.x) / period;
-    return (turns - round(turns)) * period;
-}
-
-fn is_clipped(in: Varying) -> bool {
-    return any(in.position.xy < in.clip_px.xy) || any(in.position.xy >= in.clip_px.zw);
-}
-
-fn part_of(in: Varying) -> f32 {
-    return clamp(in.local_px.x / max(in.shape_px.x, DOT_LENGTH_PX), 0.0, 1.0);
-}
-
-fn round_distance_px(in: Varying) -> f32 {
-    let radii_px = max(in.shape_px.yz, vec2(MIN_RADIUS_PX));
-    return hull_distance_px(in.local_px, in.shape_px.x, radii_px, in.taper);
-}
-
-// The colour where shapes of such distance and such extent along the stroke are drawn.
-fn painted(in: Varying, part: f32, along: f32, distance_px: f32) -> vec4<f32> {
-    let radius_px = mix(in.shape_px.y, in.shape_px.z, part);
-    let butt = along * overlap(in.local_px.y, radius_px);
-    let rounded = clamp(0.5 - distance_px, 0.0, 1.0) * min(radius_px / MIN_RADIUS_PX, 1.0);
-    let coverage = select(rounded, butt, in.shape_px.w > 0.5);
-    return mix(in.from_colour, in.to_colour, part) * coverage;
-}
-
-fn overlap_of_all(in: Varying) -> f32 {
+// Both radii are the first one.
+@fragment
+fn line(in: Varying) -> @location(0) vec4<f32> {
     let half_px = 0.5 * in.shape_px.x;
-    return overlap(in.local_px.x - half_px, half_px);
+    let radius_px = in.shape_px.y;
+    let from_middle_px = abs(in.local_px.x - half_px);
+    let beyond_px = max(from_middle_px - half_px, 0.0);
+    let from_end_px = length(vec2(beyond_px, in.local_px.y));
+    let rounded = clamp(max(radius_px, MIN_RADIUS_PX) + 0.5 - from_end_px, 0.0, 1.0)
+        * min(radius_px / MIN_RADIUS_PX, 1.0);
+    let butt = overlap(from_middle_px, half_px) * overlap(in.local_px.y, radius_px);
+    return in.colour * select(rounded, butt, in.shape_px.w > 0.5);
 }
 
 @fragment
-fn solid(in: Varying) -> @location(0) vec4<f32> {
-    if is_clipped(in) {
-        discard;
-    }
-    return painted(in, part_of(in), overlap_of_all(in), round_distance_px(in));
-}
-
-@fragment
-fn dashed(in: Varying) -> @location(0) vec4<f32> {
-    if is_clipped(in) {
-        discard;
-    }
-    let part = part_of(in);
-    let from_middle_px = from_dash_middle_px(in.local_px.x, in.dash_px);
-    let along = min(overlap_of_all(in), overlap(from_middle_px, 0.5 * in.dash_px.x));
-    // Dashes are as round as the ends, and as long as asked for, ends included.
-    let round_px = max(mix(in.shape_px.y, in.shape_px.z, part), MIN_RADIUS_PX);
-    let straight_px = max(0.5 * in.dash_px.x - round_px, 0.0);
-    let beyond_px = max(abs(from_middle_px) - straight_px, 0.0);
-    let dash_distance_px = length(vec2(beyond_px, in.local_px.y)) - round_px;
-    return painted(in, part, along, max(round_distance_px(in), dash_distance_px));
+fn hull(in: Varying) -> @location(0) vec4<f32> {
+    let part = clamp(in.local_px.x / max(in.shape_px.x, DOT_LENGTH_PX), 0.0, 1.0);
+    let radius_px = mix(in.shape_px.y, in.shape_px.z, part);
+    let radii_px = max(in.shape_px.yz, vec2(MIN_RADIUS_PX));
+    let distance_px = hull_distance_px(in.local_px, in.shape_px.x, radii_px, in.taper);
+    let coverage = clamp(0.5 - distance_px, 0.0, 1.0) * min(radius_px / MIN_RADIUS_PX, 1.0);
+    return in.colour * coverage;
 }

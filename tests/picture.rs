@@ -9,6 +9,12 @@ fn assert_drawable(picture: &Picture, what: &str) {
         let all = [stroke.from, stroke.to, stroke.radii, stroke.clip.min, stroke.clip.max];
         assert!(all.iter().all(|pair| finite(pair)), "{what}: {stroke:?}");
     }
+    for ribbon in &picture.ribbons {
+        assert!(finite(&ribbon.clip.min) && finite(&ribbon.clip.max), "{what}: {:?}", ribbon.clip);
+        for point in &ribbon.points {
+            assert!(finite(&point.at) && finite(&[point.radius]), "{what}: {point:?}");
+        }
+    }
     for sea in &picture.seas {
         let scalars = [sea.grid_step, sea.waves, sea.phase];
         assert!(finite(&sea.grid_origin) && finite(&scalars), "{what}: {sea:?}");
@@ -108,6 +114,21 @@ fn an_orbits_trail_lies_on_its_ellipse() {
 }
 
 #[test]
+fn a_trail_leads_from_the_body_back_in_time_and_fades() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    for _ in 0..100 {
+        lab.advance(16_666_667);
+    }
+    let picture = compose(&lab, [780.0, 500.0]);
+    let trail = &picture.ribbons.last().expect("a spring leaves a trail").points;
+    assert!(trail.len() > 50, "{}", trail.len());
+    // A chart recorder's paper runs down.
+    assert!(trail.is_sorted_by(|new, old| new.at[1] <= old.at[1]));
+    assert!(trail.is_sorted_by(|new, old| new.colour[3] >= old.colour[3]));
+    assert!(trail[0].colour[3] > 240 && trail[trail.len() - 1].colour[3] < 220);
+}
+
+#[test]
 fn stages_of_no_size_are_composed() {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
     for mode in [Mode::Solo, Mode::Race] {
@@ -147,8 +168,13 @@ fn every_body_of_every_lane_has_a_cell_inside_the_stage() {
 fn the_ghost_shows_only_when_it_is_asked_for() {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
     lab.advance(100_000_000);
-    let with = compose(&lab, [780.0, 500.0]).strokes.len();
+    let drawn = |lab: &Lab| {
+        let picture = compose(lab, [780.0, 500.0]);
+        (picture.strokes.len(), picture.ribbons.len())
+    };
+    let with = drawn(&lab);
     lab.apply(Command::ToggleGhost);
-    let without = compose(&lab, [780.0, 500.0]).strokes.len();
-    assert!(without < with, "{without} strokes without a ghost, {with} with");
+    let without = drawn(&lab);
+    assert!(without.0 < with.0, "{without:?} strokes and ribbons without a ghost, {with:?} with");
+    assert!(without.1 < with.1, "{without:?} strokes and ribbons without a ghost, {with:?} with");
 }

@@ -26,12 +26,14 @@ pub struct Rect {
     pub max: [f32; 2],
 }
 
-/// Everything on the stage, in painting order: seas, then strokes, then labels.
+/// Everything on the stage, in painting order: seas, then ribbons, then strokes, then labels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// Backgrounds, one for each body of each lane.
     pub seas: Vec<Sea>,
-    /// Everything drawn, the first at the bottom.
+    /// Trails and wakes.
+    pub ribbons: Vec<Ribbon>,
+    /// Everything else drawn, the first at the bottom.
     pub strokes: Vec<Stroke>,
     /// Text over it.
     pub labels: Vec<Label>,
@@ -52,12 +54,32 @@ pub struct Sea {
     pub phase: f32,
 }
 
+/// A line through points, with a width and a colour at each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ribbon {
+    /// The points, of which many may lie in one pixel.
+    pub points: Vec<RibbonPoint>,
+    /// Nothing is drawn outside this.
+    pub clip: Rect,
+}
+
+/// A point of a ribbon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RibbonPoint {
+    /// Where.
+    pub at: [f32; 2],
+    /// Half the width there.
+    pub radius: f32,
+    /// The colour there.
+    pub colour: Rgba,
+}
+
 /// The shape of a stroke's ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cap {
     /// A disc at either end: lines, dots, hulls.
     Round,
-    /// Cut straight through the end point: with a length equal to its width, a square.
+    /// Cut straight through the end point, for equal radii: with a length equal to its width, a square.
     Butt,
 }
 
@@ -70,10 +92,8 @@ pub struct Stroke {
     pub to: [f32; 2],
     /// Half the width at either end.
     pub radii: [f32; 2],
-    /// Colour at either end.
-    pub colours: [Rgba; 2],
-    /// Dash pattern: drawn length, gap length, and how far into the pattern `from` is. A gap of 0 is solid.
-    pub dash: [f32; 3],
+    /// Its colour.
+    pub colour: Rgba,
     /// The shape of the ends.
     pub cap: Cap,
     /// Nothing is drawn outside this.

@@ -244,8 +244,7 @@ mod tests {
             from: [-1000.0; 2],
             to: [1000.0; 2],
             radii: [2000.0; 2],
-            colours: [[255, 0, 0, 255]; 2],
-            dash: [0.0; 3],
+            colour: [255, 0, 0, 255],
             cap: Cap::Round,
             clip: EVERYWHERE,
         };

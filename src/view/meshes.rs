@@ -6,10 +6,12 @@
 use std::collections::HashMap;
 
 use bytemuck::{Pod, Zeroable};
-use egui::epaint::{self, Primitive};
+use egui::epaint::{self, Mesh, Primitive, WHITE_UV};
 use egui::{ClippedPrimitive, ImageData, TextureId};
 
+use super::curves::LINE;
 use super::gpu::Gpu;
+use super::triangles::Triangles;
 
 const SHADER: &str = include_str!("../../shaders/panels.wgsl");
 
@@ -21,15 +23,24 @@ struct FrameUniform {
     padding: [f32; 2],
 }
 
-const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
-    wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4];
+/// What a pixel of a triangle takes, from the least to the most.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// Opaque, in one colour, and large: nothing but storing it.
+    Fill,
+    /// Part of a line: its coverage.
+    Line,
+    /// A texel.
+    Textured,
+}
 
-/// Room for this many bytes at first; growing is by doubling.
-const FIRST_CAPACITY: u64 = 1 << 16;
+/// Fills smaller than this, in square pixels, are not worth a draw of their own.
+const LEAST_FILL_PX: f32 = 4096.0;
 
 /// Some triangles of one texture.
 #[derive(Debug)]
 struct Draw {
+    kind: Kind,
     texture: TextureId,
     /// Left, top, width and height on the target.
     scissor_px: [u32; 4],
@@ -39,17 +50,14 @@ struct Draw {
 /// Draws egui's meshes on targets of one format.
 #[derive(Debug)]
 pub(super) struct MeshRenderer {
-    pipeline: wgpu::RenderPipeline,
+    /// One for each [`Kind`], in its order.
+    pipelines: [wgpu::RenderPipeline; 3],
     atlas_layout: wgpu::BindGroupLayout,
     atlases: HashMap<TextureId, (wgpu::Texture, wgpu::BindGroup)>,
     uniform: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
-    vertex_buffer: wgpu::Buffer,
-    index_buffer: wgpu::Buffer,
+    triangles: Triangles,
     draws: Vec<Draw>,
-    /// Kept for their capacity.
-    vertices: Vec<epaint::Vertex>,
-    indices: Vec<u32>,
 }
 
 impl MeshRenderer {
@@ -89,16 +97,13 @@ impl MeshRenderer {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
         });
         Self {
-            pipeline: pipeline(gpu, format, [&frame_layout, &atlas_layout]),
+            pipelines: pipelines(gpu, format, [&frame_layout, &atlas_layout]),
             atlas_layout,
             atlases: HashMap::new(),
             uniform,
             bind_group,
-            vertex_buffer: buffer(gpu, wgpu::BufferUsages::VERTEX, FIRST_CAPACITY),
-            index_buffer: buffer(gpu, wgpu::BufferUsages::INDEX, FIRST_CAPACITY),
+            triangles: Triangles::new(gpu, "panels"),
             draws: Vec::new(),
-            vertices: Vec::new(),
-            indices: Vec::new(),
         }
     }
 
@@ -159,8 +164,7 @@ impl MeshRenderer {
         px_per_point: f32,
     ) {
         self.draws.clear();
-        self.vertices.clear();
-        self.indices.clear();
+        self.triangles.clear();
         for ClippedPrimitive { clip_rect, primitive } in primitives {
             // Nothing here asks egui for a callback.
             let Primitive::Mesh(mesh) = primitive else { continue };
@@ -168,27 +172,29 @@ impl MeshRenderer {
             if scissor_px[2] == 0 || scissor_px[3] == 0 {
                 continue;
             }
-            let (first_vertex, first) = (self.vertices.len() as u32, self.indices.len() as u32);
-            self.vertices.extend_from_slice(&mesh.vertices);
-            self.indices.extend(mesh.indices.iter().map(|index| first_vertex + index));
-            let indices = first..self.indices.len() as u32;
-            self.draws.push(Draw { texture: mesh.texture_id, scissor_px, indices });
+            let mut first = self.triangles.add(mesh).start;
+            let triangles = mesh.indices.as_chunks::<3>().0;
+            let kind = |corners: &[u32; 3]| kind(mesh, corners, px_per_point);
+            for run in triangles.chunk_by(|a, b| kind(a) == kind(b)) {
+                let indices = first..first + 3 * run.len() as u32;
+                first = indices.end;
+                let texture = mesh.texture_id;
+                self.draws.push(Draw { kind: kind(&run[0]), texture, scissor_px, indices });
+            }
         }
         let size_points = size_px.map(|side| side as f32 / px_per_point);
         let uniform = FrameUniform { size_points, padding: [0.0; 2] };
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        write(gpu, &mut self.vertex_buffer, bytemuck::cast_slice(&self.vertices));
-        write(gpu, &mut self.index_buffer, bytemuck::cast_slice(&self.indices));
+        self.triangles.upload(gpu);
     }
 
     /// Draws what was prepared.
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.bind_group, &[]);
-        pass.set_vertex_buffer(0, self.vertex_buffer.slice(..));
-        pass.set_index_buffer(self.index_buffer.slice(..), wgpu::IndexFormat::Uint32);
-        for Draw { texture, scissor_px: [left, top, width, height], indices } in &self.draws {
+        self.triangles.bind(pass);
+        for Draw { kind, texture, scissor_px: [left, top, width, height], indices } in &self.draws {
             let Some((_, bind_group)) = self.atlases.get(texture) else { continue };
+            pass.set_pipeline(&self.pipelines[*kind as usize]);
             pass.set_bind_group(1, bind_group, &[]);
             pass.set_scissor_rect(*left, *top, *width, *height);
             pass.draw_indexed(indices.clone(), 0, 0..1);
@@ -196,11 +202,22 @@ impl MeshRenderer {
     }
 }
 
-fn pipeline(
+fn kind(mesh: &Mesh, corners: &[u32; 3], px_per_point: f32) -> Kind {
+    let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
+    if a.uv.x >= LINE {
+        return Kind::Line;
+    }
+    let (ab, ac) = (px_per_point * (b.pos - a.pos), px_per_point * (c.pos - a.pos));
+    let is_large = (ab.x * ac.y - ab.y * ac.x).abs() / 2.0 >= LEAST_FILL_PX;
+    let is_plain = [a, b, c].iter().all(|v| v.uv == WHITE_UV && v.color == a.color);
+    if is_large && is_plain && a.color.is_opaque() { Kind::Fill } else { Kind::Textured }
+}
+
+fn pipelines(
     gpu: &Gpu,
     format: wgpu::TextureFormat,
     layouts: [&wgpu::BindGroupLayout; 2],
-) -> wgpu::RenderPipeline {
+) -> [wgpu::RenderPipeline; 3] {
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("panels"),
         source: wgpu::ShaderSource::Wgsl(SHADER.into()),
@@ -210,53 +227,38 @@ fn pipeline(
         bind_group_layouts: &layouts.map(Some),
         immediate_size: 0,
     });
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("panels"),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<epaint::Vertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &ATTRIBUTES,
-            })],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some("fragment"),
-            compilation_options: Default::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format,
-                blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
-        }),
-        multiview_mask: None,
-        cache: None,
+    [Kind::Fill, Kind::Line, Kind::Textured].map(|kind| {
+        let (fragment, blend) = match kind {
+            Kind::Fill => ("fill", None),
+            Kind::Line => ("line", Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING)),
+            Kind::Textured => ("textured", Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING)),
+        };
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some("panels"),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("vertex"),
+                compilation_options: Default::default(),
+                buffers: &[Some(Triangles::LAYOUT)],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some(fragment),
+                compilation_options: Default::default(),
+                targets: &[Some(wgpu::ColorTargetState {
+                    format,
+                    blend,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
     })
-}
-
-fn buffer(gpu: &Gpu, usage: wgpu::BufferUsages, bytes: u64) -> wgpu::Buffer {
-    gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("panels"),
-        size: bytes,
-        usage: usage | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
-
-/// Writes to the start of a buffer, or of a larger one in its place.
-fn write(gpu: &Gpu, into: &mut wgpu::Buffer, bytes: &[u8]) {
-    if bytes.len() as u64 > into.size() {
-        let usage = into.usage() & !wgpu::BufferUsages::COPY_DST;
-        *into = buffer(gpu, usage, (bytes.len() as u64).next_power_of_two());
-    }
-    gpu.queue.write_buffer(into, 0, bytes);
 }
 
 /// The pixels of a rectangle in points, within the target: left, top, width and height.

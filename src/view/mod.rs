@@ -10,19 +10,22 @@ mod curves;
 mod figure;
 mod frame;
 mod gpu;
-mod instances;
+mod lines;
 mod meshes;
 mod offscreen;
 mod panels;
 mod plot;
 pub mod png;
+mod quads;
 mod readback;
+mod ribbons;
 mod screen;
 mod sea;
 mod stage;
 mod strokes;
 #[cfg(test)]
 mod testing;
+mod triangles;
 
 pub use artist::Artist;
 pub use figure::{Figure, FigureCurve};

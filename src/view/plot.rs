@@ -68,9 +68,7 @@ pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, curves: &[Cu
         }
     }
     for curve in curves.iter().filter(|curve| curve.dots > 0.0) {
-        let within = |[x, y]: &&[f64; 2]| {
-            (left..=right).contains(x) && (low..=high).contains(y)
-        };
+        let within = |[x, y]: &&[f64; 2]| (left..=right).contains(x) && (low..=high).contains(y);
         for dot in curve.points.iter().filter(within) {
             painter.circle_filled(on_screen(dot), curve.dots, curve.colour);
         }

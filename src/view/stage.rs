@@ -1,11 +1,13 @@
-//! The stage: a picture's seas, then its strokes, in their place on the target.
+//! The stage: a picture's seas, then its ribbons and its strokes, in their place on the target.
 
 use bytemuck::{Pod, Zeroable};
 
 use super::frame::Stage;
 use super::gpu::Gpu;
+use super::ribbons::RibbonPipeline;
 use super::sea::SeaPipeline;
 use super::strokes::StrokePipeline;
+use crate::lab::picture::{FAR, Rect};
 
 /// `Stage` in `shaders/stage.wgsl`.
 #[repr(C)]
@@ -17,12 +19,42 @@ struct StageUniform {
     padding: [f32; 3],
 }
 
+/// Where the stage lies on the target.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) origin_px: [f32; 2],
+    pub(super) px_per_point: f32,
+    /// Left, top, right and bottom of what is to be seen of it.
+    edges_px: [f32; 4],
+}
+
+/// What clips nothing.
+const EVERYWHERE: Rect = Rect { min: [-FAR; 2], max: [FAR; 2] };
+
+impl Place {
+    /// Where a point of the stage is, in pixels of the target.
+    pub(super) fn px(&self, point: [f32; 2]) -> [f32; 2] {
+        [0, 1].map(|axis| self.origin_px[axis] + point[axis] * self.px_per_point)
+    }
+
+    /// The left, top, width and height of those pixels whose middle is within `clip`.
+    pub(super) fn scissor_px(&self, clip: Rect) -> [u32; 4] {
+        let [left, top, right, bottom] = self.edges_px;
+        let [low, high] = [clip.min, clip.max].map(|corner| {
+            let [x, y] = self.px(corner).map(|at| (at - 0.5).ceil());
+            [x.clamp(left, right) as u32, y.clamp(top, bottom) as u32]
+        });
+        [low[0], low[1], high[0].saturating_sub(low[0]), high[1].saturating_sub(low[1])]
+    }
+}
+
 /// Draws the part of a picture that is not text.
 #[derive(Debug)]
 pub(super) struct StageRenderer {
     uniform: wgpu::Buffer,
     bind_group: wgpu::BindGroup,
     seas: SeaPipeline,
+    ribbons: RibbonPipeline,
     strokes: StrokePipeline,
     /// Left, top, width and height on the target.
     scissor_px: [u32; 4],
@@ -64,6 +96,7 @@ impl StageRenderer {
             uniform,
             bind_group,
             seas: SeaPipeline::new(gpu, &layout, format),
+            ribbons: RibbonPipeline::new(gpu, &layout, format),
             strokes: StrokePipeline::new(gpu, &layout, format),
             scissor_px: [0; 4],
         }
@@ -81,11 +114,17 @@ impl StageRenderer {
             padding: [0.0; 3],
         };
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        let [left, right] = [low_px.x, high_px.x].map(|x| (x.max(0.0) as u32).min(size_px[0]));
-        let [top, bottom] = [low_px.y, high_px.y].map(|y| (y.max(0.0) as u32).min(size_px[1]));
-        self.scissor_px = [left, top, right.saturating_sub(left), bottom.saturating_sub(top)];
-        self.seas.upload(gpu, &stage.picture.seas);
-        self.strokes.upload(gpu, &stage.picture.strokes);
+        let [left, right] = [low_px.x, high_px.x].map(|x| x.clamp(0.0, size_px[0] as f32));
+        let [top, bottom] = [low_px.y, high_px.y].map(|y| y.clamp(0.0, size_px[1] as f32));
+        let place = Place {
+            origin_px: low_px.into(),
+            px_per_point: scale,
+            edges_px: [left, top, right.max(left), bottom.max(top)],
+        };
+        self.scissor_px = place.scissor_px(EVERYWHERE);
+        self.seas.upload(gpu, &stage.picture.seas, &place);
+        self.ribbons.upload(gpu, &stage.picture.ribbons, &place);
+        self.strokes.upload(gpu, &stage.picture.strokes, &place);
     }
 
     /// Draws what was prepared, and nothing outside the stage.
@@ -97,18 +136,20 @@ impl StageRenderer {
         pass.set_scissor_rect(left, top, width, height);
         pass.set_bind_group(0, &self.bind_group, &[]);
         self.seas.paint(pass);
+        self.ribbons.paint(pass);
         self.strokes.paint(pass);
     }
 }
 
-/// A pipeline of instanced quads over `shaders/stage.wgsl`, blending the premultiplied colours of its
-/// fragment function. Named by label, shader and that function.
+/// A pipeline of triangles over `shaders/stage.wgsl`, named by label, shader and fragment function, the
+/// colours of which are premultiplied.
 pub(super) fn quad_pipeline(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,
     format: wgpu::TextureFormat,
     [label, shader, fragment]: [&str; 3],
-    instance: wgpu::VertexBufferLayout<'_>,
+    vertex: wgpu::VertexBufferLayout<'_>,
+    blend: Option<wgpu::BlendState>,
 ) -> wgpu::RenderPipeline {
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(label),
@@ -121,12 +162,9 @@ pub(super) fn quad_pipeline(
             module: &module,
             entry_point: Some("vertex"),
             compilation_options: Default::default(),
-            buffers: &[Some(instance)],
+            buffers: &[Some(vertex)],
         },
-        primitive: wgpu::PrimitiveState {
-            topology: wgpu::PrimitiveTopology::TriangleStrip,
-            ..Default::default()
-        },
+        primitive: wgpu::PrimitiveState::default(),
         depth_stencil: None,
         multisample: Default::default(),
         fragment: Some(wgpu::FragmentState {
@@ -135,7 +173,7 @@ pub(super) fn quad_pipeline(
             compilation_options: Default::default(),
             targets: &[Some(wgpu::ColorTargetState {
                 format,
-                blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                blend,
                 write_mask: wgpu::ColorWrites::ALL,
             })],
         }),

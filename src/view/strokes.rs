@@ -1,55 +1,71 @@
-//! Strokes: every line, dot, hull and block of a picture, in one draw and in painting order.
+//! Strokes: every line, dot, hull and block of a picture, in painting order.
+
+use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
 
 use super::gpu::Gpu;
-use super::instances::Instances;
-use super::stage::quad_pipeline;
+use super::quads::Quads;
+use super::stage::{Place, quad_pipeline};
 use crate::lab::picture::{Cap, Stroke};
 
 const SHADER: &str =
     concat!(include_str!("../../shaders/stage.wgsl"), include_str!("../../shaders/strokes.wgsl"));
 
-/// `Instance` in `shaders/strokes.wgsl`.
+/// `Quad` in `shaders/strokes.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct StrokeInstance {
+struct StrokeQuad {
     ends: [f32; 4],
     radii: [f32; 2],
-    colours: [[u8; 4]; 2],
-    dash_and_cap: [f32; 4],
-    clip: [f32; 4],
+    colour: [u8; 4],
+    butt: f32,
 }
 
-const ATTRIBUTES: [wgpu::VertexAttribute; 6] = wgpu::vertex_attr_array![
-    0 => Float32x4, 1 => Float32x2, 2 => Unorm8x4, 3 => Unorm8x4, 4 => Float32x4, 5 => Float32x4
-];
+const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
+    wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x2, 2 => Unorm8x4, 3 => Float32];
 
-impl From<&Stroke> for StrokeInstance {
+impl From<&Stroke> for StrokeQuad {
     fn from(stroke: &Stroke) -> Self {
-        let Stroke { from, to, radii, colours, dash, cap, clip } = *stroke;
+        let Stroke { from, to, radii, colour, cap, clip: _ } = *stroke;
         let butt = match cap {
             Cap::Round => 0.0,
             Cap::Butt => 1.0,
         };
-        Self {
-            ends: [from[0], from[1], to[0], to[1]],
-            radii,
-            colours,
-            dash_and_cap: [dash[0], dash[1], dash[2], butt],
-            clip: [clip.min[0], clip.min[1], clip.max[0], clip.max[1]],
-        }
+        Self { ends: [from[0], from[1], to[0], to[1]], radii, colour, butt }
     }
 }
 
-/// Draws a picture's strokes. Dashed ones are rare, and the others need not pay for them.
+/// What a stroke's pixels have to find out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// As wide at one end as at the other: nearly all are so.
+    Line,
+    Hull,
+}
+
+impl Kind {
+    fn of(stroke: &Stroke) -> Self {
+        if stroke.radii[0] == stroke.radii[1] { Kind::Line } else { Kind::Hull }
+    }
+}
+
+/// Draws a picture's strokes.
 #[derive(Debug)]
 pub(super) struct StrokePipeline {
-    solid: wgpu::RenderPipeline,
-    dashed: wgpu::RenderPipeline,
-    instances: Instances<StrokeInstance>,
-    /// How many strokes of a kind follow each other: solid ones, dashed ones, and so on in turn.
-    runs: Vec<u32>,
+    /// One for each [`Kind`], in its order.
+    pipelines: [wgpu::RenderPipeline; 2],
+    quads: Quads<StrokeQuad>,
+    draws: Vec<Draw>,
+}
+
+/// Strokes of a kind that follow each other within one clip.
+#[derive(Debug)]
+struct Draw {
+    kind: Kind,
+    /// Left, top, width and height of what shows on the target.
+    scissor_px: [u32; 4],
+    quads: Range<u32>,
 }
 
 impl StrokePipeline {
@@ -59,42 +75,41 @@ impl StrokePipeline {
         format: wgpu::TextureFormat,
     ) -> Self {
         let pipeline = |fragment| {
-            let instance = wgpu::VertexBufferLayout {
-                array_stride: size_of::<StrokeInstance>() as u64,
-                step_mode: wgpu::VertexStepMode::Instance,
+            let vertex = wgpu::VertexBufferLayout {
+                array_stride: size_of::<StrokeQuad>() as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
                 attributes: &ATTRIBUTES,
             };
-            quad_pipeline(gpu, layout, format, ["strokes", SHADER, fragment], instance)
+            let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+            quad_pipeline(gpu, layout, format, ["strokes", SHADER, fragment], vertex, blend)
         };
         Self {
-            solid: pipeline("solid"),
-            dashed: pipeline("dashed"),
-            instances: Instances::new(gpu, "strokes"),
-            runs: Vec::new(),
+            pipelines: ["line", "hull"].map(pipeline),
+            quads: Quads::new(gpu, "strokes"),
+            draws: Vec::new(),
         }
     }
 
-    pub(super) fn upload(&mut self, gpu: &Gpu, strokes: &[Stroke]) {
-        self.instances.upload(gpu, strokes.iter().map(StrokeInstance::from));
-        self.runs.clear();
-        self.runs.push(0);
-        for stroke in strokes {
-            let dashed = stroke.dash[1] > 0.0;
-            if dashed != self.runs.len().is_multiple_of(2) {
-                self.runs.push(0);
-            }
-            if let Some(run) = self.runs.last_mut() {
-                *run += 1;
-            }
+    pub(super) fn upload(&mut self, gpu: &Gpu, strokes: &[Stroke], place: &Place) {
+        self.quads.upload(gpu, strokes.iter().map(StrokeQuad::from));
+        self.draws.clear();
+        let mut first = 0;
+        let alike = |a: &Stroke, b: &Stroke| a.clip == b.clip && Kind::of(a) == Kind::of(b);
+        for run in strokes.chunk_by(alike) {
+            let quads = first..first + run.len() as u32;
+            first = quads.end;
+            let (kind, scissor_px) = (Kind::of(&run[0]), place.scissor_px(run[0].clip));
+            self.draws.push(Draw { kind, scissor_px, quads });
         }
+        self.draws.retain(|draw| draw.scissor_px[2] > 0 && draw.scissor_px[3] > 0);
     }
 
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        let mut first = 0;
-        for (run, pipeline) in self.runs.iter().zip([&self.solid, &self.dashed].iter().cycle()) {
-            pass.set_pipeline(pipeline);
-            self.instances.draw(pass, first..first + run);
-            first += run;
+        self.quads.bind(pass);
+        for Draw { kind, scissor_px: [left, top, width, height], quads } in &self.draws {
+            pass.set_pipeline(&self.pipelines[*kind as usize]);
+            pass.set_scissor_rect(*left, *top, *width, *height);
+            self.quads.draw(pass, quads.clone());
         }
     }
 }
@@ -108,15 +123,7 @@ mod tests {
     const WHITE: [u8; 4] = [255; 4];
 
     fn line(from: [f32; 2], to: [f32; 2], radius: f32) -> Stroke {
-        Stroke {
-            from,
-            to,
-            radii: [radius; 2],
-            colours: [WHITE; 2],
-            dash: [0.0; 3],
-            cap: Cap::Round,
-            clip: EVERYWHERE,
-        }
+        Stroke { from, to, radii: [radius; 2], colour: WHITE, cap: Cap::Round, clip: EVERYWHERE }
     }
 
     fn draw(gpu: &Gpu, strokes: &[Stroke]) -> Pixels {
@@ -163,25 +170,6 @@ mod tests {
     }
 
     #[test]
-    fn dashes_leave_gaps_where_the_pattern_says() {
-        let Some(gpu) = gpu_or_skip("dashes_leave_gaps_where_the_pattern_says") else { return };
-        for cap in [Cap::Butt, Cap::Round] {
-            let dash = [8.0, 6.0, 3.0];
-            let stroke = Stroke { dash, cap, ..line([2.0, 32.0], [60.0, 32.0], 1.0) };
-            let pixels = draw(&gpu, &[stroke]);
-            for x in 2..60 {
-                // Half a pixel from the ends of a dash lies its rounding.
-                let into_pattern = (x as f32 + 0.5 - 2.0 + 3.0) % 14.0;
-                if (1.0..7.0).contains(&into_pattern) {
-                    assert!(pixels.at(x, 31)[0] > 250, "{cap:?}: {x} is in a dash");
-                } else if into_pattern > 8.0 {
-                    assert_eq!(pixels.at(x, 31)[0], 0, "{cap:?}: {x} is in a gap");
-                }
-            }
-        }
-    }
-
-    #[test]
     fn different_radii_make_a_taper() {
         let Some(gpu) = gpu_or_skip("different_radii_make_a_taper") else { return };
         let stroke = Stroke { radii: [12.0, 2.0], ..line([16.0, 32.0], [52.0, 32.0], 0.0) };
@@ -222,21 +210,11 @@ mod tests {
     fn later_strokes_lie_over_earlier_ones() {
         let Some(gpu) = gpu_or_skip("later_strokes_lie_over_earlier_ones") else { return };
         let [red, green] = [[255, 0, 0, 255], [0, 255, 0, 128]];
-        let dot = |colour| Stroke { colours: [colour; 2], ..line([32.0; 2], [32.0; 2], 6.0) };
+        let dot = |colour| Stroke { colour, ..line([32.0; 2], [32.0; 2], 6.0) };
         assert_eq!(draw(&gpu, &[dot(green), dot(red)]).at(32, 32), red);
         let [r, g, b, a] = draw(&gpu, &[dot(red), dot(green)]).at(32, 32);
         assert!(r.abs_diff(127) <= 1 && g.abs_diff(128) <= 1, "{r} {g}");
         assert_eq!([b, a], [0, 255]);
-    }
-
-    #[test]
-    fn colours_run_from_one_end_to_the_other() {
-        let Some(gpu) = gpu_or_skip("colours_run_from_one_end_to_the_other") else { return };
-        let colours = [[255, 0, 0, 255], [0, 0, 255, 255]];
-        let pixels = draw(&gpu, &[Stroke { colours, ..line([0.0, 32.0], [64.0, 32.0], 3.0) }]);
-        let reds = [1, 16, 32, 48, 62].map(|x| pixels.at(x, 32)[0]);
-        assert!(reds.is_sorted_by(|a, b| a > b), "{reds:?}");
-        assert!(reds[2].abs_diff(127) <= 3, "{reds:?}");
     }
 
     #[test]

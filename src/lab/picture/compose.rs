@@ -277,16 +277,23 @@ fn swing(truth: &History) -> f64 {
     truth.samples().map(|s| s.at.x.abs()).fold(0.0, f64::max)
 }
 
-/// Two ticks at the largest swing of the truth: a mass beyond them has gained energy.
+/// Two dashed ticks at the largest swing of the truth: a mass beyond them has gained energy.
 fn envelope(picture: &mut Picture, camera: &Camera, truth: &History) {
+    /// From the beginning of a dash to its end and to the next one, in points.
+    const DASH: f32 = 3.0;
+    const PERIOD: f32 = 6.0;
     let swing = swing(truth);
     let colour = faded(palette::TRUTH, 0.6);
+    let half = 0.13 * (camera.rect.max[1] - camera.rect.min[1]);
     for x in [-swing, swing] {
         let [x, y] = camera.points(DVec2::new(x, 0.0));
-        let half = 0.13 * (camera.rect.max[1] - camera.rect.min[1]);
-        let mut tick = line([x, y - half], [x, y + half], 1.0, colour, camera.rect);
-        tick.dash = [3.0, 3.0, 0.0];
-        picture.strokes.push(tick);
+        for dash in 0..(2.0 * half / PERIOD).ceil() as u32 {
+            let from = y - half + dash as f32 * PERIOD;
+            let to = (from + DASH).min(y + half);
+            // Their round ends are part of them.
+            let (from, to) = (from + 0.5, to.max(from + 1.0) - 0.5);
+            picture.strokes.push(line([x, from], [x, to], 1.0, colour, camera.rect));
+        }
     }
 }
 

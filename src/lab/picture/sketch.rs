@@ -75,8 +75,7 @@ pub(super) fn strokes<'a>(
             from: camera.points(from),
             to: camera.points(to),
             radii: [radii[0] + grow, radii[1] + grow],
-            colours: [colour; 2],
-            dash: SOLID,
+            colour,
             cap,
             clip: camera.rect,
         };
@@ -101,8 +100,5 @@ pub(super) fn strokes<'a>(
 /// A line with round ends, `width` points wide.
 pub(super) fn line(from: [f32; 2], to: [f32; 2], width: f32, colour: Rgba, clip: Rect) -> Stroke {
     let radii = [width / 2.0; 2];
-    Stroke { from, to, radii, colours: [colour; 2], dash: SOLID, cap: Cap::Round, clip }
+    Stroke { from, to, radii, colour, cap: Cap::Round, clip }
 }
-
-/// The dash pattern of an unbroken line.
-const SOLID: [f32; 3] = [1.0, 0.0, 0.0];

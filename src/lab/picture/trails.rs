@@ -1,19 +1,39 @@
 //! Where bodies have been: the trace of a mass, the wake of a ship.
 
-use glam::{DVec2, Vec2};
+use std::iter;
+
+use glam::DVec2;
 
 use super::compose::Shown;
 use super::palette::{self, faded, style};
-use super::sketch::{Camera, demote, line};
-use super::{Cap, Picture, Rgba, Stroke};
+use super::sketch::{Camera, demote};
+use super::{Picture, Rect, Rgba, Ribbon, RibbonPoint};
 use crate::lab::{History, Sample};
 
-/// The most segments in a trail: more would not show.
-const TRAIL_SEGMENTS: usize = 180;
-/// The least length of a segment, in points: of shorter ones, too, more would not show.
-const SHORTEST_SEGMENT: f32 = 2.0;
-/// The same in a wake, which bends little and fades within each segment.
-const SHORTEST_OF_WAKE: f32 = 8.0;
+/// The most points in a trail: more would not show.
+const TRAIL_POINTS: usize = 180;
+/// Half the width of a trail and of an arm of a bow wave, in points.
+const TRAIL_RADIUS: f32 = 0.75;
+const ARM_RADIUS: f32 = 0.6;
+
+/// A moment of a body's past.
+struct Moment<'h> {
+    /// How long ago, in seconds.
+    age: f64,
+    /// Where the body was, in metres.
+    at: DVec2,
+    /// By what method it got there.
+    sample: &'h Sample,
+}
+
+/// A ribbon through some moments.
+fn ribbon<'h>(
+    moments: &[Moment<'h>],
+    clip: Rect,
+    point: impl FnMut(&Moment<'h>) -> RibbonPoint,
+) -> Ribbon {
+    Ribbon { points: moments.iter().map(point).collect(), clip }
+}
 
 impl Shown<'_> {
     /// The colour of the method that flew a body at a moment of its past.
@@ -31,9 +51,24 @@ impl Shown<'_> {
         let shown = self.t;
         let recent = move |s: &&Sample| shown - s.t < trail_s;
         let count = history.samples().rev().take_while(recent).count();
-        let every = count.div_ceil(TRAIL_SEGMENTS).max(1);
+        let every = count.div_ceil(TRAIL_POINTS).max(1);
         let newest_first = history.samples().rev().take_while(recent).step_by(every);
         newest_first.filter(move |s| s.t < shown).map(move |s| (shown - s.t, s))
+    }
+
+    /// The past of a body that is now at `from`, newest first, cut where its method was switched, each
+    /// part beginning where the one before ends.
+    fn legs<'h>(&self, from: DVec2, history: &'h History, trail_s: f64) -> Vec<Vec<Moment<'h>>> {
+        let past: Vec<(f64, &Sample)> = self.recent(history, trail_s).collect();
+        let (mut age, mut at) = (0.0, from);
+        let legs = past.chunk_by(|(_, new), (_, old)| new.entry == old.entry).map(|flown| {
+            let first = Moment { age, at, sample: flown[0].1 };
+            let rest = flown.iter().map(|&(age, sample)| Moment { age, at: sample.at, sample });
+            let leg: Vec<Moment<'_>> = iter::once(first).chain(rest).collect();
+            (age, at) = leg.last().map_or((age, at), |last| (last.age, last.at));
+            leg
+        });
+        legs.collect()
     }
 
     fn fade(&self, age: f64, trail_s: f64) -> f32 {
@@ -51,21 +86,16 @@ impl Shown<'_> {
         colour: impl Fn(&Sample) -> Rgba,
     ) {
         let drop = (camera.rect.max[1] - camera.at[1]) as f64 / self.paper_s;
-        let point = |at: DVec2, age: f64| {
-            let [x, y] = camera.points(at);
-            [x, demote(f64::from(y) + age * drop)]
+        let place = |moment: &Moment<'_>| {
+            let [x, y] = camera.points(moment.at);
+            [x, demote(f64::from(y) + moment.age * drop)]
         };
-        let mut last = point(from, 0.0);
-        for (age, sample) in self.recent(history, self.paper_s) {
-            let next = point(sample.at, age);
-            if Vec2::from(last).distance(next.into()) < SHORTEST_SEGMENT {
-                continue;
-            }
-            let colour = faded(colour(sample), self.fade(age, self.paper_s));
-            // Butt, for round ends would lie over each other and show as beads where a trail fades.
-            let segment = line(last, next, 1.5, colour, camera.rect);
-            picture.strokes.push(Stroke { cap: Cap::Butt, ..segment });
-            last = next;
+        for leg in self.legs(from, history, self.paper_s) {
+            picture.ribbons.push(ribbon(&leg, camera.rect, |moment| RibbonPoint {
+                at: place(moment),
+                radius: TRAIL_RADIUS,
+                colour: faded(colour(moment.sample), self.fade(moment.age, self.paper_s)),
+            }));
         }
     }
 
@@ -79,16 +109,13 @@ impl Shown<'_> {
         trail_s: f64,
         colour: impl Fn(&Sample) -> Rgba,
     ) {
-        let mut last = camera.points(from);
-        for (age, sample) in self.recent(history, trail_s) {
-            let next = camera.points(sample.at);
-            if Vec2::from(last).distance(next.into()) < SHORTEST_SEGMENT {
-                continue;
-            }
-            // Opaque, since where two segments meet one covers the other.
-            let colour = palette::dimmed(colour(sample), self.fade(age, trail_s));
-            picture.strokes.push(line(last, next, 1.5, colour, camera.rect));
-            last = next;
+        for leg in self.legs(from, history, trail_s) {
+            picture.ribbons.push(ribbon(&leg, camera.rect, |moment| RibbonPoint {
+                at: camera.points(moment.at),
+                radius: TRAIL_RADIUS,
+                // Opaque, since where a trail crosses itself one piece covers the other.
+                colour: palette::dimmed(colour(moment.sample), self.fade(moment.age, trail_s)),
+            }));
         }
     }
 
@@ -106,37 +133,30 @@ impl Shown<'_> {
         /// Half the opening of a ship's wake on deep water, as Kelvin found it: sin = 1/3.
         const KELVIN_SLOPE: f64 = 0.353_553_390_593_273_8;
         let unit = width_m / 60.0;
-        let place = |at: DVec2| camera.points(at);
-        let (mut last, mut since, mut run, mut arms) = (from, 0.0, 0.0, None);
-        for (age, sample) in self.recent(history, wake_s) {
-            let leg = last - sample.at;
-            if camera.length(leg.length()) < SHORTEST_OF_WAKE {
-                continue;
-            }
-            let ages = [since, age];
-            let paler = |colour, part: f32| {
-                ages.map(|age| faded(colour, part * self.fade(age, wake_s)))
-            };
-            picture.strokes.push(Stroke {
-                radii: ages.map(|age| camera.length(unit * (0.35 + 0.75 * age / wake_s))),
-                colours: paler(self.colour(sample), 0.55),
-                cap: Cap::Butt,
-                ..line(place(last), place(sample.at), 1.0, palette::TRUTH, camera.rect)
-            });
-            let ahead = leg.normalize();
-            let edges = |at: DVec2, run: f64| {
-                let spread = (1.2 * unit + KELVIN_SLOPE * run) * ahead.perp();
-                [spread, -spread].map(|spread| place(at + 3.0 * unit * ahead + spread))
-            };
-            let starts = arms.unwrap_or_else(|| edges(last, run));
-            run += leg.length();
-            let ends = edges(sample.at, run);
-            for (a, b) in starts.into_iter().zip(ends) {
-                let arm = line(a, b, 1.2, palette::TRUTH, camera.rect);
-                let colours = paler(palette::TRUTH, 0.35);
-                picture.strokes.push(Stroke { colours, cap: Cap::Butt, ..arm });
-            }
-            (last, since, arms) = (sample.at, age, Some(ends));
+        let legs = self.legs(from, history, wake_s);
+        for leg in &legs {
+            picture.ribbons.push(ribbon(leg, camera.rect, |moment| RibbonPoint {
+                at: camera.points(moment.at),
+                radius: camera.length(unit * (0.35 + 0.75 * moment.age / wake_s)),
+                colour: faded(self.colour(moment.sample), 0.55 * self.fade(moment.age, wake_s)),
+            }));
+        }
+        let course: Vec<Moment<'_>> = legs.into_iter().flatten().collect();
+        let Some([newest, next]) = course.first_chunk() else { return };
+        for side in [-1.0, 1.0] {
+            let (mut last, mut run) = (newest.at, 0.0);
+            let mut ahead = (newest.at - next.at).try_normalize().unwrap_or(DVec2::X);
+            picture.ribbons.push(ribbon(&course, camera.rect, |moment| {
+                let sailed = last - moment.at;
+                ahead = sailed.try_normalize().unwrap_or(ahead);
+                (last, run) = (moment.at, run + sailed.length());
+                let spread = side * (1.2 * unit + KELVIN_SLOPE * run);
+                RibbonPoint {
+                    at: camera.points(moment.at + 3.0 * unit * ahead + spread * ahead.perp()),
+                    radius: ARM_RADIUS,
+                    colour: faded(palette::TRUTH, 0.35 * self.fade(moment.age, wake_s)),
+                }
+            }));
         }
     }
 }

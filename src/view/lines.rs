@@ -1,0 +1,268 @@
+//! Lines through points, as few quads as show the same picture.
+//!
+//! A vertex says how wide its line is there and how far from the line's middle it lies, both in pixels, so
+//! that a shader can tell how much of a pixel is covered.
+
+use egui::epaint::{Mesh, Vertex};
+use egui::{Color32, Pos2, Rect, Vec2, pos2};
+
+/// How far a line may be drawn from its points, in points of the screen: less than anybody sees.
+const TOLERANCE: f32 = 0.2;
+/// How far a channel of its colour may be from theirs, of 255.
+const TINT: f32 = 3.0;
+/// The most points that one straight piece stands for, so that finding it takes no longer.
+const LONGEST_PIECE: usize = 32;
+/// Corners sharper than this, the cosine of the turn, are not mitred: the tip would stick out.
+const SHARPEST_MITRE: f32 = 0.0;
+
+/// A point of a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Joint {
+    pub(super) at: Pos2,
+    /// Half the line's width here, in points.
+    pub(super) radius: f32,
+    pub(super) colour: Color32,
+}
+
+impl Joint {
+    fn lerp(self, to: Joint, part: f32) -> Joint {
+        Joint {
+            at: self.at.lerp(to.at, part),
+            radius: self.radius + part * (to.radius - self.radius),
+            colour: self.colour.lerp_to_gamma(to.colour, part),
+        }
+    }
+}
+
+/// What shows of a line within a window, cut off at its edges, with fewer joints.
+pub(super) fn shown(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Vec<Joint>> {
+    visible(joints, window).iter().map(|run| simple(run)).collect()
+}
+
+/// The runs of a line within a window, cut off at its edges.
+fn visible(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Vec<Joint>> {
+    let mut runs: Vec<Vec<Joint>> = Vec::new();
+    let mut last: Option<Joint> = None;
+    for joint in joints {
+        if let Some([from, to]) = last.and_then(|last| cut([last, joint], window)) {
+            match runs.last_mut() {
+                Some(run) if run.last() == Some(&from) => run.push(to),
+                _ => runs.push(vec![from, to]),
+            }
+        }
+        last = Some(joint);
+    }
+    runs
+}
+
+/// The part of a line within a window (Liang and Barsky).
+fn cut([from, to]: [Joint; 2], window: Rect) -> Option<[Joint; 2]> {
+    let along = to.at - from.at;
+    let (mut first, mut last) = (0.0_f32, 1.0_f32);
+    for axis in 0..2 {
+        let (low, high) = (window.min[axis] - from.at[axis], window.max[axis] - from.at[axis]);
+        if along[axis] == 0.0 {
+            if low > 0.0 || high < 0.0 {
+                return None;
+            }
+        } else {
+            let (a, b) = (low / along[axis], high / along[axis]);
+            first = first.max(a.min(b));
+            last = last.min(a.max(b));
+        }
+    }
+    // The ends themselves where they are within: runs are joined by them.
+    let at = |part: f32| match part {
+        0.0 => from,
+        1.0 => to,
+        _ => from.lerp(to, part),
+    };
+    (first <= last).then(|| [at(first), at(last)])
+}
+
+/// The same line with fewer joints, nowhere further than the tolerances from those left out.
+fn simple(line: &[Joint]) -> Vec<Joint> {
+    let Some(&first) = line.first() else { return Vec::new() };
+    let mut kept = vec![first];
+    let (mut from, mut to) = (0, 1);
+    while to < line.len() {
+        let fits = |end: usize| {
+            line[from + 1..end].iter().all(|&joint| stands_for([line[from], line[end]], joint))
+        };
+        while to + 1 < line.len() && to - from < LONGEST_PIECE && fits(to + 1) {
+            to += 1;
+        }
+        kept.push(line[to]);
+        (from, to) = (to, to + 1);
+    }
+    kept
+}
+
+/// Whether a straight piece shows what it would with one more joint.
+fn stands_for([from, to]: [Joint; 2], between: Joint) -> bool {
+    let along = to.at - from.at;
+    let part = (between.at - from.at).dot(along) / along.length_sq().max(f32::MIN_POSITIVE);
+    let part = part.clamp(0.0, 1.0);
+    let mid = |a: f32, b: f32| a + part * (b - a);
+    let tint = |i: usize| mid(from.colour[i].into(), to.colour[i].into());
+    between.at.distance_sq(from.at + part * along) <= TOLERANCE * TOLERANCE
+        && (between.radius - mid(from.radius, to.radius)).abs() <= TOLERANCE
+        && (0..4).all(|i| (f32::from(between.colour[i]) - tint(i)).abs() <= TINT)
+}
+
+/// The dashes of a line, each round whatever corners it has.
+pub(super) fn dashes(line: &[Joint], drawn: f32, gap: f32) -> Vec<Vec<Joint>> {
+    let mut dashes = Vec::new();
+    let mut dash: Vec<Joint> = line.iter().take(1).copied().collect();
+    let (mut drawing, mut left) = (true, drawn);
+    for ends in line.windows(2) {
+        let length = ends[0].at.distance(ends[1].at);
+        let mut done = 0.0;
+        while length - done >= left {
+            done += left;
+            dash.push(ends[0].lerp(ends[1], done / length));
+            if drawing {
+                dashes.push(std::mem::take(&mut dash));
+            }
+            drawing = !drawing;
+            left = if drawing { drawn } else { gap };
+        }
+        left -= length - done;
+        if drawing {
+            dash.push(ends[1]);
+        }
+    }
+    if drawing && dash.len() > 1 {
+        dashes.push(dash);
+    }
+    dashes
+}
+
+/// Adds a line as quads from joint to joint, mitred where they meet.
+pub(super) fn strip(mesh: &mut Mesh, line: &[Joint], px_per_point: f32) {
+    let mut add = |joint: Joint, normal: Vec2| {
+        let half_px = joint.radius * px_per_point;
+        // Half a pixel of blur, and a little for the corners of pixels.
+        let reach_px = half_px + 1.0;
+        for across_px in [reach_px, -reach_px] {
+            let pos = joint.at + normal * (across_px / px_per_point);
+            mesh.vertices.push(Vertex { pos, uv: pos2(half_px, across_px), color: joint.colour });
+        }
+        mesh.vertices.len() as u32 - 2
+    };
+    let mut quads: Vec<[u32; 2]> = Vec::with_capacity(line.len());
+    // The pair of vertices that the next quad shares with this one.
+    let mut shared = None;
+    for (index, ends) in line.windows(2).enumerate() {
+        let along = (ends[1].at - ends[0].at).normalized();
+        let from = shared.unwrap_or_else(|| add(ends[0], along.rot90()));
+        let next = line.get(index + 2).map(|next| (next.at - ends[1].at).normalized());
+        let mitre = next.filter(|&next| along.dot(next) > SHARPEST_MITRE);
+        let normal = mitre.map_or(along, |next| (along + next) / (1.0 + along.dot(next))).rot90();
+        let to = add(ends[1], normal);
+        shared = mitre.map(|_| to);
+        quads.push([from, to]);
+    }
+    for [from, to] in quads {
+        mesh.indices.extend([from, from + 1, to, to, from + 1, to + 1]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn joint(at: [f32; 2]) -> Joint {
+        Joint { at: at.into(), radius: 1.0, colour: Color32::WHITE }
+    }
+
+    fn line<const N: usize>(points: [[f32; 2]; N]) -> [Joint; N] {
+        points.map(joint)
+    }
+
+    fn length(line: &[Joint]) -> f32 {
+        line.windows(2).map(|ends| ends[0].at.distance(ends[1].at)).sum()
+    }
+
+    #[test]
+    fn a_line_is_cut_off_at_the_window_and_taken_up_again_where_it_returns() {
+        let window = Rect::from_min_max(pos2(0.0, 0.0), pos2(10.0, 10.0));
+        let there_and_back =
+            line([[1.0, 5.0], [2.0, 5.0], [2.0, 25.0], [4.0, 25.0], [4.0, 5.0], [20.0, 5.0]]);
+        let expected = [
+            line([[1.0, 5.0], [2.0, 5.0], [2.0, 10.0]]),
+            line([[4.0, 10.0], [4.0, 5.0], [10.0, 5.0]]),
+        ];
+        assert_eq!(visible(there_and_back.into_iter(), window), expected);
+        let outside = line([[-5.0, -5.0], [-1.0, 20.0], [20.0, 40.0]]);
+        assert!(visible(outside.into_iter(), window).is_empty());
+    }
+
+    #[test]
+    fn a_line_is_as_wide_and_as_bright_at_the_cut_as_it_was_there() {
+        let window = Rect::from_min_max(pos2(0.0, 0.0), pos2(10.0, 10.0));
+        let from = Joint { radius: 1.0, colour: Color32::from_gray(200), ..joint([5.0, 5.0]) };
+        let to = Joint { radius: 3.0, colour: Color32::from_gray(100), ..joint([15.0, 5.0]) };
+        let half = Joint { radius: 2.0, colour: Color32::from_gray(150), ..joint([10.0, 5.0]) };
+        assert_eq!(visible([from, to].into_iter(), window), [[from, half]]);
+    }
+
+    #[test]
+    fn a_simpler_line_keeps_its_ends_its_spikes_and_within_the_tolerance_all_else() {
+        let mut wave: Vec<Joint> =
+            (0..400).map(|i| i as f32 / 8.0).map(|x| joint([x, 20.0 * (x / 5.0).sin()])).collect();
+        wave[200].at.y += 30.0;
+        let kept = simple(&wave);
+        assert!(kept.len() < wave.len() / 4, "{} of {}", kept.len(), wave.len());
+        assert_eq!((kept.first(), kept.last()), (wave.first(), wave.last()));
+        assert!(kept.contains(&wave[200]));
+        for &joint in &wave {
+            assert!(kept.windows(2).any(|ends| stands_for([ends[0], ends[1]], joint)), "{joint:?}");
+        }
+    }
+
+    #[test]
+    fn a_straight_line_keeps_the_joints_where_it_changes_its_width_or_its_colour() {
+        let straight: Vec<Joint> = (0..30).map(|i| joint([i as f32, 0.0])).collect();
+        assert_eq!(simple(&straight).len(), 2);
+        let mut wider = straight.clone();
+        wider[10..].iter_mut().for_each(|joint| joint.radius = 5.0);
+        assert_eq!(simple(&wider), [wider[0], wider[9], wider[10], wider[29]]);
+        let mut red = straight;
+        red[10..].iter_mut().for_each(|joint| joint.colour = Color32::RED);
+        assert_eq!(simple(&red), [red[0], red[9], red[10], red[29]]);
+    }
+
+    #[test]
+    fn dashes_and_gaps_are_as_long_as_asked_for_round_corners_too() {
+        let corners = line([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]]);
+        let dashes = dashes(&corners, 8.0, 4.0);
+        let lengths: Vec<f32> = dashes.iter().map(|dash| length(dash)).collect();
+        assert_eq!(lengths, [8.0, 8.0, 6.0]);
+        assert_eq!(dashes[1], line([[10.0, 2.0], [10.0, 10.0]]));
+        assert_eq!(dashes[2].first(), Some(&joint([6.0, 10.0])));
+    }
+
+    #[test]
+    fn a_dash_has_the_corners_of_its_line() {
+        let corner = line([[0.0, 0.0], [5.0, 0.0], [5.0, 9.0]]);
+        assert_eq!(dashes(&corner, 10.0, 2.0)[0], line([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0]]));
+    }
+
+    #[test]
+    fn quads_are_joined_at_the_corners_of_a_line_and_not_at_its_spikes() {
+        let strip_of = |line: &[Joint]| {
+            let mut mesh = Mesh::default();
+            strip(&mut mesh, line, 1.0);
+            mesh
+        };
+        let bend = strip_of(&line([[0.0, 0.0], [10.0, 0.0], [20.0, 5.0]]));
+        assert_eq!((bend.vertices.len(), bend.indices.len()), (6, 12));
+        let spike = strip_of(&line([[0.0, 0.0], [10.0, 0.0], [0.0, 1.0]]));
+        assert_eq!((spike.vertices.len(), spike.indices.len()), (8, 12));
+        for vertex in &bend.vertices {
+            assert_eq!((vertex.uv.x, vertex.uv.y.abs()), (1.0, 2.0));
+        }
+        assert_eq!(bend.vertices[0].pos.distance(bend.vertices[1].pos), 4.0);
+    }
+}

@@ -1,0 +1,82 @@
+//! Buffers of triangles that grow as needed and are kept from frame to frame.
+
+use std::ops::Range;
+
+use egui::epaint::{Mesh, Vertex};
+
+use super::gpu::Gpu;
+
+/// Room for this many bytes at first; growing is by doubling.
+const FIRST_CAPACITY: u64 = 1 << 16;
+
+/// The triangles of some meshes.
+#[derive(Debug)]
+pub(super) struct Triangles {
+    label: &'static str,
+    vertex_buffer: wgpu::Buffer,
+    index_buffer: wgpu::Buffer,
+    /// Kept for their capacity.
+    vertices: Vec<Vertex>,
+    indices: Vec<u32>,
+}
+
+impl Triangles {
+    /// A vertex: its place, its place on a texture, its colour.
+    pub(super) const LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+        array_stride: size_of::<Vertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4],
+    };
+
+    pub(super) fn new(gpu: &Gpu, label: &'static str) -> Self {
+        Self {
+            label,
+            vertex_buffer: buffer(gpu, label, wgpu::BufferUsages::VERTEX, FIRST_CAPACITY),
+            index_buffer: buffer(gpu, label, wgpu::BufferUsages::INDEX, FIRST_CAPACITY),
+            vertices: Vec::new(),
+            indices: Vec::new(),
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.vertices.clear();
+        self.indices.clear();
+    }
+
+    /// Adds a mesh, and says which indices it got.
+    pub(super) fn add(&mut self, mesh: &Mesh) -> Range<u32> {
+        let (first_vertex, first) = (self.vertices.len() as u32, self.indices.len() as u32);
+        self.vertices.extend_from_slice(&mesh.vertices);
+        self.indices.extend(mesh.indices.iter().map(|index| first_vertex + index));
+        first..self.indices.len() as u32
+    }
+
+    pub(super) fn upload(&mut self, gpu: &Gpu) {
+        write(gpu, self.label, &mut self.vertex_buffer, bytemuck::cast_slice(&self.vertices));
+        write(gpu, self.label, &mut self.index_buffer, bytemuck::cast_slice(&self.indices));
+    }
+
+    /// Makes the pass draw of what was uploaded.
+    pub(super) fn bind(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_vertex_buffer(0, self.vertex_buffer.slice(..));
+        pass.set_index_buffer(self.index_buffer.slice(..), wgpu::IndexFormat::Uint32);
+    }
+}
+
+fn buffer(gpu: &Gpu, label: &str, usage: wgpu::BufferUsages, bytes: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: bytes,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+/// Writes to the start of a buffer, or of a larger one in its place.
+fn write(gpu: &Gpu, label: &str, into: &mut wgpu::Buffer, bytes: &[u8]) {
+    if bytes.len() as u64 > into.size() {
+        let usage = into.usage() & !wgpu::BufferUsages::COPY_DST;
+        *into = buffer(gpu, label, usage, (bytes.len() as u64).next_power_of_two());
+    }
+    gpu.queue.write_buffer(into, 0, bytes);
+}
