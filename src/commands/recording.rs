@@ -40,8 +40,8 @@ impl Recording {
     pub(super) fn lab(&self, experiment: &Experiment) -> Lab {
         let mut lab = experiment.lab();
         lab.set_motion(self.motion);
-        // In a window verdicts come one a frame; here there is time for all of them before the first.
-        while lab.think() {}
+        // In a window verdicts come as they are found; here there is time for all before a frame.
+        lab.think();
         lab
     }
 

@@ -71,6 +71,11 @@ impl Adviser {
         &self.advised
     }
 
+    /// Whether all methods are judged.
+    pub(super) fn is_done(&self) -> bool {
+        self.advised.len() == self.specs.len()
+    }
+
     /// What it took so far, in evaluations of one coordinate's acceleration, roughly.
     pub(super) fn work(&self) -> u64 {
         self.work
@@ -97,7 +102,7 @@ impl Adviser {
             self.advised.push(Advised { spec, verdict, stable_hz, accurate_hz, good });
             self.searches = Default::default();
         }
-        self.advised.len() < self.specs.len()
+        !self.is_done()
     }
 }
 

@@ -37,4 +37,5 @@ pub use scene::{
     MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene, SceneBody, SceneError,
     SceneErrors, Scripted, TOLERANCES, nearest,
 };
+pub use thinking::{Advice, Findings, Question, Thinker};
 pub use verdict::{Fate, Verdict, Word, duration};
