@@ -5,6 +5,7 @@
 
 use super::lane::Lane;
 use super::scene::{LaneSpec, Scene};
+use super::trend::growth_of_energy;
 use super::verdict::{Fate, Verdict};
 use crate::sim::bodies::{Coordinate, Input};
 use crate::sim::stability::{Stability, Tick};
@@ -23,7 +24,8 @@ const MOMENTS: u64 = 512;
 /// An error in amplitudes that no lane makes which only lags or leads: twice the range of the motion.
 const ASTRAY: f64 = 4.0;
 
-/// States of the true motion over which a nonlinear body's stability is averaged.
+/// States of the true motion over which the stability is averaged of a nonlinear body that conserves no
+/// energy.
 const STATES: u32 = 32;
 
 /// A half range this small against the largest value is rounding: the body keeps that value.
@@ -36,6 +38,9 @@ pub struct Judge {
     horizon_s: f64,
     /// For each body, the amplitude of each component of its state, coordinates first.
     amplitudes: Vec<Vec<f64>>,
+    /// For each body that conserves its energy, how much there is of it in joules without what is there at
+    /// rest: twice the mean of what is kinetic, which is all of an oscillator's.
+    energies: Vec<Option<f64>>,
 }
 
 /// How a lane fared.
@@ -68,8 +73,9 @@ impl Judge {
     /// component of the same body and unit that covers more; of what keeps its value, that value.
     pub fn new(scene: &Scene, throttle: f64) -> Self {
         let horizon_s = scene.seconds.min(LONGEST_HORIZON_S);
-        let mut judge = Self { scene: scene.clone(), throttle, horizon_s, amplitudes: Vec::new() };
-        judge.amplitudes = judge.measure();
+        let (scene, amplitudes) = (scene.clone(), Vec::new());
+        let mut judge = Self { scene, throttle, horizon_s, amplitudes, energies: Vec::new() };
+        (judge.amplitudes, judge.energies) = judge.measure();
         judge
     }
 
@@ -95,35 +101,57 @@ impl Judge {
         Verdict::new(self.stability(spec, tick_hz), outcome, horizon_s)
     }
 
-    /// How the method treats small deviations, the worst of all bodies in each respect: about the start
-    /// and, of a nonlinear body, in the mean over its true motion. `None` where the method cannot get
-    /// through its first ticks.
+    /// How the method treats deviations, the worst of all bodies in each respect: of a linear body about
+    /// the start; of a nonlinear one by the trend of its energy or, where it conserves none, about states
+    /// of its true motion in the mean. `None` where the method cannot get through its first ticks.
     pub fn stability(&self, spec: LaneSpec, tick_hz: u32) -> Option<Stability> {
         Some(self.over_the_motion(spec, tick_hz)?.0)
     }
 
     /// The same, and whether all bodies are linear.
     fn over_the_motion(&self, spec: LaneSpec, tick_hz: u32) -> Option<(Stability, bool)> {
-        let each = self.truth().into_iter().map(|mut body| {
-            let h = 1.0 / f64::from(tick_hz);
-            let of = |body: &dyn Stepper, t: f64| {
-                let tick = Tick { t, h, substeps: spec.substeps };
-                Stability::of(body, spec.solver(), tick).ok()
-            };
-            let mut states = vec![of(&*body, 0.0)?];
-            let stretch = self.horizon_s / f64::from(STATES);
-            for i in 0..STATES {
-                let t = stretch * f64::from(i);
-                body.advance(t, stretch, 1).ok()?;
-                states.push(of(&*body, t + stretch)?);
-                if i == 0 && alike(&states[0], &states[1]) {
-                    return Some((states[0], true));
-                }
-            }
-            Some((mean(&states), false))
-        });
-        let all: Option<Vec<(Stability, bool)>> = each.collect();
+        let bodies = self.truth().into_iter().enumerate();
+        let all: Option<Vec<(Stability, bool)>> =
+            bodies.map(|(i, body)| self.of_body(i, body, spec, tick_hz)).collect();
         all?.into_iter().reduce(|(a, a_linear), (b, b_linear)| (worse(a, b), a_linear && b_linear))
+    }
+
+    /// The same of one body, whose truth stands at the start.
+    fn of_body(
+        &self,
+        place: usize,
+        mut body: Box<dyn Stepper>,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Option<(Stability, bool)> {
+        let h = 1.0 / f64::from(tick_hz);
+        let tick = |t: f64| Tick { t, h, substeps: spec.substeps };
+        let of = |body: &dyn Stepper, t: f64| Stability::of(body, spec.solver(), tick(t)).ok();
+        let start = of(&*body, 0.0)?;
+        let mut lane = body.with_solver(spec.solver(), 0.0);
+        let stretch = self.horizon_s / f64::from(STATES);
+        body.advance(0.0, stretch, 1).ok()?;
+        let next = of(&*body, stretch)?;
+        if alike(&start, &next) {
+            return Some((start, true));
+        }
+        if let Some(scale) = self.energies[place] {
+            let ticks = (self.horizon_s / h).round() as u64;
+            let growth = growth_of_energy(&mut *lane, tick(0.0), ticks, scale);
+            let growth_per_s = growth.unwrap_or(f64::INFINITY);
+            let loss_per_s = (-growth_per_s).max(0.0);
+            return Some((
+                Stability { growth_per_s, loss_per_s, frequency_error: None, ..start },
+                false,
+            ));
+        }
+        let mut states = vec![start, next];
+        for i in 1..STATES {
+            let t = stretch * f64::from(i);
+            body.advance(t, stretch, 1).ok()?;
+            states.push(of(&*body, t + stretch)?);
+        }
+        Some((mean(&states), false))
     }
 
     /// How a lane fares over the horizon at this tick rate, but no further than the error is within [`TOLERANCE`].
@@ -144,13 +172,6 @@ impl Judge {
     /// Coordinates of all bodies together.
     pub(super) fn coordinates(&self) -> u64 {
         self.amplitudes.iter().map(|body| body.len() as u64 / 2).sum()
-    }
-
-    /// What [`Self::stability`] takes, in evaluations of one coordinate's acceleration, roughly: some
-    /// twenty ticks of the body for each component, and the eigenvalues.
-    pub(super) fn work_for_stability(&self) -> u64 {
-        let of_body = |n: u64| 100 * n * n + 10 * n * n * n;
-        self.amplitudes.iter().map(|body| of_body(body.len() as u64)).sum()
     }
 
     /// Steps a lane to the horizon, or until its error is more than `enough`.
@@ -206,25 +227,37 @@ impl Judge {
         bodies.collect()
     }
 
-    fn measure(&self) -> Vec<Vec<f64>> {
+    /// The amplitudes and the energies.
+    fn measure(&self) -> (Vec<Vec<f64>>, Vec<Option<f64>>) {
         let mut truth = self.truth();
+        let mut energies = vec![Some(0.0); truth.len()];
         let mut ranges: Vec<Vec<(f64, f64)>> =
             truth.iter().map(|body| components(&**body).map(|x| (x, x)).collect()).collect();
         let at = |moment: u64| self.horizon_s * moment as f64 / MOMENTS as f64;
         for moment in 0..MOMENTS {
-            for (body, ranges) in truth.iter_mut().zip(&mut ranges) {
+            for ((body, ranges), energy) in truth.iter_mut().zip(&mut ranges).zip(&mut energies) {
                 if body.advance(at(moment), at(moment + 1) - at(moment), 1).is_ok() {
                     for (range, x) in ranges.iter_mut().zip(components(&**body)) {
                         *range = (range.0.min(x), range.1.max(x));
                     }
+                    let part = kinetic_energy(&**body).map(|now| 2.0 * now / MOMENTS as f64);
+                    *energy = energy.zip(part).map(|(sum, part)| sum + part);
                 }
             }
         }
         let bodies = ranges.iter().zip(&self.scene.bodies);
-        bodies
-            .map(|(ranges, body)| amplitudes(ranges, (body.kind.coordinates)(&body.values)))
-            .collect()
+        let amplitudes =
+            bodies.map(|(ranges, body)| amplitudes(ranges, (body.kind.coordinates)(&body.values)));
+        (amplitudes.collect(), energies)
     }
+}
+
+/// What the body's motion takes of its energy, in joules; `None` where it conserves none.
+fn kinetic_energy(body: &dyn Stepper) -> Option<f64> {
+    let whole = body.energy()?;
+    let mut still = body.with_solver(Solver::Truth, 0.0);
+    still.set(0.0, body.q(), &vec![0.0; body.v().len()]);
+    Some(whole - still.energy()?)
 }
 
 fn components(stepper: &dyn Stepper) -> impl Iterator<Item = f64> {

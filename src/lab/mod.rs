@@ -19,6 +19,7 @@ pub mod picture;
 mod race;
 mod scene;
 mod thinking;
+mod trend;
 mod verdict;
 
 pub use crate::sim::stability::Stability;

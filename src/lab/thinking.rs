@@ -80,10 +80,6 @@ pub struct Thinker {
 /// larger bodies are judged over a shorter stretch, which the verdict names.
 const MOST_STEPS: f64 = 5e5;
 
-/// What advice may take at a time, in evaluations of one coordinate's acceleration: a few hundredths of a
-/// second where they are slow.
-const WORK: u64 = 100_000;
-
 impl Thinker {
     /// Sets out to answer `question`.
     pub fn new(question: Question) -> Self {
@@ -109,7 +105,8 @@ impl Thinker {
         self.question = question;
     }
 
-    /// Finds one verdict that is missing or, where none is, goes on with the advice that is asked for.
+    /// Finds one verdict that is missing or, where none is, tries one more rate for the advice that is
+    /// asked for.
     /// Returns whether there is more to do.
     pub fn go_on(&mut self) -> bool {
         let Question { scene, tick_hz, throttle, advice } = &self.question;
@@ -124,8 +121,7 @@ impl Thinker {
                 let specs = METHODS.iter().map(LaneSpec::plain).collect();
                 Adviser::new(scene, *throttle, *tick_hz, specs)
             });
-            let before = adviser.work();
-            while adviser.work() - before < WORK && adviser.advance() {}
+            adviser.advance();
         }
         !self.is_done()
     }
