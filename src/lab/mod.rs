@@ -17,6 +17,7 @@ mod metrics;
 pub mod number;
 pub mod picture;
 mod race;
+pub mod round_off;
 mod scene;
 mod thinking;
 mod trend;
