@@ -4,6 +4,7 @@
 //! A scene is judged from its start, without its script, under one throttle from beginning to end.
 
 use super::lane::Lane;
+use super::metrics;
 use super::scene::{LaneSpec, Scene};
 use super::trend::growth_of_energy;
 use super::verdict::{Fate, Verdict};
@@ -51,6 +52,9 @@ pub struct Outcome {
     pub error: f64,
     /// The body that is furthest off, or that failed, by its place in the scene.
     pub body: usize,
+    /// The energy drift of largest magnitude, in percent as the metric has it; `None` where no body
+    /// conserves energy.
+    pub energy_drift: Option<f64>,
     /// What ended the lane, if something did.
     pub fate: Option<Fate>,
     /// Evaluations of all bodies' accelerations.
@@ -72,7 +76,11 @@ impl Judge {
     /// The amplitude of a component is half the range that the truth covers in it, or in another
     /// component of the same body and unit that covers more; of what keeps its value, that value.
     pub fn new(scene: &Scene, throttle: f64) -> Self {
-        let horizon_s = scene.seconds.min(LONGEST_HORIZON_S);
+        Self::over(scene, throttle, scene.seconds.min(LONGEST_HORIZON_S))
+    }
+
+    /// The same over `horizon_s` simulated seconds, more than 0, however long the scene is.
+    pub fn over(scene: &Scene, throttle: f64, horizon_s: f64) -> Self {
         let (scene, amplitudes) = (scene.clone(), Vec::new());
         let mut judge = Self { scene, throttle, horizon_s, amplitudes, energies: Vec::new() };
         (judge.amplitudes, judge.energies) = judge.measure();
@@ -183,6 +191,7 @@ impl Judge {
         lane.input(0.0, Input::Throttle(self.throttle));
         let mut truth = self.truth();
         let (mut error, mut worst, mut tick, mut compared) = (0.0, 0, 0, 0);
+        let mut energy_drift: Option<f64> = None;
         while tick < ticks && error <= enough {
             lane.tick(tick, tick as f64 / hz, 1.0 / hz);
             tick += 1;
@@ -196,9 +205,15 @@ impl Judge {
                     if body.advance(from, to - from, 1).is_err() {
                         continue;
                     }
-                    let off = self.error(i, &*lane.bodies()[i].stepper, &**body);
+                    let stepped = &*lane.bodies()[i].stepper;
+                    let off = self.error(i, stepped, &**body);
                     if off > error {
                         (error, worst) = (off, i);
+                    }
+                    if let Some(drift) = metrics::energy_drift(stepped, &**body)
+                        && energy_drift.is_none_or(|largest| drift.abs() > largest.abs())
+                    {
+                        energy_drift = Some(drift);
                     }
                 }
             }
@@ -208,7 +223,7 @@ impl Judge {
             Fate { t: halt.tick as f64 / hz, failure: halt.failure.clone() }
         });
         let (evaluations, seconds) = (lane.evaluations(), tick as f64 / hz);
-        Outcome { error, body: worst, fate, evaluations, seconds }
+        Outcome { error, body: worst, energy_drift, fate, evaluations, seconds }
     }
 
     /// The largest error of a component of this body, in amplitudes.
@@ -319,12 +334,30 @@ fn worse(a: Stability, b: Stability) -> Stability {
 mod tests {
     use super::*;
     use crate::sim::bodies::kind;
+    use crate::sim::integrators::method;
 
     #[test]
     fn the_amplitude_is_half_the_range_or_what_is_kept() {
         let ship = kind("ship").unwrap().plain_coordinates();
         assert_eq!(amplitudes(&[(-1.0, 3.0), (20.0, 20.0)], ship), [2.0, 20.0]);
         assert_eq!(amplitudes(&[(0.0, 0.0), (5.0, 5.0 + 1e-12)], ship), [1.0, 5.0 + 1e-12]);
+    }
+
+    #[test]
+    fn the_energy_drift_is_the_largest_on_the_way() {
+        let outcome = |scene: &str, id: &str, tick_hz| {
+            let judge = Judge::new(&Scene::built_in(scene).unwrap(), 1.0);
+            judge.verdict(LaneSpec::plain(method(id).unwrap()), tick_hz).outcome
+        };
+        // The energy swings as h ω / 2 sin 2ωt, and at the end of whole periods it is what it was.
+        let swing = 100.0 * std::f64::consts::PI / 60.0;
+        let drift = outcome("spring", "semi-implicit-euler", 60).energy_drift.unwrap();
+        assert!((0.9..1.1).contains(&(drift.abs() / swing)), "{drift} %");
+        // It loses z⁶/72 a step, and ends with the largest loss.
+        let lost = -100.0 * 1200.0 * (std::f64::consts::TAU / 60.0).powi(6) / 72.0;
+        let drift = outcome("spring", "rk4", 60).energy_drift.unwrap();
+        assert!((0.95..1.05).contains(&(drift / lost)), "{drift} %, not {lost}");
+        assert_eq!(outcome("ship", "rk4", 2).energy_drift, None);
     }
 
     #[test]
