@@ -27,6 +27,7 @@ mod recording;
 mod scene_file;
 mod settings;
 mod sheet;
+mod stopwatch;
 mod table;
 mod trace;
 mod verify;
