@@ -1,0 +1,189 @@
+//! `regatta sweep`: every method at every tick rate on every scene, as a tidy table and as diagrams.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use rayon::ThreadPoolBuildError;
+use serde_json::json;
+
+use super::capture::CaptureError;
+use super::experiment::{self, MethodParser, SceneParser, range_of};
+use super::outlet::{Outlet, STDOUT};
+use super::recording::watch_for_interrupt;
+use super::scene_file::{self, SceneFileError};
+use super::table::{self, Column};
+use super::{Error, RowFormat, tell};
+use crate::lab::{Clock, SCENES, Scene};
+use crate::sim::integrators::{METHODS, Method};
+
+mod grid;
+
+use grid::{Grid, Row};
+
+const ABOUT: &str = "\
+One row for each scene, body, method and tick rate, in that order, whatever the number of threads:
+  scene,body,method,tick_hz,seconds,error,energy_drift_percent,evaluations_per_s,ns_per_s,verdict,halted
+
+A body is judged as `regatta advise` judges it: alone, from its start, without the scene's script.
+ERROR is the largest of a coordinate or a velocity as a part of its amplitude, ENERGY_DRIFT_PERCENT the
+largest where energy is conserved; EVALUATIONS_PER_S and NS_PER_S are the cost of a simulated second, the
+latter measured here and now, one run after the other. VERDICT is exact, accurate, drifting, decays,
+grows, lost or halted. A method that blows up has a row: HALTED says why, SECONDS how far it came.
+
+The rates swept by default are a quarter, half, 1, 2, 4 and 8 times the scene's own.
+
+Examples:
+  regatta sweep > sweep.csv
+  regatta sweep --scene spring --method rk4 --method velocity-verlet --tick-hz 30,60,120
+  regatta sweep --scene my.toml --seconds 5 --format json --out sweep.json --plot sweep.png";
+
+/// Go through methods, tick rates and scenes, and write a row for each
+#[derive(Debug, Args)]
+#[command(after_help = ABOUT)]
+pub(super) struct SweepArgs {
+    /// A built-in scene (`regatta list scenes`), or else the path of a scene file; give several to sweep
+    /// them [default: all built-in scenes]
+    #[arg(long = "scene", value_name = "NAME|FILE", value_parser = SceneParser)]
+    #[arg(hide_possible_values = true)]
+    scenes: Vec<PathBuf>,
+
+    /// An integrator (`regatta list methods`); give several to sweep them [default: all]
+    #[arg(long = "method", value_name = "ID", value_parser = MethodParser)]
+    #[arg(hide_possible_values = true)]
+    methods: Vec<&'static Method>,
+
+    /// Ticks in a second, 1 to 10000; give several, with commas between [default: octaves about the
+    /// scene's own]
+    #[arg(long, value_name = "N", value_delimiter = ',')]
+    #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
+    tick_hz: Vec<u32>,
+
+    /// Length of each run in simulated seconds, to the nearest tick, one at least [default: the
+    /// scene's, 60 at most]
+    #[arg(long, value_name = "S", value_parser = some_seconds)]
+    #[arg(allow_negative_numbers = true)]
+    seconds: Option<f64>,
+
+    /// How to write it: csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "csv", hide_possible_values = true)]
+    format: RowFormat,
+
+    /// Threads that make the runs, 1 to 256 [default: one for each core]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
+
+    /// The file to write the rows to, or - for standard output
+    #[arg(long, value_name = "FILE", default_value = STDOUT)]
+    out: PathBuf,
+
+    /// Replace the files that are there
+    #[arg(long)]
+    force: bool,
+}
+
+/// Why there is no whole table.
+#[derive(Debug, thiserror::Error)]
+pub enum SweepError {
+    /// The system has no threads left.
+    #[error("cannot start the threads: {0}; give fewer --threads")]
+    Threads(#[from] ThreadPoolBuildError),
+    /// The rows could not be written.
+    #[error(transparent)]
+    Out(#[from] CaptureError),
+    /// Somebody pressed Ctrl-C.
+    #[error("interrupted; nothing was written")]
+    Interrupted,
+}
+
+impl SweepError {
+    pub(super) fn exit_code(&self) -> u8 {
+        match self {
+            SweepError::Out(error) => error.exit_code(),
+            SweepError::Interrupted => 130,
+            SweepError::Threads(_) => 1,
+        }
+    }
+}
+
+pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
+    let scenes = args.load()?;
+    let mut rates = args.tick_hz.clone();
+    rates.sort_unstable();
+    rates.dedup();
+    let asked = |method: &&'static Method| args.methods.is_empty() || args.methods.contains(method);
+    let methods: Vec<&Method> = METHODS.iter().filter(asked).collect();
+    // Before anything is gone through: a refusal should not come minutes late.
+    let out = Outlet::open_for_text(&args.out, args.force).map_err(SweepError::Out)?;
+    let interrupted = watch_for_interrupt();
+    let grid = Grid::new(&scenes, &methods, &rates, args.seconds);
+    let rows = grid.run(args.threads.map(usize::from), &interrupted)?;
+    finish(out, table::rows(args.format, COLUMNS, &rows).as_bytes(), &rows_in_words(rows.len()))
+}
+
+fn rows_in_words(rows: usize) -> String {
+    format!("{rows} row{}", if rows == 1 { "" } else { "s" })
+}
+
+/// Writes all of it, and says what a file now holds. A closed pipe is no failure.
+fn finish(mut outlet: Outlet, bytes: &[u8], what: &str) -> Result<(), Error> {
+    let written = outlet.write_all(bytes).map_err(|error| outlet.failed(error));
+    let (name, is_file) = (outlet.name(), matches!(outlet, Outlet::File { .. }));
+    match written.and_then(|()| outlet.close()) {
+        Ok(()) if is_file => tell(&format!("wrote {what}: {name}")),
+        Ok(()) => {}
+        Err(CaptureError::Output(error)) => return Err(error.into()),
+        Err(error) => return Err(SweepError::Out(error).into()),
+    }
+    Ok(())
+}
+
+/// As [`experiment::seconds`], and more than none.
+fn some_seconds(written: &str) -> Result<f64, String> {
+    match experiment::seconds(written)? {
+        0.0 => Err("give more than 0 seconds".into()),
+        seconds => Ok(seconds),
+    }
+}
+
+impl SweepArgs {
+    /// Every scene asked for, once, by the name that it was asked for.
+    fn load(&self) -> Result<Vec<(PathBuf, Scene)>, SceneFileError> {
+        let built_in = || SCENES.iter().map(|scene| PathBuf::from(scene.name)).collect();
+        let mut paths = if self.scenes.is_empty() { built_in() } else { self.scenes.clone() };
+        let mut seen = Vec::new();
+        paths.retain(|path| {
+            let is_new = !seen.contains(path);
+            seen.push(path.clone());
+            is_new
+        });
+        let load = |path: PathBuf| {
+            let (scene, _) = scene_file::load(&path)?;
+            Ok((path, scene))
+        };
+        paths.into_iter().map(load).collect()
+    }
+}
+
+const COLUMNS: &[Column<Row>] = &[
+    Column { key: "scene", heading: None, value: |row| json!(row.scene) },
+    Column { key: "body", heading: None, value: |row| json!(row.body) },
+    Column { key: "method", heading: None, value: |row| json!(row.method.id) },
+    Column { key: "tick_hz", heading: None, value: |row| json!(row.tick_hz) },
+    Column { key: "seconds", heading: None, value: |row| json!(row.seconds()) },
+    Column { key: "error", heading: None, value: |row| json!(row.error()) },
+    Column {
+        key: "energy_drift_percent",
+        heading: None,
+        value: |row| json!(row.verdict.outcome.energy_drift),
+    },
+    Column { key: "evaluations_per_s", heading: None, value: |row| json!(row.evaluations_per_s()) },
+    Column { key: "ns_per_s", heading: None, value: |row| json!(row.ns_per_s.map(f64::round)) },
+    Column { key: "verdict", heading: None, value: |row| json!(row.verdict.word.text()) },
+    Column {
+        key: "halted",
+        heading: None,
+        value: |row| json!(row.verdict.outcome.fate.as_ref().map(|fate| fate.failure.to_string())),
+    },
+];
