@@ -16,10 +16,14 @@ use super::table::{self, Column};
 use super::{Error, RowFormat, tell};
 use crate::lab::{Clock, SCENES, Scene};
 use crate::sim::integrators::{METHODS, Method};
+use crate::view::{GpuError, ReadbackError};
 
+mod diagrams;
 mod grid;
+mod plot;
 
-use grid::{Grid, Row};
+use grid::{Grid, Row, Swept};
+use plot::Plot;
 
 const ABOUT: &str = "\
 One row for each scene, body, method and tick rate, in that order, whatever the number of threads:
@@ -78,6 +82,11 @@ pub(super) struct SweepArgs {
     #[arg(long, value_name = "FILE", default_value = STDOUT)]
     out: PathBuf,
 
+    /// Draw work-precision diagrams of the rows, and the round-off of f32 and f64 on the chapter's ship,
+    /// as PNG into FILE, or - for standard output
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+
     /// Replace the files that are there
     #[arg(long)]
     force: bool,
@@ -89,9 +98,24 @@ pub enum SweepError {
     /// The system has no threads left.
     #[error("cannot start the threads: {0}; give fewer --threads")]
     Threads(#[from] ThreadPoolBuildError),
-    /// The rows could not be written.
+    /// Rows or picture could not be written.
     #[error(transparent)]
     Out(#[from] CaptureError),
+    /// A file that would be replaced by the picture, or a directory.
+    #[error("{} is there already; give another --plot, or --force to replace a file", .path.display())]
+    PlotTaken {
+        /// The path.
+        path: PathBuf,
+    },
+    /// Rows and picture cannot both go there.
+    #[error("rows and picture would go to the same place; give another --out or --plot")]
+    SamePlace,
+    /// There is nothing to draw with.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The picture was drawn but did not come back.
+    #[error(transparent)]
+    Readback(#[from] ReadbackError),
     /// Somebody pressed Ctrl-C.
     #[error("interrupted; nothing was written")]
     Interrupted,
@@ -102,28 +126,31 @@ impl SweepError {
         match self {
             SweepError::Out(error) => error.exit_code(),
             SweepError::Interrupted => 130,
-            SweepError::Threads(_) => 1,
+            SweepError::PlotTaken { .. }
+            | SweepError::SamePlace
+            | SweepError::Gpu(GpuError::TooLarge { .. }) => 2,
+            SweepError::Threads(_) | SweepError::Gpu(_) | SweepError::Readback(_) => 1,
         }
     }
 }
 
 pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
-    let scenes = args.load()?;
-    let mut rates = args.tick_hz.clone();
-    rates.sort_unstable();
-    rates.dedup();
-    let asked = |method: &&'static Method| args.methods.is_empty() || args.methods.contains(method);
-    let methods: Vec<&Method> = METHODS.iter().filter(asked).collect();
+    let swept = args.load()?;
+    if args.plot.as_ref().is_some_and(|plot| *plot == args.out) {
+        return Err(SweepError::SamePlace.into());
+    }
     // Before anything is gone through: a refusal should not come minutes late.
     let out = Outlet::open_for_text(&args.out, args.force).map_err(SweepError::Out)?;
+    let plot = args.plot.as_ref().map(|path| Plot::open(path, args.force)).transpose()?;
     let interrupted = watch_for_interrupt();
-    let grid = Grid::new(&scenes, &methods, &rates, args.seconds);
-    let rows = grid.run(args.threads.map(usize::from), &interrupted)?;
-    finish(out, table::rows(args.format, COLUMNS, &rows).as_bytes(), &rows_in_words(rows.len()))
-}
-
-fn rows_in_words(rows: usize) -> String {
-    format!("{rows} row{}", if rows == 1 { "" } else { "s" })
+    let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
+    let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
+    finish(out, table::rows(args.format, COLUMNS, &rows).as_bytes(), &what)?;
+    if let Some(plot) = plot {
+        let (outlet, [width, height], png) = plot.draw(&diagrams::figure(&swept, &rows))?;
+        finish(outlet, &png, &format!("a picture of {width}x{height}"))?;
+    }
+    Ok(())
 }
 
 /// Writes all of it, and says what a file now holds. A closed pipe is no failure.
@@ -148,21 +175,23 @@ fn some_seconds(written: &str) -> Result<f64, String> {
 }
 
 impl SweepArgs {
-    /// Every scene asked for, once, by the name that it was asked for.
-    fn load(&self) -> Result<Vec<(PathBuf, Scene)>, SceneFileError> {
+    /// What is asked for, everything once.
+    fn load(&self) -> Result<Swept, SceneFileError> {
         let built_in = || SCENES.iter().map(|scene| PathBuf::from(scene.name)).collect();
-        let mut paths = if self.scenes.is_empty() { built_in() } else { self.scenes.clone() };
-        let mut seen = Vec::new();
-        paths.retain(|path| {
-            let is_new = !seen.contains(path);
-            seen.push(path.clone());
-            is_new
-        });
-        let load = |path: PathBuf| {
-            let (scene, _) = scene_file::load(&path)?;
-            Ok((path, scene))
-        };
-        paths.into_iter().map(load).collect()
+        let paths = if self.scenes.is_empty() { built_in() } else { self.scenes.clone() };
+        let mut scenes: Vec<(String, Scene)> = Vec::new();
+        for path in paths {
+            let name = path.display().to_string();
+            if scenes.iter().all(|(other, _)| *other != name) {
+                scenes.push((name, scene_file::load(&path)?.0));
+            }
+        }
+        let asked = |method: &&Method| self.methods.is_empty() || self.methods.contains(method);
+        let mut rates = self.tick_hz.clone();
+        rates.sort_unstable();
+        rates.dedup();
+        let methods = METHODS.iter().filter(asked).collect();
+        Ok(Swept { scenes, methods, rates, seconds: self.seconds })
     }
 }
 

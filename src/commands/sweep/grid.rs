@@ -1,6 +1,5 @@
 //! Every method at every rate on every body: the runs, made in parallel, and their rows.
 
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, mpsc};
 use std::time::Duration;
@@ -13,6 +12,18 @@ use crate::commands::recording::progress;
 use crate::commands::stopwatch;
 use crate::lab::{Clock, Judge, LONGEST_HORIZON_S, LaneSpec, Scene, Verdict};
 use crate::sim::integrators::Method;
+
+/// What is to be gone through.
+pub(super) struct Swept {
+    /// Scenes after the names that they were asked for by, no two of one name.
+    pub(super) scenes: Vec<(String, Scene)>,
+    /// In the order of the table.
+    pub(super) methods: Vec<&'static Method>,
+    /// In Hz, ascending; if empty each scene has octaves about its own.
+    pub(super) rates: Vec<u32>,
+    /// The length of every run; `None` for each scene's own.
+    pub(super) seconds: Option<f64>,
+}
 
 /// One body, alone in its scene: bodies do not feel each other.
 struct Subject {
@@ -29,7 +40,7 @@ struct Cell {
     tick_hz: u32,
 }
 
-/// What is swept.
+/// All runs.
 pub(super) struct Grid {
     subjects: Vec<Subject>,
     /// In the order of the rows.
@@ -67,30 +78,24 @@ impl Row {
 }
 
 impl Grid {
-    /// These scenes, each after the name that it was asked for by; methods in the order given, and rates,
-    /// ascending. Without rates each scene has octaves of its own, without `seconds` its own length.
-    pub(super) fn new(
-        scenes: &[(PathBuf, Scene)],
-        methods: &[&'static Method],
-        rates: &[u32],
-        seconds: Option<f64>,
-    ) -> Self {
+    /// The runs that were asked for.
+    pub(super) fn new(swept: &Swept) -> Self {
         let mut grid = Self { subjects: Vec::new(), cells: Vec::new() };
-        for (path, scene) in scenes {
-            let horizon_s = seconds.unwrap_or(scene.seconds.min(LONGEST_HORIZON_S));
+        for (name, scene) in &swept.scenes {
+            let horizon_s = swept.seconds.unwrap_or(scene.seconds.min(LONGEST_HORIZON_S));
             let own = octaves(scene.tick_hz);
-            let rates = if rates.is_empty() { &own } else { rates };
+            let rates = if swept.rates.is_empty() { &own } else { &swept.rates };
             for body in &scene.bodies {
                 let alone = Scene { bodies: vec![body.clone()], ..scene.clone() };
-                let runs =
-                    methods.iter().flat_map(|method| rates.iter().map(move |hz| (method, hz)));
-                grid.cells.extend(runs.map(|(method, &tick_hz)| Cell {
-                    subject: grid.subjects.len(),
-                    spec: LaneSpec::plain(method),
-                    tick_hz,
-                }));
+                for method in &swept.methods {
+                    grid.cells.extend(rates.iter().map(|&tick_hz| Cell {
+                        subject: grid.subjects.len(),
+                        spec: LaneSpec::plain(method),
+                        tick_hz,
+                    }));
+                }
                 grid.subjects.push(Subject {
-                    scene_name: path.display().to_string(),
+                    scene_name: name.clone(),
                     judge: Judge::over(&alone, 1.0, horizon_s),
                     alone,
                 });
