@@ -1,7 +1,7 @@
 //! `regatta sweep`: every method at every tick rate on every scene, as a tidy table and as diagrams.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{self, PathBuf};
 
 use clap::Args;
 use rayon::ThreadPoolBuildError;
@@ -26,16 +26,19 @@ use grid::{Grid, Row, Swept};
 use plot::Plot;
 
 const ABOUT: &str = "\
-One row for each scene, body, method and tick rate, in that order, whatever the number of threads:
-  scene,body,method,tick_hz,seconds,error,energy_drift_percent,evaluations_per_s,ns_per_s,verdict,halted
+One row for each scene, body, method and tick rate, in that order whatever the number of threads:
+  scene, body, method, tick_hz
+  seconds               how far the run came, in simulated seconds
+  error                 the largest of a coordinate or a velocity on the way, as a part of its
+                        amplitude; empty where the method did not come to the end
+  energy_drift_percent  the largest on the way; empty where the body conserves no energy
+  evaluations_per_s     evaluations of the acceleration in a simulated second
+  ns_per_s              nanoseconds for a simulated second, measured here and now, one run at a time
+  verdict               exact, accurate, drifting, decays, grows, lost or halted
+  halted                why, if it was lost or halted: a method that blows up is a row like others
 
-A body is judged as `regatta advise` judges it: alone, from its start, without the scene's script.
-ERROR is the largest of a coordinate or a velocity as a part of its amplitude, ENERGY_DRIFT_PERCENT the
-largest where energy is conserved; EVALUATIONS_PER_S and NS_PER_S are the cost of a simulated second, the
-latter measured here and now, one run after the other. VERDICT is exact, accurate, drifting, decays,
-grows, lost or halted. A method that blows up has a row: HALTED says why, SECONDS how far it came.
-
-The rates swept by default are a quarter, half, 1, 2, 4 and 8 times the scene's own.
+A body is judged as `regatta advise` judges it, from its start and without the scene's script.
+Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
 
 Examples:
   regatta sweep > sweep.csv
@@ -110,6 +113,17 @@ pub enum SweepError {
     /// Rows and picture cannot both go there.
     #[error("rows and picture would go to the same place; give another --out or --plot")]
     SamePlace,
+    /// More scenes than one picture holds.
+    #[error(
+        "a picture of {charts} charts is larger than {limit}x{limit}, what this adapter can make; \
+         give fewer scenes, or no --plot"
+    )]
+    TooManyCharts {
+        /// One for each scene, and one more.
+        charts: usize,
+        /// The longest side in pixels.
+        limit: u32,
+    },
     /// There is nothing to draw with.
     #[error(transparent)]
     Gpu(#[from] GpuError),
@@ -128,7 +142,7 @@ impl SweepError {
             SweepError::Interrupted => 130,
             SweepError::PlotTaken { .. }
             | SweepError::SamePlace
-            | SweepError::Gpu(GpuError::TooLarge { .. }) => 2,
+            | SweepError::TooManyCharts { .. } => 2,
             SweepError::Threads(_) | SweepError::Gpu(_) | SweepError::Readback(_) => 1,
         }
     }
@@ -136,24 +150,30 @@ impl SweepError {
 
 pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let swept = args.load()?;
-    if args.plot.as_ref().is_some_and(|plot| *plot == args.out) {
+    if args
+        .plot
+        .as_ref()
+        .is_some_and(|plot| path::absolute(plot).ok() == path::absolute(&args.out).ok())
+    {
         return Err(SweepError::SamePlace.into());
     }
+    let interrupted = watch_for_interrupt();
     // Before anything is gone through: a refusal should not come minutes late.
     let out = Outlet::open_for_text(&args.out, args.force).map_err(SweepError::Out)?;
-    let plot = args.plot.as_ref().map(|path| Plot::open(path, args.force)).transpose()?;
-    let interrupted = watch_for_interrupt();
+    let charts = swept.scenes.len() + 1;
+    let plot = args.plot.as_ref().map(|path| Plot::open(path, args.force, charts)).transpose()?;
     let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
     let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
-    finish(out, table::rows(args.format, COLUMNS, &rows).as_bytes(), &what)?;
+    let written = finish(out, table::rows(args.format, COLUMNS, &rows).as_bytes(), &what);
+    // Whatever became of the rows: whoever reads them may want the first few only.
     if let Some(plot) = plot {
         let (outlet, [width, height], png) = plot.draw(&diagrams::figure(&swept, &rows))?;
         finish(outlet, &png, &format!("a picture of {width}x{height}"))?;
     }
-    Ok(())
+    written
 }
 
-/// Writes all of it, and says what a file now holds. A closed pipe is no failure.
+/// Writes all of it, and says what a file now holds.
 fn finish(mut outlet: Outlet, bytes: &[u8], what: &str) -> Result<(), Error> {
     let written = outlet.write_all(bytes).map_err(|error| outlet.failed(error));
     let (name, is_file) = (outlet.name(), matches!(outlet, Outlet::File { .. }));

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::grid::{Row, Swept};
+use super::plot::columns;
 use crate::lab::number::round;
 use crate::lab::picture::palette;
 use crate::lab::round_off::{self, ErrorCurve, Width};
@@ -27,11 +28,6 @@ pub(super) fn figure(swept: &Swept, rows: &[Row]) -> Figure {
     let charts: Vec<Chart> = work.chain([v_curves(rounded)]).collect();
     let title = "Work and precision: what accuracy costs, and where rounding ends it".into();
     Figure { title, note, columns: columns(charts.len()), charts }
-}
-
-/// How many charts stand side by side, so that there are about as many rows.
-fn columns(charts: usize) -> usize {
-    (2..charts).find(|columns| columns * (columns + 1) >= charts).unwrap_or(2)
 }
 
 /// A method's error against its evaluations, a point for each tick rate. Of several bodies the worst one

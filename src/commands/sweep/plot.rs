@@ -5,7 +5,7 @@ use std::path::Path;
 use super::SweepError;
 use crate::commands::capture::CaptureError;
 use crate::commands::outlet::Outlet;
-use crate::view::{AdapterPreference, Artist, Figure, Gpu, png};
+use crate::view::{AdapterPreference, Artist, Figure, Gpu, GpuError, png};
 
 /// Pixels of a chart, and pixels to a point: legible where a few of them fill a screen.
 const CHART_PX: [u32; 2] = [920, 660];
@@ -16,28 +16,40 @@ const MARGIN_PX: u32 = 240;
 
 /// A picture to be made.
 pub(super) struct Plot {
-    gpu: Gpu,
+    artist: Artist,
     outlet: Outlet,
 }
 
 impl Plot {
-    /// Makes sure that there will be a place for it, and something to draw it with.
-    pub(super) fn open(path: &Path, replace: bool) -> Result<Self, SweepError> {
+    /// Makes sure that there are a place for a picture of so many charts, and something to draw it with.
+    pub(super) fn open(path: &Path, replace: bool, charts: usize) -> Result<Self, SweepError> {
         let outlet = Outlet::open(path, replace).map_err(|error| match error {
             CaptureError::Taken { path } => SweepError::PlotTaken { path },
             error => error.into(),
         })?;
-        Ok(Self { gpu: Gpu::headless(AdapterPreference::Any)?, outlet })
+        let columns = columns(charts);
+        let [across, down] = [columns, charts.div_ceil(columns)].map(|number| number as u32);
+        let size_px = [across * CHART_PX[0], down * CHART_PX[1] + MARGIN_PX];
+        let gpu = Gpu::headless(AdapterPreference::Any)?;
+        let artist = Artist::new(gpu, size_px, SCALE).map_err(|error| match error {
+            GpuError::TooLarge { limit, .. } => SweepError::TooManyCharts { charts, limit },
+            error => error.into(),
+        })?;
+        Ok(Self { artist, outlet })
     }
 
-    /// Draws it: where it goes, its size in pixels, and its bytes.
-    pub(super) fn draw(self, figure: &Figure) -> Result<(Outlet, [u32; 2], Vec<u8>), SweepError> {
-        let columns = figure.columns as u32;
-        let rows = (figure.charts.len() as u32).div_ceil(columns);
-        let size_px = [columns * CHART_PX[0], rows * CHART_PX[1] + MARGIN_PX];
-        let mut artist = Artist::new(self.gpu, size_px, SCALE)?;
-        let mut rgba = Vec::new();
-        artist.draw_figure(figure, &mut rgba)?;
+    /// Draws it: where it goes, its size in pixels, and the file.
+    pub(super) fn draw(
+        mut self,
+        figure: &Figure,
+    ) -> Result<(Outlet, [u32; 2], Vec<u8>), SweepError> {
+        let (size_px, mut rgba) = (self.artist.size_px(), Vec::new());
+        self.artist.draw_figure(figure, &mut rgba)?;
         Ok((self.outlet, size_px, png::encode(size_px, &rgba)))
     }
+}
+
+/// How many charts stand side by side, so that there are about as many rows.
+pub(super) fn columns(charts: usize) -> usize {
+    (2..charts).find(|columns| columns * (columns + 1) >= charts).unwrap_or(2)
 }
