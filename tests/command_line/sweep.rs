@@ -243,6 +243,7 @@ fn mistakes_are_refused_before_anything_is_swept() {
         ("--format xml", "csv, json"),
         ("--plot src", "src is there already; give another --plot, or --force"),
         ("--plot -", "rows and picture would go to the same place"),
+        ("--plot x --out ./x", "rows and picture would go to the same place"),
     ] {
         let message = refusal(&format!("sweep {options}"), 2);
         assert!(message.starts_with("error: ") && message.contains(said), "{options}: {message}");
@@ -336,4 +337,23 @@ fn a_picture_goes_to_standard_output_where_the_rows_do_not() {
     assert_eq!(stderr(&output), "wrote 23 rows: rows.json\n");
     let picture = image::load_from_memory(&output.stdout).unwrap().into_rgb8();
     assert_eq!(picture.dimensions(), (1840, 1560));
+}
+
+#[test]
+fn a_pipe_that_closes_early_does_not_take_the_picture_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "a_pipe_that_closes_early_does_not_take_the_picture_with_it";
+    let sweep = "sweep --scene ship --method rk4 --plot sweep.png --force";
+    if drawn_or_skip(test, folder.path(), sweep).is_none() {
+        return;
+    }
+    fs::remove_file(folder.path().join("sweep.png")).unwrap();
+    let mut child = regatta();
+    child.current_dir(folder.path()).args(sweep.split(' ')).stderr(Stdio::piped());
+    let mut child = child.stdout(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(stderr(&output), "wrote a picture of 1840x900: sweep.png\n");
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(names(folder.path()), ["sweep.png"]);
 }
