@@ -121,7 +121,7 @@ fn cells(line: &str) -> Vec<String> {
 #[test]
 fn any_number_of_threads_makes_the_same_rows() {
     let physics = |threads: u32| {
-        let mut rows = rows(&format!("--seconds 1 --threads {threads}"));
+        let mut rows = rows(&format!("--seconds 1 --tick-hz 30,60 --threads {threads}"));
         for row in &mut rows {
             let ns = row.as_object_mut().unwrap().remove("ns_per_s").unwrap();
             assert!(ns.is_null() || ns.as_f64().unwrap() > 0.0, "{row}: {ns}");
@@ -129,10 +129,8 @@ fn any_number_of_threads_makes_the_same_rows() {
         rows
     };
     let one = physics(1);
-    assert!(one.len() > 1000);
-    for threads in [4, 13] {
-        assert!(one == physics(threads), "{threads} threads");
-    }
+    assert!(one.len() > 500);
+    assert!(one == physics(4));
 }
 
 #[test]
