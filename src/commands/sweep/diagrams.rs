@@ -87,7 +87,7 @@ fn v_curves(rounded: Vec<ErrorCurve>) -> Chart {
     }
 }
 
-/// The range of what lies above 0, with some room on a logarithmic axis.
+/// The range of what lies above 0, with some room, and a power of ten at least to be marked.
 fn view(curves: &[FigureCurve], axis: usize) -> [f64; 2] {
     const ROOM: f64 = 1.6;
     let points = curves.iter().flat_map(|curve| &curve.points);
@@ -96,7 +96,9 @@ fn view(curves: &[FigureCurve], axis: usize) -> [f64; 2] {
         let [least, greatest] = range.unwrap_or([value; 2]);
         Some([least.min(value), greatest.max(value)])
     });
-    range.map_or([0.1, 10.0], |[least, greatest]| [least / ROOM, greatest * ROOM])
+    let [least, greatest] = range.unwrap_or([1.0; 2]);
+    let more = (10.0 / (greatest / least)).max(1.0).sqrt();
+    [least / (ROOM * more), greatest * ROOM * more]
 }
 
 fn note(rounded: &[ErrorCurve]) -> String {
@@ -116,4 +118,55 @@ fn note(rounded: &[ErrorCurve]) -> String {
          only add roundings.",
         best.collect::<Vec<_>>().join(", nor than ")
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicBool;
+
+    use super::super::grid::Grid;
+    use super::*;
+    use crate::lab::Scene;
+    use crate::sim::integrators::method;
+
+    fn swept(scene: &str, id: &str, rates: &[u32]) -> (Swept, Vec<Row>) {
+        let scenes = vec![(scene.to_owned(), Scene::built_in(scene).unwrap())];
+        let methods = vec![method(id).unwrap()];
+        let swept = Swept { scenes, methods, rates: rates.to_vec(), seconds: None };
+        let rows = Grid::new(&swept).run(Some(1), &AtomicBool::new(false)).unwrap();
+        (swept, rows)
+    }
+
+    #[test]
+    fn the_worst_body_rules_and_all_bodies_cost() {
+        let (swept, rows) = swept("harbour", "rk4", &[30, 60]);
+        let figure = figure(&swept, &rows);
+        let [[work, error], [work_twice, _]] = figure.charts[0].curves[0].points[..] else {
+            panic!("{figure:?}")
+        };
+        assert_eq!((work, work_twice), (3.0 * 4.0 * 30.0, 3.0 * 4.0 * 60.0));
+        let bodies = rows.iter().filter(|row| row.tick_hz == 30);
+        let errors: Vec<f64> = bodies.map(|row| row.error().unwrap()).collect();
+        assert_eq!(errors.len(), 3);
+        assert!(errors.contains(&error) && errors.iter().all(|other| *other <= error));
+    }
+
+    #[test]
+    fn a_lost_method_has_no_point_and_every_axis_a_mark() {
+        let (swept, rows) = swept("stiff", "semi-implicit-euler", &[49, 60]);
+        let figure = figure(&swept, &rows);
+        let [work, rounded] = &figure.charts[..] else { panic!("{figure:?}") };
+        assert_eq!(work.curves[0].points.len(), 1);
+        for axis in work.axes.iter().chain(&rounded.axes) {
+            let [low, high] = axis.view;
+            assert!(low > 0.0 && low.is_finite() && high >= 10.0 * low, "{axis:?}");
+        }
+    }
+
+    #[test]
+    fn there_are_about_as_many_rows_of_charts_as_columns() {
+        for (charts, wide) in [(2, 2), (4, 2), (6, 2), (7, 3), (10, 3), (12, 3), (13, 4)] {
+            assert_eq!(columns(charts), wide, "{charts} charts");
+        }
+    }
 }
