@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::time::Duration;
 
 use clap::Args;
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::experiment::{ExperimentArgs, Lineup};
@@ -11,7 +12,7 @@ use super::table::{self, Column};
 use super::{Error, TableFormat, stopwatch};
 use crate::lab::number::significant;
 use crate::lab::{
-    Advised, Adviser, Good, LaneSpec, Scene, Stability, TOLERANCE, cheapest, duration,
+    Advised, Adviser, Good, Judge, LaneSpec, Scene, Stability, TOLERANCE, cheapest, duration,
 };
 use crate::sim::integrators::METHODS;
 
@@ -51,17 +52,16 @@ struct Row {
 pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(Lineup::Everyone)?;
     let scene = &experiment.scene;
-    let specs = if args.experiment.names_no_method() {
+    let specs: Vec<LaneSpec> = if args.experiment.names_no_method() {
         METHODS.iter().map(LaneSpec::plain).collect()
     } else {
         args.experiment.lanes_named(scene)
     };
-    let mut adviser = Adviser::new(scene, 1.0, scene.tick_hz, specs);
-    while adviser.advance() {}
-    let horizon_s = adviser.judge().horizon_s();
-    let row = |advised| row(scene, advised, horizon_s);
-    let rows: Vec<Row> = adviser.advised().iter().map(row).collect();
-    let best = cheapest(adviser.advised(), |advised, _| {
+    let advised: Vec<Advised> =
+        specs.par_iter().flat_map_iter(|&spec| judge(scene, spec)).collect();
+    let horizon_s = Judge::new(scene, 1.0).horizon_s();
+    let rows: Vec<Row> = advised.iter().map(|advised| row(scene, advised, horizon_s)).collect();
+    let best = cheapest(&advised, |advised, _| {
         let row = rows.iter().find(|row| row.advised.spec == advised.spec);
         row.and_then(|row| row.ns_per_s).unwrap_or(f64::INFINITY)
     });
@@ -86,6 +86,13 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     out.write_all(text.as_bytes())?;
     out.flush()?;
     Ok(())
+}
+
+/// What is to be said of one method. Methods are judged beside each other, and timed one by one later.
+fn judge(scene: &Scene, spec: LaneSpec) -> Vec<Advised> {
+    let mut adviser = Adviser::new(scene, 1.0, scene.tick_hz, vec![spec]);
+    while adviser.advance() {}
+    adviser.advised().to_vec()
 }
 
 /// One line for a design note.
