@@ -273,11 +273,8 @@ impl Lab {
     /// Finds out here and now whatever there is to be.
     pub fn think(&mut self) {
         let question = self.question();
-        let is_answer = |known: &Findings| known.complete && known.question == question;
-        if !self.findings.as_ref().is_some_and(is_answer) {
-            let mut thinker = Thinker::new(question);
-            while thinker.go_on() {}
-            self.learn(thinker.findings());
+        if !self.findings.as_ref().is_some_and(|known| known.answer(&question)) {
+            self.learn(Thinker::new(question).finish());
         }
     }
 

@@ -52,6 +52,13 @@ pub struct Findings {
     pub(super) complete: bool,
 }
 
+impl Findings {
+    /// Whether they are all that there is to be found.
+    pub(super) fn answer(&self, question: &Question) -> bool {
+        self.complete && self.question == *question
+    }
+}
+
 /// What is known of every method on a scene.
 #[derive(Clone, Debug)]
 pub struct Advice {
@@ -124,6 +131,12 @@ impl Thinker {
             adviser.advance();
         }
         !self.is_done()
+    }
+
+    /// Goes on to the end.
+    pub fn finish(mut self) -> Findings {
+        while self.go_on() {}
+        self.findings()
     }
 
     fn is_done(&self) -> bool {
