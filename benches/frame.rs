@@ -33,6 +33,7 @@ fn main() {
     artist.draw(&lab, &mut Vec::new()).expect("a fresh device gives its frame back");
     let first = start.elapsed();
 
+    lab.think();
     for _ in 0..WARM_UP {
         lab.advance(FRAME_NS);
     }

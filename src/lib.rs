@@ -20,7 +20,8 @@
 //!   and differ only in where time comes from and where the texture goes.
 //! - `window` and `commands` are the drivers: they alone touch files and real time. A capture's frames
 //!   pass from the thread that draws to one that encodes (`commands/pipeline.rs`); what it drew is in a
-//!   manifest (`commands::manifest` has the schema), by which `regatta verify` judges.
+//!   manifest (`commands::manifest` has the schema), by which `regatta verify` judges. A sweep's runs
+//!   share nothing, so that any number of threads makes the same rows (`commands/sweep/grid.rs`).
 //!
 //! `view`, `window` and `commands` are there with the default feature `desktop`. Without it the
 //! package is `sim` and `lab`, pulls in no graphics crate, and builds in seconds: what a game's own
@@ -103,7 +104,7 @@
 //! # Out of scope
 //!
 //! Collisions and contacts, which would hide the integrator behind the solver; generic scalars,
-//! because the formulas would drown; and constraints, because a closed body with natural coordinates
+//! because the formulas would drown, but for one experiment on their width, [`lab::round_off`]; and constraints, because a closed body with natural coordinates
 //! needs none.
 
 #[cfg(feature = "desktop")]

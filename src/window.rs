@@ -13,14 +13,16 @@ use winit::event::{ElementState, KeyEvent, StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, Window, WindowId};
 
-use crate::lab::{Ask, Command, Key, Lab, command_for};
+use crate::lab::{Ask, Command, Findings, Key, Lab, command_for};
 use crate::view::GpuError;
 
+mod adviser;
 mod canvas;
 mod keys;
 mod pace;
 mod screenshot;
 
+use adviser::Adviser;
 use canvas::{Canvas, Drawn};
 use pace::Meter;
 
@@ -52,13 +54,15 @@ pub enum WindowError {
 /// # Errors
 /// [`WindowError::NoDisplay`] before anything else is tried; the others at any time.
 pub fn run(lab: Lab, seconds: Option<f64>) -> Result<(), WindowError> {
-    let event_loop = EventLoop::<accesskit_winit::Event>::with_user_event()
+    let event_loop = EventLoop::<Event>::with_user_event()
         .build()
         .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
+    let proxy = event_loop.create_proxy();
     let mut app = App {
+        adviser: Adviser::new(lab.question(), proxy.clone()),
         lab,
         seconds,
-        proxy: event_loop.create_proxy(),
+        proxy,
         canvas: None,
         asked: Vec::new(),
         shift: false,
@@ -87,11 +91,24 @@ fn reason(error: &dyn std::error::Error) -> String {
     said.trim_end_matches('.').into()
 }
 
+/// What reaches the window from elsewhere than the window system.
+enum Event {
+    Accessibility(accesskit_winit::Event),
+    Learnt(Findings),
+}
+
+impl From<accesskit_winit::Event> for Event {
+    fn from(event: accesskit_winit::Event) -> Self {
+        Event::Accessibility(event)
+    }
+}
+
 struct App {
     lab: Lab,
+    adviser: Adviser,
     /// When to end, in simulated seconds.
     seconds: Option<f64>,
-    proxy: EventLoopProxy<accesskit_winit::Event>,
+    proxy: EventLoopProxy<Event>,
     canvas: Option<Canvas>,
     /// Commands for the beginning of the next frame.
     asked: Vec<Command>,
@@ -137,10 +154,7 @@ impl App {
                     self.stand_still();
                 }
                 self.meter.frame(now, self.lab.race().t());
-                let again = self.lab.running()
-                    || self.lab.is_thinking()
-                    || !commands.is_empty()
-                    || self.screenshot;
+                let again = self.lab.running() || !commands.is_empty() || self.screenshot;
                 self.asked.extend(commands);
                 self.schedule(event_loop, now, if again { Duration::ZERO } else { repaint_after });
             }
@@ -166,6 +180,7 @@ impl App {
                 None => {}
             }
         }
+        self.adviser.ask(self.lab.question());
         let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
         self.last_frame = self.lab.running().then_some(now);
         self.lab.advance(i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX));
@@ -249,7 +264,7 @@ impl App {
     }
 }
 
-impl ApplicationHandler<accesskit_winit::Event> for App {
+impl ApplicationHandler<Event> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.canvas.is_some() {
             return;
@@ -288,10 +303,20 @@ impl ApplicationHandler<accesskit_winit::Event> for App {
         self.wait(event_loop);
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, event: accesskit_winit::Event) {
-        if let Some(canvas) = &mut self.canvas {
-            canvas.accessibility(event);
-            self.request_redraw();
+    fn user_event(&mut self, _: &ActiveEventLoop, event: Event) {
+        match event {
+            Event::Accessibility(event) => {
+                if let Some(canvas) = &mut self.canvas {
+                    canvas.accessibility(event);
+                    self.request_redraw();
+                }
+            }
+            Event::Learnt(findings) => {
+                self.lab.learn(findings);
+                if !self.lab.running() {
+                    self.request_redraw();
+                }
+            }
         }
     }
 

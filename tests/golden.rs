@@ -45,6 +45,7 @@ fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Lab)) -> Lab {
             lab.apply(Command::Pick(3));
         }
         lab.advance(16_666_667);
+        lab.think();
         each_frame(&lab);
     }
     lab

@@ -324,3 +324,69 @@ fn on_nonlinear_bodies_what_falls_in_truth_is_not_held_against_a_method() {
         assert!(found.is_bounded() && found.loss_per_s < 1e-4, "{scene}: {found:?}");
     }
 }
+
+#[test]
+fn a_nonlinear_body_is_stable_where_its_energy_stays() {
+    for (scene, id, unstable_hz, stable_hz) in [
+        ("pendulum", "velocity-verlet", 4, 10),
+        ("pendulum", "implicit-midpoint", 3, 10),
+        ("pendulum", "newmark", 0, 10),
+        ("pendulum", "midpoint", 120, 960),
+        ("pendulum", "dormand-prince-54", 0, 1),
+        ("orbit", "semi-implicit-euler", 5, 20),
+        ("orbit", "position-verlet", 2, 10),
+        ("orbit", "improved-euler", 120, 960),
+        ("helm", "rk4", 0, 1),
+    ] {
+        let judge = Judge::new(&Scene::built_in(scene).expect("a built-in scene"), 1.0);
+        let spec = LaneSpec::plain(method(id).expect("a method"));
+        assert!(judge.is_stable(spec, stable_hz), "{scene}, {id} at {stable_hz} Hz");
+        if unstable_hz > 0 {
+            assert!(!judge.is_stable(spec, unstable_hz), "{scene}, {id} at {unstable_hz} Hz");
+        }
+    }
+}
+
+#[test]
+fn the_growth_of_a_swinging_pendulum_is_that_of_its_energy() {
+    // Independently: the energy each time the pendulum is at its lowest, over a hundred swings.
+    let scene = Scene::built_in("pendulum").expect("a built-in scene");
+    for (id, tick_hz) in [("midpoint", 40), ("rk4", 16), ("bdf2", 60)] {
+        let found = over_the_motion("pendulum", id, tick_hz).growth_per_s;
+        let h = 1.0 / f64::from(tick_hz);
+        let build = scene.bodies[0].kind.build;
+        let mut body =
+            build(&scene.bodies[0].values, Solver::Method(method(id).expect("a method")));
+        let mut passes: Vec<(f64, f64)> = Vec::new();
+        for tick in 0..80 * tick_hz {
+            let before = (body.q()[0], body.energy().expect("it is conserved"));
+            body.advance(h * f64::from(tick), h, 1).expect("a swing");
+            let after = (body.q()[0], body.energy().expect("it is conserved"));
+            if before.0 < 0.0 && after.0 >= 0.0 {
+                // Between the ticks, where it is at its lowest.
+                let part = before.0 / (before.0 - after.0);
+                let energy = before.1 + part * (after.1 - before.1);
+                passes.push((h * (f64::from(tick) + part), energy));
+            }
+        }
+        let (first, last) = (passes[0], passes[passes.len() - 1]);
+        assert!(passes.len() > 10);
+        let trend = (last.1 - first.1) / (last.0 - first.0);
+        let expected = trend / mean_of_twice_kinetic(&scene) / 2.0;
+        assert!((found / expected - 1.0).abs() < 0.1, "{id}: {found}, by its passes {expected}");
+    }
+}
+
+/// Over the pendulum's true motion, in joules.
+fn mean_of_twice_kinetic(scene: &Scene) -> f64 {
+    let build = scene.bodies[0].kind.build;
+    let mut body = build(&scene.bodies[0].values, Solver::Truth);
+    let mut still = build(&scene.bodies[0].values, Solver::Truth);
+    let (mut sum, count, h) = (0.0, 4000, scene.seconds / 4000.0);
+    for tick in 0..count {
+        body.advance(h * f64::from(tick), h, 1).expect("the truth");
+        still.set(0.0, body.q(), &[0.0]);
+        sum += 2.0 * (body.energy().expect("conserved") - still.energy().expect("conserved"));
+    }
+    sum / f64::from(count)
+}

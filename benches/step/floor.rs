@@ -2,9 +2,11 @@
 
 use std::hint::black_box;
 
-/// The state after `[ticks, substeps]` steps of `h` from the start that `values`, in the order of the
-/// body's keys, say.
-pub(crate) type Loop = fn(values: &[f64], h: f64, steps: [u32; 2]) -> [f64; 2];
+use crate::rows;
+
+/// Carries `state`, the coordinates and then their velocities, through `[ticks, substeps]` steps of `h`
+/// of a body whose keys have these `values`.
+pub(crate) type Loop = fn(values: &[f64], h: f64, steps: [u32; 2], state: &mut [f64]);
 
 /// One body and method by hand, in three ways.
 #[derive(Clone, Copy)]
@@ -22,9 +24,11 @@ pub(crate) fn by_hand(body: &str, method: &str) -> Option<ByHand> {
     macro_rules! of {
         ($method:ident, $textbook:ident, $bare:ident) => {
             ByHand {
-                textbook: |values, h, steps| $method($textbook(values), values, h, steps, kept),
-                bare: |values, h, steps| $method($bare(values), values, h, steps, kept),
-                shown: |values, h, steps| $method($bare(values), values, h, steps, black_box),
+                textbook: |values, h, steps, state| {
+                    $method($textbook(values), h, steps, state, kept)
+                },
+                bare: |values, h, steps, state| $method($bare(values), h, steps, state, kept),
+                shown: |values, h, steps, state| $method($bare(values), h, steps, state, black_box),
             }
         };
     }
@@ -39,6 +43,9 @@ pub(crate) fn by_hand(body: &str, method: &str) -> Option<ByHand> {
         ("spring", "improved-euler") => of!(improved_euler, textbook_spring, bare_spring),
         ("spring", "velocity-verlet") => of!(velocity_verlet, textbook_spring, bare_spring),
         ("spring", "rk4") => of!(rk4, textbook_spring, bare_spring),
+        ("chain", "semi-implicit-euler") => rows::SEMI_IMPLICIT_EULER,
+        ("chain", "velocity-verlet") => rows::VELOCITY_VERLET,
+        ("chain", "rk4") => rows::RK4,
         _ => return None,
     })
 }
@@ -71,30 +78,30 @@ fn bare_spring(values: &[f64]) -> impl Fn(f64, f64) -> f64 {
 #[inline(always)]
 fn explicit_euler(
     a: impl Fn(f64, f64) -> f64,
-    values: &[f64],
     h: f64,
     [ticks, substeps]: [u32; 2],
+    state: &mut [f64],
     show: impl Fn([f64; 2]) -> [f64; 2],
-) -> [f64; 2] {
-    let (mut q, mut v) = (values[3], values[4]);
+) {
+    let (mut q, mut v) = (state[0], state[1]);
     for _ in 0..ticks {
         for _ in 0..substeps {
             (q, v) = (q + h * v, v + h * a(q, v));
         }
         [q, v] = show([q, v]);
     }
-    [q, v]
+    state.copy_from_slice(&[q, v]);
 }
 
 #[inline(always)]
 fn semi_implicit_euler(
     a: impl Fn(f64, f64) -> f64,
-    values: &[f64],
     h: f64,
     [ticks, substeps]: [u32; 2],
+    state: &mut [f64],
     show: impl Fn([f64; 2]) -> [f64; 2],
-) -> [f64; 2] {
-    let (mut q, mut v) = (values[3], values[4]);
+) {
+    let (mut q, mut v) = (state[0], state[1]);
     for _ in 0..ticks {
         for _ in 0..substeps {
             v += h * a(q, v);
@@ -102,18 +109,18 @@ fn semi_implicit_euler(
         }
         [q, v] = show([q, v]);
     }
-    [q, v]
+    state.copy_from_slice(&[q, v]);
 }
 
 #[inline(always)]
 fn velocity_verlet(
     a: impl Fn(f64, f64) -> f64,
-    values: &[f64],
     h: f64,
     [ticks, substeps]: [u32; 2],
+    state: &mut [f64],
     show: impl Fn([f64; 2]) -> [f64; 2],
-) -> [f64; 2] {
-    let (mut q, mut v) = (values[3], values[4]);
+) {
+    let (mut q, mut v) = (state[0], state[1]);
     let (mut force, half) = (a(q, v), h / 2.0);
     for _ in 0..ticks {
         for _ in 0..substeps {
@@ -124,18 +131,18 @@ fn velocity_verlet(
         }
         [q, v] = show([q, v]);
     }
-    [q, v]
+    state.copy_from_slice(&[q, v]);
 }
 
 #[inline(always)]
 fn improved_euler(
     a: impl Fn(f64, f64) -> f64,
-    values: &[f64],
     h: f64,
     [ticks, substeps]: [u32; 2],
+    state: &mut [f64],
     show: impl Fn([f64; 2]) -> [f64; 2],
-) -> [f64; 2] {
-    let (mut q, mut v) = (values[3], values[4]);
+) {
+    let (mut q, mut v) = (state[0], state[1]);
     let half = h / 2.0;
     for _ in 0..ticks {
         for _ in 0..substeps {
@@ -146,18 +153,18 @@ fn improved_euler(
         }
         [q, v] = show([q, v]);
     }
-    [q, v]
+    state.copy_from_slice(&[q, v]);
 }
 
 #[inline(always)]
 fn rk4(
     a: impl Fn(f64, f64) -> f64,
-    values: &[f64],
     h: f64,
     [ticks, substeps]: [u32; 2],
+    state: &mut [f64],
     show: impl Fn([f64; 2]) -> [f64; 2],
-) -> [f64; 2] {
-    let (mut q, mut v) = (values[3], values[4]);
+) {
+    let (mut q, mut v) = (state[0], state[1]);
     let (half, third, sixth) = (h / 2.0, h / 3.0, h / 6.0);
     for _ in 0..ticks {
         for _ in 0..substeps {
@@ -170,5 +177,5 @@ fn rk4(
         }
         [q, v] = show([q, v]);
     }
-    [q, v]
+    state.copy_from_slice(&[q, v]);
 }

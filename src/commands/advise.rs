@@ -1,18 +1,18 @@
 //! `regatta advise`: which method and tick rate to take for a scene, and why.
 
-use std::hint::black_box;
 use std::io::{self, Write};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use clap::Args;
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::experiment::{ExperimentArgs, Lineup};
 use super::table::{self, Column};
-use super::{Error, TableFormat};
+use super::{Error, TableFormat, stopwatch};
 use crate::lab::number::significant;
 use crate::lab::{
-    Advised, Adviser, Good, Lane, LaneSpec, Scene, Stability, TOLERANCE, cheapest, duration,
+    Advised, Adviser, Good, Judge, LaneSpec, Scene, Stability, TOLERANCE, cheapest, duration,
 };
 use crate::sim::integrators::METHODS;
 
@@ -52,16 +52,16 @@ struct Row {
 pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(Lineup::Everyone)?;
     let scene = &experiment.scene;
-    let specs = if args.experiment.names_no_method() {
+    let specs: Vec<LaneSpec> = if args.experiment.names_no_method() {
         METHODS.iter().map(LaneSpec::plain).collect()
     } else {
         args.experiment.lanes_named(scene)
     };
-    let mut adviser = Adviser::new(scene, 1.0, scene.tick_hz, specs);
-    while adviser.advance() {}
-    let rows: Vec<Row> = adviser.advised().iter().map(|advised| row(scene, advised)).collect();
-    let horizon_s = adviser.judge().horizon_s();
-    let best = cheapest(adviser.advised(), |advised, _| {
+    let advised: Vec<Advised> =
+        specs.par_iter().flat_map_iter(|&spec| judge(scene, spec)).collect();
+    let horizon_s = Judge::new(scene, 1.0).horizon_s();
+    let rows: Vec<Row> = advised.iter().map(|advised| row(scene, advised, horizon_s)).collect();
+    let best = cheapest(&advised, |advised, _| {
         let row = rows.iter().find(|row| row.advised.spec == advised.spec);
         row.and_then(|row| row.ns_per_s).unwrap_or(f64::INFINITY)
     });
@@ -86,6 +86,13 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     out.write_all(text.as_bytes())?;
     out.flush()?;
     Ok(())
+}
+
+/// What is to be said of one method. Methods are judged beside each other, and timed one by one later.
+fn judge(scene: &Scene, spec: LaneSpec) -> Vec<Advised> {
+    let mut adviser = Adviser::new(scene, 1.0, scene.tick_hz, vec![spec]);
+    while adviser.advance() {}
+    adviser.advised().to_vec()
 }
 
 /// One line for a design note.
@@ -113,39 +120,16 @@ fn advice(scene: &Scene, best: Option<&Row>, horizon_s: f64) -> String {
     )
 }
 
-fn row(scene: &Scene, advised: &Advised) -> Row {
-    let ns = |good: &Good| nanoseconds(scene, advised.spec, good.tick_hz);
-    Row { advised: advised.clone(), ns_per_s: advised.good.as_ref().map(ns) }
+fn row(scene: &Scene, advised: &Advised, horizon_s: f64) -> Row {
+    let ns = |good: &Good| {
+        let ticks = (horizon_s * f64::from(good.tick_hz)).round() as u64;
+        stopwatch::ns_per_s(scene, advised.spec, good.tick_hz, ticks, EFFORT)
+    };
+    Row { advised: advised.clone(), ns_per_s: advised.good.as_ref().and_then(ns) }
 }
 
-/// How long a measurement lasts, and of how many stretches it takes the fastest: long enough for the
-/// clock, short enough for two dozen methods.
-const STRETCH: Duration = Duration::from_millis(2);
-const STRETCHES: u32 = 5;
-
-/// Nanoseconds that a lane takes for a simulated second at this rate.
-fn nanoseconds(scene: &Scene, spec: LaneSpec, tick_hz: u32) -> f64 {
-    let hz = f64::from(tick_hz);
-    let mut lane = Lane::new(scene, spec.solver(), spec.substeps);
-    let mut tick = 0_u64;
-    let mut best = f64::INFINITY;
-    for _ in 0..STRETCHES {
-        let (start, from) = (Instant::now(), tick);
-        let elapsed = loop {
-            for _ in 0..16 {
-                lane.tick(tick, tick as f64 / hz, 1.0 / hz);
-                tick += 1;
-            }
-            let elapsed = start.elapsed();
-            if elapsed >= STRETCH {
-                break elapsed;
-            }
-        };
-        black_box(lane.evaluations());
-        best = best.min(elapsed.as_nanos() as f64 / (tick - from) as f64 * hz);
-    }
-    best
-}
+/// How long each measurement goes on: for two dozen methods not long to wait.
+const EFFORT: Duration = Duration::from_millis(10);
 
 fn stability<T: Into<Value>>(row: &Row, part: impl Fn(&Stability) -> T) -> Value {
     row.advised.verdict.stability.as_ref().map_or(Value::Null, |stability| part(stability).into())

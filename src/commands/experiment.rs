@@ -116,13 +116,14 @@ pub(super) fn seconds(written: &str) -> Result<f64, String> {
     }
 }
 
-fn range_of(range: std::ops::RangeInclusive<u32>) -> std::ops::RangeInclusive<i64> {
+/// A range of whole numbers, for the command line's parser.
+pub(super) fn range_of(range: std::ops::RangeInclusive<u32>) -> std::ops::RangeInclusive<i64> {
     i64::from(*range.start())..=i64::from(*range.end())
 }
 
 /// Takes any path; offers the built-in scenes to the shell's completion.
 #[derive(Clone)]
-struct SceneParser;
+pub(super) struct SceneParser;
 
 impl TypedValueParser for SceneParser {
     type Value = PathBuf;
@@ -143,7 +144,7 @@ impl TypedValueParser for SceneParser {
 
 /// Takes a method's id; offers all of them to the shell's completion.
 #[derive(Clone)]
-struct MethodParser;
+pub(super) struct MethodParser;
 
 impl TypedValueParser for MethodParser {
     type Value = &'static Method;

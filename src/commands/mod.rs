@@ -27,6 +27,8 @@ mod recording;
 mod scene_file;
 mod settings;
 mod sheet;
+mod stopwatch;
+mod sweep;
 mod table;
 mod trace;
 mod verify;
@@ -39,6 +41,7 @@ use completions::CompletionsArgs;
 use list::ListArgs;
 use play::PlayArgs;
 use scene_file::SceneFileError;
+use sweep::{SweepArgs, SweepError};
 use trace::TraceArgs;
 use verify::{VerifyArgs, VerifyError};
 
@@ -52,6 +55,7 @@ Examples:
   regatta trace --scene ship --method rk4 > ship.csv
   regatta capture --scene spring --race --out clip
   regatta advise --scene stiff
+  regatta sweep --scene spring --plot spring.png > spring.csv
   regatta chapter --out figures
   regatta verify clip
   regatta list methods
@@ -76,6 +80,7 @@ enum Command {
     Verify(VerifyArgs),
     Trace(TraceArgs),
     Advise(AdviseArgs),
+    Sweep(SweepArgs),
     Chapter(ChapterArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
@@ -92,6 +97,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Verify(args) => verify::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Advise(args) => advise::run(&args),
+        Command::Sweep(args) => sweep::run(&args),
         Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args),
@@ -114,6 +120,9 @@ pub enum Error {
     /// The chapter's figures could not be drawn or written.
     #[error(transparent)]
     Chapter(#[from] ChapterError),
+    /// Not all methods, rates and scenes could be gone through.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
     /// Frames are not what they were, or cannot be judged.
     #[error(transparent)]
     Verify(#[from] VerifyError),
@@ -133,6 +142,7 @@ impl Error {
             Error::SceneFile(_) => 2,
             Error::Capture(error) => error.exit_code(),
             Error::Chapter(error) => error.exit_code(),
+            Error::Sweep(error) => error.exit_code(),
             Error::Verify(error) => error.exit_code(),
             Error::Window(_) | Error::Output(_) => 1,
         }
@@ -158,6 +168,15 @@ enum TableFormat {
     /// Aligned columns, for people
     Text,
     /// An array of objects, for programs
+    Json,
+}
+
+/// How a tidy table is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum RowFormat {
+    /// Comma-separated values under a header
+    Csv,
+    /// An array of objects with the same names
     Json,
 }
 

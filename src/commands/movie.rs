@@ -41,7 +41,7 @@ pub(super) fn record(
     let mut artist = recording.artist()?;
     let interrupted = watch_for_interrupt();
     let Schedule { frames, .. } = recording.schedule;
-    let progress = progress(frames);
+    let progress = progress(frames, "frames");
     let mut lab = recording.lab(experiment);
     let mut logbook = Logbook::new(u64::MAX, &lab);
     let run = Run {

@@ -21,15 +21,21 @@ pub(super) enum Outlet {
 }
 
 impl Outlet {
-    /// Opens standard output or makes a file, beside an older one if `replace` says so.
+    /// Opens standard output or makes a file, beside an older one if `replace` says so, for bytes that
+    /// are no text.
     pub(super) fn open(path: &Path, replace: bool) -> Result<Self, CaptureError> {
+        if path == Path::new(STDOUT) && io::stdout().is_terminal() {
+            return Err(CaptureError::Terminal);
+        }
+        Self::open_for_text(path, replace)
+    }
+
+    /// The same for text, which may go to a terminal.
+    pub(super) fn open_for_text(path: &Path, replace: bool) -> Result<Self, CaptureError> {
         if path == Path::new(STDOUT) {
-            if io::stdout().is_terminal() {
-                return Err(CaptureError::Terminal);
-            }
             return Ok(Outlet::Stdout(BufWriter::new(io::stdout())));
         }
-        // A device or a link is nothing to be replaced by a picture.
+        // A device or a link is nothing to be replaced by a file.
         let is_taken = fs::symlink_metadata(path).is_ok_and(|entry| !entry.is_file() || !replace);
         if is_taken {
             return Err(CaptureError::Taken { path: path.to_owned() });

@@ -40,8 +40,8 @@ impl Recording {
     pub(super) fn lab(&self, experiment: &Experiment) -> Lab {
         let mut lab = experiment.lab();
         lab.set_motion(self.motion);
-        // In a window verdicts come one a frame; here there is time for all of them before the first.
-        while lab.think() {}
+        // In a window verdicts come as they are found; here there is time for all before a frame.
+        lab.think();
         lab
     }
 
@@ -70,7 +70,7 @@ pub(super) fn record(
     folder.clear(schedule.frames)?;
 
     let interrupted = watch_for_interrupt();
-    let progress = progress(schedule.frames);
+    let progress = progress(schedule.frames, "frames");
     let mut lab = recording.lab(experiment);
     let mut logbook = Logbook::new(recording.mark_every, &lab);
     let mut entries = Vec::new();
@@ -155,14 +155,14 @@ pub(super) fn watch_for_interrupt() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&interrupted);
     if let Err(error) = ctrlc::set_handler(move || set.store(true, Ordering::Relaxed)) {
-        log::warn!("Ctrl-C will stop the capture at once: {error}");
+        log::warn!("Ctrl-C will stop the run at once: {error}");
     }
     interrupted
 }
 
-/// A bar of so many frames, on a terminal.
-pub(super) fn progress(frames: u32) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} frames, {eta} left")
+/// A bar of so many frames or other things, on a terminal.
+pub(super) fn progress(number: u32, things: &'static str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left")
         .expect("the template is a constant");
-    ProgressBar::new(u64::from(frames)).with_style(style)
+    ProgressBar::new(u64::from(number)).with_style(style).with_message(things)
 }

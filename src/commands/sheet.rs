@@ -38,7 +38,7 @@ pub(super) fn draw(
         });
     }
     let mut artist = recording.artist()?;
-    let progress = progress(cells);
+    let progress = progress(cells, "frames");
     let row_bytes = 4 * width as usize;
     let sheet_row_bytes = row_bytes * columns as usize;
     let mut sheet = vec![0; sheet_row_bytes * (rows * height) as usize];

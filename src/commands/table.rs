@@ -1,6 +1,8 @@
-//! One description of a list's columns, written as aligned text or as JSON.
+//! One description of a list's columns, written as aligned text, as CSV or as JSON.
 
 use serde_json::{Map, Value};
+
+use super::RowFormat;
 
 /// One property of the things listed.
 pub(super) struct Column<T> {
@@ -14,11 +16,46 @@ pub(super) struct Column<T> {
 
 /// An array with one object for each of `items`.
 pub(super) fn json<T>(columns: &[Column<T>], items: &[T]) -> Value {
-    let object = |item| {
-        let fields = columns.iter().map(|column| (column.key.to_owned(), (column.value)(item)));
-        Value::Object(fields.collect::<Map<_, _>>())
-    };
-    items.iter().map(object).collect()
+    items.iter().map(|item| object(columns, item)).collect()
+}
+
+fn object<T>(columns: &[Column<T>], item: &T) -> Value {
+    let fields = columns.iter().map(|column| (column.key.to_owned(), (column.value)(item)));
+    Value::Object(fields.collect::<Map<_, _>>())
+}
+
+/// A tidy table: a line for each of `items`, below the columns' names or with them.
+pub(super) fn rows<T>(format: RowFormat, columns: &[Column<T>], items: &[T]) -> String {
+    match format {
+        RowFormat::Csv => {
+            let line = |cells: Vec<String>| cells.join(",") + "\n";
+            let head = columns.iter().map(|column| column.key.to_owned()).collect();
+            let cells = |item| columns.iter().map(|column| bare(&(column.value)(item))).collect();
+            std::iter::once(head).chain(items.iter().map(cells)).map(line).collect()
+        }
+        RowFormat::Json => {
+            let objects = items.iter().map(|item| object(columns, item).to_string());
+            format!("[\n{}\n]\n", objects.collect::<Vec<_>>().join(",\n"))
+        }
+    }
+}
+
+/// A cell of CSV: text without quotes where it can do without, numbers as JSON writes them, so that they
+/// read back the same, and nothing for what has no value.
+fn bare(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => csv_cell(text),
+        value => value.to_string(),
+    }
+}
+
+pub(super) fn csv_cell(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.into()
+    }
 }
 
 /// A line of headings and a line for each of `items`, aligned; `indent` stands before each.
@@ -75,5 +112,22 @@ mod tests {
     fn json_has_every_column_to_the_last_digit() {
         let expected = r#"[{"name":"α","limit":2.0,"half":1.0},{"name":"beta","limit":null,"half":null},{"name":"c","limit":0.12345,"half":0.061725}]"#;
         assert_eq!(json(COLUMNS, ROWS).to_string(), expected);
+    }
+
+    #[test]
+    fn rows_hold_the_same_in_csv_and_json() {
+        let csv = "name,limit,half\nα,2.0,1.0\nbeta,,\nc,0.12345,0.061725\n";
+        assert_eq!(rows(RowFormat::Csv, COLUMNS, ROWS), csv);
+        let json = rows(RowFormat::Json, COLUMNS, ROWS);
+        assert_eq!(json.lines().count(), ROWS.len() + 2);
+        let parsed: Value = serde_json::from_str(&json).unwrap();
+        assert_eq!(parsed, super::json(COLUMNS, ROWS));
+    }
+
+    #[test]
+    fn cells_with_commas_quotes_or_newlines_are_quoted() {
+        assert_eq!(csv_cell("free spring"), "free spring");
+        assert_eq!(csv_cell("a, b"), "\"a, b\"");
+        assert_eq!(csv_cell("the \"Pride\""), "\"the \"\"Pride\"\"\"");
     }
 }

@@ -2,10 +2,11 @@
 
 use std::io::{self, BufWriter, Write};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::experiment::{self, ExperimentArgs, Lineup};
-use super::{Error, tell};
+use super::table::csv_cell;
+use super::{Error, RowFormat, tell};
 use crate::lab::{Lab, Lane, METRICS, SceneBody};
 use crate::sim::Solver;
 use crate::sim::bodies::Kind;
@@ -48,15 +49,7 @@ pub(super) struct TraceArgs {
 
     /// How to write it: csv or json
     #[arg(long, value_name = "FORMAT", default_value = "csv", hide_possible_values = true)]
-    format: TraceFormat,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum TraceFormat {
-    /// Comma-separated values under a header
-    Csv,
-    /// An array of objects with the same names
-    Json,
+    format: RowFormat,
 }
 
 /// A tie between two ticks goes to the later one, though `t` may be off by its last bit.
@@ -92,7 +85,7 @@ fn ticks_left(lab: &Lab, seconds: f64) -> f64 {
 /// The table being written.
 struct Trace {
     out: BufWriter<io::StdoutLock<'static>>,
-    format: TraceFormat,
+    format: RowFormat,
     every: u64,
     metrics: bool,
     /// The bodies' names as a quoted cell, in scene order.
@@ -105,8 +98,8 @@ struct Trace {
 impl Trace {
     fn new(args: &TraceArgs, bodies: &[SceneBody]) -> Self {
         let name = |body: &SceneBody| match args.format {
-            TraceFormat::Csv => csv_cell(&body.name),
-            TraceFormat::Json => serde_json::Value::from(body.name.as_str()).to_string(),
+            RowFormat::Csv => csv_cell(&body.name),
+            RowFormat::Json => serde_json::Value::from(body.name.as_str()).to_string(),
         };
         Self {
             out: BufWriter::with_capacity(1 << 16, io::stdout().lock()),
@@ -121,13 +114,13 @@ impl Trace {
 
     fn begin(&mut self) -> io::Result<()> {
         match self.format {
-            TraceFormat::Csv => writeln!(self.out, "tick,t,lane,method,body,coordinate,q,v"),
-            TraceFormat::Json => write!(self.out, "["),
+            RowFormat::Csv => writeln!(self.out, "tick,t,lane,method,body,coordinate,q,v"),
+            RowFormat::Json => write!(self.out, "["),
         }
     }
 
     fn finish(&mut self) -> io::Result<()> {
-        if self.format == TraceFormat::Json {
+        if self.format == RowFormat::Json {
             writeln!(self.out, "\n]")?;
         }
         self.out.flush()
@@ -141,8 +134,8 @@ impl Trace {
         }
         let (tick, t) = (race.tick(), serde_json::to_string(&race.t())?);
         self.moment = match self.format {
-            TraceFormat::Csv => format!("{tick},{t}"),
-            TraceFormat::Json => format!("\"tick\":{tick},\"t\":{t}"),
+            RowFormat::Csv => format!("{tick},{t}"),
+            RowFormat::Json => format!("\"tick\":{tick},\"t\":{t}"),
         };
         self.lane(0, race.truth(), None)?;
         for (n, entrant) in race.entrants().iter().enumerate() {
@@ -186,7 +179,7 @@ impl Trace {
         let Self { out, bodies, moment, .. } = self;
         let body = &bodies[body];
         match self.format {
-            TraceFormat::Csv => {
+            RowFormat::Csv => {
                 write!(out, "{moment},{lane},{method},{body},{coordinate},")?;
                 serde_json::to_writer(&mut *out, &q)?;
                 out.write_all(b",")?;
@@ -195,7 +188,7 @@ impl Trace {
                 }
                 out.write_all(b"\n")
             }
-            TraceFormat::Json => {
+            RowFormat::Json => {
                 let comma = if std::mem::take(&mut self.is_first) { "" } else { "," };
                 write!(
                     out,
@@ -227,14 +220,6 @@ fn tell_accuracy(bodies: &[SceneBody]) {
     }
 }
 
-fn csv_cell(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.into()
-    }
-}
-
 /// The lanes that stopped, to be told of when the table is done and cannot be torn by a message.
 #[derive(Default)]
 struct Halts {
@@ -259,17 +244,5 @@ impl Halts {
                 ));
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn cells_with_commas_quotes_or_newlines_are_quoted() {
-        assert_eq!(csv_cell("free spring"), "free spring");
-        assert_eq!(csv_cell("a, b"), "\"a, b\"");
-        assert_eq!(csv_cell("the \"Pride\""), "\"the \"\"Pride\"\"\"");
     }
 }

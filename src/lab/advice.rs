@@ -41,14 +41,13 @@ pub struct Adviser {
     advised: Vec<Advised>,
     /// The searches for the method under way, the first for stability.
     searches: [RateSearch; 2],
-    work: u64,
 }
 
 impl Adviser {
     /// For `scene` under this throttle at this rate, and these methods.
     pub fn new(scene: &Scene, throttle: f64, tick_hz: u32, specs: Vec<LaneSpec>) -> Self {
         let judge = Judge::new(scene, throttle);
-        Self { judge, tick_hz, specs, advised: Vec::new(), searches: Default::default(), work: 0 }
+        Self { judge, tick_hz, specs, advised: Vec::new(), searches: Default::default() }
     }
 
     /// What methods are held against.
@@ -71,24 +70,19 @@ impl Adviser {
         &self.advised
     }
 
-    /// What it took so far, in evaluations of one coordinate's acceleration, roughly.
-    pub(super) fn work(&self) -> u64 {
-        self.work
+    /// Whether all methods are judged.
+    pub(super) fn is_done(&self) -> bool {
+        self.advised.len() == self.specs.len()
     }
 
     /// Tries one rate for one method. Returns whether there is more to do.
     pub fn advance(&mut self) -> bool {
-        let Self { judge, searches: [stable, accurate], work, .. } = self;
+        let Self { judge, searches: [stable, accurate], .. } = self;
         let Some(&spec) = self.specs.get(self.advised.len()) else { return false };
         if stable.found().is_none() {
             stable.advance(|hz| judge.is_stable(spec, hz));
-            *work += judge.work_for_stability();
         } else if accurate.found().is_none() {
-            accurate.advance(|hz| {
-                let outcome = judge.outcome_while_accurate(spec, hz);
-                *work += outcome.evaluations * judge.coordinates();
-                outcome.is_accurate()
-            });
+            accurate.advance(|hz| judge.outcome_while_accurate(spec, hz).is_accurate());
         } else {
             let (stable_hz, accurate_hz) = (stable.found().flatten(), accurate.found().flatten());
             let verdict = judge.verdict(spec, self.tick_hz);
@@ -97,7 +91,7 @@ impl Adviser {
             self.advised.push(Advised { spec, verdict, stable_hz, accurate_hz, good });
             self.searches = Default::default();
         }
-        self.advised.len() < self.specs.len()
+        !self.is_done()
     }
 }
 

@@ -4,7 +4,9 @@
 //! A scene is judged from its start, without its script, under one throttle from beginning to end.
 
 use super::lane::Lane;
+use super::metrics;
 use super::scene::{LaneSpec, Scene};
+use super::trend::growth_of_energy;
 use super::verdict::{Fate, Verdict};
 use crate::sim::bodies::{Coordinate, Input};
 use crate::sim::stability::{Stability, Tick};
@@ -23,7 +25,8 @@ const MOMENTS: u64 = 512;
 /// An error in amplitudes that no lane makes which only lags or leads: twice the range of the motion.
 const ASTRAY: f64 = 4.0;
 
-/// States of the true motion over which a nonlinear body's stability is averaged.
+/// States of the true motion over which the stability is averaged of a nonlinear body that conserves no
+/// energy.
 const STATES: u32 = 32;
 
 /// A half range this small against the largest value is rounding: the body keeps that value.
@@ -36,6 +39,9 @@ pub struct Judge {
     horizon_s: f64,
     /// For each body, the amplitude of each component of its state, coordinates first.
     amplitudes: Vec<Vec<f64>>,
+    /// For each body that conserves its energy, how much there is of it in joules without what is there at
+    /// rest: twice the mean of what is kinetic, which is all of an oscillator's.
+    energies: Vec<Option<f64>>,
 }
 
 /// How a lane fared.
@@ -46,6 +52,9 @@ pub struct Outcome {
     pub error: f64,
     /// The body that is furthest off, or that failed, by its place in the scene.
     pub body: usize,
+    /// The energy drift of largest magnitude, in percent as the metric has it; `None` where no body
+    /// conserves energy.
+    pub energy_drift: Option<f64>,
     /// What ended the lane, if something did.
     pub fate: Option<Fate>,
     /// Evaluations of all bodies' accelerations.
@@ -67,9 +76,14 @@ impl Judge {
     /// The amplitude of a component is half the range that the truth covers in it, or in another
     /// component of the same body and unit that covers more; of what keeps its value, that value.
     pub fn new(scene: &Scene, throttle: f64) -> Self {
-        let horizon_s = scene.seconds.min(LONGEST_HORIZON_S);
-        let mut judge = Self { scene: scene.clone(), throttle, horizon_s, amplitudes: Vec::new() };
-        judge.amplitudes = judge.measure();
+        Self::over(scene, throttle, scene.seconds.min(LONGEST_HORIZON_S))
+    }
+
+    /// The same over `horizon_s` simulated seconds, more than 0, however long the scene is.
+    pub fn over(scene: &Scene, throttle: f64, horizon_s: f64) -> Self {
+        let (scene, amplitudes) = (scene.clone(), Vec::new());
+        let mut judge = Self { scene, throttle, horizon_s, amplitudes, energies: Vec::new() };
+        (judge.amplitudes, judge.energies) = judge.measure();
         judge
     }
 
@@ -95,35 +109,57 @@ impl Judge {
         Verdict::new(self.stability(spec, tick_hz), outcome, horizon_s)
     }
 
-    /// How the method treats small deviations, the worst of all bodies in each respect: about the start
-    /// and, of a nonlinear body, in the mean over its true motion. `None` where the method cannot get
-    /// through its first ticks.
+    /// How the method treats deviations, the worst of all bodies in each respect: of a linear body about
+    /// the start; of a nonlinear one by the trend of its energy or, where it conserves none, about states
+    /// of its true motion in the mean. `None` where the method cannot get through its first ticks.
     pub fn stability(&self, spec: LaneSpec, tick_hz: u32) -> Option<Stability> {
         Some(self.over_the_motion(spec, tick_hz)?.0)
     }
 
     /// The same, and whether all bodies are linear.
     fn over_the_motion(&self, spec: LaneSpec, tick_hz: u32) -> Option<(Stability, bool)> {
-        let each = self.truth().into_iter().map(|mut body| {
-            let h = 1.0 / f64::from(tick_hz);
-            let of = |body: &dyn Stepper, t: f64| {
-                let tick = Tick { t, h, substeps: spec.substeps };
-                Stability::of(body, spec.solver(), tick).ok()
-            };
-            let mut states = vec![of(&*body, 0.0)?];
-            let stretch = self.horizon_s / f64::from(STATES);
-            for i in 0..STATES {
-                let t = stretch * f64::from(i);
-                body.advance(t, stretch, 1).ok()?;
-                states.push(of(&*body, t + stretch)?);
-                if i == 0 && alike(&states[0], &states[1]) {
-                    return Some((states[0], true));
-                }
-            }
-            Some((mean(&states), false))
-        });
-        let all: Option<Vec<(Stability, bool)>> = each.collect();
+        let bodies = self.truth().into_iter().enumerate();
+        let all: Option<Vec<(Stability, bool)>> =
+            bodies.map(|(i, body)| self.of_body(i, body, spec, tick_hz)).collect();
         all?.into_iter().reduce(|(a, a_linear), (b, b_linear)| (worse(a, b), a_linear && b_linear))
+    }
+
+    /// The same of one body, whose truth stands at the start.
+    fn of_body(
+        &self,
+        place: usize,
+        mut body: Box<dyn Stepper>,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Option<(Stability, bool)> {
+        let h = 1.0 / f64::from(tick_hz);
+        let tick = |t: f64| Tick { t, h, substeps: spec.substeps };
+        let of = |body: &dyn Stepper, t: f64| Stability::of(body, spec.solver(), tick(t)).ok();
+        let start = of(&*body, 0.0)?;
+        let mut lane = body.with_solver(spec.solver(), 0.0);
+        let stretch = self.horizon_s / f64::from(STATES);
+        body.advance(0.0, stretch, 1).ok()?;
+        let next = of(&*body, stretch)?;
+        if alike(&start, &next) {
+            return Some((start, true));
+        }
+        if let Some(scale) = self.energies[place] {
+            let ticks = (self.horizon_s / h).round() as u64;
+            let growth = growth_of_energy(&mut *lane, tick(0.0), ticks, scale);
+            let growth_per_s = growth.unwrap_or(f64::INFINITY);
+            let loss_per_s = (-growth_per_s).max(0.0);
+            return Some((
+                Stability { growth_per_s, loss_per_s, frequency_error: None, ..start },
+                false,
+            ));
+        }
+        let mut states = vec![start, next];
+        for i in 1..STATES {
+            let t = stretch * f64::from(i);
+            body.advance(t, stretch, 1).ok()?;
+            states.push(of(&*body, t + stretch)?);
+        }
+        Some((mean(&states), false))
     }
 
     /// How a lane fares over the horizon at this tick rate, but no further than the error is within [`TOLERANCE`].
@@ -146,13 +182,6 @@ impl Judge {
         self.amplitudes.iter().map(|body| body.len() as u64 / 2).sum()
     }
 
-    /// What [`Self::stability`] takes, in evaluations of one coordinate's acceleration, roughly: some
-    /// twenty ticks of the body for each component, and the eigenvalues.
-    pub(super) fn work_for_stability(&self) -> u64 {
-        let of_body = |n: u64| 100 * n * n + 10 * n * n * n;
-        self.amplitudes.iter().map(|body| of_body(body.len() as u64)).sum()
-    }
-
     /// Steps a lane to the horizon, or until its error is more than `enough`.
     fn run(&self, spec: LaneSpec, tick_hz: u32, horizon_s: f64, enough: f64) -> Outcome {
         let hz = f64::from(tick_hz);
@@ -162,6 +191,7 @@ impl Judge {
         lane.input(0.0, Input::Throttle(self.throttle));
         let mut truth = self.truth();
         let (mut error, mut worst, mut tick, mut compared) = (0.0, 0, 0, 0);
+        let mut energy_drift: Option<f64> = None;
         while tick < ticks && error <= enough {
             lane.tick(tick, tick as f64 / hz, 1.0 / hz);
             tick += 1;
@@ -175,9 +205,15 @@ impl Judge {
                     if body.advance(from, to - from, 1).is_err() {
                         continue;
                     }
-                    let off = self.error(i, &*lane.bodies()[i].stepper, &**body);
+                    let stepped = &*lane.bodies()[i].stepper;
+                    let off = self.error(i, stepped, &**body);
                     if off > error {
                         (error, worst) = (off, i);
+                    }
+                    if let Some(drift) = metrics::energy_drift(stepped, &**body)
+                        && energy_drift.is_none_or(|largest| drift.abs() > largest.abs())
+                    {
+                        energy_drift = Some(drift);
                     }
                 }
             }
@@ -187,7 +223,7 @@ impl Judge {
             Fate { t: halt.tick as f64 / hz, failure: halt.failure.clone() }
         });
         let (evaluations, seconds) = (lane.evaluations(), tick as f64 / hz);
-        Outcome { error, body: worst, fate, evaluations, seconds }
+        Outcome { error, body: worst, energy_drift, fate, evaluations, seconds }
     }
 
     /// The largest error of a component of this body, in amplitudes.
@@ -206,25 +242,37 @@ impl Judge {
         bodies.collect()
     }
 
-    fn measure(&self) -> Vec<Vec<f64>> {
+    /// The amplitudes and the energies.
+    fn measure(&self) -> (Vec<Vec<f64>>, Vec<Option<f64>>) {
         let mut truth = self.truth();
+        let mut energies = vec![Some(0.0); truth.len()];
         let mut ranges: Vec<Vec<(f64, f64)>> =
             truth.iter().map(|body| components(&**body).map(|x| (x, x)).collect()).collect();
         let at = |moment: u64| self.horizon_s * moment as f64 / MOMENTS as f64;
         for moment in 0..MOMENTS {
-            for (body, ranges) in truth.iter_mut().zip(&mut ranges) {
+            for ((body, ranges), energy) in truth.iter_mut().zip(&mut ranges).zip(&mut energies) {
                 if body.advance(at(moment), at(moment + 1) - at(moment), 1).is_ok() {
                     for (range, x) in ranges.iter_mut().zip(components(&**body)) {
                         *range = (range.0.min(x), range.1.max(x));
                     }
+                    let part = kinetic_energy(&**body).map(|now| 2.0 * now / MOMENTS as f64);
+                    *energy = energy.zip(part).map(|(sum, part)| sum + part);
                 }
             }
         }
         let bodies = ranges.iter().zip(&self.scene.bodies);
-        bodies
-            .map(|(ranges, body)| amplitudes(ranges, (body.kind.coordinates)(&body.values)))
-            .collect()
+        let amplitudes =
+            bodies.map(|(ranges, body)| amplitudes(ranges, (body.kind.coordinates)(&body.values)));
+        (amplitudes.collect(), energies)
     }
+}
+
+/// What the body's motion takes of its energy, in joules; `None` where it conserves none.
+fn kinetic_energy(body: &dyn Stepper) -> Option<f64> {
+    let whole = body.energy()?;
+    let mut still = body.with_solver(Solver::Truth, 0.0);
+    still.set(0.0, body.q(), &vec![0.0; body.v().len()]);
+    Some(whole - still.energy()?)
 }
 
 fn components(stepper: &dyn Stepper) -> impl Iterator<Item = f64> {
@@ -286,12 +334,30 @@ fn worse(a: Stability, b: Stability) -> Stability {
 mod tests {
     use super::*;
     use crate::sim::bodies::kind;
+    use crate::sim::integrators::method;
 
     #[test]
     fn the_amplitude_is_half_the_range_or_what_is_kept() {
         let ship = kind("ship").unwrap().plain_coordinates();
         assert_eq!(amplitudes(&[(-1.0, 3.0), (20.0, 20.0)], ship), [2.0, 20.0]);
         assert_eq!(amplitudes(&[(0.0, 0.0), (5.0, 5.0 + 1e-12)], ship), [1.0, 5.0 + 1e-12]);
+    }
+
+    #[test]
+    fn the_energy_drift_is_the_largest_on_the_way() {
+        let outcome = |scene: &str, id: &str, tick_hz| {
+            let judge = Judge::new(&Scene::built_in(scene).unwrap(), 1.0);
+            judge.verdict(LaneSpec::plain(method(id).unwrap()), tick_hz).outcome
+        };
+        // The energy swings as h ω / 2 sin 2ωt, and at the end of whole periods it is what it was.
+        let swing = 100.0 * std::f64::consts::PI / 60.0;
+        let drift = outcome("spring", "semi-implicit-euler", 60).energy_drift.unwrap();
+        assert!((0.9..1.1).contains(&(drift.abs() / swing)), "{drift} %");
+        // It loses z⁶/72 a step, and ends with the largest loss.
+        let lost = -100.0 * 1200.0 * (std::f64::consts::TAU / 60.0).powi(6) / 72.0;
+        let drift = outcome("spring", "rk4", 60).energy_drift.unwrap();
+        assert!((0.95..1.05).contains(&(drift / lost)), "{drift} %, not {lost}");
+        assert_eq!(outcome("ship", "rk4", 2).energy_drift, None);
     }
 
     #[test]

@@ -1,16 +1,16 @@
 //! The lab: a race, the clock that drives it, and how it is looked at. Commands in, state out.
 
-use super::advice::Adviser;
+use std::sync::Arc;
+
 use super::clock::{Clock, Due};
 use super::command::{Command, SPEED_LADDER, TICK_LADDER};
 use super::display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
 use super::history::History;
 use super::race::Race;
 use super::scene::{LaneSpec, SCENES, Scene};
-use super::thinking::{Moment, Thinking};
+use super::thinking::{Advice, Findings, Question, Thinker, entries};
 use super::verdict::Verdict;
 use crate::sim::bodies::Input;
-use crate::sim::integrators::METHODS;
 
 /// What a person chose and a restart keeps; a script's changes are not in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,7 +21,7 @@ struct Choice {
 
 /// A scene being run and looked at.
 pub struct Lab {
-    scene: Scene,
+    scene: Arc<Scene>,
     /// The list of methods that digits and lanes refer to: the scene's lanes, then all other methods.
     entries: Vec<LaneSpec>,
     choice: Choice,
@@ -38,7 +38,7 @@ pub struct Lab {
     display: Display,
     pace: Option<Pace>,
     notice: Option<String>,
-    thinking: Thinking,
+    findings: Option<Findings>,
 }
 
 /// The method that the program opens with: right on every scene it is not meant to fail on.
@@ -48,15 +48,13 @@ impl Lab {
     /// Opens a scene, running, in solo mode, under Runge-Kutta where it is on the list and else under
     /// the first method listed.
     pub fn new(scene: Scene) -> Self {
-        let mut entries = scene.lanes.clone();
-        let others = METHODS.iter().filter(|m| !scene.lanes.iter().any(|spec| spec.method == *m));
-        entries.extend(others.map(LaneSpec::plain));
+        let entries = entries(&scene);
         let entry = entries.iter().position(|spec| spec.method.id == OPENING_METHOD).unwrap_or(0);
         let choice = Choice { entry, tick_hz: scene.tick_hz };
         let mut lab = Self {
             race: Race::new(&scene, []),
             clock: Clock::new(scene.tick_hz),
-            scene,
+            scene: Arc::new(scene),
             entries,
             choice,
             mode: Mode::Solo,
@@ -76,7 +74,7 @@ impl Lab {
             },
             pace: None,
             notice: None,
-            thinking: Thinking::default(),
+            findings: None,
         };
         lab.restart();
         lab
@@ -135,17 +133,13 @@ impl Lab {
         self.notice.as_deref()
     }
     /// What is to be said of the method on this place of the list, over the scene from its start at the
-    /// present tick rate and throttle; `None` until it was [thought of](Self::think).
+    /// present tick rate and throttle; `None` until it was [learnt](Self::learn).
     pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
-        self.thinking.verdict(entry)
+        self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
     }
-    /// What is known of every method on this scene, as far as it was [thought of](Self::think).
-    pub fn advice(&self) -> Option<&Adviser> {
-        self.thinking.advice()
-    }
-    /// Whether there is more to [think](Self::think) of, so that another frame is worth drawing.
-    pub fn is_thinking(&self) -> bool {
-        self.thinking.more()
+    /// What is known of every method on this scene, as far as it was [learnt](Self::learn) and is shown.
+    pub fn advice(&self) -> Option<&Advice> {
+        self.findings.as_ref()?.advice.as_ref()
     }
     /// Whether any body takes an input, by its name on the body's [card](crate::sim::bodies::Kind).
     pub fn takes(&self, input: &str) -> bool {
@@ -258,24 +252,39 @@ impl Lab {
         None
     }
 
-    /// Judges one method more: each of the list once for every tick rate and throttle, and for advice,
-    /// while it is shown, each of the table at every rate that is worth trying. Returns whether there is
-    /// more to think of.
-    pub fn think(&mut self) -> bool {
-        let now = Moment { tick_hz: self.clock.tick_hz(), throttle: self.throttle };
-        let advice = self.display.instrument == Instrument::Advice;
-        self.thinking.go_on(&self.scene, &self.entries, now, advice)
+    /// What there is to be found out: a verdict on each method of the list at the present tick rate and
+    /// throttle, and advice while it is shown. For a [`Thinker`].
+    pub fn question(&self) -> Question {
+        Question {
+            scene: Arc::clone(&self.scene),
+            tick_hz: self.clock.tick_hz(),
+            throttle: self.throttle,
+            advice: self.display.instrument == Instrument::Advice,
+        }
     }
 
-    /// Takes in a frame of `frame_ns` nanoseconds of real time, steps what is due, and [thinks](Self::think)
-    /// for a bit.
+    /// Takes in what was found out, unless it is of another scene.
+    pub fn learn(&mut self, findings: Findings) {
+        if findings.question.is_of(&self.scene) {
+            self.findings = Some(findings);
+        }
+    }
+
+    /// Finds out here and now whatever there is to be.
+    pub fn think(&mut self) {
+        let question = self.question();
+        if !self.findings.as_ref().is_some_and(|known| known.answer(&question)) {
+            self.learn(Thinker::new(question).finish());
+        }
+    }
+
+    /// Takes in a frame of `frame_ns` nanoseconds of real time, and steps what is due.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
         self.advance_seen(frame_ns, |_| ())
     }
 
     /// As [`Lab::advance`], and shows itself to `after_tick` after every tick.
     pub fn advance_seen(&mut self, frame_ns: i64, mut after_tick: impl FnMut(&Lab)) -> Due {
-        self.think();
         if !self.running {
             return Due::default();
         }

@@ -92,10 +92,7 @@ pub const METRICS: &[Metric] = &[
         name: "energy drift",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
-        measure: |lane, truth| {
-            let (energy, exact) = (lane.energy()?, truth.energy()?);
-            (exact != 0.0).then(|| 100.0 * (energy - exact) / exact.abs())
-        },
+        measure: energy_drift,
     },
     Metric {
         id: "evaluations",
@@ -112,6 +109,12 @@ pub const METRICS: &[Metric] = &[
         measure: |lane, _| (lane.lost_time() > 0.0).then(|| lane.lost_time()),
     },
 ];
+
+/// The energy that a lane has gained, in percent of the true one.
+pub(super) fn energy_drift(lane: &dyn Stepper, truth: &dyn Stepper) -> Option<f64> {
+    let (energy, exact) = (lane.energy()?, truth.energy()?);
+    (exact != 0.0).then(|| 100.0 * (energy - exact) / exact.abs())
+}
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)

@@ -17,8 +17,10 @@ mod metrics;
 pub mod number;
 pub mod picture;
 mod race;
+pub mod round_off;
 mod scene;
 mod thinking;
+mod trend;
 mod verdict;
 
 pub use crate::sim::stability::Stability;
@@ -37,4 +39,5 @@ pub use scene::{
     MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene, SceneBody, SceneError,
     SceneErrors, Scripted, TOLERANCES, nearest,
 };
+pub use thinking::{Advice, Findings, Question, Thinker};
 pub use verdict::{Fate, Verdict, Word, duration};

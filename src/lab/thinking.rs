@@ -1,96 +1,163 @@
-//! What the lab works out beside the race, a little in every frame, and keeps: verdicts and advice.
+//! What is worked out beside the race, a little at a time: verdicts and advice. It takes long, and so it
+//! may be done on another thread than the race: a [`Question`] goes there, [`Findings`] come back.
 
-use super::advice::Adviser;
+use std::sync::Arc;
+
+use super::advice::{Advised, Adviser};
 use super::judge::Judge;
 use super::scene::{LaneSpec, Scene};
 use super::verdict::Verdict;
 use crate::sim::integrators::METHODS;
 
-/// What a verdict depends on beside scene and lane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Moment {
+/// What is to be worked out. Of one [`Lab`](super::Lab) two are equal where their answers are.
+#[derive(Clone, Debug)]
+pub struct Question {
+    pub(super) scene: Arc<Scene>,
     pub(super) tick_hz: u32,
     pub(super) throttle: f64,
+    /// Whether advice is wanted too.
+    pub(super) advice: bool,
 }
 
-/// The verdicts and the advice on one scene.
-#[derive(Default)]
-pub(super) struct Thinking {
+impl PartialEq for Question {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_of(&other.scene)
+            && self.tick_hz == other.tick_hz
+            && self.throttle == other.throttle
+            && self.advice == other.advice
+    }
+}
+
+impl Question {
+    /// Whether it is about this scene, as it was opened and not only as it is written.
+    pub(super) fn is_of(&self, scene: &Arc<Scene>) -> bool {
+        Arc::ptr_eq(&self.scene, scene)
+    }
+}
+
+/// The methods that digits and lanes refer to: the scene's lanes, then all others.
+pub(super) fn entries(scene: &Scene) -> Vec<LaneSpec> {
+    let others = METHODS.iter().filter(|m| !scene.lanes.iter().any(|spec| spec.method == *m));
+    scene.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
+}
+
+/// What was found by now.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    pub(super) question: Question,
+    /// For each method of the list what was last found of it, though it were at another tick rate.
+    pub(super) verdicts: Vec<Option<Verdict>>,
+    pub(super) advice: Option<Advice>,
+    /// Whether there is no more to find.
+    pub(super) complete: bool,
+}
+
+impl Findings {
+    /// Whether they are all that there is to be found.
+    pub(super) fn answer(&self, question: &Question) -> bool {
+        self.complete && self.question == *question
+    }
+}
+
+/// What is known of every method on a scene.
+#[derive(Clone, Debug)]
+pub struct Advice {
+    /// The rate that was asked about, in Hz.
+    pub tick_hz: u32,
+    /// The simulated seconds that methods are held against the truth.
+    pub horizon_s: f64,
+    /// How many methods there are to judge.
+    pub wanted: usize,
+    /// Those judged by now.
+    pub advised: Vec<Advised>,
+}
+
+/// Works on one question at a time.
+pub struct Thinker {
+    question: Question,
     judge: Option<Judge>,
-    verdicts: Vec<Option<(Moment, Verdict)>>,
-    adviser: Option<(Moment, Adviser)>,
-    more: bool,
+    entries: Vec<LaneSpec>,
+    verdicts: Vec<Option<Verdict>>,
+    /// How many of the verdicts, from the first, answer the question.
+    judged: usize,
+    adviser: Option<Adviser>,
 }
 
 /// Steps of one coordinate that a verdict may take: some hundredth of a second's work. Faster rates and
 /// larger bodies are judged over a shorter stretch, which the verdict names.
 const MOST_STEPS: f64 = 5e5;
 
-/// What advice may take in a frame, in evaluations of one coordinate's acceleration: a few hundredths of
-/// a second where they are slow.
-const WORK: u64 = 100_000;
-
-impl Thinking {
-    /// Whether there was more to do after the last time.
-    pub(super) fn more(&self) -> bool {
-        self.more
+impl Thinker {
+    /// Sets out to answer `question`.
+    pub fn new(question: Question) -> Self {
+        let entries = entries(&question.scene);
+        let verdicts = vec![None; entries.len()];
+        Self { question, judge: None, entries, verdicts, judged: 0, adviser: None }
     }
 
-    /// What was last found of the lane on this place.
-    pub(super) fn verdict(&self, entry: usize) -> Option<&Verdict> {
-        Some(&self.verdicts.get(entry)?.as_ref()?.1)
+    /// Sets out to answer another question. What is found already and answers it too is kept.
+    pub fn ask(&mut self, question: Question) {
+        if !question.is_of(&self.question.scene) {
+            *self = Self::new(question);
+            return;
+        }
+        let same_throttle = question.throttle == self.question.throttle;
+        if !same_throttle {
+            self.judge = None;
+        }
+        if !same_throttle || question.tick_hz != self.question.tick_hz {
+            self.judged = 0;
+            self.adviser = None;
+        }
+        self.question = question;
     }
 
-    pub(super) fn advice(&self) -> Option<&Adviser> {
-        Some(&self.adviser.as_ref()?.1)
-    }
-
-    /// Finds one verdict that is missing or out of date or, where none is, goes on with the advice that
-    /// is asked for. Returns whether there is more to do.
-    pub(super) fn go_on(
-        &mut self,
-        scene: &Scene,
-        entries: &[LaneSpec],
-        now: Moment,
-        advice: bool,
-    ) -> bool {
-        self.more = self.one(scene, entries, now, advice);
-        self.more
-    }
-
-    fn one(&mut self, scene: &Scene, entries: &[LaneSpec], now: Moment, advice: bool) -> bool {
-        self.verdicts.resize(entries.len(), None);
-        let is_new = |(at, _): &(Moment, Verdict)| *at == now;
-        let old = self.verdicts.iter().position(|known| !known.as_ref().is_some_and(is_new));
-        if let Some(old) = old {
-            let judge = match self.judge.take().filter(|judge| judge.throttle() == now.throttle) {
-                Some(judge) => self.judge.insert(judge),
-                None => self.judge.insert(Judge::new(scene, now.throttle)),
-            };
-            let spec = entries[old];
-            let steps_per_s = f64::from(now.tick_hz) * f64::from(spec.substeps);
+    /// Finds one verdict that is missing or, where none is, tries one more rate for the advice that is
+    /// asked for.
+    /// Returns whether there is more to do.
+    pub fn go_on(&mut self) -> bool {
+        let Question { scene, tick_hz, throttle, advice } = &self.question;
+        if let Some(&spec) = self.entries.get(self.judged) {
+            let judge = self.judge.get_or_insert_with(|| Judge::new(scene, *throttle));
+            let steps_per_s = f64::from(*tick_hz) * f64::from(spec.substeps);
             let most_s = MOST_STEPS / (steps_per_s * judge.coordinates() as f64);
-            self.verdicts[old] = Some((now, judge.verdict_within(spec, now.tick_hz, most_s)));
-            return true;
+            self.verdicts[self.judged] = Some(judge.verdict_within(spec, *tick_hz, most_s));
+            self.judged += 1;
+        } else if *advice {
+            let adviser = self.adviser.get_or_insert_with(|| {
+                let specs = METHODS.iter().map(LaneSpec::plain).collect();
+                Adviser::new(scene, *throttle, *tick_hz, specs)
+            });
+            adviser.advance();
         }
-        if !advice {
-            return false;
+        !self.is_done()
+    }
+
+    /// Goes on to the end.
+    pub fn finish(mut self) -> Findings {
+        while self.go_on() {}
+        self.findings()
+    }
+
+    fn is_done(&self) -> bool {
+        let advised = self.adviser.as_ref().is_some_and(Adviser::is_done);
+        self.judged == self.entries.len() && (advised || !self.question.advice)
+    }
+
+    /// What is found by now.
+    pub fn findings(&self) -> Findings {
+        let advice = self.adviser.as_ref().filter(|_| self.question.advice).map(|adviser| Advice {
+            tick_hz: adviser.tick_hz(),
+            horizon_s: adviser.judge().horizon_s(),
+            wanted: adviser.wanted(),
+            advised: adviser.advised().to_vec(),
+        });
+        Findings {
+            question: self.question.clone(),
+            verdicts: self.verdicts.clone(),
+            advice,
+            complete: self.is_done(),
         }
-        let specs = || METHODS.iter().map(LaneSpec::plain).collect();
-        let (_, adviser) = match self.adviser.take().filter(|(at, _)| *at == now) {
-            Some(known) => self.adviser.insert(known),
-            None => {
-                let adviser = Adviser::new(scene, now.throttle, now.tick_hz, specs());
-                self.adviser.insert((now, adviser))
-            }
-        };
-        let before = adviser.work();
-        while adviser.work() - before < WORK {
-            if !adviser.advance() {
-                return false;
-            }
-        }
-        true
     }
 }
 
@@ -98,38 +165,59 @@ impl Thinking {
 mod tests {
     use super::*;
 
+    fn question(name: &str) -> Question {
+        let scene = Arc::new(Scene::built_in(name).unwrap());
+        Question { scene, tick_hz: 60, throttle: 1.0, advice: false }
+    }
+
+    /// Thinks to the end. Returns how often it had to go on, and what the verdicts say.
+    fn answer(thinker: &mut Thinker, question: &Question) -> (usize, Vec<String>) {
+        thinker.ask(question.clone());
+        let before = thinker.judged;
+        while thinker.go_on() {}
+        let findings = thinker.findings();
+        assert!(findings.complete && findings.question == *question);
+        let verdicts = findings.verdicts.iter().map(|found| found.as_ref().unwrap().to_string());
+        (findings.verdicts.len() - before, verdicts.collect())
+    }
+
     #[test]
-    fn each_verdict_is_found_once_until_the_rate_or_the_throttle_changes() {
-        let scene = Scene::built_in("harbour").unwrap();
-        let lanes = &scene.lanes;
-        let mut thinking = Thinking::default();
-        let mut thoughts = |tick_hz, throttle| {
-            let now = Moment { tick_hz, throttle };
-            let count = (0..).take_while(|_| thinking.go_on(&scene, lanes, now, false)).count();
-            let verdicts: Vec<String> =
-                (0..lanes.len()).map(|i| thinking.verdict(i).unwrap().to_string()).collect();
-            (count, verdicts)
-        };
-        let (count, first) = thoughts(60, 1.0);
-        assert_eq!(count, lanes.len());
-        assert_eq!(thoughts(60, 1.0), (0, first.clone()));
-        let (count, coarse) = thoughts(20, 1.0);
-        assert_eq!(count, lanes.len());
-        assert!(coarse != first);
-        assert_eq!(thoughts(20, 0.5).0, lanes.len());
+    fn each_verdict_is_found_once_until_the_rate_the_throttle_or_the_scene_changes() {
+        let first = question("harbour");
+        let mut thinker = Thinker::new(first.clone());
+        let (count, fine) = answer(&mut thinker, &first);
+        assert_eq!(count, METHODS.len());
+        assert_eq!(answer(&mut thinker, &first), (0, fine.clone()));
+        let (count, coarse) = answer(&mut thinker, &Question { tick_hz: 20, ..first.clone() });
+        assert_eq!(count, METHODS.len());
+        assert!(coarse != fine);
+        let slower = Question { tick_hz: 20, throttle: 0.5, ..first.clone() };
+        assert_eq!(answer(&mut thinker, &slower).0, METHODS.len());
+        assert_eq!(answer(&mut thinker, &first), (METHODS.len(), fine));
+        assert_eq!(answer(&mut thinker, &question("spring")).0, METHODS.len());
+    }
+
+    #[test]
+    fn what_was_found_at_another_rate_stands_until_it_is_found_anew() {
+        let first = question("spring");
+        let mut thinker = Thinker::new(first.clone());
+        answer(&mut thinker, &first);
+        thinker.ask(Question { tick_hz: 20, ..first });
+        assert!(thinker.findings().verdicts.iter().all(Option::is_some));
+        assert!(!thinker.findings().complete);
     }
 
     #[test]
     fn advice_is_thought_of_bit_by_bit_and_only_when_asked_for() {
-        let scene = Scene::built_in("spring").unwrap();
-        let now = Moment { tick_hz: 60, throttle: 1.0 };
-        let mut thinking = Thinking::default();
-        while thinking.go_on(&scene, &scene.lanes, now, false) {}
-        assert!(thinking.advice().is_none());
-        let bits = (0..).take_while(|_| thinking.go_on(&scene, &scene.lanes, now, true)).count();
-        assert!((3..2000).contains(&bits), "{bits} frames");
-        let advised = thinking.advice().unwrap().advised();
-        assert_eq!(advised.len(), METHODS.len());
-        assert!(!thinking.more());
+        let unasked = question("spring");
+        let mut thinker = Thinker::new(unasked.clone());
+        answer(&mut thinker, &unasked);
+        assert!(thinker.findings().advice.is_none());
+        thinker.ask(Question { advice: true, ..unasked });
+        let bits = 1 + (0..).take_while(|_| thinker.go_on()).count();
+        assert!((3..2000).contains(&bits), "{bits} times");
+        let advice = thinker.findings().advice.unwrap();
+        assert_eq!([advice.advised.len(), advice.wanted], [METHODS.len(); 2]);
+        assert!(thinker.findings().complete);
     }
 }

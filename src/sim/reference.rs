@@ -138,8 +138,7 @@ impl<V: Vector> Reference<V> {
         fill(now, 0.0);
         now.add_scaled(part, begin);
         for i in 1..=n {
-            stage.assign(y);
-            stage.add_scaled(1.0, now);
+            stage.assign_sum(y, 1.0, now);
             system.derivative(t + part * i as f64, stage, d);
             if i < n {
                 before.add_scaled(2.0 * part, d);

@@ -9,7 +9,8 @@
 //! - A method that chooses its substeps steps the differenced copies as one, with the same substeps for
 //!   all: the map is that of the steps it takes here, its control frozen.
 //! - On a nonlinear body the map is that of small deviations here and now. What grows in truth, such as
-//!   a pendulum's fall from the top, is not held against a method.
+//!   a pendulum's fall from the top, is not held against a method. No such map says what
+//!   becomes of the motion in the long run.
 
 use super::integrators::StepFailure;
 use super::{Solver, Stepper};

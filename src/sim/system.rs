@@ -12,6 +12,27 @@ pub trait Vector: Clone + Send + 'static {
     fn assign(&mut self, from: &Self);
     /// `self += h x`, rounded after the product and after the sum.
     fn add_scaled(&mut self, h: f64, x: &Self);
+    /// `v += k a`, then `q += h v`: a kick and the drift after it.
+    #[inline]
+    fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
+        v.add_scaled(k, a);
+        q.add_scaled(h, v);
+    }
+    /// `self += h1 x1 + h2 x2 …`, term by term in this order, each rounded after the product and after the
+    /// sum.
+    #[inline]
+    fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
+        for (h, x) in terms {
+            self.add_scaled(h, x);
+        }
+    }
+    /// `self = x + h d`, rounded after the product and after the sum, for an `x` with as many components.
+    /// Never allocates.
+    #[inline]
+    fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
+        self.assign(x);
+        self.add_scaled(h, d);
+    }
     /// `self = h x`, for an `x` with as many components. Never allocates.
     #[inline]
     fn assign_scaled(&mut self, h: f64, x: &Self) {
@@ -75,6 +96,30 @@ impl Vector for Vec<f64> {
             *component += h * x;
         }
     }
+    /// Both in one pass.
+    #[inline]
+    fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
+        for ((a, v), q) in a.iter().zip(v).zip(q) {
+            *v += k * a;
+            *q += h * *v;
+        }
+    }
+    /// All terms in one pass.
+    #[inline]
+    fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
+        let terms = terms.map(|(h, x)| (h, &x[..self.len()]));
+        for (i, component) in self.iter_mut().enumerate() {
+            for (h, x) in terms {
+                *component += h * x[i];
+            }
+        }
+    }
+    #[inline]
+    fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
+        for ((component, x), d) in self.iter_mut().zip(x).zip(d) {
+            *component = x + h * d;
+        }
+    }
     fn components(&self) -> &[f64] {
         self
     }
@@ -98,6 +143,20 @@ impl<V: Vector> State<V> {
     pub fn assign(&mut self, from: &Self) {
         self.q.assign(&from.q);
         self.v.assign(&from.v);
+    }
+
+    /// `self += h1 x1 + h2 x2 …` in both halves.
+    #[inline]
+    pub fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
+        self.q.add_terms(terms.map(|(h, x)| (h, &x.q)));
+        self.v.add_terms(terms.map(|(h, x)| (h, &x.v)));
+    }
+
+    /// `self = x + h d` in both halves. Never allocates.
+    #[inline]
+    pub fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
+        self.q.assign_sum(&x.q, h, &d.q);
+        self.v.assign_sum(&x.v, h, &d.v);
     }
 
     /// `self += h x` in both halves.

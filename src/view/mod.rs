@@ -28,7 +28,7 @@ mod testing;
 mod triangles;
 
 pub use artist::Artist;
-pub use figure::{Figure, FigureCurve};
+pub use figure::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
 pub use frame::{FrameOutput, FrameRenderer};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use offscreen::Offscreen;

@@ -7,7 +7,7 @@ use egui_winit::accesskit_winit;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::Window;
 
-use super::WindowError;
+use super::{Event, WindowError};
 use crate::lab::{Command, Lab};
 use crate::view::{FrameRenderer, Gpu, Screen};
 
@@ -41,7 +41,7 @@ impl Canvas {
     pub(super) fn new(
         event_loop: &ActiveEventLoop,
         window: Arc<Window>,
-        proxy: EventLoopProxy<accesskit_winit::Event>,
+        proxy: EventLoopProxy<Event>,
     ) -> Result<Self, WindowError> {
         let display = Box::new(event_loop.owned_display_handle());
         let screen = Screen::new(display, Arc::clone(&window))?;

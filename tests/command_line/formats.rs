@@ -129,6 +129,66 @@ fn y4m_has_a_header_and_three_planes_a_frame() {
 }
 
 #[test]
+fn ffmpeg_reads_every_film_and_sees_the_frames_that_were_drawn() {
+    let test = "ffmpeg_reads_every_film_and_sees_the_frames_that_were_drawn";
+    let Some((folder, frames)) = clip_or_skip(test) else { return };
+    let drawn: Vec<u8> = frames.iter().flat_map(|frame| frame.as_raw().clone()).collect();
+    // Chroma is rounded to a byte and luma to its range of 219; a GIF has 256 colours.
+    for (format, codec, rate, most, mean) in [
+        ("apng", "apng", "12/1", 0, 0.0),
+        ("y4m", "rawvideo", "12/1", 3, 1.0),
+        ("gif", "gif", "143/12", 255, 6.0),
+    ] {
+        written(folder.path(), format);
+        let film = folder.path().join(format!("run.{format}"));
+        let shown = "stream=codec_name,width,height,r_frame_rate,nb_read_frames";
+        let probe = ["-v", "error", "-count_frames", "-show_entries", shown, "-of", "csv=p=0"];
+        let Some(said) = asked_or_skip(test, "ffprobe", &probe, &film) else { return };
+        assert_eq!(said.trim(), format!("{codec},93,51,{rate},7"), "{format}");
+
+        let raw = folder.path().join("raw");
+        let film = film.to_str().expect("plain letters");
+        let decode = ["-v", "error", "-y", "-i", film, "-fps_mode", "passthrough"];
+        let to_rgba = ["-f", "rawvideo", "-pix_fmt", "rgba"];
+        let Some(_) = asked_or_skip(test, "ffmpeg", &[&decode[..], &to_rgba].concat(), &raw) else {
+            return;
+        };
+        let read = fs::read(raw).unwrap();
+        assert_eq!(read.len(), drawn.len(), "{format}");
+        let off = read.iter().zip(&drawn).map(|(a, b)| a.abs_diff(*b));
+        let (largest, sum) =
+            off.fold((0, 0), |(largest, sum), d| (d.max(largest), sum + u64::from(d)));
+        assert!(largest <= most, "{format}: off by {largest}");
+        assert!(sum as f64 <= mean * drawn.len() as f64, "{format}: off by {sum} in all");
+    }
+}
+
+#[test]
+fn the_readmes_pipe_to_ffmpeg_makes_a_film() {
+    let test = "the_readmes_pipe_to_ffmpeg_makes_a_film";
+    let readme = include_str!("../../README.md");
+    let line = readme.lines().find(|line| line.contains("| ffmpeg")).expect("the README's line");
+    let (ours, theirs) = line.split_once(" | ").expect("a pipe");
+    let folder = tempfile::tempdir().unwrap();
+    let Some(_) = asked_or_skip(test, "ffmpeg", &[], Path::new("-version")) else { return };
+    let smaller = "--frames 12 --size 160x90 --scale 0.5";
+    let ours = ours.replace("--seconds 10", smaller).replace("regatta ", "");
+    let Some(stream) = drawn_or_skip(test, folder.path(), &ours) else { return };
+    assert_eq!(stream.status.code(), Some(0), "{}", stderr(&stream));
+    let arguments: Vec<&str> = theirs.split(' ').skip(1).collect();
+    let mut ffmpeg = Command::new("ffmpeg");
+    ffmpeg.args(["-v", "error"]).args(arguments).current_dir(folder.path());
+    let mut ffmpeg = ffmpeg.stdin(Stdio::piped()).spawn().unwrap();
+    ffmpeg.stdin.take().expect("a pipe").write_all(&stream.stdout).unwrap();
+    assert!(ffmpeg.wait().unwrap().success());
+    let probe = ["-v", "error", "-count_frames", "-show_entries", "stream=width,nb_read_frames"];
+    let of = ["-of", "csv=p=0"];
+    let film = folder.path().join("clip.mp4");
+    let said = asked_or_skip(test, "ffprobe", &[&probe[..], &of].concat(), &film);
+    assert_eq!(said.expect("it comes with ffmpeg").trim(), "160,12");
+}
+
+#[test]
 fn raw_frames_are_the_pixels_and_standard_output_has_the_same_bytes_as_a_file() {
     let test = "raw_frames_are_the_pixels_and_standard_output_has_the_same_bytes_as_a_file";
     let Some((folder, frames)) = clip_or_skip(test) else { return };

@@ -12,6 +12,7 @@ mod list;
 mod manifest;
 mod mishaps;
 mod mistakes;
+mod sweep;
 mod trace;
 mod verify;
 

@@ -116,7 +116,7 @@ fn help_and_version_are_data() {
 #[test]
 fn every_help_fits_a_hundred_columns_and_has_examples() {
     for command in
-        ["play", "capture", "verify", "trace", "advise", "chapter", "list", "completions"]
+        ["play", "capture", "verify", "trace", "advise", "sweep", "chapter", "list", "completions"]
     {
         let output = regatta().args([command, "--help"]).env("COLUMNS", "200").output().unwrap();
         let help = String::from_utf8(output.stdout).unwrap();

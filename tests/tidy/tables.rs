@@ -68,6 +68,23 @@ fn every_scene_file_is_built_in() {
     assert!(Scene::built_in("atlantis").is_none());
 }
 
+/// The ids at the heads of the rows of each of the README's tables that `head` begins.
+fn readme_rows(head: &str) -> Vec<String> {
+    let text = std::fs::read_to_string(root().join("README.md")).expect("the README");
+    let (_, after) = text.split_once(head).expect("the table");
+    let rows = after.lines().skip(2).take_while(|line| line.starts_with('|'));
+    rows.map(|row| row.split('`').nth(1).expect("an id").to_string()).collect()
+}
+
+#[test]
+fn the_readme_lists_every_method_what_it_costs_and_every_scene() {
+    let methods: Vec<&str> = METHODS.iter().map(|method| method.id).collect();
+    assert_eq!(readme_rows("| method | order |"), methods);
+    assert_eq!(readme_rows("| method | ship, ns |"), methods);
+    let scenes: Vec<&str> = SCENES.iter().map(|scene| scene.name).collect();
+    assert_eq!(readme_rows("| scene | what it shows |"), scenes);
+}
+
 #[test]
 fn missing_files_and_lines_are_seen() {
     let file = |path: &str, text: &str| Source { path: path.into(), text: text.into() };

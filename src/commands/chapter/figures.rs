@@ -3,7 +3,7 @@
 use super::run::{Moment, by_method, exactly, method_of, scene};
 use crate::lab::Scene;
 use crate::lab::picture::palette;
-use crate::view::{Figure, FigureCurve};
+use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
 
 /// A figure of the chapter.
 pub(super) struct Diagram {
@@ -22,21 +22,11 @@ pub(super) fn all() -> Vec<Diagram> {
         curves.extend(ids.map(|id| speed(&ship, id, seconds)));
         curves
     };
-    let of_ship = |title: &str, view, steps, curves| Figure {
-        title: title.into(),
-        note: ship_note(&ship),
-        axes: ["time (s)", "speed (m/s)"],
-        view,
-        steps,
-        curves,
+    let of_ship = |title: &str, view, steps, curves| {
+        figure(title, ship_note(&ship), ["time (s)", "speed (m/s)"], view, steps, curves)
     };
-    let of_spring = |title: &str, view, steps, curves| Figure {
-        title: title.into(),
-        note: spring_note(&spring),
-        axes: ["time (s)", "displacement (m)"],
-        view,
-        steps,
-        curves,
+    let of_spring = |title: &str, view, steps, curves| {
+        figure(title, spring_note(&spring), ["time (s)", "displacement (m)"], view, steps, curves)
     };
     let swings = |seconds, ids: &[&str]| {
         let mut curves = vec![swing_exactly(&spring, seconds)];
@@ -102,11 +92,28 @@ pub(super) fn all() -> Vec<Diagram> {
     ]
 }
 
+/// A figure of one chart, with marks at the multiples of `steps`.
+fn figure(
+    title: &str,
+    note: String,
+    names: [&'static str; 2],
+    view: [[f64; 2]; 2],
+    steps: [f64; 2],
+    curves: Vec<FigureCurve>,
+) -> Figure {
+    let axis = |n: usize| Axis { name: names[n], view: view[n], marks: Marks::Every(steps[n]) };
+    let axes = [axis(0), axis(1)];
+    let chart = Chart { title: String::new(), legend: Legend::Shared, axes, curves };
+    Figure { title: title.into(), note, columns: 1, charts: vec![chart] }
+}
+
 /// The points of all curves in one tidy table: `curve`, then the axes.
 pub(super) fn csv(figure: &Figure) -> String {
-    let [x, y] = figure.axes.map(|axis| axis.replace(['(', ')'], "").replace('/', " per "));
-    let mut csv = format!("curve,{},{}\n", x.replace(' ', "_"), y.replace(' ', "_"));
-    for curve in &figure.curves {
+    let chart = &figure.charts[0];
+    let name = |axis: &Axis| axis.name.replace(['(', ')'], "").replace('/', " per ");
+    let [x, y] = [0, 1].map(|n| name(&chart.axes[n]).replace(' ', "_"));
+    let mut csv = format!("curve,{x},{y}\n");
+    for curve in &chart.curves {
         for [x, y] in &curve.points {
             csv += &format!("{},{x},{y}\n", curve.name);
         }

@@ -89,7 +89,7 @@ pub(super) fn judge(
         fs::create_dir_all(path).map_err(failure("make the directory", path))?;
     }
     let interrupted = watch_for_interrupt();
-    let progress = progress(frames);
+    let progress = progress(frames, "frames");
     let mut lab = recording.lab(experiment);
     let mut logbook = Logbook::new(u64::MAX, &lab);
     let run =

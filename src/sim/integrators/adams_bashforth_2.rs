@@ -28,13 +28,13 @@ pub struct AdamsBashforth2<V> {
     /// The predicted end of the first step.
     end: State<V>,
     /// Where `g` belongs.
-    seam: Seam<V>,
+    seam: Seam,
 }
 
 impl<S: System> Integrator<S> for AdamsBashforth2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
-        Self { f: zero.clone(), g: zero.clone(), end: zero, seam: Seam::new(like) }
+        Self { f: zero.clone(), g: zero.clone(), end: zero, seam: Seam::new() }
     }
 
     #[inline]
@@ -47,18 +47,15 @@ impl<S: System> Integrator<S> for AdamsBashforth2<S::Vector> {
     ) -> Result<(), StepFailure> {
         let Self { f, g, end, seam } = self;
         system.derivative(t, y, f);
-        if seam.joins(h, y) {
-            y.add_scaled(h * 1.5, f);
-            y.add_scaled(h * -0.5, g);
+        if seam.joins(h) {
+            y.add_terms([(h * 1.5, f), (h * -0.5, g)]);
         } else {
-            end.assign(y);
-            end.add_scaled(h, f);
+            end.assign_sum(y, h, f);
             system.derivative(t + h, end, g);
-            y.add_scaled(h / 2.0, f);
-            y.add_scaled(h / 2.0, g);
+            y.add_terms([(h / 2.0, f), (h / 2.0, g)]);
         }
         std::mem::swap(f, g);
-        seam.end(h, y);
+        seam.end(h);
         Ok(())
     }
 

@@ -76,12 +76,10 @@ impl<S: System> Integrator<S> for AdaptiveEuler<S::Vector> {
         system.derivative(t, y, k1);
         while !cover.is_over() {
             let (t, h) = (t + cover.gone(), cover.trial()?);
-            half.assign(y);
-            half.add_scaled(h / 2.0, k1);
+            half.assign_sum(y, h / 2.0, k1);
             system.derivative(t + h / 2.0, half, k2);
 
-            difference.assign(k1);
-            difference.add_scaled(-1.0, k2);
+            difference.assign_sum(k1, -1.0, k2);
             let error = cover.error(h / 2.0, difference, y);
             if cover.accepts(error, |error| factor(error.sqrt())) {
                 // 2 y2 - y1 = y + h k2

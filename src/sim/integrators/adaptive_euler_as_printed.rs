@@ -58,13 +58,11 @@ impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
     ) -> Result<(), StepFailure> {
         let Self { tolerance, lost, a, v1, v2 } = self;
         system.acceleration(t, q, v, a);
-        v1.assign(v);
-        v1.add_scaled(h, a);
+        v1.assign_sum(v, h, a);
 
         // The same force again: the listing evaluates it anew wherever it stands.
         system.acceleration(t, q, v, a);
-        v2.assign(v);
-        v2.add_scaled(h / 2.0, a);
+        v2.assign_sum(v, h / 2.0, a);
         system.acceleration(t + h / 2.0, q, v2, a);
         v2.add_scaled(h / 2.0, a);
 

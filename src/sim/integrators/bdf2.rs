@@ -34,7 +34,7 @@ pub struct Bdf2<V> {
     /// The first stage of the first step.
     stage: State<V>,
     /// Where `before` belongs.
-    seam: Seam<V>,
+    seam: Seam,
 }
 
 /// The diagonal of the starting method, with which it damps like this one: `1 - 1/√2`.
@@ -44,7 +44,7 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
         let [before, start, stage] = [zero.clone(), zero.clone(), zero];
-        Self { newton: Newton::new(like), before, start, stage, seam: Seam::new(like) }
+        Self { newton: Newton::new(like), before, start, stage, seam: Seam::new() }
     }
 
     fn step(
@@ -56,7 +56,7 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
     ) -> Result<(), StepFailure> {
         let Self { newton, before, start, stage, seam } = self;
         start.assign(y);
-        if seam.joins(h, y) {
+        if seam.joins(h) {
             y.add_scaled(1.0 / 3.0, start);
             y.add_scaled(-1.0 / 3.0, before);
             newton.backward(system, t + h, h * 2.0 / 3.0, y)?;
@@ -69,7 +69,7 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
             newton.backward(system, t + h, h * GAMMA, y)?;
         }
         std::mem::swap(before, start);
-        seam.end(h, y);
+        seam.end(h);
         Ok(())
     }
 

@@ -59,11 +59,8 @@ impl<S: System> Integrator<S> for GaussLegendre4<S::Vector> {
             },
         )?;
         let [a1, a2] = &newton.a;
-        y.q.add_scaled(h, &y.v);
-        y.q.add_scaled(h * h / 2.0 * C[1], a1);
-        y.q.add_scaled(h * h / 2.0 * C[0], a2);
-        y.v.add_scaled(h / 2.0, a1);
-        y.v.add_scaled(h / 2.0, a2);
+        y.q.add_terms([(h, &y.v), (h * h / 2.0 * C[1], a1), (h * h / 2.0 * C[0], a2)]);
+        y.v.add_terms([(h / 2.0, a1), (h / 2.0, a2)]);
         Ok(())
     }
 }

@@ -44,11 +44,9 @@ impl<S: System> Integrator<S> for ImprovedEuler<S::Vector> {
     ) -> Result<(), StepFailure> {
         let Self { k1, k2, end } = self;
         system.derivative(t, y, k1);
-        end.assign(y);
-        end.add_scaled(h, k1);
+        end.assign_sum(y, h, k1);
         system.derivative(t + h, end, k2);
-        y.add_scaled(h / 2.0, k1);
-        y.add_scaled(h / 2.0, k2);
+        y.add_terms([(h / 2.0, k1), (h / 2.0, k2)]);
         Ok(())
     }
 }

@@ -43,11 +43,9 @@ impl<S: System> Integrator<S> for ImprovedEulerAsPrinted<S::Vector> {
     ) -> Result<(), StepFailure> {
         let Self { k1, k2, end } = self;
         system.acceleration(t, q, v, k1);
-        end.assign(v);
-        end.add_scaled(h, k1);
+        end.assign_sum(v, h, k1);
         system.acceleration(t + h, q, end, k2);
-        v.add_scaled(h / 2.0, k1);
-        v.add_scaled(h / 2.0, k2);
+        v.add_terms([(h / 2.0, k1), (h / 2.0, k2)]);
         q.add_scaled(h, v);
         Ok(())
     }

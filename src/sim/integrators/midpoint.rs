@@ -44,8 +44,7 @@ impl<S: System> Integrator<S> for Midpoint<S::Vector> {
     ) -> Result<(), StepFailure> {
         let Self { k1, k2, middle } = self;
         system.derivative(t, y, k1);
-        middle.assign(y);
-        middle.add_scaled(h / 2.0, k1);
+        middle.assign_sum(y, h / 2.0, k1);
         system.derivative(t + h / 2.0, middle, k2);
         y.add_scaled(h, k2);
         Ok(())

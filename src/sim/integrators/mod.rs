@@ -4,6 +4,8 @@
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
 //! of each card, both ways. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
 
+use shared::watched::Watched;
+
 use super::system::{State, System, Vector};
 
 mod adams_bashforth_2;
@@ -100,8 +102,8 @@ pub trait Integrator<S: System>: Send {
         Ok(())
     }
 
-    /// Forgets whatever is carried between steps. Called when the state, the forces or the step's length
-    /// jump.
+    /// Forgets whatever is carried between steps. To be called when the state or the forces jump; a jump
+    /// of the step's length a method notices by itself.
     fn reset(&mut self) {}
 
     /// Sets the error that an adaptive method allows in a substep; the others take no notice.
@@ -280,7 +282,9 @@ pub fn method(id: &str) -> Option<&'static Method> {
     METHODS.iter().find(|method| method.id == id)
 }
 
-/// A fresh integrator of `method` for systems with coordinates shaped `like` these.
+/// A fresh integrator of `method` for systems with coordinates shaped `like` these. It notices by itself
+/// where it is given a state other than it left, and [resets](Integrator::reset); forces that jump it
+/// has to be told of.
 ///
 /// ```
 /// # use regatta::sim::{State, bodies::Spring, integrators::{integrator, method}};
@@ -298,7 +302,7 @@ pub fn integrator<S: System + 'static>(
     impl<S: System + 'static> Construct<S> for Boxed<'_, S::Vector> {
         type Output = Box<dyn Integrator<S>>;
         fn of<I: Integrator<S> + 'static>(self) -> Self::Output {
-            Box::new(I::new(self.0))
+            Box::new(Watched::<I, _>::new(self.0))
         }
     }
     construct::<S, _>(method, Boxed(like))

@@ -41,8 +41,7 @@ impl<S: System> Integrator<S> for PositionVerlet<S::Vector> {
         let Self { a } = self;
         q.add_scaled(h / 2.0, v);
         system.acceleration(t + h / 2.0, q, v, a);
-        v.add_scaled(h, a);
-        q.add_scaled(h / 2.0, v);
+        S::Vector::kick_and_drift(h, a, v, h / 2.0, q);
         Ok(())
     }
 }

@@ -47,22 +47,16 @@ impl<S: System> Integrator<S> for Rk4<S::Vector> {
         let Self { k1, k2, k3, k4, stage } = self;
         system.derivative(t, y, k1);
 
-        stage.assign(y);
-        stage.add_scaled(h / 2.0, k1);
+        stage.assign_sum(y, h / 2.0, k1);
         system.derivative(t + h / 2.0, stage, k2);
 
-        stage.assign(y);
-        stage.add_scaled(h / 2.0, k2);
+        stage.assign_sum(y, h / 2.0, k2);
         system.derivative(t + h / 2.0, stage, k3);
 
-        stage.assign(y);
-        stage.add_scaled(h, k3);
+        stage.assign_sum(y, h, k3);
         system.derivative(t + h, stage, k4);
 
-        y.add_scaled(h / 6.0, k1);
-        y.add_scaled(h / 3.0, k2);
-        y.add_scaled(h / 3.0, k3);
-        y.add_scaled(h / 6.0, k4);
+        y.add_terms([(h / 6.0, k1), (h / 3.0, k2), (h / 3.0, k3), (h / 6.0, k4)]);
         Ok(())
     }
 }

@@ -47,22 +47,16 @@ impl<S: System> Integrator<S> for Rk4AsPrinted<S::Vector> {
         let Self { k1, k2, k3, k4, stage } = self;
         system.acceleration(t, q, v, k1);
 
-        stage.assign(v);
-        stage.add_scaled(h / 2.0, k1);
+        stage.assign_sum(v, h / 2.0, k1);
         system.acceleration(t + h / 2.0, q, stage, k2);
 
-        stage.assign(v);
-        stage.add_scaled(h / 2.0, k2);
+        stage.assign_sum(v, h / 2.0, k2);
         system.acceleration(t + h / 2.0, q, stage, k3);
 
-        stage.assign(v);
-        stage.add_scaled(h, k3);
+        stage.assign_sum(v, h, k3);
         system.acceleration(t + h, q, stage, k4);
 
-        v.add_scaled(h / 6.0, k1);
-        v.add_scaled(h / 3.0, k2);
-        v.add_scaled(h / 3.0, k3);
-        v.add_scaled(h / 6.0, k4);
+        v.add_terms([(h / 6.0, k1), (h / 3.0, k2), (h / 3.0, k3), (h / 6.0, k4)]);
         q.add_scaled(h, v);
         Ok(())
     }

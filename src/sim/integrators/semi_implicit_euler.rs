@@ -40,8 +40,7 @@ impl<S: System> Integrator<S> for SemiImplicitEuler<S::Vector> {
     ) -> Result<(), StepFailure> {
         let Self { a } = self;
         system.acceleration(t, q, v, a);
-        v.add_scaled(h, a);
-        q.add_scaled(h, v);
+        S::Vector::kick_and_drift(h, a, v, h, q);
         Ok(())
     }
 }

@@ -49,18 +49,14 @@ impl<S: System> Integrator<S> for SspRk3<S::Vector> {
         let Self { k1, k2, k3, stage } = self;
         system.derivative(t, y, k1);
 
-        stage.assign(y);
-        stage.add_scaled(h, k1);
+        stage.assign_sum(y, h, k1);
         system.derivative(t + h, stage, k2);
 
-        stage.assign(y);
-        stage.add_scaled(h / 4.0, k1);
+        stage.assign_sum(y, h / 4.0, k1);
         stage.add_scaled(h / 4.0, k2);
         system.derivative(t + h / 2.0, stage, k3);
 
-        y.add_scaled(h / 6.0, k1);
-        y.add_scaled(h / 6.0, k2);
-        y.add_scaled(h / 1.5, k3);
+        y.add_terms([(h / 6.0, k1), (h / 6.0, k2), (h / 1.5, k3)]);
         Ok(())
     }
 }

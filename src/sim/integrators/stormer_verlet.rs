@@ -31,13 +31,13 @@ pub struct StormerVerlet<V> {
     /// The position at the end of the step.
     q_end: V,
     /// Where `p` and `a` belong.
-    seam: Seam<V>,
+    seam: Seam,
 }
 
 impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let [p, a, q_end] = [like.clone(), like.clone(), like.clone()];
-        Self { p, a, q_end, seam: Seam::new(like) }
+        Self { p, a, q_end, seam: Seam::new() }
     }
 
     #[inline]
@@ -49,30 +49,25 @@ impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         let Self { p, a, q_end, seam } = self;
-        let joins = seam.joins(h, y);
         let State { q, v } = y;
-        if !joins {
+        if !seam.joins(h) {
             system.acceleration(t, q, v, a);
-            p.assign(q);
-            p.add_scaled(-h, v);
+            p.assign_sum(q, -h, v);
             p.add_scaled(h * h / 2.0, a);
         }
         q_end.assign_scaled(2.0, q);
-        q_end.add_scaled(-1.0, p);
-        q_end.add_scaled(h * h, a);
+        q_end.add_terms([(-1.0, p), (h * h, a)]);
 
         // The force at the end is taken at the slope there of the parabola through all three.
         v.assign_scaled(1.5 / h, q_end);
-        v.add_scaled(-2.0 / h, q);
-        v.add_scaled(0.5 / h, p);
+        v.add_terms([(-2.0 / h, q), (0.5 / h, p)]);
         system.acceleration(t + h, q_end, v, a);
 
         v.assign_scaled(1.0 / h, q_end);
-        v.add_scaled(-1.0 / h, q);
-        v.add_scaled(h / 2.0, a);
+        v.add_terms([(-1.0 / h, q), (h / 2.0, a)]);
         std::mem::swap(p, q);
         std::mem::swap(q, q_end);
-        seam.end(h, y);
+        seam.end(h);
         Ok(())
     }
 

@@ -32,13 +32,13 @@ pub struct VelocityVerlet<V> {
     /// The velocity predicted for the end.
     v_end: V,
     /// Where `a` belongs.
-    seam: Seam<V>,
+    seam: Seam,
 }
 
 impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let [a, a_end, v_end] = [like.clone(), like.clone(), like.clone()];
-        Self { a, a_end, v_end, seam: Seam::new(like) }
+        Self { a, a_end, v_end, seam: Seam::new() }
     }
 
     #[inline]
@@ -50,19 +50,17 @@ impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         let Self { a, a_end, v_end, seam } = self;
-        if !seam.joins(h, y) {
+        if !seam.joins(h) {
             system.acceleration(t, &y.q, &y.v, a);
         }
         let State { q, v } = y;
-        v.add_scaled(h / 2.0, a);
-        q.add_scaled(h, v);
+        S::Vector::kick_and_drift(h / 2.0, a, v, h, q);
 
-        v_end.assign(v);
-        v_end.add_scaled(h / 2.0, a);
+        v_end.assign_sum(v, h / 2.0, a);
         system.acceleration(t + h, q, v_end, a_end);
         v.add_scaled(h / 2.0, a_end);
         std::mem::swap(a, a_end);
-        seam.end(h, y);
+        seam.end(h);
         Ok(())
     }
 

@@ -4,25 +4,25 @@ use egui::{Grid, RichText, ScrollArea, Ui};
 
 use super::{QUIET, TEXT, WELL, tone};
 use crate::lab::number::significant;
-use crate::lab::{Advised, Adviser, Lab, TOLERANCE, cheapest, duration};
+use crate::lab::{Advice, Advised, Lab, TOLERANCE, cheapest, duration};
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab) {
-    let Some(adviser) = lab.advice() else {
+    let Some(advice) = lab.advice() else {
         ui.label(RichText::new("judging every method …").color(QUIET));
         return;
     };
-    let best = cheapest(adviser.advised(), |_, good| good.evaluations_per_s);
-    summary(ui, adviser, best);
+    let best = cheapest(&advice.advised, |_, good| good.evaluations_per_s);
+    summary(ui, advice, best);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         Grid::new("advice").num_columns(5).spacing([12.0, 2.0]).min_row_height(15.0).show(
             ui,
             |ui| {
-                let now = format!("at {} Hz", adviser.tick_hz());
+                let now = format!("at {} Hz", advice.tick_hz);
                 for head in ["method", &now, "stable from", "accurate from", "evaluations/s"] {
                     ui.label(RichText::new(head).size(10.5).color(QUIET));
                 }
                 ui.end_row();
-                for (i, advised) in adviser.advised().iter().enumerate() {
+                for (i, advised) in advice.advised.iter().enumerate() {
                     row(ui, advised, Some(i) == best);
                     ui.end_row();
                 }
@@ -44,20 +44,20 @@ fn row(ui: &mut Ui, advised: &Advised, is_best: bool) {
 }
 
 /// What to take, once all is known.
-fn summary(ui: &mut Ui, adviser: &Adviser, best: Option<usize>) {
+fn summary(ui: &mut Ui, advice: &Advice, best: Option<usize>) {
     let bounds = format!(
         "within {} % of the amplitude over {}",
         100.0 * TOLERANCE,
-        duration(adviser.judge().horizon_s())
+        duration(advice.horizon_s)
     );
-    let done = adviser.advised().len();
+    let done = advice.advised.len();
     let best = best.and_then(|i| {
-        let advised = &adviser.advised()[i];
+        let advised = &advice.advised[i];
         Some((advised, advised.good.as_ref()?))
     });
     let text = match best {
-        _ if done < adviser.wanted() => {
-            format!("judging every method: {done} of {} …", adviser.wanted())
+        _ if done < advice.wanted => {
+            format!("judging every method: {done} of {} …", advice.wanted)
         }
         Some((advised, good)) => format!(
             "take {} at {} Hz: the fewest evaluations of those stable and {bounds}",
@@ -65,5 +65,5 @@ fn summary(ui: &mut Ui, adviser: &Adviser, best: Option<usize>) {
         ),
         None => format!("no method is stable and {bounds}"),
     };
-    ui.label(RichText::new(text).color(if done < adviser.wanted() { QUIET } else { TEXT }));
+    ui.label(RichText::new(text).color(if done < advice.wanted { QUIET } else { TEXT }));
 }

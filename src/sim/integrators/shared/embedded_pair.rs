@@ -28,7 +28,7 @@ pub struct EmbeddedPair<V, P, const N: usize> {
     /// The slopes at the stages; the first outlives the tick.
     k: [State<V>; N],
     /// Where the first slope belongs.
-    seam: Seam<V>,
+    seam: Seam,
     /// The state at which a stage is evaluated.
     stage: State<V>,
     error: State<V>,
@@ -45,7 +45,7 @@ impl<V: Vector, P: Pair<N>, const N: usize> EmbeddedPair<V, P, N> {
         Self {
             step_size: StepSize::new(tolerance),
             k: std::array::from_fn(|_| zero.clone()),
-            seam: Seam::new(like),
+            seam: Seam::new(),
             stage: zero.clone(),
             error: zero.clone(),
             zero,
@@ -77,10 +77,9 @@ impl<S: System, P: Pair<N>, const N: usize> Integrator<S> for EmbeddedPair<S::Ve
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         let Self { step_size, k, seam, stage, error, zero, .. } = self;
-        if !seam.joins(h, y) {
+        if !seam.joins(h) {
             system.derivative(t, y, &mut k[0]);
         }
-        seam.cut();
         let mut cover = step_size.cover(h);
         while !cover.is_over() {
             let (t, h) = (t + cover.gone(), cover.trial()?);
@@ -96,7 +95,7 @@ impl<S: System, P: Pair<N>, const N: usize> Integrator<S> for EmbeddedPair<S::Ve
                 k.swap(0, N - 1);
             }
         }
-        seam.end(h, y);
+        seam.end(h);
         Ok(())
     }
 

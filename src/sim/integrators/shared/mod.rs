@@ -6,3 +6,4 @@ mod lu;
 pub(super) mod newton;
 pub(super) mod seam;
 pub(super) mod step_size;
+pub(super) mod watched;

@@ -1,33 +1,31 @@
-//! Where one step ended: what a method carries is good only for a step that begins there.
+//! Where one step ended: what a method carries is good only for a step as long that begins there.
 
-use crate::sim::{State, Vector};
-
-/// The state that the last step left, and its length.
-pub(in crate::sim::integrators) struct Seam<V> {
-    y: State<V>,
-    /// In seconds; NaN, which equals nothing, before the first step and after a reset.
+/// The length of the last step, for the next to join on to.
+///
+/// That the next also begins in the state that the last one left is for the method's caller to see to:
+/// see [`Integrator::reset`](crate::sim::integrators::Integrator::reset).
+pub(in crate::sim::integrators) struct Seam {
+    /// In seconds; NaN, which equals nothing, where there is nothing to join.
     h: f64,
 }
 
-impl<V: Vector> Seam<V> {
+impl Seam {
     /// The seam before the first step, which joins nothing.
-    pub(in crate::sim::integrators) fn new(like: &V) -> Self {
-        Self { y: State { q: like.clone(), v: like.clone() }, h: f64::NAN }
+    pub(in crate::sim::integrators) fn new() -> Self {
+        Self { h: f64::NAN }
     }
 
-    /// Whether a step of `h` from `y` goes on where the last one ended, and is as long.
+    /// Whether a step of `h` is as long as the last. Whatever it is, nothing joins until it
+    /// [ends](Seam::end), which a step that fails does not.
     #[inline]
-    pub(in crate::sim::integrators) fn joins(&self, h: f64, y: &State<V>) -> bool {
-        h == self.h
-            && y.q.components() == self.y.q.components()
-            && y.v.components() == self.y.v.components()
+    pub(in crate::sim::integrators) fn joins(&mut self, h: f64) -> bool {
+        std::mem::replace(&mut self.h, f64::NAN) == h
     }
 
-    /// Remembers that a step of `h` ended at `y`.
+    /// Remembers that a step of `h` has ended.
     #[inline]
-    pub(in crate::sim::integrators) fn end(&mut self, h: f64, y: &State<V>) {
+    pub(in crate::sim::integrators) fn end(&mut self, h: f64) {
         self.h = h;
-        self.y.assign(y);
     }
 
     /// Joins nothing until the next step ends.

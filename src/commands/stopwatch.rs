@@ -1,0 +1,67 @@
+//! What a lane costs in real time, here and now. Nothing else should run meanwhile.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use crate::lab::{Lane, LaneSpec, Scene};
+
+/// Ticks that are timed together at least: a reading of the clock takes as long as a few ticks of a
+/// small body, and with so many it is within a hundredth.
+const TOGETHER: u64 = 256;
+
+/// Nanoseconds that a lane takes for a simulated second at this rate, from its start to tick `ticks` or as
+/// far as it comes within `effort`: the least of as many runs as that allows. `None` for no ticks.
+///
+/// The lane must get through these ticks: a halted one costs nothing.
+pub(super) fn ns_per_s(
+    scene: &Scene,
+    spec: LaneSpec,
+    tick_hz: u32,
+    ticks: u64,
+    effort: Duration,
+) -> Option<f64> {
+    let (begin, mut least) = (Instant::now(), None::<f64>);
+    while ticks > 0 && (least.is_none() || begin.elapsed() < effort) {
+        let ns = ns_per_tick(scene, spec, tick_hz, ticks, effort);
+        least = Some(least.map_or(ns, |least| least.min(ns)));
+    }
+    least.map(|ns| ns * f64::from(tick_hz))
+}
+
+/// The same for a tick, in one run, or in as many as make [`TOGETHER`] ticks.
+fn ns_per_tick(scene: &Scene, spec: LaneSpec, tick_hz: u32, ticks: u64, effort: Duration) -> f64 {
+    let hz = f64::from(tick_hz);
+    let runs = TOGETHER.div_ceil(ticks);
+    let mut lanes: Vec<Lane> =
+        (0..runs).map(|_| Lane::new(scene, spec.solver(), spec.substeps)).collect();
+    let (start, mut done) = (Instant::now(), 0);
+    for lane in &mut lanes {
+        for tick in 0..ticks {
+            lane.tick(tick, tick as f64 / hz, 1.0 / hz);
+            done += 1;
+            if done % TOGETHER == 0 && start.elapsed() >= effort {
+                break;
+            }
+        }
+    }
+    let elapsed = start.elapsed();
+    black_box(&lanes);
+    elapsed.as_nanos() as f64 / done as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::integrators::method;
+
+    #[test]
+    fn a_run_of_some_ticks_has_a_cost_and_one_of_none_has_not() {
+        let scene = Scene::built_in("chain").unwrap();
+        let spec = LaneSpec::plain(method("rk4").unwrap());
+        for ticks in [1, 60, 2 * TOGETHER] {
+            let cost = ns_per_s(&scene, spec, 60, ticks, Duration::from_millis(1));
+            assert!(cost.is_some_and(|ns| ns.is_finite() && ns > 0.0), "{ticks} ticks: {cost:?}");
+        }
+        assert_eq!(ns_per_s(&scene, spec, 60, 0, Duration::from_millis(1)), None);
+    }
+}

@@ -1,0 +1,238 @@
+//! `regatta sweep`: every method at every tick rate on every scene, as a tidy table and as diagrams.
+
+use std::io::Write;
+use std::path::{self, PathBuf};
+
+use clap::Args;
+use rayon::ThreadPoolBuildError;
+use serde_json::json;
+
+use super::capture::CaptureError;
+use super::experiment::{self, MethodParser, SceneParser, range_of};
+use super::outlet::{Outlet, STDOUT};
+use super::recording::watch_for_interrupt;
+use super::scene_file::{self, SceneFileError};
+use super::table::{self, Column};
+use super::{Error, RowFormat, tell};
+use crate::lab::{Clock, SCENES, Scene};
+use crate::sim::integrators::{METHODS, Method};
+use crate::view::{GpuError, ReadbackError};
+
+mod diagrams;
+mod grid;
+mod plot;
+
+use grid::{Grid, Row, Swept};
+use plot::Plot;
+
+const ABOUT: &str = "\
+One row for each scene, body, method and tick rate, in that order whatever the number of threads:
+  scene, body, method, tick_hz
+  seconds               how far the run came, in simulated seconds
+  error                 the largest of a coordinate or a velocity on the way, as a part of its
+                        amplitude; empty where the method did not come to the end
+  energy_drift_percent  the largest on the way; empty where the body conserves no energy
+  evaluations_per_s     evaluations of the acceleration in a simulated second
+  ns_per_s              nanoseconds for a simulated second, measured here and now, one run at a time
+  verdict               exact, accurate, drifting, decays, grows, lost or halted
+  halted                why, if it was lost or halted: a method that blows up is a row like others
+
+A body is judged as `regatta advise` judges it, from its start and without the scene's script.
+Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
+
+Examples:
+  regatta sweep > sweep.csv
+  regatta sweep --scene spring --method rk4 --method velocity-verlet --tick-hz 30,60,120
+  regatta sweep --scene my.toml --seconds 5 --format json --out sweep.json --plot sweep.png";
+
+/// Go through methods, tick rates and scenes, and write a row for each
+#[derive(Debug, Args)]
+#[command(after_help = ABOUT)]
+pub(super) struct SweepArgs {
+    /// A built-in scene (`regatta list scenes`), or else the path of a scene file; give several to sweep
+    /// them [default: all built-in scenes]
+    #[arg(long = "scene", value_name = "NAME|FILE", value_parser = SceneParser)]
+    #[arg(hide_possible_values = true)]
+    scenes: Vec<PathBuf>,
+
+    /// An integrator (`regatta list methods`); give several to sweep them [default: all]
+    #[arg(long = "method", value_name = "ID", value_parser = MethodParser)]
+    #[arg(hide_possible_values = true)]
+    methods: Vec<&'static Method>,
+
+    /// Ticks in a second, 1 to 10000; give several, with commas between [default: octaves about the
+    /// scene's own]
+    #[arg(long, value_name = "N", value_delimiter = ',')]
+    #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
+    tick_hz: Vec<u32>,
+
+    /// Length of each run in simulated seconds, to the nearest tick, one at least [default: the
+    /// scene's, 60 at most]
+    #[arg(long, value_name = "S", value_parser = some_seconds)]
+    #[arg(allow_negative_numbers = true)]
+    seconds: Option<f64>,
+
+    /// How to write it: csv or json
+    #[arg(long, value_name = "FORMAT", default_value = "csv", hide_possible_values = true)]
+    format: RowFormat,
+
+    /// Threads that make the runs, 1 to 256 [default: one for each core]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
+
+    /// The file to write the rows to, or - for standard output
+    #[arg(long, value_name = "FILE", default_value = STDOUT)]
+    out: PathBuf,
+
+    /// Draw work-precision diagrams of the rows, and the round-off of f32 and f64 on the chapter's ship,
+    /// as PNG into FILE, or - for standard output
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+
+    /// Replace the files that are there
+    #[arg(long)]
+    force: bool,
+}
+
+/// Why there is no whole table.
+#[derive(Debug, thiserror::Error)]
+pub enum SweepError {
+    /// The system has no threads left.
+    #[error("cannot start the threads: {0}; give fewer --threads")]
+    Threads(#[from] ThreadPoolBuildError),
+    /// Rows or picture could not be written.
+    #[error(transparent)]
+    Out(#[from] CaptureError),
+    /// A file that would be replaced by the picture, or a directory.
+    #[error("{} is there already; give another --plot, or --force to replace a file", .path.display())]
+    PlotTaken {
+        /// The path.
+        path: PathBuf,
+    },
+    /// Rows and picture cannot both go there.
+    #[error("rows and picture would go to the same place; give another --out or --plot")]
+    SamePlace,
+    /// More scenes than one picture holds.
+    #[error(
+        "a picture of {charts} charts is larger than {limit}x{limit}, what this adapter can make; \
+         give fewer scenes, or no --plot"
+    )]
+    TooManyCharts {
+        /// One for each scene, and one more.
+        charts: usize,
+        /// The longest side in pixels.
+        limit: u32,
+    },
+    /// There is nothing to draw with.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The picture was drawn but did not come back.
+    #[error(transparent)]
+    Readback(#[from] ReadbackError),
+    /// Somebody pressed Ctrl-C.
+    #[error("interrupted; nothing was written")]
+    Interrupted,
+}
+
+impl SweepError {
+    pub(super) fn exit_code(&self) -> u8 {
+        match self {
+            SweepError::Out(error) => error.exit_code(),
+            SweepError::Interrupted => 130,
+            SweepError::PlotTaken { .. }
+            | SweepError::SamePlace
+            | SweepError::TooManyCharts { .. } => 2,
+            SweepError::Threads(_) | SweepError::Gpu(_) | SweepError::Readback(_) => 1,
+        }
+    }
+}
+
+pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
+    let swept = args.load()?;
+    if args
+        .plot
+        .as_ref()
+        .is_some_and(|plot| path::absolute(plot).ok() == path::absolute(&args.out).ok())
+    {
+        return Err(SweepError::SamePlace.into());
+    }
+    let interrupted = watch_for_interrupt();
+    // Before anything is gone through: a refusal should not come minutes late.
+    let out = Outlet::open_for_text(&args.out, args.force).map_err(SweepError::Out)?;
+    let charts = swept.scenes.len() + 1;
+    let plot = args.plot.as_ref().map(|path| Plot::open(path, args.force, charts)).transpose()?;
+    let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
+    let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
+    let written = finish(out, table::rows(args.format, COLUMNS, &rows).as_bytes(), &what);
+    // Whatever became of the rows: whoever reads them may want the first few only.
+    if let Some(plot) = plot {
+        let (outlet, [width, height], png) = plot.draw(&diagrams::figure(&swept, &rows))?;
+        finish(outlet, &png, &format!("a picture of {width}x{height}"))?;
+    }
+    written
+}
+
+/// Writes all of it, and says what a file now holds.
+fn finish(mut outlet: Outlet, bytes: &[u8], what: &str) -> Result<(), Error> {
+    let written = outlet.write_all(bytes).map_err(|error| outlet.failed(error));
+    let (name, is_file) = (outlet.name(), matches!(outlet, Outlet::File { .. }));
+    match written.and_then(|()| outlet.close()) {
+        Ok(()) if is_file => tell(&format!("wrote {what}: {name}")),
+        Ok(()) => {}
+        Err(CaptureError::Output(error)) => return Err(error.into()),
+        Err(error) => return Err(SweepError::Out(error).into()),
+    }
+    Ok(())
+}
+
+/// As [`experiment::seconds`], and more than none.
+fn some_seconds(written: &str) -> Result<f64, String> {
+    match experiment::seconds(written)? {
+        0.0 => Err("give more than 0 seconds".into()),
+        seconds => Ok(seconds),
+    }
+}
+
+impl SweepArgs {
+    /// What is asked for, everything once.
+    fn load(&self) -> Result<Swept, SceneFileError> {
+        let built_in = || SCENES.iter().map(|scene| PathBuf::from(scene.name)).collect();
+        let paths = if self.scenes.is_empty() { built_in() } else { self.scenes.clone() };
+        let mut scenes: Vec<(String, Scene)> = Vec::new();
+        for path in paths {
+            let name = path.display().to_string();
+            if scenes.iter().all(|(other, _)| *other != name) {
+                scenes.push((name, scene_file::load(&path)?.0));
+            }
+        }
+        let asked = |method: &&Method| self.methods.is_empty() || self.methods.contains(method);
+        let mut rates = self.tick_hz.clone();
+        rates.sort_unstable();
+        rates.dedup();
+        let methods = METHODS.iter().filter(asked).collect();
+        Ok(Swept { scenes, methods, rates, seconds: self.seconds })
+    }
+}
+
+const COLUMNS: &[Column<Row>] = &[
+    Column { key: "scene", heading: None, value: |row| json!(row.scene) },
+    Column { key: "body", heading: None, value: |row| json!(row.body) },
+    Column { key: "method", heading: None, value: |row| json!(row.method.id) },
+    Column { key: "tick_hz", heading: None, value: |row| json!(row.tick_hz) },
+    Column { key: "seconds", heading: None, value: |row| json!(row.seconds()) },
+    Column { key: "error", heading: None, value: |row| json!(row.error()) },
+    Column {
+        key: "energy_drift_percent",
+        heading: None,
+        value: |row| json!(row.verdict.outcome.energy_drift),
+    },
+    Column { key: "evaluations_per_s", heading: None, value: |row| json!(row.evaluations_per_s()) },
+    Column { key: "ns_per_s", heading: None, value: |row| json!(row.ns_per_s.map(f64::round)) },
+    Column { key: "verdict", heading: None, value: |row| json!(row.verdict.word.text()) },
+    Column {
+        key: "halted",
+        heading: None,
+        value: |row| json!(row.verdict.outcome.fate.as_ref().map(|fate| fate.failure.to_string())),
+    },
+];

@@ -1,0 +1,172 @@
+//! The picture of a sweep: a work-precision diagram for each scene (Hairer, Nørsett & Wanner, *Solving
+//! Ordinary Differential Equations I*, II.10), and what the width of numbers does to the chapter's ship.
+
+use std::collections::BTreeMap;
+
+use super::grid::{Row, Swept};
+use super::plot::columns;
+use crate::lab::number::round;
+use crate::lab::picture::palette;
+use crate::lab::round_off::{self, ErrorCurve, Width};
+use crate::sim::integrators::Method;
+use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
+
+/// Errors beyond this many amplitudes tell nothing more: the method is lost.
+const LOST: f64 = 10.0;
+
+/// The picture of these rows, which are of these scenes and methods.
+pub(super) fn figure(swept: &Swept, rows: &[Row]) -> Figure {
+    let work = swept.scenes.iter().map(|(name, scene)| {
+        let curves = swept.methods.iter().map(|method| {
+            let rows = rows.iter().filter(|row| row.scene == *name && row.method == *method);
+            work_curve(method, rows)
+        });
+        work_precision(&scene.title, curves.collect())
+    });
+    let rounded = round_off::error_curves();
+    let note = note(&rounded);
+    let charts: Vec<Chart> = work.chain([v_curves(rounded)]).collect();
+    let title = "Work and precision: what accuracy costs, and where rounding ends it".into();
+    Figure { title, note, columns: columns(charts.len()), charts }
+}
+
+/// A method's error against its evaluations, a point for each tick rate. Of several bodies the worst one
+/// rules, as in advice.
+fn work_curve<'a>(method: &Method, rows: impl Iterator<Item = &'a Row>) -> FigureCurve {
+    let mut by_rate = BTreeMap::new();
+    for row in rows {
+        let [work, error] = by_rate.entry(row.tick_hz).or_insert([0.0, 0.0_f64]);
+        *work += row.evaluations_per_s();
+        *error = error.max(row.verdict.outcome.error);
+    }
+    let (colour, dash) = palette::style(method);
+    let points = by_rate.into_values().filter(|point| point[1].is_finite()).collect();
+    FigureCurve { name: method.name.into(), colour, dash, dots: 2.2, points }
+}
+
+fn work_precision(title: &str, curves: Vec<FigureCurve>) -> Chart {
+    let [work, error] = [0, 1].map(|axis| view(&curves, axis));
+    Chart {
+        title: title.into(),
+        legend: Legend::Shared,
+        axes: [
+            Axis { name: "evaluations in a simulated second", view: work, marks: Marks::Decades },
+            Axis {
+                name: "error (amplitudes)",
+                view: [error[0].min(LOST / 100.0), error[1].min(LOST)],
+                marks: Marks::Decades,
+            },
+        ],
+        curves,
+    }
+}
+
+/// The error of the ship's speed against the step, in both widths.
+fn v_curves(rounded: Vec<ErrorCurve>) -> Chart {
+    let curve = |curve: ErrorCurve| {
+        let (colour, _) = palette::style(curve.method);
+        let (dash, dots) = match curve.width {
+            Width::Single => ([6.0, 4.0], 2.6),
+            Width::Double => ([1.0, 0.0], 0.0),
+        };
+        let points = curve.errors.iter().map(|error| [error.h_s, error.error_m_per_s]).collect();
+        let name = format!("{}, {}", curve.method.name, curve.width.text());
+        FigureCurve { name, colour, dash, dots, points }
+    };
+    let curves: Vec<FigureCurve> = rounded.into_iter().map(curve).collect();
+    let [step, error] = [0, 1].map(|axis| view(&curves, axis));
+    Chart {
+        title: "The chapter's ship in f32 and f64: truncation to the right, round-off to the left"
+            .into(),
+        legend: Legend::Own,
+        axes: [
+            Axis { name: "step h (s)", view: step, marks: Marks::Decades },
+            Axis { name: "error of the speed (m/s)", view: error, marks: Marks::Decades },
+        ],
+        curves,
+    }
+}
+
+/// The range of what lies above 0, with some room, and a power of ten at least to be marked.
+fn view(curves: &[FigureCurve], axis: usize) -> [f64; 2] {
+    const ROOM: f64 = 1.6;
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    let values = points.map(|point| point[axis]).filter(|&value| value > 0.0);
+    let range = values.fold(None, |range: Option<[f64; 2]>, value| {
+        let [least, greatest] = range.unwrap_or([value; 2]);
+        Some([least.min(value), greatest.max(value)])
+    });
+    let [least, greatest] = range.unwrap_or([1.0; 2]);
+    let more = (10.0 / (greatest / least)).max(1.0).sqrt();
+    [least / (ROOM * more), greatest * ROOM * more]
+}
+
+fn note(rounded: &[ErrorCurve]) -> String {
+    let best = rounded.iter().filter(|curve| curve.width == Width::Single).map(|curve| {
+        let best = curve.best();
+        format!(
+            "{} s under {}, {} m/s",
+            round(best.h_s, 2),
+            curve.method.name,
+            round(best.error_m_per_s, 2)
+        )
+    });
+    format!(
+        "Error: the largest of a coordinate or a velocity on the way, as a part of its amplitude, of \
+         the worst body. A point for each tick rate; none where a method is lost. On the ship: the \
+         largest error of the speed at 2, 4, 6 and 8 s. In f32 no step is better than {}: finer ones \
+         only add roundings.",
+        best.collect::<Vec<_>>().join(", nor than ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicBool;
+
+    use super::super::grid::Grid;
+    use super::*;
+    use crate::lab::Scene;
+    use crate::sim::integrators::method;
+
+    fn swept(scene: &str, id: &str, rates: &[u32]) -> (Swept, Vec<Row>) {
+        let scenes = vec![(scene.to_owned(), Scene::built_in(scene).unwrap())];
+        let methods = vec![method(id).unwrap()];
+        let swept = Swept { scenes, methods, rates: rates.to_vec(), seconds: None };
+        let rows = Grid::new(&swept).run(Some(1), &AtomicBool::new(false)).unwrap();
+        (swept, rows)
+    }
+
+    #[test]
+    fn the_worst_body_rules_and_all_bodies_cost() {
+        let (swept, rows) = swept("harbour", "rk4", &[30, 60]);
+        let figure = figure(&swept, &rows);
+        let [[work, error], [work_twice, _]] = figure.charts[0].curves[0].points[..] else {
+            panic!("{figure:?}")
+        };
+        assert_eq!((work, work_twice), (3.0 * 4.0 * 30.0, 3.0 * 4.0 * 60.0));
+        let bodies = rows.iter().filter(|row| row.tick_hz == 30);
+        let errors: Vec<f64> = bodies.map(|row| row.error().unwrap()).collect();
+        assert_eq!(errors.len(), 3);
+        assert!(errors.contains(&error) && errors.iter().all(|other| *other <= error));
+    }
+
+    #[test]
+    fn a_lost_method_has_no_point_and_every_axis_a_mark() {
+        let (swept, rows) = swept("stiff", "semi-implicit-euler", &[49, 60]);
+        let figure = figure(&swept, &rows);
+        let [work, rounded] = &figure.charts[..] else { panic!("{figure:?}") };
+        assert_eq!(work.curves[0].points.len(), 1);
+        for axis in work.axes.iter().chain(&rounded.axes) {
+            let [low, high] = axis.view;
+            assert!(low > 0.0 && low.is_finite() && high >= 10.0 * low, "{axis:?}");
+        }
+    }
+
+    #[test]
+    fn there_are_about_as_many_rows_of_charts_as_columns() {
+        for (charts, wide) in [(2, 2), (4, 2), (6, 2), (7, 3), (10, 3), (12, 3), (13, 4)] {
+            assert_eq!(columns(charts), wide, "{charts} charts");
+        }
+    }
+}

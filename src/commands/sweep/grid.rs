@@ -1,0 +1,210 @@
+//! Every method at every rate on every body: the runs, made in parallel, and their rows.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, mpsc};
+use std::time::Duration;
+
+use rayon::ThreadPoolBuilder;
+use rayon::prelude::*;
+
+use super::SweepError;
+use crate::commands::recording::progress;
+use crate::commands::stopwatch;
+use crate::lab::{Clock, Judge, LONGEST_HORIZON_S, LaneSpec, Scene, Verdict};
+use crate::sim::integrators::Method;
+
+/// What is to be gone through.
+pub(super) struct Swept {
+    /// Scenes after the names that they were asked for by, no two of one name.
+    pub(super) scenes: Vec<(String, Scene)>,
+    /// In the order of the table.
+    pub(super) methods: Vec<&'static Method>,
+    /// In Hz, ascending; if empty each scene has octaves about its own.
+    pub(super) rates: Vec<u32>,
+    /// The length of every run; `None` for each scene's own.
+    pub(super) seconds: Option<f64>,
+}
+
+/// One body, alone in its scene: bodies do not feel each other.
+struct Subject {
+    /// The scene, as it was asked for.
+    scene_name: String,
+    alone: Scene,
+    judge: Judge,
+}
+
+/// A run to be made.
+struct Cell {
+    subject: usize,
+    spec: LaneSpec,
+    tick_hz: u32,
+}
+
+/// All runs.
+pub(super) struct Grid {
+    subjects: Vec<Subject>,
+    /// In the order of the rows.
+    cells: Vec<Cell>,
+}
+
+/// A run that was made.
+pub(super) struct Row {
+    pub(super) scene: String,
+    pub(super) body: String,
+    pub(super) method: &'static Method,
+    pub(super) tick_hz: u32,
+    pub(super) verdict: Verdict,
+    pub(super) ns_per_s: Option<f64>,
+}
+
+impl Row {
+    /// How far the run came, in simulated seconds.
+    pub(super) fn seconds(&self) -> f64 {
+        let outcome = &self.verdict.outcome;
+        outcome.fate.as_ref().map_or(outcome.seconds, |fate| fate.t)
+    }
+
+    /// Evaluations of the body's acceleration in a simulated second.
+    pub(super) fn evaluations_per_s(&self) -> f64 {
+        let (outcome, hz) = (&self.verdict.outcome, f64::from(self.tick_hz));
+        // Whole ticks, so that a method of so many evaluations a step has a whole number of them.
+        outcome.evaluations as f64 * hz / (outcome.seconds * hz).round()
+    }
+
+    /// The largest error as a part of the amplitude, of a run that came to its end.
+    pub(super) fn error(&self) -> Option<f64> {
+        Some(self.verdict.outcome.error).filter(|error| error.is_finite())
+    }
+}
+
+impl Grid {
+    /// The runs that were asked for.
+    pub(super) fn new(swept: &Swept) -> Self {
+        let mut grid = Self { subjects: Vec::new(), cells: Vec::new() };
+        for (name, scene) in &swept.scenes {
+            let horizon_s = swept.seconds.unwrap_or(scene.seconds.min(LONGEST_HORIZON_S));
+            let own = octaves(scene.tick_hz);
+            let rates = if swept.rates.is_empty() { &own } else { &swept.rates };
+            for body in &scene.bodies {
+                let alone = Scene { bodies: vec![body.clone()], ..scene.clone() };
+                for method in &swept.methods {
+                    grid.cells.extend(rates.iter().map(|&tick_hz| Cell {
+                        subject: grid.subjects.len(),
+                        spec: LaneSpec::plain(method),
+                        tick_hz,
+                    }));
+                }
+                grid.subjects.push(Subject {
+                    scene_name: name.clone(),
+                    judge: Judge::over(&alone, 1.0, horizon_s),
+                    alone,
+                });
+            }
+        }
+        grid
+    }
+
+    /// Makes every run on so many threads, as many as there are cores where it is not said, and then
+    /// times each alone. The rows come in the order of the grid.
+    pub(super) fn run(
+        self,
+        threads: Option<usize>,
+        interrupted: &AtomicBool,
+    ) -> Result<Vec<Row>, SweepError> {
+        let grid = Arc::new(self);
+        let verdicts = judge_all(&grid, threads, interrupted)?;
+        let progress = progress(grid.cells.len() as u32, "runs timed");
+        let rows = grid.cells.iter().zip(verdicts).map(|(cell, verdict)| {
+            if interrupted.load(Ordering::Relaxed) {
+                return Err(SweepError::Interrupted);
+            }
+            progress.inc(1);
+            Ok(grid.row(cell, verdict))
+        });
+        let rows = rows.collect();
+        progress.finish_and_clear();
+        rows
+    }
+
+    fn row(&self, cell: &Cell, verdict: Verdict) -> Row {
+        let &Cell { subject, spec, tick_hz } = cell;
+        let Subject { scene_name, alone, .. } = &self.subjects[subject];
+        let mut row = Row {
+            scene: scene_name.clone(),
+            body: alone.bodies[0].name.clone(),
+            method: spec.method,
+            tick_hz,
+            verdict,
+            ns_per_s: None,
+        };
+        let ticks = (row.seconds() * f64::from(tick_hz)).round() as u64;
+        row.ns_per_s = stopwatch::ns_per_s(alone, spec, tick_hz, ticks, EFFORT);
+        row
+    }
+}
+
+/// How long a run is timed: with a thousand or two of them not long to wait.
+const EFFORT: Duration = Duration::from_millis(1);
+
+/// How long an interrupt may go unnoticed.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// The verdict on every run, in the order of the grid. After an interrupt the runs under way are left to
+/// themselves: some take minutes, and the process is about to end.
+fn judge_all(
+    grid: &Arc<Grid>,
+    threads: Option<usize>,
+    interrupted: &AtomicBool,
+) -> Result<Vec<Verdict>, SweepError> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build()?;
+    let (sender, results) = mpsc::channel();
+    let worked_on = Arc::clone(grid);
+    pool.spawn(move || {
+        let cells = worked_on.cells.par_iter().enumerate();
+        cells.for_each_with(sender, |sender, (i, &Cell { subject, spec, tick_hz })| {
+            let verdict = worked_on.subjects[subject].judge.verdict(spec, tick_hz);
+            // After an interrupt nobody listens.
+            let _ = sender.send((i, verdict));
+        });
+    });
+    let progress = progress(grid.cells.len() as u32, "runs");
+    let mut verdicts = vec![None; grid.cells.len()];
+    loop {
+        match results.recv_timeout(PATIENCE) {
+            Ok((i, verdict)) => {
+                verdicts[i] = Some(verdict);
+                progress.inc(1);
+            }
+            Err(mpsc::RecvTimeoutError::Timeout) => {}
+            Err(mpsc::RecvTimeoutError::Disconnected) => break,
+        }
+        if interrupted.load(Ordering::Relaxed) {
+            progress.finish_and_clear();
+            return Err(SweepError::Interrupted);
+        }
+    }
+    progress.finish_and_clear();
+    Ok(verdicts.into_iter().map(|verdict| verdict.expect("every run was made")).collect())
+}
+
+/// From a quarter of this rate to eight times, doubled from one to the next, whole, and within what a
+/// clock can do: where the methods of the table part.
+fn octaves(tick_hz: u32) -> Vec<u32> {
+    let slower = [tick_hz / 4, tick_hz / 2];
+    let faster = [1, 2, 4, 8].map(|times| tick_hz.saturating_mul(times));
+    let all = slower.into_iter().chain(faster);
+    all.filter(|hz| Clock::TICK_HZ.contains(hz)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn octaves_are_whole_rates_about_the_scenes_own() {
+        assert_eq!(octaves(60), [15, 30, 60, 120, 240, 480]);
+        assert_eq!(octaves(5), [1, 2, 5, 10, 20, 40]);
+        assert_eq!(octaves(1), [1, 2, 4, 8]);
+        assert_eq!(octaves(10_000), [2500, 5000, 10_000]);
+    }
+}

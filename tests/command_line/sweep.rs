@@ -1,0 +1,357 @@
+//! `sweep`: a row for every run, in one order, whatever the threads; and the picture of it.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use regatta::lab::{SCENES, Scene};
+use regatta::sim::integrators::{METHODS, method};
+use serde_json::Value;
+
+use crate::capture::{dimensions, drawn_or_skip, names};
+use crate::{refusal, regatta, run_in, stderr, stdout_of};
+
+const HEADER: &str = "scene,body,method,tick_hz,seconds,error,energy_drift_percent,\
+                      evaluations_per_s,ns_per_s,verdict,halted";
+
+/// The rows of `sweep` with these options, by column.
+fn rows(options: &str) -> Vec<Value> {
+    serde_json::from_str(&stdout_of(&format!("sweep {options} --format json"))).unwrap()
+}
+
+fn text<'a>(row: &'a Value, column: &str) -> &'a str {
+    row[column].as_str().unwrap_or_else(|| panic!("{column} of {row}"))
+}
+
+fn number(row: &Value, column: &str) -> f64 {
+    row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"))
+}
+
+#[test]
+fn every_scene_body_method_and_rate_has_a_row_in_that_order() {
+    let csv = stdout_of(
+        "sweep --scene spring --scene harbour --method rk4 --method explicit-euler --method rk4 \
+         --tick-hz 60,15 --tick-hz 30,60 --seconds 1",
+    );
+    let mut expected = vec![HEADER.to_owned()];
+    for scene in ["spring", "harbour"] {
+        for body in Scene::built_in(scene).unwrap().bodies {
+            // The order of the table, not that of the options.
+            for id in ["explicit-euler", "rk4"] {
+                let rates = [15, 30, 60].map(|hz| format!("{scene},{},{id},{hz},1.0,", body.name));
+                expected.extend(rates);
+            }
+        }
+    }
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines.len(), expected.len());
+    for (line, start) in lines.into_iter().zip(expected) {
+        assert!(line.starts_with(&start), "{line} is not {start}");
+        assert_eq!(line.split(',').count(), 11, "{line}");
+    }
+}
+
+#[test]
+fn without_options_all_methods_sweep_all_scenes_by_octaves() {
+    let rows = rows("--seconds 0.5");
+    let mut scenes: Vec<&str> = rows.iter().map(|row| text(row, "scene")).collect();
+    scenes.dedup();
+    assert_eq!(scenes, SCENES.iter().map(|scene| scene.name).collect::<Vec<_>>());
+    let of_spring = || rows.iter().filter(|row| row["scene"] == "spring");
+    let rates: Vec<u64> = of_spring().take(6).map(|row| row["tick_hz"].as_u64().unwrap()).collect();
+    assert_eq!(rates, [15, 30, 60, 120, 240, 480]);
+    let ids: Vec<&str> = of_spring().step_by(6).map(|row| text(row, "method")).collect();
+    assert_eq!(ids, METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
+}
+
+#[test]
+fn json_holds_what_csv_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    // A name that needs quotes, and a run that is lost.
+    let scene = "title = 'x'\ntick_hz = 60\nseconds = 2\n[[spring]]\nname = 'a, \"b\"'\n\
+                 mass_kg = 1\nstiffness_n_per_m = 1e6\n";
+    fs::write(folder.path().join("my.toml"), scene).unwrap();
+    let sweep = "sweep --scene my.toml --scene ship --method rk4 --method bdf2";
+    let output = |options: &str| {
+        let output = run_in(folder.path(), &format!("{sweep} {options}"));
+        assert_eq!((output.status.code(), stderr(&output)), (Some(0), String::new()));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let (csv, json) = (output(""), output("--format json"));
+    let objects: Vec<serde_json::Map<String, Value>> = serde_json::from_str(&json).unwrap();
+    assert_eq!(csv.lines().next(), Some(HEADER));
+    assert_eq!(csv.lines().count(), 1 + objects.len());
+    assert_eq!(json.lines().count(), 2 + objects.len());
+    for (line, object) in csv.lines().skip(1).zip(objects) {
+        assert_eq!(object.keys().cloned().collect::<Vec<_>>().join(","), HEADER);
+        let mut cells = cells(line);
+        // What was measured differs from run to run.
+        assert!(cells.remove(8).parse::<f64>().unwrap() > 0.0, "{line}");
+        let others = object.iter().filter(|(key, _)| *key != "ns_per_s");
+        let same = others.map(|(_, value)| match value {
+            Value::Null => String::new(),
+            Value::String(text) => text.clone(),
+            number => number.to_string(),
+        });
+        assert_eq!(cells, same.collect::<Vec<_>>());
+    }
+    assert!(csv.contains("\nmy.toml,\"a, \"\"b\"\"\",rk4,15,"), "{csv}");
+}
+
+/// The cells of a line of CSV, without their quotes.
+fn cells(line: &str) -> Vec<String> {
+    let (mut cells, mut quoted) = (vec![String::new()], false);
+    let mut characters = line.chars().peekable();
+    while let Some(character) = characters.next() {
+        match character {
+            '"' if quoted && characters.next_if_eq(&'"').is_some() => {
+                cells.last_mut().unwrap().push('"');
+            }
+            '"' => quoted = !quoted,
+            ',' if !quoted => cells.push(String::new()),
+            _ => cells.last_mut().unwrap().push(character),
+        }
+    }
+    cells
+}
+
+#[test]
+fn any_number_of_threads_makes_the_same_rows() {
+    let physics = |threads: u32| {
+        let mut rows = rows(&format!("--seconds 1 --tick-hz 30,60 --threads {threads}"));
+        for row in &mut rows {
+            let ns = row.as_object_mut().unwrap().remove("ns_per_s").unwrap();
+            assert!(ns.is_null() || ns.as_f64().unwrap() > 0.0, "{row}: {ns}");
+        }
+        rows
+    };
+    let one = physics(1);
+    assert!(one.len() > 500);
+    assert!(one == physics(4));
+}
+
+#[test]
+fn the_error_falls_with_the_methods_order() {
+    for (scene, rates) in [("ship", "8,16,32"), ("spring", "240,480,960")] {
+        let rows = rows(&format!("--scene {scene} --tick-hz {rates} --seconds 4"));
+        let mut errors: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+        for row in &rows {
+            errors.entry(text(row, "method")).or_default().push(number(row, "error"));
+        }
+        for id in [
+            "explicit-euler",
+            "semi-implicit-euler",
+            "improved-euler",
+            "velocity-verlet",
+            "position-verlet",
+            "ssp-rk3",
+            "rk4",
+            "implicit-midpoint",
+            "gauss-legendre-4",
+        ] {
+            let card = method(id).unwrap();
+            let order = if scene == "ship" { card.order_with_drag } else { card.order };
+            for pair in errors[id].windows(2) {
+                let slope = (pair[0] / pair[1]).log2();
+                let off = (slope - f64::from(order)).abs();
+                assert!(off < 0.25, "{scene}, {id}: {slope} is no order of {order}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_row_says_what_advise_says() {
+    for scene in ["spring", "orbit"] {
+        let advice = stdout_of(&format!("advise --scene {scene} --format json"));
+        let advice: Value = serde_json::from_str(&advice).unwrap();
+        let tick_hz = &advice["tick_hz"];
+        let rows = rows(&format!("--scene {scene} --tick-hz {tick_hz}"));
+        let advised = advice["methods"].as_array().unwrap();
+        assert_eq!(rows.len(), advised.len());
+        for (row, advised) in rows.iter().zip(advised) {
+            assert_eq!(row["method"], advised["method"]);
+            assert_eq!(row["verdict"], advised["word"], "{row}");
+            assert_eq!(row["error"], advised["error"], "{row}");
+        }
+        let rk4 = rows.iter().find(|row| row["method"] == "rk4").unwrap();
+        assert_eq!(number(rk4, "evaluations_per_s"), 4.0 * tick_hz.as_f64().unwrap());
+    }
+}
+
+#[test]
+fn energy_drifts_where_it_is_conserved_and_is_none_where_it_is_not() {
+    let rows = rows("--scene spring --scene ship --method explicit-euler --tick-hz 60 --seconds 1");
+    let [spring, ship] = &rows[..] else { panic!("{rows:?}") };
+    // (1 + z²)^60 with z = 2π/60.
+    let growth = 100.0 * ((1.0 + (std::f64::consts::TAU / 60.0).powi(2)).powi(60) - 1.0);
+    let drift = number(spring, "energy_drift_percent");
+    assert!((drift / growth - 1.0).abs() < 1e-9, "{drift} %, not {growth}");
+    assert!(ship["energy_drift_percent"].is_null());
+}
+
+#[test]
+fn a_blow_up_is_a_row() {
+    let rows = rows("--scene stiff --method semi-implicit-euler --tick-hz 49,60");
+    let [lost, kept] = &rows[..] else { panic!("{rows:?}") };
+    assert_eq!(lost["verdict"], "lost");
+    assert!(text(lost, "halted").starts_with("left the stage: "), "{lost}");
+    assert!(lost["error"].is_null());
+    // The verdict on this body is "lost, past 10³⁸ in 4.14 s".
+    assert!((4.1..4.2).contains(&number(lost, "seconds")), "{lost}");
+    assert_eq!(number(lost, "evaluations_per_s"), 49.0);
+    assert!(number(lost, "ns_per_s") > 0.0);
+    assert_eq!((&kept["verdict"], number(kept, "seconds")), (&"drifting".into(), 5.0));
+    assert!(kept["halted"].is_null());
+}
+
+#[test]
+fn rows_go_to_a_file_that_is_replaced_only_when_forced() {
+    let folder = tempfile::tempdir().unwrap();
+    let sweep = "sweep --scene ship --method rk4 --tick-hz 2 --out rows.csv";
+    let file = folder.path().join("rows.csv");
+    fs::write(&file, "mine").unwrap();
+    let refused = run_in(folder.path(), sweep);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("rows.csv is there already; give another --out, or --force"));
+    assert_eq!(fs::read(&file).unwrap(), b"mine");
+
+    let forced = run_in(folder.path(), &format!("{sweep} --force"));
+    assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
+    assert!(forced.stdout.is_empty());
+    assert_eq!(stderr(&forced), "wrote 1 row: rows.csv\n");
+    assert!(fs::read_to_string(&file).unwrap().starts_with(HEADER));
+    assert_eq!(names(folder.path()), ["rows.csv"]);
+}
+
+#[test]
+fn mistakes_are_refused_before_anything_is_swept() {
+    for (options, said) in [
+        ("--method rk5", "did you mean rk4? `regatta list methods` names all"),
+        ("--scene shp", "is called \"shp\"; did you mean ship?"),
+        ("--tick-hz 0", "0 is not in 1..=10000"),
+        ("--tick-hz 60,10001", "10001 is not in 1..=10000"),
+        ("--tick-hz 60,", "cannot parse integer from empty string"),
+        ("--seconds 0", "give more than 0 seconds"),
+        ("--seconds -1", "give 0 to 31536000 seconds"),
+        ("--threads 0", "0 is not in 1..=256"),
+        ("--format xml", "csv, json"),
+        ("--plot src", "src is there already; give another --plot, or --force"),
+        ("--plot -", "rows and picture would go to the same place"),
+        ("--plot x --out ./x", "rows and picture would go to the same place"),
+    ] {
+        let message = refusal(&format!("sweep {options}"), 2);
+        assert!(message.starts_with("error: ") && message.contains(said), "{options}: {message}");
+    }
+}
+
+#[test]
+fn a_pipe_that_closes_early_ends_a_sweep_quietly() {
+    let mut child = regatta()
+        .args(["sweep", "--scene", "ship"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let mut said = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+    assert_eq!((child.wait().unwrap().code(), &*said), (Some(0), ""));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_the_longest_sweep_at_once_and_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    // Weeks.
+    let sweep = "sweep --seconds 31536000 --tick-hz 10000 --out rows.csv";
+    let child = regatta()
+        .current_dir(folder.path())
+        .args(sweep.split(' '))
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    while !folder.path().join("rows.csv.part").exists() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(interrupt.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(stderr(&output), "error: interrupted; nothing was written\n");
+    assert_eq!(output.status.code(), Some(130));
+    assert!(names(folder.path()).is_empty());
+}
+
+/// How many pixels of the picture have each of these colours, or one close to it.
+fn lit(picture: &Path, colours: &[[u8; 3]]) -> Vec<usize> {
+    let picture = image::open(picture).unwrap().into_rgb8();
+    let near = |pixel: &[u8; 3], colour: &[u8; 3]| {
+        pixel.iter().zip(colour).all(|(a, b)| a.abs_diff(*b) < 12)
+    };
+    let count = |colour| picture.pixels().filter(|pixel| near(&pixel.0, colour)).count();
+    colours.iter().map(count).collect()
+}
+
+#[test]
+fn the_plot_is_a_picture_of_every_method_beside_the_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "the_plot_is_a_picture_of_every_method_beside_the_rows";
+    let sweep = "sweep --scene spring --method explicit-euler --method midpoint --method rk4 \
+                 --plot sweep.png";
+    let Some(output) = drawn_or_skip(test, folder.path(), sweep) else { return };
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stderr(&output), "wrote a picture of 1840x900: sweep.png\n");
+    assert!(output.stdout.starts_with(HEADER.as_bytes()));
+    assert_eq!(names(folder.path()), ["sweep.png"]);
+    let picture = folder.path().join("sweep.png");
+    assert_eq!(dimensions(&picture), (1840, 900));
+    let [euler, midpoint, rk4, none] =
+        lit(&picture, &[[213, 94, 0], [86, 180, 233], [204, 121, 167], [0, 178, 130]])[..]
+    else {
+        panic!("four counts")
+    };
+    assert!((1_000..40_000).contains(&euler), "{euler} pixels of explicit Euler");
+    assert!((300..20_000).contains(&midpoint), "{midpoint} pixels of midpoint");
+    assert!((1_000..40_000).contains(&rk4), "{rk4} pixels of Runge-Kutta 4");
+    assert_eq!(none, 0, "pixels of a method that was not swept");
+
+    let refused = run_in(folder.path(), sweep);
+    assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+    let again = drawn_or_skip(test, folder.path(), &format!("{sweep} --force --out -"));
+    assert_eq!(again.unwrap().status.code(), Some(0));
+}
+
+#[test]
+fn a_picture_goes_to_standard_output_where_the_rows_do_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "a_picture_goes_to_standard_output_where_the_rows_do_not";
+    let sweep = "sweep --scene ship --scene surge --scene orbit --method rk4 --out rows.json \
+                 --format json --plot -";
+    let Some(output) = drawn_or_skip(test, folder.path(), sweep) else { return };
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(stderr(&output), "wrote 23 rows: rows.json\n");
+    let picture = image::load_from_memory(&output.stdout).unwrap().into_rgb8();
+    assert_eq!(picture.dimensions(), (1840, 1560));
+}
+
+#[test]
+fn a_pipe_that_closes_early_does_not_take_the_picture_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "a_pipe_that_closes_early_does_not_take_the_picture_with_it";
+    let sweep = "sweep --scene ship --method rk4 --plot sweep.png --force";
+    if drawn_or_skip(test, folder.path(), sweep).is_none() {
+        return;
+    }
+    fs::remove_file(folder.path().join("sweep.png")).unwrap();
+    let mut child = regatta();
+    child.current_dir(folder.path()).args(sweep.split(' ')).stderr(Stdio::piped());
+    let mut child = child.stdout(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(stderr(&output), "wrote a picture of 1840x900: sweep.png\n");
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(names(folder.path()), ["sweep.png"]);
+}
