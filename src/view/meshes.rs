@@ -268,3 +268,32 @@ fn scissor(clip: egui::Rect, size_px: [u32; 2], px_per_point: f32) -> [u32; 4] {
     let [top, bottom] = [clip.min.y, clip.max.y].map(|y| px(y, 1));
     [left, top, right.saturating_sub(left), bottom.saturating_sub(top)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::{Color32, Rect, pos2, vec2};
+
+    #[test]
+    fn only_large_opaque_triangles_of_one_colour_are_fills() {
+        let kinds = |size: f32, colour: Color32, change: fn(&mut Mesh)| {
+            let mut mesh = Mesh::default();
+            mesh.add_colored_rect(Rect::from_min_size(pos2(3.0, 4.0), vec2(size, size)), colour);
+            change(&mut mesh);
+            let kinds = mesh.indices.as_chunks::<3>().0.iter().map(|tri| kind(&mesh, tri, 2.0));
+            kinds.collect::<Vec<_>>()
+        };
+        let grey = Color32::from_gray(40);
+        assert_eq!(kinds(50.0, grey, |_| ()), [Kind::Fill; 2]);
+        assert_eq!(kinds(40.0, grey, |_| ()), [Kind::Textured; 2]);
+        assert_eq!(kinds(50.0, grey.gamma_multiply(0.9), |_| ()), [Kind::Textured; 2]);
+        let one_white = |mesh: &mut Mesh| mesh.vertices[1].color = Color32::WHITE;
+        assert_eq!(kinds(50.0, grey, one_white), [Kind::Textured; 2]);
+        let text = |mesh: &mut Mesh| mesh.vertices[1].uv = pos2(0.5, 0.5);
+        assert_eq!(kinds(50.0, grey, text), [Kind::Textured; 2]);
+        let line = |mesh: &mut Mesh| {
+            mesh.vertices.iter_mut().for_each(|vertex| vertex.uv = pos2(LINE + 0.8, 1.8));
+        };
+        assert_eq!(kinds(50.0, grey, line), [Kind::Line; 2]);
+    }
+}
