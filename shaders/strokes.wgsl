@@ -36,7 +36,7 @@ fn vertex(@builtin(vertex_index) index: u32, stroke: Quad) -> Varying {
     let has_direction = length_px > DOT_LENGTH_PX;
     let direction = select(vec2(1.0, 0.0), reach_px / max(length_px, DOT_LENGTH_PX), has_direction);
     let normal = vec2(-direction.y, direction.x);
-    let radii_px = max(stroke.radii, vec2(0.0)) * stage.px_per_point;
+    let radii_px = max(stroke.radii, vec2(0.0)) * place.px_per_point;
 
     // The larger disc may hold the other one and reach beyond it.
     let round_reach_px = max(radii_px, radii_px.yx - length_px);

@@ -3,15 +3,13 @@
 //! `egui_plot` makes a shape of every piece of a dash between two samples, seen or not: a hundred
 //! thousand triangles for a race, most of them smaller than a pixel. Here a straight piece is two.
 
-use egui::epaint::{Mesh, PathStroke};
+use std::sync::Arc;
+
+use egui::epaint::{PaintCallback, PathStroke};
 use egui::{Color32, Painter, Pos2, Rect, Shape, vec2};
 
-use super::lines::{Joint, dashes, shown, strip};
+use super::lines::{Joint, LineMesh, shown};
 use super::plot::Curve;
-
-/// Added to half the width of a line in pixels, where other vertices of a panel have a place on the
-/// atlas, which is less. As `LINE` in `shaders/panels.wgsl`.
-pub(super) const LINE: f32 = 2.0;
 
 /// A curve that covers more than this part of the room it takes is drawn solid: no pattern could be told.
 const CROWDED: f32 = 0.5;
@@ -21,22 +19,16 @@ const BEGINNING: f32 = 8.0;
 const ARROW: f32 = 5.0;
 const ARROW_INSET: f32 = 9.0;
 
-/// Draws a curve's line through `points` on the screen, as far as the painter's clip shows it.
+/// Draws a curve's line through `points` on the screen, as far as the painter's clip shows it. What the
+/// painter gets is a [`LineMesh`] for [`MeshRenderer`](super::meshes::MeshRenderer).
 pub(super) fn paint(painter: &Painter, points: impl Iterator<Item = Pos2>, curve: &Curve) {
     let &Curve { colour, width, dash: [drawn, gap], .. } = curve;
     let joints = points.map(|at| Joint { at, radius: width / 2.0, colour });
     let runs = shown(joints, painter.clip_rect().expand(width));
-    let px_per_point = painter.pixels_per_point();
-    let mut mesh = Mesh::default();
-    if gap > 0.0 && !is_crowded(&runs, width) {
-        for dash in runs.iter().flat_map(|run| dashes(run, drawn, gap)) {
-            strip(&mut mesh, &dash, px_per_point);
-        }
-    } else {
-        runs.iter().for_each(|run| strip(&mut mesh, run, px_per_point));
-    }
-    mesh.vertices.iter_mut().for_each(|vertex| vertex.uv.x += LINE);
-    painter.add(Shape::mesh(mesh));
+    let is_solid = gap > 0.0 && is_crowded(&runs, width);
+    let mut mesh = LineMesh::new([drawn, if is_solid { 0.0 } else { gap }]);
+    runs.iter().for_each(|run| mesh.add(run, painter.pixels_per_point()));
+    painter.add(PaintCallback { rect: painter.clip_rect(), callback: Arc::new(mesh) });
 }
 
 fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {

@@ -236,6 +236,8 @@ fn write(painter: &egui::Painter, stage: egui::Rect, label: &Label) {
 mod tests {
     use super::*;
     use crate::lab::picture::{Cap, Stroke};
+    use crate::view::curves;
+    use crate::view::plot::Curve;
     use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
     use crate::view::{AdapterPreference, Offscreen};
 
@@ -308,6 +310,42 @@ mod tests {
         assert_eq!(lit(Align::Left), (false, true));
         assert_eq!(lit(Align::Right), (true, false));
         assert_eq!(lit(Align::Centre), (true, true));
+    }
+
+    #[test]
+    fn a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip() {
+        let test = "a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip";
+        let Some(gpu) = gpu_or_skip(test) else { return };
+        let target = Offscreen::new(&gpu, [128, 64]).unwrap();
+        let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+        let curve = |dash| Curve {
+            colour: egui::Color32::RED,
+            width: 4.0,
+            dash,
+            dots: 0.0,
+            points: Vec::new(),
+        };
+        renderer.draw_with(&gpu, &target.view, [128, 64], 1.0, egui::RawInput::default(), |ui| {
+            let clip = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(100.0, 64.0));
+            let painter = ui.painter().with_clip_rect(clip);
+            for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
+                let ends = [egui::pos2(10.0, y), egui::pos2(120.0, y)];
+                curves::paint(&painter, ends.into_iter(), &curve(dash));
+            }
+            None
+        });
+        let pixels = read(&gpu, &target);
+        for x in 10..128 {
+            let [dashed, solid] = [20, 40].map(|y| pixels.at(x, y)[0]);
+            assert_eq!(solid > 250, x < 100, "{x}");
+            // Half a pixel from the ends of a dash lies its blur.
+            let into_pattern = (x as f32 + 0.5 - 10.0) % 14.0;
+            if x < 100 && (0.5..7.0).contains(&into_pattern) {
+                assert!(dashed > 250, "{x} is in a dash");
+            } else if x >= 100 || (9.0..13.0).contains(&into_pattern) {
+                assert!(dashed < 10, "{x} is in a gap");
+            }
+        }
     }
 
     #[test]

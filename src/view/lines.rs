@@ -1,10 +1,10 @@
 //! Lines through points, as few quads as show the same picture.
 //!
-//! A vertex says how wide its line is there and how far from the line's middle it lies, both in pixels, so
-//! that a shader can tell how much of a pixel is covered.
+//! A vertex says how wide its line is there, and how far across and along the line it lies, in pixels, so that
+//! a shader can tell how much of a pixel is covered.
 
-use egui::epaint::{Mesh, Vertex};
-use egui::{Color32, Pos2, Rect, Vec2, pos2};
+use bytemuck::{Pod, Zeroable};
+use egui::{Color32, Pos2, Rect, Vec2};
 
 /// How far a line may be drawn from its points, in points of the screen: less than anybody sees.
 const TOLERANCE: f32 = 0.2;
@@ -110,67 +110,72 @@ fn stands_for([from, to]: [Joint; 2], between: Joint) -> bool {
         && (0..4).all(|i| (f32::from(between.colour[i]) - tint(i)).abs() <= TINT)
 }
 
-/// The dashes of a line, each round whatever corners it has.
-pub(super) fn dashes(line: &[Joint], drawn: f32, gap: f32) -> Vec<Vec<Joint>> {
-    let mut dashes = Vec::new();
-    let mut dash: Vec<Joint> = line.iter().take(1).copied().collect();
-    let (mut drawing, mut left) = (true, drawn);
-    for ends in line.windows(2) {
-        let length = ends[0].at.distance(ends[1].at);
-        let mut done = 0.0;
-        while length - done >= left {
-            done += left;
-            dash.push(ends[0].lerp(ends[1], done / length));
-            if drawing {
-                dashes.push(std::mem::take(&mut dash));
-            }
-            drawing = !drawing;
-            left = if drawing { drawn } else { gap };
-        }
-        left -= length - done;
-        if drawing {
-            dash.push(ends[1]);
-        }
-    }
-    if drawing && dash.len() > 1 {
-        dashes.push(dash);
-    }
-    dashes
+/// A vertex in `shaders/lines.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub(super) struct LineVertex {
+    /// In points.
+    pub(super) at: [f32; 2],
+    /// Half the line's width here, and how far from its middle.
+    pub(super) across_px: [f32; 2],
+    /// How far along the line, and the drawn length and the gap of its dashes.
+    pub(super) along_px: [f32; 3],
+    pub(super) colour: Color32,
 }
 
-/// Adds a line as quads from joint to joint, mitred where they meet.
-pub(super) fn strip(mesh: &mut Mesh, line: &[Joint], px_per_point: f32) {
-    let mut add = |joint: Joint, normal: Vec2| {
-        let half_px = joint.radius * px_per_point;
-        // Half a pixel of blur, and a little for the corners of pixels.
-        let reach_px = half_px + 1.0;
-        for across_px in [reach_px, -reach_px] {
-            let pos = joint.at + normal * (across_px / px_per_point);
-            mesh.vertices.push(Vertex { pos, uv: pos2(half_px, across_px), color: joint.colour });
-        }
-        mesh.vertices.len() as u32 - 2
-    };
-    let mut quads: Vec<[u32; 2]> = Vec::with_capacity(line.len());
-    // The pair of vertices that the next quad shares with this one.
-    let mut shared = None;
-    for (index, ends) in line.windows(2).enumerate() {
-        let along = (ends[1].at - ends[0].at).normalized();
-        let from = shared.unwrap_or_else(|| add(ends[0], along.rot90()));
-        let next = line.get(index + 2).map(|next| (next.at - ends[1].at).normalized());
-        let mitre = next.filter(|&next| along.dot(next) > SHARPEST_MITRE);
-        let normal = mitre.map_or(along, |next| (along + next) / (1.0 + along.dot(next))).rot90();
-        let to = add(ends[1], normal);
-        shared = mitre.map(|_| to);
-        quads.push([from, to]);
+/// Lines of one dash pattern, as triangles.
+#[derive(Clone, Debug)]
+pub(super) struct LineMesh {
+    /// Drawn length and gap in points; a gap of 0 is solid.
+    pub(super) dash: [f32; 2],
+    pub(super) vertices: Vec<LineVertex>,
+    pub(super) indices: Vec<u32>,
+}
+
+impl LineMesh {
+    pub(super) fn new(dash: [f32; 2]) -> Self {
+        Self { dash, vertices: Vec::new(), indices: Vec::new() }
     }
-    for [from, to] in quads {
-        mesh.indices.extend([from, from + 1, to, to, from + 1, to + 1]);
+
+    /// Adds a line as quads from joint to joint, mitred where they meet.
+    pub(super) fn add(&mut self, line: &[Joint], px_per_point: f32) {
+        let [drawn_px, gap_px] = self.dash.map(|points| points * px_per_point);
+        let vertices = &mut self.vertices;
+        let mut add = |joint: Joint, normal: Vec2, along: f32| {
+            let half_px = joint.radius * px_per_point;
+            // Half a pixel of blur, and a little for the corners of pixels.
+            let reach_px = half_px + 1.0;
+            for across_px in [reach_px, -reach_px] {
+                vertices.push(LineVertex {
+                    at: (joint.at + normal * (across_px / px_per_point)).into(),
+                    across_px: [half_px, across_px],
+                    along_px: [along * px_per_point, drawn_px, gap_px],
+                    colour: joint.colour,
+                });
+            }
+            vertices.len() as u32 - 2
+        };
+        // The pair of vertices that the next quad shares with this one.
+        let mut shared = None;
+        let mut done = 0.0;
+        for (index, ends) in line.windows(2).enumerate() {
+            let along = (ends[1].at - ends[0].at).normalized();
+            let from = shared.unwrap_or_else(|| add(ends[0], along.rot90(), done));
+            done += ends[0].at.distance(ends[1].at);
+            let next = line.get(index + 2).map(|next| (next.at - ends[1].at).normalized());
+            let mitre = next.filter(|&next| along.dot(next) > SHARPEST_MITRE);
+            let normal = mitre.map_or(along, |next| (along + next) / (1.0 + along.dot(next)));
+            let to = add(ends[1], normal.rot90(), done);
+            shared = mitre.map(|_| to);
+            self.indices.extend([from, from + 1, to, to, from + 1, to + 1]);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use egui::pos2;
 
     fn joint(at: [f32; 2]) -> Joint {
         Joint { at: at.into(), radius: 1.0, colour: Color32::WHITE }
@@ -178,10 +183,6 @@ mod tests {
 
     fn line<const N: usize>(points: [[f32; 2]; N]) -> [Joint; N] {
         points.map(joint)
-    }
-
-    fn length(line: &[Joint]) -> f32 {
-        line.windows(2).map(|ends| ends[0].at.distance(ends[1].at)).sum()
     }
 
     #[test]
@@ -234,26 +235,10 @@ mod tests {
     }
 
     #[test]
-    fn dashes_and_gaps_are_as_long_as_asked_for_round_corners_too() {
-        let corners = line([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]]);
-        let dashes = dashes(&corners, 8.0, 4.0);
-        let lengths: Vec<f32> = dashes.iter().map(|dash| length(dash)).collect();
-        assert_eq!(lengths, [8.0, 8.0, 6.0]);
-        assert_eq!(dashes[1], line([[10.0, 2.0], [10.0, 10.0]]));
-        assert_eq!(dashes[2].first(), Some(&joint([6.0, 10.0])));
-    }
-
-    #[test]
-    fn a_dash_has_the_corners_of_its_line() {
-        let corner = line([[0.0, 0.0], [5.0, 0.0], [5.0, 9.0]]);
-        assert_eq!(dashes(&corner, 10.0, 2.0)[0], line([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0]]));
-    }
-
-    #[test]
     fn quads_are_joined_at_the_corners_of_a_line_and_not_at_its_spikes() {
         let strip_of = |line: &[Joint]| {
-            let mut mesh = Mesh::default();
-            strip(&mut mesh, line, 1.0);
+            let mut mesh = LineMesh::new([6.0, 4.0]);
+            mesh.add(line, 1.0);
             mesh
         };
         let bend = strip_of(&line([[0.0, 0.0], [10.0, 0.0], [20.0, 5.0]]));
@@ -261,8 +246,11 @@ mod tests {
         let spike = strip_of(&line([[0.0, 0.0], [10.0, 0.0], [0.0, 1.0]]));
         assert_eq!((spike.vertices.len(), spike.indices.len()), (8, 12));
         for vertex in &bend.vertices {
-            assert_eq!((vertex.uv.x, vertex.uv.y.abs()), (1.0, 2.0));
+            assert_eq!((vertex.across_px[0], vertex.across_px[1].abs()), (1.0, 2.0));
+            assert_eq!(vertex.along_px[1..], [6.0, 4.0]);
         }
-        assert_eq!(bend.vertices[0].pos.distance(bend.vertices[1].pos), 4.0);
+        let length = 10.0 + 125.0_f32.sqrt();
+        assert_eq!([0, 2, 4].map(|i| bend.vertices[i].along_px[0]), [0.0, 10.0, length]);
+        assert_eq!(bend.vertices[0].at, [0.0, -2.0]);
     }
 }

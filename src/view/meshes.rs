@@ -5,31 +5,27 @@
 
 use std::collections::HashMap;
 
-use bytemuck::{Pod, Zeroable};
-use egui::epaint::{self, Mesh, Primitive, WHITE_UV};
+use egui::epaint::{self, Mesh, Primitive, Vertex, WHITE_UV};
 use egui::{ClippedPrimitive, ImageData, TextureId};
 
-use super::curves::LINE;
 use super::gpu::Gpu;
+use super::lines::LineMesh;
+use super::place::{Place, PlaceGroup};
+use super::stage::pipeline;
+use super::strips::{Strip, Strips};
 use super::triangles::Triangles;
 
-const SHADER: &str = include_str!("../../shaders/panels.wgsl");
+const SHADER: &str =
+    concat!(include_str!("../../shaders/place.wgsl"), include_str!("../../shaders/panels.wgsl"));
 
-/// `Frame` in `shaders/panels.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct FrameUniform {
-    size_points: [f32; 2],
-    padding: [f32; 2],
-}
+const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
+    wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4];
 
-/// What a pixel of a triangle takes, from the least to the most.
+/// What a pixel of a triangle takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// Opaque, in one colour, and large: nothing but storing it.
+    /// Nothing but storing it: the triangle is opaque, in one colour, and large.
     Fill,
-    /// Part of a line: its coverage.
-    Line,
     /// A texel.
     Textured,
 }
@@ -37,71 +33,72 @@ enum Kind {
 /// Fills smaller than this, in square pixels, are not worth a draw of their own.
 const LEAST_FILL_PX: f32 = 4096.0;
 
-/// Some triangles of one texture.
 #[derive(Debug)]
 struct Draw {
-    kind: Kind,
-    texture: TextureId,
     /// Left, top, width and height on the target.
     scissor_px: [u32; 4],
-    indices: std::ops::Range<u32>,
+    what: Drawn,
+}
+
+#[derive(Debug)]
+enum Drawn {
+    Triangles { kind: Kind, texture: TextureId, indices: std::ops::Range<u32> },
+    Lines(Strip),
 }
 
 /// Draws egui's meshes on targets of one format.
 #[derive(Debug)]
 pub(super) struct MeshRenderer {
     /// One for each [`Kind`], in its order.
-    pipelines: [wgpu::RenderPipeline; 3],
+    pipelines: [wgpu::RenderPipeline; 2],
     atlas_layout: wgpu::BindGroupLayout,
     atlases: HashMap<TextureId, (wgpu::Texture, wgpu::BindGroup)>,
-    uniform: wgpu::Buffer,
-    bind_group: wgpu::BindGroup,
-    triangles: Triangles,
+    place: PlaceGroup,
+    triangles: Triangles<Vertex>,
+    strips: Strips,
     draws: Vec<Draw>,
 }
 
 impl MeshRenderer {
     pub(super) fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
-        let device = &gpu.device;
-        let layout = |visibility, ty| {
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        let place = PlaceGroup::new(gpu);
+        let atlas_layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("panels"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                count: None,
+            }],
+        });
+        let layout = |groups: &[Option<&wgpu::BindGroupLayout>]| {
+            gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some("panels"),
-                entries: &[wgpu::BindGroupLayoutEntry { binding: 0, visibility, ty, count: None }],
+                bind_group_layouts: groups,
+                immediate_size: 0,
             })
         };
-        let frame_layout = layout(
-            wgpu::ShaderStages::VERTEX,
-            wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-        );
-        let atlas_layout = layout(
-            wgpu::ShaderStages::VERTEX_FRAGMENT,
-            wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            },
-        );
-        let uniform = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("panels"),
-            size: size_of::<FrameUniform>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("panels"),
-            layout: &frame_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
+        let over_atlas = layout(&[Some(&place.layout), Some(&atlas_layout)]);
+        let pipelines =
+            [("fill", None), ("textured", Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING))];
+        let pipelines = pipelines.map(|(fragment, blend)| {
+            let vertex = wgpu::VertexBufferLayout {
+                array_stride: size_of::<Vertex>() as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes: &ATTRIBUTES,
+            };
+            pipeline(gpu, &over_atlas, format, ["panels", SHADER, fragment], vertex, blend)
         });
         Self {
-            pipelines: pipelines(gpu, format, [&frame_layout, &atlas_layout]),
+            pipelines,
             atlas_layout,
             atlases: HashMap::new(),
-            uniform,
-            bind_group,
+            strips: Strips::new(gpu, &layout(&[Some(&place.layout)]), format),
+            place,
             triangles: Triangles::new(gpu, "panels"),
             draws: Vec::new(),
         }
@@ -165,100 +162,66 @@ impl MeshRenderer {
     ) {
         self.draws.clear();
         self.triangles.clear();
+        self.strips.clear();
         for ClippedPrimitive { clip_rect, primitive } in primitives {
-            // Nothing here asks egui for a callback.
-            let Primitive::Mesh(mesh) = primitive else { continue };
             let scissor_px = scissor(*clip_rect, size_px, px_per_point);
             if scissor_px[2] == 0 || scissor_px[3] == 0 {
                 continue;
             }
-            let mut first = self.triangles.add(mesh).start;
-            let triangles = mesh.indices.as_chunks::<3>().0;
-            let kind = |corners: &[u32; 3]| kind(mesh, corners, px_per_point);
-            for run in triangles.chunk_by(|a, b| kind(a) == kind(b)) {
-                let indices = first..first + 3 * run.len() as u32;
-                first = indices.end;
-                let texture = mesh.texture_id;
-                self.draws.push(Draw { kind: kind(&run[0]), texture, scissor_px, indices });
+            match primitive {
+                Primitive::Mesh(mesh) => {
+                    let mut first = self.triangles.add(&mesh.vertices, &mesh.indices).start;
+                    let kind = |corners: &[u32; 3]| kind(mesh, corners, px_per_point);
+                    let triangles = mesh.indices.as_chunks::<3>().0;
+                    for run in triangles.chunk_by(|a, b| kind(a) == kind(b)) {
+                        let indices = first..first + 3 * run.len() as u32;
+                        first = indices.end;
+                        let (kind, texture) = (kind(&run[0]), mesh.texture_id);
+                        let what = Drawn::Triangles { kind, texture, indices };
+                        self.draws.push(Draw { scissor_px, what });
+                    }
+                }
+                // Of callbacks, only the curves of plots are ours.
+                Primitive::Callback(callback) => {
+                    if let Some(mesh) = callback.callback.downcast_ref::<LineMesh>() {
+                        let what = Drawn::Lines(self.strips.add(mesh));
+                        self.draws.push(Draw { scissor_px, what });
+                    }
+                }
             }
         }
-        let size_points = size_px.map(|side| side as f32 / px_per_point);
-        let uniform = FrameUniform { size_points, padding: [0.0; 2] };
-        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        let [width, height] = size_px.map(|side| side as f32);
+        let edges_px = [0.0, 0.0, width, height];
+        self.place.write(gpu, &Place { size_px, origin_px: [0.0; 2], px_per_point, edges_px });
         self.triangles.upload(gpu);
+        self.strips.upload(gpu);
     }
 
     /// Draws what was prepared.
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_bind_group(0, &self.bind_group, &[]);
-        self.triangles.bind(pass);
-        for Draw { kind, texture, scissor_px: [left, top, width, height], indices } in &self.draws {
-            let Some((_, bind_group)) = self.atlases.get(texture) else { continue };
-            pass.set_pipeline(&self.pipelines[*kind as usize]);
-            pass.set_bind_group(1, bind_group, &[]);
+        pass.set_bind_group(0, &self.place.group, &[]);
+        for Draw { scissor_px: [left, top, width, height], what } in &self.draws {
             pass.set_scissor_rect(*left, *top, *width, *height);
-            pass.draw_indexed(indices.clone(), 0, 0..1);
+            match what {
+                Drawn::Triangles { kind, texture, indices } => {
+                    let Some((_, bind_group)) = self.atlases.get(texture) else { continue };
+                    pass.set_pipeline(&self.pipelines[*kind as usize]);
+                    pass.set_bind_group(1, bind_group, &[]);
+                    self.triangles.bind(pass);
+                    pass.draw_indexed(indices.clone(), 0, 0..1);
+                }
+                Drawn::Lines(strip) => self.strips.draw(pass, strip),
+            }
         }
     }
 }
 
 fn kind(mesh: &Mesh, corners: &[u32; 3], px_per_point: f32) -> Kind {
     let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
-    if a.uv.x >= LINE {
-        return Kind::Line;
-    }
     let (ab, ac) = (px_per_point * (b.pos - a.pos), px_per_point * (c.pos - a.pos));
     let is_large = (ab.x * ac.y - ab.y * ac.x).abs() / 2.0 >= LEAST_FILL_PX;
     let is_plain = [a, b, c].iter().all(|v| v.uv == WHITE_UV && v.color == a.color);
     if is_large && is_plain && a.color.is_opaque() { Kind::Fill } else { Kind::Textured }
-}
-
-fn pipelines(
-    gpu: &Gpu,
-    format: wgpu::TextureFormat,
-    layouts: [&wgpu::BindGroupLayout; 2],
-) -> [wgpu::RenderPipeline; 3] {
-    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("panels"),
-        source: wgpu::ShaderSource::Wgsl(SHADER.into()),
-    });
-    let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("panels"),
-        bind_group_layouts: &layouts.map(Some),
-        immediate_size: 0,
-    });
-    [Kind::Fill, Kind::Line, Kind::Textured].map(|kind| {
-        let (fragment, blend) = match kind {
-            Kind::Fill => ("fill", None),
-            Kind::Line => ("line", Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING)),
-            Kind::Textured => ("textured", Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING)),
-        };
-        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("panels"),
-            layout: Some(&layout),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vertex"),
-                compilation_options: Default::default(),
-                buffers: &[Some(Triangles::LAYOUT)],
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: None,
-            multisample: Default::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some(fragment),
-                compilation_options: Default::default(),
-                targets: &[Some(wgpu::ColorTargetState {
-                    format,
-                    blend,
-                    write_mask: wgpu::ColorWrites::ALL,
-                })],
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
-    })
 }
 
 /// The pixels of a rectangle in points, within the target: left, top, width and height.
@@ -291,9 +254,5 @@ mod tests {
         assert_eq!(kinds(50.0, grey, one_white), [Kind::Textured; 2]);
         let text = |mesh: &mut Mesh| mesh.vertices[1].uv = pos2(0.5, 0.5);
         assert_eq!(kinds(50.0, grey, text), [Kind::Textured; 2]);
-        let line = |mesh: &mut Mesh| {
-            mesh.vertices.iter_mut().for_each(|vertex| vertex.uv = pos2(LINE + 0.8, 1.8));
-        };
-        assert_eq!(kinds(50.0, grey, line), [Kind::Line; 2]);
     }
 }

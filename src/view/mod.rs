@@ -14,6 +14,7 @@ mod lines;
 mod meshes;
 mod offscreen;
 mod panels;
+mod place;
 mod plot;
 pub mod png;
 mod quads;
@@ -22,6 +23,7 @@ mod ribbons;
 mod screen;
 mod sea;
 mod stage;
+mod strips;
 mod strokes;
 #[cfg(test)]
 mod testing;

@@ -1,27 +1,23 @@
-//! Ribbons: trails and wakes, the quads of a cell in one draw.
-
-use std::ops::Range;
+//! Ribbons: trails and wakes, those of a cell in one draw.
 
 use egui::Rect;
-use egui::epaint::Mesh;
 
 use super::gpu::Gpu;
-use super::lines::{Joint, shown, strip};
+use super::lines::{Joint, LineMesh, shown};
+use super::place::Place;
 use super::plot::colour;
-use super::stage::{Place, quad_pipeline};
-use super::triangles::Triangles;
+use super::strips::{Strip, Strips};
 use crate::lab::picture::{Ribbon, RibbonPoint};
 
-const SHADER: &str =
-    concat!(include_str!("../../shaders/stage.wgsl"), include_str!("../../shaders/ribbons.wgsl"));
+/// The dash pattern of an unbroken line.
+const SOLID: [f32; 2] = [1.0, 0.0];
 
 /// Draws a picture's ribbons.
 #[derive(Debug)]
 pub(super) struct RibbonPipeline {
-    pipeline: wgpu::RenderPipeline,
-    triangles: Triangles,
-    /// Left, top, width and height of what shows on the target, and the triangles there.
-    draws: Vec<([u32; 4], Range<u32>)>,
+    strips: Strips,
+    /// Left, top, width and height of what shows on the target, and the ribbons there.
+    draws: Vec<([u32; 4], Strip)>,
 }
 
 impl RibbonPipeline {
@@ -30,45 +26,37 @@ impl RibbonPipeline {
         layout: &wgpu::PipelineLayout,
         format: wgpu::TextureFormat,
     ) -> Self {
-        let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-        let names = ["ribbons", SHADER, "fragment"];
-        Self {
-            pipeline: quad_pipeline(gpu, layout, format, names, Triangles::LAYOUT, blend),
-            triangles: Triangles::new(gpu, "ribbons"),
-            draws: Vec::new(),
-        }
+        Self { strips: Strips::new(gpu, layout, format), draws: Vec::new() }
     }
 
     pub(super) fn upload(&mut self, gpu: &Gpu, ribbons: &[Ribbon], place: &Place) {
         self.draws.clear();
-        self.triangles.clear();
+        self.strips.clear();
         for of_cell in ribbons.chunk_by(|a, b| a.clip == b.clip) {
             let clip = of_cell[0].clip;
             let scissor_px = place.scissor_px(clip);
             if scissor_px[2] == 0 || scissor_px[3] == 0 {
                 continue;
             }
-            let mut mesh = Mesh::default();
+            let mut mesh = LineMesh::new(SOLID);
             for ribbon in of_cell {
                 let widest = ribbon.points.iter().map(|point| point.radius).fold(0.0, f32::max);
                 let window = Rect::from_min_max(clip.min.into(), clip.max.into());
                 // Half a pixel more for its blur.
                 let window = window.expand(widest + 0.5 / place.px_per_point);
                 for run in shown(ribbon.points.iter().map(joint), window) {
-                    strip(&mut mesh, &run, place.px_per_point);
+                    mesh.add(&run, place.px_per_point);
                 }
             }
-            self.draws.push((scissor_px, self.triangles.add(&mesh)));
+            self.draws.push((scissor_px, self.strips.add(&mesh)));
         }
-        self.triangles.upload(gpu);
+        self.strips.upload(gpu);
     }
 
     pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipeline);
-        self.triangles.bind(pass);
-        for ([left, top, width, height], indices) in &self.draws {
+        for ([left, top, width, height], strip) in &self.draws {
             pass.set_scissor_rect(*left, *top, *width, *height);
-            pass.draw_indexed(indices.clone(), 0, 0..1);
+            self.strips.draw(pass, strip);
         }
     }
 }

@@ -3,12 +3,13 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::gpu::Gpu;
+use super::place::Place;
 use super::quads::Quads;
-use super::stage::{Place, quad_pipeline};
+use super::stage::pipeline;
 use crate::lab::picture::Sea;
 
 const SHADER: &str =
-    concat!(include_str!("../../shaders/stage.wgsl"), include_str!("../../shaders/sea.wgsl"));
+    concat!(include_str!("../../shaders/place.wgsl"), include_str!("../../shaders/sea.wgsl"));
 
 /// Red, green, blue and opacity of the lines of a grid, and of the border of a cell.
 const GRID: [f32; 4] = [0.45, 0.65, 0.85, 0.085];
@@ -56,7 +57,7 @@ impl SeaPipeline {
                 attributes: &ATTRIBUTES,
             };
             let names = ["seas", SHADER, fragment];
-            (quad_pipeline(gpu, layout, format, names, vertex, blend), Quads::new(gpu, "seas"))
+            (pipeline(gpu, layout, format, names, vertex, blend), Quads::new(gpu, "seas"))
         };
         Self {
             water: kind("water", None),

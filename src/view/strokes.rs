@@ -5,12 +5,13 @@ use std::ops::Range;
 use bytemuck::{Pod, Zeroable};
 
 use super::gpu::Gpu;
+use super::place::Place;
 use super::quads::Quads;
-use super::stage::{Place, quad_pipeline};
+use super::stage::pipeline;
 use crate::lab::picture::{Cap, Stroke};
 
 const SHADER: &str =
-    concat!(include_str!("../../shaders/stage.wgsl"), include_str!("../../shaders/strokes.wgsl"));
+    concat!(include_str!("../../shaders/place.wgsl"), include_str!("../../shaders/strokes.wgsl"));
 
 /// `Quad` in `shaders/strokes.wgsl`.
 #[repr(C)]
@@ -81,7 +82,7 @@ impl StrokePipeline {
                 attributes: &ATTRIBUTES,
             };
             let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-            quad_pipeline(gpu, layout, format, ["strokes", SHADER, fragment], vertex, blend)
+            pipeline(gpu, layout, format, ["strokes", SHADER, fragment], vertex, blend)
         };
         Self {
             pipelines: ["line", "hull"].map(pipeline),

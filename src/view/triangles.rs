@@ -2,32 +2,23 @@
 
 use std::ops::Range;
 
-use egui::epaint::{Mesh, Vertex};
-
 use super::gpu::Gpu;
 
 /// Room for this many bytes at first; growing is by doubling.
 const FIRST_CAPACITY: u64 = 1 << 16;
 
-/// The triangles of some meshes.
+/// The triangles of some meshes, with vertices of one kind.
 #[derive(Debug)]
-pub(super) struct Triangles {
+pub(super) struct Triangles<V> {
     label: &'static str,
     vertex_buffer: wgpu::Buffer,
     index_buffer: wgpu::Buffer,
     /// Kept for their capacity.
-    vertices: Vec<Vertex>,
+    vertices: Vec<V>,
     indices: Vec<u32>,
 }
 
-impl Triangles {
-    /// A vertex: its place, its place on a texture, its colour.
-    pub(super) const LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
-        array_stride: size_of::<Vertex>() as u64,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x2, 1 => Float32x2, 2 => Unorm8x4],
-    };
-
+impl<V: bytemuck::Pod> Triangles<V> {
     pub(super) fn new(gpu: &Gpu, label: &'static str) -> Self {
         Self {
             label,
@@ -44,10 +35,10 @@ impl Triangles {
     }
 
     /// Adds a mesh, and says which indices it got.
-    pub(super) fn add(&mut self, mesh: &Mesh) -> Range<u32> {
+    pub(super) fn add(&mut self, vertices: &[V], indices: &[u32]) -> Range<u32> {
         let (first_vertex, first) = (self.vertices.len() as u32, self.indices.len() as u32);
-        self.vertices.extend_from_slice(&mesh.vertices);
-        self.indices.extend(mesh.indices.iter().map(|index| first_vertex + index));
+        self.vertices.extend_from_slice(vertices);
+        self.indices.extend(indices.iter().map(|index| first_vertex + index));
         first..self.indices.len() as u32
     }
 

@@ -1,0 +1,93 @@
+//! Where points lie on a target, in Rust and in shaders.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::gpu::Gpu;
+use crate::lab::picture::Rect;
+
+/// `Place` in `shaders/place.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct Uniform {
+    target_px: [f32; 2],
+    origin_px: [f32; 2],
+    px_per_point: f32,
+    padding: [f32; 3],
+}
+
+/// Where the points of some part of a frame lie on the target.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) size_px: [u32; 2],
+    /// Where the part begins.
+    pub(super) origin_px: [f32; 2],
+    pub(super) px_per_point: f32,
+    /// Left, top, right and bottom of what shows of it.
+    pub(super) edges_px: [f32; 4],
+}
+
+impl Place {
+    /// Where a point is, in pixels of the target.
+    pub(super) fn px(&self, point: [f32; 2]) -> [f32; 2] {
+        [0, 1].map(|axis| self.origin_px[axis] + point[axis] * self.px_per_point)
+    }
+
+    /// The left, top, width and height of those pixels that show and whose middle is within `clip`.
+    pub(super) fn scissor_px(&self, clip: Rect) -> [u32; 4] {
+        let [left, top, right, bottom] = self.edges_px;
+        let [low, high] = [clip.min, clip.max].map(|corner| {
+            let [x, y] = self.px(corner).map(|at| (at - 0.5).ceil());
+            [x.clamp(left, right) as u32, y.clamp(top, bottom) as u32]
+        });
+        [low[0], low[1], high[0].saturating_sub(low[0]), high[1].saturating_sub(low[1])]
+    }
+}
+
+/// Tells a shader of a place, as its first bind group.
+#[derive(Debug)]
+pub(super) struct PlaceGroup {
+    pub(super) layout: wgpu::BindGroupLayout,
+    pub(super) group: wgpu::BindGroup,
+    buffer: wgpu::Buffer,
+}
+
+impl PlaceGroup {
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        let device = &gpu.device;
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("place"),
+            size: size_of::<Uniform>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("place"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::VERTEX,
+                ty: wgpu::BindingType::Buffer {
+                    ty: wgpu::BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("place"),
+            layout: &layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+        });
+        Self { layout, group, buffer }
+    }
+
+    pub(super) fn write(&self, gpu: &Gpu, place: &Place) {
+        let uniform = Uniform {
+            target_px: place.size_px.map(|side| side as f32),
+            origin_px: place.origin_px,
+            px_per_point: place.px_per_point,
+            padding: [0.0; 3],
+        };
+        gpu.queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniform));
+    }
+}
