@@ -66,7 +66,7 @@ pub(super) fn ends(lab: &Lab) -> Vec<LaneEnd> {
         let bodies = bodies.map(|((body, truth), named)| {
             let mut entry = Map::from_iter([("name".to_owned(), Value::from(&*named.name))]);
             for metric in METRICS {
-                let value = (metric.measure)(&*body.stepper, &*truth.stepper);
+                let value = (metric.measure)(body, truth);
                 entry.insert(metric.id.to_owned(), value.into());
             }
             entry

@@ -158,7 +158,7 @@ impl Trace {
                 continue;
             };
             for metric in METRICS {
-                let value = (metric.measure)(&*body.stepper, &*truth.bodies()[n].stepper);
+                let value = (metric.measure)(body, &truth.bodies()[n]);
                 if let Some(value) = value.filter(|value| value.is_finite()) {
                     self.row(number, method, n, metric.id, value, None)?;
                 }

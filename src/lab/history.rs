@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 
 use glam::DVec2;
 
+use super::lane::LaneBody;
 use super::metrics::METRICS;
-use crate::sim::Stepper;
 
 /// Samples kept: enough for every tick of 30 s at 60 Hz, and more than a plot has pixels.
 pub const CAPACITY: usize = 2048;
@@ -46,14 +46,14 @@ impl History {
     }
 
     /// Adds the present of `lane`, whose method has place `entry`, and forgets the oldest if full.
-    pub fn record(&mut self, t: f64, entry: usize, lane: &dyn Stepper, truth: &dyn Stepper) {
+    pub fn record(&mut self, t: f64, entry: usize, lane: &LaneBody, truth: &LaneBody) {
         if self.samples.len() == CAPACITY {
             self.samples.pop_front();
         }
-        let (q, v) = (lane.q()[0], lane.v()[0]);
+        let (q, v) = (lane.stepper.q()[0], lane.stepper.v()[0]);
         let metrics =
             std::array::from_fn(|i| (METRICS[i].measure)(lane, truth).unwrap_or(f64::NAN));
-        self.samples.push_back(Sample { t, q, v, at: lane.place(), entry, metrics });
+        self.samples.push_back(Sample { t, q, v, at: lane.stepper.place(), entry, metrics });
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::lane::LaneBody;
 use crate::sim::Stepper;
 use crate::sim::bodies::Coordinate;
 
@@ -19,7 +20,7 @@ pub enum Scale {
 pub enum Unit {
     /// The same on every body; empty for a pure number.
     Of(&'static str),
-    /// The unit of the body's coordinates. Where they differ, each counts in its own.
+    /// The unit of the body's first coordinate. Those in another unit are left out.
     Coordinate,
     /// That unit per second.
     Velocity,
@@ -58,7 +59,7 @@ pub struct Metric {
     /// How it is plotted.
     pub scale: Scale,
     /// The value for a body in a lane and the same body in truth, or `None` where it has no meaning.
-    pub measure: fn(lane: &dyn Stepper, truth: &dyn Stepper) -> Option<f64>,
+    pub measure: fn(lane: &LaneBody, truth: &LaneBody) -> Option<f64>,
 }
 
 /// Every metric, the one that lanes are ranked by first.
@@ -68,14 +69,24 @@ pub const METRICS: &[Metric] = &[
         name: "position error",
         unit: Unit::Coordinate,
         scale: Scale::Log,
-        measure: |lane, truth| Some(largest_difference(lane.q(), truth.q())),
+        measure: |lane, truth| {
+            Some(largest_difference(
+                like_first(lane, lane.stepper.q()),
+                like_first(truth, truth.stepper.q()),
+            ))
+        },
     },
     Metric {
         id: "velocity_error",
         name: "velocity error",
         unit: Unit::Velocity,
         scale: Scale::Log,
-        measure: |lane, truth| Some(largest_difference(lane.v(), truth.v())),
+        measure: |lane, truth| {
+            Some(largest_difference(
+                like_first(lane, lane.stepper.v()),
+                like_first(truth, truth.stepper.v()),
+            ))
+        },
     },
     Metric {
         id: "relative_speed_error",
@@ -83,7 +94,8 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Of("%"),
         scale: Scale::Linear,
         measure: |lane, truth| {
-            let (speed, exact) = (length(lane.v()), length(truth.v()));
+            let [speed, exact] =
+                [lane, truth].map(|body| length(like_first(body, body.stepper.v())));
             (exact > 0.0).then(|| 100.0 * (speed - exact) / exact)
         },
     },
@@ -92,21 +104,21 @@ pub const METRICS: &[Metric] = &[
         name: "energy drift",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
-        measure: energy_drift,
+        measure: |lane, truth| energy_drift(&*lane.stepper, &*truth.stepper),
     },
     Metric {
         id: "evaluations",
         name: "evaluations",
         unit: Unit::Of(""),
         scale: Scale::Linear,
-        measure: |lane, _| Some(lane.evaluations() as f64),
+        measure: |lane, _| Some(lane.stepper.evaluations() as f64),
     },
     Metric {
         id: "lost_time",
         name: "lost time",
         unit: Unit::Of("s"),
         scale: Scale::Linear,
-        measure: |lane, _| (lane.lost_time() > 0.0).then(|| lane.lost_time()),
+        measure: |lane, _| Some(lane.stepper.lost_time()).filter(|&lost| lost > 0.0),
     },
 ];
 
@@ -116,20 +128,35 @@ pub(super) fn energy_drift(lane: &dyn Stepper, truth: &dyn Stepper) -> Option<f6
     (exact != 0.0).then(|| 100.0 * (energy - exact) / exact.abs())
 }
 
-fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+/// Of one value for each of the body's coordinates, those of the coordinates in the first one's unit.
+fn like_first(body: &LaneBody, values: &[f64]) -> impl Iterator<Item = f64> {
+    let unit = body.coordinates[0].unit;
+    let pairs = body.coordinates.iter().zip(values);
+    pairs.filter(move |(coordinate, _)| coordinate.unit == unit).map(|(_, &value)| value)
 }
 
-fn length(v: &[f64]) -> f64 {
-    v.iter().fold(0.0, |length, &v| libm::hypot(length, v))
+fn largest_difference(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>) -> f64 {
+    a.zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+fn length(v: impl Iterator<Item = f64>) -> f64 {
+    v.fold(0.0, libm::hypot)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::Scene;
     use crate::sim::Solver;
-    use crate::sim::bodies::{Input, kind};
+    use crate::sim::bodies::{Input, Kind, kind};
     use crate::sim::integrators::method;
+
+    fn body(kind: &'static Kind, values: &[f64], solver: Solver) -> LaneBody {
+        let coordinates = (kind.coordinates)(values);
+        let stepper = (kind.build)(values, solver);
+        let [previous_q, previous_v] = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
+        LaneBody { kind, coordinates, stepper, previous_q, previous_v }
+    }
 
     fn metric(id: &str) -> &'static Metric {
         METRICS.iter().find(|metric| metric.id == id).unwrap()
@@ -139,36 +166,54 @@ mod tests {
     fn metrics_compare_a_lane_with_the_truth() {
         let spring = kind("spring").unwrap();
         let values = [2.0, 8.0, 0.0, 1.0, 0.0, 4.0];
-        let truth = (spring.build)(&values, Solver::Truth);
-        let mut lane = (spring.build)(&values, Solver::Truth);
-        let of = |id: &str, lane: &dyn Stepper| (metric(id).measure)(lane, &*truth);
-        assert_eq!(of("position_error", &*lane), Some(0.0));
-        assert_eq!(of("energy_drift", &*lane), Some(0.0));
-        assert_eq!(of("relative_speed_error", &*lane), None);
-        assert!(lane.input(0.0, Input::Kick(1.0)));
-        assert_eq!(of("velocity_error", &*lane), Some(2.0));
-        assert_eq!(of("energy_drift", &*lane), Some(100.0));
-        assert_eq!(of("evaluations", &*lane), Some(0.0));
-        assert_eq!(of("lost_time", &*lane), None);
+        let truth = body(spring, &values, Solver::Truth);
+        let mut lane = body(spring, &values, Solver::Truth);
+        let of = |id: &str, lane: &LaneBody| (metric(id).measure)(lane, &truth);
+        assert_eq!(of("position_error", &lane), Some(0.0));
+        assert_eq!(of("energy_drift", &lane), Some(0.0));
+        assert_eq!(of("relative_speed_error", &lane), None);
+        assert!(lane.stepper.input(0.0, Input::Kick(1.0)));
+        assert_eq!(of("velocity_error", &lane), Some(2.0));
+        assert_eq!(of("energy_drift", &lane), Some(100.0));
+        assert_eq!(of("evaluations", &lane), Some(0.0));
+        assert_eq!(of("lost_time", &lane), None);
+    }
+
+    #[test]
+    fn a_heading_is_no_distance() {
+        let helm = kind("helm").unwrap();
+        let scene = Scene::built_in("helm").unwrap();
+        let [truth, mut lane] =
+            [(); 2].map(|()| body(helm, &scene.bodies[0].values, Solver::Truth));
+        let moved = |by: &[f64], values: &[f64]| -> Vec<f64> {
+            values.iter().zip(by).map(|(value, by)| value + by).collect()
+        };
+        let q = moved(&[0.0, -0.25, 3.0], truth.stepper.q());
+        let v = moved(&[0.5, 0.0, 7.0], truth.stepper.v());
+        lane.stepper.set(0.0, &q, &v);
+        let of = |id: &str| (metric(id).measure)(&lane, &truth).unwrap();
+        assert!((of("position_error") - 0.25).abs() < 1e-12);
+        assert!((of("velocity_error") - 0.5).abs() < 1e-12);
     }
 
     #[test]
     fn time_lost_as_printed_stays_lost_through_resets_and_switches() {
         let ship = kind("ship").unwrap();
         let under = |id| Solver::Method(method(id).unwrap());
-        let truth = (ship.build)(&[2e4, 1e3, 1e4, 0.0, 0.0, 2e4], Solver::Truth);
-        let mut lane = truth.with_solver(under("adaptive-euler-as-printed"), 0.0);
-        let lost = |lane: &dyn Stepper| (metric("lost_time").measure)(lane, &*truth).unwrap();
-        lane.advance(0.0, 0.5, 1).unwrap();
-        let once = lost(&*lane);
+        let values = [2e4, 1e3, 1e4, 0.0, 0.0, 2e4];
+        let truth = body(ship, &values, Solver::Truth);
+        let mut lane = body(ship, &values, under("adaptive-euler-as-printed"));
+        let lost = |lane: &LaneBody| (metric("lost_time").measure)(lane, &truth).unwrap();
+        lane.stepper.advance(0.0, 0.5, 1).unwrap();
+        let once = lost(&lane);
         assert!(once > 0.1 && once < 0.5, "{once} s");
-        lane.reset();
-        assert_eq!(lost(&*lane), once);
+        lane.stepper.reset();
+        assert_eq!(lost(&lane), once);
         for solver in [under("rk4"), Solver::Truth, under("adaptive-euler-as-printed")] {
-            lane = lane.with_solver(solver, 0.5);
-            assert_eq!(lost(&*lane), once);
+            lane.stepper = lane.stepper.with_solver(solver, 0.5);
+            assert_eq!(lost(&lane), once);
         }
-        lane.advance(0.5, 0.5, 1).unwrap();
-        assert!(lost(&*lane) > once + 0.1);
+        lane.stepper.advance(0.5, 0.5, 1).unwrap();
+        assert!(lost(&lane) > once + 0.1);
     }
 }

@@ -127,7 +127,7 @@ impl Race {
         if self.tick.is_multiple_of(self.stride) {
             let t = self.t();
             for (truth, history) in self.truth.bodies().iter().zip(&mut self.truth_histories) {
-                history.record(t, 0, &*truth.stepper, &*truth.stepper);
+                history.record(t, 0, truth, truth);
             }
             for Entrant { entry, lane, histories } in &mut self.entrants {
                 if lane.halted().is_some() {
@@ -135,7 +135,7 @@ impl Race {
                 }
                 let bodies = lane.bodies().iter().zip(self.truth.bodies()).zip(histories);
                 for ((body, truth), history) in bodies {
-                    history.record(t, *entry, &*body.stepper, &*truth.stepper);
+                    history.record(t, *entry, body, truth);
                 }
             }
         }

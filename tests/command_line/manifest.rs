@@ -85,10 +85,7 @@ fn frames_and_marks_are_those_of_the_run() {
         for (n, body) in lane.bodies.iter().enumerate() {
             assert_eq!(body["name"], lab.scene().bodies[n].name);
             for metric in METRICS {
-                let value = (metric.measure)(
-                    &*entrant.lane.bodies()[n].stepper,
-                    &*exact.bodies()[n].stepper,
-                );
+                let value = (metric.measure)(&entrant.lane.bodies()[n], &exact.bodies()[n]);
                 assert_eq!(body[metric.id], Value::from(value), "{}", metric.id);
             }
         }

@@ -103,8 +103,8 @@ impl<'a> Row<'a> {
     /// A metric of the displayed body, where it flies.
     fn measure(&self, metric: &Metric) -> Option<f64> {
         let body = self.lab.display().body;
-        let lane = &*self.entrant?.lane.bodies()[body].stepper;
-        (metric.measure)(lane, &*self.lab.race().truth().bodies()[body].stepper)
+        let lane = &self.entrant?.lane.bodies()[body];
+        (metric.measure)(lane, &self.lab.race().truth().bodies()[body])
     }
 }
 
