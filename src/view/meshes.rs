@@ -10,8 +10,7 @@ use egui::{ClippedPrimitive, ImageData, TextureId};
 
 use super::gpu::Gpu;
 use super::lines::LineMesh;
-use super::place::{Place, PlaceGroup};
-use super::stage::pipeline;
+use super::place::{Place, PlaceGroup, pipeline};
 use super::strips::{Strip, Strips};
 use super::triangles::Triangles;
 

@@ -91,3 +91,44 @@ impl PlaceGroup {
         gpu.queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(&uniform));
     }
 }
+
+/// A pipeline of triangles with `shaders/place.wgsl`, named by label, shader and fragment function, the
+/// colours of which are premultiplied.
+pub(super) fn pipeline(
+    gpu: &Gpu,
+    layout: &wgpu::PipelineLayout,
+    format: wgpu::TextureFormat,
+    [label, shader, fragment]: [&str; 3],
+    vertex: wgpu::VertexBufferLayout<'_>,
+    blend: Option<wgpu::BlendState>,
+) -> wgpu::RenderPipeline {
+    let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(shader.into()),
+    });
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[Some(vertex)],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: Some(fragment),
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format,
+                blend,
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -3,9 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 
 use super::gpu::Gpu;
-use super::place::Place;
+use super::place::{Place, pipeline};
 use super::quads::Quads;
-use super::stage::pipeline;
 use crate::lab::picture::Sea;
 
 const SHADER: &str =
@@ -14,6 +13,7 @@ const SHADER: &str =
 /// Red, green, blue and opacity of the lines of a grid, and of the border of a cell.
 const GRID: [f32; 4] = [0.45, 0.65, 0.85, 0.085];
 const BORDER: [f32; 4] = [0.40, 0.58, 0.76, 0.22];
+/// The radius of a cell's corners.
 const CORNER_POINTS: f32 = 5.0;
 /// Lines closer than the first, in pixels, are a grey wash, so they are left out; from the second on they
 /// are full.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::gpu::Gpu;
 use super::lines::{LineMesh, LineVertex};
-use super::stage::pipeline;
+use super::place::pipeline;
 use super::triangles::Triangles;
 
 const SHADER: &str =

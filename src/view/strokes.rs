@@ -5,9 +5,8 @@ use std::ops::Range;
 use bytemuck::{Pod, Zeroable};
 
 use super::gpu::Gpu;
-use super::place::Place;
+use super::place::{Place, pipeline};
 use super::quads::Quads;
-use super::stage::pipeline;
 use crate::lab::picture::{Cap, Stroke};
 
 const SHADER: &str =
