@@ -24,10 +24,8 @@
 //! - `marks`: the state of each lane at every `mark_every`th `tick` and at the end: for each of the
 //!   `lanes` its `hash` and, body by body, `q` and `v`.
 //!
-//! A lane's `hash` is [`Race::lane_hashes`](crate::lab::Race::lane_hashes). The other hashes are 64
-//! bits ([`fingerprint`]), as FNV-1a but over little-endian words of 8 bytes, the last one filled up with zeros, each
-//! followed by `hash ^= hash >> 32`; the number of bytes is the first word. All are hexadecimal. There
-//! is no seed, for nothing in a run is random.
+//! A lane's `hash` is [`Race::lane_hashes`](crate::lab::Race::lane_hashes). The other hashes are XXH3's
+//! 64 bits ([`fingerprint`]). All are hexadecimal. There is no seed, for nothing in a run is random.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};

@@ -3,7 +3,7 @@
 //! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
 //! arrow in its colour says so.
 
-use egui::{ComboBox, Label, RichText, Ui};
+use egui::{ComboBox, FontId, Label, RichText, Ui};
 use egui_plot::PlotBounds;
 
 use super::{QUIET, advice, colour};
@@ -20,10 +20,14 @@ const FLOOR: f64 = -17.0;
 const ROOM_FOR_TABS: f32 = 430.0;
 /// And from this width on all instruments fit in one row.
 const ROOM_FOR_ONE_ROW: f32 = 620.0;
+/// The height of an instrument's name, in points.
+const TAB_TEXT: f32 = 11.0;
 /// From this height on, in points, both plots can be read; below, the stage has to show the value.
 const ROOM_FOR_BOTH: f32 = 200.0;
-/// The width of the truth's curve, in points.
-const TRUTH_CURVE: f32 = 1.4;
+/// The width in points of the truth's curve, and of a lane's that it is drawn over: a lane that keeps to
+/// the truth is seen on both sides of it.
+const TRUTH_CURVE: f32 = 1.0;
+const UNDER_TRUTH: f32 = 2.4;
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
 const PHASE_SAMPLES: usize = 360;
 
@@ -64,7 +68,9 @@ fn body_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 fn instrument_choice(ui: &mut Ui, lab: &Lab, room: f32, commands: &mut Vec<Command>) {
     let option = |instrument: Instrument| (Command::Instrument(instrument), instrument.name());
     let options: Vec<_> = Instrument::all().map(option).collect();
-    ui.spacing_mut().button_padding.x = 3.0;
+    // Small enough for all of them to stand in one row of a window as it opens.
+    ui.spacing_mut().button_padding.x = 2.5;
+    ui.style_mut().override_font_id = Some(FontId::proportional(TAB_TEXT));
     let chosen = Command::Instrument(lab.display().instrument);
     choice(ui, "instrument", &options, chosen, room, commands);
 }
@@ -96,12 +102,17 @@ fn choice(
 }
 
 /// One curve for each lane, of what `y` makes of its samples.
-fn curves(lab: &Lab, x: impl Fn(&Sample) -> f64, y: impl Fn(&Sample) -> f64) -> Vec<Curve> {
+fn curves(
+    lab: &Lab,
+    width: f32,
+    x: impl Fn(&Sample) -> f64,
+    y: impl Fn(&Sample) -> f64,
+) -> Vec<Curve> {
     let curve = |(entry, history): (usize, &History)| {
         let (rgba, dash) = palette::style(lab.entries()[entry].method);
         let points = history.samples().map(|s| [x(s), y(s)]);
         let points = points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect();
-        Curve { colour: colour(rgba), width: CURVE, dash, dots: 0.0, points }
+        Curve { colour: colour(rgba), width, dash, dots: 0.0, points }
     };
     lab.plotted().map(curve).collect()
 }
@@ -118,7 +129,7 @@ fn truth(lab: &Lab) -> &History {
 
 fn value(ui: &mut Ui, lab: &Lab, height: f32) {
     let exact: Vec<[f64; 2]> = truth(lab).samples().map(|s| [s.t, s.q]).collect();
-    let mut all = curves(lab, |s| s.t, |s| s.q);
+    let mut all = curves(lab, UNDER_TRUTH, |s| s.t, |s| s.q);
     let y = healthy_range(1, &exact, &all);
     all.push(white(exact));
     draw(ui, plot("value", height), bounds(lab, y), &all);
@@ -134,7 +145,7 @@ fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
                 0.0 => FLOOR,
                 value => libm::log10(value).max(FLOOR),
             };
-            let lanes = curves(lab, |s| s.t, log);
+            let lanes = curves(lab, CURVE, |s| s.t, log);
             let y = log_range(lab, &lanes);
             let plot = plot("log metric", height).y_axis_formatter(|mark, _| {
                 let exponent = mark.value.round();
@@ -146,7 +157,7 @@ fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
             draw(ui, plot.y_grid_spacer(decades), bounds(lab, y), &lanes);
         }
         Scale::Linear => {
-            let lanes = curves(lab, |s| s.t, |s| s.metrics[index]);
+            let lanes = curves(lab, CURVE, |s| s.t, |s| s.metrics[index]);
             let y = spread(&lanes, 300.0);
             let plot = plot("metric", height);
             let plot =
@@ -160,7 +171,7 @@ fn phase(ui: &mut Ui, lab: &Lab, height: f32) {
     let latest =
         |points: Vec<[f64; 2]>| points[points.len().saturating_sub(PHASE_SAMPLES)..].to_vec();
     let exact = latest(truth(lab).samples().map(|s| [s.q, s.v]).collect());
-    let mut all = curves(lab, |s| s.q, |s| s.v);
+    let mut all = curves(lab, UNDER_TRUTH, |s| s.q, |s| s.v);
     for lane in &mut all {
         lane.points = latest(std::mem::take(&mut lane.points));
     }
