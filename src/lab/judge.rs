@@ -29,6 +29,10 @@ const ASTRAY: f64 = 4.0;
 /// energy.
 const STATES: u32 = 32;
 
+/// The most steps of a stretch over which the energy of a body is followed: about a second's work. The
+/// longest horizon at the highest rate takes fewer; only many substeps make the stretch shorter.
+const MOST_FOLLOWED: u64 = 1_000_000;
+
 /// A half range this small against the largest value is rounding: the body keeps that value.
 const KEEPS_STILL: f64 = 1e-9;
 
@@ -145,6 +149,7 @@ impl Judge {
         }
         if let Some(scale) = self.energies[place] {
             let ticks = (self.horizon_s / h).round() as u64;
+            let ticks = ticks.min(MOST_FOLLOWED / u64::from(spec.substeps)).max(1);
             let growth = growth_of_energy(&mut *lane, tick(0.0), ticks, scale);
             let growth_per_s = growth.unwrap_or(f64::INFINITY);
             let loss_per_s = (-growth_per_s).max(0.0);
