@@ -12,7 +12,7 @@ use std::thread;
 use super::logbook::Logbook;
 use super::voyage::Schedule;
 use crate::lab::Lab;
-use crate::view::{Artist, ReadbackError};
+use crate::view::{Artist, Panels, ReadbackError};
 
 /// More gain nothing on a software adapter, and cost memory.
 const MOST_IN_FLIGHT: usize = 2;
@@ -87,6 +87,7 @@ impl Run<'_> {
             let more = next < schedule.frames && !interrupted.load(Ordering::Relaxed);
             if more {
                 schedule.advance(lab, next, |lab| logbook.note(lab));
+                know_what_is_shown(lab, artist);
                 artist.submit(lab)?;
                 moments.push_back((lab.race().tick(), lab.clock().alpha_fraction()));
                 next += 1;
@@ -101,6 +102,14 @@ impl Run<'_> {
                 }
             }
         }
+    }
+}
+
+/// Has the lab find out what the artist's panels will show of it. In a window verdicts come as they are
+/// found; here there is time for all before a frame.
+pub(super) fn know_what_is_shown(lab: &mut Lab, artist: &Artist) {
+    if artist.panels() == Panels::Shown {
+        lab.think();
     }
 }
 
@@ -124,6 +133,7 @@ mod tests {
     fn race() -> Lab {
         let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
         lab.apply(Command::ToggleRace);
+        lab.think();
         lab
     }
 

@@ -40,8 +40,6 @@ impl Recording {
     pub(super) fn lab(&self, experiment: &Experiment) -> Lab {
         let mut lab = experiment.lab();
         lab.set_motion(self.motion);
-        // In a window verdicts come as they are found; here there is time for all before a frame.
-        lab.think();
         lab
     }
 

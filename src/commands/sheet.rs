@@ -5,6 +5,7 @@ use std::io::Write;
 use super::capture::CaptureError;
 use super::experiment::{Experiment, Lineup};
 use super::outlet::Outlet;
+use super::pipeline::know_what_is_shown;
 use super::recording::{Recording, progress};
 use super::tell;
 use crate::lab::LaneSpec;
@@ -51,6 +52,7 @@ pub(super) fn draw(
         let mut lab = recording.lab(&alone);
         for column in 0..columns {
             recording.schedule.advance(&mut lab, column, |_| ());
+            know_what_is_shown(&mut lab, &artist);
             artist.draw(&lab, &mut cell)?;
             let top = row * height as usize;
             for (y, line) in cell.chunks_exact(row_bytes).enumerate() {

@@ -34,7 +34,6 @@ impl Schedule {
             assert_eq!(due.dropped, 0, "a stretch is no longer than the clock's longest frame");
             left -= stretch;
         }
-        lab.think();
     }
 }
 

@@ -29,6 +29,11 @@ impl Artist {
         Self { renderer: self.renderer.with_panels(shown), ..self }
     }
 
+    /// Whether panels are drawn.
+    pub fn panels(&self) -> Panels {
+        self.renderer.panels()
+    }
+
     /// Name, backend and driver of the adapter that draws.
     pub fn adapter(&self) -> &wgpu::AdapterInfo {
         &self.gpu.info

@@ -64,6 +64,11 @@ impl FrameRenderer {
         Self { shown, ..self }
     }
 
+    /// Whether panels are shown.
+    pub fn panels(&self) -> Panels {
+        self.shown
+    }
+
     /// The context that panels live in: for style, and for translating a window's events.
     pub fn context(&self) -> &egui::Context {
         &self.context
