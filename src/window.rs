@@ -16,15 +16,15 @@ use winit::window::{Fullscreen, Window, WindowId};
 use crate::lab::{Ask, Command, Findings, Key, Lab, command_for};
 use crate::view::GpuError;
 
-mod adviser;
 mod canvas;
 mod keys;
 mod pace;
 mod screenshot;
+mod thinking;
 
-use adviser::Adviser;
 use canvas::{Canvas, Drawn};
 use pace::Meter;
+use thinking::ThinkingThread;
 
 /// How long the simulation waits for a frame: well inside the clock's longest, so that a window that is
 /// hidden, or that the window system asks no frames of, drops no ticks.
@@ -59,7 +59,7 @@ pub fn run(lab: Lab, seconds: Option<f64>) -> Result<(), WindowError> {
         .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
     let proxy = event_loop.create_proxy();
     let mut app = App {
-        adviser: Adviser::new(lab.question(), proxy.clone()),
+        thinking: ThinkingThread::new(lab.question(), proxy.clone()),
         lab,
         seconds,
         proxy,
@@ -105,7 +105,7 @@ impl From<accesskit_winit::Event> for Event {
 
 struct App {
     lab: Lab,
-    adviser: Adviser,
+    thinking: ThinkingThread,
     /// When to end, in simulated seconds.
     seconds: Option<f64>,
     proxy: EventLoopProxy<Event>,
@@ -180,7 +180,7 @@ impl App {
                 None => {}
             }
         }
-        self.adviser.ask(self.lab.question());
+        self.thinking.ask(self.lab.question());
         let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
         self.last_frame = self.lab.running().then_some(now);
         self.lab.advance(i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX));

@@ -9,12 +9,12 @@ use super::Event;
 use crate::lab::{Question, Thinker};
 
 /// The way to the thread that thinks. It ends when this is dropped.
-pub(super) struct Adviser {
+pub(super) struct ThinkingThread {
     questions: Sender<Question>,
     asked: Question,
 }
 
-impl Adviser {
+impl ThinkingThread {
     /// Begins to answer `question`: whatever is found comes as an event.
     pub(super) fn new(question: Question, events: EventLoopProxy<Event>) -> Self {
         let (questions, asked) = channel();
