@@ -12,10 +12,11 @@
 //! - [`lab`] is the experiment: a [`Scene`](lab::Scene) is read from text, a [`Clock`](lab::Clock)
 //!   turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the truth, and a
 //!   [`Picture`](lab::picture::Picture) says what to draw. A lane is one method on its own copy of the
-//!   scene's bodies; a [`Judge`](lab::Judge) says how far one strays. The truth is a lane whose solver is
-//!   the exact flow, or where a body has none a [reference](sim::REFERENCE_ACCURACY). The layer knows no
-//!   GPU and no wall clock: time comes in as integers, text as `&str`.
-//! - `view` is pixels: a graphics device, two pipelines for the stage, panels in egui, and
+//!   scene's bodies; a [`Judge`](lab::Judge) says how far one strays, and a [`Thinker`](lab::Thinker) has it
+//!   do so beside the race. The truth is a lane whose solver is the exact flow, or where a body has none
+//!   a [reference](sim::REFERENCE_ACCURACY). The layer knows no GPU and no wall clock: time comes in as
+//!   integers, text as `&str`.
+//! - `view` is pixels: a graphics device, seas, ribbons and strokes on the stage, panels in egui, and
 //!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
 //!   and differ only in where time comes from and where the texture goes.
 //! - `window` and `commands` are the drivers: they alone touch files and real time. A capture's frames
