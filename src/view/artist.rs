@@ -61,8 +61,8 @@ impl Artist {
         let Self { gpu, renderer, canvas, readback, scale } = self;
         let input = egui::RawInput { time: Some(lab.race().t()), ..Default::default() };
         // Nobody is there to click, so there are no commands to carry out.
-        let _ = renderer.draw(gpu, &canvas.view, canvas.size_px, *scale, input, lab);
-        readback.begin(gpu, &canvas.texture)
+        let (_, output) = renderer.draw(gpu, &canvas.view, canvas.size_px, *scale, input, lab);
+        readback.begin(gpu, output.drawing, &canvas.texture)
     }
 
     /// How many frames are submitted and not collected.
@@ -91,7 +91,7 @@ impl Artist {
         rgba: &mut Vec<u8>,
     ) -> Result<(), ReadbackError> {
         let Self { gpu, renderer, canvas, readback, scale } = self;
-        renderer.draw_figure(gpu, &canvas.view, canvas.size_px, *scale, figure);
-        readback.read(gpu, &canvas.texture, rgba)
+        let drawing = renderer.draw_figure(gpu, &canvas.view, canvas.size_px, *scale, figure);
+        readback.read(gpu, drawing, &canvas.texture, rgba)
     }
 }

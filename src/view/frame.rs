@@ -27,9 +27,11 @@ pub(super) struct Stage {
     pub(super) picture: Picture,
 }
 
-/// What egui asks of whoever shows the frame.
-#[derive(Clone)]
+/// What whoever shows the frame has to do for it.
+#[must_use]
 pub struct FrameOutput {
+    /// What draws it, to be submitted; `None` on a lost device.
+    pub drawing: Option<wgpu::CommandBuffer>,
     /// Cursor shape, clipboard, accessibility tree.
     pub platform: egui::PlatformOutput,
     /// When the next frame is due on egui's account; [`Duration::MAX`] if nothing changes.
@@ -74,8 +76,9 @@ impl FrameRenderer {
         &self.context
     }
 
-    /// Draws the lab on all of `target`, which has `size_px` pixels, `scale` of them to a point.
-    /// Returns what the panels were asked for. The size fields of `input` are filled in here.
+    /// Makes the commands that draw the lab on all of `target`, which has `size_px` pixels, `scale` of
+    /// them to a point. Returns what the panels were asked for too. The size fields of `input` are filled
+    /// in here.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -102,7 +105,8 @@ impl FrameRenderer {
         (commands, output)
     }
 
-    /// Draws a diagram on all of `target`, which has `size_px` pixels, `scale` of them to a point.
+    /// Makes the commands that draw a diagram on all of `target`, which has `size_px` pixels, `scale` of
+    /// them to a point; `None` on a lost device.
     pub fn draw_figure(
         &mut self,
         gpu: &Gpu,
@@ -110,17 +114,19 @@ impl FrameRenderer {
         size_px: [u32; 2],
         scale: f32,
         figure: &Figure,
-    ) {
-        // Once for the axes to learn how much room their labels take.
-        for _ in 0..2 {
+    ) -> Option<wgpu::CommandBuffer> {
+        let mut draw = || {
             self.draw_with(gpu, target, size_px, scale, egui::RawInput::default(), |ui| {
                 figure::show(ui, figure);
                 None
-            });
-        }
+            })
+        };
+        // Once for the axes to learn how much room their labels take.
+        let _ = draw();
+        draw().drawing
     }
 
-    /// Draws panels and a stage.
+    /// Makes the commands that draw panels and a stage.
     ///
     /// `show` lays out the panels and says what is left for the stage. It may be called twice for a
     /// frame, when a widget first has to learn its size; events come with the first call only, so a
@@ -144,12 +150,12 @@ impl FrameRenderer {
                 picture.labels.iter().for_each(|label| write(&painter, *rect, label));
             }
         });
-        self.paint(gpu, target, size_px, &mut output, stage.as_ref());
+        let drawing = self.paint(gpu, target, size_px, &mut output, stage.as_ref());
         let repaint_delay = output
             .viewport_output
             .get(&egui::ViewportId::ROOT)
             .map_or(Duration::MAX, |viewport| viewport.repaint_delay);
-        FrameOutput { platform: output.platform_output, repaint_delay }
+        FrameOutput { drawing, platform: output.platform_output, repaint_delay }
     }
 
     fn sized(
@@ -176,11 +182,11 @@ impl FrameRenderer {
         size_px: [u32; 2],
         output: &mut egui::FullOutput,
         stage: Option<&Stage>,
-    ) {
+    ) -> Option<wgpu::CommandBuffer> {
         // egui warns of textures that nobody took.
         if gpu.is_lost() {
             output.textures_delta.clear();
-            return;
+            return None;
         }
         let px_per_point = output.pixels_per_point;
         for (id, deltas) in output.textures_delta.set.drain() {
@@ -211,10 +217,10 @@ impl FrameRenderer {
             }
             self.panels.paint(&mut pass);
         }
-        gpu.queue.submit([encoder.finish()]);
         for id in output.textures_delta.free.drain() {
             self.panels.free_texture(id);
         }
+        Some(encoder.finish())
     }
 }
 
@@ -269,8 +275,9 @@ mod tests {
         let target = Offscreen::new(gpu, size_px).unwrap();
         let mut renderer = FrameRenderer::new(gpu, Offscreen::FORMAT);
         let input = egui::RawInput::default();
-        renderer.draw_with(gpu, &target.view, size_px, scale, input, |ui| show(ui, picture));
-        read(gpu, &target)
+        let output =
+            renderer.draw_with(gpu, &target.view, size_px, scale, input, |ui| show(ui, picture));
+        read(gpu, output.drawing, &target)
     }
 
     #[test]
@@ -330,7 +337,8 @@ mod tests {
             dots: 0.0,
             points: Vec::new(),
         };
-        renderer.draw_with(&gpu, &target.view, [128, 64], 1.0, egui::RawInput::default(), |ui| {
+        let input = egui::RawInput::default();
+        let output = renderer.draw_with(&gpu, &target.view, [128, 64], 1.0, input, |ui| {
             let clip = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(100.0, 64.0));
             let painter = ui.painter().with_clip_rect(clip);
             for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
@@ -339,7 +347,7 @@ mod tests {
             }
             None
         });
-        let pixels = read(&gpu, &target);
+        let pixels = read(&gpu, output.drawing, &target);
         for x in 10..128 {
             let [dashed, solid] = [20, 40].map(|y| pixels.at(x, y)[0]);
             assert_eq!(solid > 250, x < 100, "{x}");
@@ -369,8 +377,10 @@ mod tests {
         gpu.device.destroy();
         let picture = red_everywhere();
         let input = egui::RawInput::default();
-        renderer.draw_with(&gpu, &target.view, [64, 64], 1.0, input, |ui| show(ui, &picture));
+        let output =
+            renderer.draw_with(&gpu, &target.view, [64, 64], 1.0, input, |ui| show(ui, &picture));
         assert!(gpu.is_lost());
+        assert!(output.drawing.is_none());
 
         let gpu = Gpu::headless(AdapterPreference::CpuOnly).unwrap();
         assert_eq!(draw(&gpu, [64, 64], 1.0, &picture).at(60, 60), [255, 0, 0, 255]);

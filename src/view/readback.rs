@@ -52,19 +52,20 @@ struct Pending {
 }
 
 impl Readback {
-    /// Waits for all work submitted so far and replaces `rows` by the texture's pixels: red, green,
-    /// blue, alpha, top row first, no padding. The texture needs `COPY_SRC`. Nothing else may be
-    /// pending.
+    /// Submits `drawing`, waits for all work submitted so far and replaces `rows` by the texture's pixels:
+    /// red, green, blue, alpha, top row first, no padding. The texture needs `COPY_SRC`. Nothing else may
+    /// be pending.
     ///
     /// # Errors
     /// A [`ReadbackError`]; `rows` is then unspecified.
     pub fn read(
         &mut self,
         gpu: &Gpu,
+        drawing: Option<wgpu::CommandBuffer>,
         texture: &wgpu::Texture,
         rows: &mut Vec<u8>,
     ) -> Result<(), ReadbackError> {
-        self.begin(gpu, texture)?;
+        self.begin(gpu, drawing, texture)?;
         self.finish(gpu, rows)
     }
 
@@ -73,12 +74,17 @@ impl Readback {
         self.pending.len()
     }
 
-    /// Asks for the texture as it is once all work submitted so far is done. The texture may be drawn
-    /// on again at once.
+    /// Submits `drawing` and asks for the texture as it is then. The texture may be drawn on again at
+    /// once.
     ///
     /// # Errors
     /// [`ReadbackError::Format`] or [`ReadbackError::DeviceLost`].
-    pub fn begin(&mut self, gpu: &Gpu, texture: &wgpu::Texture) -> Result<(), ReadbackError> {
+    pub fn begin(
+        &mut self,
+        gpu: &Gpu,
+        drawing: Option<wgpu::CommandBuffer>,
+        texture: &wgpu::Texture,
+    ) -> Result<(), ReadbackError> {
         let format = texture.format();
         let blue_first = match format {
             wgpu::TextureFormat::Rgba8Unorm => false,
@@ -106,7 +112,8 @@ impl Readback {
             },
             texture.size(),
         );
-        let submission = gpu.queue.submit([encoder.finish()]);
+        // Together: a software driver holds whoever submits until it is done with the submission before.
+        let submission = gpu.queue.submit(drawing.into_iter().chain([encoder.finish()]));
         let (sender, mapped) = mpsc::channel();
         buffer.map_async(wgpu::MapMode::Read, .., move |result| {
             // The receiver is gone only when nobody waits any more.
@@ -222,7 +229,7 @@ mod tests {
             let sent: Vec<u8> = (0..4 * width * height).map(|i| (i * 7 % 251) as u8).collect();
             let format = wgpu::TextureFormat::Rgba8Unorm;
             let texture = uploaded(&gpu, format, [width, height], &sent);
-            readback.read(&gpu, &texture, &mut rows).unwrap();
+            readback.read(&gpu, None, &texture, &mut rows).unwrap();
             assert_eq!(rows, sent, "{width}x{height}");
         }
     }
@@ -234,7 +241,7 @@ mod tests {
         let mut readback = Readback::default();
         let format = wgpu::TextureFormat::Rgba8Unorm;
         for shade in [1, 2, 3] {
-            readback.begin(&gpu, &uploaded(&gpu, format, [1, 1], &[shade; 4])).unwrap();
+            readback.begin(&gpu, None, &uploaded(&gpu, format, [1, 1], &[shade; 4])).unwrap();
         }
         let mut rows = Vec::new();
         for shade in [1, 2, 3] {
@@ -250,7 +257,7 @@ mod tests {
         let format = wgpu::TextureFormat::Bgra8Unorm;
         let texture = uploaded(&gpu, format, [1, 1], &[10, 20, 30, 40]);
         let mut rows = Vec::new();
-        Readback::default().read(&gpu, &texture, &mut rows).unwrap();
+        Readback::default().read(&gpu, None, &texture, &mut rows).unwrap();
         assert_eq!(rows, [30, 20, 10, 40]);
     }
 
@@ -260,7 +267,7 @@ mod tests {
         let format = wgpu::TextureFormat::Rgba8Unorm;
         let texture = uploaded(&gpu, format, [1, 1], &[0; 4]);
         gpu.device.destroy();
-        let error = Readback::default().read(&gpu, &texture, &mut Vec::new()).unwrap_err();
+        let error = Readback::default().read(&gpu, None, &texture, &mut Vec::new()).unwrap_err();
         assert!(matches!(error, ReadbackError::DeviceLost), "{error}");
     }
 }

@@ -55,13 +55,14 @@ pub(super) fn draw_picture(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &P
         });
         renderer.paint(&mut pass);
     }
-    gpu.queue.submit([encoder.finish()]);
-    read(gpu, &target)
+    read(gpu, Some(encoder.finish()), &target)
 }
 
-pub(super) fn read(gpu: &Gpu, target: &Offscreen) -> Pixels {
+/// What `drawing` makes of the target.
+pub(super) fn read(gpu: &Gpu, drawing: Option<wgpu::CommandBuffer>, target: &Offscreen) -> Pixels {
     let mut rows = Vec::new();
-    Readback::default().read(gpu, &target.texture, &mut rows).expect("a fresh target can be read");
+    let read = Readback::default().read(gpu, drawing, &target.texture, &mut rows);
+    read.expect("a fresh target can be read");
     Pixels { size_px: target.size_px, rows }
 }
 

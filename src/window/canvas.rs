@@ -94,6 +94,9 @@ impl Canvas {
         let input = self.egui.take_egui_input(&self.window);
         let scale = self.window.scale_factor() as f32;
         let (commands, output) = self.renderer.draw(&self.gpu, &view, size_px, scale, input, lab);
+        if let Some(drawing) = output.drawing {
+            self.gpu.queue.submit([drawing]);
+        }
         self.egui.handle_platform_output(&self.window, output.platform);
         self.window.pre_present_notify();
         self.gpu.queue.present(texture);
