@@ -6,7 +6,7 @@ use super::capture::CaptureError;
 use super::experiment::Experiment;
 use super::logbook::Logbook;
 use super::outlet::Outlet;
-use super::pipeline::{Run, Stop};
+use super::pipeline::{Drawn, Run, Stop};
 use super::recording::{Recording, closing_line, progress, watch_for_interrupt};
 use super::tell;
 use super::voyage::Schedule;
@@ -53,8 +53,9 @@ pub(super) fn record(
     };
     let written =
         Movie::begin(format, &mut outlet, &recording).map_err(Stop::Taken).and_then(|mut movie| {
-            let done = run.draw_all(|drawn| {
-                movie.push(&drawn.rgba)?;
+            let make = |drawn: &Drawn| picture(format, &recording, drawn);
+            let done = run.draw_all(make, |drawn, picture| {
+                movie.push(&drawn.rgba, picture)?;
                 progress.inc(1);
                 Ok(())
             })?;
@@ -86,7 +87,7 @@ pub(super) fn record(
 /// A stream of frames being encoded.
 enum Movie<'a> {
     Apng(Box<png::Writer<&'a mut Outlet>>),
-    Gif { encoder: gif::Encoder<&'a mut Outlet>, size_px: [u16; 2], fps: u32, frame: u32 },
+    Gif(gif::Encoder<&'a mut Outlet>),
     Y4m { out: &'a mut Outlet, planes: Vec<u8> },
     Rgba(&'a mut Outlet),
 }
@@ -99,7 +100,6 @@ impl<'a> Movie<'a> {
     ) -> Result<Self, io::Error> {
         let [width, height] = recording.size_px;
         let Schedule { frames, fps } = recording.schedule;
-        let small = |value: u32| u16::try_from(value).expect("the command line's limits fit");
         Ok(match format {
             MovieFormat::Apng => {
                 let mut encoder = png::Encoder::new(out, width, height);
@@ -112,11 +112,10 @@ impl<'a> Movie<'a> {
                 Movie::Apng(Box::new(encoder.write_header().map_err(of_png)?))
             }
             MovieFormat::Gif => {
-                let size_px = [small(width), small(height)];
                 let mut encoder =
-                    gif::Encoder::new(out, size_px[0], size_px[1], &[]).map_err(of_gif)?;
+                    gif::Encoder::new(out, small(width), small(height), &[]).map_err(of_gif)?;
                 encoder.set_repeat(gif::Repeat::Infinite).map_err(of_gif)?;
-                Movie::Gif { encoder, size_px, fps, frame: 0 }
+                Movie::Gif(encoder)
             }
             MovieFormat::Y4m => {
                 writeln!(
@@ -129,18 +128,12 @@ impl<'a> Movie<'a> {
         })
     }
 
-    fn push(&mut self, rgba: &[u8]) -> Result<(), io::Error> {
+    fn push(&mut self, rgba: &[u8], picture: Option<gif::Frame<'_>>) -> Result<(), io::Error> {
         match self {
             Movie::Apng(writer) => writer.write_image_data(rgba).map_err(of_png),
-            Movie::Gif { encoder, size_px: [width, height], fps, frame } => {
-                let mut pixels = rgba.to_vec();
-                let mut picture =
-                    gif::Frame::from_rgba_speed(*width, *height, &mut pixels, GIF_SPEED);
-                // In hundredths of a second, the rest carried on.
-                let ends = |frame: u32| u64::from(frame) * 100 / u64::from(*fps);
-                picture.delay = (ends(*frame + 1) - ends(*frame)) as u16;
-                *frame += 1;
-                encoder.write_frame(&picture).map_err(of_gif)
+            Movie::Gif(encoder) => {
+                let picture = picture.expect("a GIF's frames are made pictures of");
+                encoder.write_lzw_pre_encoded_frame(&picture).map_err(of_gif)
             }
             Movie::Y4m { out, planes } => {
                 to_yuv(rgba, planes);
@@ -154,10 +147,34 @@ impl<'a> Movie<'a> {
     fn end(self) -> Result<(), io::Error> {
         match self {
             Movie::Apng(writer) => writer.finish().map_err(of_png),
-            Movie::Gif { encoder, .. } => encoder.into_inner().map(drop).map_err(of_gif),
+            Movie::Gif(encoder) => encoder.into_inner().map(drop).map_err(of_gif),
             Movie::Y4m { .. } | Movie::Rgba(_) => Ok(()),
         }
     }
+}
+
+/// The frame in 256 colours, packed, for a GIF; other formats take it as it is.
+fn picture(
+    format: MovieFormat,
+    recording: &Recording,
+    drawn: &Drawn,
+) -> Option<gif::Frame<'static>> {
+    if format != MovieFormat::Gif {
+        return None;
+    }
+    let ([width, height], fps) = (recording.size_px, recording.schedule.fps);
+    let mut rgba = drawn.rgba.clone();
+    let mut picture =
+        gif::Frame::from_rgba_speed(small(width), small(height), &mut rgba, GIF_SPEED);
+    // In hundredths of a second, the rest carried on.
+    let ends = |frame: u32| u64::from(frame) * 100 / u64::from(fps);
+    picture.delay = (ends(drawn.frame + 1) - ends(drawn.frame)) as u16;
+    picture.make_lzw_pre_encoded();
+    Some(picture)
+}
+
+fn small(value: u32) -> u16 {
+    u16::try_from(value).expect("the command line's limits fit")
 }
 
 fn of_png(error: png::EncodingError) -> io::Error {

@@ -1,13 +1,14 @@
-//! Frames, drawn on this thread and taken on another: while one is encoded, the next is drawn and the
-//! one after it is simulated.
+//! Frames, drawn on this thread and encoded and taken on others: meanwhile the next is drawn and the one
+//! after it is simulated.
 //!
-//! At most two frames are in flight on the device, one waits and one is being taken, whatever the
-//! length of the run; they are taken in order.
+//! At most two frames are in flight on the device, one waits and each worker has one, whatever the length
+//! of the run; they are taken in order.
 
 use std::collections::VecDeque;
+use std::num::NonZero;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc;
-use std::thread;
+use std::sync::{Arc, Mutex, mpsc};
+use std::{mem, panic, thread};
 
 use super::logbook::Logbook;
 use super::voyage::Schedule;
@@ -17,8 +18,13 @@ use crate::view::{Artist, Panels, ReadbackError};
 /// More gain nothing on a software adapter, and cost memory.
 const MOST_IN_FLIGHT: usize = 2;
 
+/// Threads that work on frames: more than these no device keeps busy, and each holds a frame.
+const MOST_WORKERS: usize = 4;
+
 /// A frame as it comes from the device.
 pub(super) struct Drawn {
+    /// Counted from 0.
+    pub(super) frame: u32,
     /// The tick reached.
     pub(super) tick: u64,
     /// The part of the next tick that is drawn, as an exact fraction.
@@ -46,37 +52,77 @@ pub(super) struct Run<'a> {
     pub(super) interrupted: &'a AtomicBool,
 }
 
+/// A frame to be worked on.
+struct Job<F> {
+    drawn: Drawn,
+    /// Brings what takes frames, once the frame before this one is taken.
+    turn: mpsc::Receiver<F>,
+    next_turn: mpsc::SyncSender<F>,
+}
+
 impl Run<'_> {
-    /// Draws every frame and has `take` take it. Returns how many frames were drawn.
-    pub(super) fn draw_all<E: Send>(
+    /// Draws every frame and has `take` take it, with what `make` makes of it; where there are processors
+    /// for it several are made at once, and they are taken in order. Returns how many frames were drawn.
+    pub(super) fn draw_all<T, E: Send>(
         self,
-        mut take: impl FnMut(&Drawn) -> Result<(), E> + Send,
+        make: impl Fn(&Drawn) -> T + Sync,
+        take: impl FnMut(&Drawn, T) -> Result<(), E> + Send,
     ) -> Result<u32, Stop<E>> {
-        let (to_taker, drawn) = mpsc::sync_channel::<Drawn>(1);
+        let processors = thread::available_parallelism().map_or(1, NonZero::get);
+        // One is left to drawing.
+        self.draw_beside((processors - 1).clamp(1, MOST_WORKERS), make, take)
+    }
+
+    /// Draws every frame on this thread while `workers` threads make and take.
+    fn draw_beside<T, E: Send, F: FnMut(&Drawn, T) -> Result<(), E> + Send>(
+        self,
+        workers: usize,
+        make: impl Fn(&Drawn) -> T + Sync,
+        take: F,
+    ) -> Result<u32, Stop<E>> {
+        let (to_workers, jobs) = mpsc::sync_channel::<Job<F>>(1);
+        let jobs = Arc::new(Mutex::new(jobs));
         let (give_back, spare) = mpsc::channel();
+        let (first_turn, mut turn) = mpsc::sync_channel(1);
+        first_turn.send(take).map_err(drop).expect("its receiver is here");
         thread::scope(|scope| {
-            let taker = scope.spawn(move || {
-                for frame in drawn {
-                    take(&frame)?;
-                    // Nobody wants it any more when all is drawn.
-                    let _ = give_back.send(frame.rgba);
+            let work = || {
+                let (jobs, give_back, make) = (Arc::clone(&jobs), give_back.clone(), &make);
+                move || loop {
+                    let job = jobs.lock().ok().and_then(|jobs| jobs.recv().ok());
+                    let Some(Job { drawn, turn, next_turn }) = job else { return Ok(()) };
+                    let made = make(&drawn);
+                    // It does not come when a frame before this one could not be taken.
+                    let Ok(mut take) = turn.recv() else { return Ok(()) };
+                    take(&drawn, made)?;
+                    // There may be no next frame, and nobody who wants the room.
+                    let _ = (next_turn.send(take), give_back.send(drawn.rgba));
                 }
-                Ok(())
-            });
-            let result = self.draw(&to_taker, &spare);
-            drop(to_taker);
-            match taker.join() {
-                Ok(Ok(())) => result.map_err(Stop::Readback),
-                Ok(Err(error)) => Err(Stop::Taken(error)),
-                Err(panic) => std::panic::resume_unwind(panic),
+            };
+            let workers: Vec<_> = (0..workers).map(|_| scope.spawn(work())).collect();
+            // When all workers have stopped, so has the channel.
+            drop(jobs);
+            let give = |drawn| {
+                let (next_turn, following) = mpsc::sync_channel(1);
+                let turn = mem::replace(&mut turn, following);
+                to_workers.send(Job { drawn, turn, next_turn }).is_ok()
+            };
+            let result = self.draw(give, &spare);
+            drop(to_workers);
+            for worker in workers {
+                match worker.join() {
+                    Ok(taken) => taken.map_err(Stop::Taken)?,
+                    Err(panic) => panic::resume_unwind(panic),
+                }
             }
+            result.map_err(Stop::Readback)
         })
     }
 
-    /// Draws until all is drawn, or nobody takes frames any more.
+    /// Draws until all is drawn, or `give` says that nobody takes frames any more.
     fn draw(
         self,
-        to_taker: &mpsc::SyncSender<Drawn>,
+        mut give: impl FnMut(Drawn) -> bool,
         spare: &mpsc::Receiver<Vec<u8>>,
     ) -> Result<u32, ReadbackError> {
         let Self { artist, lab, logbook, schedule, interrupted } = self;
@@ -96,8 +142,9 @@ impl Run<'_> {
                 let Some((tick, alpha)) = moments.pop_front() else { return Ok(drawn) };
                 let mut rgba = spare.try_recv().unwrap_or_default();
                 artist.collect(&mut rgba)?;
+                let frame = drawn;
                 drawn += 1;
-                if to_taker.send(Drawn { tick, alpha, rgba }).is_err() {
+                if !give(Drawn { frame, tick, alpha, rgba }) {
                     return Ok(drawn);
                 }
             }
@@ -116,12 +163,14 @@ pub(super) fn know_what_is_shown(lab: &mut Lab, artist: &Artist) {
 #[cfg(test)]
 mod tests {
     use std::io::{self, Write};
+    use std::time::Duration;
 
     use super::*;
     use crate::lab::{Command, Scene};
     use crate::view::{AdapterPreference, Gpu};
 
-    const SCHEDULE: Schedule = Schedule { frames: 7, fps: 10 };
+    /// More than there are on the way at once.
+    const SCHEDULE: Schedule = Schedule { frames: 30, fps: 10 };
 
     fn artist_or_skip(test: &str) -> Option<Artist> {
         let gpu = Gpu::headless(AdapterPreference::CpuOnly)
@@ -141,13 +190,21 @@ mod tests {
     fn piped<E: Send>(
         artist: &mut Artist,
         interrupted: &AtomicBool,
-        take: impl FnMut(&Drawn) -> Result<(), E> + Send,
+        mut take: impl FnMut(&Drawn) -> Result<(), E> + Send,
     ) -> Result<u32, Stop<E>> {
         let mut lab = race();
         let mut logbook = Logbook::new(1, &lab);
         let (lab, logbook) = (&mut lab, &mut logbook);
         let run = Run { artist, lab, logbook, schedule: SCHEDULE, interrupted };
-        run.draw_all(take)
+        // The first of every two takes longer than the second.
+        let make = |drawn: &Drawn| {
+            thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
+            drawn.frame
+        };
+        run.draw_beside(3, make, |drawn, made| {
+            assert_eq!(made, drawn.frame);
+            take(drawn)
+        })
     }
 
     #[test]
@@ -165,7 +222,7 @@ mod tests {
             frames.push((drawn.tick, drawn.alpha, drawn.rgba.clone()));
             Ok::<_, ()>(())
         });
-        assert!(matches!(drawn, Ok(7)));
+        assert!(matches!(drawn, Ok(30)));
         assert!(frames == one_by_one);
         assert_eq!(artist.in_flight(), 0);
     }

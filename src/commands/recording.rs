@@ -11,7 +11,7 @@ use super::fingerprint::fingerprint;
 use super::frame_folder::{FrameFolder, FrameFolderError, frame_name};
 use super::logbook::{self, Logbook};
 use super::manifest::{Adapter, FrameEntry, Manifest, SCHEMA};
-use super::pipeline::{Run, Stop};
+use super::pipeline::{Drawn, Run, Stop};
 use super::voyage::Schedule;
 use super::{settings, tell};
 use crate::lab::Lab;
@@ -81,10 +81,11 @@ pub(super) fn record(
         schedule,
         interrupted: &interrupted,
     };
-    let drawn = run.draw_all(|drawn| {
-        folder.push(&png::encode(size_px, &drawn.rgba))?;
+    let make = |drawn: &Drawn| (png::encode(size_px, &drawn.rgba), fingerprint(&drawn.rgba));
+    let drawn = run.draw_all(make, |&Drawn { tick, alpha, .. }, (file, pixels)| {
+        folder.push(&file)?;
         let file = frame_name(entries.len() as u32);
-        entries.push(entry(file, drawn.tick, drawn.alpha, &drawn.rgba));
+        entries.push(FrameEntry { file, tick, alpha: [alpha.0, alpha.1], pixels });
         progress.inc(1);
         Ok(())
     });
@@ -129,11 +130,6 @@ pub(super) fn closing_line(recording: &Recording, place: &str) -> String {
     let [width, height] = recording.size_px;
     let plural = if frames == 1 { "" } else { "s" };
     format!("wrote {frames} frame{plural} of {width}x{height}, {fps} a second: {place}")
-}
-
-/// What the manifest says of a frame.
-fn entry(file: String, tick: u64, (numerator, denominator): (u64, u64), rgba: &[u8]) -> FrameEntry {
-    FrameEntry { file, tick, alpha: [numerator, denominator], pixels: fingerprint(rgba) }
 }
 
 /// What the manifest says of what draws.

@@ -9,7 +9,7 @@ use super::super::fingerprint::fingerprint;
 use super::super::frame_folder::{failure, write_whole};
 use super::super::logbook::Logbook;
 use super::super::manifest::{FrameEntry, Manifest};
-use super::super::pipeline::{Run, Stop};
+use super::super::pipeline::{Drawn, Run, Stop};
 use super::super::recording::{Recording, progress, watch_for_interrupt};
 use super::super::voyage::Schedule;
 use super::VerifyError;
@@ -94,12 +94,14 @@ pub(super) fn judge(
     let mut logbook = Logbook::new(u64::MAX, &lab);
     let run =
         Run { artist, lab: &mut lab, logbook: &mut logbook, schedule, interrupted: &interrupted };
-    let (mut entries, mut changes) = (manifest.frames.iter(), Vec::new());
+    let mut changes = Vec::new();
     let size_px = recording.size_px;
-    let drawn = run.draw_all(|drawn| {
-        let entry = entries.next().expect("as many frames are drawn as are listed");
-        let change = compare(entry, size_px, &drawn.rgba, limits, folder)?;
-        changes.extend(change.map(|what| FrameChange { file: entry.file.clone(), what }));
+    let make = |drawn: &Drawn| {
+        let entry = &manifest.frames[drawn.frame as usize];
+        (entry, compare(entry, size_px, &drawn.rgba, limits, folder))
+    };
+    let drawn = run.draw_all(make, |_, (entry, change)| {
+        changes.extend(change?.map(|what| FrameChange { file: entry.file.clone(), what }));
         progress.inc(1);
         Ok(())
     });
