@@ -20,7 +20,7 @@
 //!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
 //!   and differ only in where time comes from and where the texture goes.
 //! - `window` and `commands` are the drivers: they alone touch files and real time. A capture's frames
-//!   pass from the thread that draws to one that encodes (`commands/pipeline.rs`); what it drew is in a
+//!   pass from the thread that draws to those that encode (`commands/pipeline.rs`); what it drew is in a
 //!   manifest (`commands::manifest` has the schema), by which `regatta verify` judges. A sweep's runs
 //!   share nothing, so that any number of threads makes the same rows (`commands/sweep/grid.rs`).
 //!
@@ -32,7 +32,7 @@
 //!
 //! events → [`Command`](lab::Command)s → [`Lab::apply`](lab::Lab::apply) →
 //! [`Lab::advance`](lab::Lab::advance) → as many [`Race::step`](lab::Race::step)s as are due →
-//! [`picture::compose`](lab::picture::compose) → `FrameRenderer::draw` → present or read back.
+//! [`picture::compose`](lab::picture::compose) → `FrameRenderer::draw` → submit → present or read back.
 //!
 //! # What holds
 //!
