@@ -85,12 +85,8 @@ impl MeshRenderer {
         let pipelines =
             [("fill", None), ("textured", Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING))];
         let pipelines = pipelines.map(|(fragment, blend)| {
-            let vertex = wgpu::VertexBufferLayout {
-                array_stride: size_of::<Vertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &ATTRIBUTES,
-            };
-            pipeline(gpu, &over_atlas, format, ["panels", SHADER, fragment], vertex, blend)
+            let names = ["panels", SHADER, fragment];
+            pipeline::<Vertex>(gpu, &over_atlas, format, names, &ATTRIBUTES, blend)
         });
         Self {
             pipelines,

@@ -92,14 +92,14 @@ impl PlaceGroup {
     }
 }
 
-/// A pipeline of triangles with `shaders/place.wgsl`, named by label, shader and fragment function, the
-/// colours of which are premultiplied.
-pub(super) fn pipeline(
+/// A pipeline of triangles with vertices `V` and `shaders/place.wgsl`, named by label, shader and fragment
+/// function, the colours of which are premultiplied.
+pub(super) fn pipeline<V>(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,
     format: wgpu::TextureFormat,
     [label, shader, fragment]: [&str; 3],
-    vertex: wgpu::VertexBufferLayout<'_>,
+    attributes: &[wgpu::VertexAttribute],
     blend: Option<wgpu::BlendState>,
 ) -> wgpu::RenderPipeline {
     let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -113,7 +113,11 @@ pub(super) fn pipeline(
             module: &module,
             entry_point: Some("vertex"),
             compilation_options: Default::default(),
-            buffers: &[Some(vertex)],
+            buffers: &[Some(wgpu::VertexBufferLayout {
+                array_stride: size_of::<V>() as u64,
+                step_mode: wgpu::VertexStepMode::Vertex,
+                attributes,
+            })],
         },
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: None,

@@ -51,13 +51,9 @@ impl SeaPipeline {
         format: wgpu::TextureFormat,
     ) -> Self {
         let kind = |fragment, blend| {
-            let vertex = wgpu::VertexBufferLayout {
-                array_stride: size_of::<Part>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &ATTRIBUTES,
-            };
             let names = ["seas", SHADER, fragment];
-            (pipeline(gpu, layout, format, names, vertex, blend), Quads::new(gpu, "seas"))
+            let pipeline = pipeline::<Part>(gpu, layout, format, names, &ATTRIBUTES, blend);
+            (pipeline, Quads::new(gpu, "seas"))
         };
         Self {
             water: kind("water", None),

@@ -36,13 +36,9 @@ impl Strips {
         format: wgpu::TextureFormat,
     ) -> Self {
         let [solid, dashed] = ["solid", "dashed"].map(|fragment| {
-            let vertex = wgpu::VertexBufferLayout {
-                array_stride: size_of::<LineVertex>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &ATTRIBUTES,
-            };
             let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-            pipeline(gpu, layout, format, ["lines", SHADER, fragment], vertex, blend)
+            let names = ["lines", SHADER, fragment];
+            pipeline::<LineVertex>(gpu, layout, format, names, &ATTRIBUTES, blend)
         });
         Self { solid, dashed, triangles: Triangles::new(gpu, "lines") }
     }

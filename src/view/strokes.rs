@@ -75,13 +75,9 @@ impl StrokePipeline {
         format: wgpu::TextureFormat,
     ) -> Self {
         let pipeline = |fragment| {
-            let vertex = wgpu::VertexBufferLayout {
-                array_stride: size_of::<StrokeQuad>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &ATTRIBUTES,
-            };
             let blend = Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
-            pipeline(gpu, layout, format, ["strokes", SHADER, fragment], vertex, blend)
+            let names = ["strokes", SHADER, fragment];
+            pipeline::<StrokeQuad>(gpu, layout, format, names, &ATTRIBUTES, blend)
         };
         Self {
             pipelines: ["line", "hull"].map(pipeline),
