@@ -36,6 +36,13 @@ pub struct LaneBody {
 }
 
 impl LaneBody {
+    /// A body of `kind` with `values` at its start, under `solver`.
+    pub(super) fn new(kind: &'static Kind, values: &[f64], solver: Solver) -> Self {
+        let stepper = (kind.build)(values, solver);
+        let [previous_q, previous_v] = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
+        Self { kind, coordinates: (kind.coordinates)(values), stepper, previous_q, previous_v }
+    }
+
     /// What is known of the body's motion, for people: `exact`, or how far a reference can be believed.
     pub fn truth_in_words(&self) -> String {
         match self.kind.truth.accuracy() {
@@ -80,13 +87,9 @@ pub struct Lane {
 impl Lane {
     /// The scene's bodies at their start under `solver`, which takes `substeps` steps in a tick.
     pub fn new(scene: &Scene, solver: Solver, substeps: u32) -> Self {
-        let bodies = scene.bodies.iter().map(|body| {
-            let stepper = (body.kind.build)(&body.values, solver);
-            let (previous_q, previous_v) = (stepper.q().to_vec(), stepper.v().to_vec());
-            let coordinates = (body.kind.coordinates)(&body.values);
-            LaneBody { kind: body.kind, coordinates, stepper, previous_q, previous_v }
-        });
-        Self { solver, substeps, bodies: bodies.collect(), halted: None }
+        let bodies = scene.bodies.iter();
+        let bodies = bodies.map(|body| LaneBody::new(body.kind, &body.values, solver)).collect();
+        Self { solver, substeps, bodies, halted: None }
     }
 
     /// What carries the bodies forward.

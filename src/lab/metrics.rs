@@ -148,15 +148,8 @@ mod tests {
     use super::*;
     use crate::lab::Scene;
     use crate::sim::Solver;
-    use crate::sim::bodies::{Input, Kind, kind};
+    use crate::sim::bodies::{Input, kind};
     use crate::sim::integrators::method;
-
-    fn body(kind: &'static Kind, values: &[f64], solver: Solver) -> LaneBody {
-        let coordinates = (kind.coordinates)(values);
-        let stepper = (kind.build)(values, solver);
-        let [previous_q, previous_v] = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
-        LaneBody { kind, coordinates, stepper, previous_q, previous_v }
-    }
 
     fn metric(id: &str) -> &'static Metric {
         METRICS.iter().find(|metric| metric.id == id).unwrap()
@@ -166,8 +159,8 @@ mod tests {
     fn metrics_compare_a_lane_with_the_truth() {
         let spring = kind("spring").unwrap();
         let values = [2.0, 8.0, 0.0, 1.0, 0.0, 4.0];
-        let truth = body(spring, &values, Solver::Truth);
-        let mut lane = body(spring, &values, Solver::Truth);
+        let truth = LaneBody::new(spring, &values, Solver::Truth);
+        let mut lane = LaneBody::new(spring, &values, Solver::Truth);
         let of = |id: &str, lane: &LaneBody| (metric(id).measure)(lane, &truth);
         assert_eq!(of("position_error", &lane), Some(0.0));
         assert_eq!(of("energy_drift", &lane), Some(0.0));
@@ -184,7 +177,7 @@ mod tests {
         let helm = kind("helm").unwrap();
         let scene = Scene::built_in("helm").unwrap();
         let [truth, mut lane] =
-            [(); 2].map(|()| body(helm, &scene.bodies[0].values, Solver::Truth));
+            [(); 2].map(|()| LaneBody::new(helm, &scene.bodies[0].values, Solver::Truth));
         let moved = |by: &[f64], values: &[f64]| -> Vec<f64> {
             values.iter().zip(by).map(|(value, by)| value + by).collect()
         };
@@ -201,8 +194,8 @@ mod tests {
         let ship = kind("ship").unwrap();
         let under = |id| Solver::Method(method(id).unwrap());
         let values = [2e4, 1e3, 1e4, 0.0, 0.0, 2e4];
-        let truth = body(ship, &values, Solver::Truth);
-        let mut lane = body(ship, &values, under("adaptive-euler-as-printed"));
+        let truth = LaneBody::new(ship, &values, Solver::Truth);
+        let mut lane = LaneBody::new(ship, &values, under("adaptive-euler-as-printed"));
         let lost = |lane: &LaneBody| (metric("lost_time").measure)(lane, &truth).unwrap();
         lane.stepper.advance(0.0, 0.5, 1).unwrap();
         let once = lost(&lane);
