@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::bodies::{Body, Input, Pen, View};
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
-use super::reference::Reference;
+use super::reference::{REFERENCE_ACCURACY, Reference};
 use super::system::{Counted, State, Vector};
 
 /// What carries a body forward.
@@ -58,6 +58,11 @@ pub trait Stepper: Send {
     /// Seconds by which the body is behind, because methods it was under
     /// [did not keep time](Method::keeps_time).
     fn lost_time(&self) -> f64;
+    /// Whether the body's equation of motion is linear, but for a constant.
+    fn is_linear(&self) -> bool;
+    /// How far the truth may be off by now: the largest error expected of a coordinate and of a velocity, in
+    /// their own units. `None` under a method.
+    fn truth_error(&self) -> Option<[f64; 2]>;
     /// The conserved energy in joules, where the body conserves one under its present input.
     fn energy(&self) -> Option<f64>;
 
@@ -141,6 +146,11 @@ trait Drive<B: Body>: Send + 'static {
     /// Forgets what is carried from step to step.
     fn reset(&mut self);
 
+    /// As [`Stepper::truth_error`], in the present `state`.
+    fn truth_error(&self, _body: &Counted<B>, _state: &State<B::Vector>) -> Option<[f64; 2]> {
+        None
+    }
+
     /// The seconds that it was asked to advance and did not.
     fn lost_time(&self) -> f64 {
         0.0
@@ -196,6 +206,12 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
     }
     fn lost_time(&self) -> f64 {
         self.behind + self.drive.lost_time()
+    }
+    fn is_linear(&self) -> bool {
+        self.body.system.is_linear()
+    }
+    fn truth_error(&self) -> Option<[f64; 2]> {
+        self.drive.truth_error(&self.body, &self.state)
     }
     fn energy(&self) -> Option<f64> {
         self.body.system.energy(&self.state)
@@ -274,6 +290,10 @@ impl<B: Body> Drive<B> for ExactFlow<B::Vector> {
     }
 
     fn reset(&mut self) {}
+
+    fn truth_error(&self, _body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
+        Some([&state.q, &state.v].map(|half| 1e-13 * largest(half)))
+    }
 }
 
 impl<B: Body> Drive<B> for Reference<B::Vector> {
@@ -296,6 +316,14 @@ impl<B: Body> Drive<B> for Reference<B::Vector> {
     fn reset(&mut self) {
         self.reset();
     }
+
+    fn truth_error(&self, _body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
+        Some([&state.q, &state.v].map(|half| REFERENCE_ACCURACY * largest(half)))
+    }
+}
+
+fn largest<V: Vector>(vector: &V) -> f64 {
+    vector.components().iter().fold(0.0, |most, x| x.abs().max(most))
 }
 
 fn write<V: Vector>(state: &mut State<V>, q: &[f64], v: &[f64]) {

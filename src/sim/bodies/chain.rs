@@ -222,6 +222,10 @@ impl Body for Chain {
         true
     }
 
+    fn is_linear(&self) -> bool {
+        true
+    }
+
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
         let kinetic: f64 = state.v.iter().map(|v| self.mass * v * v).sum();
         let mut last = 0.0;

@@ -52,6 +52,12 @@ pub trait Body: System + Clone + Send + 'static {
         })
     }
 
+    /// Whether the acceleration is a linear function of coordinates and velocities, but for a constant: then
+    /// what a method makes of one deviation it makes of all.
+    fn is_linear(&self) -> bool {
+        false
+    }
+
     /// The conserved energy in joules, or `None` where none is conserved.
     fn energy(&self, state: &State<Self::Vector>) -> Option<f64>;
 

@@ -105,6 +105,10 @@ impl Body for Ship {
         })
     }
 
+    fn is_linear(&self) -> bool {
+        true
+    }
+
     fn energy(&self, state: &State<f64>) -> Option<f64> {
         let thrust = self.thrust * self.throttle;
         (self.drag == 0.0).then(|| self.mass * state.v * state.v / 2.0 - thrust * state.q)

@@ -114,6 +114,10 @@ impl Body for Spring {
         Some(oscillator::flow(self.stiffness / self.mass, alpha, dt, from))
     }
 
+    fn is_linear(&self) -> bool {
+        true
+    }
+
     fn energy(&self, state: &State<f64>) -> Option<f64> {
         let State { q: x, v } = *state;
         (self.damping == 0.0).then(|| (self.mass * v * v + self.stiffness * x * x) / 2.0)
