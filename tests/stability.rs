@@ -1,6 +1,5 @@
 //! The one-tick map of every method, against the chapter's tables and against the steppers themselves.
 
-use regatta::lab::{Judge, LaneSpec, Scene};
 use regatta::sim::bodies::{Ship, Spring};
 use regatta::sim::integrators::{METHODS, method};
 use regatta::sim::stability::{FOREVER_S, RateSearch, Stability, Tick};
@@ -297,96 +296,4 @@ fn a_method_with_memory_shows_the_map_of_state_and_memory_together() {
     // The start is Heun's or the like, and grows at another rate.
     let (start, running) = (1.0 + 0.3_f64.powi(4) / 8.0, adams_bashforth_2([0.0, 0.3]));
     assert!((running - start).abs() > 1e-4);
-}
-
-/// On a built-in scene, over all of its motion.
-fn over_the_motion(scene: &str, id: &str, tick_hz: u32) -> Stability {
-    let judge = Judge::new(&Scene::built_in(scene).expect("a built-in scene"), 1.0);
-    let spec = LaneSpec::plain(method(id).expect("a method"));
-    judge.stability(spec, tick_hz).expect("it gets through its first ticks")
-}
-
-#[test]
-fn on_nonlinear_bodies_what_falls_in_truth_is_not_held_against_a_method() {
-    // The pendulum passes its top slowly, and an orbit's neighbours part: true of the exact flow too.
-    for scene in ["pendulum", "orbit"] {
-        for id in
-            ["semi-implicit-euler", "velocity-verlet", "position-verlet", "stormer-verlet", "pefrl"]
-        {
-            let found = over_the_motion(scene, id, 60);
-            assert!(found.is_bounded() && found.halving_s().is_none(), "{scene}, {id}: {found:?}");
-        }
-        let found = over_the_motion(scene, "explicit-euler", 60);
-        let doubling = found.doubling_s().expect("it grows");
-        assert!((1.0..200.0).contains(&doubling), "{scene}: {found:?}");
-        // Runge-Kutta's damping, z⁶ / 144 a tick, is far below what can be seen.
-        let found = over_the_motion(scene, "rk4", 60);
-        assert!(found.is_bounded() && found.loss_per_s < 1e-4, "{scene}: {found:?}");
-    }
-}
-
-#[test]
-fn a_nonlinear_body_is_stable_where_its_energy_stays() {
-    for (scene, id, unstable_hz, stable_hz) in [
-        ("pendulum", "velocity-verlet", 4, 10),
-        ("pendulum", "implicit-midpoint", 3, 10),
-        ("pendulum", "newmark", 0, 10),
-        ("pendulum", "midpoint", 120, 960),
-        ("pendulum", "dormand-prince-54", 0, 1),
-        ("orbit", "semi-implicit-euler", 5, 20),
-        ("orbit", "position-verlet", 2, 10),
-        ("orbit", "improved-euler", 120, 960),
-        ("helm", "rk4", 0, 1),
-    ] {
-        let judge = Judge::new(&Scene::built_in(scene).expect("a built-in scene"), 1.0);
-        let spec = LaneSpec::plain(method(id).expect("a method"));
-        assert!(judge.is_stable(spec, stable_hz), "{scene}, {id} at {stable_hz} Hz");
-        if unstable_hz > 0 {
-            assert!(!judge.is_stable(spec, unstable_hz), "{scene}, {id} at {unstable_hz} Hz");
-        }
-    }
-}
-
-#[test]
-fn the_growth_of_a_swinging_pendulum_is_that_of_its_energy() {
-    // Independently: the energy each time the pendulum is at its lowest, over a hundred swings.
-    let scene = Scene::built_in("pendulum").expect("a built-in scene");
-    for (id, tick_hz) in [("midpoint", 40), ("rk4", 16), ("bdf2", 60)] {
-        let found = over_the_motion("pendulum", id, tick_hz).growth_per_s;
-        let h = 1.0 / f64::from(tick_hz);
-        let build = scene.bodies[0].kind.build;
-        let mut body =
-            build(&scene.bodies[0].values, Solver::Method(method(id).expect("a method")));
-        let mut passes: Vec<(f64, f64)> = Vec::new();
-        for tick in 0..80 * tick_hz {
-            let before = (body.q()[0], body.energy().expect("it is conserved"));
-            body.advance(h * f64::from(tick), h, 1).expect("a swing");
-            let after = (body.q()[0], body.energy().expect("it is conserved"));
-            if before.0 < 0.0 && after.0 >= 0.0 {
-                // Between the ticks, where it is at its lowest.
-                let part = before.0 / (before.0 - after.0);
-                let energy = before.1 + part * (after.1 - before.1);
-                passes.push((h * (f64::from(tick) + part), energy));
-            }
-        }
-        let (first, last) = (passes[0], passes[passes.len() - 1]);
-        assert!(passes.len() > 10);
-        let trend = (last.1 - first.1) / (last.0 - first.0);
-        let expected = trend / mean_of_twice_kinetic(&scene) / 2.0;
-        assert!((found / expected - 1.0).abs() < 0.1, "{id}: {found}, by its passes {expected}");
-    }
-}
-
-/// Over the pendulum's true motion, in joules.
-fn mean_of_twice_kinetic(scene: &Scene) -> f64 {
-    let build = scene.bodies[0].kind.build;
-    let mut body = build(&scene.bodies[0].values, Solver::Truth);
-    let mut still = build(&scene.bodies[0].values, Solver::Truth);
-    let (mut sum, count, h) = (0.0, 4000, scene.seconds / 4000.0);
-    for tick in 0..count {
-        body.advance(h * f64::from(tick), h, 1).expect("the truth");
-        still.set(0.0, body.q(), &[0.0]);
-        sum += 2.0 * (body.energy().expect("conserved") - still.energy().expect("conserved"));
-    }
-    sum / f64::from(count)
 }

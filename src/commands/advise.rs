@@ -1,53 +1,93 @@
-//! `regatta advise`: which method and tick rate to take for a scene, and why.
+//! `regatta advise`: which method to take for a scene at its tick rate, and why.
 
 use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 use clap::Args;
 use rayon::prelude::*;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::experiment::{ExperimentArgs, Lineup};
+use super::recording::{progress, watch_for_interrupt};
+use super::stopwatch::{self, Timing};
 use super::table::{self, Column};
-use super::{Error, TableFormat, stopwatch};
-use crate::lab::number::significant;
+use super::{Error, TableFormat, tell};
+use crate::lab::number::{round, significant};
 use crate::lab::{
-    Advised, Adviser, Good, Judge, LaneSpec, Scene, Stability, TOLERANCE, cheapest, duration,
+    Advised, Adviser, CRITERIA, LaneSpec, MOST_ADVISED_SUBSTEPS, Met, Scene, Verdict, recommended,
 };
 use crate::sim::integrators::METHODS;
 
 const ABOUT: &str = "\
-Each method is judged on the scene from its start, without its script, against the exact solution.
+Each method is judged on the scene from its start, without its script, against the exact solution, at the
+scene's tick rate or at --tick-hz. It is asked for the fewest substeps in a tick, 1 to 64, that meet
 
-VERDICT is at the scene's tick rate, or at --tick-hz. STABLE FROM is the slowest whole rate at which no
-deviation grows, ACCURATE FROM the slowest at which no coordinate or velocity errs by more than 1 % of
-its amplitude over the scene, or over its first minute. Rates of 1 to 10000 Hz are searched: from below
-up a ladder of two an octave until three rungs in a row hold, then by halving the gap below. Costs are
-at the slowest rate that is both, for all bodies: evaluations of the acceleration, and nanoseconds as
-measured here and now. Of several bodies the worst one rules.
+  bounded      nothing grows that should not, over the scene and in the long run: no mode of a linear body
+               doubles within a year; any other body is followed for 20 times the scene's length
+  looks-right  over the scene the amplitude is within 5 % of the truth's and the frequency within 1 %; a
+               body that does not swing stays within 5 % of its range
+  accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
+
+The scene's length is cut to a minute. Costs are those of all bodies for a simulated second: evaluations
+of the acceleration, and time measured here and now, the best of several runs. HOLDS FROM is the slowest
+whole tick rate, down from the one asked about, at which the criterion still holds with as many substeps;
+STIFFER BY is how many times the parameter it names may grow, at most 10000. The recommended method is the
+cheapest; evaluations decide between costs within a fifth of each other.
 
 Examples:
   regatta advise --scene harbour
   regatta advise --scene my.toml --tick-hz 50 --format json
-  regatta advise --scene spring --method rk4 --method semi-implicit-euler";
+  regatta advise --scene spring --method rk4 --method semi-implicit-euler --rates";
 
-/// Say which method and tick rate to take for a scene
+/// Say which method to take for a scene at its tick rate, with how many substeps
 #[derive(Debug, Args)]
 #[command(after_help = ABOUT)]
 pub(super) struct AdviseArgs {
     #[command(flatten)]
     experiment: ExperimentArgs,
 
+    /// Also search, for each method in one step a tick, the slowest tick rates from 1 to 10000 Hz that
+    /// meet the criteria
+    #[arg(long)]
+    rates: bool,
+
     /// How to write it: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
     format: TableFormat,
 }
 
-/// A method judged, and its measured cost.
+/// Why there is no whole answer.
+#[derive(Debug, thiserror::Error)]
+pub enum AdviseError {
+    /// Somebody pressed Ctrl-C.
+    #[error("interrupted: {judged} of {wanted} methods were judged")]
+    Interrupted {
+        /// Methods in the answer.
+        judged: usize,
+        /// Methods asked about.
+        wanted: usize,
+    },
+}
+
+/// A method judged, and its measured costs.
 struct Row {
     advised: Advised,
-    ns_per_s: Option<f64>,
+    /// For each criterion that is met.
+    timings: [Option<Timing>; CRITERIA.len()],
+    /// For each criterion the slowest rate, where rates were asked for.
+    rates: Option<[Option<u32>; CRITERIA.len()]>,
 }
+
+/// How long each measurement goes on: for six dozen of them not long to wait.
+const EFFORT: Duration = Duration::from_millis(5);
+
+/// How long an interrupt may go unnoticed.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Costs that differ by less than this factor are equal.
+const BLUR: f64 = 1.2;
 
 pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(Lineup::Everyone)?;
@@ -57,89 +97,231 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     } else {
         args.experiment.lanes_named(scene)
     };
-    let advised: Vec<Advised> =
-        specs.par_iter().flat_map_iter(|&spec| judge(scene, spec)).collect();
-    let horizon_s = Judge::new(scene, 1.0).horizon_s();
-    let rows: Vec<Row> = advised.iter().map(|advised| row(scene, advised, horizon_s)).collect();
-    let best = cheapest(&advised, |advised, _| {
-        let row = rows.iter().find(|row| row.advised.spec == advised.spec);
-        row.and_then(|row| row.ns_per_s).unwrap_or(f64::INFINITY)
-    });
-    let best = best.map(|i| &rows[i]);
-    let advice = advice(scene, best, horizon_s);
+    let wanted = specs.len();
+    let interrupted = watch_for_interrupt();
+    let adviser = Arc::new(Adviser::new(scene, 1.0, scene.tick_hz));
+    let mut rows = judge_all(&adviser, specs, args.rates, &interrupted);
+    for row in &mut rows {
+        row.time(scene);
+    }
     let text = match args.format {
-        TableFormat::Text => format!("{}\n{advice}\n", table::text(COLUMNS, &rows, "")),
-        TableFormat::Json => {
-            let object = json!({
-                "scene": scene.name,
-                "tick_hz": scene.tick_hz,
-                "horizon_s": horizon_s,
-                "tolerance": TOLERANCE,
-                "methods": table::json(COLUMNS, &rows),
-                "take": best.map(|row| row.advised.spec.method.id),
-                "advice": advice,
-            });
-            format!("{object:#}\n")
-        }
+        TableFormat::Text => text(scene, &adviser, &rows),
+        TableFormat::Json => format!("{:#}\n", object(scene, &adviser, &rows)),
     };
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;
     out.flush()?;
-    Ok(())
+    warn_of_load(&rows);
+    match rows.len() {
+        judged if judged < wanted => Err(AdviseError::Interrupted { judged, wanted }.into()),
+        _ => Ok(()),
+    }
 }
 
-/// What is to be said of one method. Methods are judged beside each other, and timed one by one later.
-fn judge(scene: &Scene, spec: LaneSpec) -> Vec<Advised> {
-    let mut adviser = Adviser::new(scene, 1.0, scene.tick_hz, vec![spec]);
-    while adviser.advance() {}
-    adviser.advised().to_vec()
+/// Every method judged, in the order given; after an interrupt those judged by then. What is under way is then left to
+/// itself: the process is about to end.
+fn judge_all(
+    adviser: &Arc<Adviser>,
+    specs: Vec<LaneSpec>,
+    rates: bool,
+    interrupted: &AtomicBool,
+) -> Vec<Row> {
+    let progress = progress(specs.len() as u32, "methods judged");
+    let mut rows: Vec<Option<Row>> = specs.iter().map(|_| None).collect();
+    let (sender, results) = mpsc::channel();
+    let adviser = Arc::clone(adviser);
+    rayon::spawn(move || {
+        specs.into_par_iter().enumerate().for_each_with(sender, |sender, (i, spec)| {
+            // After an interrupt nobody listens.
+            let _ = sender.send((i, Row::judged(&adviser, spec, rates)));
+        });
+    });
+    while !interrupted.load(Ordering::Relaxed) {
+        match results.recv_timeout(PATIENCE) {
+            Ok((i, row)) => {
+                rows[i] = Some(row);
+                progress.inc(1);
+            }
+            Err(mpsc::RecvTimeoutError::Timeout) => {}
+            Err(mpsc::RecvTimeoutError::Disconnected) => break,
+        }
+    }
+    progress.finish_and_clear();
+    rows.into_iter().flatten().collect()
 }
 
-/// One line for a design note.
-fn advice(scene: &Scene, best: Option<&Row>, horizon_s: f64) -> String {
-    let whom = match &scene.bodies[..] {
-        [_] => "this body".to_owned(),
-        bodies => format!("these {} bodies", bodies.len()),
+impl Row {
+    fn judged(adviser: &Adviser, spec: LaneSpec, rates: bool) -> Self {
+        let met = CRITERIA.map(|criterion| adviser.met(spec, criterion));
+        let plain = LaneSpec { substeps: 1, ..spec };
+        Self {
+            advised: Advised { spec, verdict: adviser.verdict(spec), met },
+            timings: [None; CRITERIA.len()],
+            rates: rates.then(|| CRITERIA.map(|criterion| adviser.slowest(plain, criterion))),
+        }
+    }
+
+    /// Measures what each criterion costs. Nothing else should run meanwhile.
+    fn time(&mut self, scene: &Scene) {
+        let ticks = (scene.seconds.min(10.0) * f64::from(scene.tick_hz)).round() as u64;
+        for (i, met) in self.advised.met.iter().enumerate() {
+            let Some(met) = met else { continue };
+            let known = (0..i).find(|&j| {
+                self.advised.met[j].as_ref().is_some_and(|other| other.substeps == met.substeps)
+            });
+            self.timings[i] = match known {
+                Some(j) => self.timings[j],
+                None => {
+                    let spec = LaneSpec { substeps: met.substeps, ..self.advised.spec };
+                    stopwatch::time(scene, spec, scene.tick_hz, ticks, EFFORT)
+                }
+            };
+        }
+    }
+
+    fn ns_per_s(&self, criterion: usize) -> Option<f64> {
+        Some(self.timings[criterion]?.ns_per_s)
+    }
+}
+
+/// Says so if something else kept the machine busy while costs were measured.
+fn warn_of_load(rows: &[Row]) {
+    let timings = rows.iter().flat_map(|row| row.timings.iter().flatten());
+    let mut spreads: Vec<f64> = timings.map(|timing| timing.spread).collect();
+    spreads.sort_by(f64::total_cmp);
+    if let Some(&middle) = spreads.get(spreads.len() / 2)
+        && middle > BLUR - 1.0
+    {
+        tell(&format!(
+            "warning: the machine is busy: costs in ns vary by {} % from run to run",
+            significant(100.0 * middle, 2)
+        ));
+    }
+}
+
+/// The row to take for each criterion.
+fn best(rows: &[Row], criterion: usize) -> Option<(&Row, &Met)> {
+    let advised: Vec<Advised> = rows.iter().map(|row| row.advised.clone()).collect();
+    let cost = |advised: &Advised, _: &Met| {
+        let row = rows.iter().find(|row| row.advised.spec == advised.spec);
+        row.and_then(|row| row.ns_per_s(criterion)).unwrap_or(f64::INFINITY)
     };
-    let bounds =
-        format!("within {} % of the amplitude over {}", 100.0 * TOLERANCE, duration(horizon_s));
-    let Some((row, good)) = best.and_then(|row| Some((row, row.advised.good.as_ref()?))) else {
-        return format!(
-            "for {whom} take none of these methods at up to 10000 Hz: none is stable and {bounds}; \
-             soften the stiffest part, or damp it"
-        );
-    };
+    let row = &rows[recommended(&advised, criterion, BLUR, cost)?];
+    Some((row, row.advised.met[criterion].as_ref()?))
+}
+
+fn text(scene: &Scene, adviser: &Adviser, rows: &[Row]) -> String {
+    let mut text = table::text(VERDICTS, rows, "");
+    for (i, criterion) in CRITERIA.iter().enumerate() {
+        let met: Vec<MetRow> = rows.iter().filter_map(|row| MetRow::of(row, i)).collect();
+        text += &format!("\n{}: {}\n", criterion.id(), criterion.about());
+        if !met.is_empty() {
+            text += &table::text(METS, &met, "  ");
+        }
+        let missed = rows.iter().filter(|row| row.advised.met[i].is_none());
+        let missed: Vec<&str> = missed.map(|row| row.advised.spec.method.id).collect();
+        if !missed.is_empty() {
+            text += &format!(
+                "  not, or not known to, with up to {MOST_ADVISED_SUBSTEPS} substeps: {}\n",
+                missed.join(", ")
+            );
+        }
+    }
+    if rows.iter().any(|row| row.rates.is_some()) {
+        text += "\nslowest tick rates in one step a tick, in Hz\n";
+        text += &table::text(RATES, rows, "  ");
+    }
+    text.push('\n');
+    for (i, criterion) in CRITERIA.iter().enumerate() {
+        text += &format!("at {} Hz: {}: ", adviser.tick_hz(), criterion.id());
+        text += &match best(rows, i) {
+            Some((row, met)) => line(row, met),
+            None => format!(
+                "none of these with up to {MOST_ADVISED_SUBSTEPS} substeps; raise the tick rate, soften the \
+                 stiffest of {}, or damp it",
+                match &scene.bodies[..] {
+                    [body] => body.name.clone(),
+                    bodies => format!("the {} bodies", bodies.len()),
+                }
+            ),
+        };
+        text.push('\n');
+    }
+    text
+}
+
+/// What to take, for a design note.
+fn line(row: &Row, met: &Met) -> String {
+    let more = if met.stiffness_factor >= 10_000.0 { "more than " } else { "" };
     format!(
-        "for {whom} take {} at {} Hz: the cheapest method measured that is stable and {bounds} \
-         ({}; {} ns and {} evaluations a simulated second)",
-        row.advised.spec.method.name,
-        good.tick_hz,
-        good.verdict,
-        row.ns_per_s.map_or("-".into(), |ns| significant(ns, 2)),
-        significant(good.evaluations_per_s, 3),
+        "{} ×{} ({} evaluations/s; holds down to {} Hz, or {more}{} × {})",
+        row.advised.spec.method.id,
+        met.substeps,
+        met.evaluations_per_s.round(),
+        met.slowest_hz,
+        round(met.stiffness_factor, 3),
+        met.limited_by,
     )
 }
 
-fn row(scene: &Scene, advised: &Advised, horizon_s: f64) -> Row {
-    let ns = |good: &Good| {
-        let ticks = (horizon_s * f64::from(good.tick_hz)).round() as u64;
-        stopwatch::ns_per_s(scene, advised.spec, good.tick_hz, ticks, EFFORT)
-    };
-    Row { advised: advised.clone(), ns_per_s: advised.good.as_ref().and_then(ns) }
+fn object(scene: &Scene, adviser: &Adviser, rows: &[Row]) -> Value {
+    let recommended = CRITERIA.iter().enumerate().map(|(i, criterion)| {
+        let take = best(rows, i).map(|(row, met)| {
+            json!({
+                "method": row.advised.spec.method.id,
+                "substeps": met.substeps,
+                "tick_hz": adviser.tick_hz(),
+            })
+        });
+        (criterion.id().to_owned(), json!(take))
+    });
+    json!({
+        "scene": scene.name,
+        "tick_hz": adviser.tick_hz(),
+        "horizon_s": adviser.judge().horizon_s(),
+        "bodies": scene.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),
+        "methods": rows.iter().map(|row| method(scene, row)).collect::<Vec<_>>(),
+        "recommended": recommended.collect::<Map<_, _>>(),
+    })
 }
 
-/// How long each measurement goes on: for two dozen methods not long to wait.
-const EFFORT: Duration = Duration::from_millis(10);
-
-fn stability<T: Into<Value>>(row: &Row, part: impl Fn(&Stability) -> T) -> Value {
-    row.advised.verdict.stability.as_ref().map_or(Value::Null, |stability| part(stability).into())
+fn method(scene: &Scene, row: &Row) -> Value {
+    let Verdict { word, body, error, doubles_in_s, halves_in_s, frequency_error, .. } =
+        &row.advised.verdict;
+    let criteria = CRITERIA.iter().enumerate().map(|(i, criterion)| {
+        let met = row.advised.met[i].as_ref().map(|met| {
+            json!({
+                "substeps": met.substeps,
+                "evaluations_per_s": met.evaluations_per_s,
+                "ns_per_s": row.ns_per_s(i).map(f64::round),
+                "slowest_hz": met.slowest_hz,
+                "stiffness_factor": met.stiffness_factor,
+                "limited_by": met.limited_by,
+            })
+        });
+        (criterion.id().to_owned(), json!(met))
+    });
+    let mut object = json!({
+        "method": row.advised.spec.method.id,
+        "verdict": {
+            "word": word.id(),
+            "body": scene.bodies[*body].name,
+            "error": Some(*error).filter(|error| error.is_finite()),
+            "doubles_in_s": doubles_in_s,
+            "halves_in_s": halves_in_s,
+            "frequency_error": frequency_error,
+            "text": row.advised.verdict.to_string(),
+        },
+        "criteria": criteria.collect::<Map<_, _>>(),
+    });
+    if let Some(rates) = &row.rates {
+        let rates = CRITERIA.iter().zip(rates).map(|(c, hz)| (c.id().to_owned(), json!(hz)));
+        object["rates"] = Value::Object(rates.collect());
+    }
+    object
 }
 
-fn hz(rate: Option<u32>) -> Value {
-    rate.map_or(Value::Null, |hz| hz.into())
-}
-
-const COLUMNS: &[Column<Row>] = &[
+const VERDICTS: &[Column<Row>] = &[
     Column {
         key: "method",
         heading: Some("METHOD"),
@@ -150,65 +332,64 @@ const COLUMNS: &[Column<Row>] = &[
         heading: Some("VERDICT"),
         value: |row| json!(row.advised.verdict.to_string()),
     },
-    Column { key: "word", heading: None, value: |row| json!(row.advised.verdict.word.text()) },
+];
+
+const RATES: &[Column<Row>] = &[
     Column {
-        key: "stable_from_hz",
-        heading: Some("STABLE FROM"),
-        value: |row| hz(row.advised.stable_hz),
+        key: "method",
+        heading: Some("METHOD"),
+        value: |row| json!(row.advised.spec.method.id),
     },
+    Column { key: "bounded", heading: Some("BOUNDED"), value: |row| rate(row, 0) },
+    Column { key: "looks-right", heading: Some("LOOKS-RIGHT"), value: |row| rate(row, 1) },
+    Column { key: "accurate", heading: Some("ACCURATE"), value: |row| rate(row, 2) },
+];
+
+fn rate(row: &Row, criterion: usize) -> Value {
+    json!(row.rates.and_then(|rates| rates[criterion]))
+}
+
+/// A method that meets a criterion.
+struct MetRow {
+    id: &'static str,
+    met: Met,
+    ns_per_s: Option<f64>,
+}
+
+impl MetRow {
+    fn of(row: &Row, criterion: usize) -> Option<Self> {
+        let met = row.advised.met[criterion].clone()?;
+        Some(Self { id: row.advised.spec.method.id, met, ns_per_s: row.ns_per_s(criterion) })
+    }
+}
+
+const METS: &[Column<MetRow>] = &[
+    Column { key: "method", heading: Some("METHOD"), value: |row| json!(row.id) },
     Column {
-        key: "accurate_from_hz",
-        heading: Some("ACCURATE FROM"),
-        value: |row| hz(row.advised.accurate_hz),
-    },
-    Column {
-        key: "good_hz",
-        heading: None,
-        value: |row| hz(row.advised.good.as_ref().map(|good| good.tick_hz)),
+        key: "substeps",
+        heading: Some("SUBSTEPS"),
+        value: |row| json!(format!("×{}", row.met.substeps)),
     },
     Column {
         key: "evaluations_per_s",
         heading: Some("EVALS/S"),
-        value: |row| json!(row.advised.good.as_ref().map(|good| good.evaluations_per_s)),
+        value: |row| json!(row.met.evaluations_per_s.round() as u64),
     },
     Column {
         key: "ns_per_s",
         heading: Some("NS/S"),
-        value: |row| json!(row.ns_per_s.map(f64::round)),
+        value: |row| json!(row.ns_per_s.map(|ns| ns.round() as u64)),
     },
     Column {
-        key: "error",
-        heading: None,
-        value: |row| json!(Some(row.advised.verdict.outcome.error).filter(|x| x.is_finite())),
+        key: "slowest_hz",
+        heading: Some("HOLDS FROM"),
+        value: |row| json!(format!("{} Hz", row.met.slowest_hz)),
     },
     Column {
-        key: "spectral_radius",
-        heading: None,
-        value: |row| stability(row, |stability| stability.spectral_radius),
-    },
-    Column {
-        key: "growth_per_s",
-        heading: None,
-        value: |row| stability(row, |stability| stability.growth_per_s),
-    },
-    Column {
-        key: "loss_per_s",
-        heading: None,
-        value: |row| stability(row, |stability| stability.loss_per_s),
-    },
-    Column {
-        key: "frequency_error",
-        heading: None,
-        value: |row| stability(row, |stability| stability.frequency_error),
-    },
-    Column {
-        key: "doubling_s",
-        heading: None,
-        value: |row| stability(row, |stability| stability.doubling_s()),
-    },
-    Column {
-        key: "halving_s",
-        heading: None,
-        value: |row| stability(row, |stability| stability.halving_s()),
+        key: "stiffness_factor",
+        heading: Some("STIFFER BY"),
+        value: |row| {
+            json!(format!("{} × {}", round(row.met.stiffness_factor, 3), row.met.limited_by))
+        },
     },
 ];

@@ -34,7 +34,7 @@ mod trace;
 mod verify;
 mod voyage;
 
-use advise::AdviseArgs;
+use advise::{AdviseArgs, AdviseError};
 use capture::{CaptureArgs, CaptureError};
 use chapter::{ChapterArgs, ChapterError};
 use completions::CompletionsArgs;
@@ -120,6 +120,9 @@ pub enum Error {
     /// The chapter's figures could not be drawn or written.
     #[error(transparent)]
     Chapter(#[from] ChapterError),
+    /// Not all methods were judged.
+    #[error(transparent)]
+    Advise(#[from] AdviseError),
     /// Not all methods, rates and scenes could be gone through.
     #[error(transparent)]
     Sweep(#[from] SweepError),
@@ -140,6 +143,7 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::SceneFile(_) => 2,
+            Error::Advise(AdviseError::Interrupted { .. }) => 130,
             Error::Capture(error) => error.exit_code(),
             Error::Chapter(error) => error.exit_code(),
             Error::Sweep(error) => error.exit_code(),

@@ -9,10 +9,37 @@ use crate::lab::{Lane, LaneSpec, Scene};
 /// small body, and with so many it is within a hundredth.
 const TOGETHER: u64 = 256;
 
-/// Nanoseconds that a lane takes for a simulated second at this rate, from its start to tick `ticks` or as
-/// far as it comes within `effort`: the least of as many runs as that allows. `None` for no ticks.
+/// What a lane costs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Timing {
+    /// Nanoseconds for a simulated second, in the fastest run.
+    pub(super) ns_per_s: f64,
+    /// By how much the middle run took longer, as a part of that.
+    pub(super) spread: f64,
+}
+
+/// Times a lane at this rate, from its start to tick `ticks` or as far as it comes within `effort`, in as many runs as
+/// that allows. `None` for no ticks.
 ///
 /// The lane must get through these ticks: a halted one costs nothing.
+pub(super) fn time(
+    scene: &Scene,
+    spec: LaneSpec,
+    tick_hz: u32,
+    ticks: u64,
+    effort: Duration,
+) -> Option<Timing> {
+    let (begin, mut runs) = (Instant::now(), Vec::new());
+    while ticks > 0 && (runs.is_empty() || begin.elapsed() < effort) {
+        runs.push(ns_per_tick(scene, spec, tick_hz, ticks, effort));
+    }
+    runs.sort_by(f64::total_cmp);
+    let least = *runs.first()?;
+    let spread = runs[runs.len() / 2] / least - 1.0;
+    Some(Timing { ns_per_s: least * f64::from(tick_hz), spread })
+}
+
+/// [`time`] without its spread.
 pub(super) fn ns_per_s(
     scene: &Scene,
     spec: LaneSpec,
@@ -20,15 +47,10 @@ pub(super) fn ns_per_s(
     ticks: u64,
     effort: Duration,
 ) -> Option<f64> {
-    let (begin, mut least) = (Instant::now(), None::<f64>);
-    while ticks > 0 && (least.is_none() || begin.elapsed() < effort) {
-        let ns = ns_per_tick(scene, spec, tick_hz, ticks, effort);
-        least = Some(least.map_or(ns, |least| least.min(ns)));
-    }
-    least.map(|ns| ns * f64::from(tick_hz))
+    Some(time(scene, spec, tick_hz, ticks, effort)?.ns_per_s)
 }
 
-/// The same for a tick, in one run, or in as many as make [`TOGETHER`] ticks.
+/// Nanoseconds for a tick, in one run, or in as many as make [`TOGETHER`] ticks.
 fn ns_per_tick(scene: &Scene, spec: LaneSpec, tick_hz: u32, ticks: u64, effort: Duration) -> f64 {
     let hz = f64::from(tick_hz);
     let runs = TOGETHER.div_ceil(ticks);

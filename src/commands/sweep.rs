@@ -34,8 +34,9 @@ One row for each scene, body, method and tick rate, in that order whatever the n
   energy_drift_percent  the largest on the way; empty where the body conserves no energy
   evaluations_per_s     evaluations of the acceleration in a simulated second
   ns_per_s              nanoseconds for a simulated second, measured here and now, one run at a time
-  verdict               exact, accurate, drifting, decays, grows, lost or halted
-  halted                why, if it was lost or halted: a method that blows up is a row like others
+  verdict               rounding, accurate, out-of-phase, loses-energy, gains-energy, blew-up, gave-up,
+                        no-truth or not-judged
+  halted                why, if it blew up or gave up: a method that blows up is a row like others
 
 A body is judged as `regatta advise` judges it, from its start and without the scene's script.
 Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
@@ -225,14 +226,14 @@ const COLUMNS: &[Column<Row>] = &[
     Column {
         key: "energy_drift_percent",
         heading: None,
-        value: |row| json!(row.verdict.outcome.energy_drift),
+        value: |row| json!(row.verdict.energy_drift),
     },
     Column { key: "evaluations_per_s", heading: None, value: |row| json!(row.evaluations_per_s()) },
     Column { key: "ns_per_s", heading: None, value: |row| json!(row.ns_per_s.map(f64::round)) },
-    Column { key: "verdict", heading: None, value: |row| json!(row.verdict.word.text()) },
+    Column { key: "verdict", heading: None, value: |row| json!(row.verdict.word.id()) },
     Column {
         key: "halted",
         heading: None,
-        value: |row| json!(row.verdict.outcome.fate.as_ref().map(|fate| fate.failure.to_string())),
+        value: |row| json!(row.verdict.fate.as_ref().map(|fate| fate.failure.to_string())),
     },
 ];

@@ -4,6 +4,7 @@
 //! from which the window, the help overlay and `regatta list keys` are made.
 
 use super::display::Instrument;
+use super::scene::LaneSpec;
 use crate::sim::integrators::Method;
 
 /// Something to be done, at the next tick where it touches the bodies.
@@ -13,6 +14,9 @@ pub enum Command {
     Method(&'static Method),
     /// Solo: switches to the method on this place of the lane list, from 0. Race: selects that lane.
     Pick(usize),
+    /// Gives this method of the list these substeps and this tolerance, and switches to it as [`Command::Method`] does;
+    /// a lane that races keeps its state.
+    Fly(LaneSpec),
     /// The next method or lane on the list, round.
     NextMethod,
     /// The previous method or lane on the list, round.

@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
+use super::analysis::{Advice, Findings, Question, Thinker, Verdict, entries};
 use super::clock::{Clock, Due};
 use super::command::{Command, SPEED_LADDER, TICK_LADDER};
 use super::display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
 use super::history::History;
 use super::race::Race;
 use super::scene::{LaneSpec, SCENES, Scene};
-use super::thinking::{Advice, Findings, Question, Thinker, entries};
-use super::verdict::Verdict;
 use crate::sim::bodies::Input;
 
 /// What a person chose and a restart keeps; a script's changes are not in it.
@@ -176,6 +175,7 @@ impl Lab {
         match command {
             Command::Method(_)
             | Command::Pick(_)
+            | Command::Fly(_)
             | Command::NextMethod
             | Command::PreviousMethod => {
                 self.perform(command);
@@ -322,6 +322,7 @@ impl Lab {
                 self.pick(listed.expect("every method is on the list"));
             }
             Command::Pick(entry) => self.pick(entry),
+            Command::Fly(spec) => self.fly(spec),
             Command::NextMethod => self.pick_beside(1),
             Command::PreviousMethod => self.pick_beside(-1),
             Command::TickHz(tick_hz) => {
@@ -355,6 +356,20 @@ impl Lab {
             self.race.switch(0, entry, self.entries[entry]);
         }
         self.active = entry;
+    }
+
+    /// Gives the lanes of a method other substeps, those that race too, and picks it.
+    fn fly(&mut self, spec: LaneSpec) {
+        let listed = self.entries.iter().position(|known| known.method == spec.method);
+        let entry = listed.expect("every method is on the list");
+        if self.entries[entry] != spec {
+            self.entries[entry] = spec;
+            let flown = self.race.entrants().iter().position(|entrant| entrant.entry == entry);
+            if let Some(index) = flown {
+                self.race.switch(index, entry, spec);
+            }
+        }
+        self.pick(entry);
     }
 
     /// The next place on the list that can be picked, round, `step` forward or back.

@@ -4,12 +4,11 @@
 //! This layer knows no GPU, no window, no files and no wall clock: text comes in as `&str`, time as
 //! integers, and what comes out is plain data. [`Lab`] holds it all together.
 
-mod advice;
+mod analysis;
 mod clock;
 mod command;
 mod display;
 mod history;
-mod judge;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
 mod lab;
 mod lane;
@@ -19,17 +18,17 @@ pub mod picture;
 mod race;
 pub mod round_off;
 mod scene;
-mod thinking;
-mod trend;
-mod verdict;
 
 pub use crate::sim::stability::Stability;
-pub use advice::{Advised, Adviser, Good, cheapest};
+pub use analysis::{
+    Advice, Advised, Adviser, CRITERIA, Criterion, Fate, Findings, Judge, LONG_RUN,
+    LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK, Met, NoTruth, Question, RIGHT_PITCH,
+    Severity, TOLERANCE, Thinker, VISIBLE, Verdict, Word, duration, recommended,
+};
 pub use clock::{Clock, Due};
 pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};
 pub use display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
 pub use history::{CAPACITY, History, Sample};
-pub use judge::{Judge, LONGEST_HORIZON_S, Outcome, TOLERANCE};
 pub use lab::Lab;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody};
 pub use metrics::{METRICS, Metric, Scale, Unit};
@@ -39,5 +38,3 @@ pub use scene::{
     MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene, SceneBody, SceneError,
     SceneErrors, Scripted, TOLERANCES, nearest,
 };
-pub use thinking::{Advice, Findings, Question, Thinker};
-pub use verdict::{Fate, Verdict, Word, duration};

@@ -16,11 +16,14 @@ use super::integrators::StepFailure;
 use super::{Solver, Stepper};
 
 mod flock;
+mod modes;
 mod probe;
 mod search;
 mod spectrum;
+mod trend;
 
 use flock::Flock;
+pub use modes::{NormalMode, normal_modes, undriven};
 use probe::{COPIES, Carrier, Probe, rates, scale, state_of};
 pub use search::{RATES_HZ, RateSearch};
 use spectrum::{Derivatives, Eigenvalue};
@@ -57,6 +60,14 @@ pub struct Stability {
 pub const FOREVER_S: f64 = 365.0 * 86_400.0;
 
 impl Stability {
+    /// Of a map that overflows.
+    const OVERFLOW: Self = Self {
+        spectral_radius: f64::INFINITY,
+        growth_per_s: f64::INFINITY,
+        loss_per_s: 0.0,
+        frequency_error: None,
+    };
+
     /// Of `body` as it is, under `solver`.
     ///
     /// # Errors
@@ -64,12 +75,7 @@ impl Stability {
     pub fn of(body: &dyn Stepper, solver: Solver, tick: Tick) -> Result<Self, StepFailure> {
         let truth = true_modes(body, tick)?;
         let Some(values) = eigenvalues(body, solver, tick)? else {
-            return Ok(Self {
-                spectral_radius: f64::INFINITY,
-                growth_per_s: f64::INFINITY,
-                loss_per_s: 0.0,
-                frequency_error: None,
-            });
+            return Ok(Self::OVERFLOW);
         };
         Ok(against(&truth, &values, tick.h))
     }

@@ -1,4 +1,4 @@
-//! `advise`: a row a method, the slowest rates, and one line to take away.
+//! `advise`: what meets each criterion at the given rate, at what cost and with what headroom, and what to take.
 
 use std::fs;
 
@@ -16,84 +16,116 @@ fn row<'a>(advice: &'a Value, id: &str) -> &'a Value {
     rows.iter().find(|row| row["method"] == id).unwrap()
 }
 
-#[test]
-fn every_method_has_a_row_with_its_rates() {
-    let advice = advice("--scene spring");
-    let ids: Vec<&str> = advice["methods"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|row| row["method"].as_str().unwrap())
-        .collect();
-    assert_eq!(ids, METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
-    assert_eq!(advice["horizon_s"], 20.0);
-    assert_eq!(advice["tolerance"], 0.01);
-
-    let explicit = row(&advice, "explicit-euler");
-    assert_eq!(explicit["verdict"], "grows, ×2 in 2.12 s");
-    assert_eq!(explicit["word"], "grows");
-    assert!(explicit["stable_from_hz"].is_null() && explicit["accurate_from_hz"].is_null());
-    assert!(explicit["ns_per_s"].is_null());
-    // h ω < 2 at 1 Hz is 3.15 ticks a second; z²/24 · 20 · 2π < 0.01 is about 150.
-    assert_eq!(row(&advice, "velocity-verlet")["stable_from_hz"], 4);
-    let accurate = row(&advice, "velocity-verlet")["accurate_from_hz"].as_u64().unwrap();
-    assert!((140..150).contains(&accurate), "{accurate}");
-    // h ω < 2.828.
-    let runge_kutta = row(&advice, "rk4");
-    assert_eq!(runge_kutta["stable_from_hz"], 3);
-    assert_eq!(runge_kutta["good_hz"], 21);
-    assert_eq!(runge_kutta["evaluations_per_s"], 84.0);
-    assert!(runge_kutta["ns_per_s"].as_f64().unwrap() > 0.0);
-    let halving = runge_kutta["halving_s"].as_f64().unwrap() / 86_400.0;
-    assert!((14.5..14.7).contains(&halving), "{halving} days");
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
 }
 
 #[test]
-fn what_is_taken_is_the_cheapest_of_those_that_are_good_and_not_as_printed() {
-    for scene in ["ship", "harbour"] {
+fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
+    let advice = advice("--scene spring --rates");
+    let rows = advice["methods"].as_array().unwrap();
+    let ids: Vec<&str> = rows.iter().map(|row| row["method"].as_str().unwrap()).collect();
+    assert_eq!(ids, METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
+    assert_eq!((&advice["scene"], &advice["tick_hz"]), (&"spring".into(), &60.into()));
+    assert_eq!((&advice["horizon_s"], &advice["bodies"]), (&20.0.into(), &["spring"][..].into()));
+
+    let explicit = row(&advice, "explicit-euler");
+    assert_eq!(explicit["verdict"]["word"], "gains-energy");
+    assert_eq!(explicit["verdict"]["body"], "spring");
+    assert_eq!(explicit["verdict"]["text"], "gains energy: swing ×2 in 2.12 s");
+    let doubles = explicit["verdict"]["doubles_in_s"].as_f64().unwrap();
+    let z = std::f64::consts::TAU / 60.0;
+    let expected = 2.0 * std::f64::consts::LN_2 / (1.0 + z * z).ln() / 60.0;
+    assert!((doubles / expected - 1.0).abs() < 1e-6, "{doubles}, not {expected}");
+    assert!(explicit["verdict"]["halves_in_s"].is_null());
+    assert!(explicit["criteria"].as_object().unwrap().values().all(Value::is_null));
+    assert!(explicit["rates"].as_object().unwrap().values().all(Value::is_null));
+
+    let semi_implicit = row(&advice, "semi-implicit-euler");
+    let bounded = &semi_implicit["criteria"]["bounded"];
+    assert_eq!((&bounded["substeps"], &bounded["evaluations_per_s"]), (&1.into(), &60.0.into()));
+    // h ω < 2 from 3.15 Hz on, or up to (2 / 0.1047)² = 364.8 times the stiffness.
+    assert_eq!((&bounded["slowest_hz"], &bounded["stiffness_factor"]), (&4.into(), &360.0.into()));
+    assert_eq!(bounded["limited_by"], "stiffness");
+    assert!(bounded["ns_per_s"].as_f64().unwrap() > 0.0);
+    assert_eq!(semi_implicit["rates"]["bounded"], 4);
+
+    let runge_kutta = row(&advice, "rk4");
+    assert_eq!(runge_kutta["verdict"]["word"], "accurate");
+    let halving = runge_kutta["verdict"]["halves_in_s"].as_f64().unwrap() / 86_400.0;
+    assert!((14.5..14.7).contains(&halving), "{halving} days");
+    assert_eq!(runge_kutta["rates"]["accurate"], 21);
+    // z²/24 · 20 · 2π < 0.01 is about 150 Hz.
+    let accurate = row(&advice, "velocity-verlet")["rates"]["accurate"].as_u64().unwrap();
+    assert!((140..150).contains(&accurate), "{accurate}");
+    assert_eq!(row(&advice, "velocity-verlet")["criteria"]["accurate"]["substeps"], 3);
+}
+
+#[test]
+fn what_is_recommended_meets_its_criterion_and_is_not_as_printed() {
+    for scene in ["ship", "harbour", "stiff"] {
         let advice = advice(&format!("--scene {scene}"));
-        let taken = advice["take"].as_str().unwrap();
-        let cost = |row: &Value| row["ns_per_s"].as_f64();
-        let as_printed = |row: &Value| row["method"].as_str().unwrap().ends_with("-as-printed");
-        let rows = advice["methods"].as_array().unwrap();
-        let least = rows.iter().filter(|row| !as_printed(row)).filter_map(cost);
-        assert_eq!(cost(row(&advice, taken)), least.reduce(f64::min), "{scene}: {taken}");
-        let line = advice["advice"].as_str().unwrap();
-        let name = METHODS.iter().find(|method| method.id == taken).unwrap().name;
-        let hz = &row(&advice, taken)["good_hz"];
-        assert!(line.contains(&format!("take {name} at {hz} Hz: the cheapest")), "{line}");
-        assert!(line.contains("within 1 % of the amplitude over "), "{line}");
-        assert_eq!(line.lines().count(), 1);
+        assert_eq!(keys(&advice["recommended"]), ["bounded", "looks-right", "accurate"]);
+        for (criterion, take) in advice["recommended"].as_object().unwrap() {
+            assert_eq!(keys(take), ["method", "substeps", "tick_hz"], "{scene}");
+            let id = take["method"].as_str().unwrap();
+            assert!(!id.ends_with("-as-printed"), "{scene}: {id}");
+            let met = &row(&advice, id)["criteria"][criterion];
+            assert_eq!(met["substeps"], take["substeps"], "{scene}: {criterion}");
+            assert_eq!(take["tick_hz"], advice["tick_hz"]);
+        }
     }
 }
 
 #[test]
 fn the_verdict_follows_the_tick_rate_and_the_rates_do_not() {
     let [coarse, fine] = [49, 60].map(|tick_hz| {
-        advice(&format!("--scene stiff --method semi-implicit-euler --tick-hz {tick_hz}"))
+        advice(&format!("--scene stiff --method semi-implicit-euler --rates --tick-hz {tick_hz}"))
     });
     let only = |advice: &Value| {
         assert_eq!(advice["methods"].as_array().unwrap().len(), 1);
         row(advice, "semi-implicit-euler").clone()
     };
     let (coarse, fine) = (only(&coarse), only(&fine));
-    assert_eq!((&coarse["word"], &fine["word"]), (&"lost".into(), &"drifting".into()));
-    assert_eq!(coarse["stable_from_hz"], fine["stable_from_hz"]);
+    let words = [&coarse, &fine].map(|row| row["verdict"]["word"].clone());
+    assert_eq!(words, ["blew-up", "out-of-phase"]);
+    assert!(coarse["verdict"]["error"].is_null());
+    assert_eq!(coarse["rates"], fine["rates"]);
     // The limit itself is at 50 Hz.
-    let stable = fine["stable_from_hz"].as_u64().unwrap();
+    let stable = fine["rates"]["bounded"].as_u64().unwrap();
     assert!((50..=51).contains(&stable), "{stable}");
+    assert_eq!(coarse["criteria"]["bounded"]["substeps"], 2);
 }
 
 #[test]
-fn text_is_an_aligned_table_and_a_line() {
-    let text = stdout_of("advise --scene ship --method rk4 --method explicit-euler");
+fn text_is_a_table_of_verdicts_one_for_each_criterion_and_a_line_for_each() {
+    let text =
+        stdout_of("advise --scene stiff --method semi-implicit-euler --method explicit-euler");
     let lines: Vec<&str> = text.lines().collect();
-    let [head, rk4, euler, "", advice] = lines[..] else { panic!("{text}") };
+    assert!(lines[0].starts_with("METHOD") && lines[0].ends_with("VERDICT"), "{text}");
     let places = |line: &str, word: &str| line.find(word).map(|at| line[..at].chars().count());
-    assert_eq!(places(head, "VERDICT"), places(rk4, "accurate,"));
-    assert_eq!(places(head, "VERDICT"), places(euler, "drifting,"));
-    assert!(advice.starts_with("for this body take "), "{advice}");
+    assert_eq!(places(lines[0], "VERDICT"), places(lines[1], "stable,"), "{text}");
+    assert_eq!(places(lines[0], "VERDICT"), places(lines[2], "blew up"), "{text}");
+    let taken = "at 60 Hz: bounded: semi-implicit-euler ×1 \
+                 (60 evaluations/s; holds down to 50 Hz, or 1.4 × stiffness)";
+    assert_eq!(lines[lines.len() - 3], taken);
+    assert!(lines[lines.len() - 2].starts_with("at 60 Hz: looks-right: "), "{text}");
+    assert!(lines[lines.len() - 1].starts_with("at 60 Hz: accurate: "), "{text}");
+    assert!(
+        lines.contains(&"  not, or not known to, with up to 64 substeps: explicit-euler"),
+        "{text}"
+    );
     assert!(lines.iter().all(|line| line.trim_end() == *line), "{text}");
+}
+
+#[test]
+fn of_several_bodies_the_one_that_decides_is_named() {
+    let advice = advice("--scene harbour --method explicit-euler --method semi-implicit-euler");
+    assert_eq!(row(&advice, "explicit-euler")["verdict"]["body"], "free spring");
+    let text = row(&advice, "explicit-euler")["verdict"]["text"].as_str().unwrap();
+    assert!(text.ends_with("(free spring)"), "{text}");
+    let limited = &row(&advice, "semi-implicit-euler")["criteria"]["bounded"]["limited_by"];
+    assert_eq!(limited, "stiffness (damped spring)");
 }
 
 #[test]
@@ -105,7 +137,7 @@ fn a_scene_that_nothing_holds_is_told_so() {
     let output = run_in(folder.path(), "advise --scene hard.toml --method rk4");
     assert_eq!(output.status.code(), Some(0));
     let text = String::from_utf8(output.stdout).unwrap();
-    assert!(text.contains("for this body take none of these methods"), "{text}");
+    assert!(text.contains("at 60 Hz: bounded: none of these with up to 64 substeps"), "{text}");
 }
 
 #[test]

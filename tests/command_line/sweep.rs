@@ -174,8 +174,8 @@ fn a_row_says_what_advise_says() {
         assert_eq!(rows.len(), advised.len());
         for (row, advised) in rows.iter().zip(advised) {
             assert_eq!(row["method"], advised["method"]);
-            assert_eq!(row["verdict"], advised["word"], "{row}");
-            assert_eq!(row["error"], advised["error"], "{row}");
+            assert_eq!(row["verdict"], advised["verdict"]["word"], "{row}");
+            assert_eq!(row["error"], advised["verdict"]["error"], "{row}");
         }
         let rk4 = rows.iter().find(|row| row["method"] == "rk4").unwrap();
         assert_eq!(number(rk4, "evaluations_per_s"), 4.0 * tick_hz.as_f64().unwrap());
@@ -189,7 +189,7 @@ fn energy_drifts_where_it_is_conserved_and_is_none_where_it_is_not() {
     // (1 + z²)^60 with z = 2π/60.
     let growth = 100.0 * ((1.0 + (std::f64::consts::TAU / 60.0).powi(2)).powi(60) - 1.0);
     let drift = number(spring, "energy_drift_percent");
-    assert!((drift / growth - 1.0).abs() < 1e-9, "{drift} %, not {growth}");
+    assert!((drift / growth - 1.0).abs() < 1e-3, "{drift} %, not {growth}");
     assert!(ship["energy_drift_percent"].is_null());
 }
 
@@ -197,14 +197,14 @@ fn energy_drifts_where_it_is_conserved_and_is_none_where_it_is_not() {
 fn a_blow_up_is_a_row() {
     let rows = rows("--scene stiff --method semi-implicit-euler --tick-hz 49,60");
     let [lost, kept] = &rows[..] else { panic!("{rows:?}") };
-    assert_eq!(lost["verdict"], "lost");
+    assert_eq!(lost["verdict"], "blew-up");
     assert!(text(lost, "halted").starts_with("left the stage: "), "{lost}");
     assert!(lost["error"].is_null());
-    // The verdict on this body is "lost, past 10³⁸ in 4.14 s".
+    // The verdict on this body is "blew up after 4.14 s".
     assert!((4.1..4.2).contains(&number(lost, "seconds")), "{lost}");
     assert_eq!(number(lost, "evaluations_per_s"), 49.0);
     assert!(number(lost, "ns_per_s") > 0.0);
-    assert_eq!((&kept["verdict"], number(kept, "seconds")), (&"drifting".into(), 5.0));
+    assert_eq!((&kept["verdict"], number(kept, "seconds")), (&"out-of-phase".into(), 5.0));
     assert!(kept["halted"].is_null());
 }
 

@@ -37,7 +37,7 @@ fn work_curve<'a>(method: &Method, rows: impl Iterator<Item = &'a Row>) -> Figur
     for row in rows {
         let [work, error] = by_rate.entry(row.tick_hz).or_insert([0.0, 0.0_f64]);
         *work += row.evaluations_per_s();
-        *error = error.max(row.verdict.outcome.error);
+        *error = error.max(row.verdict.error);
     }
     let (colour, dash) = palette::style(method);
     let points = by_rate.into_values().filter(|point| point[1].is_finite()).collect();

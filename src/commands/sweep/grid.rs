@@ -60,20 +60,20 @@ pub(super) struct Row {
 impl Row {
     /// How far the run came, in simulated seconds.
     pub(super) fn seconds(&self) -> f64 {
-        let outcome = &self.verdict.outcome;
-        outcome.fate.as_ref().map_or(outcome.seconds, |fate| fate.t)
+        let verdict = &self.verdict;
+        verdict.fate.as_ref().map_or(verdict.seconds, |fate| fate.t)
     }
 
     /// Evaluations of the body's acceleration in a simulated second.
     pub(super) fn evaluations_per_s(&self) -> f64 {
-        let (outcome, hz) = (&self.verdict.outcome, f64::from(self.tick_hz));
+        let (verdict, hz) = (&self.verdict, f64::from(self.tick_hz));
         // Whole ticks, so that a method of so many evaluations a step has a whole number of them.
-        outcome.evaluations as f64 * hz / (outcome.seconds * hz).round()
+        verdict.evaluations as f64 * hz / (verdict.seconds * hz).round()
     }
 
     /// The largest error as a part of the amplitude, of a run that came to its end.
     pub(super) fn error(&self) -> Option<f64> {
-        Some(self.verdict.outcome.error).filter(|error| error.is_finite())
+        Some(self.verdict.error).filter(|error| error.is_finite())
     }
 }
 

@@ -78,6 +78,7 @@ pub(super) const KIND: Kind = Kind {
         },
     ],
     inputs: &["kick"],
+    leading: "stiffness_n_per_m",
     truth: Truth::Exact,
     check: |values| match values {
         [masses, .., plucked, _, _] if plucked > masses => Err(Fault {

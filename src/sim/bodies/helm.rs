@@ -95,6 +95,7 @@ pub(super) const KIND: Kind = Kind {
         },
     ],
     inputs: &["throttle", "rudder", "kick"],
+    leading: "side_drag_n_s_per_m",
     truth: Truth::Reference,
     check: |_| Ok(()),
     build: |values, solver| {

@@ -161,6 +161,8 @@ pub struct Kind {
     pub parameters: &'static [Parameter],
     /// The kinds of input it takes: `throttle`, `rudder`, `kick`.
     pub inputs: &'static [&'static str],
+    /// The key of the parameter that makes it stiffer: the motion faster, and the tick coarser beside it.
+    pub leading: &'static str,
     /// Whether its motion has a closed form.
     pub truth: Truth,
     /// Says what is wrong with values that are each in range but do not go together.

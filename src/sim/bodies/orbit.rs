@@ -55,6 +55,7 @@ pub(super) const KIND: Kind = Kind {
         },
     ],
     inputs: &["kick"],
+    leading: "mu_m3_per_s2",
     truth: Truth::Exact,
     check: |values| match values {
         [_, 0.0, 0.0, ..] => Err(Fault {

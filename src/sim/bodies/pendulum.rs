@@ -54,6 +54,7 @@ pub(super) const KIND: Kind = Kind {
         },
     ],
     inputs: &["kick"],
+    leading: "gravity_m_per_s2",
     truth: Truth::Reference,
     check: |_| Ok(()),
     build: |values, solver| {

@@ -48,6 +48,7 @@ pub(super) const KIND: Kind = Kind {
         },
     ],
     inputs: &["throttle", "kick"],
+    leading: "drag_n_s_per_m",
     truth: Truth::Exact,
     check: |_| Ok(()),
     build: |values, solver| {

@@ -50,6 +50,7 @@ pub(super) const KIND: Kind = Kind {
         },
     ],
     inputs: &["kick"],
+    leading: "stiffness_n_per_m",
     truth: Truth::Exact,
     check: |_| Ok(()),
     build: |values, solver| {

@@ -74,7 +74,7 @@ pub(super) fn eigenvalues(derivatives: &Derivatives) -> Option<Vec<Eigenvalue>> 
         let (now, later) = (now.each_ref().map(cut), later.each_ref().map(cut));
         let (off, has_memory) = remembers(&now, &later);
         let (map, blur) = match has_memory {
-            true => (&with_memory(&now, &later)?, MEMORY_BLUR),
+            true => (&with_memory(&now, &later)?, NEUTRAL_WITH_MEMORY),
             false => (&now[0], BLUR * off),
         };
         values.extend(of_matrix(map)?.into_iter().map(|value| sharpened(value, blur)));
@@ -136,7 +136,7 @@ fn of_two_rows(matrix: &DMatrix<f64>) -> [Eigenvalue; 2] {
 }
 
 /// A modulus this near 1 is 1, where a memory had to be found out.
-const MEMORY_BLUR: f64 = 1e-9;
+pub(super) const NEUTRAL_WITH_MEMORY: f64 = 1e-9;
 /// And without memory, in units of what two ticks are off from their product, which is the rounding of
 /// the differences: much for a method that makes velocities of differences of positions.
 const BLUR: f64 = 10.0;

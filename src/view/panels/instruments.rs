@@ -54,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     match lab.display().instrument {
         Instrument::Metric(index) => metric(ui, lab, room, index),
         Instrument::Phase => phase(ui, lab, room),
-        Instrument::Advice => advice::show(ui, lab),
+        Instrument::Advice => advice::show(ui, lab, commands),
     }
 }
 

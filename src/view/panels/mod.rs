@@ -4,7 +4,7 @@ use egui::{Color32, CornerRadius, Frame, Margin, Rect, Stroke, Ui};
 
 pub(super) use super::plot::colour;
 use crate::lab::picture::palette;
-use crate::lab::{Command, Lab, Word};
+use crate::lab::{Command, Lab, Severity, Word};
 
 mod advice;
 mod footer;
@@ -123,11 +123,12 @@ fn frame(fill: Color32) -> Frame {
     Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 4))
 }
 
-/// The colour of a verdict: quiet where all is well.
+/// The colour of a verdict.
 fn tone(word: Word) -> Color32 {
-    match word {
-        Word::Exact | Word::Accurate => WELL,
-        Word::Drifting | Word::Decays => DOUBTFUL,
-        Word::Grows | Word::Lost | Word::Halted => colour(palette::ALARM),
+    match word.severity() {
+        Severity::Fine => WELL,
+        Severity::Doubtful => DOUBTFUL,
+        Severity::Bad => colour(palette::ALARM),
+        Severity::Unknown => QUIET,
     }
 }

@@ -1,22 +1,22 @@
-//! What is worked out beside the race, a little at a time: verdicts and advice. It takes long, and so it
-//! may be done on another thread than the race: a [`Question`] goes there, [`Findings`] come back.
+//! What is worked out beside the race, a little at a time: verdicts and advice. It takes long, and so it may be done on
+//! another thread than the race: a [`Question`] goes there, [`Findings`] come back.
 
 use std::sync::Arc;
 
-use super::advice::{Advised, Adviser};
+use super::advice::{Advised, Adviser, CRITERIA, Met};
 use super::judge::Judge;
-use super::scene::{LaneSpec, Scene};
 use super::verdict::Verdict;
+use crate::lab::scene::{LaneSpec, Scene};
 use crate::sim::integrators::METHODS;
 
-/// What is to be worked out. Of one [`Lab`](super::Lab) two are equal where their answers are.
+/// What is to be worked out. Two questions of one [`Lab`](crate::lab::Lab) are equal if they have the same answer.
 #[derive(Clone, Debug)]
 pub struct Question {
-    pub(super) scene: Arc<Scene>,
-    pub(super) tick_hz: u32,
-    pub(super) throttle: f64,
+    pub(in crate::lab) scene: Arc<Scene>,
+    pub(in crate::lab) tick_hz: u32,
+    pub(in crate::lab) throttle: f64,
     /// Whether advice is wanted too.
-    pub(super) advice: bool,
+    pub(in crate::lab) advice: bool,
 }
 
 impl PartialEq for Question {
@@ -30,13 +30,13 @@ impl PartialEq for Question {
 
 impl Question {
     /// Whether it is about this scene, as it was opened and not only as it is written.
-    pub(super) fn is_of(&self, scene: &Arc<Scene>) -> bool {
+    pub(in crate::lab) fn is_of(&self, scene: &Arc<Scene>) -> bool {
         Arc::ptr_eq(&self.scene, scene)
     }
 }
 
 /// The methods that digits and lanes refer to: the scene's lanes, then all others.
-pub(super) fn entries(scene: &Scene) -> Vec<LaneSpec> {
+pub(in crate::lab) fn entries(scene: &Scene) -> Vec<LaneSpec> {
     let others = METHODS.iter().filter(|m| !scene.lanes.iter().any(|spec| spec.method == *m));
     scene.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
 }
@@ -44,17 +44,17 @@ pub(super) fn entries(scene: &Scene) -> Vec<LaneSpec> {
 /// What was found by now.
 #[derive(Clone, Debug)]
 pub struct Findings {
-    pub(super) question: Question,
+    pub(in crate::lab) question: Question,
     /// For each method of the list what was last found of it, though it were at another tick rate.
-    pub(super) verdicts: Vec<Option<Verdict>>,
-    pub(super) advice: Option<Advice>,
+    pub(in crate::lab) verdicts: Vec<Option<Verdict>>,
+    pub(in crate::lab) advice: Option<Advice>,
     /// Whether there is no more to find.
-    pub(super) complete: bool,
+    pub(in crate::lab) complete: bool,
 }
 
 impl Findings {
     /// Whether they are all that there is to be found.
-    pub(super) fn answer(&self, question: &Question) -> bool {
+    pub(in crate::lab) fn answer(&self, question: &Question) -> bool {
         self.complete && self.question == *question
     }
 }
@@ -80,19 +80,42 @@ pub struct Thinker {
     verdicts: Vec<Option<Verdict>>,
     /// How many of the verdicts, from the first, answer the question.
     judged: usize,
-    adviser: Option<Adviser>,
+    advising: Option<Advising>,
 }
 
-/// Steps of one coordinate that a verdict may take: some hundredth of a second's work. Faster rates and
-/// larger bodies are judged over a shorter stretch, which the verdict names.
-const MOST_STEPS: f64 = 5e5;
+/// Advice on the way: method after method, criterion after criterion.
+struct Advising {
+    adviser: Adviser,
+    advised: Vec<Advised>,
+    /// What is known of the method under way.
+    met: Vec<Option<Met>>,
+}
+
+impl Advising {
+    /// Looks into one more criterion.
+    fn advance(&mut self) {
+        let Some(method) = METHODS.get(self.advised.len()) else { return };
+        let spec = LaneSpec::plain(method);
+        if let Some(&criterion) = CRITERIA.get(self.met.len()) {
+            self.met.push(self.adviser.met(spec, criterion));
+        } else {
+            let met =
+                std::mem::take(&mut self.met).try_into().expect("each criterion was looked into");
+            self.advised.push(Advised { spec, verdict: self.adviser.verdict(spec), met });
+        }
+    }
+
+    fn is_done(&self) -> bool {
+        self.advised.len() == METHODS.len()
+    }
+}
 
 impl Thinker {
     /// Sets out to answer `question`.
     pub fn new(question: Question) -> Self {
         let entries = entries(&question.scene);
         let verdicts = vec![None; entries.len()];
-        Self { question, judge: None, entries, verdicts, judged: 0, adviser: None }
+        Self { question, judge: None, entries, verdicts, judged: 0, advising: None }
     }
 
     /// Sets out to answer another question. What is found already and answers it too is kept.
@@ -107,28 +130,26 @@ impl Thinker {
         }
         if !same_throttle || question.tick_hz != self.question.tick_hz {
             self.judged = 0;
-            self.adviser = None;
+            self.advising = None;
         }
         self.question = question;
     }
 
-    /// Finds one verdict that is missing or, where none is, tries one more rate for the advice that is
-    /// asked for.
-    /// Returns whether there is more to do.
+    /// Finds one verdict that is missing or, where none is, looks into one more criterion for the advice that is asked
+    /// for. Returns whether there is more to do.
     pub fn go_on(&mut self) -> bool {
         let Question { scene, tick_hz, throttle, advice } = &self.question;
         if let Some(&spec) = self.entries.get(self.judged) {
             let judge = self.judge.get_or_insert_with(|| Judge::new(scene, *throttle));
-            let steps_per_s = f64::from(*tick_hz) * f64::from(spec.substeps);
-            let most_s = MOST_STEPS / (steps_per_s * judge.coordinates() as f64);
-            self.verdicts[self.judged] = Some(judge.verdict_within(spec, *tick_hz, most_s));
+            self.verdicts[self.judged] = Some(judge.verdict(spec, *tick_hz));
             self.judged += 1;
         } else if *advice {
-            let adviser = self.adviser.get_or_insert_with(|| {
-                let specs = METHODS.iter().map(LaneSpec::plain).collect();
-                Adviser::new(scene, *throttle, *tick_hz, specs)
+            let advising = self.advising.get_or_insert_with(|| Advising {
+                adviser: Adviser::new(scene, *throttle, *tick_hz),
+                advised: Vec::new(),
+                met: Vec::new(),
             });
-            adviser.advance();
+            advising.advance();
         }
         !self.is_done()
     }
@@ -140,17 +161,18 @@ impl Thinker {
     }
 
     fn is_done(&self) -> bool {
-        let advised = self.adviser.as_ref().is_some_and(Adviser::is_done);
+        let advised = self.advising.as_ref().is_some_and(Advising::is_done);
         self.judged == self.entries.len() && (advised || !self.question.advice)
     }
 
     /// What is found by now.
     pub fn findings(&self) -> Findings {
-        let advice = self.adviser.as_ref().filter(|_| self.question.advice).map(|adviser| Advice {
+        let advice = self.advising.as_ref().filter(|_| self.question.advice);
+        let advice = advice.map(|Advising { adviser, advised, .. }| Advice {
             tick_hz: adviser.tick_hz(),
             horizon_s: adviser.judge().horizon_s(),
-            wanted: adviser.wanted(),
-            advised: adviser.advised().to_vec(),
+            wanted: METHODS.len(),
+            advised: advised.clone(),
         });
         Findings {
             question: self.question.clone(),

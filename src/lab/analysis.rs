@@ -1,0 +1,18 @@
+//! What is to be said of methods on a scene: verdicts, and advice on which to take. Pure functions of a scene, measured
+//! on the run.
+
+mod advice;
+mod judge;
+mod run;
+mod survey;
+mod thinking;
+mod truth;
+mod verdict;
+
+pub use advice::{Advised, Adviser, CRITERIA, Criterion, MOST_ADVISED_SUBSTEPS, Met, recommended};
+pub use judge::{Judge, LONGEST_HORIZON_S, RIGHT_PITCH, TOLERANCE, VISIBLE};
+pub use run::MOST_WORK;
+pub(super) use thinking::entries;
+pub use thinking::{Advice, Findings, Question, Thinker};
+pub use truth::LONG_RUN;
+pub use verdict::{Fate, NoTruth, Severity, Verdict, Word, duration};

@@ -1,0 +1,312 @@
+//! Which method to take for a scene at its tick rate: how few substeps meet each of three criteria, and how much
+//! coarser the ticks or stiffer the bodies could be.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex};
+
+use super::judge::{Finding, Judge};
+use super::verdict::Verdict;
+use crate::lab::scene::{LaneSpec, Scene};
+use crate::sim::stability::RateSearch;
+
+/// What a developer may want of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Criterion {
+    /// Nothing grows that should not, over the scene and in the long run.
+    Bounded,
+    /// The swing is as wide and as fast as in truth, as far as one sees.
+    LooksRight,
+    /// The motion is the true one, moment by moment, as far as one sees.
+    Accurate,
+}
+
+/// Every criterion, from the easiest to the hardest.
+pub static CRITERIA: [Criterion; 3] =
+    [Criterion::Bounded, Criterion::LooksRight, Criterion::Accurate];
+
+impl Criterion {
+    /// Its name in output, in kebab case.
+    pub fn id(self) -> &'static str {
+        match self {
+            Criterion::Bounded => "bounded",
+            Criterion::LooksRight => "looks-right",
+            Criterion::Accurate => "accurate",
+        }
+    }
+
+    /// As people read it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Criterion::Bounded => "bounded",
+            Criterion::LooksRight => "looks right",
+            Criterion::Accurate => "accurate",
+        }
+    }
+
+    /// What it asks for, in one line.
+    pub fn about(self) -> &'static str {
+        match self {
+            Criterion::Bounded => {
+                "nothing grows that should not: no mode of a linear body doubles within a year, no other body's swing \
+                 within 20 times the scene"
+            }
+            Criterion::LooksRight => {
+                "amplitude within 5 % of the truth's and frequency within 1 %; without a swing, within 5 % of the range"
+            }
+            Criterion::Accurate => {
+                "no coordinate or velocity off by more than 1 % of its amplitude"
+            }
+        }
+    }
+}
+
+/// The most substeps in a tick that are tried.
+pub const MOST_ADVISED_SUBSTEPS: u32 = 64;
+
+/// The most work for one run of a stiffer scene, of which there are many, as [`MOST_WORK`](super::MOST_WORK) counts it.
+const WORK_WHEN_STIFFER: u64 = 5_000_000;
+
+/// How a method meets a criterion, with as few substeps as it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Met {
+    /// Steps in a tick.
+    pub substeps: u32,
+    /// Evaluations of all bodies' accelerations per simulated second.
+    pub evaluations_per_s: f64,
+    /// The slowest tick rate in Hz, down from the one asked about, at which it still holds with as many substeps.
+    pub slowest_hz: u32,
+    /// How many times stiffer the bodies may be, of the factors in [`FACTORS`].
+    pub stiffness_factor: f64,
+    /// What that factor is of, on the body that fails first beyond it.
+    pub limited_by: String,
+}
+
+/// What is known of one method on a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advised {
+    /// The method.
+    pub spec: LaneSpec,
+    /// At the rate that was asked about.
+    pub verdict: Verdict,
+    /// For each of [`CRITERIA`] how the method meets it, if it does.
+    pub met: [Option<Met>; CRITERIA.len()],
+}
+
+/// Judges methods on a scene at one tick rate. What several of them need is worked out once, and they may be asked about
+/// from several threads.
+pub struct Adviser {
+    scene: Scene,
+    judge: Judge,
+    tick_hz: u32,
+    /// The same scene, stiffer by the factor on this place of [`FACTORS`]; `None` where it cannot be.
+    stiffer: Mutex<HashMap<usize, Option<Arc<Judge>>>>,
+}
+
+/// The factors by which bodies are made stiffer, to two digits: 24 in a decade.
+const DECADE: [f64; 24] = [
+    1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.8, 2.0, 2.2, 2.4, 2.7, 3.0, 3.3, 3.6, 3.9, 4.3, 4.7, 5.1,
+    5.6, 6.2, 6.8, 7.5, 8.2,
+];
+const DECADES: usize = 4;
+
+/// The factor on this place of all that are tried: 1 to 10 000.
+fn factor(place: usize) -> f64 {
+    DECADE[place % DECADE.len()] * [1.0, 10.0, 100.0, 1000.0, 10_000.0][place / DECADE.len()]
+}
+
+impl Adviser {
+    /// For `scene` under this throttle at this rate.
+    pub fn new(scene: &Scene, throttle: f64, tick_hz: u32) -> Self {
+        let judge = Judge::new(scene, throttle);
+        Self { scene: scene.clone(), judge, tick_hz, stiffer: Mutex::default() }
+    }
+
+    /// What methods are held against.
+    pub fn judge(&self) -> &Judge {
+        &self.judge
+    }
+
+    /// The rate that is asked about, in Hz.
+    pub fn tick_hz(&self) -> u32 {
+        self.tick_hz
+    }
+
+    /// What is to be said of a lane at that rate.
+    pub fn verdict(&self, spec: LaneSpec) -> Verdict {
+        self.judge.verdict(spec, self.tick_hz)
+    }
+
+    /// How a method meets a criterion with the fewest substeps, if it does with [`MOST_ADVISED_SUBSTEPS`] or fewer. The
+    /// substeps of `spec` do not matter. One substep fewer does not meet it.
+    pub fn met(&self, spec: LaneSpec, criterion: Criterion) -> Option<Met> {
+        let with = |substeps: u32| LaneSpec { substeps, ..spec };
+        let tried = |substeps| find(&self.judge, criterion, with(substeps), self.tick_hz);
+        let (mut fails, mut holds) = (0, None);
+        for substeps in (0..).map(rung).take_while(|&n| n <= MOST_ADVISED_SUBSTEPS) {
+            match tried(substeps) {
+                Finding::Holds { evaluations_per_s } => {
+                    holds = Some((substeps, evaluations_per_s));
+                    break;
+                }
+                Finding::Fails { .. } => fails = substeps,
+                Finding::Unknown => return None,
+            }
+        }
+        let (mut substeps, mut evaluations_per_s) = holds?;
+        while substeps - fails > 1 {
+            let middle = fails.midpoint(substeps);
+            match tried(middle) {
+                Finding::Holds { evaluations_per_s: found } => {
+                    (substeps, evaluations_per_s) = (middle, found);
+                }
+                _ => fails = middle,
+            }
+        }
+        let spec = with(substeps);
+        let (stiffness_factor, limited_by) = self.stiffest(spec, criterion);
+        let slowest_hz = self.slowest_down(spec, criterion);
+        Some(Met { substeps, evaluations_per_s, slowest_hz, stiffness_factor, limited_by })
+    }
+
+    /// The slowest rate in Hz of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion; `None`
+    /// where it does at none.
+    pub fn slowest(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
+        RateSearch::run(|hz| holds(find(&self.judge, criterion, spec, hz)))
+    }
+
+    /// The slowest rate down from the one asked about, where the lane meets the criterion, at which it still does; one
+    /// hertz slower it does not.
+    fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> u32 {
+        let holds = |hz: u32| holds(find(&self.judge, criterion, spec, hz));
+        let (mut held, mut failed) = (self.tick_hz, 0);
+        // Down by a sixth each time: a gap between rates that hold would have to be narrower to be missed.
+        while held > 1 {
+            let next = held - (held / 6).max(1);
+            if !holds(next) {
+                failed = next;
+                break;
+            }
+            held = next;
+        }
+        while held - failed > 1 {
+            let middle = failed.midpoint(held);
+            if holds(middle) { held = middle } else { failed = middle }
+        }
+        held
+    }
+
+    /// The largest factor of all that are tried by which every body may be stiffer, and what fails beyond it.
+    fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> (f64, String) {
+        let last = DECADE.len() * DECADES;
+        let tried = |place: usize| {
+            let judge = self.stiffer(place)?;
+            Some(find(&judge, criterion, spec, self.tick_hz))
+        };
+        let (mut held, mut failed, mut culprit) = (0, last + 1, None);
+        let mut stride = 1;
+        while failed - held > 1 {
+            let climbing = failed == last + 1;
+            let place = if climbing { (held + stride).min(last) } else { held.midpoint(failed) };
+            match tried(place) {
+                Some(Finding::Holds { .. }) => held = place,
+                Some(Finding::Fails { body }) => (failed, culprit) = (place, Some(body)),
+                Some(Finding::Unknown) | None => failed = place,
+            }
+            stride *= 2;
+        }
+        let body =
+            culprit.or_else(|| self.stiff_bodies().next().map(|(body, _)| body)).unwrap_or(0);
+        (factor(held), self.stiffness_name(body))
+    }
+
+    /// Each body with the place of its leading parameter.
+    fn stiff_bodies(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.scene.bodies.iter().enumerate().filter_map(|(body, of)| {
+            let leads = of.kind.parameters.iter().position(|p| p.key == of.kind.leading)?;
+            Some((body, leads))
+        })
+    }
+
+    /// What is made stiffer about a body, in words.
+    fn stiffness_name(&self, body: usize) -> String {
+        let body = &self.scene.bodies[body];
+        let quantity = quantity(body.kind.leading);
+        match self.scene.bodies.len() {
+            1 => quantity,
+            _ => format!("{quantity} ({})", body.name),
+        }
+    }
+
+    /// The scene with every body stiffer by the factor on this place.
+    fn stiffer(&self, place: usize) -> Option<Arc<Judge>> {
+        if let Some(known) = self.stiffer.lock().expect("no thread panics with it").get(&place) {
+            return known.clone();
+        }
+        let made = self.stiffen(factor(place)).map(|scene| {
+            let judge = Judge::over(&scene, self.judge.throttle(), self.judge.horizon_s());
+            Arc::new(judge.within(WORK_WHEN_STIFFER))
+        });
+        let mut stiffer = self.stiffer.lock().expect("no thread panics with it");
+        stiffer.entry(place).or_insert(made).clone()
+    }
+
+    fn stiffen(&self, factor: f64) -> Option<Scene> {
+        let mut scene = self.scene.clone();
+        for (body, leads) in self.stiff_bodies() {
+            let body = &mut scene.bodies[body];
+            body.values[leads] *= factor;
+            let is_possible = body.kind.parameters[leads].range.contains(body.values[leads])
+                && (body.kind.check)(&body.values).is_ok();
+            if !is_possible {
+                return None;
+            }
+        }
+        Some(scene)
+    }
+}
+
+/// A parameter's key without its unit.
+fn quantity(key: &str) -> String {
+    let is_unit = |word: &&str| ["n", "m", "m3", "kg", "s", "rad"].contains(word);
+    let words = key.split('_').take_while(|word| !is_unit(word));
+    words.collect::<Vec<_>>().join(" ")
+}
+
+fn find(judge: &Judge, criterion: Criterion, spec: LaneSpec, tick_hz: u32) -> Finding {
+    match criterion {
+        Criterion::Bounded => judge.is_bounded(spec, tick_hz),
+        Criterion::LooksRight => judge.looks_right(spec, tick_hz),
+        Criterion::Accurate => judge.is_accurate(spec, tick_hz),
+    }
+}
+
+fn holds(finding: Finding) -> bool {
+    matches!(finding, Finding::Holds { .. })
+}
+
+/// The substeps that are tried on the way up: 1, 2, 3, 4, 6, 8, 12 … 64.
+fn rung(rung: u32) -> u32 {
+    match rung {
+        0 => 1,
+        odd if odd % 2 == 1 => 2 << (odd / 2),
+        even => 3 << (even / 2 - 1),
+    }
+}
+
+/// The method to take for a criterion: of those that meet it the one with the least `cost`, the listings as printed left
+/// out. Costs that differ by less than `blur`, as a factor, count as equal, and evaluations decide.
+pub fn recommended(
+    advised: &[Advised],
+    criterion: usize,
+    blur: f64,
+    cost: impl Fn(&Advised, &Met) -> f64,
+) -> Option<usize> {
+    let met = |(i, advised): (usize, &Advised)| {
+        let met = advised.met[criterion].as_ref().filter(|_| !advised.spec.method.as_printed)?;
+        Some((i, cost(advised, met), met.evaluations_per_s))
+    };
+    let all: Vec<(usize, f64, f64)> = advised.iter().enumerate().filter_map(met).collect();
+    let least = all.iter().map(|(_, cost, _)| *cost).fold(f64::INFINITY, f64::min);
+    let near = all.iter().filter(|(_, cost, _)| *cost <= least * blur);
+    near.min_by(|a, b| a.2.total_cmp(&b.2)).map(|(i, ..)| *i)
+}

@@ -1,0 +1,385 @@
+//! One body under one method, followed tick by tick and held against its truth.
+
+use super::truth::{BodyTruth, Course, LONG_RUN, stray, ticks, window};
+use super::verdict::Fate;
+use crate::lab::scene::LaneSpec;
+use crate::sim::Stepper;
+use crate::sim::integrators::{Family, StepFailure};
+
+/// Work that a run may take, in evaluations of one coordinate: less than a second's.
+pub const MOST_WORK: u64 = 50_000_000;
+
+/// Coordinates from which on an implicit method spends more on its matrix than on evaluations.
+const SMALL_MATRIX: u64 = 20;
+
+/// Ticks between two looks at the work done.
+const TICKS_PER_LOOK: u64 = 64;
+
+/// A swing that reaches this many times as far as the truth has grown, and one that stays below its inverse has died
+/// away.
+const TWICE: f64 = 2.0;
+
+/// A swing that loses more than this part of its amplitude over the second half of a long run is followed on, this many
+/// times as far, until it is known what becomes of it: an orbit that shrinks may yet be flung out.
+const LOSING: f64 = 0.01;
+const FOLLOWED_ON: u64 = 100;
+
+/// A swing that has come down to this part of the truth's has come to rest.
+const AT_REST: f64 = 0.02;
+
+/// What ends a run before its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Until {
+    /// The end of the horizon, or an error beyond this many amplitudes.
+    Error(f64),
+    /// The end of the horizon.
+    Horizon,
+    /// The end of the long run, or a swing that has grown.
+    Grown,
+    /// The end of the long run.
+    LongRun,
+}
+
+/// How a body fared.
+#[derive(Clone, Debug)]
+pub(super) struct Run {
+    /// The largest error of a coordinate or a velocity over the horizon, in amplitudes, and when; infinite where the
+    /// body did not get through.
+    pub(super) error: f64,
+    pub(super) error_at_s: f64,
+    /// The same of coordinates alone.
+    pub(super) coordinate_error: f64,
+    /// The largest error of the last twentieth of the horizon.
+    pub(super) last_error: f64,
+    /// The energy drift of largest magnitude over the horizon, in percent of the energy in motion.
+    pub(super) energy_drift: Option<f64>,
+    /// What ended the run within the horizon.
+    pub(super) fate: Option<Fate>,
+    /// Why the body cannot be held against its truth.
+    pub(super) no_truth: Option<StepFailure>,
+    /// Whether the run was given up for the work it took.
+    pub(super) is_too_much: bool,
+    pub(super) evaluations: u64,
+    /// How far the body came within the horizon, in seconds.
+    pub(super) seconds: f64,
+    /// How far it was followed, in seconds.
+    pub(super) followed_s: f64,
+    /// How far it was to come within the horizon, in seconds.
+    pub(super) horizon_s: f64,
+    /// What ended the run after the horizon.
+    pub(super) later: Option<Fate>,
+    /// When a swing first reached twice as far as the truth's, and a velocity twice as far.
+    pub(super) doubled_at: Option<f64>,
+    pub(super) rushed_at: Option<f64>,
+    /// Since when no swing reaches half as far as the truth's.
+    pub(super) halved_at: Option<f64>,
+    /// Whether the swing was seen to lose, and was followed on; and whether it has come to rest since.
+    pub(super) is_losing: bool,
+    pub(super) has_come_to_rest: bool,
+    /// Mean energy in the quarters of the horizon and of the long run, in units of the energy in motion, less that at
+    /// the start.
+    pub(super) quarters: [f64; 4],
+    pub(super) long_quarters: [f64; 4],
+    /// The watched coordinate after each tick of the horizon.
+    pub(super) series: Vec<f64>,
+    /// The largest swing in each window of the horizon, in amplitudes.
+    pub(super) windows: Vec<f64>,
+}
+
+/// Work spent by now.
+fn work(stepper: &dyn Stepper, spec: LaneSpec) -> u64 {
+    let n = stepper.q().len() as u64;
+    let matrix = if spec.method.family == Family::Implicit { n / SMALL_MATRIX } else { 0 };
+    stepper.evaluations().saturating_mul(n * (1 + matrix))
+}
+
+/// Follows `truth`'s body under `spec` from its start.
+pub(super) fn follow(
+    truth: &BodyTruth,
+    spec: LaneSpec,
+    tick_hz: u32,
+    until: Until,
+    most_work: u64,
+) -> Run {
+    let coordinates = truth.coordinates();
+    let hz = f64::from(tick_hz);
+    let horizon = ticks(truth.horizon_s, tick_hz);
+    let mut end = match until {
+        Until::Error(_) | Until::Horizon => horizon,
+        Until::Grown | Until::LongRun => ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon),
+    };
+    let mut stepper = truth.start(spec.solver());
+    let mut run = Run::new(truth, horizon as f64 / hz);
+    // What is judged without its error needs no truth.
+    let course = (until != Until::Grown).then(|| truth.course(tick_hz));
+    let mut energy = Energy::of(&*stepper, truth, horizon, end);
+    let mut peaks = Peaks::new(truth, &*stepper);
+    let mut tick = 0;
+    while tick < end {
+        tick += 1;
+        let t = tick as f64 / hz;
+        let advanced = stepper.advance((tick - 1) as f64 / hz, 1.0 / hz, spec.substeps);
+        if let Some(failure) = advanced.err().or_else(|| stray(&*stepper, coordinates)) {
+            let fate = Some(Fate { t: (tick - 1) as f64 / hz, failure });
+            if tick <= horizon {
+                run.fate = fate
+            } else {
+                run.later = fate
+            }
+            break;
+        }
+        run.followed_s = t;
+        if tick <= horizon {
+            run.seconds = t;
+            run.evaluations = stepper.evaluations();
+            if let Some(course) = &course {
+                run.compare(&*stepper, course, truth, tick, horizon, t);
+                if let Some(swing) = &truth.swing {
+                    run.series.push(stepper.q()[swing.coordinate]);
+                    peaks.take_in(&*stepper, truth, t, &mut run.windows);
+                }
+                if let Until::Error(enough) = until
+                    && (run.error > enough || run.no_truth.is_some())
+                {
+                    break;
+                }
+            }
+        }
+        let drift = energy.take_in(&*stepper, tick);
+        if tick <= horizon
+            && let Some(drift) = drift
+            && run.energy_drift.is_none_or(|largest: f64| drift.abs() > largest.abs())
+        {
+            run.energy_drift = Some(100.0 * drift);
+        }
+        run.watch_reach(&*stepper, truth, drift, t);
+        if tick == end && tick > horizon && !run.is_losing {
+            run.is_losing = energy.is_losing();
+            end *= if run.is_losing { FOLLOWED_ON } else { 1 };
+        }
+        if run.is_losing
+            && (run.doubled_at.is_some() || run.rushed_at.is_some() || run.rests(&*stepper, truth))
+        {
+            break;
+        }
+        if until == Until::Grown && (run.doubled_at.is_some() || run.rushed_at.is_some()) {
+            break;
+        }
+        if tick.is_multiple_of(TICKS_PER_LOOK) && work(&*stepper, spec) > most_work {
+            run.is_too_much = tick < end;
+            break;
+        }
+    }
+    (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
+    if run.fate.is_some() {
+        (run.error, run.coordinate_error) = (f64::INFINITY, f64::INFINITY);
+        (run.error_at_s, run.last_error) = (run.seconds, f64::INFINITY);
+    }
+    run
+}
+
+impl Run {
+    fn new(truth: &BodyTruth, horizon_s: f64) -> Self {
+        let windows = truth.swing.as_ref().map_or(0, |swing| swing.windows.len());
+        Self {
+            error: 0.0,
+            error_at_s: 0.0,
+            coordinate_error: 0.0,
+            last_error: 0.0,
+            energy_drift: None,
+            fate: None,
+            no_truth: None,
+            is_too_much: false,
+            evaluations: 0,
+            seconds: 0.0,
+            horizon_s,
+            followed_s: 0.0,
+            later: None,
+            doubled_at: None,
+            rushed_at: None,
+            halved_at: None,
+            is_losing: false,
+            has_come_to_rest: false,
+            quarters: [0.0; 4],
+            long_quarters: [0.0; 4],
+            series: Vec::new(),
+            windows: vec![0.0; windows],
+        }
+    }
+
+    fn compare(
+        &mut self,
+        stepper: &dyn Stepper,
+        course: &Course,
+        truth: &BodyTruth,
+        tick: u64,
+        horizon: u64,
+        t: f64,
+    ) {
+        let Some(exact) = course.at(tick) else {
+            self.no_truth = course.failure.clone();
+            return;
+        };
+        let n = stepper.q().len();
+        let values = stepper.q().iter().chain(stepper.v());
+        let mut off: f64 = 0.0;
+        for (i, ((x, exact), amplitude)) in values.zip(exact).zip(&truth.amplitudes).enumerate() {
+            let part = (x - exact).abs() / amplitude;
+            // Written so that what is not a number is kept.
+            off = if part <= off { off } else { part };
+            if i + 1 == n {
+                self.coordinate_error =
+                    if off <= self.coordinate_error { self.coordinate_error } else { off };
+            }
+        }
+        if !(off <= self.error) {
+            (self.error, self.error_at_s) = (off, t);
+        }
+        if 20 * tick > 19 * horizon {
+            self.last_error = if off <= self.last_error { self.last_error } else { off };
+        }
+    }
+
+    fn watch_reach(
+        &mut self,
+        stepper: &dyn Stepper,
+        truth: &BodyTruth,
+        drift: Option<f64>,
+        t: f64,
+    ) {
+        let n = stepper.q().len();
+        let far = |values: &[f64], from: usize| {
+            let parts = values.iter().zip(&truth.reach[from..]);
+            parts.map(|(x, (middle, half))| (x - middle).abs() / half).fold(0.0, f64::max)
+        };
+        // An oscillator's amplitude shows in its energy at every moment, and in its coordinates now and then.
+        let swing = match drift {
+            Some(drift) if truth.is_oscillator() => (1.0 + drift).max(0.0).sqrt(),
+            _ => far(stepper.q(), 0),
+        };
+        if swing >= TWICE && self.doubled_at.is_none() {
+            self.doubled_at = Some(t);
+        }
+        if self.rushed_at.is_none() && far(stepper.v(), n) >= TWICE {
+            self.rushed_at = Some(t);
+        }
+        if swing * TWICE > 1.0 {
+            self.halved_at = None;
+        } else if self.halved_at.is_none() && truth.energy_scale.is_some() {
+            self.halved_at = Some(t);
+        }
+    }
+}
+
+impl Run {
+    /// Whether neither coordinates nor velocities are far from where they rest.
+    fn rests(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
+        let values = stepper.q().iter().chain(stepper.v());
+        let mut parts =
+            values.zip(&truth.reach).map(|(x, (middle, half))| (x - middle).abs() / half);
+        self.has_come_to_rest = parts.all(|part| part <= AT_REST);
+        self.has_come_to_rest
+    }
+}
+
+/// The energy of a body as it goes along, in units of the energy in motion, less that at the start.
+struct Energy {
+    start: f64,
+    scale: Option<f64>,
+    horizon: Means,
+    long: Means,
+}
+
+impl Energy {
+    fn of(stepper: &dyn Stepper, truth: &BodyTruth, horizon: u64, end: u64) -> Self {
+        let start = stepper.energy().unwrap_or(0.0);
+        Self {
+            start,
+            scale: truth.energy_scale,
+            horizon: Means::over(horizon),
+            long: Means::over(end),
+        }
+    }
+
+    /// Whether the amplitude goes down in the long run.
+    fn is_losing(&self) -> bool {
+        let [_, early, _, late] = self.long.means().map(|drift| (1.0 + drift).max(0.0).sqrt());
+        self.scale.is_some() && late < (1.0 - LOSING) * early
+    }
+
+    fn take_in(&mut self, stepper: &dyn Stepper, tick: u64) -> Option<f64> {
+        let drift = (stepper.energy()? - self.start) / self.scale?;
+        if !drift.is_finite() {
+            return None;
+        }
+        self.horizon.take_in(tick, drift);
+        self.long.take_in(tick, drift);
+        Some(drift)
+    }
+}
+
+/// Means over the quarters of a stretch, weighted so that what swings inside a quarter does not count.
+struct Means {
+    end: u64,
+    sums: [(f64, f64); 4],
+}
+
+impl Means {
+    fn over(end: u64) -> Self {
+        Self { end, sums: [(0.0, 0.0); 4] }
+    }
+
+    fn take_in(&mut self, tick: u64, value: f64) {
+        if tick > self.end {
+            return;
+        }
+        let place = 4.0 * (tick as f64 - 0.5) / self.end as f64;
+        let quarter = (place as usize).min(3);
+        let part = place - quarter as f64;
+        let weight = (part * (1.0 - part)).powi(2);
+        let (sum, weights) = &mut self.sums[quarter];
+        *sum += weight * value;
+        *weights += weight;
+    }
+
+    fn means(&self) -> [f64; 4] {
+        self.sums.map(|(sum, weights)| if weights > 0.0 { sum / weights } else { f64::NAN })
+    }
+}
+
+/// How far the coordinates swing, seen between ticks as if they swung harmonically.
+struct Peaks {
+    /// The last two values of each coordinate from its middle, the older one first.
+    last: Vec<[f64; 2]>,
+}
+
+impl Peaks {
+    fn new(truth: &BodyTruth, stepper: &dyn Stepper) -> Self {
+        let from = stepper.q().iter().zip(&truth.centres);
+        Self { last: from.map(|(q, middle)| [f64::NAN, q - middle]).collect() }
+    }
+
+    fn take_in(&mut self, stepper: &dyn Stepper, truth: &BodyTruth, t: f64, windows: &mut [f64]) {
+        let window = window(t / truth.horizon_s, windows.len());
+        for (i, last) in self.last.iter_mut().enumerate() {
+            let (before, here, next) = (last[0], last[1], stepper.q()[i] - truth.centres[i]);
+            *last = [here, next];
+            let mut peak = next.abs();
+            if here.abs() >= before.abs() && here.abs() >= next.abs() {
+                peak = peak.max(harmonic_peak(before, here, next));
+            }
+            windows[window] = windows[window].max(peak / truth.amplitudes[i]);
+        }
+    }
+}
+
+/// The amplitude of the harmonic swing through three values at equal distances, of which the middle one is the
+/// largest.
+fn harmonic_peak(before: f64, here: f64, next: f64) -> f64 {
+    let cos = (before + next) / (2.0 * here);
+    let sin_squared = 1.0 - cos * cos;
+    let side = (next - before) / 2.0;
+    let peak = libm::hypot(here, side / sin_squared.sqrt());
+    // Values further apart than a third of a turn say nothing of what is between them.
+    if sin_squared > 0.0 && peak <= 2.0 * here.abs() { peak } else { here.abs() }
+}

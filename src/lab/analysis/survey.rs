@@ -1,0 +1,153 @@
+//! A walk along the true motion of one body: how far it reaches, how often it swings, how much energy it moves.
+
+use crate::sim::Stepper;
+use crate::sim::integrators::StepFailure;
+
+/// The part of a step at which it is checked: no fraction of a period that a regular step could meet.
+const CHECKED_AT: f64 = 0.381_966_011_250_105_1;
+/// The first step, as a part of the stretch: far below a period of anything that can be followed.
+const FIRST_STEP: f64 = 1e-7;
+/// How far a cubic through both ends of a step may be off, as a part of what the motion has covered: about
+/// a sixth of a radian of a swing.
+const CHORD: f64 = 1e-5;
+/// What has covered less than this part of its magnitude is held against the magnitude: the rest is rounding.
+const ROUNDING: f64 = 1e-9;
+/// By how much a step may change from one to the next.
+const FACTORS: (f64, f64) = (0.3, 2.0);
+/// Values between two moments at which extremes are looked for.
+const BETWEEN: u32 = 4;
+/// Of the moments that a walk may take, the part that is kept for what is left of the stretch, should the rest
+/// not last.
+const KEPT: usize = 4;
+
+/// A moment of the true motion.
+#[derive(Clone, Debug)]
+pub(super) struct Moment {
+    pub(super) t: f64,
+    /// Coordinates, then velocities.
+    pub(super) x: Vec<f64>,
+    /// Velocities, then accelerations: the slopes of `x`.
+    pub(super) slope: Vec<f64>,
+}
+
+impl Moment {
+    pub(super) fn of(body: &dyn Stepper, t: f64) -> Self {
+        let x = [body.q(), body.v()].concat();
+        let mut slope = [body.v(), body.v()].concat();
+        let n = body.q().len();
+        body.acceleration(t, body.q(), body.v(), &mut slope[n..]);
+        Self { t, x, slope }
+    }
+
+    /// Component `i` at the part `s` of the way to `next`, by the cubic through both.
+    pub(super) fn between(&self, next: &Self, i: usize, s: f64) -> f64 {
+        let h = next.t - self.t;
+        let (a, b) = (self.x[i], next.x[i]);
+        let (da, db) = (h * self.slope[i], h * next.slope[i]);
+        let r = 1.0 - s;
+        (1.0 + 2.0 * s) * r * r * a + s * r * r * da + (1.0 + 2.0 * r) * s * s * b - r * s * s * db
+    }
+
+    fn is_finite(&self) -> bool {
+        self.x.iter().chain(&self.slope).all(|x| x.is_finite())
+    }
+}
+
+/// The range that each component covers; of coordinates first, then of velocities.
+#[derive(Clone, Debug)]
+pub(super) struct Ranges(pub(super) Vec<(f64, f64)>);
+
+impl Ranges {
+    pub(super) fn at(body: &dyn Stepper) -> Self {
+        Self(body.q().iter().chain(body.v()).map(|&x| (x, x)).collect())
+    }
+
+    /// Takes in the way from one moment to the next.
+    pub(super) fn take_in(&mut self, from: &Moment, to: &Moment) {
+        for (i, range) in self.0.iter_mut().enumerate() {
+            let turns = from.slope[i] * to.slope[i] < 0.0;
+            let steps = if turns { 1..=BETWEEN } else { BETWEEN..=BETWEEN };
+            for step in steps {
+                let x = from.between(to, i, f64::from(step) / f64::from(BETWEEN));
+                *range = (range.0.min(x), range.1.max(x));
+            }
+        }
+    }
+}
+
+/// Walks from the start of `body` over `seconds`, and shows each piece of the way to `see`. The steps follow the
+/// motion: a cubic through both ends of each is as good as exact. A walk that would take more than `most` moments
+/// goes on at scattered ones, of which only the ends are shown.
+///
+/// # Errors
+/// Where the truth cannot be found, or is not finite, any more.
+pub(super) fn walk(
+    body: &mut dyn Stepper,
+    seconds: f64,
+    most: usize,
+    mut see: impl FnMut(&Moment, &Moment),
+) -> Result<(), StepFailure> {
+    let mut ranges = Ranges::at(body);
+    let mut here = Moment::of(body, 0.0);
+    let mut step = FIRST_STEP * seconds;
+    let mut moments = 0;
+    let kept = most / KEPT;
+    while here.t < seconds && moments + kept < most {
+        let end = if here.t + 1.001 * step < seconds { here.t + step } else { seconds };
+        let check = Moment::of_advanced(body, here.t, here.t + CHECKED_AT * (end - here.t))?;
+        let there = Moment::of_advanced(body, check.t, end)?;
+        moments += 2;
+        ranges.take_in(&here, &check);
+        ranges.take_in(&check, &there);
+        see(&here, &check);
+        see(&check, &there);
+        let part = (check.t - here.t) / (there.t - here.t);
+        let off = worst_chord(&here, &check, &there, part, &ranges);
+        let factor = libm::sqrt(libm::sqrt(CHORD / off));
+        step = (end - here.t) * if factor > FACTORS.0 { factor.min(FACTORS.1) } else { FACTORS.0 };
+        here = there;
+    }
+    let left = seconds - here.t;
+    if left > 0.0 {
+        let mut parts: Vec<f64> = (1..=kept).map(|k| (k as f64 * CHECKED_AT).fract()).collect();
+        parts.sort_by(f64::total_cmp);
+        let start = here.t;
+        for part in parts {
+            let there = Moment::of_advanced(body, here.t, start + part * left)?;
+            see(&there, &there);
+            here = there;
+        }
+    }
+    Ok(())
+}
+
+impl Moment {
+    fn of_advanced(body: &mut dyn Stepper, from: f64, to: f64) -> Result<Self, StepFailure> {
+        body.advance(from, to - from, 1)?;
+        let moment = Self::of(body, to);
+        match moment.x.iter().find(|x| !x.is_finite()) {
+            Some(&value) => Err(StepFailure::NotFinite { coordinate: "the exact solution", value }),
+            None if moment.is_finite() => Ok(moment),
+            None => Err(StepFailure::NotFinite { coordinate: "its acceleration", value: f64::NAN }),
+        }
+    }
+}
+
+/// How far the cubic from `here` to `there` is off at `check`, as a part of what each component has covered.
+fn worst_chord(here: &Moment, check: &Moment, there: &Moment, part: f64, ranges: &Ranges) -> f64 {
+    let n = here.x.len() / 2;
+    let covered = |half: std::ops::Range<usize>| {
+        let cover = |i: usize| {
+            let (low, high) = ranges.0[i];
+            (high - low).max(ROUNDING * low.abs().max(high.abs()))
+        };
+        half.map(cover).fold(0.0, f64::max)
+    };
+    let (q, v) = (covered(0..n), covered(n..2 * n));
+    let off = (0..2 * n).map(|i| {
+        let scale = if i < n { q } else { v };
+        let off = (here.between(there, i, part) - check.x[i]).abs();
+        if scale > 0.0 { off / scale } else { 0.0 }
+    });
+    off.fold(1e-300, f64::max)
+}

@@ -1,0 +1,441 @@
+//! What is known of the true motion of one body before any method is held against it.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex};
+
+use super::survey::{Moment, Ranges, walk};
+use crate::lab::scene::SceneBody;
+use crate::sim::bodies::{Coordinate, Input};
+use crate::sim::integrators::StepFailure;
+use crate::sim::stability::{NormalMode, normal_modes};
+use crate::sim::{Solver, Stepper};
+
+/// A nonlinear body is followed for this many times the horizon, to see what becomes of it in the long run.
+pub const LONG_RUN: f64 = 20.0;
+
+/// A half range this small against the largest value is rounding: the body keeps that value.
+const KEEPS_STILL: f64 = 1e-9;
+
+/// Moments of a walk, and products that its exact flow takes, at most: for a chain the square of its masses at each
+/// moment.
+const MOST_MOMENTS: usize = 100_000;
+const FEWEST_MOMENTS: usize = 512;
+const MOST_PRODUCTS: usize = 40_000_000;
+
+/// Values of true courses that are kept, some ten megabytes: those of the rates last asked about.
+const MOST_KEPT: usize = 1 << 20;
+
+/// A crossing at less than this part of the largest speed is no swing any more.
+const FAINT: f64 = 1e-3;
+
+/// The windows in which the swing is compared, at most.
+const MOST_WINDOWS: usize = 64;
+
+/// The true motion of one body under one throttle.
+pub(super) struct BodyTruth {
+    pub(super) body: SceneBody,
+    pub(super) throttle: f64,
+    pub(super) horizon_s: f64,
+    /// The amplitude of each component of the state, coordinates first.
+    pub(super) amplitudes: Vec<f64>,
+    /// What each coordinate swings about: the middle of its range or, where its energy goes, where it comes to rest.
+    pub(super) centres: Vec<f64>,
+    /// The middle and half the range of each component over the long run, or as far as the truth goes.
+    pub(super) reach: Vec<(f64, f64)>,
+    /// The normal modes of a linear body, each with its share of the energy of the motion.
+    pub(super) modes: Option<Vec<(NormalMode, f64)>>,
+    /// The energy in motion in joules: the largest kinetic energy, which is all of an oscillator's. `None` where none is
+    /// conserved, or nothing moves.
+    pub(super) energy_scale: Option<f64>,
+    pub(super) swing: Option<Swing>,
+    /// Why the truth is not known over the whole horizon, if it is not.
+    pub(super) failure: Option<StepFailure>,
+    courses: Mutex<HashMap<u32, Arc<Course>>>,
+}
+
+/// How a body swings in truth.
+pub(super) struct Swing {
+    /// The coordinate that is watched.
+    pub(super) coordinate: usize,
+    /// When it passes its middle upwards, in seconds.
+    pub(super) crossings: Vec<f64>,
+    /// The largest swing from the middle of any coordinate, in amplitudes, in each of equal windows of the horizon.
+    pub(super) windows: Vec<f64>,
+}
+
+/// The truth at the ticks of one rate.
+pub(super) struct Course {
+    /// The components after each tick, tick after tick.
+    values: Vec<f64>,
+    components: usize,
+    /// The most by which the truth may be off up to each tick, in amplitudes.
+    gaps: Vec<f64>,
+    pub(super) failure: Option<StepFailure>,
+}
+
+impl Course {
+    /// The components after `tick` ticks, from 1; `None` where the truth is not known any more.
+    pub(super) fn at(&self, tick: u64) -> Option<&[f64]> {
+        let from = (tick as usize - 1) * self.components;
+        self.values.get(from..from + self.components)
+    }
+
+    /// The most by which the truth may be off up to `tick` ticks, in amplitudes.
+    pub(super) fn gap(&self, tick: u64) -> f64 {
+        self.gaps.get(tick as usize - 1).copied().unwrap_or(f64::INFINITY)
+    }
+}
+
+impl BodyTruth {
+    /// The amplitude of a component is half the range that the truth covers in it, or in another component of the
+    /// same body and unit that covers more; of what keeps its value, that value.
+    pub(super) fn new(body: &SceneBody, throttle: f64, horizon_s: f64) -> Self {
+        let mut truth = Self {
+            body: body.clone(),
+            throttle,
+            horizon_s,
+            amplitudes: Vec::new(),
+            centres: Vec::new(),
+            reach: Vec::new(),
+            modes: None,
+            energy_scale: None,
+            swing: None,
+            failure: None,
+            courses: Mutex::default(),
+        };
+        truth.survey();
+        truth
+    }
+
+    /// The body at its start under `solver`.
+    pub(super) fn start(&self, solver: Solver) -> Box<dyn Stepper> {
+        let mut stepper = (self.body.kind.build)(&self.body.values, solver);
+        stepper.input(0.0, Input::Throttle(self.throttle));
+        stepper
+    }
+
+    pub(super) fn coordinates(&self) -> &'static [Coordinate] {
+        (self.body.kind.coordinates)(&self.body.values)
+    }
+
+    fn survey(&mut self) {
+        let mut body = self.start(Solver::Truth);
+        let n = body.q().len();
+        let most = (MOST_PRODUCTS / (n * n)).clamp(FEWEST_MOMENTS, MOST_MOMENTS);
+        self.modes = normal_modes(&*body).map(|modes| shares(&*body, modes));
+        let still = self.start(Solver::Truth);
+        let mut ranges = Ranges::at(&*body);
+        let mut kinetic = kinetic_energy(&*still, &Moment::of(&*still, 0.0)).unwrap_or(0.0);
+        let mut conserves = body.energy().is_some();
+        let walked = walk(&mut *body, self.horizon_s, most, |from, to| {
+            ranges.take_in(from, to);
+            if conserves {
+                for moment in fastest(from, to) {
+                    match kinetic_energy(&*still, &moment) {
+                        Some(energy) => kinetic = energy.max(kinetic),
+                        None => conserves = false,
+                    }
+                }
+            }
+        });
+        self.failure = walked.err();
+        self.amplitudes = amplitudes(&ranges.0, self.coordinates());
+        self.energy_scale =
+            Some(kinetic).filter(|&scale| conserves && scale > 0.0 && scale.is_finite());
+        let middle = |range: &(f64, f64)| range.0 + (range.1 - range.0) / 2.0;
+        self.centres = ranges.0[..n].iter().map(middle).collect();
+        if self.failure.is_none() && self.energy_scale.is_some() {
+            self.swing = self.watch(&self.centres, most);
+        }
+        let returns = self.swing.as_ref().is_some_and(|swing| swing.crossings.len() > 2);
+        if !self.is_oscillator() && !returns {
+            // What becomes of other motions beyond the horizon is followed as far as it can be.
+            let mut body = self.start(Solver::Truth);
+            ranges = Ranges::at(&*body);
+            let mut sums = vec![0.0; n];
+            let mut seconds = 0.0;
+            let _ = walk(&mut *body, LONG_RUN * self.horizon_s, most, |from, to| {
+                ranges.take_in(from, to);
+                seconds += to.t - from.t;
+                for (i, sum) in sums.iter_mut().enumerate() {
+                    *sum += (to.t - from.t) * (from.x[i] + to.x[i]) / 2.0;
+                }
+            });
+            if self.energy_scale.is_none() && seconds > 0.0 {
+                // What comes to rest swings about the place where it does.
+                self.centres = sums.iter().map(|sum| sum / seconds).collect();
+            }
+        }
+        if self.failure.is_none() && self.energy_scale.is_none() {
+            self.swing = self.watch(&self.centres, most);
+        }
+        let reach = |i: usize| {
+            let (low, high) = ranges.0[i];
+            let centre = self.centres.get(i).copied().unwrap_or_else(|| middle(&ranges.0[i]));
+            (centre, (high - centre).max(centre - low).max(self.amplitudes[i]))
+        };
+        self.reach = (0..2 * n).map(reach).collect();
+    }
+
+    /// Whether all that it does is to swing for ever, linearly.
+    pub(super) fn is_oscillator(&self) -> bool {
+        self.modes.as_ref().is_some_and(|modes| {
+            modes.iter().all(|(mode, _)| mode.is_conserved() && mode.omega_squared > 0.0)
+        })
+    }
+
+    /// Follows the swing about the middles of the coordinates.
+    fn watch(&self, middles: &[f64], most: usize) -> Option<Swing> {
+        let n = middles.len();
+        let mut crossings = vec![Vec::new(); n];
+        let fast: Vec<f64> = self.amplitudes[n..].iter().map(|v| FAINT * v).collect();
+        let mut peaks: Vec<(f64, f64)> = Vec::new();
+        let mut body = self.start(Solver::Truth);
+        walk(&mut *body, self.horizon_s, most, |from, to| {
+            let mut peak: f64 = 0.0;
+            for i in 0..n {
+                let (a, b) = (from.x[i] - middles[i], to.x[i] - middles[i]);
+                peak = peak.max(a.abs().max(b.abs()) / self.amplitudes[i]);
+                if a < 0.0 && b >= 0.0 && to.t > from.t && to.x[n + i] > fast[i] {
+                    crossings[i].push(crossing(from, to, i, middles[i]));
+                }
+                if from.slope[i] * to.slope[i] < 0.0 {
+                    let within = (1..8).map(|s| from.between(to, i, f64::from(s) / 8.0));
+                    let most = within.map(|x| (x - middles[i]).abs()).fold(0.0, f64::max);
+                    peak = peak.max(most / self.amplitudes[i]);
+                }
+            }
+            peaks.push((to.t, peak));
+        })
+        .ok()?;
+        let coordinate = (0..n).find(|&i| crossings[i].len() >= 2)?;
+        let crossings = std::mem::take(&mut crossings[coordinate]);
+        let period = (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f64;
+        let count = ((self.horizon_s / period) as usize).clamp(1, MOST_WINDOWS);
+        let mut windows = vec![0.0_f64; count];
+        for (t, peak) in peaks {
+            let window = window(t / self.horizon_s, count);
+            windows[window] = windows[window].max(peak);
+        }
+        Some(Swing { coordinate, crossings, windows })
+    }
+
+    /// The truth at the ticks of this rate, up to the horizon.
+    pub(super) fn course(&self, tick_hz: u32) -> Arc<Course> {
+        let kept = |courses: &HashMap<u32, Arc<Course>>| courses.get(&tick_hz).map(Arc::clone);
+        if let Some(course) = kept(&self.courses.lock().expect("no thread panics with it")) {
+            return course;
+        }
+        let course = Arc::new(self.follow(tick_hz));
+        let mut courses = self.courses.lock().expect("no thread panics with it");
+        let held: usize = courses.values().map(|course| course.values.len()).sum();
+        if held + course.values.len() > MOST_KEPT {
+            courses.clear();
+        }
+        courses.insert(tick_hz, Arc::clone(&course));
+        course
+    }
+
+    fn follow(&self, tick_hz: u32) -> Course {
+        let mut body = self.start(Solver::Truth);
+        let (n, hz) = (body.q().len(), f64::from(tick_hz));
+        let mut course =
+            Course { values: Vec::new(), components: 2 * n, gaps: Vec::new(), failure: None };
+        let mut gap: f64 = 0.0;
+        for tick in 0..ticks(self.horizon_s, tick_hz) {
+            let advanced = body.advance(tick as f64 / hz, 1.0 / hz, 1);
+            let failure = advanced.err().or_else(|| stray(&*body, self.coordinates()));
+            if failure.is_some() {
+                course.failure = failure;
+                break;
+            }
+            course.values.extend(body.q().iter().chain(body.v()));
+            let off = body.truth_error().unwrap_or([0.0; 2]);
+            for (i, amplitude) in self.amplitudes.iter().enumerate() {
+                let part = off[i / n] / amplitude;
+                gap = if part <= gap { gap } else { part };
+            }
+            course.gaps.push(gap);
+        }
+        course
+    }
+}
+
+/// Ticks of this rate in a stretch, at least one.
+pub(super) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
+    ((seconds * f64::from(tick_hz)).round() as u64).max(1)
+}
+
+/// The window, of `count`, that this part of the horizon falls into.
+pub(super) fn window(part: f64, count: usize) -> usize {
+    ((part * count as f64) as usize).min(count - 1)
+}
+
+/// Why a body cannot be followed in the state that it is in.
+pub(super) fn stray(body: &dyn Stepper, coordinates: &[Coordinate]) -> Option<StepFailure> {
+    let names = coordinates.iter();
+    let q = names.clone().map(|c| c.name).zip(body.q());
+    let v = names.map(|c| c.velocity).zip(body.v());
+    q.chain(v).find_map(|(coordinate, &value)| match value {
+        _ if !value.is_finite() => Some(StepFailure::NotFinite { coordinate, value }),
+        _ if value.abs() > crate::lab::ESCAPE => Some(StepFailure::Escaped { coordinate, value }),
+        _ => None,
+    })
+}
+
+/// When coordinate `i` passes `level` between two moments, in seconds.
+fn crossing(from: &Moment, to: &Moment, i: usize, level: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..50 {
+        let middle = (low + high) / 2.0;
+        if from.between(to, i, middle) < level { low = middle } else { high = middle }
+    }
+    from.t + low * (to.t - from.t)
+}
+
+/// The end of a piece of the way, and where a velocity is largest within it, some moments about there.
+fn fastest(from: &Moment, to: &Moment) -> Vec<Moment> {
+    let n = to.x.len() / 2;
+    let turns = (n..2 * n).any(|i| from.slope[i] * to.slope[i] < 0.0);
+    let steps = if turns { 1..=16 } else { 16..=16 };
+    let at = |step: i32| {
+        let part = f64::from(step) / 16.0;
+        let x = (0..2 * n).map(|i| from.between(to, i, part)).collect();
+        Moment { t: from.t + part * (to.t - from.t), x, slope: to.slope.clone() }
+    };
+    steps.map(at).collect()
+}
+
+/// What the motion takes of the body's energy at this moment, in joules; `None` where it conserves none.
+fn kinetic_energy(body: &dyn Stepper, at: &Moment) -> Option<f64> {
+    let (q, v) = at.x.split_at(at.x.len() / 2);
+    let energy = |v: &[f64]| {
+        let mut there = body.with_solver(Solver::Truth, 0.0);
+        there.set(0.0, q, v);
+        there.energy()
+    };
+    Some(energy(v)? - energy(&vec![0.0; v.len()])?)
+}
+
+/// The share of each mode in the energy of the motion of `body` about its rest.
+fn shares(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<(NormalMode, f64)> {
+    let n = body.q().len();
+    let mut push = vec![0.0; n];
+    body.acceleration(0.0, &vec![0.0; n], &vec![0.0; n], &mut push);
+    let energy = |mode: &NormalMode| {
+        let (push, omega2) = (mode.part(&push), mode.omega_squared);
+        let (mut q, mut v) = (mode.part(body.q()), mode.part(body.v()));
+        if omega2 > 0.0 {
+            q -= push / omega2;
+        } else if mode.damping_per_s > 0.0 {
+            v -= push / mode.damping_per_s;
+        }
+        v * v + omega2 * q * q
+    };
+    let energies: Vec<f64> = modes.iter().map(energy).collect();
+    let all: f64 = energies.iter().sum();
+    let share = |energy: f64| if all > 0.0 && all.is_finite() { energy / all } else { 0.0 };
+    modes.into_iter().zip(energies).map(|(mode, energy)| (mode, share(energy))).collect()
+}
+
+/// The amplitude of each component, from what the truth covers.
+fn amplitudes(ranges: &[(f64, f64)], coordinates: &[Coordinate]) -> Vec<f64> {
+    let n = ranges.len() / 2;
+    let unit = |i: usize| coordinates[i % n].unit;
+    let alike = |i: usize| (0..2 * n).filter(move |&j| i / n == j / n && unit(i) == unit(j));
+    let most =
+        |of: fn(&(f64, f64)) -> f64, i: usize| alike(i).map(|j| of(&ranges[j])).fold(0.0, f64::max);
+    let amplitude = |i: usize| {
+        let half = most(|(low, high)| (high - low) / 2.0, i);
+        let largest = most(|(low, high)| low.abs().max(high.abs()), i);
+        match (half > KEEPS_STILL * largest, largest > 0.0) {
+            (true, _) => half,
+            (false, true) => largest,
+            (false, false) => 1.0,
+        }
+    };
+    (0..2 * n).map(amplitude).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Scene;
+    use crate::sim::bodies::kind;
+
+    #[test]
+    fn the_amplitude_is_half_the_range_or_what_is_kept() {
+        let ship = kind("ship").unwrap().plain_coordinates();
+        assert_eq!(amplitudes(&[(-1.0, 3.0), (20.0, 20.0)], ship), [2.0, 20.0]);
+        assert_eq!(amplitudes(&[(0.0, 0.0), (5.0, 5.0 + 1e-12)], ship), [1.0, 5.0 + 1e-12]);
+    }
+
+    fn truth(text: &str, seconds: f64) -> BodyTruth {
+        let text = format!("title = \"t\"\ntick_hz = 60\nseconds = {seconds}\n{text}");
+        let scene = Scene::parse("t", &text).unwrap();
+        BodyTruth::new(&scene.bodies[0], 1.0, seconds)
+    }
+
+    #[test]
+    fn amplitudes_are_those_of_the_motion_whatever_its_period_is_to_the_stretch() {
+        let omega = std::f64::consts::TAU;
+        for seconds in [1.0, 20.0, 511.0, 512.0, 1024.0] {
+            let spring =
+                format!("[[spring]]\nmass_kg = 1\nstiffness_n_per_m = {}\n", omega * omega);
+            let [q, v] = truth(&spring, seconds).amplitudes[..] else { panic!("one coordinate") };
+            assert!(
+                (q - 1.0).abs() < 1e-4 && (v / omega - 1.0).abs() < 1e-4,
+                "{seconds} s: {q}, {v}"
+            );
+        }
+        // 512 periods and a half in 20 s.
+        let fast = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 25872.6957612\nx0_m = 0\nv0_m_per_s = 10\n";
+        let [q, v] = truth(fast, 20.0).amplitudes[..] else { panic!("one coordinate") };
+        let omega = 25_872.695_761_2_f64.sqrt();
+        assert!((q * omega / 10.0 - 1.0).abs() < 1e-4 && (v / 10.0 - 1.0).abs() < 1e-4, "{q}, {v}");
+        // Gone within a hundredth of the stretch: the velocity's range is that of its first swing.
+        let damped =
+            "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 10000\ndamping_n_s_per_m = 100\n";
+        let [q, v] = truth(damped, 60.0).amplitudes[..] else { panic!("one coordinate") };
+        let dense = (0..200_000).map(|i| f64::from(i) * 5e-7).map(|t| {
+            let w = 7500.0_f64.sqrt();
+            let decay = libm::exp(-50.0 * t);
+            let x = decay * (libm::cos(w * t) + 50.0 / w * libm::sin(w * t));
+            (x, -decay * 10_000.0 / w * libm::sin(w * t))
+        });
+        let (mut x, mut y) = ((1.0_f64, 1.0_f64), (0.0_f64, 0.0_f64));
+        for (q, v) in dense {
+            x = (x.0.min(q), x.1.max(q));
+            y = (y.0.min(v), y.1.max(v));
+        }
+        let (expected_q, expected_v) = ((x.1 - x.0) / 2.0, (y.1 - y.0) / 2.0);
+        assert!((q / expected_q - 1.0).abs() < 1e-3, "{q}, not {expected_q}");
+        assert!((v / expected_v - 1.0).abs() < 1e-3, "{v}, not {expected_v}");
+    }
+
+    #[test]
+    fn an_eccentric_orbit_keeps_the_peak_of_its_speed() {
+        // Of eccentricity 0.998: 2000 times as fast near the centre as far from it.
+        let orbit =
+            "[[orbit]]\nmu_m3_per_s2 = 1000\nx0_m = 100\nvy0_m_per_s = 0.1414213562373095\n";
+        let truth = truth(orbit, 200.0);
+        let fastest = truth.amplitudes[3];
+        assert!((fastest / 70.78 - 1.0).abs() < 0.01, "{fastest}");
+    }
+
+    #[test]
+    fn a_pendulum_swings_at_the_period_of_its_amplitude() {
+        let truth = truth("[[pendulum]]\nlength_m = 0.4\ntheta0_rad = 0.7\n", 20.0);
+        let swing = truth.swing.unwrap();
+        let n = swing.crossings.len() - 1;
+        let period = (swing.crossings[n] - swing.crossings[0]) / n as f64;
+        // 2π √(l/g) (1 + θ²/16 + 11 θ⁴/3072 + 173 θ⁶/737280)
+        let series = 1.0
+            + 0.49 / 16.0
+            + 11.0 * 0.49_f64.powi(2) / 3072.0
+            + 173.0 * 0.49_f64.powi(3) / 737_280.0;
+        let expected = std::f64::consts::TAU * (0.4_f64 / 9.81).sqrt() * series;
+        assert!((period / expected - 1.0).abs() < 1e-5, "{period}, not {expected}");
+        assert!(swing.windows.iter().all(|peak| (peak - 1.0).abs() < 1e-3));
+    }
+}

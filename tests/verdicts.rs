@@ -1,0 +1,224 @@
+//! Verdicts that were false once, each on the scene where it was.
+
+use regatta::lab::{Adviser, CRITERIA, Judge, LaneSpec, Scene, Verdict, Word};
+use regatta::sim::Solver;
+use regatta::sim::integrators::{METHODS, method};
+
+fn scene(seconds: f64, body: &str) -> Scene {
+    let text = format!("title = \"t\"\ntick_hz = 60\nseconds = {seconds}\n{body}\n");
+    Scene::parse("t", &text).unwrap()
+}
+
+fn spec(id: &str) -> LaneSpec {
+    LaneSpec::plain(method(id).unwrap())
+}
+
+fn verdict(scene: &Scene, id: &str, tick_hz: u32) -> Verdict {
+    Judge::over(scene, 1.0, scene.seconds).verdict(spec(id), tick_hz)
+}
+
+fn built_in(name: &str) -> Scene {
+    Scene::built_in(name).unwrap()
+}
+
+const BOUNDED: usize = 0;
+
+#[test]
+fn a_truth_that_fails_is_no_agreement() {
+    for body in [
+        "[[pendulum]]\nlength_m = 1e-11",
+        "[[pendulum]]\nlength_m = 1e-9",
+        "[[pendulum]]\nlength_m = 1\ndamping_n_m_s = 1e5",
+    ] {
+        let scene = scene(2.0, body);
+        for method in METHODS {
+            let found = verdict(&scene, method.id, 60);
+            let mut lane =
+                (scene.bodies[0].kind.build)(&scene.bodies[0].values, Solver::Method(method));
+            let strays = (0..120).any(|tick| {
+                lane.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).is_err()
+                    || !(lane.q()[0].abs() < 10.0)
+            });
+            let praised = found.word <= Word::Accurate;
+            assert!(!(strays && praised), "{body}: {} strays, and is {found}", method.id);
+        }
+    }
+}
+
+#[test]
+fn words_are_of_the_motion_and_not_of_its_faintest_mode() {
+    // Runge-Kutta takes the fastest of the chain's modes within seconds, and a seventh of its energy in ten minutes.
+    let found = verdict(&built_in("chain"), "rk4", 60);
+    assert_eq!(found.word, Word::OutOfPhase, "{found}");
+    assert!(found.halves_in_s.is_none_or(|halves| halves > 3600.0), "{found:?}");
+    // Improved Euler doubles the swing in 769 s, which nobody sees in 20.
+    let found = verdict(&built_in("spring"), "improved-euler", 60);
+    assert_eq!(found.word, Word::OutOfPhase);
+    assert!((768.0..770.0).contains(&found.doubles_in_s.unwrap()));
+}
+
+#[test]
+fn what_settles_is_said_to_have_settled() {
+    let scene =
+        scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 900\ndamping_n_s_per_m = 2");
+    let found = verdict(&scene, "semi-implicit-euler", 20);
+    assert!(found.error > 0.3 && found.last_error < 0.01, "{found:?}");
+    assert!(found.to_string().contains("settled by 20 s"), "{found}");
+}
+
+#[test]
+fn an_orbit_that_is_flung_out_is_not_one_that_does_not_grow() {
+    let radial = scene(20.0, "[[orbit]]\nmu_m3_per_s2 = 1000\nx0_m = 10\nvy0_m_per_s = 0.01");
+    for id in ["explicit-euler", "rk4", "semi-implicit-euler", "velocity-verlet"] {
+        let found = verdict(&radial, id, 60);
+        let word = found.word;
+        assert!(word >= Word::OutOfPhase || word == Word::NoTruth, "{id}: {found}");
+        if found.error > 100.0 {
+            assert!(
+                matches!(word, Word::GainsEnergy | Word::BlewUp | Word::NoTruth),
+                "{id}: {found}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_scene_of_512_periods_is_judged_as_one_of_511() {
+    for (seconds, body) in [
+        (511.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 39.47841760435743"),
+        (512.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 39.47841760435743"),
+    ] {
+        let found = verdict(&scene(seconds, body), "rk4", 60);
+        assert!((0.003..0.0034).contains(&found.error), "{seconds} s: {found:?}");
+    }
+}
+
+#[test]
+fn a_pendulum_is_not_judged_by_the_map_about_one_of_its_states() {
+    let scene = scene(20.0, "[[pendulum]]\nlength_m = 0.4\ntheta0_rad = 0.7");
+    // At 3 Hz it turns over and over, to 2170 rad.
+    let found = verdict(&scene, "semi-implicit-euler", 3);
+    assert_eq!((found.word, found.is_bounded), (Word::GainsEnergy, Some(false)), "{found}");
+    // The frequency of its swing is lower than that about its rest by 0.49/16, and the method's error is of that.
+    let found = verdict(&scene, "semi-implicit-euler", 30);
+    let error = found.frequency_error.unwrap();
+    let z = (9.81_f64 / 0.4).sqrt() / 30.0;
+    assert!((error / (z * z / 24.0) - 1.0).abs() < 0.25, "{error}, of {}", z * z / 24.0);
+}
+
+#[test]
+fn an_orbit_is_bounded_only_where_it_stays() {
+    let own = built_in("orbit");
+    for hz in [5, 6, 8] {
+        assert_eq!(verdict(&own, "rk4", hz).is_bounded, Some(false), "{hz} Hz");
+    }
+    let other =
+        scene(20.0, "[[orbit]]\nmu_m3_per_s2 = 20433.1559\nx0_m = 81.0876\nvy0_m_per_s = -4.4574");
+    for hz in [1, 14] {
+        let found = verdict(&other, "semi-implicit-euler", hz);
+        assert_eq!(found.is_bounded, Some(false), "{hz} Hz: {found}");
+    }
+}
+
+#[test]
+fn adams_bashforth_is_bounded_from_the_rate_at_which_it_takes_a_year_to_double() {
+    let adviser = Adviser::new(&built_in("spring"), 1.0, 60);
+    let slowest = adviser.slowest(spec("adams-bashforth-2"), CRITERIA[BOUNDED]).unwrap();
+    // |λ| = 1 + z⁴/4 a tick, and ln 2 in a year.
+    let growth = |hz: f64| (std::f64::consts::TAU / hz).powi(4) / 4.0 * hz * 365.0 * 86_400.0;
+    let wanted = (1..).find(|&hz| growth(f64::from(hz)) < std::f64::consts::LN_2).unwrap();
+    assert!(slowest.abs_diff(wanted) <= 2, "{slowest} Hz, not {wanted}");
+    let found = verdict(&built_in("spring"), "adams-bashforth-2", 791);
+    assert!((9.0..11.0).contains(&(found.doubles_in_s.unwrap() / 86_400.0)), "{found:?}");
+}
+
+#[test]
+fn energy_drifts_relative_to_the_energy_in_motion() {
+    let ship = scene(20.0, "[[ship]]\nthrust_n = 1234.5\ndrag_n_s_per_m = 0\nmass_kg = 777");
+    let found = verdict(&ship, "rk4", 7);
+    assert_eq!(found.word, Word::Rounding);
+    assert!(found.energy_drift.is_none_or(|drift| drift.abs() < 1e-9), "{found:?}");
+    let still = scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\nx0_m = 0");
+    assert_eq!(verdict(&still, "rk4", 60).energy_drift, None);
+}
+
+#[test]
+fn what_cannot_be_said_is_not_said() {
+    let damped = scene(20.0, "[[pendulum]]\nlength_m = 1\ndamping_n_m_s = 0.2\ntheta0_rad = 2");
+    for id in ["dormand-prince-54", "rk4", "gauss-legendre-4"] {
+        let found = verdict(&damped, id, 60);
+        assert_eq!((found.doubles_in_s, found.is_bounded), (None, Some(true)), "{id}: {found}");
+        assert!(found.word <= Word::Accurate, "{id}: {found}");
+    }
+    // The loss of an adaptive method changes as the swing gets smaller.
+    let spring = scene(20.0, "[[spring]]\nmass_kg = 1.509\nstiffness_n_per_m = 5841.83");
+    let found = verdict(&spring, "bogacki-shampine-32", 28);
+    let body = &spring.bodies[0];
+    let mut lane = (body.kind.build)(&body.values, spec("bogacki-shampine-32").solver());
+    let start = lane.energy().unwrap();
+    let ticks = (0..).take_while(|&tick| {
+        lane.advance(f64::from(tick) / 28.0, 1.0 / 28.0, 1).unwrap();
+        lane.energy().unwrap() > start / 4.0
+    });
+    let halves = ticks.count() as f64 / 28.0;
+    assert!((found.halves_in_s.unwrap() / halves - 1.0).abs() < 0.02, "{found:?}, not {halves} s");
+}
+
+#[test]
+fn nothing_but_rounding_is_within_rounding() {
+    assert_eq!(verdict(&built_in("ship"), "explicit-euler", 2).word, Word::OutOfPhase);
+    // A fast fly-by is nearly straight, and explicit Euler nearly right on it.
+    let fast = scene(
+        1.0,
+        "[[orbit]]\nmu_m3_per_s2 = 6.488\nx0_m = 3.381\nvx0_m_per_s = 1e5\nvy0_m_per_s = 2.718",
+    );
+    let found = verdict(&fast, "explicit-euler", 60);
+    assert!(found.word != Word::Rounding || found.error < 1e-9, "{found:?}");
+}
+
+#[test]
+fn what_takes_too_much_work_is_not_judged() {
+    let stiff = scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e12");
+    let found = verdict(&stiff, "dormand-prince-54", 1000);
+    assert_eq!(found.word, Word::NotJudged, "{found}");
+    assert_eq!(found.to_string(), "not judged: too much work");
+    let long = scene(20.0, "[[chain]]\nmasses = 256\nmass_kg = 1\nstiffness_n_per_m = 800");
+    let found = verdict(&long, "gauss-legendre-4", 60);
+    assert_eq!(found.word, Word::NotJudged, "{found}");
+}
+
+#[test]
+fn the_recommended_lanes_meet_their_criterion_in_a_race() {
+    use regatta::lab::{Race, TOLERANCE, recommended};
+    for name in ["spring", "stiff", "ship", "harbour", "orbit"] {
+        let scene = built_in(name);
+        let adviser = Adviser::new(&scene, 1.0, scene.tick_hz);
+        let accurate = 2;
+        let advised: Vec<_> = ["rk4", "velocity-verlet", "pefrl", "position-verlet"]
+            .map(|id| regatta::lab::Advised {
+                spec: spec(id),
+                verdict: adviser.verdict(spec(id)),
+                met: CRITERIA.map(|criterion| adviser.met(spec(id), criterion)),
+            })
+            .into();
+        let taken = recommended(&advised, accurate, 1.0, |_, met| met.evaluations_per_s).unwrap();
+        let substeps = advised[taken].met[accurate].as_ref().unwrap().substeps;
+        let lane = LaneSpec { substeps, ..advised[taken].spec };
+        let mut race = Race::new(&scene, [(0, lane)]);
+        let mut errors = vec![0.0_f64; scene.bodies.len()];
+        let mut sizes = vec![0.0_f64; scene.bodies.len()];
+        for _ in 0..(scene.seconds * f64::from(scene.tick_hz)) as u64 {
+            race.step();
+            let bodies = race.entrants()[0].lane.bodies().iter().zip(race.truth().bodies());
+            for (i, (lane, truth)) in bodies.enumerate() {
+                for (q, exact) in lane.stepper.q().iter().zip(truth.stepper.q()) {
+                    errors[i] = errors[i].max((q - exact).abs());
+                    sizes[i] = sizes[i].max(exact.abs());
+                }
+            }
+        }
+        for (error, size) in errors.iter().zip(&sizes) {
+            assert!(*error <= 2.0 * TOLERANCE * size, "{name}: {error} of {size}");
+        }
+    }
+}
