@@ -133,6 +133,14 @@ pub enum StepFailure {
         /// The most iterations that a step may take.
         limit: u32,
     },
+    /// A reference solution would take too much work.
+    #[error(
+        "has no reference solution: {evaluations} evaluations of the acceleration did not reach the end of a tick; soften the body"
+    )]
+    ReferenceFailed {
+        /// The evaluations after which it gave up.
+        evaluations: u64,
+    },
     /// A value became infinite or undefined.
     #[error("left the numbers: {coordinate} is {value}")]
     NotFinite {
