@@ -211,6 +211,34 @@ fn the_work_of_a_stiff_body_is_limited_in_all_and_not_only_for_a_call() {
 }
 
 #[test]
+fn a_stiff_scene_has_its_truth_soon_or_is_soon_said_to_have_none() {
+    let pendulum = |length, damping| vec![length, 1.0, 9.81, damping, 1.0, 0.0, 1.0];
+    let mut helm = Scene::built_in("helm").unwrap().bodies[0].values.clone();
+    let keys = kind("helm").unwrap().parameters;
+    let side_drag = keys.iter().position(|key| key.key == "side_drag_n_s_per_m").unwrap();
+    helm[side_drag] = 1e6;
+    let cases = [
+        ("pendulum", pendulum(1e-9, 0.0), false),
+        ("pendulum", pendulum(1e-11, 0.0), false),
+        ("pendulum", pendulum(1.0, 1e3), true),
+        ("pendulum", pendulum(1.0, 1e7), false),
+        ("helm", helm, true),
+    ];
+    for (id, values, has_one) in cases {
+        for hz in [1, 60] {
+            let mut body = (kind(id).unwrap().build)(&values, Solver::Truth);
+            body.input(0.0, Input::Rudder(0.3));
+            let begun = std::time::Instant::now();
+            let h = 1.0 / f64::from(hz);
+            let failed = (0..20 * hz).filter(|n| body.advance(f64::from(*n) * h, h, 1).is_err());
+            assert_eq!(failed.count() == 0, has_one, "{id} {values:?} at {hz} Hz");
+            // The work is some tenths of a second, with much to spare for slow machines.
+            assert!(begun.elapsed().as_secs_f64() < 5.0, "{:?}: {id} {values:?}", begun.elapsed());
+        }
+    }
+}
+
+#[test]
 fn an_error_outlives_a_kick_but_not_a_new_place() {
     for body in [pendulum(3.1, 0.0), pendulum(0.5, 60.0)] {
         let mut reference = stepper(body, Solver::Truth);
