@@ -142,7 +142,11 @@ const BODY: &[Column<Kind>] = &[
         value: |body| table::json(COORDINATE, body.plain_coordinates()),
     },
     Column { key: "truth", heading: Some("TRUTH"), value: |body| json!(body.truth.id()) },
-    Column { key: "accuracy", heading: None, value: |body| json!(body.truth.accuracy()) },
+    Column {
+        key: "aimed_accuracy",
+        heading: None,
+        value: |body| json!(body.truth.aimed_accuracy()),
+    },
     Column { key: "inputs", heading: Some("INPUTS"), value: |body| json!(body.inputs) },
     Column {
         key: "parameters",

@@ -14,7 +14,7 @@ use crate::sim::bodies::Kind;
 const EXAMPLES: &str = "\
 One row for each tick, lane, body and coordinate:
   tick,t,lane,method,body,coordinate,q,v
-Lane 0 is the truth: `exact`, or for a body without a closed form `reference`, whose accuracy is
+Lane 0 is the truth: `exact`, or for a body without a closed form `reference`, whose aim is
 stated. q is in metres or radians, v the same a second, t in seconds. With --metrics a row for each
 metric follows, its id as coordinate, its value as q, and v empty.
 
@@ -211,9 +211,9 @@ fn method_id(solver: Solver, kind: &Kind) -> &'static str {
 /// What is known of the bodies that have no closed form.
 fn tell_accuracy(bodies: &[SceneBody]) {
     for SceneBody { name, kind, .. } in bodies {
-        if let Some(accuracy) = kind.truth.accuracy() {
+        if let Some(accuracy) = kind.truth.aimed_accuracy() {
             tell(&format!(
-                "lane 0, {name}: has no closed form; its {} is good to {accuracy:e}, relative",
+                "lane 0, {name}: has no closed form; its {} aims at {accuracy:e}, relative",
                 kind.truth.id(),
             ));
         }

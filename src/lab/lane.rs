@@ -2,7 +2,7 @@
 
 use super::number::superscript;
 use super::scene::Scene;
-use crate::sim::bodies::{Coordinate, Input, Kind};
+use crate::sim::bodies::{Coordinate, Input, Kind, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
 
@@ -43,14 +43,18 @@ impl LaneBody {
         Self { kind, coordinates: (kind.coordinates)(values), stepper, previous_q, previous_v }
     }
 
-    /// What is known of the body's motion, for people: `exact`, or how far a reference can be believed.
+    /// What is known of the body's motion, for people: `exact`, or how far a reference can be believed by
+    /// now, in the units of its coordinates.
     pub fn truth_in_words(&self) -> String {
-        match self.kind.truth.accuracy() {
-            None => self.kind.truth.id().into(),
-            Some(accuracy) => {
-                let exponent = libm::round(libm::log10(accuracy)) as i32;
-                format!("{} to 10{}", self.kind.truth.id(), superscript(exponent))
+        let id = self.kind.truth.id();
+        match (self.kind.truth, self.stepper.truth_error()) {
+            (Truth::Exact, _) | (_, None) => id.into(),
+            (Truth::Reference, Some([error, _])) if error.is_finite() => {
+                // At the start it is exact.
+                let exponent = libm::ceil(libm::log10(error.max(f64::MIN_POSITIVE))) as i32;
+                format!("{id} to 10{}", superscript(exponent))
             }
+            (Truth::Reference, Some(_)) => format!("{id} lost"),
         }
     }
 

@@ -34,7 +34,7 @@ pub use lane::{ESCAPE, Halt, Lane, LaneBody};
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use race::{Entrant, Race};
 pub use scene::{
-    BuiltIn, LARGEST_FILE, LAST_TICK, LaneSpec, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS,
-    MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene, SceneBody, SceneError,
-    SceneErrors, Scripted, TOLERANCES, nearest,
+    BuiltIn, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, LaneSpec, MOST_BODIES, MOST_LANES,
+    MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene,
+    SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, nearest,
 };

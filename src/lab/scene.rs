@@ -32,6 +32,9 @@ pub const MOST_TICK_HZ: u32 = 10_000;
 /// 2⁵³, so that `tick / rate` is exact to the last bit of an f64.
 pub const MOST_SECONDS: f64 = 365.0 * 86_400.0;
 
+/// The shortest that a scene may run, in seconds: a tick at [`MOST_TICK_HZ`].
+pub const LEAST_SECONDS: f64 = 1.0 / MOST_TICK_HZ as f64;
+
 /// The last tick of the longest scene at the highest rate.
 pub const LAST_TICK: u64 = 365 * 86_400 * MOST_TICK_HZ as u64;
 
@@ -64,7 +67,7 @@ pub struct Scene {
     pub hint: Option<String>,
     /// Ticks a second, 1 to [`MOST_TICK_HZ`].
     pub tick_hz: u32,
-    /// How long it runs, more than 0 and at most [`MOST_SECONDS`].
+    /// How long it runs, from [`LEAST_SECONDS`] to [`MOST_SECONDS`].
     pub seconds: f64,
     /// The methods that race, 1 to [`MOST_LANES`], no two alike.
     pub lanes: Vec<LaneSpec>,

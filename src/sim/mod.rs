@@ -5,6 +5,8 @@
 //! in every build profile.
 
 pub mod bodies;
+mod double_double;
+mod exact_flow;
 pub mod integrators;
 mod reference;
 pub mod stability;

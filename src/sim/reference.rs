@@ -1,188 +1,158 @@
-//! The truth where there is no closed form: Bulirsch and Stoer's extrapolation, run to round-off.
+//! The truth where there is no closed form: Bulirsch and Stoer's extrapolation, run to round-off, and beside
+//! it a second solution by other steps, whose distance says how good the first one is.
 //!
 //! It is no method of the table: it takes what substeps it wants, and its evaluations are not counted.
 
+use super::bodies::Body;
 use super::integrators::StepFailure;
-use super::system::{State, System, Vector};
+use super::system::{State, Vector};
 
-/// The stated error of a reference solution over a built-in scene's duration, relative to the largest
+use extrapolation::Extrapolation;
+use track::{Pace, Track};
+
+mod extrapolation;
+mod track;
+
+/// What a reference solution aims at: its error over a built-in scene's duration, relative to the largest
 /// coordinate and to the largest velocity. `tests/bodies/reference.rs` holds it against a closed form and
-/// against Runge-Kutta at a fine step, and finds it twenty times better than that. A motion that
+/// against Runge-Kutta at a fine step, and finds it twenty times better than that. What it reaches on a
+/// run is estimated there: [`Stepper::truth_error`](super::Stepper::truth_error). A motion that
 /// magnifies what it starts with, such as a pendulum on its head, magnifies this error too.
 pub const REFERENCE_ACCURACY: f64 = 1e-10;
 
-/// The most columns of the extrapolation; the last has order 16. More gain nothing in f64.
-const COLUMNS: usize = 8;
+/// The distance of the two solutions is one sample of their errors: how much larger these may be.
+/// `tests/bodies/fifty_digits.rs` measures what this is worth.
+const MARGIN: f64 = 8.0;
 
-/// The error allowed in a step, relative as above. What is estimated is the error of the column before
-/// the one that is kept, so that what is made is far smaller.
-const TOLERANCE: f64 = 1e-14;
+/// The evaluations that a solution may take for each call, about the work of 100 calls of a built-in
+/// scene, beside what it has saved. With fewer, a stiff body would have no truth at a coarse tick; with
+/// many more, one without hope would keep its judge waiting.
+const GRANTED: u64 = 20_000;
 
-/// A step that passes with this many columns was too short: the next is twice as long.
-const EASY: usize = 6;
+/// The most evaluations that are saved for hard stretches; there are as many at the start. Some tenths of a
+/// second's work.
+const SAVED: u64 = 4_000_000;
 
-/// What a step that does not pass is cut to.
-const CUT: f64 = 0.25;
-
-/// The most steps in one call, a thousand times what any built-in scene takes: a force that jumps, or a
-/// body far too stiff for its tick.
-const MOST_STEPS: u32 = 10_000;
-
-/// The midpoint rule with 2, 4, 6 … substeps, extrapolated to none. Bulirsch & Stoer, *Numerical
-/// treatment of ordinary differential equations by extrapolation methods* (1966); Hairer, Nørsett &
-/// Wanner, *Solving Ordinary Differential Equations I*, II.9.
+/// A reference solution.
 #[derive(Debug)]
 pub(super) struct Reference<V> {
-    /// The step to try next; `None` tries all that is left.
-    next: Option<f64>,
-    /// What the step adds to the state, by the finest column so far and by the coarser ones.
-    table: Vec<State<V>>,
-    /// The derivative at the step's beginning.
-    begin: State<V>,
-    /// The derivative on the way.
-    d: State<V>,
-    /// What was added to the state one substep ago, and by now.
-    before: State<V>,
-    now: State<V>,
-    stage: State<V>,
+    solution: Track<V>,
+    /// The same by other steps.
+    check: Track<V>,
+    work: Extrapolation<V>,
+    apart: State<V>,
+    /// Whether both are where the body is.
+    is_placed: bool,
+    /// Evaluations that may be spent from now on.
+    saved: u64,
+    failed: Option<StepFailure>,
+    /// The simulated seconds since the state was given.
+    elapsed: f64,
+    /// Since then, the farthest that the two were apart, in coordinates and in velocities.
+    farthest: [f64; 2],
+    /// The largest velocity and the largest acceleration since then.
+    fastest: [f64; 2],
 }
 
 impl<V: Vector> Reference<V> {
     pub(super) fn new(like: &State<V>) -> Self {
-        let state = || like.clone();
         Self {
-            next: None,
-            table: vec![state(); COLUMNS],
-            begin: state(),
-            d: state(),
-            before: state(),
-            now: state(),
-            stage: state(),
+            solution: Track::new(like, Pace::Long),
+            check: Track::new(like, Pace::Uneven),
+            work: Extrapolation::new(like),
+            apart: like.clone(),
+            is_placed: false,
+            saved: SAVED,
+            failed: None,
+            elapsed: 0.0,
+            farthest: [0.0; 2],
+            fastest: [0.0; 2],
         }
     }
 
-    /// Forgets the step's length.
+    /// Begins anew: the body was given its state.
+    pub(super) fn place(&mut self) {
+        self.is_placed = false;
+        self.saved = SAVED;
+        self.failed = None;
+        self.elapsed = 0.0;
+        (self.farthest, self.fastest) = ([0.0; 2], [0.0; 2]);
+    }
+
+    /// Takes notice that a force changed or an impulse was given, and that `state` is now that of the
+    /// body: what the solution may be off stays.
+    pub(super) fn push<B: Body<Vector = V>>(&mut self, body: &B, state: &State<V>) {
+        self.failed = None;
+        if self.is_placed {
+            self.check.apart(&self.solution, &mut self.apart);
+            self.solution.begin(body, state);
+            self.check.begin_beside(body, &self.solution, &self.apart);
+        }
+    }
+
+    /// Forgets the steps' lengths.
     pub(super) fn reset(&mut self) {
-        self.next = None;
+        self.solution.reset();
+        self.check.reset();
     }
 
     /// Advances `y` from `t` to exactly `t + h` (s).
-    pub(super) fn solve<S: System<Vector = V>>(
+    ///
+    /// After a failure it fails at once, until it is placed or pushed.
+    pub(super) fn solve<B: Body<Vector = V>>(
         &mut self,
-        system: &S,
+        body: &B,
         t: f64,
         h: f64,
         y: &mut State<V>,
     ) -> Result<(), StepFailure> {
-        let mut carried = self.next.map_or(h, |next| next.copysign(h));
-        let mut left = h;
-        system.derivative(t, y, &mut self.begin);
-        for _ in 0..MOST_STEPS {
-            let trial = if carried.abs() < left.abs() { carried } else { left };
-            let Some(columns) = self.attempt(system, t + (h - left), trial, y) else {
-                carried = CUT * trial;
-                continue;
-            };
-            y.add_scaled(1.0, &self.table[0]);
-            // A step cut short by the end of the call says nothing about the next one.
-            if trial == carried && columns <= EASY {
-                carried *= 2.0;
-            }
-            if trial == left {
-                self.next = Some(carried);
-                return Ok(());
-            }
-            left -= trial;
-            system.derivative(t + (h - left), y, &mut self.begin);
+        if let Some(failure) = &self.failed {
+            return Err(failure.clone());
         }
-        Err(StepFailure::TooManySubsteps { limit: MOST_STEPS })
+        let Self { solution, check, work, .. } = self;
+        if !self.is_placed {
+            solution.begin(body, y);
+            check.begin(body, y);
+            self.is_placed = true;
+        }
+        self.saved = (self.saved + GRANTED).min(SAVED);
+        work.evaluations = 0;
+        let solved = solution.advance(body, t, h, work, self.saved);
+        self.fastest =
+            [self.fastest[0].max(largest(&y.v)), self.fastest[1].max(largest(&work.begin.v))];
+        let solved = solved.and_then(|()| check.advance(body, t, h, work, self.saved));
+        self.saved = self.saved.saturating_sub(work.evaluations);
+        if solved.is_err() {
+            let failure = StepFailure::ReferenceFailed { evaluations: work.evaluations };
+            self.failed = Some(failure.clone());
+            return Err(failure);
+        }
+        solution.write(y);
+        self.elapsed += h.abs();
+        solution.apart(check, &mut self.apart);
+        self.farthest = [
+            self.farthest[0].max(largest(&self.apart.q)),
+            self.farthest[1].max(largest(&self.apart.v)),
+        ];
+        Ok(())
     }
 
-    /// Puts what a step of `h` adds to `y` into `table[0]`, and returns how many columns it took; `None`
-    /// where all of them are not enough.
-    fn attempt<S: System<Vector = V>>(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &State<V>,
-    ) -> Option<usize> {
-        for column in 0..COLUMNS {
-            self.midpoint(system, t, h, 2 * (column + 1), y);
-            // Aitken and Neville: in the end `table[0]` has the highest order, `table[1]` the next.
-            for i in (0..column).rev() {
-                let ratio = (column + 1) as f64 / (i + 1) as f64;
-                let (coarse, fine) = self.table.split_at_mut(i + 1);
-                extrapolate(&mut coarse[i], &fine[0], 1.0 / (ratio * ratio - 1.0));
-            }
-            if column >= 2 && self.passes(h, y) {
-                return Some(column + 1);
-            }
+    /// How far `y`, where it has come to, may be off: in a coordinate and in a velocity. An estimate.
+    pub(super) fn error(&self, y: &State<V>) -> [f64; 2] {
+        if self.failed.is_some() {
+            return [f64::INFINITY; 2];
         }
-        None
-    }
-
-    /// What `n` substeps of the midpoint rule add to `y`, into the next place of the table. Kept apart
-    /// from `y`, so that round-off is relative to the little that is added.
-    fn midpoint<S: System<Vector = V>>(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        n: usize,
-        y: &State<V>,
-    ) {
-        let Self { table, begin, d, before, now, stage, .. } = self;
-        let part = h / n as f64;
-        fill(before, 0.0);
-        fill(now, 0.0);
-        now.add_scaled(part, begin);
-        for i in 1..=n {
-            stage.assign_sum(y, 1.0, now);
-            system.derivative(t + part * i as f64, stage, d);
-            if i < n {
-                before.add_scaled(2.0 * part, d);
-                std::mem::swap(before, now);
-            }
-        }
-        // Gragg's smoothing: half of the last two places and of where the last slope leads.
-        let sum = &mut table[n / 2 - 1];
-        fill(sum, 0.0);
-        sum.add_scaled(0.5, before);
-        sum.add_scaled(0.5, now);
-        sum.add_scaled(0.5 * part, d);
-    }
-
-    /// Whether the last two orders agree, relative to what the state and its change amount to.
-    fn passes(&self, h: f64, y: &State<V>) -> bool {
-        let part = |y: &V, slope: &V, last: &V, before: &V| {
-            let scale = largest(y) + h.abs() * largest(slope);
-            let mut pairs = last.components().iter().zip(before.components());
-            // Written so that a NaN does not pass.
-            pairs.all(|(a, b)| (a - b).abs() <= TOLERANCE * scale)
-        };
-        let Self { table, begin, .. } = self;
-        part(&y.q, &begin.q, &table[0].q, &table[1].q)
-            && part(&y.v, &begin.v, &table[0].v, &table[1].v)
+        // Both solutions share the rounding of time and of the force law's constants, which make the
+        // motion early or late, and that of what is returned.
+        let late = f64::EPSILON * self.elapsed;
+        let size = [largest(&y.q), largest(&y.v)];
+        let fastest = [self.fastest[0].max(size[1]), self.fastest[1]];
+        [0, 1].map(|i| MARGIN * self.farthest[i] + late * fastest[i] + f64::EPSILON * size[i])
     }
 }
 
-fn fill<V: Vector>(state: &mut State<V>, value: f64) {
-    state.q.components_mut().fill(value);
-    state.v.components_mut().fill(value);
-}
-
-/// `coarse` becomes `fine + (fine - coarse) weight`.
-fn extrapolate<V: Vector>(coarse: &mut State<V>, fine: &State<V>, weight: f64) {
-    let each = |coarse: &mut V, fine: &V| {
-        for (coarse, fine) in coarse.components_mut().iter_mut().zip(fine.components()) {
-            *coarse = fine + (fine - *coarse) * weight;
-        }
-    };
-    each(&mut coarse.q, &fine.q);
-    each(&mut coarse.v, &fine.v);
-}
-
+/// The largest magnitude; infinite where one is not a number.
 fn largest<V: Vector>(vector: &V) -> f64 {
-    vector.components().iter().fold(0.0, |most, x| x.abs().max(most))
+    let size = |x: &f64| if x.is_nan() { f64::INFINITY } else { x.abs() };
+    vector.components().iter().map(size).fold(0.0, f64::max)
 }

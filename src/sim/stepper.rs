@@ -3,8 +3,9 @@
 use glam::DVec2;
 
 use super::bodies::{Body, Input, Pen, View};
+use super::exact_flow::ExactFlow;
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
-use super::reference::{REFERENCE_ACCURACY, Reference};
+use super::reference::Reference;
 use super::system::{Counted, State, Vector};
 
 /// What carries a body forward.
@@ -61,7 +62,8 @@ pub trait Stepper: Send {
     /// Whether the body's equation of motion is linear, but for a constant.
     fn is_linear(&self) -> bool;
     /// How far the truth may be off by now: the largest error expected of a coordinate and of a velocity, in
-    /// their own units. `None` under a method.
+    /// their own units. Of a closed form it bounds the roundings; of a reference solution it is estimated on
+    /// this run, from a second one by other steps. Infinite where nothing is known. `None` under a method.
     fn truth_error(&self) -> Option<[f64; 2]>;
     /// The conserved energy in joules, where the body conserves one under its present input.
     fn energy(&self) -> Option<f64>;
@@ -101,7 +103,7 @@ impl<B: Body> Launch<B> {
                 construct(method, Self { tolerance: Some(Tolerance::uniform(tolerance)), ..self })
             }
             Solver::Truth if self.body.system.exact(0.0, &self.state).is_some() => {
-                let drive = ExactFlow { anchor: self.state.clone(), anchored_at: t };
+                let drive = ExactFlow::new(&self.state, t);
                 self.driven(drive)
             }
             Solver::Truth => {
@@ -130,7 +132,7 @@ impl<B: Body> Construct<Counted<B>> for Launch<B> {
 }
 
 /// What carries a body of one type forward.
-trait Drive<B: Body>: Send + 'static {
+pub(super) trait Drive<B: Body>: Send + 'static {
     fn advance(
         &mut self,
         body: &Counted<B>,
@@ -140,8 +142,14 @@ trait Drive<B: Body>: Send + 'static {
         state: &mut State<B::Vector>,
     ) -> Result<(), StepFailure>;
 
-    /// Takes notice that at time `t` (s) the state jumped to this one, or the forces did.
-    fn jumped(&mut self, t: f64, state: &State<B::Vector>);
+    /// Takes notice that at time `t` (s) the body was put into this state.
+    fn placed(&mut self, t: f64, state: &State<B::Vector>);
+
+    /// Takes notice that at time `t` (s) an input changed the forces on `body`, or its state to this one.
+    fn pushed(&mut self, body: &Counted<B>, t: f64, state: &State<B::Vector>);
+
+    /// Takes notice that an input may be about to change `body`, which is in this state.
+    fn about_to_be_pushed(&mut self, _body: &Counted<B>, _state: &State<B::Vector>) {}
 
     /// Forgets what is carried from step to step.
     fn reset(&mut self);
@@ -179,16 +187,17 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
     }
     fn set(&mut self, t: f64, q: &[f64], v: &[f64]) {
         write(&mut self.state, q, v);
-        self.drive.jumped(t, &self.state);
+        self.drive.placed(t, &self.state);
     }
     fn reset(&mut self) {
         self.drive.reset();
     }
 
     fn input(&mut self, t: f64, input: Input) -> bool {
+        self.drive.about_to_be_pushed(&self.body, &self.state);
         let taken = self.body.system.input(input, &mut self.state);
         if taken {
-            self.drive.jumped(t, &self.state);
+            self.drive.pushed(&self.body, t, &self.state);
         }
         taken
     }
@@ -251,7 +260,11 @@ impl<B: Body, I: Integrator<Counted<B>> + 'static> Drive<B> for ByMethod<I> {
         self.0.steps(body, t, h, substeps, state)
     }
 
-    fn jumped(&mut self, _t: f64, _state: &State<B::Vector>) {
+    fn placed(&mut self, _t: f64, _state: &State<B::Vector>) {
+        self.0.reset();
+    }
+
+    fn pushed(&mut self, _body: &Counted<B>, _t: f64, _state: &State<B::Vector>) {
         self.0.reset();
     }
 
@@ -261,38 +274,6 @@ impl<B: Body, I: Integrator<Counted<B>> + 'static> Drive<B> for ByMethod<I> {
 
     fn lost_time(&self) -> f64 {
         self.0.lost_time()
-    }
-}
-
-/// The exact flow, always computed in one stride from `anchor`, so that nothing accumulates.
-struct ExactFlow<V> {
-    anchor: State<V>,
-    anchored_at: f64,
-}
-
-impl<B: Body> Drive<B> for ExactFlow<B::Vector> {
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        _substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure> {
-        let is_known = body.system.exact_into(t + h - self.anchored_at, &self.anchor, state);
-        assert!(is_known, "a body has a closed form always or never");
-        Ok(())
-    }
-
-    fn jumped(&mut self, t: f64, state: &State<B::Vector>) {
-        self.anchor.assign(state);
-        self.anchored_at = t;
-    }
-
-    fn reset(&mut self) {}
-
-    fn truth_error(&self, _body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
-        Some([&state.q, &state.v].map(|half| 1e-13 * largest(half)))
     }
 }
 
@@ -309,8 +290,12 @@ impl<B: Body> Drive<B> for Reference<B::Vector> {
         self.solve(&body.system, t, h, state)
     }
 
-    fn jumped(&mut self, _t: f64, _state: &State<B::Vector>) {
-        self.reset();
+    fn placed(&mut self, _t: f64, _state: &State<B::Vector>) {
+        self.place();
+    }
+
+    fn pushed(&mut self, body: &Counted<B>, _t: f64, state: &State<B::Vector>) {
+        self.push(&body.system, state);
     }
 
     fn reset(&mut self) {
@@ -318,12 +303,8 @@ impl<B: Body> Drive<B> for Reference<B::Vector> {
     }
 
     fn truth_error(&self, _body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
-        Some([&state.q, &state.v].map(|half| REFERENCE_ACCURACY * largest(half)))
+        Some(self.error(state))
     }
-}
-
-fn largest<V: Vector>(vector: &V) -> f64 {
-    vector.components().iter().fold(0.0, |most, x| x.abs().max(most))
 }
 
 fn write<V: Vector>(state: &mut State<V>, q: &[f64], v: &[f64]) {

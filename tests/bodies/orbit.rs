@@ -184,6 +184,46 @@ fn a_fall_into_the_centre_and_an_escape_from_it_are_followed() {
 }
 
 #[test]
+fn any_time_from_any_state_ends_soon() {
+    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut next = || {
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        (random >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let begun = std::time::Instant::now();
+    for _ in 0..3000 {
+        let mut any = |least: f64, most: f64| {
+            let size = libm::exp10(least + (most - least) * next());
+            if next() < 0.5 { size } else { -size }
+        };
+        let mu = any(-300.0, 15.0).abs();
+        let from = State {
+            q: DVec2::new(any(-300.0, 22.0), any(-300.0, 22.0)),
+            v: DVec2::new(any(-300.0, 15.0), any(-300.0, 15.0)),
+        };
+        let dt = any(-323.0, 8.0);
+        let body = Orbit { mu, ..orbit() };
+        body.exact(dt, &from).expect("a closed form");
+    }
+    for (q, v) in [(DVec2::ZERO, DVec2::ONE), (DVec2::NAN, DVec2::ONE), (DVec2::ONE, DVec2::NAN)] {
+        let to = orbit().exact(1.0, &State { q, v }).expect("a closed form");
+        assert!(!to.q.is_finite());
+    }
+    assert!(begun.elapsed().as_secs_f64() < 10.0, "{:?}", begun.elapsed());
+}
+
+#[test]
+fn the_least_time_there_is_moves_a_fly_by_nowhere() {
+    let body = Orbit { mu: 1.0, q0: DVec2::new(100.0, 0.0), v0: DVec2::new(0.0, 3.0), kick: 0.0 };
+    for dt in [1e-322, f64::from_bits(1), -1e-322, 1e-308] {
+        let to = flow(&body, dt, &body.start());
+        assert!(to.q.x == 100.0 && to.q.y.abs() < 1e-300 && to.v.x.abs() < 1e-300, "{to:?}");
+    }
+}
+
+#[test]
 fn a_kick_is_along_the_path() {
     let mut body = orbit();
     let mut state = State { q: DVec2::X, v: DVec2::new(3.0, 4.0) };

@@ -178,7 +178,112 @@ fn a_motion_too_stiff_for_its_tick_is_given_up_in_time() {
     let stiff = Pendulum { gravity: 1e15, ..pendulum(1.0, 0.0) };
     let mut reference = stepper(stiff, Solver::Truth);
     let failure = reference.advance(0.0, 1.0, 1).unwrap_err();
-    assert!(matches!(failure, StepFailure::TooManySubsteps { .. }), "{failure:?}");
+    assert!(matches!(failure, StepFailure::ReferenceFailed { .. }), "{failure:?}");
+}
+
+#[test]
+fn what_failed_is_not_tried_again_until_it_is_placed_anew() {
+    let stiff = Pendulum { gravity: 1e15, ..pendulum(1.0, 0.0) };
+    let mut reference = stepper(stiff, Solver::Truth);
+    let first = std::time::Instant::now();
+    let failure = reference.advance(0.0, 1.0, 1).unwrap_err();
+    let first = first.elapsed();
+    let again = std::time::Instant::now();
+    for tick in 1..=1000 {
+        assert_eq!(reference.advance(f64::from(tick), 1.0, 1).unwrap_err(), failure);
+    }
+    assert!(again.elapsed() < first, "a thousand after: {:?}, {first:?}", again.elapsed());
+    assert!(reference.truth_error().unwrap().iter().all(|error| *error == f64::INFINITY));
+    // Upright, where nothing pulls.
+    reference.set(0.0, &[0.0], &[0.0]);
+    reference.advance(0.0, 1.0, 1).unwrap();
+    assert_eq!(reference.q(), [0.0]);
+}
+
+#[test]
+fn the_work_of_a_stiff_body_is_limited_in_all_and_not_only_for_a_call() {
+    let body = Pendulum { gravity: 1e8, ..pendulum(1.0, 0.0) };
+    let mut reference = stepper(body, Solver::Truth);
+    let begun = std::time::Instant::now();
+    let failed = (0..100_000).find(|tick| reference.advance(f64::from(*tick), 1.0, 1).is_err());
+    assert!(failed.is_some_and(|tick| (1..1000).contains(&tick)), "{failed:?}");
+    assert!(begun.elapsed().as_secs_f64() < 10.0, "{:?}", begun.elapsed());
+}
+
+#[test]
+fn a_stiff_scene_has_its_truth_soon_or_is_soon_said_to_have_none() {
+    let pendulum = |length, damping| vec![length, 1.0, 9.81, damping, 1.0, 0.0, 1.0];
+    let mut helm = Scene::built_in("helm").unwrap().bodies[0].values.clone();
+    let keys = kind("helm").unwrap().parameters;
+    let side_drag = keys.iter().position(|key| key.key == "side_drag_n_s_per_m").unwrap();
+    helm[side_drag] = 1e6;
+    let cases = [
+        ("pendulum", pendulum(1e-9, 0.0), false),
+        ("pendulum", pendulum(1e-11, 0.0), false),
+        ("pendulum", pendulum(1.0, 1e3), true),
+        ("pendulum", pendulum(1.0, 1e7), false),
+        ("helm", helm, true),
+    ];
+    for (id, values, has_one) in cases {
+        for hz in [1, 60] {
+            let mut body = (kind(id).unwrap().build)(&values, Solver::Truth);
+            body.input(0.0, Input::Rudder(0.3));
+            let begun = std::time::Instant::now();
+            let h = 1.0 / f64::from(hz);
+            let failed = (0..20 * hz).filter(|n| body.advance(f64::from(*n) * h, h, 1).is_err());
+            assert_eq!(failed.count() == 0, has_one, "{id} {values:?} at {hz} Hz");
+            // The work is some tenths of a second, with much to spare for slow machines.
+            assert!(begun.elapsed().as_secs_f64() < 5.0, "{:?}: {id} {values:?}", begun.elapsed());
+        }
+    }
+}
+
+#[test]
+fn an_error_outlives_a_kick_but_not_a_new_place() {
+    for body in [pendulum(3.1, 0.0), pendulum(0.5, 60.0)] {
+        let mut reference = stepper(body, Solver::Truth);
+        for tick in 0..600 {
+            reference.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+        }
+        let [before, _] = reference.truth_error().unwrap();
+        reference.input(10.0, Input::Kick(1e-3));
+        let [after, _] = reference.truth_error().unwrap();
+        assert!(before > 1e-14 && after >= before, "{before:e}, {after:e}");
+        reference.set(10.0, &[1.0], &[0.0]);
+        let [anew, _] = reference.truth_error().unwrap();
+        assert!(anew <= f64::EPSILON, "{anew:e}");
+    }
+}
+
+#[test]
+fn the_error_of_a_closed_form_outlives_a_kick_too() {
+    let mut body = (kind("orbit").unwrap().build)(&[1.0, 1.0, 0.0, 0.0, 1.0, 0.1], Solver::Truth);
+    body.advance(0.0, 1e6, 1).unwrap();
+    let [before, _] = body.truth_error().unwrap();
+    assert!(!body.input(1e6, Input::Rudder(0.5)));
+    assert_eq!(body.truth_error().unwrap()[0], before);
+    assert!(body.input(1e6, Input::Kick(1.0)));
+    let [after, _] = body.truth_error().unwrap();
+    assert!(before > 1e-11 && after >= 0.99 * before, "{before:e}, {after:e}");
+    // On the new orbit it grows with the time, as the round takes another.
+    body.advance(1e6, 1e4, 1).unwrap();
+    assert!(body.truth_error().unwrap()[0] > 100.0 * before);
+    body.set(1e6, &[1.0, 0.0], &[0.0, 1.0]);
+    assert_eq!(body.truth_error(), Some([0.0; 2]));
+}
+
+#[test]
+fn a_helm_that_settles_on_a_corner_of_its_curve_keeps_its_truth() {
+    // Thrust and drag are equal at 10 m/s, where the curve bends.
+    let curve = [0.0, 4000.0, 10.0, 2000.0, 15.0, 1900.0];
+    let values = [1000.0, 1e4, 200.0, 500.0, 1e4, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0];
+    let values: Vec<f64> = values.into_iter().chain(curve).collect();
+    let mut reference = (kind("helm").unwrap().build)(&values, Solver::Truth);
+    for tick in 0..60 * 600 {
+        reference.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+    }
+    assert!((reference.v()[0] - 10.0).abs() < 1e-12, "{:?}", reference.v());
+    assert!(reference.truth_error().unwrap()[0] < 1e-8);
 }
 
 #[test]

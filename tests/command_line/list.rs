@@ -59,7 +59,7 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
     }
     for (object, body) in bodies.iter().zip(BODIES) {
         assert_eq!(object["truth"], body.truth.id());
-        assert_eq!(object["accuracy"], Value::from(body.truth.accuracy()));
+        assert_eq!(object["aimed_accuracy"], Value::from(body.truth.aimed_accuracy()));
         let coordinates = object["coordinates"].as_array().unwrap();
         let names: Vec<_> = coordinates.iter().map(|c| c["name"].as_str().unwrap()).collect();
         let expected: Vec<_> = body.plain_coordinates().iter().map(|c| c.name).collect();

@@ -69,7 +69,7 @@ fn a_bad_scene_file_is_shown_line_by_line() {
     let scene = "title = \"x\"\ntick_hz = 60\nseconds = nan\nmethods = [\"rk5\"]\n[[sprong]]\n";
     fs::write(folder.path().join("bad.toml"), scene).unwrap();
     let expected = "\
-bad.toml:3:11: `seconds` is nan, out of range; write a number greater than 0 and at most 31536000
+bad.toml:3:11: `seconds` is nan, out of range; write a number from 0.0001 to 31536000
   |
 3 | seconds = nan
   |           ^^^

@@ -73,7 +73,7 @@ fn a_body_without_a_closed_form_has_a_reference_for_truth_and_its_accuracy_is_to
     let expected = ["x", "y", "psi"].map(|q| format!("0,0.0,0,reference,helm,{q}"));
     assert_eq!(heads[..3], expected);
     assert_eq!(heads.len(), 2 * 2 * 3);
-    let said = "lane 0, helm: has no closed form; its reference is good to 1e-10, relative\n";
+    let said = "lane 0, helm: has no closed form; its reference aims at 1e-10, relative\n";
     assert_eq!(stderr(&output), said);
 }
 

@@ -1,6 +1,7 @@
 //! Methods that solve an equation: what they keep, and what happens where there is no solution.
 
 use glam::DVec2;
+use regatta::sim::bodies::{Body, Pendulum};
 use regatta::sim::integrators::{Family, METHODS, Method, StepFailure, integrator, method};
 use regatta::sim::{Counted, State, System};
 
@@ -248,6 +249,42 @@ impl System for DryFriction {
     fn acceleration(&self, _t: f64, _q: &f64, v: &f64, a: &mut f64) {
         *a = if *v > 0.0 { -1.0 } else { 1.0 };
     }
+}
+
+#[test]
+fn a_bounded_force_is_solved_at_any_step() {
+    // A solution there is, as the force cannot run away from it.
+    let mut random = 0x2545_f491_4f6c_dd1d_u64;
+    let mut between = |low: f64, high: f64| {
+        random ^= random << 13;
+        random ^= random >> 7;
+        random ^= random << 17;
+        low + (high - low) * (random >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let mut given_up = Vec::new();
+    for method in implicit() {
+        for round in 0..400 {
+            let (length, theta0, omega0, hz) = if round < 3 {
+                (0.5, 2.5, 0.0, f64::from(round + 1))
+            } else {
+                (between(0.05, 2.0), between(-3.1, 3.1), between(-9.0, 9.0), between(0.3, 6.0))
+            };
+            let (mass, gravity, kick) = (1.0, 9.81, 1.0);
+            let damping = if round % 3 == 1 { between(0.0, 2.0) * length * length } else { 0.0 };
+            let body = Pendulum { length, mass, gravity, damping, theta0, omega0, kick };
+            let mut state = body.start();
+            let mut integrator = integrator::<Pendulum>(method, &state.q);
+            for step in 0..40 {
+                let (t, h) = (f64::from(step) / hz, 1.0 / hz);
+                if integrator.step(&body, t, h, &mut state).is_err() {
+                    given_up.push((method.id, step, hz, body.clone()));
+                    break;
+                }
+                assert!(state.q.is_finite() && state.v.is_finite(), "{}", method.id);
+            }
+        }
+    }
+    assert_eq!(given_up, []);
 }
 
 /// A force of one coordinate that is not a number, or infinite.

@@ -9,8 +9,8 @@ use super::errors::{SceneError, position};
 use super::syntax;
 use super::table::{Field, Table};
 use super::{
-    LAST_TICK, LaneSpec, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS, MOST_SUBSTEPS,
-    MOST_TICK_HZ, Scene, SceneBody, Scripted, TOLERANCES,
+    LAST_TICK, LEAST_SECONDS, LaneSpec, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS,
+    MOST_SUBSTEPS, MOST_TICK_HZ, Scene, SceneBody, Scripted, TOLERANCES,
 };
 use crate::lab::Command;
 use crate::sim::bodies::{BODIES, Kind, LARGEST, Parameter, Range};
@@ -102,7 +102,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let about = top.text(ABOUT, MOST_ABOUT_CHARS).unwrap_or_default();
     let hint = top.text(HINT, MOST_HINT_CHARS);
     let tick_hz = top.whole(TICK_HZ, 1..=MOST_TICK_HZ);
-    let seconds = top.number(SECONDS, Range::Positive(MOST_SECONDS));
+    let seconds = top.number(SECONDS, Range::Between(LEAST_SECONDS, MOST_SECONDS));
     let lanes = read_lanes(text, &mut top);
     let bodies = read_bodies(&mut top);
     check_names(text, &bodies, &mut top);

@@ -223,6 +223,24 @@ impl Body for Chain {
         true
     }
 
+    fn exact_error(&self, dt: f64, from: &State<Vec<f64>>, _to: &State<Vec<f64>>) -> [f64; 2] {
+        let norm = 2.0 / (self.masses + 1) as f64;
+        let mut sum = [0.0; 2];
+        for n in 1..=self.masses {
+            // Magnitudes, so that nothing cancels in what bounds the rounding of sums.
+            let mut mode = State { q: 0.0, v: 0.0 };
+            for ((q, v), shape) in from.q.iter().zip(&from.v).zip(self.shape(n)) {
+                mode.q += norm * (shape * q).abs();
+                mode.v += norm * (shape * v).abs();
+            }
+            let omega = self.angular_frequency(n);
+            let alpha = self.damping / self.stiffness * omega * omega / 2.0;
+            let [q, v] = oscillator::flow_error(omega * omega, alpha, dt, &mode);
+            sum = [sum[0] + q, sum[1] + v];
+        }
+        sum
+    }
+
     fn is_linear(&self) -> bool {
         true
     }

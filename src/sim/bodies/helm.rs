@@ -156,10 +156,34 @@ impl ThrustCurve {
     /// The thrust at `speed`, in newtons: straight between the points, level beyond them.
     #[inline]
     pub fn at(&self, speed: f64) -> f64 {
-        let above = self.points.partition_point(|point| point[0] <= speed);
-        match (above.checked_sub(1).map(|below| self.points[below]), self.points.get(above)) {
+        self.on(self.piece(speed), speed)
+    }
+
+    /// The piece that `speed` lies on: how many points are at or below it.
+    #[inline]
+    fn piece(&self, speed: f64) -> usize {
+        self.points.partition_point(|point| point[0] <= speed)
+    }
+
+    /// The largest magnitude of a point's speed; 1 where that is 0.
+    fn fastest(&self) -> f64 {
+        let [first, last] = [self.points.first(), self.points.last()];
+        let fastest = first.into_iter().chain(last).map(|[x, _]| x.abs()).fold(0.0, f64::max);
+        if fastest > 0.0 { fastest } else { 1.0 }
+    }
+
+    /// The points at the lower and at the upper end of a piece.
+    #[inline]
+    fn ends(&self, piece: usize) -> (Option<&[f64; 2]>, Option<&[f64; 2]>) {
+        (piece.checked_sub(1).map(|below| &self.points[below]), self.points.get(piece))
+    }
+
+    /// The thrust by one piece of the curve, in newtons, which goes on straight beyond its ends.
+    #[inline]
+    fn on(&self, piece: usize, speed: f64) -> f64 {
+        match self.ends(piece) {
             (Some([x0, y0]), Some([x1, y1])) => y0 + (speed - x0) / (x1 - x0) * (y1 - y0),
-            (Some([_, y]), None) | (None, Some(&[_, y])) => y,
+            (Some([_, y]), None) | (None, Some([_, y])) => *y,
             (None, None) => unreachable!("a curve has a point"),
         }
     }
@@ -199,18 +223,34 @@ fn bow(heading: f64) -> DVec2 {
     DVec2::new(libm::cos(heading), libm::sin(heading))
 }
 
+/// The speed ahead, in metres per second.
+fn surge(state: &State<DVec3>) -> f64 {
+    bow(state.q.z).dot(state.v.truncate())
+}
+
+/// How far a speed may be beyond the end of a piece for its rounding, in units of itself and of the end.
+const ROUNDED: f64 = 16.0 * f64::EPSILON;
+
+impl Helm {
+    /// The acceleration where the thrust at speed `u` is `thrust(u)`.
+    #[inline]
+    fn pushed_by(&self, thrust: impl Fn(f64) -> f64, q: &DVec3, v: &DVec3) -> DVec3 {
+        let (bow, r) = (bow(q.z), v.z);
+        let port = bow.perp();
+        let (u, w) = (bow.dot(v.truncate()), port.dot(v.truncate()));
+        let ahead = self.throttle * thrust(u) - self.drag * u;
+        let abeam = -self.side_drag * w;
+        let turning = self.rudder * self.rudder_moment * u - self.yaw_drag * r;
+        ((ahead * bow + abeam * port) / self.mass).extend(turning / self.inertia)
+    }
+}
+
 impl System for Helm {
     type Vector = DVec3;
 
     #[inline]
     fn acceleration(&self, _t: f64, q: &DVec3, v: &DVec3, a: &mut DVec3) {
-        let (bow, r) = (bow(q.z), v.z);
-        let port = bow.perp();
-        let (u, w) = (bow.dot(v.truncate()), port.dot(v.truncate()));
-        let ahead = self.throttle * self.thrust.at(u) - self.drag * u;
-        let abeam = -self.side_drag * w;
-        let turning = self.rudder * self.rudder_moment * u - self.yaw_drag * r;
-        *a = ((ahead * bow + abeam * port) / self.mass).extend(turning / self.inertia);
+        *a = self.pushed_by(|u| self.thrust.at(u), q, v);
     }
 }
 
@@ -221,6 +261,30 @@ impl Body for Helm {
 
     fn exact(&self, _dt: f64, _from: &State<DVec3>) -> Option<State<DVec3>> {
         None
+    }
+
+    fn is_angle(&self, coordinate: usize) -> bool {
+        coordinate == 2
+    }
+
+    fn piece(&self, state: &State<DVec3>) -> usize {
+        self.thrust.piece(surge(state))
+    }
+
+    fn room(&self, piece: usize, state: &State<DVec3>) -> [f64; 2] {
+        let u = surge(state);
+        let (lower, upper) = self.thrust.ends(piece);
+        let unit = self.thrust.fastest();
+        let room = |end: Option<&[f64; 2]>, sign: f64| {
+            let room = |x: f64| sign * (u - x) + ROUNDED * (u.abs() + x.abs());
+            end.map_or(f64::INFINITY, |[x, _]| room(*x) / unit)
+        };
+        [room(lower, 1.0), room(upper, -1.0)]
+    }
+
+    #[inline]
+    fn acceleration_on(&self, piece: usize, _t: f64, q: &DVec3, v: &DVec3, a: &mut DVec3) {
+        *a = self.pushed_by(|u| self.thrust.on(piece, u), q, v);
     }
 
     fn energy(&self, _state: &State<DVec3>) -> Option<f64> {

@@ -3,19 +3,37 @@
 //! One formula for all three, in the universal variable `s`, of which time is `dt = r ds`. Stiefel &
 //! Scheifele, *Linear and Regular Celestial Mechanics* (1971); Wisdom & Hernandez, *Fast and accurate
 //! Kepler via universal variables* (2015).
+//!
+//! On an ellipse `s` is counted from the start, on an open path from the periapsis: a fly-by from r away
+//! at speed v, counted from its start, would lose (r v² / μ)² to cancellation. Times and places are kept in
+//! [`DoubleDouble`], so that what is returned is as good as rounded once.
 
 use std::f64::consts::TAU;
 
 use glam::DVec2;
 
 use crate::sim::State;
+use crate::sim::double_double::{DoubleDouble, TURN};
 
 /// The most steps towards the root before it is polished; Newton's method takes some five, halving
 /// the open path's bracket at worst sixty.
 const MOST_STEPS: u32 = 200;
 
+/// The most doublings of an open path's bracket: from the least number to beyond the largest.
+const MOST_DOUBLINGS: u32 = 2100;
+
 /// So near the root, Newton's method doubles the digits at every step, and needs no bracket.
 const NEAR: f64 = 1e-5;
+
+/// The most steps that polish the root to twice the digits: two or three, but beside a collision, where the
+/// root is triple and each leaves two thirds of the error.
+const MOST_POLISHES: u32 = 80;
+
+/// The part of the root that the last step may be.
+const POLISHED: f64 = 1e-30;
+
+/// `r v² / μ` from which on the pull bends no path that [`DoubleDouble`] can tell from a straight line.
+const STRAIGHT: f64 = 1e60;
 
 /// Stumpff's functions `Gₖ = sᵏ cₖ(β s²)`, with `G₀″ = -β G₀`: for β = 1 they are cos s, sin s,
 /// 1 - cos s, s - sin s.
@@ -53,37 +71,193 @@ impl Stumpff {
     }
 }
 
+/// The same to twice the digits, with `G₀`.
+struct Fine {
+    g0: DoubleDouble,
+    g1: DoubleDouble,
+    g2: DoubleDouble,
+    g3: DoubleDouble,
+}
+
+impl Fine {
+    fn new(beta: DoubleDouble, s: DoubleDouble) -> Self {
+        let mut halvings = 0;
+        let mut part = 1.0;
+        while (beta.high * (part * s.high) * (part * s.high)).abs() > 0.25 && halvings < 1000 {
+            halvings += 1;
+            part /= 2.0;
+        }
+        let s = s.scaled(part);
+        let z = beta * s * s;
+        // The first terms left out are below 1e-33.
+        let (mut c2, mut c3) = (DoubleDouble::ONE, DoubleDouble::ONE);
+        for n in (1..13).rev() {
+            let n = 2.0 * f64::from(n);
+            c2 = DoubleDouble::ONE - z * c2 / ((n + 1.0) * (n + 2.0));
+            c3 = DoubleDouble::ONE - z * c3 / ((n + 2.0) * (n + 3.0));
+        }
+        let (mut g2, mut g3) = (s * s * c2 / 2.0, s * s * s * c3 / 6.0);
+        let (mut g0, mut g1) = (DoubleDouble::ONE - beta * g2, s - beta * g3);
+        for _ in 0..halvings {
+            g3 = (g3 + g1 * g2).scaled(2.0);
+            g2 = (g1 * g1).scaled(2.0);
+            g1 = (g0 * g1).scaled(2.0);
+            g0 = DoubleDouble::ONE - beta * g2;
+        }
+        Self { g0, g1, g2, g3 }
+    }
+}
+
+/// A place and a velocity in units in which the start is 1 to 2 from the centre, and its pull 1 to 8.
+struct Path {
+    mu: DoubleDouble,
+    q: [DoubleDouble; 2],
+    v: [DoubleDouble; 2],
+    /// Distance from the centre.
+    r: DoubleDouble,
+    /// q · v.
+    eta: DoubleDouble,
+    /// Twice the binding energy; positive on an ellipse.
+    beta: DoubleDouble,
+}
+
+/// A place and a velocity.
+type Place = ([DoubleDouble; 2], [DoubleDouble; 2]);
+
 /// The state `dt` seconds after `from`, about a centre at the origin that pulls with `mu` / r².
 ///
-/// Good to some 1e-14 of its size for each radian gone round. On a fly-by from r away at speed v, times
-/// cancel, and it is worse by the factor r v² / `mu`.
+/// Good to a rounding or two of place and velocity, for the `dt` that is given. From the centre, or where it
+/// is hit, it is not finite.
 pub(super) fn flow(mu: f64, dt: f64, from: &State<DVec2>) -> State<DVec2> {
     if dt == 0.0 {
         return from.clone();
     }
-    let State { q, v } = *from;
-    let r0 = libm::hypot(q.x, q.y);
-    let eta = q.dot(v);
-    // Twice the binding energy; positive on an ellipse.
-    let beta = 2.0 * mu / r0 - v.dot(v);
-    let dt = match period(mu, beta) {
-        Some(period) => libm::remainder(dt, period),
-        None => dt,
-    };
-    // Kepler's equation: what passes by the universal variable s, less dt, and how fast it passes.
-    let late = |s: f64| {
-        let Stumpff { g1, g2, g3 } = Stumpff::new(beta, s);
-        let time = r0 * g1 + eta * g2 + mu * g3 - dt;
-        (time, r0 + eta * g1 + (mu - beta * r0) * g2)
-    };
-    let s = root(late, beta, dt / r0, dt);
+    let reach = from.q.x.abs().max(from.q.y.abs());
+    if reach == 0.0 || !from.q.is_finite() || !from.v.is_finite() {
+        return State { q: DVec2::NAN, v: DVec2::NAN };
+    }
+    // By powers of two, which change no digit, and not all at once, which might overflow.
+    let metre = libm::ilogb(reach);
+    let second = (3 * metre - libm::ilogb(mu)).div_euclid(2);
+    let by = |x: f64, power: i32| DoubleDouble::from(libm::scalbn(x, power));
+    let path = Path::new(
+        by(mu, 2 * second - 3 * metre),
+        from.q.to_array().map(|x| by(x, -metre)),
+        from.v.to_array().map(|v| by(v, second - metre)),
+    );
+    let (q, v) = path.after(by(dt, -second));
+    let [x, y] = q.map(|x| libm::scalbn(x.high, metre));
+    let [vx, vy] = v.map(|v| libm::scalbn(v.high, metre - second));
+    State { q: DVec2::new(x, y), v: DVec2::new(vx, vy) }
+}
 
-    let Stumpff { g1, g2, .. } = Stumpff::new(beta, s);
-    let r = r0 + eta * g1 + (mu - beta * r0) * g2;
-    // Lagrange's coefficients.
-    let (f, g) = (1.0 - mu * g2 / r0, r0 * g1 + eta * g2);
-    let (f_dot, g_dot) = (-mu * g1 / (r * r0), 1.0 - mu * g2 / r);
-    State { q: f * q + g * v, v: f_dot * q + g_dot * v }
+impl Path {
+    fn new(mu: DoubleDouble, q: [DoubleDouble; 2], v: [DoubleDouble; 2]) -> Self {
+        let r = dot(q, q).sqrt();
+        let beta = mu.scaled(2.0) / r - dot(v, v);
+        Self { mu, q, v, r, eta: dot(q, v), beta }
+    }
+
+    fn after(&self, dt: DoubleDouble) -> Place {
+        let kinetic = self.r * dot(self.v, self.v);
+        if kinetic.high > STRAIGHT * self.mu.high {
+            let [x, y] = [0, 1].map(|i| self.q[i] + self.v[i] * dt);
+            return ([x, y], self.v);
+        }
+        if self.beta.high > 0.0 { self.on_an_ellipse(dt) } else { self.on_an_open_path(dt) }
+    }
+
+    /// By Lagrange's coefficients, from the start.
+    fn on_an_ellipse(&self, dt: DoubleDouble) -> Place {
+        let Self { mu, q, v, r: r0, eta, beta } = *self;
+        let period = TURN * mu / (beta * beta.sqrt());
+        let rounds = libm::rint(dt.high / period.high);
+        // A round longer than any number is not gone round.
+        let dt = if rounds == 0.0 || !period.high.is_finite() { dt } else { dt - period * rounds };
+        let slow = mu - beta * r0;
+        let kepler = |s: f64| {
+            let Stumpff { g1, g2, g3 } = Stumpff::new(beta.high, s);
+            let time = r0.high * g1 + eta.high * g2 + mu.high * g3 - dt.high;
+            (time, r0.high + eta.high * g1 + slow.high * g2)
+        };
+        let s = root(kepler, beta.high, dt.high / r0.high, dt.high);
+        let s = polished(s, |s| {
+            let Fine { g1, g2, g3, .. } = Fine::new(beta, s);
+            (r0 * g1 + eta * g2 + mu * g3 - dt, r0 + eta * g1 + slow * g2)
+        });
+
+        let Fine { g1, g2, .. } = Fine::new(beta, s);
+        let r = r0 + eta * g1 + slow * g2;
+        let (f, g) = (DoubleDouble::ONE - mu * g2 / r0, r0 * g1 + eta * g2);
+        let (f_dot, g_dot) = (-(mu * g1 / (r * r0)), DoubleDouble::ONE - mu * g2 / r);
+        ([0, 1].map(|i| f * q[i] + g * v[i]), [0, 1].map(|i| f_dot * q[i] + g_dot * v[i]))
+    }
+
+    /// From the periapsis, where nothing cancels: all terms of Kepler's equation have one sign there.
+    fn on_an_open_path(&self, dt: DoubleDouble) -> Place {
+        let Self { mu, q, v, eta, beta, .. } = *self;
+        let momentum = q[0] * v[1] - q[1] * v[0];
+        let e = (DoubleDouble::ONE - beta * (momentum / mu).squared()).sqrt();
+        let nearest = momentum * momentum / (mu * (DoubleDouble::ONE + e));
+        let pull = mu * e;
+        // In the frame of which x points to the periapsis.
+        let place = |s: DoubleDouble| {
+            let Fine { g0, g1, g2, .. } = Fine::new(beta, s);
+            let r = nearest + pull * g2;
+            ([nearest - mu * g2, momentum * g1], [-(mu * g1 / r), momentum * g0 / r])
+        };
+
+        // The start is where q · v = pull G₁.
+        let w = (-beta.high).sqrt();
+        let reach = eta.high / pull.high;
+        let begin = if w * reach.abs() > 1e-8 { libm::asinh(w * reach) / w } else { reach };
+        let begin = polished(begin, |s| {
+            let Fine { g0, g1, .. } = Fine::new(beta, s);
+            (pull * g1 - eta, pull * g0)
+        });
+        let Fine { g1, g3, .. } = Fine::new(beta, begin);
+        let time = nearest * g1 + mu * g3 + dt;
+        let kepler = |s: f64| {
+            let Stumpff { g1, g2, g3 } = Stumpff::new(beta.high, s);
+            (nearest.high * g1 + mu.high * g3 - time.high, nearest.high + pull.high * g2)
+        };
+        let guess = time.high / (nearest.high + self.r.high);
+        let end = polished(root(kepler, beta.high, guess, time.high), |s| {
+            let Fine { g1, g2, g3, .. } = Fine::new(beta, s);
+            (nearest * g1 + mu * g3 - time, nearest + pull * g2)
+        });
+
+        // Turned by as much as the start is.
+        let ([x0, y0], _) = place(begin);
+        let size = x0 * x0 + y0 * y0;
+        let cos = (q[0] * x0 + q[1] * y0) / size;
+        let sin = (q[1] * x0 - q[0] * y0) / size;
+        let turned = |[x, y]: [DoubleDouble; 2]| [x * cos - y * sin, x * sin + y * cos];
+        let (q, v) = place(end);
+        (turned(q), turned(v))
+    }
+}
+
+fn dot(a: [DoubleDouble; 2], b: [DoubleDouble; 2]) -> DoubleDouble {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+/// The root near `s` of what rises, by Newton's method from a root good to single numbers; `f` gives a
+/// value and its slope.
+fn polished(s: f64, f: impl Fn(DoubleDouble) -> (DoubleDouble, DoubleDouble)) -> DoubleDouble {
+    let mut s = DoubleDouble::from(s);
+    let mut last = f64::INFINITY;
+    for _ in 0..MOST_POLISHES {
+        let (value, slope) = f(s);
+        // It need not be better than the digits that are missing. At the rounding of `f` it grows again.
+        let step = (value.high / slope.high).abs();
+        if step <= POLISHED * s.high.abs() || step >= last || step.is_nan() {
+            break;
+        }
+        s = s - (value.high / slope.high).into();
+        last = step;
+    }
+    s
 }
 
 /// How long a round takes, in seconds, for a body bound by `beta` / 2 for each kilogram.
@@ -95,12 +269,19 @@ pub(super) fn period(mu: f64, beta: f64) -> Option<f64> {
 /// The `s` at which `late` is 0. It rises with `s` from `-dt` at 0: its slope is the distance from the
 /// centre.
 fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64 {
+    // Too small a time to be halved.
+    if guess == 0.0 {
+        return 0.0;
+    }
     let sign = dt.signum();
     // What overflows is far beyond.
     let is_beyond = |time: f64| time.is_nan() || time * sign >= 0.0;
     // Less than a round; on an open path as far as it takes.
     let mut far = if beta > 0.0 { sign * TAU / beta.sqrt() } else { guess };
-    while beta <= 0.0 && !is_beyond(late(far).0) {
+    for _ in 0..MOST_DOUBLINGS {
+        if beta > 0.0 || is_beyond(late(far).0) {
+            break;
+        }
         far *= 2.0;
     }
     let mut near = 0.0;
@@ -124,10 +305,6 @@ fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64
         if is_fast && last_step <= NEAR * s.abs() {
             break;
         }
-    }
-    for _ in 0..2 {
-        let (time, distance) = late(s);
-        s -= time / distance;
     }
     s
 }

@@ -52,10 +52,51 @@ pub trait Body: System + Clone + Send + 'static {
         })
     }
 
+    /// How far [`Body::exact`], over `dt` from `from`, may have rounded a coordinate and a velocity of `to`: a
+    /// bound on the errors of its arithmetic, for exact arguments.
+    fn exact_error(
+        &self,
+        _dt: f64,
+        _from: &State<Self::Vector>,
+        _to: &State<Self::Vector>,
+    ) -> [f64; 2] {
+        [f64::INFINITY; 2]
+    }
+
     /// Whether the acceleration is a linear function of coordinates and velocities, but for a constant: then
     /// what a method makes of one deviation it makes of all.
     fn is_linear(&self) -> bool {
         false
+    }
+
+    /// Whether this coordinate is an angle, of which a full turn changes nothing.
+    fn is_angle(&self, _coordinate: usize) -> bool {
+        false
+    }
+
+    /// The smooth piece of the force law that a state lies on, of pieces in a row. A reference solution
+    /// steps from one to the next without a corner inside a step.
+    fn piece(&self, _state: &State<Self::Vector>) -> usize {
+        0
+    }
+
+    /// How far a state is from the end of a piece towards the one before and towards the one after, of the
+    /// order of 1; negative beyond it by more than a rounding.
+    fn room(&self, _piece: usize, _state: &State<Self::Vector>) -> [f64; 2] {
+        [f64::INFINITY; 2]
+    }
+
+    /// The acceleration by this piece of the force law, continued smoothly beyond its ends.
+    #[inline]
+    fn acceleration_on(
+        &self,
+        _piece: usize,
+        t: f64,
+        q: &Self::Vector,
+        v: &Self::Vector,
+        a: &mut Self::Vector,
+    ) {
+        self.acceleration(t, q, v, a);
     }
 
     /// The conserved energy in joules, or `None` where none is conserved.
@@ -122,7 +163,8 @@ pub enum View {
 pub enum Truth {
     /// A closed form, computed afresh at every tick.
     Exact,
-    /// No closed form: a numerical solution whose error stays below [`REFERENCE_ACCURACY`].
+    /// No closed form: a numerical solution that aims at [`REFERENCE_ACCURACY`], and estimates on each run
+    /// what it reaches.
     ///
     /// [`REFERENCE_ACCURACY`]: crate::sim::REFERENCE_ACCURACY
     Reference,
@@ -137,10 +179,10 @@ impl Truth {
         }
     }
 
-    /// The stated error of what is not exact; see [`REFERENCE_ACCURACY`].
+    /// The error that what is not exact aims at; see [`REFERENCE_ACCURACY`].
     ///
     /// [`REFERENCE_ACCURACY`]: crate::sim::REFERENCE_ACCURACY
-    pub fn accuracy(self) -> Option<f64> {
+    pub fn aimed_accuracy(self) -> Option<f64> {
         match self {
             Truth::Exact => None,
             Truth::Reference => Some(REFERENCE_ACCURACY),

@@ -32,6 +32,32 @@ pub(super) fn flow(omega2: f64, alpha: f64, dt: f64, from: &State<f64>) -> State
     }
 }
 
+/// A bound on the rounding of [`flow`], in the coordinate and in the velocity.
+pub(super) fn flow_error(omega2: f64, alpha: f64, dt: f64, from: &State<f64>) -> [f64; 2] {
+    let [x, v] = [from.q, from.v].map(f64::abs);
+    let dt = dt.abs();
+    let w2 = omega2 - alpha * alpha;
+    let (w, most) = (w2.abs().sqrt(), omega2 + alpha * alpha);
+    if w2 * dt * dt <= -NEAR_CRITICAL {
+        let (slow, fast) = (omega2 / (alpha + w), alpha + w);
+        // How the rounding of w² moves w, and with it either rate.
+        let moved = most / w;
+        let part = |rate: f64, moved: f64, size: f64| {
+            let rounding = f64::EPSILON * (8.0 + 4.0 * (rate + moved) * dt);
+            rounding * size * libm::exp(-rate * dt) / (2.0 * w)
+        };
+        let worse = 1.0 + moved / w;
+        let creep = part(slow, slow / fast * moved, fast * x + v);
+        let recoil = part(fast, moved, slow * x + v);
+        return [worse * (creep + recoil), worse * (slow * creep + fast * recoil)];
+    }
+    // How the rounding of w² moves what has been gone through by now.
+    let phase = most * dt * dt / (w * dt).max(1.0);
+    let rounding = f64::EPSILON * (8.0 + 4.0 * (alpha * dt + phase)) * libm::exp(-alpha * dt);
+    let s = if w * dt > 1.0 { 1.0 / w } else { dt };
+    [rounding * (x + (v + alpha * x) * s), rounding * (v + (omega2 * x + alpha * v) * s)]
+}
+
 /// The `|w t|²` below which the flow is a series: much smaller, and `sin(w t) / w` loses digits beside
 /// it; larger, and the series needs more terms.
 const NEAR_CRITICAL: f64 = 1e-3;

@@ -115,6 +115,10 @@ impl Body for Pendulum {
         None
     }
 
+    fn is_angle(&self, _coordinate: usize) -> bool {
+        true
+    }
+
     fn energy(&self, state: &State<f64>) -> Option<f64> {
         let State { q: theta, v: omega } = *state;
         // 1 - cos θ, without its cancellation.

@@ -106,6 +106,18 @@ impl Body for Ship {
         })
     }
 
+    fn exact_error(&self, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {
+        let push = self.thrust * self.throttle / self.mass;
+        let rate = self.drag / self.mass;
+        // φ₁ and φ₂ are at most 1 and ½, and 1/z and 1/z: the least of them, in magnitude.
+        let z = (rate * dt).abs();
+        let [phi1, phi2] = [1.0, 0.5].map(|most: f64| most.min(1.0 / z));
+        let run = (from.v * dt * phi1).abs() + (push * dt * dt * phi2).abs();
+        let gained = (push.abs() + (rate * from.v).abs()) * dt.abs() * phi1;
+        // Just above the series' end 1 - φ₁ is a twentieth of 1.
+        [from.q.abs() + 32.0 * run, from.v.abs() + 8.0 * gained].map(|size| f64::EPSILON * size)
+    }
+
     fn is_linear(&self) -> bool {
         true
     }

@@ -125,13 +125,21 @@ pub enum StepFailure {
         /// The most attempts that a tick may take.
         limit: u32,
     },
-    /// An implicit method found no solution to its equations.
+    /// An implicit method's solver gave up on a step's equations. They may have a solution nevertheless.
     #[error(
-        "needs more than {limit} of Newton's iterations for one step; raise the tick rate or the substeps"
+        "the solver gave up on a step's equations: {limit} of Newton's iterations do not solve them, nor does following the solution from a shorter step; raise the tick rate or the substeps"
     )]
     NewtonFailed {
         /// The most iterations that a step may take.
         limit: u32,
+    },
+    /// A reference solution would take too much work.
+    #[error(
+        "has no reference solution: {evaluations} evaluations of the acceleration did not reach the end of a tick; soften the body"
+    )]
+    ReferenceFailed {
+        /// The evaluations after which it gave up.
+        evaluations: u64,
     },
     /// A value became infinite or undefined.
     #[error("left the numbers: {coordinate} is {value}")]

@@ -3,10 +3,14 @@
 //! The coordinates and velocities of a stage are sums of what is known before and of the accelerations
 //! sought, so that these are all there is to solve for. Their derivatives come by differences, once a
 //! step, and again where that turns out too coarse. The iteration goes on to round-off, because a method
-//! that keeps a quantity keeps it only as well as its equations are solved.
+//! that keeps a quantity keeps it only as well as its equations are solved. Where it does not converge, the
+//! solution is followed from a shorter step.
 
 use super::super::{State, StepFailure, System, Vector};
 use super::lu::Lu;
+use continuation::Curve;
+
+mod continuation;
 
 /// Iterations in one step. Usual are 2 to 5; without a limit a force that jumps would hang.
 const MAX_ITERATIONS: u32 = 30;
@@ -41,6 +45,8 @@ pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
     missing: Vec<f64>,
     /// The most by which `found` may be off for the rounding of its coordinates, in units of round-off.
     blur: Vec<f64>,
+    /// For steps at which the iteration alone does not converge.
+    curve: Curve,
 }
 
 /// What is given: when the stages are, and the weights α and β of the accelerations in their coordinates
@@ -83,6 +89,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             matrix: Lu::new(size),
             missing: vec![0.0; size],
             blur: vec![0.0; size],
+            curve: Curve::new(size),
         }
     }
 
@@ -95,6 +102,15 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         for a in &mut self.a {
             a.components_mut().fill(0.0);
         }
+        if self.iterate(system, stages) || self.follow(system, stages) {
+            return Ok(());
+        }
+        Err(StepFailure::NewtonFailed { limit: MAX_ITERATIONS })
+    }
+
+    /// Iterates from the present `A`, and returns whether it converged.
+    #[inline(always)]
+    fn iterate(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) -> bool {
         let mut is_coarse = true;
         // There is no rate before the second correction.
         let mut last = f64::NAN;
@@ -102,7 +118,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             let Self { known, a, found, stage, .. } = self;
             stages.evaluate(system, known, a, stage, found);
             if is_coarse {
-                self.linearise(system, stages);
+                self.linearise(system, stages, stages);
             }
             let is_rounded = self.subtract();
             self.matrix.solve(&mut self.missing);
@@ -114,20 +130,27 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             let is_solved = rate < 1.0 && left <= f64::EPSILON * size;
             let is_quick = rate <= SLOW;
             if size.is_finite() && (is_solved || is_rounded && !is_quick) {
-                return Ok(());
+                return true;
             }
             is_coarse = rate > SLOW;
             last = correction;
         }
-        Err(StepFailure::NewtonFailed { limit: MAX_ITERATIONS })
+        false
     }
 
-    /// Writes and factors the matrix at the present `A`.
-    fn linearise(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) {
+    /// Writes and factors the matrix at the present `A`, by differences fit for the weights of `whole`.
+    // Called from two places, it would be no part of the loop any more, which costs a fourteenth of a step.
+    #[inline(always)]
+    fn linearise(
+        &mut self,
+        system: &impl System<Vector = V>,
+        stages: &Stages<S>,
+        whole: &Stages<S>,
+    ) {
         let Self { known, a, found, nudged, stage, matrix, blur, .. } = self;
         let v = largest(known.iter().flat_map(|known| known.v.components()));
         let q = largest(known.iter().flat_map(|known| known.q.components()));
-        let (v, q) = (v / stages.beta[0][0].abs(), q / stages.alpha[0][0]);
+        let (v, q) = (v / whole.beta[0][0].abs(), q / whole.alpha[0][0]);
         let near = v.max(largest(components(found))).max(largest(components(a)));
         let nudge = (NUDGES.0 * near).max(NUDGES.1 * q).clamp(EXTREMES.0, EXTREMES.1);
         let reach = v.max(q).min(EXTREMES.1);
@@ -179,6 +202,12 @@ impl<V: Vector, const S: usize> Newton<V, S> {
 }
 
 impl<const S: usize> Stages<S> {
+    /// The same with all weights multiplied.
+    fn scaled(&self, factor: f64) -> Self {
+        let scaled = |weights: [[f64; S]; S]| weights.map(|row| row.map(|weight| factor * weight));
+        Self { t: self.t, alpha: scaled(self.alpha), beta: scaled(self.beta) }
+    }
+
     fn evaluate<V: Vector>(
         &self,
         system: &impl System<Vector = V>,

@@ -1,0 +1,120 @@
+//! The truth where there is a closed form.
+
+use super::bodies::Body;
+use super::integrators::StepFailure;
+use super::stepper::Drive;
+use super::system::{Counted, State, Vector};
+
+/// The exact flow, always computed in one stride from the anchor, so that nothing accumulates.
+pub(super) struct ExactFlow<V> {
+    anchor: Anchor<V>,
+    /// The time that the state is at.
+    t: f64,
+    scratch: State<V>,
+    /// The errors of the state before the last input.
+    before_input: [f64; 2],
+}
+
+/// Where the flow comes from.
+struct Anchor<V> {
+    state: State<V>,
+    t: f64,
+    /// Where the state may be instead, for the errors that it was made with: it flows alike.
+    displaced: State<V>,
+    /// By how much it is displaced, in coordinates and velocities.
+    error: [f64; 2],
+}
+
+impl<V: Vector> ExactFlow<V> {
+    /// From `state` at time `t` (s).
+    pub(super) fn new(state: &State<V>, t: f64) -> Self {
+        let [displaced, scratch] = [state.clone(), state.clone()];
+        let anchor = Anchor { state: state.clone(), t, displaced, error: [0.0; 2] };
+        Self { anchor, t, scratch, before_input: [0.0; 2] }
+    }
+}
+
+impl<V: Vector> Anchor<V> {
+    /// Lies at `state` at time `t` (s), where the body may be off by `error`.
+    fn lay(&mut self, state: &State<V>, t: f64, error: [f64; 2]) {
+        self.state.assign(state);
+        self.displaced.assign(state);
+        self.displaced.q.components_mut().iter_mut().for_each(|x| *x += error[0]);
+        self.displaced.v.components_mut().iter_mut().for_each(|x| *x += error[1]);
+        (self.t, self.error) = (t, error);
+    }
+
+    /// How far `state`, where the body has come to at time `t`, may be off: by the rounding of the closed form
+    /// and of the time that it is given, and for what the anchor was off.
+    fn error<B: Body<Vector = V>>(
+        &self,
+        body: &B,
+        t: f64,
+        state: &State<V>,
+        scratch: &mut State<V>,
+    ) -> [f64; 2] {
+        let mut error = [0.0; 2];
+        if t != self.t {
+            error = body.exact_error(t - self.t, &self.state, state);
+            let late = f64::EPSILON * (t.abs() + self.t.abs());
+            body.acceleration(t, &state.q, &state.v, &mut scratch.v);
+            error[0] += late * largest(&state.v);
+            error[1] += late * largest(&scratch.v);
+        }
+        if self.error != [0.0; 2] {
+            body.exact_into(t - self.t, &self.displaced, scratch);
+            scratch.add_scaled(-1.0, state);
+            error[0] += largest(&scratch.q);
+            error[1] += largest(&scratch.v);
+        }
+        error.map(|error| if error.is_nan() { f64::INFINITY } else { error })
+    }
+}
+
+impl<B: Body> Drive<B> for ExactFlow<B::Vector> {
+    fn advance(
+        &mut self,
+        body: &Counted<B>,
+        t: f64,
+        h: f64,
+        _substeps: u32,
+        state: &mut State<B::Vector>,
+    ) -> Result<(), StepFailure> {
+        self.t = t + h;
+        let is_known = body.system.exact_into(self.t - self.anchor.t, &self.anchor.state, state);
+        assert!(is_known, "a body has a closed form always or never");
+        Ok(())
+    }
+
+    fn placed(&mut self, t: f64, state: &State<B::Vector>) {
+        self.anchor.lay(state, t, [0.0; 2]);
+        self.t = t;
+    }
+
+    fn about_to_be_pushed(&mut self, body: &Counted<B>, state: &State<B::Vector>) {
+        let Self { anchor, t, scratch, before_input } = self;
+        *before_input = anchor.error(&body.system, *t, state, scratch);
+    }
+
+    fn pushed(&mut self, _body: &Counted<B>, t: f64, state: &State<B::Vector>) {
+        self.anchor.lay(state, t, self.before_input);
+        self.t = t;
+    }
+
+    fn reset(&mut self) {}
+
+    fn truth_error(&self, body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
+        let mut scratch = state.clone();
+        Some(self.anchor.error(&body.system, self.t, state, &mut scratch))
+    }
+}
+
+/// The largest magnitude; not a number where one is not.
+fn largest<V: Vector>(vector: &V) -> f64 {
+    vector.components().iter().fold(
+        0.0,
+        |most: f64, x| {
+            if x.abs() > most || x.is_nan() { x.abs() } else { most }
+        },
+    )
+}

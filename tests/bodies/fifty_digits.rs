@@ -1,0 +1,143 @@
+//! Truths against `fifty_digits.txt`, a table of motions that another program computed to 50 digits and more:
+//! closed forms with their cancellations computed away, Taylor series of order 36 from corner to corner for
+//! what has none. What a truth says of its own error has to cover the difference, and not by too much.
+//!
+//! A line is a kind of body, the tick rate in Hz, the seconds, throttle, rudder and the kind's parameters,
+//! and after the bar the coordinates and velocities then.
+
+use regatta::sim::bodies::{Input, Kind, Truth, kind};
+use regatta::sim::integrators::StepFailure;
+use regatta::sim::{Solver, Stepper};
+
+/// The motions of the table, but others may be tried in their place.
+fn table() -> String {
+    match std::env::var("REGATTA_TABLE") {
+        Ok(file) => std::fs::read_to_string(file).expect("a table"),
+        Err(_) => include_str!("fifty_digits.txt").into(),
+    }
+}
+
+struct Row {
+    line: String,
+    kind: &'static Kind,
+    tick_hz: f64,
+    seconds: f64,
+    inputs: [Input; 2],
+    values: Vec<f64>,
+    /// Coordinates, then velocities.
+    there: [Vec<f64>; 2],
+}
+
+fn rows() -> Vec<Row> {
+    let numbers = |text: &str| -> Vec<f64> {
+        text.split_whitespace().map(|number| number.parse().expect("a number")).collect()
+    };
+    let row = |line: &str| {
+        let (given, there) = line.split_once('|').expect("a bar");
+        let (id, given) = given.split_once(' ').expect("a kind");
+        let [tick_hz, seconds, throttle, rudder, ref values @ ..] = numbers(given)[..] else {
+            panic!("{line}")
+        };
+        let there = numbers(there);
+        let (q, v) = there.split_at(there.len() / 2);
+        Row {
+            line: line.into(),
+            kind: kind(id).expect("a kind"),
+            tick_hz,
+            seconds,
+            inputs: [Input::Throttle(throttle), Input::Rudder(rudder)],
+            values: values.to_vec(),
+            there: [q.to_vec(), v.to_vec()],
+        }
+    };
+    table().lines().map(row).collect()
+}
+
+impl Row {
+    /// The body there.
+    fn run(&self) -> Result<Box<dyn Stepper>, StepFailure> {
+        let mut body = (self.kind.build)(&self.values, Solver::Truth);
+        for input in self.inputs {
+            body.input(0.0, input);
+        }
+        if self.kind.truth == Truth::Exact {
+            body.advance(0.0, self.seconds, 1)?;
+            return Ok(body);
+        }
+        for tick in 0..(self.seconds * self.tick_hz).round() as u64 {
+            body.advance(tick as f64 / self.tick_hz, 1.0 / self.tick_hz, 1)?;
+        }
+        Ok(body)
+    }
+
+    /// The largest error of a coordinate and of a velocity, what is said of both, and their sizes.
+    fn errors(&self) -> [[f64; 2]; 3] {
+        let body = self.run().unwrap_or_else(|failure| panic!("{failure}: {}", self.line));
+        let off = |found: &[f64], there: &[f64]| {
+            assert_eq!(found.len(), there.len(), "{}", self.line);
+            // A NaN is no small error.
+            let off = found.iter().zip(there).map(|(found, there)| (found - there).abs());
+            off.map(|off| if off.is_nan() { f64::INFINITY } else { off }).fold(0.0, f64::max)
+        };
+        let size = |there: &[f64]| there.iter().fold(0.0, |most: f64, x| x.abs().max(most));
+        let [q, v] = &self.there;
+        [
+            [off(body.q(), q), off(body.v(), v)],
+            body.truth_error().expect("of a truth"),
+            [size(q), size(v)],
+        ]
+    }
+}
+
+/// What truths of this kind say of their errors, in units of the true ones, in rising order. One that is
+/// below the rounding of what is returned is taken for that.
+fn ratios(id: &str) -> Vec<f64> {
+    let mut ratios = Vec::new();
+    for row in rows().iter().filter(|row| row.kind.id == id) {
+        let [found, said, size] = row.errors();
+        for i in 0..2 {
+            // What has died away below all numbers is known.
+            let least = (f64::EPSILON / 2.0 * size[i]).max(f64::MIN_POSITIVE);
+            let ratio = (said[i] + f64::MIN_POSITIVE) / found[i].max(least);
+            if !(1.0..1e4).contains(&ratio) {
+                println!("{ratio:.1e}: {:.1e} of {:.1e}, {}", found[i], size[i], row.line);
+            }
+            ratios.push(ratio);
+        }
+    }
+    ratios.sort_by(f64::total_cmp);
+    let at = |part: f64| ratios[((ratios.len() - 1) as f64 * part) as usize];
+    let below = ratios.iter().filter(|&&ratio| ratio < 1.0).count();
+    println!(
+        "{id}: {below} of {} below 1, {:.1} {:.1} {:.1} {:.1}",
+        ratios.len(),
+        at(0.0),
+        at(0.5),
+        at(0.9),
+        at(1.0)
+    );
+    ratios
+}
+
+#[test]
+fn a_closed_form_is_never_further_off_than_it_says_and_says_no_more_than_it_must() {
+    for (id, typically) in [("ship", 300.0), ("spring", 100.0), ("chain", 300.0), ("orbit", 1e9)] {
+        let ratios = ratios(id);
+        assert!(ratios.len() >= 20, "{id}");
+        assert!(ratios[0] >= 1.0, "{id}: {}", ratios[0]);
+        let median = ratios[ratios.len() / 2];
+        assert!(median < typically, "{id}: {median}");
+    }
+}
+
+#[test]
+fn a_reference_says_how_far_it_is_off_on_this_run() {
+    for id in ["pendulum", "helm"] {
+        let ratios = ratios(id);
+        assert!(ratios.len() >= 90, "{id}");
+        let hundredth = ratios[ratios.len() / 100];
+        assert!(hundredth >= 1.0, "{id}: {hundredth}");
+        let median = ratios[ratios.len() / 2];
+        assert!(median < 1000.0, "{id}: {median}");
+    }
+}
