@@ -193,7 +193,7 @@ impl Judge {
         let ticks = ((horizon_s * hz).round() as u64).max(1);
         let stride = (ticks / MOMENTS).max(1);
         let mut lane = Lane::new(&self.scene, spec.solver(), spec.substeps);
-        lane.input(0.0, Input::Throttle(self.throttle));
+        lane.input(0, 0.0, Input::Throttle(self.throttle));
         let mut truth = self.truth();
         let (mut error, mut worst, mut tick, mut compared) = (0.0, 0, 0, 0);
         let mut energy_drift: Option<f64> = None;

@@ -8,6 +8,7 @@ mod advice;
 mod clock;
 mod command;
 mod display;
+mod extent;
 mod history;
 mod judge;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
@@ -19,6 +20,7 @@ pub mod picture;
 mod race;
 pub mod round_off;
 mod scene;
+mod script;
 mod thinking;
 mod trend;
 mod verdict;
@@ -28,10 +30,10 @@ pub use advice::{Advised, Adviser, Good, cheapest};
 pub use clock::{Clock, Due};
 pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};
 pub use display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
-pub use history::{CAPACITY, History, Sample};
+pub use history::{CAPACITY, History, Run, Sample};
 pub use judge::{Judge, LONGEST_HORIZON_S, Outcome, TOLERANCE};
 pub use lab::Lab;
-pub use lane::{ESCAPE, Halt, Lane, LaneBody};
+pub use lane::{ESCAPE, Halt, Lane, LaneBody, Origin, TakenUp};
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use race::{Entrant, Race};
 pub use scene::{
