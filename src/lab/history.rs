@@ -124,7 +124,8 @@ impl History {
     pub(super) fn begin_run(&mut self, now: Sample) {
         let mut newest_first = self.samples.iter().rev();
         let newest = newest_first.next().filter(|newest| newest.t == now.t);
-        let is_alone = |newest: &Sample| newest_first.next().is_none_or(|s| s.entry != newest.entry);
+        let is_alone =
+            |newest: &Sample| newest_first.next().is_none_or(|s| s.entry != newest.entry);
         if newest.is_some_and(is_alone) {
             self.samples.pop_back();
         }

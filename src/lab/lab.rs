@@ -6,7 +6,7 @@ use super::clock::{Clock, Due};
 use super::command::{Command, SPEED_LADDER, TICK_LADDER};
 use super::display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
 use super::history::History;
-use super::lane::{Halt, LaneBody, Origin, TakenUp};
+use super::notices;
 use super::race::Race;
 use super::scene::{LaneSpec, SCENES, Scene};
 use super::script::{Control, Script};
@@ -312,8 +312,8 @@ impl Lab {
         }
         self.race.step();
         self.race.record();
-        if self.just_halted().next().is_some() {
-            self.announce_halts();
+        if let Some(told) = notices::of_halts(&self.scene, &self.entries, &self.race) {
+            self.notice = Some(told);
         }
     }
 
@@ -375,30 +375,16 @@ impl Lab {
             Mode::Race => Vec::new(),
         };
         self.active = entry;
-        let told: Vec<String> = taken_up.iter().map(|taken_up| self.tell_taken_up(taken_up)).collect();
-        (!told.is_empty()).then(|| told.join("; "))
+        notices::of_taken_up(&self.scene, &taken_up)
     }
 
     /// The next place on the list that can be picked, round, `step` forward or back.
     fn pick_beside(&mut self, step: isize) -> Option<String> {
         let count = self.entries.len() as isize;
-        let mut around = (1..=count).map(|i| (self.active as isize + i * step).rem_euclid(count) as usize);
+        let mut around =
+            (1..=count).map(|i| (self.active as isize + i * step).rem_euclid(count) as usize);
         let entry = around.find(|&entry| self.can_pick(entry))?;
         self.pick(entry)
-    }
-
-    fn tell_taken_up(&self, TakenUp { halt, from }: &TakenUp) -> String {
-        let body = &self.scene.bodies[halt.body];
-        let fate = if halt.is_blow_up() { "had blown up" } else { "had halted" };
-        match from {
-            Origin::Truth => {
-                let truth = body.kind.truth.id();
-                format!("{} {fate}: taken up again from the {truth} solution", body.name)
-            }
-            Origin::LastGood => {
-                format!("{} {fate}: taken up again from its last good state", body.name)
-            }
-        }
     }
 
     fn restart(&mut self) {
@@ -436,38 +422,6 @@ impl Lab {
         lab.running = self.running;
         lab.restart();
         *self = lab;
-    }
-
-    /// The bodies that halted in the tick before, each with its lane's place on the list; `None` for the truth.
-    fn just_halted(&self) -> impl Iterator<Item = (Option<usize>, &Halt)> {
-        let truth = self.race.truth().bodies().iter().map(|body| (None, body));
-        let lanes = self.race.entrants().iter().flat_map(|entrant| {
-            entrant.lane.bodies().iter().map(|body| (Some(entrant.entry), body))
-        });
-        let tick = self.race.tick();
-        truth.chain(lanes).filter_map(move |(entry, body): (_, &LaneBody)| {
-            let halt = body.halted().filter(|halt| halt.tick + 1 == tick)?;
-            Some((entry, halt))
-        })
-    }
-
-    fn announce_halts(&mut self) {
-        let halts = self.just_halted().map(|(entry, halt)| {
-            let Halt { tick, body, failure } = halt;
-            let body = &self.scene.bodies[*body];
-            match entry {
-                Some(entry) => {
-                    let method = self.entries[entry].method.name;
-                    format!("{method} halted at tick {tick}: {} {failure}", body.name)
-                }
-                None => format!(
-                    "the {} solution halted at tick {tick}: {} {failure}; nothing is held against it from there on",
-                    body.kind.truth.id(),
-                    body.name
-                ),
-            }
-        });
-        self.notice = Some(halts.collect::<Vec<_>>().join("; "));
     }
 
     /// The history of the displayed body in each lane, with the lane's place on the list.

@@ -217,7 +217,8 @@ mod tests {
 
     #[test]
     fn a_truth_or_a_lane_that_halted_is_no_yardstick() {
-        let comparing = ["position_error", "velocity_error", "relative_speed_error", "energy_drift"];
+        let comparing =
+            ["position_error", "velocity_error", "relative_speed_error", "energy_drift"];
         let mut lost = race("explicit-euler", [1.0, 0.0]);
         lost.run(400);
         assert!(comparing.iter().all(|id| measured(id, &lost).is_some()));

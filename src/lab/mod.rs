@@ -15,6 +15,7 @@ mod judge;
 mod lab;
 mod lane;
 mod metrics;
+mod notices;
 pub mod number;
 pub mod picture;
 mod race;

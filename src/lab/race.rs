@@ -243,7 +243,9 @@ impl Race {
         if (lane.solver(), lane.substeps()) == (spec.solver(), spec.substeps) {
             return Vec::new();
         }
-        for ((body, truth), history) in lane.bodies().iter().zip(truth.bodies()).zip(&mut *histories) {
+        for ((body, truth), history) in
+            lane.bodies().iter().zip(truth.bodies()).zip(&mut *histories)
+        {
             if body.halted().is_none() {
                 history.end_run(Sample::new(t, left, body, truth));
             }
@@ -326,5 +328,71 @@ impl Fnv {
         for byte in word.to_le_bytes() {
             self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::integrators::method;
+
+    fn race(seconds: f64, tick_hz: u32) -> Race {
+        let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
+        Race::new(&scene, [(0, LaneSpec::plain(method("rk4").unwrap()))])
+    }
+
+    #[test]
+    fn time_is_counted_from_the_last_of_several_changes_of_rate() {
+        let mut race = race(20.0, 60);
+        let mut t = 0.0;
+        for (tick_hz, ticks) in [(60, 11), (49, 7), (120, 5), (1, 3), (1000, 1)] {
+            race.set_tick_hz(tick_hz);
+            for tick in 1..=ticks {
+                race.step();
+                let now = t + f64::from(tick) / f64::from(tick_hz);
+                assert!((race.t() - now).abs() < 1e-14, "{tick_hz} Hz: {} s, not {now}", race.t());
+            }
+            assert_eq!(race.last_step_s(), 1.0 / f64::from(tick_hz));
+            t = race.t();
+        }
+        assert_eq!(race.tick(), 27);
+        // The truth is where the time is, whatever the rates were.
+        let swing = libm::cos(std::f64::consts::TAU * race.t());
+        let truth = race.truth().bodies()[0].stepper.q()[0];
+        assert!((truth - swing).abs() < 1e-11, "{truth}, {swing}");
+    }
+
+    /// Runs the race through so many seconds, and returns the times of the samples.
+    fn sampled(race: &mut Race, seconds: f64) -> Vec<f64> {
+        race.record();
+        let end = race.t() + seconds - 1e-9;
+        while race.t() < end {
+            race.step();
+            race.record();
+        }
+        race.entrants()[0].histories[0].samples().map(|sample| sample.t).collect()
+    }
+
+    #[test]
+    fn histories_reach_over_the_scene_with_no_fewer_samples_than_they_must() {
+        // Just as many ticks as there is room for, and one more.
+        for (ticks, stride) in
+            [(CAPACITY as u32 - 1, 1), (CAPACITY as u32, 1), (CAPACITY as u32 + 1, 2)]
+        {
+            let times = sampled(&mut race(f64::from(ticks), 1), f64::from(ticks));
+            assert_eq!(
+                times[times.len() - 1] - times[times.len() - 2],
+                f64::from(stride),
+                "{ticks}"
+            );
+            assert!(times[0] <= f64::from(stride), "{ticks} ticks: from {} s on", times[0]);
+        }
+        let mut race = race(20.0, 10);
+        assert_eq!(sampled(&mut race, 10.0).len(), 101);
+        race.set_tick_hz(1000);
+        let times = sampled(&mut race, 10.0);
+        // 20 s at 1000 Hz are ten times the room.
+        assert!((times[times.len() - 1] - times[times.len() - 2] - 0.01).abs() < 1e-9);
+        assert!(times[0] == 0.0 && (times[times.len() - 1] - 20.0).abs() < 1e-9);
     }
 }

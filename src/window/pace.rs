@@ -114,7 +114,9 @@ mod tests {
     #[test]
     fn a_pause_another_speed_and_a_restart_begin_the_measure_again() {
         let mut run = Run::at(60);
-        for command in [Command::TogglePause, Command::SpeedUp, Command::TickHz(2), Command::Restart] {
+        for command in
+            [Command::TogglePause, Command::SpeedUp, Command::TickHz(2), Command::Restart]
+        {
             assert!(is_real_time(run.frames(60).last().unwrap()));
             run.0.apply(command);
             assert_eq!(run.frames(1), [Pace::Unknown], "{command:?}");

@@ -63,9 +63,9 @@ pub(super) fn halts(picture: &mut Picture, rect: Rect, body: Option<&Halt>, trut
         return;
     }
     let of_body = body.map(|halt| format!("halted, tick {}", halt.tick));
-    let of_truth = truth.halted().map(|halt| {
-        format!("no {} solution from tick {} on", truth.kind.truth.id(), halt.tick)
-    });
+    let of_truth = truth
+        .halted()
+        .map(|halt| format!("no {} solution from tick {} on", truth.kind.truth.id(), halt.tick));
     for (text, y) in of_body.into_iter().chain(of_truth).zip([12.0, 27.0]) {
         let at = [rect.min[0] + 9.0, rect.max[1] - y];
         let (colour, size) = (palette::ALARM, 11.0);
