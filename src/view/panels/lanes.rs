@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Id, Pos2, Rect, ScrollArea, Sense, Ui, Vec2,
 use super::{QUIET, RAISED, TEXT, colour};
 use crate::lab::number::significant;
 use crate::lab::picture::palette;
-use crate::lab::{Command, Entrant, Lab, LaneSpec, METRICS, Metric, Mode};
+use crate::lab::{Command, Entrant, Halt, Lab, LaneSpec, METRICS, Metric, Mode};
 use crate::view::plot;
 
 const ROW: f32 = 20.0;
@@ -300,11 +300,17 @@ fn swatch(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, _column: &Column) {
 /// What became of the lane, or else what is to be said of its method.
 fn fate(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column) {
     let at = column.align.anchor(rect, left + 8.0, column.width);
-    let halts = row.entrant.iter().flat_map(|entrant| entrant.lane.halts()).map(|halt| {
-        let body = &row.lab.scene().bodies[halt.body].name;
-        format!("halted at tick {}: {body} {}", halt.tick, halt.failure)
-    });
-    let halts = halts.collect::<Vec<_>>().join("; ");
+    let mut halts: Vec<&Halt> = row.entrant.iter().flat_map(|e| e.lane.halts()).collect();
+    // The displayed body first: of several, not all may fit.
+    halts.sort_by_key(|halt| halt.body != row.lab.display().body);
+    let halts: Vec<String> = halts
+        .into_iter()
+        .map(|halt| {
+            let body = &row.lab.scene().bodies[halt.body].name;
+            format!("{body} halted at tick {}: {}", halt.tick, halt.failure)
+        })
+        .collect();
+    let halts = halts.join("; ");
     let (text, colour) = match halts.is_empty() {
         false => (halts, colour(palette::ALARM)),
         true => match row.lab.verdict(row.index) {
