@@ -216,6 +216,35 @@ mod tests {
     }
 
     #[test]
+    fn energy_is_held_against_what_the_motion_exchanges_and_against_nothing_else() {
+        let drifts = |bodies: &str, tick_hz: u32| {
+            let head = "seconds = 60\nmethods = ['rk4', 'semi-implicit-euler']";
+            let text = format!("title = 'x'\ntick_hz = {tick_hz}\n{head}\n{bodies}");
+            let mut race = Race::of(&Scene::parse("x.toml", &text).unwrap());
+            let mut drifts = Vec::new();
+            for _ in 0..60 * tick_hz {
+                race.step();
+                let truth = &race.truth().bodies()[0];
+                let lanes = race.entrants().iter().map(|entrant| &entrant.lane.bodies()[0]);
+                drifts
+                    .extend(lanes.filter_map(|lane| (metric("energy_drift").measure)(lane, truth)));
+            }
+            drifts
+        };
+        // The whole energy of a ship that starts from rest is zero but for rounding.
+        let ship = "[[ship]]\nthrust_n = 1234.5\ndrag_n_s_per_m = 0\nmass_kg = 777\n";
+        assert_eq!(drifts(ship, 7), [0.0; 0]);
+        let stops = drifts(&format!("{ship}v0_m_per_s = -30\n"), 7);
+        assert!(stops.len() > 100 && stops.iter().all(|drift| drift.abs() < 15.0), "{stops:?}");
+        let circle = "[[orbit]]\nmu_m3_per_s2 = 8\nx0_m = 2\nvy0_m_per_s = 2\n";
+        assert_eq!(drifts(circle, 30), [0.0; 0]);
+        let swing = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\nx0_m = 1\n";
+        let largest = drifts(swing, 60).into_iter().map(f64::abs).fold(0.0, f64::max);
+        // The energy of semi-implicit Euler swings by h ω / 2, and by no more at the beginning.
+        assert!((4.8..5.8).contains(&largest), "{largest} %");
+    }
+
+    #[test]
     fn a_truth_or_a_lane_that_halted_is_no_yardstick() {
         let comparing =
             ["position_error", "velocity_error", "relative_speed_error", "energy_drift"];
