@@ -183,9 +183,9 @@ impl LaneBody {
 
     /// Takes the present into what the true motion has covered.
     fn cover(&mut self) {
-        let speed = self.speed();
-        if let Some(extent) = &mut self.extent {
-            extent.cover(speed, self.stepper.kinetic_energy());
+        if let Some(mut extent) = self.extent.take() {
+            extent.cover(self.speed(), self.stepper.kinetic_energy());
+            self.extent = Some(extent);
         }
     }
 
