@@ -39,7 +39,9 @@ fn a_switch_in_flight_keeps_the_method_of_the_past_and_marks_its_moment() {
         let mut lab = lab(seconds, tick_hz);
         let mut switched_at = Vec::new();
         for pick in [1, 3, 0] {
-            (0..50).for_each(|_| drop(lab.advance(FRAME_NS)));
+            for _ in 0..50 {
+                lab.advance(FRAME_NS);
+            }
             switched_at.push(lab.race().t());
             lab.apply(Command::Pick(pick));
         }
@@ -56,4 +58,20 @@ fn a_switch_in_flight_keeps_the_method_of_the_past_and_marks_its_moment() {
         let samples = history(&lab).samples();
         assert!(samples.clone().zip(samples.skip(1)).all(|(one, next)| one.t <= next.t));
     }
+}
+
+#[test]
+fn a_method_switched_to_itself_leaves_no_mark() {
+    let flown = |picks: bool| {
+        // A sample at every 49th tick.
+        let mut lab = lab(100.0, 1000);
+        for _ in 0..100 {
+            lab.advance(FRAME_NS);
+            if picks {
+                lab.apply(Command::Pick(lab.active()));
+            }
+        }
+        history(&lab).samples().map(|sample| sample.t).collect::<Vec<_>>()
+    };
+    assert_eq!(flown(true), flown(false));
 }
