@@ -42,8 +42,8 @@
 //! - **Claims are measured.** Every field of a [`Method`](sim::integrators::Method) card is tested
 //!   both ways by `tests/conformance`, with drag and without.
 //! - **The step allocates nothing**, takes no lock and touches no file (`tests/allocation.rs`).
-//! - **A body that blows up is data.** Its lane halts, keeps its last good state and says why; the
-//!   others go on, unchanged to the bit.
+//! - **A body that blows up is data.** It halts, keeps its last good state and says why; other bodies
+//!   and lanes go on, unchanged to the bit. Under another method it is taken up again from the truth.
 //! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
 //!   [metrics](lab::METRICS), [scenes](lab::SCENES) and [keys](lab::KEYS): menus, help, command line
 //!   and tests loop over them.

@@ -153,7 +153,7 @@ impl App {
                     log::info!("first frame after {} ms", self.started.elapsed().as_millis());
                     self.stand_still();
                 }
-                self.meter.frame(now, self.lab.race().t());
+                self.meter.frame(now, &self.lab);
                 let again = self.lab.running() || !commands.is_empty() || self.screenshot;
                 self.asked.extend(commands);
                 self.schedule(event_loop, now, if again { Duration::ZERO } else { repaint_after });
@@ -184,9 +184,7 @@ impl App {
         let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
         self.last_frame = self.lab.running().then_some(now);
         self.lab.advance(i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX));
-        if let Some(pace) = self.meter.pace() {
-            self.lab.set_pace(pace);
-        }
+        self.lab.set_pace(self.meter.pace());
         if self.seconds.is_some_and(|seconds| self.lab.race().t() >= seconds) {
             self.end(event_loop, Ok(()));
         }

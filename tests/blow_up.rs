@@ -1,6 +1,6 @@
 //! A method that blows up hurts nobody else: it halts, once, and says when and why.
 
-use regatta::lab::{Clock, Command, ESCAPE, Lab, LaneSpec, Mode, Race, Scene};
+use regatta::lab::{Clock, Command, ESCAPE, Lab, LaneBody, LaneSpec, Mode, Race, Scene};
 use regatta::sim::integrators::{METHODS, StepFailure, method};
 
 /// Ticks of the long race: 4 h 38 min at 60 Hz.
@@ -97,26 +97,119 @@ fn a_halted_lane_keeps_its_last_good_state() {
     assert_eq!(body.previous_v, body.stepper.v());
 }
 
+/// The harbour's bodies and one of them alone, under explicit Euler.
+fn harbour_and(body: usize) -> [Race; 2] {
+    let harbour = Scene::built_in("harbour").expect("a built-in scene");
+    let alone = Scene { bodies: vec![harbour.bodies[body].clone()], ..harbour.clone() };
+    let euler = LaneSpec::plain(method("explicit-euler").expect("a method"));
+    [harbour, alone].map(|scene| Race::new(&scene, [(0, euler)]))
+}
+
 #[test]
-fn a_halt_is_announced_once_with_its_tick_and_its_reason() {
-    let mut lab = Lab::new(stiff());
-    lab.apply(Command::ToggleRace);
-    assert_eq!(lab.mode(), Mode::Race);
-    let mut notices = Vec::new();
-    for _ in 0..20_000 {
-        lab.set_notice("nothing new");
-        lab.tick();
-        notices.extend(lab.notice().filter(|notice| *notice != "nothing new").map(String::from));
+fn only_the_body_that_blew_up_halts_and_the_others_go_on_to_the_bit() {
+    // The springs are lost within half an hour, the ship never.
+    let (ship, ticks) = (2, 150_000);
+    let [mut harbour, mut alone] = harbour_and(ship);
+    for _ in 0..ticks {
+        harbour.step();
+        alone.step();
     }
-    let entrants = lab.race().entrants();
-    let halted = entrants.iter().filter(|entrant| entrant.lane.halted().is_some());
-    assert_eq!(notices.len(), halted.count(), "one notice a halt: {notices:?}");
-    let name = method("explicit-euler").unwrap().name;
-    let tick = entrants[0].lane.halted().expect("explicit Euler halts").tick;
-    let begins = format!("{name} halted at tick {tick}: ");
-    let of_euler: Vec<_> = notices.iter().filter(|notice| notice.starts_with(&begins)).collect();
-    let [notice] = of_euler[..] else { panic!("{notices:?}") };
-    assert!(notice.contains("left the stage: v reached"), "{notice}");
+    let bodies = harbour.entrants()[0].lane.bodies();
+    let halted: Vec<_> = bodies.iter().map(|body| body.halted().is_some()).collect();
+    assert_eq!(halted, [true, true, false]);
+    let bits = |body: &LaneBody| {
+        let values = body.stepper.q().iter().chain(body.stepper.v());
+        values.map(|x| x.to_bits()).collect::<Vec<_>>()
+    };
+    assert_eq!(bits(&bodies[ship]), bits(&alone.entrants()[0].lane.bodies()[0]));
+    assert!(bodies[ship].stepper.q()[0] > 10_000.0, "the ship sails on");
+
+    let lane = &harbour.entrants()[0].lane;
+    let ticks: Vec<u64> = lane.halts().map(|halt| halt.tick).collect();
+    assert_eq!(lane.halts().map(|halt| halt.body).collect::<Vec<_>>(), [0, 1]);
+    assert!(ticks[0] != ticks[1], "one after the other: {ticks:?}");
+    assert_eq!(lane.halted().map(|halt| halt.tick), ticks.iter().min().copied());
+}
+
+#[test]
+fn a_halted_body_keeps_its_last_good_state_beside_others_that_go_on() {
+    let spring = 0;
+    let [mut harbour, mut alone] = harbour_and(spring);
+    while alone.entrants()[0].lane.halted().is_none() {
+        harbour.step();
+        alone.step();
+    }
+    for _ in 0..100 {
+        harbour.step();
+        harbour.record();
+    }
+    let lane = &harbour.entrants()[0].lane;
+    let (kept, single) = (&lane.bodies()[spring], &alone.entrants()[0].lane.bodies()[0]);
+    assert_eq!((kept.stepper.q(), kept.stepper.v()), (single.stepper.q(), single.stepper.v()));
+    let histories = &harbour.entrants()[0].histories;
+    assert_eq!(histories[spring].samples().len(), 0, "nothing is recorded of it");
+    assert!(histories[2].samples().len() > 0);
+}
+
+#[test]
+fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
+    let names = ["free spring", "damped spring", "ship"];
+    for (scene, ticks) in [("stiff", 20_000), ("harbour", 80_000)] {
+        let mut lab = Lab::new(Scene::built_in(scene).expect("a built-in scene"));
+        lab.apply(Command::ToggleRace);
+        assert_eq!(lab.mode(), Mode::Race);
+        let mut notices = Vec::new();
+        for _ in 0..ticks {
+            lab.set_notice("nothing new");
+            lab.tick();
+            let news = lab.notice().filter(|notice| *notice != "nothing new");
+            notices.extend(news.map(String::from));
+        }
+        let halts = lab.race().entrants().iter().flat_map(|e| e.lane.halts().map(move |h| (e, h)));
+        let mut expected: Vec<String> = halts
+            .map(|(entrant, halt)| {
+                let method = lab.entries()[entrant.entry].method.name;
+                let body = &lab.scene().bodies[halt.body].name;
+                assert!(scene == "stiff" || names.contains(&body.as_str()));
+                format!("{method} halted at tick {}: {body} {}", halt.tick, halt.failure)
+            })
+            .collect();
+        expected.sort();
+        notices.sort();
+        assert_eq!(notices, expected);
+        assert!(notices.len() > usize::from(scene == "harbour"), "{notices:?}");
+        assert!(notices.iter().all(|notice| notice.contains(" left the stage: ")), "{notices:?}");
+    }
+}
+
+#[test]
+fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
+    for (mass, times, reason) in
+        [(1e-300, 1.0, "left the numbers: v is inf"), (1.0, 1e30, "left the stage: v reached")]
+    {
+        let text = format!(
+            "title = 'light'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
+             [[spring]]\nname = 'light'\nmass_kg = {mass:e}\nstiffness_n_per_m = 1e-300\nkick_n_s = 1e15\n\
+             [[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 1\nmass_kg = 1\nkick_n_s = 0\n"
+        );
+        let mut lab = Lab::new(Scene::parse("light.toml", &text).expect("a good scene"));
+        (0..5).for_each(|_| lab.tick());
+        let before = states(lab.race(), "");
+        lab.apply(Command::Kick(times));
+        assert_eq!(states(lab.race(), ""), before, "the state stays the last good one");
+        for lane in [lab.race().truth(), &lab.race().entrants()[0].lane] {
+            let [spring, ship] = lane.bodies() else { panic!("two bodies") };
+            assert!(ship.halted().is_none());
+            let halt = spring.halted().expect("a kick of 1e45 m/s or more");
+            assert_eq!((halt.tick, halt.body), (5, 0));
+            assert!(halt.failure.to_string().starts_with(reason), "{}", halt.failure);
+            assert_eq!(spring.previous_v, spring.stepper.v(), "nothing is drawn moving");
+        }
+        lab.tick();
+        let notice = lab.notice().expect("a halt is told");
+        assert!(notice.contains(&format!("halted at tick 5: light {reason}")), "{notice}");
+        assert!(notice.starts_with("the exact solution halted at tick 5: "), "{notice}");
+    }
 }
 
 #[test]

@@ -178,3 +178,32 @@ fn the_ghost_shows_only_when_it_is_asked_for() {
     assert!(without.0 < with.0, "{without:?} strokes and ribbons without a ghost, {with:?} with");
     assert!(without.1 < with.1, "{without:?} strokes and ribbons without a ghost, {with:?} with");
 }
+
+#[test]
+fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
+    let text = "title = 'x'\ntick_hz = 10\nseconds = 60\nmethods = ['explicit-euler', 'rk4']\n\
+                [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 400\nkick_n_s = 0\n\
+                [[ship]]\nthrust_n = 20000\ndrag_n_s_per_m = 1000\nmass_kg = 10000\nkick_n_s = 1e15\n";
+    let mut lab = Lab::new(Scene::parse("two.toml", text).unwrap());
+    lab.apply(Command::ToggleRace);
+    let said = |lab: &Lab| {
+        let labels = compose(lab, [780.0, 500.0]).labels.into_iter().map(|label| label.text);
+        labels.filter(|text| text.contains("tick")).collect::<Vec<_>>()
+    };
+    assert_eq!(said(&lab), [""; 0]);
+    (0..300).for_each(|_| lab.tick());
+    let halt = lab.race().entrants()[0].lane.halted().expect("explicit Euler loses the spring");
+    let spring = format!("halted, tick {}", halt.tick);
+    assert_eq!(said(&lab), [spring.clone()]);
+
+    // A kick that neither lanes nor truth survive: the ghost is gone with the truth.
+    let strokes = |lab: &Lab| compose(lab, [780.0, 500.0]).strokes.len();
+    let before = strokes(&lab);
+    lab.apply(Command::Kick(1e30));
+    let ship = ["halted, tick 300", "no exact solution from tick 300 on"];
+    assert_eq!(said(&lab), [&*spring, ship[0], ship[1], ship[0], ship[1]]);
+    assert!(strokes(&lab) < before);
+    lab.apply(Command::ToggleRace);
+    let alone = said(&lab);
+    assert!(alone.contains(&ship[1].to_owned()), "{alone:?}");
+}

@@ -1,7 +1,9 @@
 //! Switching in flight: the state is carried to the bit, and the truth goes on from where an input
 //! left it.
 
-use regatta::lab::{Command, Lab, Lane, LaneSpec, Mode, Race, Scene, SceneBody};
+use regatta::lab::{
+    Command, Lab, Lane, LaneBody, LaneSpec, Mode, Origin, Race, Scene, SceneBody, TakenUp,
+};
 use regatta::sim::bodies::{Body, Input, Ship, Spring};
 use regatta::sim::integrators::{METHODS, Method, method};
 use regatta::sim::{Solver, State};
@@ -101,8 +103,6 @@ fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
 fn after_a_kick_every_method_goes_on_as_if_started_there() {
     for method in METHODS {
         goes_on_as_if_started_there(method, method, |race| race.input(Input::Kick(1.0)));
-        // A kick of nothing leaves the state as it is, but a kick it is.
-        goes_on_as_if_started_there(method, method, |race| race.input(Input::Kick(0.0)));
     }
 }
 
@@ -114,17 +114,78 @@ fn after_a_change_of_tick_rate_every_method_goes_on_as_if_started_there() {
     }
 }
 
+/// A ship, a damped spring and a helm: between them they take every input.
+fn mixed() -> Scene {
+    let mut mixed = scene("helm");
+    mixed.script.clear();
+    mixed.bodies.extend(scene("ship").bodies);
+    mixed.bodies.extend(damped_spring().bodies);
+    mixed
+}
+
 #[test]
-fn to_set_the_tick_rate_that_is_set_already_changes_nothing() {
+fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
+    let set_again: [fn(&mut Race); 6] = [
+        |race| race.input(Input::Throttle(0.5)),
+        |race| race.input(Input::Rudder(-0.25)),
+        |race| race.input(Input::Kick(0.0)),
+        |race| race.set_tick_hz(7),
+        |race| race.act(Command::TickHz(7)),
+        |race| {
+            let spec = LaneSpec::plain(race.entrants()[0].lane.solver().method().unwrap());
+            assert!(race.switch(0, 0, spec).is_empty());
+        },
+    ];
     for method in METHODS {
-        let [mut told, mut left] = [(); 2].map(|()| solo(&damped_spring(), method.id));
-        run(&mut told, 77);
-        run(&mut left, 77);
-        told.set_tick_hz(told.tick_hz());
-        run(&mut told, 100);
-        run(&mut left, 100);
-        assert_eq!(told.t().to_bits(), left.t().to_bits());
-        assert_eq!(told.state_hash(), left.state_hash(), "{}", method.id);
+        let begun = || {
+            let mut race = solo(&mixed(), method.id);
+            race.input(Input::Throttle(0.5));
+            race.input(Input::Rudder(-0.25));
+            race.set_tick_hz(7);
+            run(&mut race, 40);
+            race
+        };
+        let ended = |mut race: Race| {
+            run(&mut race, 40);
+            let lane = &race.entrants()[0].lane;
+            (race.t().to_bits(), bits(lane), bits(race.truth()))
+        };
+        let left = ended(begun());
+        for (n, again) in set_again.iter().enumerate() {
+            let mut told = begun();
+            again(&mut told);
+            assert!(ended(told) == left, "{}, case {n}", method.id);
+        }
+    }
+}
+
+#[test]
+fn a_persons_action_that_changes_nothing_changes_no_bit() {
+    for method in METHODS {
+        let begun = || {
+            let mut lab = Lab::new(mixed());
+            lab.apply(Command::Method(method));
+            (0..40).for_each(|_| lab.tick());
+            lab
+        };
+        let ended = |mut lab: Lab| {
+            (0..40).for_each(|_| lab.tick());
+            (bits(&lab.race().entrants()[0].lane), bits(lab.race().truth()))
+        };
+        let left = ended(begun());
+        let (pick, hz) = (begun().active(), begun().clock().tick_hz());
+        for command in [
+            Command::Method(method),
+            Command::Pick(pick),
+            Command::TickHz(hz),
+            Command::Throttle(1.0),
+            Command::ThrottleUp,
+            Command::Rudder(0.0),
+        ] {
+            let mut told = begun();
+            told.apply(command);
+            assert!(ended(told) == left, "{}: {command:?}", method.id);
+        }
     }
 }
 
@@ -230,45 +291,104 @@ fn scene_body(kind: &str) -> SceneBody {
     bodies.into_iter().find(|body| body.kind.id == kind).expect("one of each in the harbour")
 }
 
-/// The race of that scene under explicit Euler, which has halted.
-fn halted() -> Race {
-    let mut race = solo(&ship_and_lively_spring(), "explicit-euler");
+/// The race of a scene under explicit Euler, in which a body has halted.
+fn halted(scene: &Scene) -> Race {
+    let mut race = solo(scene, "explicit-euler");
     while race.entrants()[0].lane.halted().is_none() {
         race.step();
+        race.record();
         assert!(race.tick() < 1000);
     }
     race
 }
 
-#[test]
-fn a_halted_lane_that_is_switched_goes_on_from_its_last_good_state() {
-    let mut race = halted();
-    let last = bits(&race.entrants()[0].lane);
-    run(&mut race, 10);
-    assert_eq!(bits(&race.entrants()[0].lane), last, "a halted lane stays where it is");
-    race.switch(0, 1, LaneSpec::plain(method("rk4").unwrap()));
-    assert_eq!(race.entrants()[0].lane.halted(), None);
-    assert_eq!(bits(&race.entrants()[0].lane), last);
-    run(&mut race, 1000);
-    let lane = &race.entrants()[0].lane;
-    assert_eq!(lane.halted(), None);
-    let stretch = lane.bodies()[1].stepper.q()[0];
-    assert!(stretch.abs() < 1.0, "Runge-Kutta brings the spring to rest: {stretch} m");
+/// The state of a body to the bit.
+fn body_bits(body: &LaneBody) -> Vec<u64> {
+    body.stepper.q().iter().chain(body.stepper.v()).map(|x| x.to_bits()).collect()
+}
+
+fn rk4() -> LaneSpec {
+    LaneSpec::plain(method("rk4").unwrap())
 }
 
 #[test]
-fn a_throttle_set_while_a_lane_was_halted_holds_when_it_goes_on() {
-    let mut race = halted();
+fn a_body_that_blew_up_is_taken_up_from_the_truth_and_the_others_from_where_they_are() {
+    let mut race = halted(&ship_and_lively_spring());
+    let halt = race.entrants()[0].lane.halted().unwrap().clone();
+    assert_eq!((halt.body, halt.is_blow_up()), (1, true));
+    run(&mut race, 10);
+    let ship = body_bits(&race.entrants()[0].lane.bodies()[0]);
+    let taken_up = race.switch(0, 1, rk4());
+    assert_eq!(taken_up, [TakenUp { halt, from: Origin::Truth }]);
+    let (lane, truth) = (&race.entrants()[0].lane, race.truth());
+    assert_eq!(lane.halted(), None);
+    assert_eq!(body_bits(&lane.bodies()[0]), ship, "the ship had not halted");
+    let spring = &lane.bodies()[1];
+    assert_eq!(body_bits(spring), body_bits(&truth.bodies()[1]));
+    assert_eq!(spring.previous_q, spring.stepper.q(), "it is not drawn on its way there");
+    let history = &race.entrants()[0].histories[1];
+    assert_eq!(history.unbroken_since(), race.t());
+    let runs: Vec<usize> = history.runs().map(|run| run.entry).collect();
+    assert_eq!(runs, [0, 1]);
+    run(&mut race, 1000);
+    assert_eq!(race.entrants()[0].lane.halted(), None);
+}
+
+#[test]
+fn where_the_truth_has_failed_too_a_body_is_taken_up_from_its_last_good_state() {
+    let mut race = solo(&scene("spring"), "semi-implicit-euler");
+    run(&mut race, 100);
+    let last = bits(&race.entrants()[0].lane);
+    race.input(Input::Kick(1e300));
+    run(&mut race, 10);
+    assert!(race.truth().halted().is_some());
+    let taken_up = race.switch(0, 1, rk4());
+    let from: Vec<_> = taken_up.iter().map(|taken_up| taken_up.from).collect();
+    assert_eq!(from, [Origin::LastGood]);
+    assert_eq!(bits(&race.entrants()[0].lane), last);
+    run(&mut race, 10);
+    assert_ne!(bits(&race.entrants()[0].lane), last, "it goes on");
+}
+
+#[test]
+fn a_throttle_set_while_a_ship_had_halted_holds_when_it_goes_on() {
+    // The ship at 21 s swings ever wider.
+    let mut scene = scene("surge");
+    scene.bodies = vec![scene.bodies[2].clone()];
+    let mut race = halted(&scene);
     race.input(Input::Throttle(-0.5));
     let last = bits(&race.entrants()[0].lane);
     race.input(Input::Kick(1.0));
-    assert_eq!(bits(&race.entrants()[0].lane), last, "a halted lane feels no kick");
-    race.switch(0, 1, LaneSpec::plain(method("rk4").unwrap()));
+    assert_eq!(bits(&race.entrants()[0].lane), last, "a halted body feels no kick");
+    assert_eq!(race.switch(0, 1, rk4()).len(), 1);
     run(&mut race, 3000);
-    // After 30 time constants both ships have the speed that the throttle asks for.
+    // After 6000 time constants both ships have the speed that the throttle asks for.
     let (lane, truth) = (state(&race.entrants()[0].lane), state(race.truth()));
     assert!((lane.v - truth.v).abs() < 1e-9, "{lane:?}, the truth {truth:?}");
     assert!((truth.v + 10.0).abs() < 1e-9, "{truth:?}");
+}
+
+#[test]
+fn a_method_is_not_blamed_for_a_state_that_it_inherits_and_the_notice_says_where_it_begins() {
+    let mut lab = Lab::new(scene("stiff"));
+    for command in [Command::Pick(1), Command::TickRateDown, Command::TickRateDown] {
+        lab.apply(command);
+    }
+    while lab.race().entrants()[0].lane.halted().is_none() {
+        lab.tick();
+        assert!(lab.race().tick() < 1000);
+    }
+    (0..30).for_each(|_| lab.tick());
+    lab.apply(Command::Pick(3));
+    assert_eq!(
+        lab.notice(),
+        Some("stiff spring had blown up: taken up again from the exact solution")
+    );
+    for _ in 0..1000 {
+        lab.tick();
+        assert!(!lab.notice().unwrap().contains("Runge-Kutta 4"), "{:?}", lab.notice());
+    }
+    assert_eq!(lab.race().entrants()[0].lane.halted(), None);
 }
 
 #[test]

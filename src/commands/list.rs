@@ -180,6 +180,7 @@ const METRIC: &[Column<Metric>] = &[
             Scale::Linear => json!("linear"),
         },
     },
+    Column { key: "about", heading: Some("ABOUT"), value: |metric| json!(metric.about) },
 ];
 
 const KEY: &[Column<Binding>] = &[

@@ -64,7 +64,10 @@ pub(super) fn ends(lab: &Lab) -> Vec<LaneEnd> {
         let lane = &entrant.lane;
         let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(&lab.scene().bodies);
         let bodies = bodies.map(|((body, truth), named)| {
-            let mut entry = Map::from_iter([("name".to_owned(), Value::from(&*named.name))]);
+            let mut entry = Map::from_iter([
+                ("name".to_owned(), Value::from(&*named.name)),
+                ("halted".to_owned(), body.halted().map(|halt| halt.tick).into()),
+            ]);
             for metric in METRICS {
                 let value = (metric.measure)(body, truth);
                 entry.insert(metric.id.to_owned(), value.into());

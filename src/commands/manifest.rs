@@ -18,9 +18,10 @@
 //! - `complete`: `false` where the capture was interrupted.
 //! - `frames`: for each frame its `file`, the `tick` reached, `alpha` as numerator and denominator of
 //!   the part of the next tick that is drawn, and `pixels`, the hash of its RGBA bytes.
-//! - `lanes`: each lane at the end: `method`, `substeps`, the `hash` of its state, the tick at which it
-//!   `halted` or `null`, and for each of its `bodies` its `name` and, at the end, every metric of
-//!   `regatta list metrics` against the exact solution, `null` where it has no meaning.
+//! - `lanes`: each lane at the end: `method`, `substeps`, the `hash` of its state, the tick at which its first
+//!   body `halted` or `null`, and for each of its `bodies` its `name`, the tick at which it `halted` or `null`
+//!   and, at the end, every metric of `regatta list metrics` against the exact solution, `null` where it has no
+//!   meaning.
 //! - `marks`: the state of each lane at every `mark_every`th `tick` and at the end: for each of the
 //!   `lanes` its `hash` and, body by body, `q` and `v`.
 //!
@@ -135,7 +136,7 @@ pub struct LaneEnd {
     pub substeps: u32,
     pub hash: String,
     pub halted: Option<u64>,
-    /// For each body its name and its metrics.
+    /// For each body its name, its halt and its metrics.
     pub bodies: Vec<Map<String, Value>>,
 }
 

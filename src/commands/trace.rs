@@ -126,7 +126,7 @@ impl Trace {
         self.out.flush()
     }
 
-    /// Writes the present of the truth and of every lane that still sails.
+    /// Writes the present of the truth and of every lane, but of bodies that have halted.
     fn tick(&mut self, lab: &Lab) -> io::Result<()> {
         let race = lab.race();
         if !race.tick().is_multiple_of(self.every) {
@@ -145,18 +145,14 @@ impl Trace {
     }
 
     fn lane(&mut self, number: usize, lane: &Lane, truth: Option<&Lane>) -> io::Result<()> {
-        if lane.halted().is_some() {
-            return Ok(());
-        }
-        for (n, body) in lane.bodies().iter().enumerate() {
+        let bodies = lane.bodies().iter().enumerate();
+        for (n, body) in bodies.filter(|(_, body)| body.halted().is_none()) {
             let method = method_id(lane.solver(), body.kind);
             let values = body.stepper.q().iter().zip(body.stepper.v());
             for (coordinate, (&q, &v)) in body.coordinates.iter().zip(values) {
                 self.row(number, method, n, coordinate.name, q, Some(v))?;
             }
-            let Some(truth) = truth.filter(|truth| self.metrics && truth.halted().is_none()) else {
-                continue;
-            };
+            let Some(truth) = truth.filter(|_| self.metrics) else { continue };
             for metric in METRICS {
                 let value = (metric.measure)(body, &truth.bodies()[n]);
                 if let Some(value) = value.filter(|value| value.is_finite()) {
@@ -220,7 +216,7 @@ fn tell_accuracy(bodies: &[SceneBody]) {
     }
 }
 
-/// The lanes that stopped, to be told of when the table is done and cannot be torn by a message.
+/// The bodies that stopped, to be told of when the table is done and cannot be torn by a message.
 #[derive(Default)]
 struct Halts {
     lines: Vec<String>,
@@ -231,15 +227,14 @@ impl Halts {
         let race = lab.race();
         let entrants = race.entrants().iter().map(|entrant| &entrant.lane);
         for (number, lane) in std::iter::once(race.truth()).chain(entrants).enumerate() {
-            if let Some(halt) = lane.halted()
-                && halt.tick + 1 == race.tick()
-            {
+            for halt in lane.halts().filter(|halt| halt.tick + 1 == race.tick()) {
                 let body = &lab.scene().bodies[halt.body].name;
+                let no_truth = if number == 0 { ", and so do its comparisons" } else { "" };
                 self.lines.push(format!(
-                    "lane {number}, {}, halted at tick {} (t = {:.3} s): {body} {}; its rows end there",
+                    "lane {number}, {}, halted at tick {} (t = {:.3} s): {body} {}; its rows end there{no_truth}",
                     method_id(lane.solver(), lane.bodies()[halt.body].kind),
                     halt.tick,
-                    race.t() - 1.0 / f64::from(race.tick_hz()),
+                    race.t() - race.last_step_s(),
                     halt.failure,
                 ));
             }

@@ -180,6 +180,19 @@ mod tests {
     }
 
     #[test]
+    fn a_clock_that_restarts_owes_nothing_and_keeps_rate_and_speed() {
+        let mut clock = Clock::new(10);
+        clock.set_tick_hz(20);
+        clock.set_speed_percent(50);
+        clock.advance(1_099_000_000);
+        assert!(clock.alpha() > 0.9);
+        clock.restart();
+        assert_eq!((clock.alpha(), clock.tick_hz(), clock.speed_percent()), (0.0, 20, 50));
+        assert_eq!(clock.advance(99_999_999).ticks, 0);
+        assert_eq!(clock.advance(1).ticks, 1);
+    }
+
+    #[test]
     fn a_change_of_rate_keeps_the_part_of_a_tick_that_is_owed() {
         let mut clock = Clock::new(2);
         clock.advance(400_000_000);

@@ -77,13 +77,18 @@ pub struct Display {
     pub motion: bool,
 }
 
-/// How fast the driver of the lab goes; only it can know.
+/// How fast the driver of a lab in real time goes; only it can know.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pace {
-    /// Frames drawn in a second of real time.
-    pub frames_per_second: f64,
-    /// Simulated seconds in a second of real time.
-    pub real_time_factor: f64,
+pub enum Pace {
+    /// Time runs, but not yet for long enough to tell.
+    Unknown,
+    /// What was measured since, over a second or more.
+    Measured {
+        /// Frames drawn in a second of real time.
+        frames_per_second: f64,
+        /// Simulated seconds in a second of real time.
+        real_time_factor: f64,
+    },
 }
 
 /// What the lab asks of its driver after a command that is not the lab's business.

@@ -7,9 +7,10 @@ use super::clock::{Clock, Due};
 use super::command::{Command, SPEED_LADDER, TICK_LADDER};
 use super::display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
 use super::history::History;
+use super::notices;
 use super::race::Race;
 use super::scene::{LaneSpec, SCENES, Scene};
-use crate::sim::bodies::Input;
+use super::script::{Control, Script};
 
 /// What a person chose and a restart keeps; a script's changes are not in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,25 +31,23 @@ pub struct Lab {
     race: Race,
     clock: Clock,
     running: bool,
-    throttle: f64,
-    rudder: f64,
     dropped: u64,
-    next_scripted: usize,
+    script: Script,
+    /// What a person has worked since the start: the script leaves it alone.
+    by_hand: Vec<Control>,
     display: Display,
     pace: Option<Pace>,
     notice: Option<String>,
     findings: Option<Findings>,
 }
 
-/// The method that the program opens with: right on every scene it is not meant to fail on.
-const OPENING_METHOD: &str = "rk4";
-
 impl Lab {
-    /// Opens a scene, running, in solo mode, under Runge-Kutta where it is on the list and else under
-    /// the first method listed.
+    /// Opens a scene, running, in solo mode, under the method that [it names](Scene::opening_method), else
+    /// under the first of its lanes.
     pub fn new(scene: Scene) -> Self {
         let entries = entries(&scene);
-        let entry = entries.iter().position(|spec| spec.method.id == OPENING_METHOD).unwrap_or(0);
+        let opens_with = |spec: &LaneSpec| Some(spec.method) == scene.opening_method;
+        let entry = scene.lanes.iter().position(opens_with).unwrap_or(0);
         let choice = Choice { entry, tick_hz: scene.tick_hz };
         let mut lab = Self {
             race: Race::new(&scene, []),
@@ -59,10 +58,9 @@ impl Lab {
             mode: Mode::Solo,
             active: entry,
             running: true,
-            throttle: 1.0,
-            rudder: 0.0,
             dropped: 0,
-            next_scripted: 0,
+            script: Script::default(),
+            by_hand: Vec::new(),
             display: Display {
                 ghost: true,
                 interpolation: Interpolation::Hermite,
@@ -109,11 +107,16 @@ impl Lab {
     }
     /// The throttle, -1 to 1.
     pub fn throttle(&self) -> f64 {
-        self.throttle
+        self.race.throttle()
     }
     /// The rudder, from -1, hard right, to 1, hard left.
     pub fn rudder(&self) -> f64 {
-        self.rudder
+        self.race.rudder()
+    }
+    /// The simulated time in seconds with the part of a tick that is owed: it goes evenly with real time, while
+    /// the race goes on tick by tick.
+    pub fn time_with_owed_s(&self) -> f64 {
+        self.race.t() + self.clock.alpha() / f64::from(self.clock.tick_hz())
     }
     /// Ticks given up since the scene was opened or restarted.
     pub fn dropped(&self) -> u64 {
@@ -123,7 +126,7 @@ impl Lab {
     pub fn display(&self) -> &Display {
         &self.display
     }
-    /// How fast the driver goes; `None` where there is no real time, as in a capture.
+    /// How fast the driver goes while time runs; `None` where there is no real time, as in a capture.
     pub fn pace(&self) -> Option<Pace> {
         self.pace
     }
@@ -178,11 +181,11 @@ impl Lab {
             | Command::Fly(_)
             | Command::NextMethod
             | Command::PreviousMethod => {
-                self.perform(command);
+                self.take_in_hand(command);
                 self.choice.entry = self.active;
             }
             Command::TickHz(_) => {
-                self.perform(command);
+                self.take_in_hand(command);
                 self.choice.tick_hz = self.clock.tick_hz();
             }
             Command::TickRateUp => {
@@ -208,9 +211,7 @@ impl Lab {
             | Command::Rudder(_)
             | Command::RudderLeft
             | Command::RudderRight
-            | Command::Kick(_) => {
-                self.perform(command);
-            }
+            | Command::Kick(_) => self.take_in_hand(command),
             Command::ToggleRace => {
                 self.mode = if self.mode == Mode::Solo { Mode::Race } else { Mode::Solo };
                 match self.mode {
@@ -222,6 +223,7 @@ impl Lab {
             Command::TickForward => {
                 self.running = false;
                 self.tick();
+                self.race.record_present();
             }
             Command::Restart => self.restart(),
             Command::Scene(index) => self.open(index % SCENES.len()),
@@ -258,7 +260,7 @@ impl Lab {
         Question {
             scene: Arc::clone(&self.scene),
             tick_hz: self.clock.tick_hz(),
-            throttle: self.throttle,
+            throttle: self.throttle(),
             advice: self.display.instrument == Instrument::Advice,
         }
     }
@@ -293,33 +295,53 @@ impl Lab {
             self.tick();
             after_tick(self);
         }
+        if due.ticks > 0 {
+            self.race.record_present();
+        }
         self.dropped += due.dropped;
         due
     }
 
     /// Does what the script says for this tick, and steps to the next.
     pub fn tick(&mut self) {
-        while let Some(scripted) = self.scene.script.get(self.next_scripted)
-            && scripted.tick <= self.race.tick()
-        {
-            let command = scripted.command;
-            self.next_scripted += 1;
-            self.perform(command);
+        while let Some(command) = self.script.due(self.race.tick()) {
+            let is_by_hand = Control::of(command).is_some_and(|c| self.by_hand.contains(&c));
+            if !is_by_hand && let Some(told) = self.perform(command) {
+                self.notice = Some(told);
+            }
         }
-        let halted = self.halted_lanes();
         self.race.step();
         self.race.record();
-        if self.halted_lanes() > halted {
-            self.announce_halt();
+        if let Some(told) = notices::of_halts(&self.scene, &self.entries, &self.race) {
+            self.notice = Some(told);
         }
     }
 
-    /// What both a person and a script can do: everything that touches the bodies.
-    fn perform(&mut self, command: Command) {
+    /// Does what a person asked for, who from then on has that control in hand: the script leaves it alone until
+    /// the race is restarted.
+    fn take_in_hand(&mut self, command: Command) {
+        let done = self.perform(command);
+        let taken = Control::of(command).filter(|control| !self.by_hand.contains(control));
+        self.by_hand.extend(taken);
+        let from_script = taken.filter(|&control| {
+            self.script.to_come().any(|command| Control::of(command) == Some(control))
+        });
+        let released = from_script.map(|control| {
+            format!("the {} is yours: the script leaves it alone until a restart", control.name())
+        });
+        let told: Vec<String> = done.into_iter().chain(released).collect();
+        if !told.is_empty() {
+            self.notice = Some(told.join("; "));
+        }
+    }
+
+    /// What both a person and a script can do: everything that touches the bodies. Returns what there is to tell
+    /// of it.
+    fn perform(&mut self, command: Command) -> Option<String> {
         match command {
             Command::Method(method) => {
                 let listed = self.entries.iter().position(|spec| spec.method == method);
-                self.pick(listed.expect("every method is on the list"));
+                self.pick(listed.expect("every method is on the list"))
             }
             Command::Pick(entry) => self.pick(entry),
             Command::Fly(spec) => self.fly(spec),
@@ -328,15 +350,12 @@ impl Lab {
             Command::TickHz(tick_hz) => {
                 self.clock.set_tick_hz(tick_hz);
                 self.race.set_tick_hz(self.clock.tick_hz());
+                None
             }
-            Command::Throttle(part) => self.set_throttle(part),
-            Command::ThrottleUp => self.set_throttle(tenths(self.throttle, 1.0)),
-            Command::ThrottleDown => self.set_throttle(tenths(self.throttle, -1.0)),
-            Command::Rudder(part) => self.set_rudder(part),
-            Command::RudderLeft => self.set_rudder(tenths(self.rudder, 1.0)),
-            Command::RudderRight => self.set_rudder(tenths(self.rudder, -1.0)),
-            Command::Kick(times) => self.race.input(Input::Kick(times)),
-            _ => {}
+            command => {
+                self.race.act(command);
+                None
+            }
         }
     }
 
@@ -348,48 +367,36 @@ impl Lab {
         }
     }
 
-    fn pick(&mut self, entry: usize) {
+    fn pick(&mut self, entry: usize) -> Option<String> {
         if !self.can_pick(entry) {
-            return;
+            return None;
         }
-        if self.mode == Mode::Solo && entry != self.active {
-            self.race.switch(0, entry, self.entries[entry]);
-        }
+        let taken_up = match self.mode {
+            Mode::Solo => self.race.switch(0, entry, self.entries[entry]),
+            Mode::Race => Vec::new(),
+        };
         self.active = entry;
+        notices::of_taken_up(&self.scene, &taken_up)
     }
 
-    /// Gives the lanes of a method other substeps, those that race too, and picks it.
-    fn fly(&mut self, spec: LaneSpec) {
+    /// Gives a method of the list other substeps, its lane in a race too, and picks it.
+    fn fly(&mut self, spec: LaneSpec) -> Option<String> {
         let listed = self.entries.iter().position(|known| known.method == spec.method);
         let entry = listed.expect("every method is on the list");
-        if self.entries[entry] != spec {
-            self.entries[entry] = spec;
-            let flown = self.race.entrants().iter().position(|entrant| entrant.entry == entry);
-            if let Some(index) = flown {
-                self.race.switch(index, entry, spec);
-            }
-        }
-        self.pick(entry);
+        self.entries[entry] = spec;
+        let flown = self.race.entrants().iter().position(|entrant| entrant.entry == entry);
+        let taken_up = flown.map(|index| self.race.switch(index, entry, spec));
+        let notice = taken_up.and_then(|taken| notices::of_taken_up(&self.scene, &taken));
+        self.pick(entry).or(notice)
     }
 
     /// The next place on the list that can be picked, round, `step` forward or back.
-    fn pick_beside(&mut self, step: isize) {
+    fn pick_beside(&mut self, step: isize) -> Option<String> {
         let count = self.entries.len() as isize;
-        let around = (1..=count).map(|i| (self.active as isize + i * step).rem_euclid(count));
-        if let Some(entry) = around.map(|entry| entry as usize).find(|&entry| self.can_pick(entry))
-        {
-            self.pick(entry);
-        }
-    }
-
-    fn set_throttle(&mut self, part: f64) {
-        self.throttle = part.clamp(-1.0, 1.0);
-        self.race.input(Input::Throttle(self.throttle));
-    }
-
-    fn set_rudder(&mut self, part: f64) {
-        self.rudder = part.clamp(-1.0, 1.0);
-        self.race.input(Input::Rudder(self.rudder));
+        let mut around =
+            (1..=count).map(|i| (self.active as isize + i * step).rem_euclid(count) as usize);
+        let entry = around.find(|&entry| self.can_pick(entry))?;
+        self.pick(entry)
     }
 
     fn restart(&mut self) {
@@ -405,10 +412,9 @@ impl Lab {
         self.race.record();
         self.clock.set_tick_hz(self.choice.tick_hz);
         self.clock.restart();
-        self.throttle = 1.0;
-        self.rudder = 0.0;
         self.dropped = 0;
-        self.next_scripted = 0;
+        self.script = Script::new(&self.scene.script);
+        self.by_hand.clear();
         self.notice = None;
     }
 
@@ -417,37 +423,17 @@ impl Lab {
         self.open(here.map_or(0, |here| (here + offset) % SCENES.len()));
     }
 
-    /// Opens a built-in scene; mode, method and look stay as they are.
+    /// Opens a built-in scene under its own opening method; mode and look stay as they are.
     fn open(&mut self, index: usize) {
         let scene = Scene::built_in(SCENES[index].name).expect("every name in SCENES is built in");
-        let method = self.entries[self.active].method;
         let mut lab = Lab::new(scene);
         lab.mode = self.mode;
         lab.display = Display { body: 0, ..self.display.clone() };
         lab.pace = self.pace;
         lab.clock.set_speed_percent(self.clock.speed_percent());
         lab.running = self.running;
-        if let Some(entry) = lab.entries.iter().position(|spec| spec.method == method) {
-            lab.choice.entry = entry;
-        }
         lab.restart();
         *self = lab;
-    }
-
-    fn halted_lanes(&self) -> usize {
-        self.race.entrants().iter().filter(|entrant| entrant.lane.halted().is_some()).count()
-    }
-
-    fn announce_halt(&mut self) {
-        let halts = self.race.entrants().iter().filter_map(|entrant| {
-            let halt = entrant.lane.halted()?;
-            (halt.tick + 1 == self.race.tick()).then(|| {
-                let method = self.entries[entrant.entry].method.name;
-                let body = &self.scene.bodies[halt.body].name;
-                format!("{method} halted at tick {}: {body} {}", halt.tick, halt.failure)
-            })
-        });
-        self.notice = Some(halts.collect::<Vec<_>>().join("; "));
     }
 
     /// The history of the displayed body in each lane, with the lane's place on the list.
@@ -455,9 +441,4 @@ impl Lab {
         let body = self.display.body;
         self.race.entrants().iter().map(move |e| (e.entry, &e.histories[body]))
     }
-}
-
-/// `part` and so many tenths more, in whole tenths, so that ten steps up and down end where they began.
-fn tenths(part: f64, more: f64) -> f64 {
-    ((part * 10.0).round() + more) / 10.0
 }

@@ -1,5 +1,9 @@
 //! A solver on its own copy of the scene's bodies; the truth is one too.
+//!
+//! A body that blows up or whose solver gives up halts alone: the others of its lane feel nothing of it and
+//! go on, unchanged to the bit.
 
+use super::extent::Extent;
 use super::number::superscript;
 use super::scene::Scene;
 use crate::sim::bodies::{Coordinate, Input, Kind, Truth};
@@ -7,18 +11,43 @@ use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
 
 /// The largest magnitude that is followed. Beyond it a value would no longer fit the f32 of the
-/// picture, and nothing is left to learn: the lane halts.
+/// picture, and nothing is left to learn: the body halts.
 pub const ESCAPE: f64 = 1e38;
 
-/// Why and when a lane stopped.
+/// Why and when a body stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Halt {
-    /// The tick that could not be completed. The lane keeps the state it had before.
+    /// The tick that could not be completed. The body keeps the state it had before.
     pub tick: u64,
     /// The body that failed, by its place in the scene.
     pub body: usize,
     /// What happened to it.
     pub failure: StepFailure,
+}
+
+impl Halt {
+    /// Whether a value grew past all bounds, and no solver gave up.
+    pub fn is_blow_up(&self) -> bool {
+        matches!(self.failure, StepFailure::Escaped { .. } | StepFailure::NotFinite { .. })
+    }
+}
+
+/// A body that had halted and goes on, because its lane was switched to another method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TakenUp {
+    /// Why and when it had halted.
+    pub halt: Halt,
+    /// The state that it goes on from.
+    pub from: Origin,
+}
+
+/// A state that a halted body is taken up from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The present state of the truth.
+    Truth,
+    /// The body's own last good state, as the truth has failed too.
+    LastGood,
 }
 
 /// One body of a lane.
@@ -33,14 +62,53 @@ pub struct LaneBody {
     pub previous_q: Vec<f64>,
     /// Velocities one tick ago.
     pub previous_v: Vec<f64>,
+    /// The state before an input, to go back to if the input breaks the body.
+    before_input: [Vec<f64>; 2],
+    halted: Option<Halt>,
+    /// What the true motion has covered so far; `None` under a method.
+    extent: Option<Extent>,
 }
 
 impl LaneBody {
     /// A body of `kind` with `values` at its start, under `solver`.
     pub(super) fn new(kind: &'static Kind, values: &[f64], solver: Solver) -> Self {
         let stepper = (kind.build)(values, solver);
-        let [previous_q, previous_v] = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
-        Self { kind, coordinates: (kind.coordinates)(values), stepper, previous_q, previous_v }
+        let state = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
+        let [previous_q, previous_v] = state.clone();
+        let mut body = Self {
+            kind,
+            coordinates: (kind.coordinates)(values),
+            stepper,
+            previous_q,
+            previous_v,
+            before_input: state,
+            halted: None,
+            extent: (solver == Solver::Truth).then(Extent::default),
+        };
+        body.cover();
+        body
+    }
+
+    /// Why and when the body stopped, if it did.
+    pub fn halted(&self) -> Option<&Halt> {
+        self.halted.as_ref()
+    }
+
+    /// What the true motion has covered so far; `None` under a method.
+    pub(super) fn extent(&self) -> Option<&Extent> {
+        self.extent.as_ref()
+    }
+
+    /// The values that belong to coordinates in the first one's unit, of one value for each coordinate.
+    pub(super) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
+        let unit = self.coordinates[0].unit;
+        let pairs = self.coordinates.iter().zip(values);
+        pairs.filter(move |(coordinate, _)| coordinate.unit == unit).map(|(_, &value)| value)
+    }
+
+    /// The speed, over the coordinates in the first one's unit.
+    pub(super) fn speed(&self) -> f64 {
+        self.like_first(self.stepper.v()).fold(0.0, libm::hypot)
     }
 
     /// What is known of the body's motion, for people: `exact`, or how far a reference can be believed by
@@ -58,26 +126,91 @@ impl LaneBody {
         }
     }
 
+    /// Steps from `t` by `h` (s), from tick `tick` to the next, or halts in the state it has. `place` is the
+    /// body's in the scene.
+    fn tick(&mut self, place: usize, tick: u64, (t, h): (f64, f64), substeps: u32) {
+        if self.halted.is_some() {
+            return;
+        }
+        self.remember();
+        let stepped = self
+            .stepper
+            .advance(t, h, substeps)
+            .and_then(|()| check(&*self.stepper, self.coordinates));
+        match stepped {
+            Ok(()) => self.cover(),
+            Err(failure) => {
+                self.stepper.set(t, &self.previous_q, &self.previous_v);
+                self.halted = Some(Halt { tick, body: place, failure });
+            }
+        }
+    }
+
+    /// Gives an input at time `t` (s), before tick `tick`. A body that it breaks halts in the state before; one
+    /// that has halted feels no kick, but keeps the throttle for when it goes on.
+    fn input(&mut self, place: usize, tick: u64, t: f64, input: Input) {
+        if self.halted.is_some() {
+            if !matches!(input, Input::Kick(_)) {
+                self.stepper.input(t, input);
+            }
+            return;
+        }
+        let [q, v] = &mut self.before_input;
+        q.copy_from_slice(self.stepper.q());
+        v.copy_from_slice(self.stepper.v());
+        self.stepper.input(t, input);
+        match check(&*self.stepper, self.coordinates) {
+            Ok(()) => self.cover(),
+            Err(failure) => {
+                let [q, v] = &self.before_input;
+                self.stepper.set(t, q, v);
+                self.remember();
+                self.halted = Some(Halt { tick, body: place, failure });
+            }
+        }
+    }
+
+    /// Puts the body under another solver at time `t` (s), its state carried exactly; if it has halted, in the
+    /// present state of the truth.
+    fn switch(&mut self, solver: Solver, t: f64, truth: &LaneBody) -> Option<TakenUp> {
+        self.stepper = self.stepper.with_solver(solver, t);
+        let halt = self.halted.take()?;
+        let from = if truth.halted.is_none() { Origin::Truth } else { Origin::LastGood };
+        if from == Origin::Truth {
+            self.stepper.set(t, truth.stepper.q(), truth.stepper.v());
+        }
+        self.remember();
+        Some(TakenUp { halt, from })
+    }
+
     fn remember(&mut self) {
         self.previous_q.copy_from_slice(self.stepper.q());
         self.previous_v.copy_from_slice(self.stepper.v());
     }
 
-    /// The first value that is not finite or beyond [`ESCAPE`].
-    fn check(&self) -> Result<(), StepFailure> {
-        let names = self.coordinates.iter();
-        let q = names.clone().map(|c| c.name).zip(self.stepper.q());
-        let v = names.map(|c| c.velocity).zip(self.stepper.v());
-        for (coordinate, &value) in q.chain(v) {
-            if !value.is_finite() {
-                return Err(StepFailure::NotFinite { coordinate, value });
-            }
-            if value.abs() > ESCAPE {
-                return Err(StepFailure::Escaped { coordinate, value });
-            }
+    /// Takes the present into what the true motion has covered.
+    fn cover(&mut self) {
+        if let Some(mut extent) = self.extent.take() {
+            extent.cover(self.speed(), self.stepper.kinetic_energy());
+            self.extent = Some(extent);
         }
-        Ok(())
     }
+}
+
+/// Looks for a value of a body that is not finite or beyond [`ESCAPE`].
+pub(super) fn check(body: &dyn Stepper, coordinates: &[Coordinate]) -> Result<(), StepFailure> {
+    let names = coordinates.iter();
+    let q = names.clone().map(|c| c.name).zip(body.q());
+    let v = names.map(|c| c.velocity).zip(body.v());
+    for (coordinate, &value) in q.chain(v) {
+        if !value.is_finite() {
+            return Err(StepFailure::NotFinite { coordinate, value });
+        }
+        if value.abs() > ESCAPE {
+            return Err(StepFailure::Escaped { coordinate, value });
+        }
+    }
+    Ok(())
 }
 
 /// A solver on its own copy of the scene.
@@ -85,7 +218,6 @@ pub struct Lane {
     solver: Solver,
     substeps: u32,
     bodies: Vec<LaneBody>,
-    halted: Option<Halt>,
 }
 
 impl Lane {
@@ -93,7 +225,7 @@ impl Lane {
     pub fn new(scene: &Scene, solver: Solver, substeps: u32) -> Self {
         let bodies = scene.bodies.iter();
         let bodies = bodies.map(|body| LaneBody::new(body.kind, &body.values, solver)).collect();
-        Self { solver, substeps, bodies, halted: None }
+        Self { solver, substeps, bodies }
     }
 
     /// What carries the bodies forward.
@@ -108,46 +240,33 @@ impl Lane {
     pub fn bodies(&self) -> &[LaneBody] {
         &self.bodies
     }
-    /// Why the lane stopped, if it did.
+    /// Why and when bodies stopped, in scene order; the others go on.
+    pub fn halts(&self) -> impl Iterator<Item = &Halt> {
+        self.bodies.iter().filter_map(LaneBody::halted)
+    }
+    /// Why the first body stopped that did, if one did.
     pub fn halted(&self) -> Option<&Halt> {
-        self.halted.as_ref()
+        self.halts().min_by_key(|halt| halt.tick)
     }
     /// Evaluations of all bodies' accelerations since the start.
     pub fn evaluations(&self) -> u64 {
         self.bodies.iter().map(|body| body.stepper.evaluations()).sum()
     }
 
-    /// Steps every body from `t` by `h` (s), from tick `tick` to the next. If one fails, all keep the
-    /// state they had, and the lane halts.
+    /// Steps every body from `t` by `h` (s), from tick `tick` to the next. One that fails keeps the state it
+    /// had, and halts.
     pub fn tick(&mut self, tick: u64, t: f64, h: f64) {
-        if self.halted.is_some() {
-            return;
-        }
-        for i in 0..self.bodies.len() {
-            let body = &mut self.bodies[i];
-            body.remember();
-            let stepped = body.stepper.advance(t, h, self.substeps).and_then(|()| body.check());
-            if let Err(failure) = stepped {
-                for body in &mut self.bodies[..=i] {
-                    body.stepper.set(t, &body.previous_q, &body.previous_v);
-                }
-                for body in &mut self.bodies[i..] {
-                    body.remember();
-                }
-                self.halted = Some(Halt { tick, body: i, failure });
-                return;
-            }
+        for (place, body) in self.bodies.iter_mut().enumerate() {
+            body.tick(place, tick, (t, h), self.substeps);
         }
     }
 
-    /// Gives an input at time `t` (s) to every body that takes it. A halted lane feels no kick, but
-    /// keeps the throttle for when it goes on.
-    pub fn input(&mut self, t: f64, input: Input) {
-        let kick = matches!(input, Input::Kick(_));
-        if self.halted.is_none() || !kick {
-            for body in &mut self.bodies {
-                body.stepper.input(t, input);
-            }
+    /// Gives an input at time `t` (s), before tick `tick`, to every body that takes it. A body whose state it
+    /// would take past all bounds keeps the state it had, and halts. A halted body feels no kick, but keeps the
+    /// throttle for when it goes on.
+    pub fn input(&mut self, tick: u64, t: f64, input: Input) {
+        for (place, body) in self.bodies.iter_mut().enumerate() {
+            body.input(place, tick, t, input);
         }
     }
 
@@ -158,14 +277,77 @@ impl Lane {
         }
     }
 
-    /// Puts the bodies under another solver, their state carried exactly. A halted lane goes on from
-    /// its last good state.
-    pub fn switch(&mut self, solver: Solver, substeps: u32, t: f64) {
-        self.solver = solver;
-        self.substeps = substeps;
-        self.halted = None;
-        for body in &mut self.bodies {
-            body.stepper = body.stepper.with_solver(solver, t);
+    /// Puts the bodies under another solver at time `t` (s), their state carried exactly. Those that had halted
+    /// go on from the present state of `truth`, the same scene's, and are returned. To switch to what the lane
+    /// is under already changes nothing.
+    pub fn switch(&mut self, solver: Solver, substeps: u32, t: f64, truth: &Lane) -> Vec<TakenUp> {
+        if (solver, substeps) == (self.solver, self.substeps) {
+            return Vec::new();
         }
+        (self.solver, self.substeps) = (solver, substeps);
+        let bodies = self.bodies.iter_mut().zip(&truth.bodies);
+        bodies.filter_map(|(body, truth)| body.switch(solver, t, truth)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::integrators::{METHODS, method};
+
+    const H: f64 = 1.0 / 60.0;
+
+    fn bits(stepper: &dyn Stepper) -> Vec<u64> {
+        stepper.q().iter().chain(stepper.v()).map(|x| x.to_bits()).collect()
+    }
+
+    #[test]
+    fn a_tick_takes_as_many_equal_steps_as_the_lane_has_substeps() {
+        let scene = Scene::built_in("spring").unwrap();
+        let body = &scene.bodies[0];
+        for method in METHODS {
+            let solver = Solver::Method(method);
+            let mut lane = Lane::new(&scene, solver, 4);
+            let mut by_hand = (body.kind.build)(&body.values, solver);
+            for tick in 0..30 {
+                let t = tick as f64 * H;
+                lane.tick(tick, t, H);
+                by_hand.advance(t, H, 4).unwrap();
+            }
+            let stepper = &*lane.bodies()[0].stepper;
+            assert_eq!(bits(stepper), bits(&*by_hand), "{}", method.id);
+            if let Some(evaluations) = method.evaluations {
+                let steps = lane.evaluations().abs_diff(u64::from(evaluations) * 4 * 30);
+                // Those that carry something need one more to begin.
+                assert!(steps <= 4, "{}: {}", method.id, lane.evaluations());
+            }
+        }
+    }
+
+    #[test]
+    fn a_lane_that_is_switched_takes_the_substeps_of_the_other() {
+        let scene = Scene::built_in("spring").unwrap();
+        let euler = Solver::Method(method("explicit-euler").unwrap());
+        let truth = Lane::new(&scene, Solver::Truth, 1);
+        let mut lane = Lane::new(&scene, euler, 1);
+        lane.tick(0, 0.0, H);
+        lane.switch(euler, 5, H, &truth);
+        lane.tick(1, H, H);
+        assert_eq!((lane.substeps(), lane.evaluations()), (5, 1 + 5));
+    }
+
+    #[test]
+    fn a_body_without_truth_has_no_extent_and_the_truth_has_one_from_its_start() {
+        let scene = Scene::built_in("ship").unwrap();
+        let mut truth = Lane::new(&scene, Solver::Truth, 1);
+        let largest = |lane: &Lane| lane.bodies()[0].extent().unwrap().largest_speed();
+        assert_eq!(largest(&truth), 0.0);
+        truth.input(0, 0.0, Input::Kick(2.0));
+        assert_eq!(largest(&truth), 4.0);
+        truth.input(0, 0.0, Input::Throttle(-1.0));
+        (0..60).for_each(|tick| truth.tick(tick, tick as f64 * H, H));
+        assert!(truth.bodies()[0].speed() < 4.0 && largest(&truth) == 4.0);
+        let lane = Lane::new(&scene, Solver::Method(&METHODS[0]), 1);
+        assert!(lane.bodies()[0].extent().is_none());
     }
 }

@@ -3,7 +3,6 @@
 use std::fmt;
 
 use super::lane::LaneBody;
-use crate::sim::Stepper;
 use crate::sim::bodies::Coordinate;
 
 /// How a metric is plotted.
@@ -58,7 +57,10 @@ pub struct Metric {
     pub unit: Unit,
     /// How it is plotted.
     pub scale: Scale,
-    /// The value for a body in a lane and the same body in truth, or `None` where it has no meaning.
+    /// What it is, in one line.
+    pub about: &'static str,
+    /// The value for a body in a lane and the same body in truth, or `None` where it has no meaning. What
+    /// compares the two has none once either has halted: a state that stands still is no yardstick.
     pub measure: fn(lane: &LaneBody, truth: &LaneBody) -> Option<f64>,
 }
 
@@ -69,11 +71,10 @@ pub const METRICS: &[Metric] = &[
         name: "position error",
         unit: Unit::Coordinate,
         scale: Scale::Log,
+        about: "largest difference from the truth in a coordinate",
         measure: |lane, truth| {
-            Some(largest_difference(
-                like_first(lane, lane.stepper.q()),
-                like_first(truth, truth.stepper.q()),
-            ))
+            let [q, exact] = both(lane, truth)?.map(|body| body.like_first(body.stepper.q()));
+            known(largest_difference(q, exact))
         },
     },
     Metric {
@@ -81,11 +82,10 @@ pub const METRICS: &[Metric] = &[
         name: "velocity error",
         unit: Unit::Velocity,
         scale: Scale::Log,
+        about: "largest difference from the truth in a velocity",
         measure: |lane, truth| {
-            Some(largest_difference(
-                like_first(lane, lane.stepper.v()),
-                like_first(truth, truth.stepper.v()),
-            ))
+            let [v, exact] = both(lane, truth)?.map(|body| body.like_first(body.stepper.v()));
+            known(largest_difference(v, exact))
         },
     },
     Metric {
@@ -93,10 +93,11 @@ pub const METRICS: &[Metric] = &[
         name: "speed error",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
+        about: "speed beyond the truth's, in percent of the truth's largest speed so far",
         measure: |lane, truth| {
-            let [speed, exact] =
-                [lane, truth].map(|body| length(like_first(body, body.stepper.v())));
-            (exact > 0.0).then(|| 100.0 * (speed - exact) / exact)
+            let [speed, exact] = both(lane, truth)?.map(LaneBody::speed);
+            let largest = truth.extent()?.largest_speed();
+            known(100.0 * (speed - exact) / largest)
         },
     },
     Metric {
@@ -104,13 +105,19 @@ pub const METRICS: &[Metric] = &[
         name: "energy drift",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
-        measure: |lane, truth| energy_drift(&*lane.stepper, &*truth.stepper),
+        about: "energy gained, in percent of what the true motion exchanges: the range of its kinetic energy",
+        measure: |lane, truth| {
+            let [lane, exact] = both(lane, truth)?;
+            let exchanged = exact.extent()?.exchanged_j()?;
+            known(100.0 * (lane.stepper.energy()? - exact.stepper.energy()?) / exchanged)
+        },
     },
     Metric {
         id: "evaluations",
         name: "evaluations",
         unit: Unit::Of(""),
         scale: Scale::Linear,
+        about: "evaluations of this body's acceleration since the start",
         measure: |lane, _| Some(lane.stepper.evaluations() as f64),
     },
     Metric {
@@ -118,35 +125,32 @@ pub const METRICS: &[Metric] = &[
         name: "lost time",
         unit: Unit::Of("s"),
         scale: Scale::Linear,
+        about: "time by which this body is behind, under a method that does not keep it",
         measure: |lane, _| Some(lane.stepper.lost_time()).filter(|&lost| lost > 0.0),
     },
 ];
 
-/// The energy that a lane has gained, in percent of the true one.
-pub(super) fn energy_drift(lane: &dyn Stepper, truth: &dyn Stepper) -> Option<f64> {
-    let (energy, exact) = (lane.energy()?, truth.energy()?);
-    (exact != 0.0).then(|| 100.0 * (energy - exact) / exact.abs())
+/// The body in a lane and in truth, as long as both go on.
+fn both<'a>(lane: &'a LaneBody, truth: &'a LaneBody) -> Option<[&'a LaneBody; 2]> {
+    let go_on = lane.halted().is_none() && truth.halted().is_none();
+    go_on.then_some([lane, truth])
 }
 
-/// Of one value for each of the body's coordinates, those of the coordinates in the first one's unit.
-fn like_first(body: &LaneBody, values: &[f64]) -> impl Iterator<Item = f64> {
-    let unit = body.coordinates[0].unit;
-    let pairs = body.coordinates.iter().zip(values);
-    pairs.filter(move |(coordinate, _)| coordinate.unit == unit).map(|(_, &value)| value)
+/// A value, unless it is undefined.
+fn known(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
 }
 
+/// NaN, if any difference is.
 fn largest_difference(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>) -> f64 {
-    a.zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
-fn length(v: impl Iterator<Item = f64>) -> f64 {
-    v.fold(0.0, libm::hypot)
+    let larger = |largest: f64, x: f64| if x > largest || x.is_nan() { x } else { largest };
+    a.zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
+    use crate::lab::{Lane, Race, Scene};
     use crate::sim::Solver;
     use crate::sim::bodies::{Input, kind};
     use crate::sim::integrators::method;
@@ -155,21 +159,112 @@ mod tests {
         METRICS.iter().find(|metric| metric.id == id).unwrap()
     }
 
+    /// A scene of one spring of 2 kg, 8 N/m and a kick of 4 N s, at 100 Hz, and its race under `id`.
+    fn race(id: &str, [x0, v0]: [f64; 2]) -> Race {
+        let text = format!(
+            "title = 'x'\ntick_hz = 100\nseconds = 10\nmethods = ['{id}']\n\
+             [[spring]]\nmass_kg = 2\nstiffness_n_per_m = 8\nkick_n_s = 4\nx0_m = {x0}\nv0_m_per_s = {v0}\n"
+        );
+        Race::of(&Scene::parse("x.toml", &text).unwrap())
+    }
+
+    fn measured(id: &str, race: &Race) -> Option<f64> {
+        let lane = &race.entrants()[0].lane.bodies()[0];
+        (metric(id).measure)(lane, &race.truth().bodies()[0])
+    }
+
     #[test]
     fn metrics_compare_a_lane_with_the_truth() {
-        let spring = kind("spring").unwrap();
-        let values = [2.0, 8.0, 0.0, 1.0, 0.0, 4.0];
-        let truth = LaneBody::new(spring, &values, Solver::Truth);
-        let mut lane = LaneBody::new(spring, &values, Solver::Truth);
-        let of = |id: &str, lane: &LaneBody| (metric(id).measure)(lane, &truth);
-        assert_eq!(of("position_error", &lane), Some(0.0));
-        assert_eq!(of("energy_drift", &lane), Some(0.0));
-        assert_eq!(of("relative_speed_error", &lane), None);
-        assert!(lane.stepper.input(0.0, Input::Kick(1.0)));
-        assert_eq!(of("velocity_error", &lane), Some(2.0));
-        assert_eq!(of("energy_drift", &lane), Some(100.0));
-        assert_eq!(of("evaluations", &lane), Some(0.0));
-        assert_eq!(of("lost_time", &lane), None);
+        let mut race = race("explicit-euler", [1.0, 0.0]);
+        assert_eq!(measured("position_error", &race), Some(0.0));
+        assert_eq!(measured("relative_speed_error", &race), None, "nothing has moved");
+        assert_eq!(measured("energy_drift", &race), None, "nothing is exchanged yet");
+        assert_eq!(measured("evaluations", &race), Some(0.0));
+        assert_eq!(measured("lost_time", &race), None);
+        // A period is π s: the truth is back at its start, and its speed at zero.
+        race.run(314);
+        let state = |lane: &Lane| {
+            let stepper = &lane.bodies()[0].stepper;
+            (stepper.q()[0], stepper.v()[0])
+        };
+        let ((q, v), (x, u)) = (state(&race.entrants()[0].lane), state(race.truth()));
+        let near = |id: &str, wanted: f64| {
+            let found = measured(id, &race).unwrap();
+            assert!((found - wanted).abs() <= 1e-4 * wanted.abs(), "{id}: {found}, not {wanted}");
+        };
+        near("position_error", (q - x).abs());
+        near("velocity_error", (v - u).abs());
+        // The largest speed is 2 m/s, the energy exchanged 4 J.
+        near("relative_speed_error", 100.0 * (v.abs() - u.abs()) / 2.0);
+        near("energy_drift", 100.0 * (v * v + 4.0 * q * q - 4.0) / 4.0);
+        near("evaluations", 314.0);
+        assert!(u.abs() < 0.01, "a speed to divide by that crosses zero: {u} m/s");
+    }
+
+    #[test]
+    fn a_body_that_is_kicked_from_rest_is_held_against_the_speed_it_then_has() {
+        let mut race = race("rk4", [0.0, 0.0]);
+        race.input(Input::Kick(1.0));
+        assert_eq!(measured("relative_speed_error", &race), Some(0.0));
+    }
+
+    #[test]
+    fn energy_is_held_against_what_the_motion_exchanges_and_against_nothing_else() {
+        let drifts = |bodies: &str, tick_hz: u32| {
+            let head = "seconds = 60\nmethods = ['rk4', 'semi-implicit-euler']";
+            let text = format!("title = 'x'\ntick_hz = {tick_hz}\n{head}\n{bodies}");
+            let mut race = Race::of(&Scene::parse("x.toml", &text).unwrap());
+            let mut drifts = Vec::new();
+            for _ in 0..60 * tick_hz {
+                race.step();
+                let truth = &race.truth().bodies()[0];
+                let lanes = race.entrants().iter().map(|entrant| &entrant.lane.bodies()[0]);
+                drifts
+                    .extend(lanes.filter_map(|lane| (metric("energy_drift").measure)(lane, truth)));
+            }
+            drifts
+        };
+        // The whole energy of a ship that starts from rest is zero but for rounding.
+        let ship = "[[ship]]\nthrust_n = 1234.5\ndrag_n_s_per_m = 0\nmass_kg = 777\n";
+        assert_eq!(drifts(ship, 7), [0.0; 0]);
+        let stops = drifts(&format!("{ship}v0_m_per_s = -30\n"), 7);
+        assert!(stops.len() > 100 && stops.iter().all(|drift| drift.abs() < 15.0), "{stops:?}");
+        let circle = "[[orbit]]\nmu_m3_per_s2 = 8\nx0_m = 2\nvy0_m_per_s = 2\n";
+        assert_eq!(drifts(circle, 30), [0.0; 0]);
+        let swing = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\nx0_m = 1\n";
+        let largest = drifts(swing, 60).into_iter().map(f64::abs).fold(0.0, f64::max);
+        // The energy of semi-implicit Euler swings by h ω / 2, and by no more at the beginning.
+        assert!((4.8..5.8).contains(&largest), "{largest} %");
+    }
+
+    #[test]
+    fn a_truth_or_a_lane_that_halted_is_no_yardstick() {
+        let comparing =
+            ["position_error", "velocity_error", "relative_speed_error", "energy_drift"];
+        let mut lost = race("explicit-euler", [1.0, 0.0]);
+        lost.run(400);
+        assert!(comparing.iter().all(|id| measured(id, &lost).is_some()));
+        while lost.entrants()[0].lane.halted().is_none() {
+            lost.set_tick_hz(1);
+            lost.step();
+        }
+        assert!(comparing.iter().all(|id| measured(id, &lost).is_none()), "the lane halted");
+        assert!(measured("evaluations", &lost).is_some_and(|count| count > 400.0));
+
+        let scene = Scene::built_in("spring").unwrap();
+        let [lane, mut truth] = [(); 2].map(|()| Lane::new(&scene, Solver::Truth, 1));
+        truth.input(0, 0.0, Input::Kick(1e300));
+        assert!(lane.halted().is_none() && truth.halted().is_some());
+        let against = |id: &str| (metric(id).measure)(&lane.bodies()[0], &truth.bodies()[0]);
+        assert!(comparing.iter().all(|id| against(id).is_none()), "the truth halted");
+    }
+
+    #[test]
+    fn a_difference_that_is_undefined_is_not_the_smallest() {
+        let largest = |a: [f64; 3]| largest_difference(a.into_iter(), [0.0; 3].into_iter());
+        assert_eq!(largest([1.0, 3.0, 2.0]), 3.0);
+        assert!(largest([1.0, f64::NAN, 2.0]).is_nan());
+        assert_eq!(known(f64::NAN), None);
     }
 
     #[test]

@@ -8,16 +8,19 @@ mod analysis;
 mod clock;
 mod command;
 mod display;
+mod extent;
 mod history;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
 mod lab;
 mod lane;
 mod metrics;
+mod notices;
 pub mod number;
 pub mod picture;
 mod race;
 pub mod round_off;
 mod scene;
+mod script;
 
 pub use crate::sim::stability::Stability;
 pub use analysis::{
@@ -28,9 +31,9 @@ pub use analysis::{
 pub use clock::{Clock, Due};
 pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};
 pub use display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
-pub use history::{CAPACITY, History, Sample};
+pub use history::{CAPACITY, History, Run, Sample};
 pub use lab::Lab;
-pub use lane::{ESCAPE, Halt, Lane, LaneBody};
+pub use lane::{ESCAPE, Halt, Lane, LaneBody, Origin, TakenUp};
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use race::{Entrant, Race};
 pub use scene::{

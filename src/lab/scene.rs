@@ -71,6 +71,8 @@ pub struct Scene {
     pub seconds: f64,
     /// The methods that race, 1 to [`MOST_LANES`], no two alike.
     pub lanes: Vec<LaneSpec>,
+    /// The method that the program opens the scene with, one of the lanes'; `None` for the first lane's.
+    pub opening_method: Option<&'static Method>,
     /// The bodies in the order of the file, 1 to [`MOST_BODIES`], no two of one name.
     pub bodies: Vec<SceneBody>,
     /// What happens without anybody's doing, by tick, and within a tick in the order of the file.

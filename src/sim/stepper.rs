@@ -67,6 +67,8 @@ pub trait Stepper: Send {
     fn truth_error(&self) -> Option<[f64; 2]>;
     /// The conserved energy in joules, where the body conserves one under its present input.
     fn energy(&self) -> Option<f64>;
+    /// The part of that energy that is the motion's, in joules. Never allocates.
+    fn kinetic_energy(&self) -> Option<f64>;
 
     /// Where the body is, in metres. Never allocates.
     fn place(&self) -> DVec2;
@@ -224,6 +226,9 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
     }
     fn energy(&self) -> Option<f64> {
         self.body.system.energy(&self.state)
+    }
+    fn kinetic_energy(&self) -> Option<f64> {
+        self.body.system.kinetic_energy(&self.state)
     }
 
     fn place(&self) -> DVec2 {

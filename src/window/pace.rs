@@ -1,18 +1,21 @@
-//! How fast frames come and simulated time goes, over the last half second.
+//! How fast frames come and simulated time goes, over the last second.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-use crate::lab::Pace;
+use crate::lab::{Lab, Pace};
 
-/// Long enough for a steady figure, short enough to follow a change.
-const SPAN: Duration = Duration::from_millis(500);
+/// The least time that is measured over: long enough for a steady figure, short enough to follow a change.
+const SPAN: Duration = Duration::from_secs(1);
 
 /// Measures the pace of frames.
 #[derive(Debug, Default)]
 pub(super) struct Meter {
-    /// When recent frames began, and the simulated time they showed.
+    /// When recent frames began, and the simulated time with what is owed of a tick (s): by whole ticks the
+    /// figure would jump at low rates.
     frames: VecDeque<(Instant, f64)>,
+    /// The tick rate and the speed that they were drawn at.
+    under: (u32, u32),
     any: bool,
 }
 
@@ -22,45 +25,119 @@ impl Meter {
         !std::mem::replace(&mut self.any, true)
     }
 
-    /// Takes in a frame that began at `now` and showed simulated time `t`.
-    pub(super) fn frame(&mut self, now: Instant, t: f64) {
-        // A restart or another scene: time went back.
-        if self.frames.back().is_some_and(|&(_, last)| t < last) {
+    /// Takes in a frame of `lab` that began at `now`. What was measured before a pause, a jump in time or another
+    /// rate is forgotten.
+    pub(super) fn frame(&mut self, now: Instant, lab: &Lab) {
+        let under = (lab.clock().tick_hz(), lab.clock().speed_percent());
+        let t = lab.time_with_owed_s();
+        let went_back = self.frames.back().is_some_and(|&(_, last)| t < last);
+        if !lab.running() || went_back || under != self.under {
             self.frames.clear();
+            self.under = under;
+        }
+        if !lab.running() {
+            return;
         }
         self.frames.push_back((now, t));
-        while self.frames.front().is_some_and(|&(first, _)| now.duration_since(first) > SPAN) {
+        while self.frames.get(1).is_some_and(|&(second, _)| now.duration_since(second) >= SPAN) {
             self.frames.pop_front();
         }
     }
 
-    /// The pace, once there are two frames to tell it from.
-    pub(super) fn pace(&self) -> Option<Pace> {
-        let (&(first, from), &(last, to)) = (self.frames.front()?, self.frames.back()?);
-        let seconds = last.duration_since(first).as_secs_f64();
-        (seconds > 0.0).then(|| Pace {
+    /// The pace, once there is a second to tell it from.
+    pub(super) fn pace(&self) -> Pace {
+        let (Some(&(first, from)), Some(&(last, to))) = (self.frames.front(), self.frames.back())
+        else {
+            return Pace::Unknown;
+        };
+        let span = last.duration_since(first);
+        if span < SPAN {
+            return Pace::Unknown;
+        }
+        let seconds = span.as_secs_f64();
+        Pace::Measured {
             frames_per_second: (self.frames.len() - 1) as f64 / seconds,
             real_time_factor: (to - from) / seconds,
-        })
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::{Command, Scene};
+
+    /// A lab at this tick rate, its meter, and when the last frame began.
+    struct Run(Lab, Meter, Instant);
+
+    impl Run {
+        fn at(tick_hz: u32) -> Self {
+            let mut lab = Lab::new(Scene::built_in("ship").unwrap());
+            lab.apply(Command::TickHz(tick_hz));
+            Self(lab, Meter::default(), Instant::now())
+        }
+
+        /// Draws frames of 20 ms, and returns the pace after each.
+        fn frames(&mut self, count: u32) -> Vec<Pace> {
+            let Run(lab, meter, now) = self;
+            let frame = Duration::from_millis(20);
+            let frames = (0..count).map(|_| {
+                *now += frame;
+                lab.advance(frame.as_nanos() as i64);
+                meter.frame(*now, lab);
+                meter.pace()
+            });
+            frames.collect()
+        }
+    }
+
+    fn is_real_time(pace: &Pace) -> bool {
+        match *pace {
+            Pace::Measured { frames_per_second, real_time_factor } => {
+                (frames_per_second - 50.0).abs() < 1e-6 && (real_time_factor - 1.0).abs() < 1e-6
+            }
+            Pace::Unknown => false,
+        }
+    }
 
     #[test]
-    fn the_meter_tells_frame_rate_and_real_time_factor() {
-        let mut meter = Meter::default();
-        let start = Instant::now();
-        assert_eq!(meter.pace(), None);
-        for i in 0..200_u32 {
-            meter.frame(start + Duration::from_millis(20) * i, 0.01 * f64::from(i));
+    fn the_pace_is_told_from_a_second_on_and_is_steady_at_any_tick_rate() {
+        for tick_hz in [1, 2, 7, 60, 1000] {
+            let mut run = Run::at(tick_hz);
+            assert_eq!(run.1.pace(), Pace::Unknown);
+            let paces = run.frames(400);
+            assert!(paces[..50].iter().all(|pace| *pace == Pace::Unknown), "{tick_hz} Hz");
+            assert!(paces[50..].iter().all(is_real_time), "{tick_hz} Hz: {:?}", paces[399]);
         }
-        let pace = meter.pace().unwrap();
-        assert!((pace.frames_per_second - 50.0).abs() < 1e-6, "{pace:?}");
-        assert!((pace.real_time_factor - 0.5).abs() < 1e-6, "{pace:?}");
-        meter.frame(start + Duration::from_secs(5), 0.0);
-        assert_eq!(meter.pace(), None);
+    }
+
+    #[test]
+    fn a_pause_another_speed_and_a_restart_begin_the_measure_again() {
+        let mut run = Run::at(60);
+        for command in
+            [Command::TogglePause, Command::SpeedUp, Command::TickHz(2), Command::Restart]
+        {
+            assert!(is_real_time(run.frames(60).last().unwrap()));
+            run.0.apply(command);
+            assert_eq!(run.frames(1), [Pace::Unknown], "{command:?}");
+            if command == Command::TogglePause {
+                assert_eq!(run.frames(100), [Pace::Unknown; 100]);
+                run.0.apply(command);
+            }
+            run.0.apply(Command::SpeedPercent(100));
+        }
+    }
+
+    #[test]
+    fn time_that_is_given_up_shows_in_the_pace() {
+        let mut run = Run::at(60);
+        let Run(lab, meter, now) = &mut run;
+        for _ in 0..10 {
+            *now += Duration::from_millis(500);
+            lab.advance(500_000_000);
+            meter.frame(*now, lab);
+        }
+        let Pace::Measured { frames_per_second, real_time_factor } = meter.pace() else { panic!() };
+        assert!((frames_per_second - 2.0).abs() < 1e-9 && (real_time_factor - 0.5).abs() < 0.02);
     }
 }

@@ -8,7 +8,7 @@ use regatta::lab::{Command, Lab, METRICS, Scene};
 use serde_json::Value;
 
 use crate::capture::drawn_or_skip;
-use crate::stderr;
+use crate::{run_in, stderr};
 
 /// A small capture's manifest as text.
 fn manifest_or_skip(test: &str, arguments: &str) -> Option<String> {
@@ -46,6 +46,32 @@ fn every_key_is_described_and_what_is_described_reads_back() {
     let manifest: Manifest = serde_json::from_str(&text).unwrap();
     assert_eq!(manifest.schema, SCHEMA);
     assert!(manifest.to_text() == text, "what is read is written again to the byte");
+}
+
+#[test]
+fn a_kick_past_all_bounds_leaves_a_manifest_that_can_be_judged() {
+    let test = "a_kick_past_all_bounds_leaves_a_manifest_that_can_be_judged";
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
+                 [[spring]]\nname = 'light'\nmass_kg = 1e-300\nstiffness_n_per_m = 1\n\
+                 [[spring]]\nname = 'heavy'\nmass_kg = 1\nstiffness_n_per_m = 1\nkick_n_s = 0\n\
+                 [[command]]\ntick = 0\nkick = 1e14\n";
+    fs::write(folder.path().join("light.toml"), scene).unwrap();
+    let capture = "capture --scene light.toml --size 32x18 --scale 0.5 --frames 3 --out clip";
+    let Some(output) = drawn_or_skip(test, folder.path(), capture) else { return };
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = fs::read_to_string(folder.path().join("clip/manifest.json")).unwrap();
+    let manifest: Manifest = serde_json::from_str(&text).unwrap();
+    let lane = &manifest.lanes[0];
+    assert_eq!(lane.halted, Some(0));
+    assert_eq!(
+        (&lane.bodies[0]["halted"], &lane.bodies[1]["halted"]),
+        (&Value::from(0), &Value::Null)
+    );
+    assert!(lane.bodies[0]["position_error"].is_null());
+    assert!(lane.bodies[1]["position_error"].is_number());
+    let verify = run_in(folder.path(), "verify clip --physics-only");
+    assert_eq!(verify.status.code(), Some(0), "{}", stderr(&verify));
 }
 
 #[test]

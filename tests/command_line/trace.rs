@@ -187,6 +187,60 @@ fn a_lane_that_halts_ends_with_a_word_on_standard_error() {
 }
 
 #[test]
+fn the_rows_of_a_body_that_halted_end_and_those_beside_it_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 10\nseconds = 60\nmethods = ['explicit-euler']\n\
+                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 400\n\
+                 [[ship]]\nthrust_n = 20000\ndrag_n_s_per_m = 1000\nmass_kg = 10000\n";
+    fs::write(folder.path().join("two.toml"), scene).unwrap();
+    let output = run_in(folder.path(), "trace --scene two.toml --metrics");
+    let said = stderr(&output);
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(said.starts_with("lane 1, explicit-euler, halted at tick "), "{said}");
+    let csv = String::from_utf8(output.stdout).unwrap();
+    let ticks = |lane: &str, body: &str, coordinate: &str| {
+        let rows = rows(&csv)
+            .into_iter()
+            .filter(|row| [row[2], row[4], row[5]] == [lane, body, coordinate]);
+        rows.map(|row| row[0].parse::<u64>().unwrap()).collect::<Vec<_>>()
+    };
+    let all: Vec<u64> = (0..=600).collect();
+    for (lane, body, coordinate) in [
+        ("0", "spring", "x"),
+        ("0", "ship", "s"),
+        ("1", "ship", "s"),
+        ("1", "ship", "position_error"),
+    ] {
+        assert_eq!(ticks(lane, body, coordinate), all, "lane {lane}, {body}, {coordinate}");
+    }
+    let spring = ticks("1", "spring", "x");
+    let last = *spring.last().unwrap();
+    assert_eq!(spring, (0..=last).collect::<Vec<_>>());
+    assert_eq!(ticks("1", "spring", "position_error"), spring);
+    assert!(last < 600 && said.contains(&format!("halted at tick {last} ")), "{said}");
+}
+
+#[test]
+fn a_truth_that_halts_is_told_and_nothing_is_compared_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 10\nseconds = 2\nmethods = ['rk4']\n\
+                 [[spring]]\nname = 'light'\nmass_kg = 1e-300\nstiffness_n_per_m = 1e-300\n\
+                 [[command]]\ntick = 5\nkick = 1e14\n";
+    fs::write(folder.path().join("light.toml"), scene).unwrap();
+    let output = run_in(folder.path(), "trace --scene light.toml --metrics");
+    let said = stderr(&output);
+    assert!(
+        said.starts_with(
+            "lane 0, exact, halted at tick 5 (t = 0.500 s): light left the numbers: v is inf"
+        ),
+        "{said}"
+    );
+    assert!(said.contains("; its rows end there, and so do its comparisons\n"), "{said}");
+    let csv = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(rows(&csv).last().unwrap()[0], "5", "{csv}");
+}
+
+#[test]
 fn a_script_switches_the_method_of_a_lane_alone_and_of_no_lane_in_a_race() {
     let folder = tempfile::tempdir().unwrap();
     let scene = "title = 'x'\ntick_hz = 10\nseconds = 1\n\

@@ -37,7 +37,7 @@ fn x_name(key: Key) -> String {
 fn every_key_of_the_table_does_what_the_table_says() {
     let test = "every_key_of_the_table_does_what_the_table_says";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     let mut lab = lab("spring");
     for (key, command) in KEYS.iter().flat_map(|binding| binding.keys) {
         if ![Command::Screenshot, Command::ToggleFullScreen, Command::Escape].contains(command) {
@@ -60,9 +60,9 @@ fn every_key_of_the_table_does_what_the_table_says() {
 fn a_race_is_titled_by_its_selected_lane() {
     let test = "a_race_is_titled_by_its_selected_lane";
     let Some(desk) = Desk::open(test, "--scene stiff") else { return };
-    desk.titled("Regatta - stiff - Runge-Kutta 4 - 60 Hz");
+    desk.titled("Regatta - stiff - Semi-implicit Euler - 60 Hz");
     desk.press("c");
-    desk.titled("Regatta - stiff - race: Runge-Kutta 4 - 60 Hz");
+    desk.titled("Regatta - stiff - race: Semi-implicit Euler - 60 Hz");
     desk.press("1 space");
     desk.titled("Regatta - stiff - race: Explicit Euler - 60 Hz (paused)");
     desk.press("c");
@@ -75,14 +75,14 @@ fn brackets_walk_the_tick_rates_and_n_and_b_the_scenes() {
     let test = "brackets_walk_the_tick_rates_and_n_and_b_the_scenes";
     let Some(desk) = Desk::open(test, "--scene spring --tick-hz 2") else { return };
     for hz in TICK_LADDER {
-        desk.titled(&format!("Regatta - spring - Runge-Kutta 4 - {hz} Hz"));
+        desk.titled(&format!("Regatta - spring - Explicit Euler - {hz} Hz"));
         desk.press("bracketright");
     }
     for hz in TICK_LADDER.into_iter().rev() {
-        desk.titled(&format!("Regatta - spring - Runge-Kutta 4 - {hz} Hz"));
+        desk.titled(&format!("Regatta - spring - Explicit Euler - {hz} Hz"));
         desk.press("bracketleft");
     }
-    let (mut lab, start) = (lab("spring"), "Regatta - spring - Runge-Kutta 4 - 2 Hz");
+    let (mut lab, start) = (lab("spring"), "Regatta - spring - Explicit Euler - 2 Hz");
     desk.titled(start);
     for (key, command) in [("n", Command::NextScene), ("b", Command::PreviousScene)] {
         for _ in SCENES {
@@ -99,7 +99,7 @@ fn a_tick_forward_is_one_tick() {
     let test = "a_tick_forward_is_one_tick";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("period");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     let (first, _) = desk.screenshot();
     desk.press("period period period");
     assert_eq!(desk.screenshot().0, first + 3);
@@ -111,9 +111,9 @@ fn a_held_key_repeats_where_that_helps_and_never_a_toggle() {
     let test = "a_held_key_repeats_where_that_helps_and_never_a_toggle";
     let Some(desk) = Desk::open(test, "--scene spring --tick-hz 1000") else { return };
     desk.xdotool("keydown bracketleft");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 2 Hz");
+    desk.titled("Regatta - spring - Explicit Euler - 2 Hz");
     desk.xdotool("keyup bracketleft keydown space");
-    let paused = "Regatta - spring - Runge-Kutta 4 - 2 Hz (paused)";
+    let paused = "Regatta - spring - Explicit Euler - 2 Hz (paused)";
     desk.titled(paused);
     // The server repeats a key after two thirds of a second, then 25 times a second.
     let start = Instant::now();
@@ -129,6 +129,6 @@ fn a_chord_with_control_or_alt_is_not_ours() {
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("ctrl+n alt+1 ctrl+space super+c Caps_Lock m");
     // With capitals locked, M is still the next method.
-    desk.titled("Regatta - spring - Adaptive Euler - 60 Hz");
+    desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz");
     desk.quit();
 }

@@ -15,7 +15,7 @@ fn a_window_opens_under_vulkan_and_under_gl() {
         let test = format!("{test} ({backend})");
         let variables = [("WGPU_BACKEND", backend)];
         let Some(desk) = Desk::open_with(&test, "", &variables) else { continue };
-        desk.titled("Regatta - harbour - Runge-Kutta 4 - 60 Hz");
+        desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
         desk.press("1");
         desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
         desk.press("space");
@@ -103,10 +103,10 @@ fn a_hitch_drops_ticks_and_says_so_and_a_pause_is_none() {
     desk.program.stop_for(Duration::from_secs(2));
     assert!(tells_of_dropped_ticks(&desk.screenshot().1));
     desk.press("Home space");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 2 Hz (paused)");
+    desk.titled("Regatta - spring - Explicit Euler - 2 Hz (paused)");
     std::thread::sleep(Duration::from_secs(2));
     desk.press("space");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 2 Hz");
+    desk.titled("Regatta - spring - Explicit Euler - 2 Hz");
     assert!(!tells_of_dropped_ticks(&desk.screenshot().1));
     desk.quit();
 }
@@ -116,7 +116,7 @@ fn a_paused_window_leaves_the_machine_alone() {
     let test = "a_paused_window_leaves_the_machine_alone";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("space");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     desk.still();
     let load = desk.load_over(Duration::from_secs(2));
     let _ = writeln!(io::stderr(), "{test}: {:.1} % of a core", 100.0 * load);

@@ -28,7 +28,7 @@ fn panels_are_worked_by_the_mouse_at_every_scale() {
         let variables = [("WINIT_X11_SCALE_FACTOR", factor.as_str())];
         let Some(desk) = Desk::open_with(test, "--scene spring", &variables) else { return };
         desk.press("space");
-        desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+        desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
         desk.resize(scale * width, scale * height);
         desk.still();
         let click = |x, y| desk.click(scale * x, scale * y);
@@ -41,7 +41,7 @@ fn panels_are_worked_by_the_mouse_at_every_scale() {
         desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz (paused)");
         open_scene_menu(&desk, scale);
         click(50, 66);
-        desk.titled("Regatta - ship - Semi-implicit Euler - 2 Hz (paused)");
+        desk.titled("Regatta - ship - Explicit Euler - 2 Hz (paused)");
         desk.quit();
     }
 }
@@ -51,10 +51,10 @@ fn escape_closes_an_open_menu_before_it_ends_the_program() {
     let test = "escape_closes_an_open_menu_before_it_ends_the_program";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("space");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     open_scene_menu(&desk, 1);
     desk.press("Escape space");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     desk.quit();
 }
 
@@ -63,15 +63,15 @@ fn a_widget_with_the_focus_takes_space_and_escape_gives_it_back() {
     let test = "a_widget_with_the_focus_takes_space_and_escape_gives_it_back";
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("space");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     // The menu of scenes, restart, run.
     ["Tab", "Tab", "Tab"].into_iter().for_each(|key| desk.press_and_see(key));
     desk.press("space");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     desk.press("space");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
     desk.press_and_see("Escape");
     desk.press("space");
-    desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     desk.quit();
 }

@@ -12,7 +12,7 @@ fn the_window_shows_what_a_screenshot_saves_at_every_scale() {
         let variables = [("WINIT_X11_SCALE_FACTOR", factor.as_str())];
         let Some(desk) = Desk::open_with(test, "--scene spring", &variables) else { return };
         desk.press("space");
-        desk.titled("Regatta - spring - Runge-Kutta 4 - 60 Hz (paused)");
+        desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
         let (_, picture) = desk.screenshot();
         assert_eq!(picture.dimensions(), (1280 * scale, 720 * scale));
         let colours: HashSet<_> = picture.pixels().collect();

@@ -1,7 +1,8 @@
 //! One body under one method, followed tick by tick and held against its truth.
 
-use super::truth::{BodyTruth, Course, LONG_RUN, stray, ticks, window};
+use super::truth::{BodyTruth, Course, LONG_RUN, ticks, window};
 use super::verdict::Fate;
+use crate::lab::lane::check;
 use crate::lab::scene::LaneSpec;
 use crate::sim::Stepper;
 use crate::sim::integrators::{Family, StepFailure};
@@ -119,7 +120,7 @@ pub(super) fn follow(
         tick += 1;
         let t = tick as f64 / hz;
         let advanced = stepper.advance((tick - 1) as f64 / hz, 1.0 / hz, spec.substeps);
-        if let Some(failure) = advanced.err().or_else(|| stray(&*stepper, coordinates)) {
+        if let Err(failure) = advanced.and_then(|()| check(&*stepper, coordinates)) {
             let fate = Some(Fate { t: (tick - 1) as f64 / hz, failure });
             if tick <= horizon {
                 run.fate = fate
@@ -147,10 +148,12 @@ pub(super) fn follow(
         }
         let drift = energy.take_in(&*stepper, tick);
         if tick <= horizon
-            && let Some(drift) = drift
-            && run.energy_drift.is_none_or(|largest: f64| drift.abs() > largest.abs())
+            && let Some((drift, part)) = drift.zip(energy.percent)
         {
-            run.energy_drift = Some(100.0 * drift);
+            let percent = part * drift;
+            if run.energy_drift.is_none_or(|largest: f64| percent.abs() > largest.abs()) {
+                run.energy_drift = Some(percent);
+            }
         }
         run.watch_reach(&*stepper, truth, drift, t);
         if tick == end && tick > horizon && !run.is_losing {
@@ -286,6 +289,8 @@ impl Run {
 struct Energy {
     start: f64,
     scale: Option<f64>,
+    /// The unit in percent of the energy that the motion exchanges.
+    percent: Option<f64>,
     horizon: Means,
     long: Means,
 }
@@ -296,6 +301,7 @@ impl Energy {
         Self {
             start,
             scale: truth.energy_scale,
+            percent: truth.energy_scale.zip(truth.exchanged_j).map(|(a, b)| 100.0 * a / b),
             horizon: Means::over(horizon),
             long: Means::over(end),
         }

@@ -4,6 +4,8 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
 use super::survey::{Moment, Ranges, walk};
+use crate::lab::extent::Extent;
+use crate::lab::lane::check;
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Coordinate, Input};
 use crate::sim::integrators::StepFailure;
@@ -47,6 +49,8 @@ pub(super) struct BodyTruth {
     /// The energy in motion in joules: the largest kinetic energy, which is all of an oscillator's. `None` where none is
     /// conserved, or nothing moves.
     pub(super) energy_scale: Option<f64>,
+    /// The energy that the motion exchanges, in joules, as the metric of energy drift has it.
+    pub(super) exchanged_j: Option<f64>,
     pub(super) swing: Option<Swing>,
     /// Why the truth is not known over the whole horizon, if it is not.
     pub(super) failure: Option<StepFailure>,
@@ -99,6 +103,7 @@ impl BodyTruth {
             reach: Vec::new(),
             modes: None,
             energy_scale: None,
+            exchanged_j: None,
             swing: None,
             failure: None,
             courses: Mutex::default(),
@@ -123,21 +128,22 @@ impl BodyTruth {
         let n = body.q().len();
         let most = (MOST_PRODUCTS / (n * n)).clamp(FEWEST_MOMENTS, MOST_MOMENTS);
         self.modes = normal_modes(&*body).map(|modes| shares(&*body, modes));
-        let still = self.start(Solver::Truth);
+        let mut there = self.start(Solver::Truth);
         let mut ranges = Ranges::at(&*body);
-        let mut kinetic = kinetic_energy(&*still, &Moment::of(&*still, 0.0)).unwrap_or(0.0);
-        let mut conserves = body.energy().is_some();
+        let mut kinetic: f64 = body.kinetic_energy().unwrap_or(0.0);
+        let mut extent = Extent::default();
+        extent.cover(0.0, body.kinetic_energy());
+        let conserves = body.energy().is_some();
         let walked = walk(&mut *body, self.horizon_s, most, |from, to| {
             ranges.take_in(from, to);
-            if conserves {
-                for moment in fastest(from, to) {
-                    match kinetic_energy(&*still, &moment) {
-                        Some(energy) => kinetic = energy.max(kinetic),
-                        None => conserves = false,
-                    }
-                }
+            for moment in fastest(from, to).into_iter().filter(|_| conserves) {
+                there.set(0.0, &moment.x[..n], &moment.x[n..]);
+                let now = there.kinetic_energy();
+                kinetic = kinetic.max(now.unwrap_or(0.0));
+                extent.cover(0.0, now);
             }
         });
+        self.exchanged_j = extent.exchanged_j();
         self.failure = walked.err();
         self.amplitudes = amplitudes(&ranges.0, self.coordinates());
         self.energy_scale =
@@ -244,9 +250,8 @@ impl BodyTruth {
         let mut gap: f64 = 0.0;
         for tick in 0..ticks(self.horizon_s, tick_hz) {
             let advanced = body.advance(tick as f64 / hz, 1.0 / hz, 1);
-            let failure = advanced.err().or_else(|| stray(&*body, self.coordinates()));
-            if failure.is_some() {
-                course.failure = failure;
+            if let Err(failure) = advanced.and_then(|()| check(&*body, self.coordinates())) {
+                course.failure = Some(failure);
                 break;
             }
             course.values.extend(body.q().iter().chain(body.v()));
@@ -271,18 +276,6 @@ pub(super) fn window(part: f64, count: usize) -> usize {
     ((part * count as f64) as usize).min(count - 1)
 }
 
-/// Why a body cannot be followed in the state that it is in.
-pub(super) fn stray(body: &dyn Stepper, coordinates: &[Coordinate]) -> Option<StepFailure> {
-    let names = coordinates.iter();
-    let q = names.clone().map(|c| c.name).zip(body.q());
-    let v = names.map(|c| c.velocity).zip(body.v());
-    q.chain(v).find_map(|(coordinate, &value)| match value {
-        _ if !value.is_finite() => Some(StepFailure::NotFinite { coordinate, value }),
-        _ if value.abs() > crate::lab::ESCAPE => Some(StepFailure::Escaped { coordinate, value }),
-        _ => None,
-    })
-}
-
 /// When coordinate `i` passes `level` between two moments, in seconds.
 fn crossing(from: &Moment, to: &Moment, i: usize, level: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
@@ -304,17 +297,6 @@ fn fastest(from: &Moment, to: &Moment) -> Vec<Moment> {
         Moment { t: from.t + part * (to.t - from.t), x, slope: to.slope.clone() }
     };
     steps.map(at).collect()
-}
-
-/// What the motion takes of the body's energy at this moment, in joules; `None` where it conserves none.
-fn kinetic_energy(body: &dyn Stepper, at: &Moment) -> Option<f64> {
-    let (q, v) = at.x.split_at(at.x.len() / 2);
-    let energy = |v: &[f64]| {
-        let mut there = body.with_solver(Solver::Truth, 0.0);
-        there.set(0.0, q, v);
-        there.energy()
-    };
-    Some(energy(v)? - energy(&vec![0.0; v.len()])?)
 }
 
 /// The share of each mode in the energy of the motion of `body` about its rest.

@@ -5,9 +5,9 @@ use glam::DVec2;
 use super::palette::{self, style};
 use super::sketch::{Camera, line};
 use super::{Align, Label, Picture, Rect, Rgba};
-use crate::lab::Lab;
 use crate::lab::number::{round, significant};
 use crate::lab::race::Entrant;
+use crate::lab::{Halt, Lab, LaneBody};
 use crate::sim::bodies::Coordinate;
 
 /// The least height of a cell, in points, that marks along its bottom do not crowd.
@@ -43,11 +43,33 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, lab: &Lab, entrant: &Entra
         write(middle, colour, format!("{number}"));
         return;
     }
-    let halted = entrant.lane.halted();
-    let y = if halted.is_some() { middle - 8.0 } else { middle };
+    // Of several bodies, each has its own cell to say so in.
+    let alone = match entrant.lane.bodies() {
+        [body] => body.halted(),
+        _ => None,
+    };
+    let y = if alone.is_some() { middle - 8.0 } else { middle };
     write(y, colour, format!("{number} {}", method.name));
-    if let Some(halt) = halted {
+    if let Some(halt) = alone {
         write(middle + 8.0, palette::ALARM, format!("halted, tick {}", halt.tick));
+    }
+}
+
+/// Says at the foot of a cell what no longer goes on in it: the body, where the lane's name does not say so, and
+/// the truth.
+pub(super) fn halts(picture: &mut Picture, rect: Rect, body: Option<&Halt>, truth: &LaneBody) {
+    let width = rect.max[0] - rect.min[0];
+    if width < ROOM_FOR_CAPTION[0] {
+        return;
+    }
+    let of_body = body.map(|halt| format!("halted, tick {}", halt.tick));
+    let of_truth = truth
+        .halted()
+        .map(|halt| format!("no {} solution from tick {} on", truth.kind.truth.id(), halt.tick));
+    for (text, y) in of_body.into_iter().chain(of_truth).zip([12.0, 27.0]) {
+        let at = [rect.min[0] + 9.0, rect.max[1] - y];
+        let (colour, size) = (palette::ALARM, 11.0);
+        picture.labels.push(Label { at, align: Align::Left, size, colour, text });
     }
 }
 
@@ -80,7 +102,7 @@ pub(super) fn solo(
     picture.labels.push(Label { at, align: Align::Left, size, colour, text });
 
     let at = [rect.max[0] - 9.0, at[1]];
-    if let Some(halt) = lab.race().entrants()[0].lane.halted() {
+    if let Some(halt) = lab.race().entrants()[0].lane.bodies()[index].halted() {
         let (colour, text) = (palette::ALARM, format!("halted at tick {}", halt.tick));
         picture.labels.push(Label { at, align: Align::Right, size, colour, text });
     } else if width > ROOM_FOR_NUMBERS {

@@ -169,6 +169,7 @@ impl Shown<'_> {
         let exact = Paint { colour: faded(palette::TRUTH, 0.75), line_width: 1.0, grow: 1.6 };
 
         let white = faded(palette::TRUTH, 0.55);
+        let shows_ghost = self.lab.display().ghost && truth.halted().is_none();
 
         picture.seas.push(self.sea(&camera, view));
         match view {
@@ -176,20 +177,20 @@ impl Shown<'_> {
                 self.wake(picture, &camera, pen.at, history, width_m, wake_s);
             }
             View::Recorder { .. } => {
-                if self.lab.display().ghost {
+                if shows_ghost {
                     self.recorded(picture, &camera, ghost.at, truth_history, |_| white);
                 }
                 self.recorded(picture, &camera, pen.at, history, |sample| self.colour(sample));
                 envelope(picture, &camera, truth_history);
             }
             View::Fixed { trail_s, .. } => {
-                if self.lab.display().ghost {
+                if shows_ghost {
                     self.path(picture, &camera, ghost.at, truth_history, trail_s, |_| white);
                 }
                 self.path(picture, &camera, pen.at, history, trail_s, |s| self.colour(s));
             }
         }
-        if self.lab.display().ghost {
+        if shows_ghost {
             picture.strokes.extend(strokes(&ghost.marks, &camera, exact));
         }
         picture.strokes.extend(strokes(&pen.marks, &camera, own));
@@ -206,8 +207,13 @@ impl Shown<'_> {
             Mode::Solo => {
                 let shown = (&body.coordinates[0], q[0], v[0]);
                 captions::solo(picture, rect, self.lab, index, shown);
+                captions::halts(picture, rect, None, truth);
             }
-            Mode::Race => {}
+            Mode::Race => {
+                let is_alone = entrant.lane.bodies().len() == 1;
+                let halt = body.halted().filter(|_| !is_alone);
+                captions::halts(picture, rect, halt, truth);
+            }
         }
     }
 

@@ -49,7 +49,8 @@ impl Shown<'_> {
         trail_s: f64,
     ) -> impl Iterator<Item = (f64, &'h Sample)> {
         let shown = self.t;
-        let recent = move |s: &&Sample| shown - s.t < trail_s;
+        let unbroken_since = history.unbroken_since();
+        let recent = move |s: &&Sample| shown - s.t < trail_s && s.t >= unbroken_since;
         let count = history.samples().rev().take_while(recent).count();
         let every = count.div_ceil(TRAIL_POINTS).max(1);
         let newest_first = history.samples().rev().take_while(recent).step_by(every);

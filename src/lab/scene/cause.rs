@@ -71,6 +71,8 @@ pub(super) enum Cause {
     DuplicateLane { lane: LaneSpec, line: usize },
     #[error("lanes are given twice, as `methods` and as `[[lane]]`")]
     TwoLaneLists,
+    #[error("`{key}` is {method:?}, which no lane of this scene has")]
+    NotALane { key: &'static str, method: &'static str, known: Vec<&'static str> },
     #[error("`{key}` means nothing to {method:?}")]
     NoTolerance { key: &'static str, method: &'static str },
     #[error("the command does nothing")]
@@ -159,6 +161,9 @@ impl Cause {
                 format!("remove one, or give it other `substeps`{or} in a `[[lane]]`")
             }
             Cause::TwoLaneLists => "keep one of them".into(),
+            Cause::NotALane { known, .. } => {
+                format!("write one of {}, or give it a lane", list(known, '"', ", "))
+            }
             Cause::NoTolerance { .. } => {
                 let adaptive = METHODS.iter().filter(|method| method.tolerance.is_some());
                 let adaptive: Vec<_> = adaptive.map(|method| method.id).collect();

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::lab::Command;
 use crate::sim::bodies::{BODIES, Kind, LARGEST, Parameter, Range};
-use crate::sim::integrators::METHODS;
+use crate::sim::integrators::{METHODS, Method};
 
 /// The most characters of a title: it stands in the window's title bar.
 const MOST_TITLE_CHARS: usize = 80;
@@ -31,7 +31,8 @@ const HINT: Field = optional("hint");
 const TICK_HZ: Field = required("tick_hz", "ticks a second");
 const SECONDS: Field = required("seconds", "how long it runs");
 const METHOD_LIST: Field = optional("methods");
-const TOP: [Field; 6] = [TITLE, ABOUT, HINT, TICK_HZ, SECONDS, METHOD_LIST];
+const OPENING_METHOD: Field = optional("method");
+const TOP: [Field; 7] = [TITLE, ABOUT, HINT, TICK_HZ, SECONDS, METHOD_LIST, OPENING_METHOD];
 
 const NAME: Field = optional("name");
 
@@ -104,6 +105,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let tick_hz = top.whole(TICK_HZ, 1..=MOST_TICK_HZ);
     let seconds = top.number(SECONDS, Range::Between(LEAST_SECONDS, MOST_SECONDS));
     let lanes = read_lanes(text, &mut top);
+    let opening_method = read_opening_method(&lanes, &mut top);
     let bodies = read_bodies(&mut top);
     check_names(text, &bodies, &mut top);
     let script = read_script(&bodies, &mut top);
@@ -121,7 +123,18 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     match (title, tick_hz, seconds) {
         (Some(title), Some(tick_hz), Some(seconds)) if errors.is_empty() => {
             let (name, bodies) = (name.into(), finish_bodies(bodies));
-            Ok(Scene { name, title, about, hint, tick_hz, seconds, lanes, bodies, script })
+            Ok(Scene {
+                name,
+                title,
+                about,
+                hint,
+                tick_hz,
+                seconds,
+                lanes,
+                opening_method,
+                bodies,
+                script,
+            })
         }
         _ => Err(errors),
     }
@@ -168,6 +181,22 @@ fn read_lanes(text: &str, top: &mut Table<'_>) -> Vec<LaneSpec> {
     } else {
         METHODS.iter().map(LaneSpec::plain).collect()
     }
+}
+
+/// The method to open with, which has to be a lane's: what a person sees first is then among what races.
+fn read_opening_method(lanes: &[LaneSpec], top: &mut Table<'_>) -> Option<&'static Method> {
+    let method = top.method(OPENING_METHOD)?;
+    if !lanes.is_empty() && !lanes.iter().any(|lane| lane.method == method) {
+        let mut known: Vec<&str> = Vec::new();
+        for lane in lanes {
+            if !known.contains(&lane.method.id) {
+                known.push(lane.method.id);
+            }
+        }
+        let cause = Cause::NotALane { key: OPENING_METHOD.key, method: method.id, known };
+        top.complain(top.span(OPENING_METHOD.key), cause);
+    }
+    Some(method)
 }
 
 /// A body as the file describes it, faults included.

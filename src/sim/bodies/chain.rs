@@ -246,14 +246,19 @@ impl Body for Chain {
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
-        let kinetic: f64 = state.v.iter().map(|v| self.mass * v * v).sum();
+        let kinetic = self.kinetic_energy(state)?;
         let mut last = 0.0;
         let mut potential = 0.0;
         for &q in state.q.iter().chain([&0.0]) {
             potential += self.stiffness * (q - last) * (q - last);
             last = q;
         }
-        (self.damping == 0.0).then_some((kinetic + potential) / 2.0)
+        Some(kinetic + potential / 2.0)
+    }
+
+    fn kinetic_energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
+        let twice: f64 = state.v.iter().map(|v| self.mass * v * v).sum();
+        (self.damping == 0.0).then_some(twice / 2.0)
     }
 
     fn input(&mut self, input: Input, state: &mut State<Vec<f64>>) -> bool {

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::reference::REFERENCE_ACCURACY;
 use super::stepper::{Solver, Stepper};
-use super::system::{State, System};
+use super::system::{State, System, Vector};
 
 mod chain;
 mod helm;
@@ -101,6 +101,14 @@ pub trait Body: System + Clone + Send + 'static {
 
     /// The conserved energy in joules, or `None` where none is conserved.
     fn energy(&self, state: &State<Self::Vector>) -> Option<f64>;
+
+    /// The part of that energy that is the motion's, in joules: what would be missing at rest in the same
+    /// place. A body whose coordinates are on the heap says so without allocating.
+    fn kinetic_energy(&self, state: &State<Self::Vector>) -> Option<f64> {
+        let mut still = state.clone();
+        still.v.components_mut().fill(0.0);
+        Some(self.energy(state)? - self.energy(&still)?)
+    }
 
     /// Changes the body or its state at once. Returns whether the body takes that kind of input.
     fn input(&mut self, input: Input, state: &mut State<Self::Vector>) -> bool;

@@ -5,7 +5,7 @@ use egui::{Align2, Color32, FontId, Id, Pos2, Rect, ScrollArea, Sense, Ui, Vec2,
 use super::{QUIET, RAISED, TEXT, colour};
 use crate::lab::number::significant;
 use crate::lab::picture::palette;
-use crate::lab::{Command, Entrant, Lab, LaneSpec, METRICS, Metric, Mode};
+use crate::lab::{Command, Entrant, Halt, Lab, LaneSpec, METRICS, Metric, Mode};
 use crate::view::plot;
 
 const ROW: f32 = 20.0;
@@ -205,18 +205,20 @@ const COLUMNS: &[Column] = &[
         },
     },
     Column {
-        head: |_| "evaluations".into(),
-        width: 84.0,
+        head: |lab| of_body(lab, "evaluations"),
+        width: 110.0,
         grows: false,
-        from_width: 860.0,
+        from_width: 886.0,
         align: Side::Right,
         paint: |ui, row, rect, left, column| {
-            let text = row.entrant.map_or(String::new(), |e| format!("{}", e.lane.evaluations()));
+            let body = row.lab.display().body;
+            let lane = row.entrant.map(|entrant| &entrant.lane.bodies()[body]);
+            let text = lane.map_or(String::new(), |lane| format!("{}", lane.stepper.evaluations()));
             write(ui, row, rect, left, column, text, true);
         },
     },
     Column {
-        head: |lab| format!("{} error", lab.scene().bodies[lab.display().body].name),
+        head: |lab| of_body(lab, "error"),
         width: 110.0,
         grows: false,
         from_width: 0.0,
@@ -235,11 +237,16 @@ const COLUMNS: &[Column] = &[
         head: |lab| format!("  verdict at {} Hz", lab.clock().tick_hz()),
         width: 60.0,
         grows: true,
-        from_width: 940.0,
+        from_width: 966.0,
         align: Side::Left,
         paint: fate,
     },
 ];
+
+/// What a column is about, for the body displayed.
+fn of_body(lab: &Lab, what: &str) -> String {
+    format!("{} {what}", lab.scene().bodies[lab.display().body].name)
+}
 
 fn lefts(columns: &[&Column], width: f32) -> Vec<f32> {
     let fixed: f32 = columns.iter().map(|column| column.width + 8.0).sum();
@@ -270,10 +277,13 @@ fn write(
 
 fn metric(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column, id: &str) {
     let metric = METRICS.iter().find(|metric| metric.id == id);
-    let text = metric.and_then(|metric| {
-        let value = row.measure(metric)?;
-        let body = &row.lab.race().truth().bodies()[row.lab.display().body];
-        Some(format!("{} {}", significant(value, 3), metric.unit.on(&body.coordinates[0])))
+    let truth = &row.lab.race().truth().bodies()[row.lab.display().body];
+    let text = metric.zip(row.entrant).and_then(|(metric, _)| match truth.halted() {
+        Some(_) => Some("no truth".into()),
+        None => {
+            let value = row.measure(metric)?;
+            Some(format!("{} {}", significant(value, 3), metric.unit.on(&truth.coordinates[0])))
+        }
     });
     write(ui, row, rect, left, column, text.unwrap_or_default(), false);
 }
@@ -290,13 +300,20 @@ fn swatch(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, _column: &Column) {
 /// What became of the lane, or else what is to be said of its method.
 fn fate(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column) {
     let at = column.align.anchor(rect, left + 8.0, column.width);
-    let (text, colour) = match row.entrant.map(|entrant| entrant.lane.halted()) {
-        Some(Some(halt)) => {
+    let mut halts: Vec<&Halt> = row.entrant.iter().flat_map(|e| e.lane.halts()).collect();
+    // The displayed body first: of several, not all may fit.
+    halts.sort_by_key(|halt| halt.body != row.lab.display().body);
+    let halts: Vec<String> = halts
+        .into_iter()
+        .map(|halt| {
             let body = &row.lab.scene().bodies[halt.body].name;
-            let text = format!("halted at tick {}: {body} {}", halt.tick, halt.failure);
-            (text, colour(palette::ALARM))
-        }
-        _ => match row.lab.verdict(row.index) {
+            format!("{body} halted at tick {}: {}", halt.tick, halt.failure)
+        })
+        .collect();
+    let halts = halts.join("; ");
+    let (text, colour) = match halts.is_empty() {
+        false => (halts, colour(palette::ALARM)),
+        true => match row.lab.verdict(row.index) {
             Some(verdict) => (verdict.to_string(), super::tone(verdict.word)),
             None => return,
         },

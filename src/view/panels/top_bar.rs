@@ -3,7 +3,7 @@
 use egui::{Align, Button, ComboBox, Label, Layout, RichText, Ui};
 
 use super::{ACCENT, QUIET};
-use crate::lab::{Command, Lab, Mode, SCENES, SPEED_LADDER, TICK_LADDER};
+use crate::lab::{Command, Lab, Mode, Pace, SCENES, SPEED_LADDER, TICK_LADDER};
 
 pub(super) const HEIGHT: f32 = 34.0;
 
@@ -109,17 +109,20 @@ fn tick_rate_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 fn pace(ui: &mut Ui, lab: &Lab) {
+    // Paused, no frame is drawn but for an event, and no time goes by.
+    if !lab.running() {
+        ui.label(RichText::new("paused").color(ACCENT));
+        return;
+    }
     let text = match lab.pace() {
-        Some(pace) => {
-            format!("{:5.1} fps · {:.2}× real time", pace.frames_per_second, pace.real_time_factor)
+        Some(Pace::Measured { frames_per_second, real_time_factor }) => {
+            format!("{frames_per_second:5.1} fps · {real_time_factor:.2}× real time")
         }
+        Some(Pace::Unknown) => return,
         None => "scripted time".into(),
     };
     ui.label(RichText::new(text).monospace().color(QUIET))
-        .on_hover_text("frames drawn a second · simulated seconds in a second");
-    if !lab.running() {
-        ui.label(RichText::new("paused").color(ACCENT));
-    }
+        .on_hover_text("frames drawn per second · simulated seconds per second");
 }
 
 fn button(ui: &mut Ui, text: &str, hover: &str, command: Command, commands: &mut Vec<Command>) {

@@ -1,0 +1,255 @@
+//! The built-in scenes open on the method that makes their point, and what their hints promise comes about
+//! when the keys are pressed as they say.
+
+use regatta::lab::{Command, Key, Lab, Mode, SCENES, Scene, command_for};
+use regatta::sim::integrators::METHODS;
+
+const C: Key = Key::Sign('c');
+const LOWER_RATE: Key = Key::Sign('[');
+const HIGHER_RATE: Key = Key::Sign(']');
+
+fn open(name: &str) -> Lab {
+    Lab::new(Scene::built_in(name).expect("a built-in scene"))
+}
+
+fn press(lab: &mut Lab, keys: &[Key]) {
+    for &key in keys {
+        let (command, _) = command_for(key).expect("a key of the table");
+        lab.apply(command);
+    }
+}
+
+/// Ticks through so many simulated seconds, and returns the largest |q| of the first coordinate of a body in the
+/// first lane on the way.
+fn largest(lab: &mut Lab, body: usize, seconds: f64) -> f64 {
+    let end = lab.race().t() + seconds;
+    let mut largest = 0.0_f64;
+    while lab.race().t() < end {
+        lab.tick();
+        largest = largest.max(lab.race().entrants()[0].lane.bodies()[body].stepper.q()[0].abs());
+    }
+    largest
+}
+
+/// Ticks through so many simulated seconds, and returns the largest distance of each lane's first body from the
+/// truth on the way.
+fn largest_errors(lab: &mut Lab, seconds: f64) -> Vec<f64> {
+    let end = lab.race().t() + seconds;
+    let mut errors = vec![0.0_f64; lab.race().entrants().len()];
+    while lab.race().t() < end {
+        lab.tick();
+        let truth = lab.race().truth().bodies()[0].stepper.place();
+        for (error, entrant) in errors.iter_mut().zip(lab.race().entrants()) {
+            *error = error.max((entrant.lane.bodies()[0].stepper.place() - truth).length());
+        }
+    }
+    errors
+}
+
+/// Whether the swing of a body, over its next ten seconds, stays what it is.
+fn holds(lab: &mut Lab, body: usize) -> bool {
+    let before = largest(lab, body, 2.0);
+    (0..5).all(|_| largest(lab, body, 2.0) < 1.1 * before)
+}
+
+#[test]
+fn every_scene_names_the_lane_that_it_opens_with() {
+    for scene in SCENES {
+        let parsed = Scene::built_in(scene.name).expect("a built-in scene");
+        let opening = parsed.opening_method.expect("every built-in scene names one");
+        assert!(parsed.lanes.iter().any(|lane| lane.method == opening), "{}", scene.name);
+        let lab = Lab::new(parsed);
+        assert_eq!(lab.entries()[lab.active()].method, opening, "{}", scene.name);
+        assert_eq!(lab.mode(), Mode::Solo);
+    }
+}
+
+#[test]
+fn a_scene_opens_with_a_lane_of_its_own_and_never_with_another_method() {
+    for method in METHODS {
+        let text = |opening: &str| {
+            format!(
+                "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['{}', 'rk4-as-printed']\n{opening}\n\
+                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\n",
+                method.id
+            )
+        };
+        let opened = |text: &str| {
+            let Ok(scene) = Scene::parse("x.toml", text) else { return None };
+            let lab = Lab::new(scene);
+            Some(lab.entries()[lab.active()].method.id)
+        };
+        if method.id != "rk4-as-printed" {
+            assert_eq!(opened(&text("")), Some(method.id), "the first lane's");
+            assert_eq!(opened(&text("method = 'rk4-as-printed'")), Some("rk4-as-printed"));
+        }
+    }
+}
+
+#[test]
+fn the_next_scene_opens_with_its_own_method_whatever_was_flown_before() {
+    let mut lab = open("harbour");
+    press(&mut lab, &[Key::Digit(4)]);
+    for _ in SCENES {
+        press(&mut lab, &[Key::Sign('n')]);
+        assert_eq!(Some(lab.entries()[lab.active()].method), lab.scene().opening_method);
+    }
+}
+
+#[test]
+fn the_springs_gain_energy_until_2_is_pressed() {
+    for (scene, bodies) in [("spring", 0..1), ("harbour", 0..2)] {
+        for body in bodies {
+            let mut lab = open(scene);
+            assert!(largest(&mut lab, body, 10.0) > 5.0, "{scene}");
+            press(&mut lab, &[Key::Digit(2)]);
+            assert!(holds(&mut lab, body), "{scene}");
+        }
+    }
+}
+
+#[test]
+fn the_stiff_spring_blows_up_two_presses_lower_and_holds_again_two_higher_after_a_restart() {
+    let mut lab = open("stiff");
+    let seconds = lab.scene().seconds;
+    assert!(largest(&mut lab, 0, seconds) < 2.0, "it holds at first");
+    press(&mut lab, &[LOWER_RATE, LOWER_RATE]);
+    assert_eq!(lab.clock().tick_hz(), 49);
+    largest(&mut lab, 0, seconds);
+    assert!(lab.race().entrants()[0].lane.halted().is_some_and(|halt| halt.is_blow_up()));
+    press(&mut lab, &[HIGHER_RATE, HIGHER_RATE, Key::Home]);
+    assert_eq!(lab.clock().tick_hz(), 60);
+    assert!(largest(&mut lab, 0, seconds) < 2.0);
+}
+
+#[test]
+fn the_chain_is_lost_four_presses_lower() {
+    let mut lab = open("chain");
+    press(&mut lab, &[Key::Sign('k')]);
+    assert!(largest(&mut lab, 0, 5.0) < 3.0);
+    press(&mut lab, &[LOWER_RATE; 4]);
+    assert_eq!(lab.clock().tick_hz(), 20);
+    assert!(largest(&mut lab, 0, 5.0) > 1e3);
+}
+
+#[test]
+fn the_pendulum_goes_over_the_top_and_after_2_and_a_restart_never_does() {
+    let mut lab = open("pendulum");
+    assert!(largest(&mut lab, 0, 5.0) > std::f64::consts::PI);
+    press(&mut lab, &[Key::Digit(2), Key::Home]);
+    assert!(largest(&mut lab, 0, 600.0) < std::f64::consts::PI);
+}
+
+#[test]
+fn ship_and_ellipses_are_truer_at_a_higher_tick_rate() {
+    for (scene, seconds) in [("ship", 20.0), ("orbit", 6.0)] {
+        let mut lab = open(scene);
+        press(&mut lab, &[C]);
+        let coarse = largest_errors(&mut lab, seconds);
+        press(&mut lab, &[HIGHER_RATE, Key::Home]);
+        let fine = largest_errors(&mut lab, seconds);
+        for (entrant, (coarse, fine)) in lab.race().entrants().iter().zip(coarse.iter().zip(&fine))
+        {
+            let method = lab.entries()[entrant.entry].method;
+            // An adaptive method chooses its own steps.
+            assert!(fine < coarse || method.tolerance.is_some(), "{scene} {}", method.id);
+        }
+    }
+}
+
+#[test]
+fn explicit_euler_is_calm_on_all_three_ships_one_press_higher() {
+    let mut lab = open("surge");
+    press(&mut lab, &[C]);
+    largest(&mut lab, 0, 20.0);
+    press(&mut lab, &[HIGHER_RATE]);
+    assert_eq!(lab.clock().tick_hz(), 2);
+    largest(&mut lab, 0, 10.0);
+    let entrant = &lab.race().entrants()[0];
+    assert_eq!(lab.entries()[entrant.entry].method.id, "explicit-euler");
+    for body in entrant.lane.bodies() {
+        assert!((body.stepper.v()[0] - 20.0).abs() < 1e-3, "{}", body.stepper.v()[0]);
+    }
+}
+
+#[test]
+fn the_arrows_steer_the_helm_from_the_first_press_on() {
+    let mut lab = open("helm");
+    press(&mut lab, &[Key::Right, Key::Right, Key::Up, Key::Down]);
+    assert_eq!((lab.rudder(), lab.throttle()), (-0.2, 0.9));
+    for _ in 0..300 {
+        lab.tick();
+        assert_eq!(lab.rudder(), -0.2, "at tick {}", lab.race().tick());
+    }
+    let heading = lab.race().truth().bodies()[0].stepper.q()[2];
+    assert!(heading < -1.0, "to the right: {heading}");
+    press(&mut lab, &[C]);
+    assert_eq!(lab.mode(), Mode::Race);
+}
+
+/// The helm's script with a method and a tick rate in it.
+fn scripted() -> Lab {
+    let more = "[[command]]\ntick = 20\nmethod = \"rk4\"\n[[command]]\ntick = 30\ntick_hz = 10\n\
+                [[command]]\ntick = 40\nthrottle = 0.5\n";
+    let text = SCENES.iter().find(|scene| scene.name == "helm").unwrap().text;
+    Lab::new(Scene::parse("helm.toml", &format!("{text}{more}")).unwrap())
+}
+
+fn controls(lab: &Lab) -> (&'static str, u32, f64, f64) {
+    let method = lab.entries()[lab.active()].method.id;
+    (method, lab.clock().tick_hz(), lab.throttle(), lab.rudder())
+}
+
+#[test]
+fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_so_once() {
+    for (command, name, expected) in [
+        (Command::Rudder(0.3), "rudder", ("rk4", 10, 0.5, 0.3)),
+        (Command::RudderLeft, "rudder", ("rk4", 10, 0.5, 0.1)),
+        (Command::ThrottleDown, "throttle", ("rk4", 10, 0.9, 1.0)),
+        (Command::Pick(2), "method", ("improved-euler", 10, 0.5, 1.0)),
+        (Command::NextMethod, "method", ("semi-implicit-euler", 10, 0.5, 1.0)),
+        (Command::TickHz(7), "tick rate", ("rk4", 7, 0.5, 1.0)),
+        (Command::TickRateUp, "tick rate", ("rk4", 10, 0.5, 1.0)),
+        // A hand on the wheel is one, though it turns nothing.
+        (Command::Rudder(0.0), "rudder", ("rk4", 10, 0.5, 0.0)),
+    ] {
+        let mut lab = scripted();
+        assert_eq!(lab.notice(), None);
+        lab.apply(command);
+        let said = format!("the {name} is yours: the script leaves it alone until a restart");
+        assert_eq!(lab.notice(), Some(&*said), "{command:?}");
+        (0..60).for_each(|_| lab.tick());
+        assert_eq!(controls(&lab), expected, "{command:?}");
+
+        lab.apply(Command::Restart);
+        (0..60).for_each(|_| lab.tick());
+        assert_eq!(controls(&lab), ("rk4", 10, 0.5, 1.0), "the script has all in hand again");
+    }
+}
+
+#[test]
+fn taking_the_same_control_again_is_not_told_again() {
+    let mut lab = scripted();
+    lab.apply(Command::Rudder(0.3));
+    lab.set_notice("something else");
+    lab.apply(Command::RudderRight);
+    assert_eq!(lab.notice(), Some("something else"));
+    lab.apply(Command::Throttle(0.1));
+    assert_eq!(
+        lab.notice(),
+        Some("the throttle is yours: the script leaves it alone until a restart")
+    );
+}
+
+#[test]
+fn where_no_script_is_to_come_there_is_nothing_to_tell() {
+    let mut lab = open("spring");
+    for command in [Command::Pick(3), Command::TickRateUp, Command::Throttle(0.3)] {
+        lab.apply(command);
+        assert_eq!(lab.notice(), None, "{command:?}");
+    }
+    let mut lab = open("helm");
+    (0..200).for_each(|_| lab.tick());
+    lab.apply(Command::Rudder(0.5));
+    assert_eq!(lab.notice(), None, "the script is over");
+}

@@ -1,0 +1,77 @@
+//! What trails and plots are drawn from: every sample knows the method that it was flown under, a switch leaves a
+//! mark, and the newest sample is the present.
+
+use regatta::lab::{Command, History, Lab, Scene};
+
+fn lab(seconds: f64, tick_hz: u32) -> Lab {
+    let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
+    Lab::new(scene)
+}
+
+fn history(lab: &Lab) -> &History {
+    &lab.race().entrants()[0].histories[0]
+}
+
+const FRAME_NS: i64 = 16_666_667;
+
+#[test]
+fn the_newest_sample_is_the_present_after_every_frame_however_rare_samples_are() {
+    // A sample at every 49th tick.
+    let mut lab = lab(100.0, 1000);
+    for frame in 0..300 {
+        lab.advance(FRAME_NS);
+        let newest = history(&lab).samples().last().unwrap();
+        assert_eq!(newest.t, lab.race().t(), "after frame {frame}");
+        let stepper = &lab.race().entrants()[0].lane.bodies()[0].stepper;
+        assert_eq!((newest.q, newest.v), (stepper.q()[0], stepper.v()[0]));
+        let truth = lab.race().truth_histories()[0].samples().last().unwrap();
+        assert_eq!(truth.t, lab.race().t());
+    }
+    let count = history(&lab).samples().len();
+    assert!((100..=104).contains(&count), "{count} samples of 5 s");
+    lab.apply(Command::TickForward);
+    assert_eq!(history(&lab).samples().last().unwrap().t, lab.race().t());
+}
+
+#[test]
+fn a_switch_in_flight_keeps_the_method_of_the_past_and_marks_its_moment() {
+    for (tick_hz, seconds) in [(60, 20.0), (1000, 100.0)] {
+        let mut lab = lab(seconds, tick_hz);
+        let mut switched_at = Vec::new();
+        for pick in [1, 3, 0] {
+            for _ in 0..50 {
+                lab.advance(FRAME_NS);
+            }
+            switched_at.push(lab.race().t());
+            lab.apply(Command::Pick(pick));
+        }
+        lab.advance(FRAME_NS);
+        let runs: Vec<(usize, f64, f64)> = history(&lab)
+            .runs()
+            .map(|mut run| {
+                let first = run.samples.next().unwrap().t;
+                (run.entry, first, run.samples.last().map_or(first, |sample| sample.t))
+            })
+            .collect();
+        let [a, b, c] = switched_at[..] else { panic!() };
+        assert_eq!(runs, [(0, 0.0, a), (1, a, b), (3, b, c), (0, c, lab.race().t())]);
+        let samples = history(&lab).samples();
+        assert!(samples.clone().zip(samples.skip(1)).all(|(one, next)| one.t <= next.t));
+    }
+}
+
+#[test]
+fn a_method_switched_to_itself_leaves_no_mark() {
+    let flown = |picks: bool| {
+        // A sample at every 49th tick.
+        let mut lab = lab(100.0, 1000);
+        for _ in 0..100 {
+            lab.advance(FRAME_NS);
+            if picks {
+                lab.apply(Command::Pick(lab.active()));
+            }
+        }
+        history(&lab).samples().map(|sample| sample.t).collect::<Vec<_>>()
+    };
+    assert_eq!(flown(true), flown(false));
+}

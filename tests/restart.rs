@@ -1,0 +1,56 @@
+//! A restart goes back to the start line, and keeps what a person chose and nothing of what the script did.
+
+use regatta::lab::{Command, Lab, SCENES, Scene};
+
+/// The ship, whose script changes method and tick rate.
+fn scripted() -> Lab {
+    let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
+    let script = "[[command]]\ntick = 3\ntick_hz = 100\n[[command]]\ntick = 4\nmethod = \"rk4\"\n";
+    Lab::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap())
+}
+
+fn settings(lab: &Lab) -> (u32, u32, &'static str) {
+    let method = lab.entries()[lab.active()].method.id;
+    (lab.clock().tick_hz(), lab.race().tick_hz(), method)
+}
+
+#[test]
+fn a_restart_takes_back_what_the_script_did() {
+    let mut lab = scripted();
+    (0..10).for_each(|_| lab.tick());
+    assert_eq!(settings(&lab), (100, 100, "rk4"));
+    lab.apply(Command::Restart);
+    assert_eq!(settings(&lab), (2, 2, "explicit-euler"));
+    assert_eq!((lab.race().tick(), lab.race().t()), (0, 0.0));
+    (0..10).for_each(|_| lab.tick());
+    assert_eq!(settings(&lab), (100, 100, "rk4"), "the script plays again");
+}
+
+#[test]
+fn a_restart_keeps_the_rate_and_the_method_that_a_person_chose() {
+    let mut lab = scripted();
+    (0..10).for_each(|_| lab.tick());
+    lab.apply(Command::TickHz(7));
+    lab.apply(Command::Pick(2));
+    lab.apply(Command::Restart);
+    assert_eq!(settings(&lab), (7, 7, "improved-euler"));
+}
+
+#[test]
+fn a_restart_owes_no_part_of_a_tick_and_keeps_the_speed() {
+    let mut lab = scripted();
+    lab.apply(Command::SpeedPercent(50));
+    lab.advance(200_000_000);
+    lab.advance(200_000_000);
+    assert_eq!((lab.race().tick(), lab.clock().alpha()), (0, 0.4));
+    lab.apply(Command::Restart);
+    assert_eq!((lab.clock().alpha(), lab.clock().speed_percent()), (0.0, 50));
+    lab.advance(0);
+    assert_eq!(lab.race().tick(), 0);
+    for _ in 0..4 {
+        lab.advance(249_000_000);
+    }
+    assert_eq!(lab.race().tick(), 0, "a tick takes a second of real time at this speed");
+    lab.advance(4_000_000);
+    assert_eq!(lab.race().tick(), 1);
+}
