@@ -54,6 +54,8 @@ pub struct Metric {
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
+    /// What to say where no lane has a value.
+    pub absent: &'static str,
     /// What it is counted in.
     pub unit: Unit,
     /// How it is plotted.
@@ -67,6 +69,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "position_error",
         name: "position error",
+        absent: "Nothing to compare yet: no tick was made.",
         unit: Unit::Coordinate,
         scale: Scale::Log,
         measure: |lane, truth| {
@@ -79,6 +82,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "velocity_error",
         name: "velocity error",
+        absent: "Nothing to compare yet: no tick was made.",
         unit: Unit::Velocity,
         scale: Scale::Log,
         measure: |lane, truth| {
@@ -91,6 +95,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "relative_speed_error",
         name: "speed error",
+        absent: "No speed to compare: the exact motion stands still.",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
         measure: |lane, truth| {
@@ -102,6 +107,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "energy_drift",
         name: "energy drift",
+        absent: "No drift to show: this body does not conserve its energy.",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
         measure: |lane, truth| energy_drift(&*lane.stepper, &*truth.stepper),
@@ -109,6 +115,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "evaluations",
         name: "evaluations",
+        absent: "No evaluations yet: no tick was made.",
         unit: Unit::Of(""),
         scale: Scale::Linear,
         measure: |lane, _| Some(lane.stepper.evaluations() as f64),
@@ -116,6 +123,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "lost_time",
         name: "lost time",
+        absent: "No time lost: every method shown keeps time.",
         unit: Unit::Of("s"),
         scale: Scale::Linear,
         measure: |lane, _| Some(lane.stepper.lost_time()).filter(|&lost| lost > 0.0),

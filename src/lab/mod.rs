@@ -21,6 +21,7 @@ pub mod round_off;
 mod scene;
 mod thinking;
 mod trend;
+mod truth_curve;
 mod verdict;
 
 pub use crate::sim::stability::Stability;
@@ -40,4 +41,5 @@ pub use scene::{
     SceneErrors, Scripted, TOLERANCES, nearest,
 };
 pub use thinking::{Advice, Findings, Question, Thinker};
+pub use truth_curve::{TruthCurve, TruthSample};
 pub use verdict::{Fate, Verdict, Word, duration};

@@ -3,6 +3,7 @@
 use super::history::{CAPACITY, History};
 use super::lane::Lane;
 use super::scene::{LaneSpec, Scene};
+use super::truth_curve::{LastTick, TruthCurve};
 use crate::sim::bodies::Input;
 use crate::sim::{Solver, Stepper};
 
@@ -19,8 +20,8 @@ pub struct Entrant {
 /// Lanes against the truth. In solo mode there is one.
 pub struct Race {
     truth: Lane,
-    /// One history of the truth for each body.
-    truth_histories: Vec<History>,
+    /// One for each body.
+    truth_curves: Vec<TruthCurve>,
     entrants: Vec<Entrant>,
     tick: u64,
     tick_hz: u32,
@@ -43,9 +44,11 @@ impl Race {
             lane: Lane::new(scene, spec.solver(), spec.substeps),
             histories: scene.bodies.iter().map(|_| History::new()).collect(),
         });
+        let truth = Lane::new(scene, Solver::Truth, 1);
+        let curve = |body| TruthCurve::new(body, scene.seconds);
         let mut race = Self {
-            truth: Lane::new(scene, Solver::Truth, 1),
-            truth_histories: scene.bodies.iter().map(|_| History::new()).collect(),
+            truth_curves: truth.bodies().iter().map(curve).collect(),
+            truth,
             entrants: entrants.collect(),
             tick: 0,
             tick_hz: scene.tick_hz,
@@ -78,9 +81,14 @@ impl Race {
     pub fn truth(&self) -> &Lane {
         &self.truth
     }
-    /// The recent past of the truth, one history for each body.
-    pub fn truth_histories(&self) -> &[History] {
-        &self.truth_histories
+    /// The recent past of the truth, one curve for each body.
+    pub fn truth_curves(&self) -> &[TruthCurve] {
+        &self.truth_curves
+    }
+    /// The true coordinates and velocities of the body at this place of the scene, at the part `part`, 0
+    /// to 1, of the last tick.
+    pub fn truth_between(&self, body: usize, part: f64) -> (Vec<f64>, Vec<f64>) {
+        self.truth_curves[body].state(&self.truth.bodies()[body], self.last_tick(), part)
     }
     /// The lanes, in list order.
     pub fn entrants(&self) -> &[Entrant] {
@@ -122,13 +130,22 @@ impl Race {
         self.last_step_s = h;
     }
 
-    /// Adds the present to the histories, if it is time for a sample. Never allocates.
+    fn last_tick(&self) -> LastTick {
+        let to_s = self.t();
+        LastTick { from_s: to_s - self.last_step_s, to_s }
+    }
+
+    /// Adds the last tick to the curves of the truth, and the present to the histories if it is time for a
+    /// sample. Never allocates.
     pub fn record(&mut self) {
+        if self.truth.halted().is_none() {
+            let tick = self.last_tick();
+            for (body, curve) in self.truth.bodies().iter().zip(&mut self.truth_curves) {
+                curve.extend(body, tick);
+            }
+        }
         if self.tick.is_multiple_of(self.stride) {
             let t = self.t();
-            for (truth, history) in self.truth.bodies().iter().zip(&mut self.truth_histories) {
-                history.record(t, 0, truth, truth);
-            }
             for Entrant { entry, lane, histories } in &mut self.entrants {
                 if lane.halted().is_some() {
                     continue;
@@ -144,9 +161,18 @@ impl Race {
     /// Gives an input to every lane and the truth, at the present tick.
     pub fn input(&mut self, input: Input) {
         let t = self.t();
+        self.keep_corner(t);
         self.truth.input(t, input);
+        self.keep_corner(t);
+        self.truth_curves.iter_mut().for_each(|curve| curve.bend(input));
         for entrant in &mut self.entrants {
             entrant.lane.input(t, input);
+        }
+    }
+
+    fn keep_corner(&mut self, t: f64) {
+        for (body, curve) in self.truth.bodies().iter().zip(&mut self.truth_curves) {
+            curve.keep(t, body);
         }
     }
 

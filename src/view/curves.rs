@@ -19,16 +19,31 @@ const BEGINNING: f32 = 8.0;
 const ARROW: f32 = 5.0;
 const ARROW_INSET: f32 = 9.0;
 
+/// A crowded curve with more turns than this part of its points is not drawn as a line.
+const MOST_TURNS: f32 = 0.25;
+
 /// Draws a curve's line through `points` on the screen, as far as the painter's clip shows it. What the
-/// painter gets is a [`LineMesh`] for [`MeshRenderer`](super::meshes::MeshRenderer).
-pub(super) fn paint(painter: &Painter, points: impl Iterator<Item = Pos2>, curve: &Curve) {
+/// painter gets is a [`LineMesh`] for [`MeshRenderer`](super::meshes::MeshRenderer). Returns whether there
+/// is a line: where a swing has too few points for its shape to be seen, and the lines between them would
+/// cover the plot and beat, there is none.
+pub(super) fn paint(painter: &Painter, points: &[Pos2], curve: &Curve) -> bool {
     let &Curve { colour, width, dash: [drawn, gap], .. } = curve;
-    let joints = points.map(|at| Joint { at, radius: width / 2.0, colour });
+    let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
     let runs = shown(joints, painter.clip_rect().expand(width));
-    let is_solid = gap > 0.0 && is_crowded(&runs, width);
-    let mut mesh = LineMesh::new([drawn, if is_solid { 0.0 } else { gap }]);
+    let is_crowded = is_crowded(&runs, width);
+    if is_crowded && turns(points) > MOST_TURNS {
+        return false;
+    }
+    let mut mesh = LineMesh::new([drawn, if is_crowded { 0.0 } else { gap }]);
     runs.iter().for_each(|run| mesh.add(run, painter.pixels_per_point()));
     painter.add(PaintCallback { rect: painter.clip_rect(), callback: Arc::new(mesh) });
+    true
+}
+
+/// The part of the points at which a curve turns up or down.
+fn turns(points: &[Pos2]) -> f32 {
+    let is_turn = |at: &&[Pos2]| (at[1].y - at[0].y) * (at[2].y - at[1].y) < 0.0;
+    points.windows(3).filter(is_turn).count() as f32 / points.len().max(1) as f32
 }
 
 fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {
@@ -38,20 +53,26 @@ fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {
     length * width > CROWDED * Rect::from_points(&points).expand(BEGINNING).area()
 }
 
-/// An arrow at the top or the bottom edge, below or above the `newest` point of a curve that has left
-/// the plot there.
-pub(super) fn paint_arrow(painter: &Painter, newest: Pos2, colour: Color32) {
+/// An arrow at the edge by which a curve leaves the plot on its way between two points of the screen.
+pub(super) fn paint_arrow(painter: &Painter, [from, to]: [Pos2; 2], colour: Color32) {
     let frame = painter.clip_rect();
-    let (edge, up) = if newest.y < frame.top() {
-        (frame.top() + ARROW_INSET, 1.0)
-    } else if newest.y > frame.bottom() {
-        (frame.bottom() - ARROW_INSET, -1.0)
-    } else {
-        return;
-    };
-    let at = Pos2::new(newest.x.clamp(frame.left(), frame.right() - ARROW), edge);
-    let corner = |x: f32, y: f32| at + ARROW * vec2(x, -up * y);
-    let corners = vec![corner(0.0, 1.0), corner(0.866, -0.5), corner(-0.866, -0.5)];
+    let outwards = [
+        (to.y - frame.top(), vec2(0.0, -1.0)),
+        (frame.bottom() - to.y, vec2(0.0, 1.0)),
+        (to.x - frame.left(), vec2(-1.0, 0.0)),
+        (frame.right() - to.x, vec2(1.0, 0.0)),
+    ];
+    let furthest = outwards.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
+    let Some((_, towards)) = furthest.filter(|&(inside, _)| inside < 0.0) else { return };
+    // Where the line crosses the edge.
+    let axis = usize::from(towards.x == 0.0);
+    let edge = if towards[axis] < 0.0 { frame.min[axis] } else { frame.max[axis] };
+    let part = (edge - from[axis]) / (to[axis] - from[axis]);
+    let crossing = from.lerp(to, if part.is_finite() { part.clamp(0.0, 1.0) } else { 1.0 });
+    let at = frame.shrink(ARROW_INSET).clamp(crossing);
+    let across = towards.rot90();
+    let corner = |ahead: f32, aside: f32| at + ARROW * (ahead * towards + aside * across);
+    let corners = vec![corner(1.0, 0.0), corner(-0.5, 0.866), corner(-0.5, -0.866)];
     painter.add(Shape::convex_polygon(corners, colour, PathStroke::NONE));
 }
 
@@ -73,5 +94,17 @@ mod tests {
         assert!(is_crowded(&[waves(400)], 1.6));
         assert!(!is_crowded(&[run(vec![[0.0, 0.0], [1.0, 60.0]])], 1.6), "it has only begun");
         assert!(!is_crowded(&[], 1.6));
+    }
+
+    #[test]
+    fn a_swing_of_eight_points_has_half_the_turns_of_one_of_four() {
+        let swings = |samples: usize| -> Vec<Pos2> {
+            let phase = |i: usize| std::f32::consts::TAU * (i as f32 + 0.2) / samples as f32;
+            (0..40 * samples).map(|i| Pos2::new(i as f32, phase(i).sin())).collect()
+        };
+        assert!((turns(&swings(4)) - 0.5).abs() < 0.02);
+        assert!((turns(&swings(8)) - 0.25).abs() < 0.02);
+        assert!(turns(&swings(9)) < MOST_TURNS && turns(&swings(7)) > MOST_TURNS);
+        assert_eq!(turns(&[]), 0.0);
     }
 }
