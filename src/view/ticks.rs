@@ -63,14 +63,21 @@ pub(super) fn linear_label(mark: GridMark, in_view: &RangeInclusive<f64>, unit: 
     with_unit(number, unit)
 }
 
-/// A mark at every whole power of ten, or every few where they crowd.
-pub(super) fn decades(input: GridInput) -> Vec<GridMark> {
+/// A mark at every whole power of ten, or every few where they crowd: at least `apart` points from each
+/// other unless that leaves fewer than [`FEWEST`].
+pub(super) fn decades(input: GridInput, apart: f64) -> Vec<GridMark> {
     let (low, high) = input.bounds;
-    let step = ((high - low) / 6.0).ceil().max(1.0);
-    let first = (low / step).ceil() as i64;
-    let last = (high / step).floor() as i64;
-    let mark = |i: i64| GridMark { value: i as f64 * step, step_size: step };
-    (first..=last).map(mark).collect()
+    let marks = |step: i64| -> Vec<GridMark> {
+        let [first, last] =
+            [libm::ceil(low / step as f64), libm::floor(high / step as f64)].map(|i| i as i64);
+        let mark = |i: i64| GridMark { value: (i * step) as f64, step_size: step as f64 };
+        (first..=last).map(mark).collect()
+    };
+    let mut step = (libm::ceil(input.base_step_size / FINEST * apart) as i64).max(1);
+    while step > 1 && (marks(step).len() as i64) < FEWEST {
+        step -= 1;
+    }
+    marks(step)
 }
 
 /// The number at a mark that [`decades`] made, with its unit.
@@ -117,6 +124,19 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn powers_of_ten_are_marked_every_few_where_they_crowd() {
+        let labels = |low: f64, high: f64, room: f64| -> Vec<String> {
+            let base_step_size = FINEST * (high - low) / room;
+            let marks = decades(GridInput { bounds: (low, high), base_step_size }, 28.0);
+            marks.into_iter().map(|mark| decade_label(mark, "m")).collect()
+        };
+        assert_eq!(labels(-2.2, 0.2, 200.0), ["10⁻² m", "10⁻¹ m", "10⁰ m"]);
+        assert_eq!(labels(-6.2, 0.2, 120.0), ["10⁻⁶ m", "10⁻⁴ m", "10⁻² m", "10⁰ m"]);
+        assert_eq!(labels(-17.2, 3.2, 60.0).len(), 3);
+        assert_eq!(labels(-2.2, 0.2, 10.0).len(), 3);
     }
 
     #[test]

@@ -169,7 +169,7 @@ fn metric(ui: &mut Ui, lab: &Lab, room: Vec2, index: usize) {
     let plot = axes(metric.id, room, units(["s", &unit]));
     let plot = match metric.scale {
         Scale::Log => plot
-            .y_grid_spacer(ticks::decades)
+            .y_grid_spacer(|input| ticks::decades(input, MARKS_APART[1]))
             .y_axis_formatter(|mark, _| ticks::decade_label(mark, &unit)),
         Scale::Linear => plot,
     };
