@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use egui::epaint::{PaintCallback, PathStroke};
-use egui::{Color32, Painter, Pos2, Rect, Shape, vec2};
+use egui::{Color32, Painter, Pos2, Rect, Shape, Vec2, vec2};
 
 use super::lines::{Joint, LineMesh, shown};
 use super::plot::Curve;
@@ -53,9 +53,33 @@ fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {
     length * width > CROWDED * Rect::from_points(&points).expand(BEGINNING).area()
 }
 
-/// An arrow at the edge by which a curve leaves the plot on its way between two points of the screen.
-pub(super) fn paint_arrow(painter: &Painter, [from, to]: [Pos2; 2], colour: Color32) {
-    let frame = painter.clip_rect();
+/// Arrows where curves leave the plot, none on another.
+pub(super) struct Arrows<'p> {
+    painter: &'p Painter,
+    placed: Vec<Pos2>,
+}
+
+impl<'p> Arrows<'p> {
+    pub(super) fn new(painter: &'p Painter) -> Self {
+        Self { painter, placed: Vec::new() }
+    }
+
+    /// An arrow for a curve that leaves the plot on its way between two points of the screen.
+    pub(super) fn paint(&mut self, ends: [Pos2; 2], colour: Color32) {
+        let Some((mut at, towards)) = exit(self.painter.clip_rect(), ends) else { return };
+        while self.placed.iter().any(|other| other.distance(at) < 2.0 * ARROW) {
+            at += 2.0 * ARROW * towards.abs().yx();
+        }
+        self.placed.push(at);
+        let across = towards.rot90();
+        let corner = |ahead: f32, aside: f32| at + ARROW * (ahead * towards + aside * across);
+        let corners = vec![corner(1.0, 0.0), corner(-0.5, 0.866), corner(-0.5, -0.866)];
+        self.painter.add(Shape::convex_polygon(corners, colour, PathStroke::NONE));
+    }
+}
+
+/// Where the arrow of a curve goes that leaves `frame` between two points, and which way it shows.
+fn exit(frame: Rect, [from, to]: [Pos2; 2]) -> Option<(Pos2, Vec2)> {
     let outwards = [
         (to.y - frame.top(), vec2(0.0, -1.0)),
         (frame.bottom() - to.y, vec2(0.0, 1.0)),
@@ -63,17 +87,13 @@ pub(super) fn paint_arrow(painter: &Painter, [from, to]: [Pos2; 2], colour: Colo
         (frame.right() - to.x, vec2(1.0, 0.0)),
     ];
     let furthest = outwards.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
-    let Some((_, towards)) = furthest.filter(|&(inside, _)| inside < 0.0) else { return };
+    let (_, towards) = furthest.filter(|&(inside, _)| inside < 0.0)?;
     // Where the line crosses the edge.
     let axis = usize::from(towards.x == 0.0);
     let edge = if towards[axis] < 0.0 { frame.min[axis] } else { frame.max[axis] };
     let part = (edge - from[axis]) / (to[axis] - from[axis]);
     let crossing = from.lerp(to, if part.is_finite() { part.clamp(0.0, 1.0) } else { 1.0 });
-    let at = frame.shrink(ARROW_INSET).clamp(crossing);
-    let across = towards.rot90();
-    let corner = |ahead: f32, aside: f32| at + ARROW * (ahead * towards + aside * across);
-    let corners = vec![corner(1.0, 0.0), corner(-0.5, 0.866), corner(-0.5, -0.866)];
-    painter.add(Shape::convex_polygon(corners, colour, PathStroke::NONE));
+    Some((frame.shrink(ARROW_INSET).clamp(crossing), towards))
 }
 
 #[cfg(test)]
@@ -106,5 +126,23 @@ mod tests {
         assert!((turns(&swings(8)) - 0.25).abs() < 0.02);
         assert!(turns(&swings(9)) < MOST_TURNS && turns(&swings(7)) > MOST_TURNS);
         assert_eq!(turns(&[]), 0.0);
+    }
+
+    #[test]
+    fn an_arrow_is_where_the_curve_leaves_and_shows_the_way() {
+        let frame = Rect::from_min_max(Pos2::ZERO, Pos2::new(200.0, 100.0));
+        let inside = Pos2::new(60.0, 50.0);
+        for (to, at, towards) in [
+            ([60.0, -50.0], [60.0, ARROW_INSET], [0.0, -1.0]),
+            ([100.0, 150.0], [80.0, 100.0 - ARROW_INSET], [0.0, 1.0]),
+            ([-60.0, 50.0], [ARROW_INSET, 50.0], [-1.0, 0.0]),
+            ([340.0, 60.0], [200.0 - ARROW_INSET, 55.0], [1.0, 0.0]),
+        ] {
+            assert_eq!(exit(frame, [inside, to.into()]), Some((at.into(), towards.into())));
+        }
+        let above = Pos2::new(60.0, -50.0);
+        let at = Pos2::new(60.0, ARROW_INSET);
+        assert_eq!(exit(frame, [above, above]), Some((at, vec2(0.0, -1.0))));
+        assert_eq!(exit(frame, [inside, inside]), None);
     }
 }

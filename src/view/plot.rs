@@ -57,8 +57,10 @@ pub(super) struct Switch {
 /// Everything in a plot.
 #[derive(Default)]
 pub(super) struct Drawing {
-    /// The first at the bottom.
+    /// The first at the bottom, and over all of them their dots.
     pub(super) curves: Vec<Curve>,
+    /// Over the others and their dots.
+    pub(super) truth: Option<Curve>,
     pub(super) arrows: Vec<Arrow>,
     pub(super) switches: Vec<Switch>,
     pub(super) switch_mark: SwitchMark,
@@ -104,7 +106,7 @@ pub(super) fn plot<'a>(id: &'static str, height: f32) -> Plot<'a> {
         .label_formatter(|_| None)
 }
 
-/// Draws the curves, each cut off at the bounds; over them their dots, and arrows and marks.
+/// Draws everything in the plot, cut off at the bounds.
 pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, drawing: &Drawing) {
     let shown = plot.show(ui, |plot| plot.set_plot_bounds(bounds));
     let frame = *shown.transform.frame();
@@ -127,23 +129,25 @@ pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, drawing: &Dr
             }
         }
     }
-    let mut with_dots = Vec::new();
-    for curve in &drawing.curves {
-        let points: Vec<Pos2> = curve.points.iter().map(on_screen).collect();
-        let is_line = curves::paint(&painter, &points, curve);
-        with_dots.push((
-            curve.colour,
-            if is_line { curve.dots } else { Dots::Each(SCATTERED) },
-            points,
-        ));
-    }
-    for Arrow { from, to, colour } in &drawing.arrows {
-        curves::paint_arrow(&painter, [on_screen(from), on_screen(to)], *colour);
-    }
-    for (colour, kind, points) in with_dots {
-        for (at, radius) in dots(&points, kind).filter(|(at, _)| frame.contains(*at)) {
-            painter.circle_filled(at, radius, colour);
+    let paint = |curves: &[Curve]| {
+        let mut with_dots = Vec::new();
+        for curve in curves {
+            let points: Vec<Pos2> = curve.points.iter().map(on_screen).collect();
+            let is_line = curves::paint(&painter, &points, curve);
+            let dots = if is_line { curve.dots } else { Dots::Each(SCATTERED) };
+            with_dots.push((curve.colour, dots, points));
         }
+        for (colour, kind, points) in with_dots {
+            for (at, radius) in dots(&points, kind).filter(|(at, _)| frame.contains(*at)) {
+                painter.circle_filled(at, radius, colour);
+            }
+        }
+    };
+    paint(&drawing.curves);
+    paint(drawing.truth.as_slice());
+    let mut arrows = curves::Arrows::new(&painter);
+    for Arrow { from, to, colour } in &drawing.arrows {
+        arrows.paint([on_screen(from), on_screen(to)], *colour);
     }
 }
 

@@ -137,7 +137,7 @@ fn value(ui: &mut Ui, lab: &Lab, room: Vec2) {
     let bounds = over_time(lab, y);
     let look = Look { width: UNDER_TRUTH, dots: Dots::SparseAlongX, bounded: [false, true] };
     let mut drawing = tracks::drawing(lab, &lanes, &bounds, look);
-    drawing.curves.push(white(lab, f64::NEG_INFINITY, |s| [s.t, s.q]));
+    drawing.truth = Some(white(lab, f64::NEG_INFINITY, |s| [s.t, s.q]));
     let unit = body(lab).coordinates[0].unit;
     draw(ui, axes("value", room, units(["s", unit])), bounds, &drawing);
 }
@@ -190,7 +190,7 @@ fn phase(ui: &mut Ui, lab: &Lab, room: Vec2) {
     let look = Look { width: UNDER_TRUTH, dots: Dots::Sparse, bounded: [true; 2] };
     let mut drawing = tracks::drawing(lab, &lanes, &bounds, look);
     drawing.switch_mark = SwitchMark::Ring;
-    drawing.curves.push(exact);
+    drawing.truth = Some(exact);
     let coordinate = &body(lab).coordinates[0];
     let text =
         |letter: &str, unit: String| AxisText { name: format!("{letter} in {unit}"), unit: "" };
