@@ -53,6 +53,8 @@ pub struct Metric {
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
+    /// What to say where no lane has a value.
+    pub absent: &'static str,
     /// What it is counted in.
     pub unit: Unit,
     /// How it is plotted.
@@ -69,6 +71,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "position_error",
         name: "position error",
+        absent: "Nothing to compare yet: no tick was made.",
         unit: Unit::Coordinate,
         scale: Scale::Log,
         about: "largest difference from the truth in a coordinate",
@@ -80,6 +83,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "velocity_error",
         name: "velocity error",
+        absent: "Nothing to compare yet: no tick was made.",
         unit: Unit::Velocity,
         scale: Scale::Log,
         about: "largest difference from the truth in a velocity",
@@ -91,6 +95,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "relative_speed_error",
         name: "speed error",
+        absent: "No speed to compare: the exact motion stands still.",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
         about: "speed beyond the truth's, in percent of the truth's largest speed so far",
@@ -103,6 +108,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "energy_drift",
         name: "energy drift",
+        absent: "No drift to show: this body does not conserve its energy.",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
         about: "energy gained, in percent of what the true motion exchanges: the range of its kinetic energy",
@@ -115,6 +121,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "evaluations",
         name: "evaluations",
+        absent: "No evaluations yet: no tick was made.",
         unit: Unit::Of(""),
         scale: Scale::Linear,
         about: "evaluations of this body's acceleration since the start",
@@ -123,6 +130,7 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "lost_time",
         name: "lost time",
+        absent: "No time lost: every method shown keeps time.",
         unit: Unit::Of("s"),
         scale: Scale::Linear,
         about: "time by which this body is behind, under a method that does not keep it",

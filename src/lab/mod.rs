@@ -21,6 +21,7 @@ mod race;
 pub mod round_off;
 mod scene;
 mod script;
+mod truth_curve;
 
 pub use crate::sim::stability::Stability;
 pub use analysis::{
@@ -41,3 +42,4 @@ pub use scene::{
     MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene,
     SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, nearest,
 };
+pub use truth_curve::{TruthCurve, TruthSample};

@@ -5,6 +5,7 @@
 
 mod captions;
 mod compose;
+mod ghost;
 pub mod palette;
 mod sketch;
 mod trails;

@@ -5,6 +5,7 @@ use super::history::{CAPACITY, History, Sample};
 use super::lane::{Lane, Origin, TakenUp};
 use super::scene::{LaneSpec, Scene};
 use super::script::Script;
+use super::truth_curve::{LastTick, TruthCurve};
 use crate::sim::bodies::Input;
 use crate::sim::{Solver, Stepper};
 
@@ -21,8 +22,8 @@ pub struct Entrant {
 /// Lanes against the truth. In solo mode there is one.
 pub struct Race {
     truth: Lane,
-    /// One history of the truth for each body.
-    truth_histories: Vec<History>,
+    /// One for each body.
+    truth_curves: Vec<TruthCurve>,
     entrants: Vec<Entrant>,
     script: Script,
     throttle: f64,
@@ -68,9 +69,11 @@ impl Race {
             lane: Lane::new(scene, spec.solver(), spec.substeps),
             histories: scene.bodies.iter().map(|_| History::new()).collect(),
         });
+        let truth = Lane::new(scene, Solver::Truth, 1);
+        let curve = |body| TruthCurve::new(body, scene.seconds);
         let mut race = Self {
-            truth: Lane::new(scene, Solver::Truth, 1),
-            truth_histories: scene.bodies.iter().map(|_| History::new()).collect(),
+            truth_curves: truth.bodies().iter().map(curve).collect(),
+            truth,
             entrants: entrants.collect(),
             script: Script::default(),
             throttle: 1.0,
@@ -114,9 +117,14 @@ impl Race {
     pub fn truth(&self) -> &Lane {
         &self.truth
     }
-    /// The recent past of the truth, one history for each body.
-    pub fn truth_histories(&self) -> &[History] {
-        &self.truth_histories
+    /// The recent past of the truth, one curve for each body.
+    pub fn truth_curves(&self) -> &[TruthCurve] {
+        &self.truth_curves
+    }
+    /// The true coordinates and velocities of the body at this place of the scene, at the part `part`, 0
+    /// to 1, of the last tick.
+    pub fn truth_between(&self, body: usize, part: f64) -> (Vec<f64>, Vec<f64>) {
+        self.truth_curves[body].state(&self.truth.bodies()[body], self.last_tick(), part)
     }
     /// The lanes, in list order.
     pub fn entrants(&self) -> &[Entrant] {
@@ -166,8 +174,20 @@ impl Race {
         (0..ticks).for_each(|_| self.step());
     }
 
-    /// Adds the present to the histories, if it is time for a sample. Never allocates.
+    fn last_tick(&self) -> LastTick {
+        let to_s = self.t();
+        LastTick { from_s: to_s - self.last_step_s, to_s }
+    }
+
+    /// Adds the last tick to the curves of the truth, and the present to the histories if it is time for a
+    /// sample. Never allocates.
     pub fn record(&mut self) {
+        let tick = self.last_tick();
+        for (body, curve) in self.truth.bodies().iter().zip(&mut self.truth_curves) {
+            if body.halted().is_none() {
+                curve.extend(body, tick);
+            }
+        }
         if self.tick.is_multiple_of(self.stride) {
             self.each_present(History::record);
         }
@@ -181,11 +201,6 @@ impl Race {
 
     fn each_present(&mut self, add: fn(&mut History, Sample)) {
         let t = self.t();
-        for (truth, history) in self.truth.bodies().iter().zip(&mut self.truth_histories) {
-            if truth.halted().is_none() {
-                add(history, Sample::new(t, 0, truth, truth));
-            }
-        }
         for Entrant { entry, lane, histories } in &mut self.entrants {
             let bodies = lane.bodies().iter().zip(self.truth.bodies()).zip(histories);
             for ((body, truth), history) in bodies.filter(|((b, _), _)| b.halted().is_none()) {
@@ -226,10 +241,19 @@ impl Race {
         };
         if changes {
             let t = self.t();
+            self.keep_corner(t);
             self.truth.input(self.tick, t, input);
+            self.keep_corner(t);
+            self.truth_curves.iter_mut().for_each(|curve| curve.bend(input));
             for entrant in &mut self.entrants {
                 entrant.lane.input(self.tick, t, input);
             }
+        }
+    }
+
+    fn keep_corner(&mut self, t: f64) {
+        for (body, curve) in self.truth.bodies().iter().zip(&mut self.truth_curves) {
+            curve.keep(t, body);
         }
     }
 

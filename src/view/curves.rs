@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use egui::epaint::{PaintCallback, PathStroke};
-use egui::{Color32, Painter, Pos2, Rect, Shape, vec2};
+use egui::{Color32, Painter, Pos2, Rect, Shape, Vec2, vec2};
 
 use super::lines::{Joint, LineMesh, shown};
 use super::plot::Curve;
@@ -19,16 +19,31 @@ const BEGINNING: f32 = 8.0;
 const ARROW: f32 = 5.0;
 const ARROW_INSET: f32 = 9.0;
 
+/// A crowded curve with more turns than this part of its points is not drawn as a line.
+const MOST_TURNS: f32 = 0.25;
+
 /// Draws a curve's line through `points` on the screen, as far as the painter's clip shows it. What the
-/// painter gets is a [`LineMesh`] for [`MeshRenderer`](super::meshes::MeshRenderer).
-pub(super) fn paint(painter: &Painter, points: impl Iterator<Item = Pos2>, curve: &Curve) {
+/// painter gets is a [`LineMesh`] for [`MeshRenderer`](super::meshes::MeshRenderer). Returns whether there
+/// is a line: where a swing has too few points for its shape to be seen, and the lines between them would
+/// cover the plot and beat, there is none.
+pub(super) fn paint(painter: &Painter, points: &[Pos2], curve: &Curve) -> bool {
     let &Curve { colour, width, dash: [drawn, gap], .. } = curve;
-    let joints = points.map(|at| Joint { at, radius: width / 2.0, colour });
+    let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
     let runs = shown(joints, painter.clip_rect().expand(width));
-    let is_solid = gap > 0.0 && is_crowded(&runs, width);
-    let mut mesh = LineMesh::new([drawn, if is_solid { 0.0 } else { gap }]);
+    let is_crowded = is_crowded(&runs, width);
+    if is_crowded && turns(points) > MOST_TURNS {
+        return false;
+    }
+    let mut mesh = LineMesh::new([drawn, if is_crowded { 0.0 } else { gap }]);
     runs.iter().for_each(|run| mesh.add(run, painter.pixels_per_point()));
     painter.add(PaintCallback { rect: painter.clip_rect(), callback: Arc::new(mesh) });
+    true
+}
+
+/// The part of the points at which a curve turns up or down.
+fn turns(points: &[Pos2]) -> f32 {
+    let is_turn = |at: &&[Pos2]| (at[1].y - at[0].y) * (at[2].y - at[1].y) < 0.0;
+    points.windows(3).filter(is_turn).count() as f32 / points.len().max(1) as f32
 }
 
 fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {
@@ -38,21 +53,47 @@ fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {
     length * width > CROWDED * Rect::from_points(&points).expand(BEGINNING).area()
 }
 
-/// An arrow at the top or the bottom edge, below or above the `newest` point of a curve that has left
-/// the plot there.
-pub(super) fn paint_arrow(painter: &Painter, newest: Pos2, colour: Color32) {
-    let frame = painter.clip_rect();
-    let (edge, up) = if newest.y < frame.top() {
-        (frame.top() + ARROW_INSET, 1.0)
-    } else if newest.y > frame.bottom() {
-        (frame.bottom() - ARROW_INSET, -1.0)
-    } else {
-        return;
-    };
-    let at = Pos2::new(newest.x.clamp(frame.left(), frame.right() - ARROW), edge);
-    let corner = |x: f32, y: f32| at + ARROW * vec2(x, -up * y);
-    let corners = vec![corner(0.0, 1.0), corner(0.866, -0.5), corner(-0.866, -0.5)];
-    painter.add(Shape::convex_polygon(corners, colour, PathStroke::NONE));
+/// Arrows where curves leave the plot, none on another.
+pub(super) struct Arrows<'p> {
+    painter: &'p Painter,
+    placed: Vec<Pos2>,
+}
+
+impl<'p> Arrows<'p> {
+    pub(super) fn new(painter: &'p Painter) -> Self {
+        Self { painter, placed: Vec::new() }
+    }
+
+    /// An arrow for a curve that leaves the plot on its way between two points of the screen.
+    pub(super) fn paint(&mut self, ends: [Pos2; 2], colour: Color32) {
+        let Some((mut at, towards)) = exit(self.painter.clip_rect(), ends) else { return };
+        while self.placed.iter().any(|other| other.distance(at) < 2.0 * ARROW) {
+            at += 2.0 * ARROW * towards.abs().yx();
+        }
+        self.placed.push(at);
+        let across = towards.rot90();
+        let corner = |ahead: f32, aside: f32| at + ARROW * (ahead * towards + aside * across);
+        let corners = vec![corner(1.0, 0.0), corner(-0.5, 0.866), corner(-0.5, -0.866)];
+        self.painter.add(Shape::convex_polygon(corners, colour, PathStroke::NONE));
+    }
+}
+
+/// Where the arrow of a curve goes that leaves `frame` between two points, and which way it shows.
+fn exit(frame: Rect, [from, to]: [Pos2; 2]) -> Option<(Pos2, Vec2)> {
+    let outwards = [
+        (to.y - frame.top(), vec2(0.0, -1.0)),
+        (frame.bottom() - to.y, vec2(0.0, 1.0)),
+        (to.x - frame.left(), vec2(-1.0, 0.0)),
+        (frame.right() - to.x, vec2(1.0, 0.0)),
+    ];
+    let furthest = outwards.into_iter().min_by(|(a, _), (b, _)| a.total_cmp(b));
+    let (_, towards) = furthest.filter(|&(inside, _)| inside < 0.0)?;
+    // Where the line crosses the edge.
+    let axis = usize::from(towards.x == 0.0);
+    let edge = if towards[axis] < 0.0 { frame.min[axis] } else { frame.max[axis] };
+    let part = (edge - from[axis]) / (to[axis] - from[axis]);
+    let crossing = from.lerp(to, if part.is_finite() { part.clamp(0.0, 1.0) } else { 1.0 });
+    Some((frame.shrink(ARROW_INSET).clamp(crossing), towards))
 }
 
 #[cfg(test)]
@@ -73,5 +114,35 @@ mod tests {
         assert!(is_crowded(&[waves(400)], 1.6));
         assert!(!is_crowded(&[run(vec![[0.0, 0.0], [1.0, 60.0]])], 1.6), "it has only begun");
         assert!(!is_crowded(&[], 1.6));
+    }
+
+    #[test]
+    fn a_swing_of_eight_points_has_half_the_turns_of_one_of_four() {
+        let swings = |samples: usize| -> Vec<Pos2> {
+            let phase = |i: usize| std::f32::consts::TAU * (i as f32 + 0.2) / samples as f32;
+            (0..40 * samples).map(|i| Pos2::new(i as f32, phase(i).sin())).collect()
+        };
+        assert!((turns(&swings(4)) - 0.5).abs() < 0.02);
+        assert!((turns(&swings(8)) - 0.25).abs() < 0.02);
+        assert!(turns(&swings(9)) < MOST_TURNS && turns(&swings(7)) > MOST_TURNS);
+        assert_eq!(turns(&[]), 0.0);
+    }
+
+    #[test]
+    fn an_arrow_is_where_the_curve_leaves_and_shows_the_way() {
+        let frame = Rect::from_min_max(Pos2::ZERO, Pos2::new(200.0, 100.0));
+        let inside = Pos2::new(60.0, 50.0);
+        for (to, at, towards) in [
+            ([60.0, -50.0], [60.0, ARROW_INSET], [0.0, -1.0]),
+            ([100.0, 150.0], [80.0, 100.0 - ARROW_INSET], [0.0, 1.0]),
+            ([-60.0, 50.0], [ARROW_INSET, 50.0], [-1.0, 0.0]),
+            ([340.0, 60.0], [200.0 - ARROW_INSET, 55.0], [1.0, 0.0]),
+        ] {
+            assert_eq!(exit(frame, [inside, to.into()]), Some((at.into(), towards.into())));
+        }
+        let above = Pos2::new(60.0, -50.0);
+        let at = Pos2::new(60.0, ARROW_INSET);
+        assert_eq!(exit(frame, [above, above]), Some((at, vec2(0.0, -1.0))));
+        assert_eq!(exit(frame, [inside, inside]), None);
     }
 }

@@ -9,7 +9,9 @@ use egui::{
 use egui_plot::{AxisHints, GridInput, GridMark, PlotBounds};
 
 use super::panels::{BACKDROP, QUIET, TEXT};
-use super::plot::{CURVE, Curve, X_AXIS, colour, draw, plot, swatch, tick_text};
+use super::plot::{
+    Arrow, CURVE, Curve, Dots, Drawing, X_AXIS, colour, draw, plot, swatch, tick_text,
+};
 use crate::lab::number::superscript;
 use crate::lab::picture::Rgba;
 
@@ -176,7 +178,12 @@ fn show_chart(ui: &mut Ui, chart: &Chart) {
         .y_axis_formatter(move |mark, in_view| up.label(mark, in_view))
         .x_grid_spacer(move |input| along.lines(input))
         .y_grid_spacer(move |input| up.lines(input));
-    draw(ui, axes, bounds, &curves);
+    let arrows = curves.iter().filter_map(|curve| {
+        let newest = curve.points.last().filter(|point| !(low..=high).contains(&point[1]))?;
+        Some(Arrow { from: *newest, to: *newest, colour: curve.colour })
+    });
+    let arrows = arrows.collect();
+    draw(ui, axes, bounds, &Drawing { curves, arrows, ..Drawing::default() });
 }
 
 /// A curve as it lies in the chart; what is not finite there is left out.
@@ -187,7 +194,7 @@ fn laid_out(curve: &FigureCurve, chart: &Chart) -> Curve {
         colour: colour(curve.colour),
         width: CURVE,
         dash: curve.dash,
-        dots: curve.dots,
+        dots: if curve.dots > 0.0 { Dots::Each(curve.dots) } else { Dots::None },
         points: points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect(),
     }
 }

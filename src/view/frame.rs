@@ -248,7 +248,7 @@ mod tests {
     use super::*;
     use crate::lab::picture::{Cap, Stroke};
     use crate::view::curves;
-    use crate::view::plot::Curve;
+    use crate::view::plot::{Curve, Dots};
     use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
     use crate::view::{AdapterPreference, Offscreen};
 
@@ -334,7 +334,7 @@ mod tests {
             colour: egui::Color32::RED,
             width: 4.0,
             dash,
-            dots: 0.0,
+            dots: Dots::None,
             points: Vec::new(),
         };
         let input = egui::RawInput::default();
@@ -343,7 +343,7 @@ mod tests {
             let painter = ui.painter().with_clip_rect(clip);
             for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
                 let ends = [egui::pos2(10.0, y), egui::pos2(120.0, y)];
-                curves::paint(&painter, ends.into_iter(), &curve(dash));
+                assert!(curves::paint(&painter, &ends, &curve(dash)));
             }
             None
         });

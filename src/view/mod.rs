@@ -27,6 +27,7 @@ mod strips;
 mod strokes;
 #[cfg(test)]
 mod testing;
+mod ticks;
 mod triangles;
 
 pub use artist::Artist;

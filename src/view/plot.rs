@@ -14,9 +14,66 @@ pub(super) struct Curve {
     pub(super) width: f32,
     /// Drawn length and gap in points; a gap of 0 is solid.
     pub(super) dash: [f32; 2],
-    /// Radius in points of a dot on each point; 0 for none.
-    pub(super) dots: f32,
+    pub(super) dots: Dots,
     pub(super) points: Vec<[f64; 2]>,
+}
+
+/// Which points of a curve have a dot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Dots {
+    None,
+    /// Each, of this radius in points.
+    Each(f32),
+    /// Those further than [`SPARSE`] from the next one along the x axis: the straight line between them is
+    /// not to be taken for motion.
+    SparseAlongX,
+    /// Those further than that from the next one.
+    Sparse,
+}
+
+/// The least distance between points, in points of the screen, at which each can be told from the next.
+const SPARSE: f32 = 3.0;
+/// The radius of their dots, in points of the screen.
+const SAMPLE: f32 = 1.5;
+/// And where the dots are all that is drawn.
+const SCATTERED: f32 = 1.0;
+/// The radius of the ring round a switch, in points of the screen.
+const RING: f32 = 4.0;
+
+/// A lane that leaves the plot on the way from one point to another, which is outside. Where both are
+/// the same, it is outside.
+pub(super) struct Arrow {
+    pub(super) from: [f64; 2],
+    pub(super) to: [f64; 2],
+    pub(super) colour: Color32,
+}
+
+/// A point at which another method took over, in that method's colour.
+pub(super) struct Switch {
+    pub(super) at: [f64; 2],
+    pub(super) colour: Color32,
+}
+
+/// Everything in a plot.
+#[derive(Default)]
+pub(super) struct Drawing {
+    /// The first at the bottom, and over all of them their dots.
+    pub(super) curves: Vec<Curve>,
+    /// Over the others and their dots.
+    pub(super) truth: Option<Curve>,
+    pub(super) arrows: Vec<Arrow>,
+    pub(super) switches: Vec<Switch>,
+    pub(super) switch_mark: SwitchMark,
+}
+
+/// What marks a switch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum SwitchMark {
+    /// A line across the plot, at its time.
+    #[default]
+    Line,
+    /// A ring at its point.
+    Ring,
 }
 
 pub(super) fn colour([r, g, b, a]: Rgba) -> Color32 {
@@ -49,11 +106,11 @@ pub(super) fn plot<'a>(id: &'static str, height: f32) -> Plot<'a> {
         .label_formatter(|_| None)
 }
 
-/// Draws the curves, each cut off at the bounds, with an arrow where its newest point is above or below
-/// them; and over all curves their dots.
-pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, curves: &[Curve]) {
+/// Draws everything in the plot, cut off at the bounds.
+pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, drawing: &Drawing) {
     let shown = plot.show(ui, |plot| plot.set_plot_bounds(bounds));
-    let painter = ui.painter().with_clip_rect(*shown.transform.frame());
+    let frame = *shown.transform.frame();
+    let painter = ui.painter().with_clip_rect(frame);
     let ([left, low], [right, high]) = (bounds.min(), bounds.max());
     // Far enough out for a line to leave at its own slope, near enough for the f32 of the painter.
     let (wide, tall) = (10.0 * (right - left), 10.0 * (high - low));
@@ -61,18 +118,55 @@ pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, curves: &[Cu
         let (x, y) = (x.clamp(left - wide, right + wide), y.clamp(low - tall, high + tall));
         shown.transform.position_from_point(&PlotPoint::new(x, y))
     };
-    for curve in curves {
-        curves::paint(&painter, curve.points.iter().map(on_screen), curve);
-        if let Some(newest) = curve.points.last() {
-            curves::paint_arrow(&painter, on_screen(newest), curve.colour);
+    for Switch { at, colour } in &drawing.switches {
+        let at = on_screen(at);
+        match drawing.switch_mark {
+            SwitchMark::Line => {
+                painter.vline(at.x, frame.y_range(), Stroke::new(1.0, colour.gamma_multiply(0.6)));
+            }
+            SwitchMark::Ring => {
+                painter.circle_stroke(at, RING, Stroke::new(1.0, *colour));
+            }
         }
     }
-    for curve in curves.iter().filter(|curve| curve.dots > 0.0) {
-        let within = |[x, y]: &&[f64; 2]| (left..=right).contains(x) && (low..=high).contains(y);
-        for dot in curve.points.iter().filter(within) {
-            painter.circle_filled(on_screen(dot), curve.dots, curve.colour);
+    let paint = |curves: &[Curve]| {
+        let mut with_dots = Vec::new();
+        for curve in curves {
+            let points: Vec<Pos2> = curve.points.iter().map(on_screen).collect();
+            let is_line = curves::paint(&painter, &points, curve);
+            let dots = if is_line { curve.dots } else { Dots::Each(SCATTERED) };
+            with_dots.push((curve.colour, dots, points));
         }
+        for (colour, kind, points) in with_dots {
+            for (at, radius) in dots(&points, kind).filter(|(at, _)| frame.contains(*at)) {
+                painter.circle_filled(at, radius, colour);
+            }
+        }
+    };
+    paint(&drawing.curves);
+    paint(drawing.truth.as_slice());
+    let mut arrows = curves::Arrows::new(&painter);
+    for Arrow { from, to, colour } in &drawing.arrows {
+        arrows.paint([on_screen(from), on_screen(to)], *colour);
     }
+}
+
+/// The dots of a curve through these points of the screen, each with its radius.
+fn dots(points: &[Pos2], dots: Dots) -> impl Iterator<Item = (Pos2, f32)> {
+    let are_apart = move |a: Pos2, b: Pos2| match dots {
+        Dots::SparseAlongX => (a.x - b.x).abs() >= SPARSE,
+        _ => a.distance(b) >= SPARSE,
+    };
+    let has_dot = move |i: usize| {
+        let before = i.checked_sub(1).map(|before| points[before]);
+        let mut beside = before.into_iter().chain(points.get(i + 1).copied());
+        beside.any(|other| are_apart(points[i], other))
+    };
+    (0..points.len()).filter_map(move |i| match dots {
+        Dots::None => None,
+        Dots::Each(radius) => Some((points[i], radius)),
+        Dots::SparseAlongX | Dots::Sparse => has_dot(i).then_some((points[i], SAMPLE)),
+    })
 }
 
 /// A piece of a curve's line, from `from` to the right, as the plots draw it.

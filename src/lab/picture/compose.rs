@@ -2,11 +2,12 @@
 
 use glam::DVec2;
 
+use super::ghost::Ghost;
 use super::palette::{self, faded, style};
 use super::sketch::{Camera, Paint, demote, line, strokes};
 use super::{Picture, Rect, Sea, captions};
 use crate::lab::race::Entrant;
-use crate::lab::{History, Interpolation, Lab, LaneBody, Mode};
+use crate::lab::{Interpolation, Lab, LaneBody, Mode};
 use crate::sim::bodies::{Pen, View};
 
 /// The head of a cell in which its lane is named, and may have halted, in points.
@@ -30,14 +31,16 @@ const LONGEST_PAPER_S: f64 = 3.0;
 pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
     let mut picture = Picture::default();
     let race = lab.race();
-    let h = race.last_step_s();
+    let (alpha, h) = (lab.clock().alpha(), race.last_step_s());
+    let t = race.t() - (1.0 - alpha) * h;
     let shown = Shown {
         lab,
-        alpha: lab.clock().alpha(),
+        alpha,
         h,
-        t: match lab.display().interpolation {
+        t,
+        lanes_t: match lab.display().interpolation {
             Interpolation::Raw => race.t(),
-            _ => race.t() - (1.0 - lab.clock().alpha()) * h,
+            Interpolation::Linear | Interpolation::Hermite => t,
         },
         paper_s: (PAPER * lab.scene().seconds).min(LONGEST_PAPER_S),
     };
@@ -46,14 +49,16 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
         Mode::Solo => {
             let stage = Rect { min: [0.0; 2], max: size };
             for (index, cell) in grid(stage, bodies, 1).into_iter().enumerate() {
-                shown.body(&mut picture, cell, &race.entrants()[0], index);
+                let ghost = Ghost::new(&shown, index, cell);
+                shown.body(&mut picture, cell, &race.entrants()[0], (index, &ghost));
             }
         }
         Mode::Race if let Some(shape) = shown.shape() => {
             let stage = Rect { min: [0.0; 2], max: size };
             let cells = mosaic(stage, race.entrants().len(), shape);
+            let ghost = Ghost::new(&shown, 0, cells[0]);
             for (entrant, cell) in race.entrants().iter().zip(cells) {
-                shown.body(&mut picture, cell, entrant, 0);
+                shown.body(&mut picture, cell, entrant, (0, &ghost));
                 let bottom = (cell.min[1] + CAPTION).min(cell.max[1]);
                 let head = Rect { min: cell.min, max: [cell.max[0], bottom] };
                 captions::lane(&mut picture, head, lab, entrant);
@@ -63,11 +68,14 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
             let gutter = if size[0] >= ROOM_FOR_NAMES { GUTTERS.0 } else { GUTTERS.1 };
             let stage = Rect { min: [gutter, 0.0], max: size };
             let cells = grid(stage, race.entrants().len(), bodies);
+            let ghosts = cells.iter().take(bodies).enumerate();
+            let ghosts: Vec<_> =
+                ghosts.map(|(index, &cell)| Ghost::new(&shown, index, cell)).collect();
             for (entrant, row) in race.entrants().iter().zip(cells.chunks(bodies)) {
                 let name = Rect { min: [0.0, row[0].min[1]], max: [gutter, row[0].max[1]] };
                 captions::lane(&mut picture, name, lab, entrant);
                 for (index, cell) in row.iter().enumerate() {
-                    shown.body(&mut picture, *cell, entrant, index);
+                    shown.body(&mut picture, *cell, entrant, (index, &ghosts[index]));
                 }
             }
             for (index, cell) in cells.iter().take(bodies).enumerate() {
@@ -111,11 +119,13 @@ fn mosaic(stage: Rect, count: usize, shape: DVec2) -> Vec<Rect> {
 pub(super) struct Shown<'a> {
     pub(super) lab: &'a Lab,
     /// How far the moment is from the previous tick to the present one.
-    alpha: f64,
+    pub(super) alpha: f64,
     /// The last tick's length in seconds.
     h: f64,
     /// The moment in seconds.
     pub(super) t: f64,
+    /// The moment at which lanes are drawn, in seconds: without interpolation the present tick.
+    pub(super) lanes_t: f64,
     /// How far a chart recorder's trail reaches back, in seconds.
     pub(super) paper_s: f64,
 }
@@ -150,27 +160,27 @@ impl Shown<'_> {
         }
     }
 
-    fn body(&self, picture: &mut Picture, rect: Rect, entrant: &Entrant, index: usize) {
+    fn body(
+        &self,
+        picture: &mut Picture,
+        rect: Rect,
+        entrant: &Entrant,
+        (index, ghost): (usize, &Ghost),
+    ) {
         let truth = &self.lab.race().truth().bodies()[index];
-        let truth_history = &self.lab.race().truth_histories()[index];
         let body = &entrant.lane.bodies()[index];
         let history = &entrant.histories[index];
-        let (truth_q, truth_v) = self.state(truth);
         let (q, v) = self.state(body);
-        let mut ghost = Pen::default();
-        truth.stepper.outline(&truth_q, &truth_v, &mut ghost);
         let mut pen = Pen::default();
         body.stepper.outline(&q, &v, &mut pen);
 
-        let view = truth.stepper.view();
-        let camera = self.camera(rect, truth, ghost.at, truth_history);
+        let view = ghost.view;
+        let camera = self.camera(rect, turns(body), ghost);
         let (colour, _) = style(self.lab.entries()[entrant.entry].method);
         let own = Paint { colour, line_width: 2.0, grow: 0.0 };
         let exact = Paint { colour: faded(palette::TRUTH, 0.75), line_width: 1.0, grow: 1.6 };
 
-        let white = faded(palette::TRUTH, 0.55);
         let shows_ghost = self.lab.display().ghost && truth.halted().is_none();
-
         picture.seas.push(self.sea(&camera, view));
         match view {
             View::Follow { width_m, wake_s, .. } => {
@@ -178,16 +188,24 @@ impl Shown<'_> {
             }
             View::Recorder { .. } => {
                 if shows_ghost {
-                    self.recorded(picture, &camera, ghost.at, truth_history, |_| white);
+                    self.recorded(picture, &camera, &ghost.past);
                 }
-                self.recorded(picture, &camera, pen.at, history, |sample| self.colour(sample));
-                envelope(picture, &camera, truth_history);
+                for leg in self.legs(pen.at, history, self.paper_s) {
+                    self.recorded(picture, &camera, &leg);
+                    self.dots(picture, &camera, &leg, self.paper_s, |moment| {
+                        self.on_paper(&camera, moment)
+                    });
+                }
+                envelope(picture, &camera, ghost.reach_m.x);
             }
             View::Fixed { trail_s, .. } => {
                 if shows_ghost {
-                    self.path(picture, &camera, ghost.at, truth_history, trail_s, |_| white);
+                    self.path(picture, &camera, &ghost.past, trail_s);
                 }
-                self.path(picture, &camera, pen.at, history, trail_s, |s| self.colour(s));
+                for leg in self.legs(pen.at, history, trail_s) {
+                    self.path(picture, &camera, &leg, trail_s);
+                    self.dots(picture, &camera, &leg, trail_s, |moment| camera.points(moment.at));
+                }
             }
         }
         if shows_ghost {
@@ -217,36 +235,34 @@ impl Shown<'_> {
         }
     }
 
-    fn camera(&self, rect: Rect, body: &LaneBody, truth_at: DVec2, truth: &History) -> Camera {
+    pub(super) fn camera(&self, rect: Rect, turns: bool, ghost: &Ghost) -> Camera {
         let [width, height] = [0, 1].map(|i| f64::from(rect.max[i] - rect.min[i]).max(1.0));
         let middle = [0, 1].map(|i| (rect.min[i] + rect.max[i]) / 2.0);
-        match body.stepper.view() {
+        match ghost.view {
             View::Follow { width_m, height_m, .. } => {
                 let centre_m = if self.lab.display().motion {
-                    truth_at
+                    ghost.at
                 } else {
                     // In pages, so that nothing but the ship moves.
                     let (page, leaf) = (0.6 * width_m, 0.5 * height_m);
-                    let x = (libm::floor(truth_at.x / page) + 0.5) * page;
-                    DVec2::new(x, libm::round(truth_at.y / leaf) * leaf)
+                    let x = (libm::floor(ghost.at.x / page) + 0.5) * page;
+                    DVec2::new(x, libm::round(ghost.at.y / leaf) * leaf)
                 };
                 // On a straight course half a ship's length ahead of the middle leaves room for the
                 // wake.
-                let ahead = if turns(body) { 0.0 } else { 0.1 };
+                let ahead = if turns { 0.0 } else { 0.1 };
                 let at = [middle[0] + ahead * width as f32, middle[1] + 0.06 * height as f32];
                 let points_per_metre = (width / width_m).min(height / height_m);
                 Camera { rect, centre_m, at, points_per_metre }
             }
             View::Recorder { half_width_m } => {
-                let swing = swing(truth);
-                let half_width_m = half_width_m.max(1.15 * swing);
+                let half_width_m = half_width_m.max(1.15 * ghost.reach_m.x);
                 let at = [middle[0] + 0.05 * width as f32, rect.min[1] + 0.46 * height as f32];
                 let points_per_metre = (width / 2.1).min(height * 1.1) / half_width_m;
                 Camera { rect, centre_m: DVec2::ZERO, at, points_per_metre }
             }
             View::Fixed { centre_m, half_m, .. } => {
-                let off = truth.samples().map(|s| (s.at - centre_m).abs() * 1.05);
-                let half_m = off.fold(half_m, DVec2::max);
+                let half_m = half_m.max(1.05 * ghost.reach_m);
                 let head = HEAD.min(height / 4.0);
                 let at = [middle[0], middle[1] + head as f32 / 2.0];
                 let points_per_metre = (width / half_m.x).min((height - head) / half_m.y) / 2.0;
@@ -274,24 +290,18 @@ impl Shown<'_> {
 }
 
 /// Whether a body leaves the line that it starts on: the one coordinate of the others is along it.
-fn turns(body: &LaneBody) -> bool {
+pub(super) fn turns(body: &LaneBody) -> bool {
     body.coordinates.len() > 1
 }
 
-/// How far the truth has been from the origin along x, in metres.
-fn swing(truth: &History) -> f64 {
-    truth.samples().map(|s| s.at.x.abs()).fold(0.0, f64::max)
-}
-
 /// Two dashed ticks at the largest swing of the truth: a mass beyond them has gained energy.
-fn envelope(picture: &mut Picture, camera: &Camera, truth: &History) {
+fn envelope(picture: &mut Picture, camera: &Camera, swing_m: f64) {
     /// From the beginning of a dash to its end and to the next one, in points.
     const DASH: f32 = 3.0;
     const PERIOD: f32 = 6.0;
-    let swing = swing(truth);
     let colour = faded(palette::TRUTH, 0.6);
     let half = 0.13 * (camera.rect.max[1] - camera.rect.min[1]);
-    for x in [-swing, swing] {
+    for x in [-swing_m, swing_m] {
         let [x, y] = camera.points(DVec2::new(x, 0.0));
         for dash in 0..(2.0 * half / PERIOD).ceil() as u32 {
             let from = y - half + dash as f32 * PERIOD;

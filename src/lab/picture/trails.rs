@@ -2,45 +2,40 @@
 
 use std::iter;
 
-use glam::DVec2;
+use glam::{DVec2, Vec2};
 
 use super::compose::Shown;
 use super::palette::{self, faded, style};
-use super::sketch::{Camera, demote};
+use super::sketch::{Camera, demote, line};
 use super::{Picture, Rect, Rgba, Ribbon, RibbonPoint};
 use crate::lab::{History, Sample};
 
-/// The most points in a trail: more would not show.
-const TRAIL_POINTS: usize = 180;
+/// The most points in a lane's trail: more would not show.
+const TRAIL_POINTS: usize = 720;
 /// Half the width of a trail and of an arm of a bow wave, in points.
 const TRAIL_RADIUS: f32 = 0.75;
 const ARM_RADIUS: f32 = 0.6;
+/// From this distance on, in points, samples of a trail can be told apart, and have dots of this radius.
+const SPARSE: f32 = 6.0;
+const DOT_RADIUS: f32 = 1.7;
 
 /// A moment of a body's past.
-struct Moment<'h> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moment {
     /// How long ago, in seconds.
-    age: f64,
+    pub(super) age: f64,
     /// Where the body was, in metres.
-    at: DVec2,
-    /// By what method it got there.
-    sample: &'h Sample,
+    pub(super) at: DVec2,
+    /// The colour of what got it there.
+    pub(super) colour: Rgba,
 }
 
 /// A ribbon through some moments.
-fn ribbon<'h>(
-    moments: &[Moment<'h>],
-    clip: Rect,
-    point: impl FnMut(&Moment<'h>) -> RibbonPoint,
-) -> Ribbon {
+fn ribbon(moments: &[Moment], clip: Rect, point: impl FnMut(&Moment) -> RibbonPoint) -> Ribbon {
     Ribbon { points: moments.iter().map(point).collect(), clip }
 }
 
 impl Shown<'_> {
-    /// The colour of the method that flew a body at a moment of its past.
-    pub(super) fn colour(&self, sample: &Sample) -> Rgba {
-        style(self.lab.entries()[sample.entry].method).0
-    }
-
     /// The samples of the last `trail_s` seconds before the moment drawn, newest first, thinned to
     /// what shows, each with its age.
     fn recent<'h>(
@@ -48,7 +43,7 @@ impl Shown<'_> {
         history: &'h History,
         trail_s: f64,
     ) -> impl Iterator<Item = (f64, &'h Sample)> {
-        let shown = self.t;
+        let shown = self.lanes_t;
         let unbroken_since = history.unbroken_since();
         let recent = move |s: &&Sample| shown - s.t < trail_s && s.t >= unbroken_since;
         let count = history.samples().rev().take_while(recent).count();
@@ -59,13 +54,14 @@ impl Shown<'_> {
 
     /// The past of a body that is now at `from`, newest first, cut where its method was switched, each
     /// part beginning where the one before ends.
-    fn legs<'h>(&self, from: DVec2, history: &'h History, trail_s: f64) -> Vec<Vec<Moment<'h>>> {
+    pub(super) fn legs(&self, from: DVec2, history: &History, trail_s: f64) -> Vec<Vec<Moment>> {
         let past: Vec<(f64, &Sample)> = self.recent(history, trail_s).collect();
         let (mut age, mut at) = (0.0, from);
         let legs = past.chunk_by(|(_, new), (_, old)| new.entry == old.entry).map(|flown| {
-            let first = Moment { age, at, sample: flown[0].1 };
-            let rest = flown.iter().map(|&(age, sample)| Moment { age, at: sample.at, sample });
-            let leg: Vec<Moment<'_>> = iter::once(first).chain(rest).collect();
+            let colour = style(self.lab.entries()[flown[0].1.entry].method).0;
+            let first = Moment { age, at, colour };
+            let rest = flown.iter().map(|&(age, sample)| Moment { age, at: sample.at, colour });
+            let leg: Vec<Moment> = iter::once(first).chain(rest).collect();
             (age, at) = leg.last().map_or((age, at), |last| (last.age, last.at));
             leg
         });
@@ -76,28 +72,20 @@ impl Shown<'_> {
         if self.lab.display().motion { demote(1.0 - age / trail_s) } else { 0.6 }
     }
 
-    /// Where a body has been that moves along x, drawn as a chart recorder would: older is further
-    /// down.
-    pub(super) fn recorded(
-        &self,
-        picture: &mut Picture,
-        camera: &Camera,
-        from: DVec2,
-        history: &History,
-        colour: impl Fn(&Sample) -> Rgba,
-    ) {
-        let drop = (camera.rect.max[1] - camera.at[1]) as f64 / self.paper_s;
-        let place = |moment: &Moment<'_>| {
-            let [x, y] = camera.points(moment.at);
-            [x, demote(f64::from(y) + moment.age * drop)]
-        };
-        for leg in self.legs(from, history, self.paper_s) {
-            picture.ribbons.push(ribbon(&leg, camera.rect, |moment| RibbonPoint {
-                at: place(moment),
-                radius: TRAIL_RADIUS,
-                colour: faded(colour(moment.sample), self.fade(moment.age, self.paper_s)),
-            }));
-        }
+    /// Where a moment lies on a chart recorder's paper: older is further down.
+    pub(super) fn on_paper(&self, camera: &Camera, moment: &Moment) -> [f32; 2] {
+        let drop = f64::from(camera.rect.max[1] - camera.at[1]) / self.paper_s;
+        let [x, y] = camera.points(moment.at);
+        [x, demote(f64::from(y) + moment.age * drop)]
+    }
+
+    /// Where a body has been that moves along x, drawn as a chart recorder would.
+    pub(super) fn recorded(&self, picture: &mut Picture, camera: &Camera, past: &[Moment]) {
+        picture.ribbons.push(ribbon(past, camera.rect, |moment| RibbonPoint {
+            at: self.on_paper(camera, moment),
+            radius: TRAIL_RADIUS,
+            colour: faded(moment.colour, self.fade(moment.age, self.paper_s)),
+        }));
     }
 
     /// Where a body has been, in its place.
@@ -105,18 +93,34 @@ impl Shown<'_> {
         &self,
         picture: &mut Picture,
         camera: &Camera,
-        from: DVec2,
-        history: &History,
+        past: &[Moment],
         trail_s: f64,
-        colour: impl Fn(&Sample) -> Rgba,
     ) {
-        for leg in self.legs(from, history, trail_s) {
-            picture.ribbons.push(ribbon(&leg, camera.rect, |moment| RibbonPoint {
-                at: camera.points(moment.at),
-                radius: TRAIL_RADIUS,
-                // Opaque, since where a trail crosses itself one piece covers the other.
-                colour: palette::dimmed(colour(moment.sample), self.fade(moment.age, trail_s)),
-            }));
+        picture.ribbons.push(ribbon(past, camera.rect, |moment| RibbonPoint {
+            at: camera.points(moment.at),
+            radius: TRAIL_RADIUS,
+            // Opaque, since where a trail crosses itself one piece covers the other.
+            colour: palette::dimmed(moment.colour, self.fade(moment.age, trail_s)),
+        }));
+    }
+
+    /// A dot on each sample of a lane's trail that is far enough from the next one for the line between
+    /// them to be taken for motion. The first moment of a leg is no sample.
+    pub(super) fn dots(
+        &self,
+        picture: &mut Picture,
+        camera: &Camera,
+        leg: &[Moment],
+        trail_s: f64,
+        place: impl Fn(&Moment) -> [f32; 2],
+    ) {
+        for ends in leg.windows(2) {
+            let [newer, older] = [0, 1].map(|i| Vec2::from(place(&ends[i])));
+            if newer.distance(older) >= SPARSE {
+                let colour = faded(ends[1].colour, self.fade(ends[1].age, trail_s));
+                let at = older.into();
+                picture.strokes.push(line(at, at, 2.0 * DOT_RADIUS, colour, camera.rect));
+            }
         }
     }
 
@@ -139,10 +143,10 @@ impl Shown<'_> {
             picture.ribbons.push(ribbon(leg, camera.rect, |moment| RibbonPoint {
                 at: camera.points(moment.at),
                 radius: camera.length(unit * (0.35 + 0.75 * moment.age / wake_s)),
-                colour: faded(self.colour(moment.sample), 0.55 * self.fade(moment.age, wake_s)),
+                colour: faded(moment.colour, 0.55 * self.fade(moment.age, wake_s)),
             }));
         }
-        let course: Vec<Moment<'_>> = legs.into_iter().flatten().collect();
+        let course: Vec<Moment> = legs.into_iter().flatten().collect();
         let Some([newest, next]) = course.first_chunk() else { return };
         for side in [-1.0, 1.0] {
             let (mut last, mut run) = (newest.at, 0.0);

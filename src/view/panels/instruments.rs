@@ -3,19 +3,33 @@
 //! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
 //! arrow in its colour says so.
 
-use egui::{ComboBox, FontId, Label, RichText, Ui};
-use egui_plot::PlotBounds;
+use egui::{ComboBox, FontId, Label, RichText, Sense, Ui, Vec2, vec2};
+use egui_plot::{AxisHints, Plot, PlotBounds};
 
-use super::{QUIET, advice, colour};
-use crate::lab::number::superscript;
+use super::tracks::{self, Look, Track};
+use super::{QUIET, advice, colour, ranges};
 use crate::lab::picture::palette;
-use crate::lab::{Command, History, Instrument, Lab, METRICS, Sample, Scale};
-use crate::view::plot::{CURVE, Curve, draw, plot, tick_text};
+use crate::lab::{
+    Command, Instrument, Lab, LaneBody, METRICS, Mode, Scale, TruthCurve, TruthSample,
+};
+use crate::view::plot::{CURVE, Curve, Dots, SwitchMark, X_AXIS, draw, plot};
+use crate::view::ticks::{self, NEVER_FADED};
 
-/// A lane this many times further out than the truth no longer stretches the axes.
+/// A lane this many times further out than the truth no longer stretches the axes; and where it is alone,
+/// squeezes nothing but the truth, and is looked at for how it grows.
 const HEALTHY: f64 = 1.6;
-/// Errors below this are round-off: the plot's floor, as a power of ten.
-const FLOOR: f64 = -17.0;
+const HEALTHY_ALONE: f64 = 4.0;
+/// Room for the numbers of a vertical axis, in points: a plot that had to learn it would be laid out anew
+/// in its second frame, and the first would not match.
+const Y_AXIS: f32 = 58.0;
+/// Room for the name of a horizontal axis, in points.
+const AXIS_NAME: f32 = 17.0;
+/// Room for the half of a number under the right end of an axis, in points.
+const RIGHT: f32 = 14.0;
+/// The least distance between marks along and up, in points, as long as three fit.
+const MARKS_APART: [f64; 2] = [64.0, 28.0];
+/// Said where every error is zero, which has no logarithm.
+const NO_ERROR: &str = "No error: every method shown is on the exact curve to the last bit.";
 /// From this width on, in points, bodies and instruments are tabs.
 const ROOM_FOR_TABS: f32 = 430.0;
 /// And from this width on all instruments fit in one row.
@@ -32,17 +46,17 @@ const UNDER_TRUTH: f32 = 2.4;
 const PHASE_SAMPLES: usize = 360;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
-    let height = ui.available_height();
+    let (width, height) = ((ui.available_width() - RIGHT).max(10.0), ui.available_height());
     if height >= ROOM_FOR_BOTH {
         ui.horizontal(|ui| {
             body_choice(ui, lab, commands);
-            let truth = &lab.race().truth().bodies()[lab.display().body];
+            let truth = body(lab);
             let (coordinate, words) = (&truth.coordinates[0], truth.truth_in_words());
             let title = format!("{} ({}), {words} in white", coordinate.name, coordinate.unit);
             ui.add_space(6.0);
             ui.add(Label::new(RichText::new(title).color(QUIET)).truncate());
         });
-        value(ui, lab, height * 0.5 - 26.0);
+        value(ui, lab, vec2(width, height * 0.5 - 26.0));
         ui.horizontal_wrapped(|ui| instrument_choice(ui, lab, ROOM_FOR_TABS, commands));
     } else {
         ui.horizontal(|ui| {
@@ -50,7 +64,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             instrument_choice(ui, lab, ROOM_FOR_ONE_ROW, commands);
         });
     }
-    let room = (ui.available_height() - 2.0).max(10.0);
+    let room = vec2(width, (ui.available_height() - 2.0).max(10.0));
     match lab.display().instrument {
         Instrument::Metric(index) => metric(ui, lab, room, index),
         Instrument::Phase => phase(ui, lab, room),
@@ -101,136 +115,277 @@ fn choice(
     }
 }
 
-/// One curve for each lane, of what `y` makes of its samples.
-fn curves(
-    lab: &Lab,
-    width: f32,
-    x: impl Fn(&Sample) -> f64,
-    y: impl Fn(&Sample) -> f64,
-) -> Vec<Curve> {
-    let curve = |(entry, history): (usize, &History)| {
-        let (rgba, dash) = palette::style(lab.entries()[entry].method);
-        let points = history.samples().map(|s| [x(s), y(s)]);
-        let points = points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect();
-        Curve { colour: colour(rgba), width, dash, dots: 0.0, points }
-    };
-    lab.plotted().map(curve).collect()
+fn truth(lab: &Lab) -> &TruthCurve {
+    &lab.race().truth_curves()[lab.display().body]
 }
 
-/// The curve of the truth, to be drawn over the others.
-fn white(points: Vec<[f64; 2]>) -> Curve {
-    let colour = colour(palette::TRUTH);
-    Curve { colour, width: TRUTH_CURVE, dash: [1.0, 0.0], dots: 0.0, points }
+/// The exact curve as far as the present, to be drawn over the lanes.
+fn white(lab: &Lab, since_s: f64, place: impl Fn(&TruthSample) -> [f64; 2]) -> Curve {
+    let samples = truth(lab).samples().skip_while(|sample| sample.t < since_s);
+    Curve {
+        colour: colour(palette::TRUTH),
+        width: TRUTH_CURVE,
+        dash: [1.0, 0.0],
+        dots: Dots::None,
+        points: samples.map(place).collect(),
+    }
 }
 
-fn truth(lab: &Lab) -> &History {
-    &lab.race().truth_histories()[lab.display().body]
+fn value(ui: &mut Ui, lab: &Lab, room: Vec2) {
+    let lanes = Track::of(lab, |s| [s.t, s.q]);
+    let y = ranges::around_truth(truth(lab).samples().map(|s| s.q), &lanes, 1, healthy(lab));
+    let bounds = over_time(lab, y);
+    let look = Look { width: UNDER_TRUTH, dots: Dots::SparseAlongX, bounded: [false, true] };
+    let mut drawing = tracks::drawing(lab, &lanes, &bounds, look);
+    drawing.truth = Some(white(lab, f64::NEG_INFINITY, |s| [s.t, s.q]));
+    let unit = body(lab).coordinates[0].unit;
+    draw(ui, axes("value", room, units(["s", unit])), bounds, &drawing);
 }
 
-fn value(ui: &mut Ui, lab: &Lab, height: f32) {
-    let exact: Vec<[f64; 2]> = truth(lab).samples().map(|s| [s.t, s.q]).collect();
-    let mut all = curves(lab, UNDER_TRUTH, |s| s.t, |s| s.q);
-    let y = healthy_range(1, &exact, &all);
-    all.push(white(exact));
-    draw(ui, plot("value", height), bounds(lab, y), &all);
-}
-
-fn metric(ui: &mut Ui, lab: &Lab, height: f32, index: usize) {
+fn metric(ui: &mut Ui, lab: &Lab, room: Vec2, index: usize) {
     let metric = &METRICS[index];
-    let body = &lab.race().truth().bodies()[lab.display().body];
-    let unit = metric.unit.on(&body.coordinates[0]);
-    match metric.scale {
-        Scale::Log => {
-            let log = |s: &Sample| match s.metrics[index] {
-                0.0 => FLOOR,
-                value => libm::log10(value).max(FLOOR),
-            };
-            let lanes = curves(lab, CURVE, |s| s.t, log);
-            let y = log_range(lab, &lanes);
-            let plot = plot("log metric", height).y_axis_formatter(|mark, _| {
-                let exponent = mark.value.round();
-                if (mark.value - exponent).abs() > 1e-6 {
-                    return String::new();
-                }
-                format!("10{} {unit}", superscript(exponent as i32))
-            });
-            draw(ui, plot.y_grid_spacer(decades), bounds(lab, y), &lanes);
-        }
-        Scale::Linear => {
-            let lanes = curves(lab, CURVE, |s| s.t, |s| s.metrics[index]);
-            let y = spread(&lanes, 300.0);
-            let plot = plot("metric", height);
-            let plot =
-                plot.y_axis_formatter(move |mark, _| format!("{} {unit}", tick_text(mark.value)));
-            draw(ui, plot, bounds(lab, y), &lanes);
-        }
+    let unit = metric.unit.on(&body(lab).coordinates[0]);
+    let lanes = Track::of(lab, |s| {
+        let value = s.metrics[index];
+        [s.t, if metric.scale == Scale::Log { libm::log10(value) } else { value }]
+    });
+    if lanes.iter().all(Track::is_empty) {
+        let has_values = lab
+            .plotted()
+            .any(|(_, history)| history.samples().any(|sample| sample.metrics[index].is_finite()));
+        return nothing(ui, room, if has_values { NO_ERROR } else { metric.absent });
     }
+    let look = Look { width: CURVE, dots: Dots::SparseAlongX, bounded: [false, true] };
+    let y = match (metric.scale, &*unit) {
+        (Scale::Log, _) => {
+            let size = truth(lab).samples().map(|s| s.q.abs().max(s.v.abs()));
+            ranges::of_decades(&lanes, size.fold(0.0, f64::max))
+        }
+        (Scale::Linear, "%") => ranges::of_shares(&lanes),
+        (Scale::Linear, _) => ranges::from_zero(&lanes),
+    };
+    let bounds = over_time(lab, y);
+    let drawing = tracks::drawing(lab, &lanes, &bounds, look);
+    let plot = axes(metric.id, room, units(["s", &unit]));
+    let plot = match metric.scale {
+        Scale::Log => plot
+            .y_grid_spacer(|input| ticks::decades(input, MARKS_APART[1]))
+            .y_axis_formatter(|mark, _| ticks::decade_label(mark, &unit)),
+        Scale::Linear => plot,
+    };
+    draw(ui, plot, bounds, &drawing);
 }
 
-fn phase(ui: &mut Ui, lab: &Lab, height: f32) {
-    let latest =
-        |points: Vec<[f64; 2]>| points[points.len().saturating_sub(PHASE_SAMPLES)..].to_vec();
-    let exact = latest(truth(lab).samples().map(|s| [s.q, s.v]).collect());
-    let mut all = curves(lab, UNDER_TRUTH, |s| s.q, |s| s.v);
-    for lane in &mut all {
-        lane.points = latest(std::mem::take(&mut lane.points));
+fn phase(ui: &mut Ui, lab: &Lab, room: Vec2) {
+    let mut lanes = Track::of(lab, |s| [s.q, s.v]);
+    lanes.iter_mut().for_each(|lane| lane.keep_latest(PHASE_SAMPLES));
+    // As much of the truth as of the lanes that still move.
+    let newest = lanes.iter().filter_map(Track::times).max_by(|a, b| a.1.total_cmp(&b.1));
+    let exact = white(lab, newest.map_or(f64::NEG_INFINITY, |(first, _)| first), |s| [s.q, s.v]);
+    let [x, y] = [0, 1].map(|axis| {
+        let truth = exact.points.iter().map(|point| point[axis]);
+        ranges::around_truth(truth, &lanes, axis, healthy(lab))
+    });
+    let bounds = PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]);
+    let look = Look { width: UNDER_TRUTH, dots: Dots::Sparse, bounded: [true; 2] };
+    let mut drawing = tracks::drawing(lab, &lanes, &bounds, look);
+    drawing.switch_mark = SwitchMark::Ring;
+    drawing.truth = Some(exact);
+    let coordinate = &body(lab).coordinates[0];
+    let text =
+        |letter: &str, unit: String| AxisText { name: format!("{letter} in {unit}"), unit: "" };
+    let along = text(coordinate.name, coordinate.unit.into());
+    let up = text(coordinate.velocity, format!("{}/s", coordinate.unit));
+    let plot = axes("phase", room, [along, up]);
+    draw(ui, plot, bounds, &drawing);
+}
+
+/// Says why a plot has nothing to show, in its place.
+fn nothing(ui: &mut Ui, room: Vec2, why: &str) {
+    let (rect, _) = ui.allocate_exact_size(room, Sense::hover());
+    let words = quiet(why.to_owned());
+    ui.put(rect.shrink2(vec2(0.1 * rect.width(), 0.0)), Label::new(words).wrap());
+}
+
+fn quiet(text: String) -> RichText {
+    RichText::new(text).color(QUIET)
+}
+
+fn body(lab: &Lab) -> &LaneBody {
+    &lab.race().truth().bodies()[lab.display().body]
+}
+
+/// How many times further out than the truth a lane still stretches the axes.
+fn healthy(lab: &Lab) -> f64 {
+    match lab.mode() {
+        Mode::Solo => HEALTHY_ALONE,
+        Mode::Race => HEALTHY,
     }
-    let [x, y] = [0, 1].map(|axis| healthy_range(axis, &exact, &all));
-    all.push(white(exact));
-    let plot = plot("phase", height).x_axis_formatter(|mark, _| tick_text(mark.value));
-    draw(ui, plot, PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]), &all);
 }
 
 /// The window of time in view, and the given range of values.
-fn bounds(lab: &Lab, (low, high): (f64, f64)) -> PlotBounds {
+fn over_time(lab: &Lab, (low, high): (f64, f64)) -> PlotBounds {
     let span = lab.scene().seconds;
     let now = lab.race().t();
     PlotBounds::from_min_max([(now - span).max(0.0), low], [now.max(span), high])
 }
 
-/// The range of the truth along an axis, stretched to take in what is not far outside it.
-fn healthy_range(axis: usize, exact: &[[f64; 2]], lanes: &[Curve]) -> (f64, f64) {
-    let along = |point: &[f64; 2]| point[axis];
-    let (low, high) = range(exact.iter().map(along)).unwrap_or((-1.0, 1.0));
-    let half = ((high - low) / 2.0).max(1e-3 * high.abs()).max(1e-9);
-    let middle = (low + high) / 2.0;
-    let near = |value: &f64| (value - middle).abs() <= HEALTHY * half;
-    let all = lanes.iter().flat_map(|lane| lane.points.iter().map(along)).filter(near);
-    let (low, high) = range(all.chain([low, high])).unwrap_or((low, high));
-    let pad = 0.12 * (high - low).max(half);
-    (low - pad, high + pad)
+/// What is written along an axis.
+struct AxisText<'a> {
+    /// Empty where the plot's title says it.
+    name: String,
+    /// After each number.
+    unit: &'a str,
 }
 
-/// The decades that hold the errors, up to ten times the truth's own range: beyond that a lane is lost.
-fn log_range(lab: &Lab, lanes: &[Curve]) -> (f64, f64) {
-    let size = truth(lab).samples().map(|s| s.q.abs().max(s.v.abs())).fold(1e-300, f64::max);
-    let lost = libm::log10(size).ceil() + 1.0;
-    let all = lanes.iter().flat_map(|lane| lane.points.iter().map(|p| p[1]));
-    let (low, high) = range(all.filter(|&y| y > FLOOR && y <= lost)).unwrap_or((-3.0, 0.0));
-    (low.floor() - 0.2, high.ceil().max(low.floor() + 2.0) + 0.2)
+fn units(units: [&str; 2]) -> [AxisText<'_>; 2] {
+    units.map(|unit| AxisText { name: String::new(), unit })
 }
 
-/// The range of all lanes within `most` of zero.
-fn spread(lanes: &[Curve], most: f64) -> (f64, f64) {
-    let all = lanes.iter().flat_map(|lane| lane.points.iter().map(|p| p[1]));
-    let (low, high) = range(all.filter(|y| y.abs() <= most)).unwrap_or((-1.0, 1.0));
-    let pad = 0.08 * (high - low).max(1e-9);
-    (low - pad, high + pad)
+/// An empty plot with marked axes.
+fn axes<'a>(id: &'static str, room: Vec2, [along, up]: [AxisText<'a>; 2]) -> Plot<'a> {
+    let hints = |hints: AxisHints<'a>, name: String| {
+        let hints = hints.label_spacing(NEVER_FADED).label(quiet(name));
+        hints.tick_label_font(FontId::proportional(TAB_TEXT))
+    };
+    let below = if along.name.is_empty() { X_AXIS } else { X_AXIS + AXIS_NAME };
+    plot(id, room.y)
+        .width(room.x)
+        .custom_x_axes(vec![hints(AxisHints::new_x(), along.name).min_thickness(below)])
+        .custom_y_axes(vec![hints(AxisHints::new_y(), up.name).min_thickness(Y_AXIS)])
+        .x_grid_spacer(|input| ticks::linear(input, MARKS_APART[0]))
+        .y_grid_spacer(|mut input| {
+            // No number so low that it stands on the first one of the other axis.
+            let (low, high) = input.bounds;
+            input.bounds.0 = low + 0.04 * (high - low);
+            ticks::linear(input, MARKS_APART[1])
+        })
+        .x_axis_formatter(move |mark, view| ticks::linear_label(mark, view, along.unit))
+        .y_axis_formatter(move |mark, view| ticks::linear_label(mark, view, up.unit))
 }
 
-fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
-    values.fold(None, |range, y| {
-        let (low, high) = range.unwrap_or((y, y));
-        Some((low.min(y), high.max(y)))
-    })
-}
+#[cfg(test)]
+mod tests {
+    use egui::{Context, Pos2, RawInput, Rect, Shape, pos2};
 
-/// A line for every whole power of ten, or every few where they crowd.
-fn decades(input: egui_plot::GridInput) -> Vec<egui_plot::GridMark> {
-    let (low, high) = input.bounds;
-    let step = ((high - low) / 6.0).ceil().max(1.0);
-    let first = (low / step).ceil() as i64;
-    let last = (high / step).floor() as i64;
-    let mark = |i: i64| egui_plot::GridMark { value: i as f64 * step, step_size: step };
-    (first..=last).map(mark).collect()
+    use super::*;
+    use crate::lab::{SCENES, Scene};
+    use crate::view::panels;
+
+    /// Every text that can be seen in a frame of this size, with its place.
+    fn texts(lab: &Lab, size: Vec2) -> Vec<(Rect, String)> {
+        let context = Context::default();
+        panels::dress(&context);
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size));
+        let input = RawInput { screen_rect, ..RawInput::default() };
+        let mut output = context.run_ui(input, |ui| drop(panels::show(ui, lab)));
+        output.textures_delta.clear();
+        let mut texts = Vec::new();
+        for clipped in output.shapes {
+            collect(&clipped.shape, clipped.clip_rect, &mut texts);
+        }
+        texts
+    }
+
+    fn collect(shape: &Shape, clip: Rect, texts: &mut Vec<(Rect, String)>) {
+        match shape {
+            Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, texts)),
+            Shape::Text(text) => {
+                let rect = text.visual_bounding_rect();
+                if clip.expand(0.5).contains_rect(rect) {
+                    texts.push((rect, text.galley.text().to_owned()));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The number of a mark on an axis and its unit.
+    fn mark(text: &str) -> Option<(&str, &str)> {
+        let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+        number
+            .trim_start_matches('\u{2212}')
+            .starts_with(|c: char| c.is_ascii_digit())
+            .then_some((number, unit))
+    }
+
+    /// That both axes of the plot in `room` are marked.
+    fn assert_marked(texts: &[(Rect, String)], room: Rect, units: [&str; 2], what: &str) {
+        let here = texts.iter().filter(|(rect, _)| room.contains(rect.center()));
+        let marks: Vec<(Pos2, (&str, &str))> =
+            here.filter_map(|(rect, text)| Some((rect.center(), mark(text)?))).collect();
+        let lowest = marks.iter().map(|(at, _)| at.y).fold(f32::MIN, f32::max);
+        let (along, up): (Vec<_>, Vec<_>) =
+            marks.into_iter().partition(|(at, _)| at.y > lowest - 3.0);
+        for (mut axis, unit, name) in [(along, units[0], "along"), (up, units[1], "up")] {
+            assert!(axis.len() >= 3, "{what}, {name}: {axis:?}");
+            assert!(axis.iter().all(|(_, (_, of))| *of == unit), "{what}, {name}: {axis:?}");
+            let numbers = axis.len();
+            axis.sort_by_key(|(_, mark)| *mark);
+            axis.dedup_by_key(|(_, mark)| *mark);
+            assert_eq!(axis.len(), numbers, "{what}, {name}: {axis:?}");
+        }
+    }
+
+    fn assert_legible(lab: &Lab, what: &str) {
+        const SIZE: Vec2 = vec2(1280.0, 720.0);
+        let texts = texts(lab, SIZE);
+        let place =
+            |wanted: &str| texts.iter().find(|(_, text)| text == wanted).map(|(rect, _)| *rect);
+        let tabs = place(Instrument::Advice.name()).expect("the last tab");
+        let title = texts.iter().find(|(_, text)| text.contains(" in white")).expect("a title").0;
+        let lanes = place("key").expect("the head of the lane list");
+        let left = (1.0 - panels::INSTRUMENTS) * SIZE.x;
+        let room = |top: Rect, bottom: Rect| {
+            Rect::from_min_max(pos2(left, top.max.y), pos2(SIZE.x, bottom.min.y))
+        };
+        let coordinate = &body(lab).coordinates[0];
+        assert_marked(&texts, room(title, tabs), ["s", coordinate.unit], what);
+        let lower = room(tabs, lanes);
+        let within = |text: &str| {
+            let mut here = texts.iter().filter(|(rect, _)| lower.contains(rect.center()));
+            here.any(|(_, shown)| shown == text)
+        };
+        match lab.display().instrument {
+            Instrument::Metric(index) if within(METRICS[index].absent) || within(NO_ERROR) => {}
+            Instrument::Metric(index) => {
+                assert_marked(&texts, lower, ["s", &METRICS[index].unit.on(coordinate)], what);
+            }
+            Instrument::Phase => {
+                assert_marked(&texts, lower, ["", ""], what);
+                let (unit, velocity) = (coordinate.unit, coordinate.velocity);
+                assert!(within(&format!("{} in {unit}", coordinate.name)), "{what}");
+                assert!(within(&format!("{velocity} in {unit}/s")), "{what}");
+            }
+            Instrument::Advice => {
+                let mut here = texts.iter().filter(|(rect, _)| lower.contains(rect.center()));
+                assert!(here.any(|(_, text)| text.len() > 10), "{what}: {texts:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_axis_of_every_instrument_has_three_marks_and_no_instrument_is_an_empty_box() {
+        for scene in SCENES {
+            let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
+            for mode in ["solo", "race"] {
+                for seconds in [0, 3] {
+                    for _ in 0..60 * seconds {
+                        lab.advance(16_666_667);
+                    }
+                    for instrument in Instrument::all() {
+                        lab.apply(Command::Instrument(instrument));
+                        for index in 0..lab.scene().bodies.len() {
+                            lab.apply(Command::Body(index));
+                            let name = instrument.name();
+                            let scene = scene.name;
+                            let what = format!("{scene}, {mode}, {name}, {index}, {seconds} s");
+                            assert_legible(&lab, &what);
+                        }
+                    }
+                }
+                lab.apply(Command::ToggleRace);
+            }
+        }
+    }
 }

@@ -11,7 +11,9 @@ mod footer;
 mod help;
 mod instruments;
 mod lanes;
+mod ranges;
 mod top_bar;
+mod tracks;
 
 /// What a frame shows beside the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,0 +1,120 @@
+//! The truth as the stage shows it: where the ghost is, where it has been, and how far it goes.
+
+use glam::DVec2;
+
+use super::Rect;
+use super::compose::{Shown, turns};
+use super::palette::{self, faded};
+use super::trails::Moment;
+use crate::lab::TruthCurve;
+use crate::sim::bodies::{Mark, Pen, View};
+
+/// The true motion of one body at the moment drawn.
+pub(super) struct Ghost {
+    /// How the body wants to be looked at.
+    pub(super) view: View,
+    /// Where it is, in metres.
+    pub(super) at: DVec2,
+    /// Its outline there.
+    pub(super) marks: Vec<Mark>,
+    /// Where it has been, newest first, as far back as its trail shows.
+    pub(super) past: Vec<Moment>,
+    /// How far it has been from what its camera looks at, along x and along y, in metres.
+    pub(super) reach_m: DVec2,
+}
+
+/// How far a trail may be drawn from the true one, in points: less than anybody sees.
+const TOLERANCE: f64 = 0.15;
+
+impl Ghost {
+    /// The ghost of the body at this place of the scene, for cells of the size of `cell`. It is the exact
+    /// flow at the moment drawn, however lanes are drawn between ticks.
+    pub(super) fn new(shown: &Shown<'_>, index: usize, cell: Rect) -> Self {
+        let race = shown.lab.race();
+        let body = &race.truth().bodies()[index];
+        let curve = &race.truth_curves()[index];
+        let (q, v) = race.truth_between(index, shown.alpha);
+        let mut pen = Pen::default();
+        body.stepper.outline(&q, &v, &mut pen);
+        let view = body.stepper.view();
+        let (trail_s, centre_m) = match view {
+            View::Follow { .. } => (0.0, DVec2::ZERO),
+            View::Recorder { .. } => (shown.paper_s, DVec2::ZERO),
+            View::Fixed { centre_m, trail_s, .. } => (trail_s, centre_m),
+        };
+        let mut ghost = Self {
+            view,
+            at: pen.at,
+            past: Vec::new(),
+            marks: pen.marks,
+            reach_m: curve.samples().map(|s| (s.at - centre_m).abs()).fold(DVec2::ZERO, DVec2::max),
+        };
+        let camera = shown.camera(cell, turns(body), &ghost);
+        let tolerance_m = TOLERANCE / camera.points_per_metre;
+        ghost.past = thinned(past(curve, pen.at, shown.t, trail_s), tolerance_m);
+        ghost
+    }
+}
+
+/// The last `trail_s` seconds before the moment `t`, at which the ghost is `at`.
+fn past(
+    curve: &TruthCurve,
+    at: DVec2,
+    t: f64,
+    trail_s: f64,
+) -> impl Iterator<Item = Moment> + Clone {
+    let colour = faded(palette::TRUTH, 0.55);
+    let samples = curve.samples().rev().skip_while(move |sample| sample.t >= t);
+    let moments = samples.map(move |sample| Moment { age: t - sample.t, at: sample.at, colour });
+    let now = Moment { age: 0.0, at, colour };
+    std::iter::once(now).chain(moments.take_while(move |moment| moment.age < trail_s))
+}
+
+/// The same trail with fewer moments, and none where it is as good as straight.
+fn thinned(trail: impl Iterator<Item = Moment> + Clone, tolerance_m: f64) -> Vec<Moment> {
+    let mut moments = trail.clone();
+    let mut kept: Vec<Moment> = moments.next().into_iter().collect();
+    let (mut left_out, mut bend_m) = (0.0, 0.0);
+    let mut before = kept.first().copied();
+    for (this, next) in moments.zip(trail.skip(2).map(Some).chain([None])) {
+        left_out += 1.0;
+        if let (Some(before), Some(next)) = (before, next) {
+            bend_m += (before.at - 2.0 * this.at + next.at).length();
+        }
+        // Of a parabola through evenly spaced moments, the height above its chord.
+        if next.is_none() || left_out * bend_m / 8.0 > tolerance_m {
+            kept.push(this);
+            (left_out, bend_m) = (0.0, 0.0);
+        }
+        before = Some(this);
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thinned_trail_keeps_its_ends_its_corners_and_within_the_tolerance_all_else() {
+        let zigzag = |x: f64| (x % 2.0 - 1.0).abs();
+        for motion in [|x: f64| libm::sin(3.0 * x), zigzag] {
+            let moment = |i: i32| {
+                let age = f64::from(i) / 200.0;
+                Moment { age, at: DVec2::new(motion(age), 0.0), colour: palette::TRUTH }
+            };
+            let kept = thinned((0..=800).map(moment), 1e-3);
+            assert!((5..250).contains(&kept.len()), "{}", kept.len());
+            assert_eq!((kept[0].age, kept[kept.len() - 1].age), (0.0, 4.0));
+            for ends in kept.windows(2) {
+                for i in 0..=20 {
+                    let part = f64::from(i) / 20.0;
+                    let age = ends[0].age + part * (ends[1].age - ends[0].age);
+                    let drawn = ends[0].at.lerp(ends[1].at, part).x;
+                    assert!((drawn - motion(age)).abs() < 1.5e-3, "at {age}: {drawn}");
+                }
+            }
+        }
+        assert_eq!(thinned(std::iter::empty(), 1.0).len(), 0);
+    }
+}

@@ -1,0 +1,121 @@
+//! What part of each axis a plot shows: the truth and the healthy lanes. A lane far beyond them is cut off
+//! and bends no axis.
+
+use super::tracks::Track;
+
+/// Errors below this are round-off: the plot's floor, as a power of ten.
+const FLOOR: f64 = -17.0;
+/// A share (%) of more than this is not healthy, and stretches no axis while another lane is healthy.
+const HEALTHY_SHARE: f64 = 25.0;
+/// And of more than this is lost.
+const LOST_SHARE: f64 = 300.0;
+/// The least range of an axis, against the values on it: the digits that a label has room for.
+const NARROWEST: f64 = 1e-3;
+
+/// The range of the truth along an axis, stretched to take in what is at most `healthy` times as far out.
+pub(super) fn around_truth(
+    truth: impl Iterator<Item = f64>,
+    lanes: &[Track],
+    axis: usize,
+    healthy: f64,
+) -> (f64, f64) {
+    let (low, high) = range(truth).unwrap_or((-1.0, 1.0));
+    let half = ((high - low) / 2.0).max(NARROWEST * high.abs().max(low.abs())).max(1e-300);
+    let middle = (low + high) / 2.0;
+    let near = |value: &f64| (value - middle).abs() <= healthy * half;
+    let all = lanes.iter().flat_map(|lane| lane.along(axis)).filter(near);
+    let (low, high) = range(all.chain([low, high])).unwrap_or((low, high));
+    let pad = 0.12 * (high - low).max(half);
+    (low - pad, high + pad)
+}
+
+/// The decades that hold the errors, up to ten times the size of what they are errors of: beyond that a
+/// lane is lost.
+pub(super) fn of_decades(lanes: &[Track], size: f64) -> (f64, f64) {
+    let lost = libm::log10(size.max(1e-300)).ceil() + 1.0;
+    let all = lanes.iter().flat_map(|lane| lane.along(1));
+    let (low, high) = range(all.filter(|&y| y > FLOOR && y <= lost)).unwrap_or((-3.0, 0.0));
+    (low.floor() - 0.2, high.ceil().max(low.floor() + 2.0) + 0.2)
+}
+
+/// The range of shares in percent of what the truth has: zero, and the healthy lanes; where none is, all
+/// that is not lost.
+pub(super) fn of_shares(lanes: &[Track]) -> (f64, f64) {
+    let most = |lane: &&Track| lane.along(1).map(f64::abs).fold(0.0, f64::max);
+    let healthy = lanes.iter().filter(|lane| !lane.is_empty() && most(lane) <= HEALTHY_SHARE);
+    let values = healthy.flat_map(|lane| lane.along(1));
+    let all = || lanes.iter().flat_map(|lane| lane.along(1)).filter(|y| y.abs() <= LOST_SHARE);
+    padded(range(values).or_else(|| range(all())))
+}
+
+/// The range of all values, and of zero: of a count or a sum.
+pub(super) fn from_zero(lanes: &[Track]) -> (f64, f64) {
+    padded(range(lanes.iter().flat_map(|lane| lane.along(1))))
+}
+
+/// These values and zero, with a little room on both sides.
+fn padded(values: Option<(f64, f64)>) -> (f64, f64) {
+    let (low, high) = values.map_or((0.0, 1.0), |(low, high)| (low.min(0.0), high.max(0.0)));
+    let wide = if high > low { high - low } else { 1.0 };
+    (low - 0.08 * wide, high + 0.08 * wide)
+}
+
+fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    values.fold(None, |range, y| {
+        let (low, high) = range.unwrap_or((y, y));
+        Some((low.min(y), high.max(y)))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{Command, Lab, METRICS, Scene};
+
+    fn lanes(lab: &Lab, metric: &str) -> Vec<Track> {
+        let index = METRICS.iter().position(|listed| listed.id == metric).unwrap();
+        Track::of(lab, |s| [s.t, s.metrics[index]])
+    }
+
+    #[test]
+    fn energy_drift_is_scaled_to_the_healthy_lanes_and_without_one_to_what_is_not_lost() {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        lab.apply(Command::ToggleRace);
+        (0..600).for_each(|_| lab.tick());
+        // Explicit Euler is some thousand per cent off, semi-implicit Euler swings by five.
+        let (low, high) = of_shares(&lanes(&lab, "energy_drift"));
+        assert!((-8.0..-4.0).contains(&low) && (4.0..8.0).contains(&high), "{low} to {high} %");
+        lab.apply(Command::Pick(0));
+        lab.apply(Command::ToggleRace);
+        let (low, high) = of_shares(&lanes(&lab, "energy_drift"));
+        assert!(low < 0.0 && (200.0..400.0).contains(&high), "{low} to {high} %");
+    }
+
+    #[test]
+    fn an_axis_takes_in_the_truth_and_what_is_near_and_nothing_that_is_far_beyond() {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        lab.apply(Command::ToggleRace);
+        (0..600).for_each(|_| lab.tick());
+        let tracks = Track::of(&lab, |s| [s.t, s.q]);
+        let truth = || lab.race().truth_curves()[0].samples().map(|s| s.q);
+        let (low, high) = around_truth(truth(), &tracks, 1, 1.6);
+        assert!((-2.1..-1.1).contains(&low) && (1.1..2.1).contains(&high), "{low} to {high}");
+        let (low, high) = around_truth(truth(), &tracks, 1, 4.0);
+        assert!(low < -3.0 && high > 3.0, "{low} to {high}");
+    }
+
+    #[test]
+    fn ranges_of_what_does_not_change_are_wide_enough_to_be_marked() {
+        for value in [0.0, 1e-12, -7.0, 3e15] {
+            let (low, high) = around_truth([value; 9].into_iter(), &[], 1, 1.6);
+            assert!(low < value && value < high, "{low} to {high}");
+            assert!((high - low) > 1e-4 * value.abs() && (high - low).is_finite());
+        }
+        for (low, high) in [of_shares(&[]), from_zero(&[]), of_decades(&[], 0.0)] {
+            assert!(high - low >= 1.0, "{low} to {high}");
+        }
+        let still = Lab::new(Scene::built_in("spring").unwrap());
+        let (low, high) = from_zero(&lanes(&still, "evaluations"));
+        assert!(low < 0.0 && high > 0.0, "{low} to {high}");
+    }
+}

@@ -1,0 +1,237 @@
+//! The lanes as curves of a plot: every piece in the colour of the method that flew it, and nothing of a
+//! lane that has left the plot.
+
+use std::ops::RangeInclusive;
+
+use egui_plot::PlotBounds;
+
+use super::colour;
+use crate::lab::picture::palette;
+use crate::lab::{Lab, Sample};
+use crate::view::plot::{Arrow, Curve, Dots, Drawing, Switch};
+
+/// A sample of a lane in a plot.
+#[derive(Clone, Copy, Debug)]
+struct Point {
+    t: f64,
+    /// The method that flew the lane there, by its place on the list.
+    entry: usize,
+    at: [f64; 2],
+}
+
+/// The samples of one lane, oldest first.
+#[derive(Debug)]
+pub(super) struct Track(Vec<Point>);
+
+/// What is drawn of a lane that comes back into the plot: nothing, until it has stayed for this part of
+/// the time in view. A swing that grows for ever passes the plot time and again.
+const RETURNED: f64 = 0.1;
+
+impl Track {
+    /// A track for each lane, of `place` of its samples; those that are not finite are left out.
+    pub(super) fn of(lab: &Lab, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Self> {
+        let tracks = lab.plotted().map(|(_, history)| {
+            let points = history.samples().map(|s| Point { t: s.t, entry: s.entry, at: place(s) });
+            Self(points.filter(|point| point.at.iter().all(|x| x.is_finite())).collect())
+        });
+        tracks.collect()
+    }
+
+    /// Keeps the last `count` samples.
+    pub(super) fn keep_latest(&mut self, count: usize) {
+        self.0.drain(..self.0.len().saturating_sub(count));
+    }
+
+    /// The values along an axis.
+    pub(super) fn along(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
+        self.0.iter().map(move |point| point.at[axis])
+    }
+
+    /// The times of the first and the last sample, in seconds.
+    pub(super) fn times(&self) -> Option<(f64, f64)> {
+        Some((self.0.first()?.t, self.0.last()?.t))
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+/// How tracks are drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    /// The width of a curve, in points.
+    pub(super) width: f32,
+    pub(super) dots: Dots,
+    /// Which axes a lane can leave the plot by: not by that of time, along which the plot follows.
+    pub(super) bounded: [bool; 2],
+}
+
+/// The lanes within `bounds`, with an arrow where one leaves them and a mark where one was switched.
+pub(super) fn drawing(lab: &Lab, tracks: &[Track], bounds: &PlotBounds, look: Look) -> Drawing {
+    let mut drawing = Drawing::default();
+    for track in tracks {
+        add(&mut drawing, lab, &track.0, bounds, look);
+    }
+    drawing
+}
+
+fn add(drawing: &mut Drawing, lab: &Lab, points: &[Point], bounds: &PlotBounds, look: Look) {
+    let rgba = |point: &Point| colour(palette::style(lab.entries()[point.entry].method).0);
+    for pair in points.windows(2).filter(|pair| pair[0].entry != pair[1].entry) {
+        drawing.switches.push(Switch { at: pair[0].at, colour: rgba(&pair[1]) });
+    }
+    let within = |point: &Point| {
+        let [low, high] = [bounds.min(), bounds.max()];
+        (0..2).all(|i| !look.bounded[i] || (low[i]..=high[i]).contains(&point.at[i]))
+    };
+    let is_in_view = |point: &Point| look.bounded[0] || point.at[0] >= bounds.min()[0];
+    let mut is_drawn = vec![false; points.len()];
+    for stay in stays(points, within, RETURNED * lab.scene().seconds) {
+        let (first, last) = stay.into_inner();
+        // To the edge on both sides, and not across a switch on the way in.
+        let enters = first > 0 && points[first - 1].entry == points[first].entry;
+        let leaves = last + 1 < points.len();
+        let piece = first - usize::from(enters)..=last + usize::from(leaves);
+        is_drawn[piece.clone()].fill(true);
+        drawing.curves.extend(runs(&points[piece]).map(|run| {
+            let newest = &run[run.len() - 1];
+            Curve {
+                colour: rgba(newest),
+                width: look.width,
+                dash: palette::style(lab.entries()[newest.entry].method).1,
+                dots: look.dots,
+                points: run.iter().map(|point| point.at).collect(),
+            }
+        }));
+        if leaves && is_in_view(&points[last + 1]) {
+            let colour = rgba(&points[last + 1]);
+            drawing.arrows.push(Arrow { from: points[last].at, to: points[last + 1].at, colour });
+        }
+    }
+    // A method of whose flight nothing shows has an arrow where it ended.
+    let mut end = 0;
+    for run in points.chunk_by(|a, b| a.entry == b.entry) {
+        let start = end;
+        end += run.len();
+        let newest = &points[end - 1];
+        let shows = |i: usize| is_drawn[i] && is_in_view(&points[i]);
+        if !within(newest) && is_in_view(newest) && !(start..end).any(shows) {
+            drawing.arrows.push(Arrow { from: newest.at, to: newest.at, colour: rgba(newest) });
+        }
+    }
+}
+
+/// The ranges of samples that are within, but for short visits of a lane that has left: what begins at
+/// the start, or with another method, or lasts.
+fn stays(
+    points: &[Point],
+    within: impl Fn(&Point) -> bool,
+    least_s: f64,
+) -> Vec<RangeInclusive<usize>> {
+    let mut stays = Vec::new();
+    let mut next = 0;
+    while let Some(first) = (next..points.len()).find(|&i| within(&points[i])) {
+        let outside = (first..points.len()).find(|&i| !within(&points[i]));
+        let last = outside.unwrap_or(points.len()) - 1;
+        let begins = first == 0 || points[first - 1].entry != points[first].entry;
+        if begins || points[last].t - points[first].t >= least_s {
+            stays.push(first..=last);
+        }
+        next = last + 1;
+    }
+    stays
+}
+
+/// The parts flown by one method each; each begins where the one before ends, unless the body had halted there and was
+/// taken up again elsewhere.
+fn runs(points: &[Point]) -> impl Iterator<Item = &[Point]> {
+    let mut start = 0;
+    points.chunk_by(|a, b| a.entry == b.entry).map(move |run| {
+        let first: usize = start;
+        start += run.len();
+        let meets = first > 0 && points[first - 1].t == points[first].t;
+        &points[first - usize::from(meets)..start]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{Command, Scene};
+
+    const LOOK: Look = Look { width: 1.0, dots: Dots::None, bounded: [false, true] };
+
+    fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
+        colour(palette::style(lab.entries()[entry].method).0)
+    }
+
+    fn drawn(lab: &Lab, low: f64, high: f64) -> Drawing {
+        let bounds = PlotBounds::from_min_max([0.0, low], [20.0, high]);
+        drawing(lab, &Track::of(lab, |s| [s.t, s.q]), &bounds, LOOK)
+    }
+
+    fn tick(lab: &mut Lab, ticks: u32) {
+        (0..ticks).for_each(|_| lab.tick());
+    }
+
+    #[test]
+    fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark() {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let flown = [(3, 60), (1, 90), (4, 30)];
+        for (entry, ticks) in flown {
+            lab.apply(Command::Pick(entry));
+            tick(&mut lab, ticks);
+        }
+        let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
+        let colours: Vec<_> = curves.iter().map(|curve| curve.colour).collect();
+        assert_eq!(colours, flown.map(|(entry, _)| colour_of(&lab, entry)));
+        let dashes = flown.map(|(entry, _)| palette::style(lab.entries()[entry].method).1);
+        assert!(curves.iter().map(|curve| curve.dash).eq(dashes));
+        for (before, after) in curves.iter().zip(&curves[1..]) {
+            assert_eq!(before.points.last(), after.points.first(), "one line");
+        }
+        assert!(arrows.is_empty());
+        let marks: Vec<_> = switches.iter().map(|switch| (switch.at[0], switch.colour)).collect();
+        assert_eq!(marks, [(1.0, colour_of(&lab, 1)), (2.5, colour_of(&lab, 4))]);
+    }
+
+    #[test]
+    fn a_lane_that_grows_out_of_the_plot_ends_there_with_an_arrow() {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        lab.apply(Command::Pick(0));
+        lab.apply(Command::Restart);
+        tick(&mut lab, 900);
+        let Drawing { curves, arrows, .. } = drawn(&lab, -1.5, 1.5);
+        assert_eq!((curves.len(), arrows.len()), (1, 1));
+        let points = &curves[0].points;
+        let (last, inside) = points.split_last().unwrap();
+        assert!(inside.iter().all(|point| point[1].abs() <= 1.5) && last[1].abs() > 1.5);
+        assert_eq!(arrows[0].to, *last);
+        assert!(last[0] < 3.0, "it passes the plot at every swing later on");
+    }
+
+    #[test]
+    fn a_lane_that_comes_back_to_stay_is_drawn_again() {
+        let points: Vec<Point> = (0..100)
+            .map(|i| {
+                let y = if (20..30).contains(&i) || i == 35 { 9.0 } else { 0.0 };
+                Point { t: f64::from(i), entry: 0, at: [f64::from(i), y] }
+            })
+            .collect();
+        let found = stays(&points, |point| point.at[1] < 1.0, 10.0);
+        assert_eq!(found, [0..=19, 36..=99]);
+    }
+
+    #[test]
+    fn a_method_that_flies_outside_all_along_has_an_arrow_of_its_own() {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        lab.apply(Command::Pick(0));
+        tick(&mut lab, 600);
+        lab.apply(Command::Pick(1));
+        tick(&mut lab, 100);
+        let Drawing { arrows, .. } = drawn(&lab, -1.5, 1.5);
+        assert!(arrows.iter().any(|arrow| arrow.colour == colour_of(&lab, 0)));
+        assert!(arrows.iter().any(|arrow| arrow.colour == colour_of(&lab, 1)));
+    }
+}

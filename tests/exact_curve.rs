@@ -1,0 +1,182 @@
+//! The truth between ticks: on a grid that no tick rate changes, and at any moment of a frame.
+
+use std::f64::consts::TAU;
+
+use regatta::lab::picture::{Picture, Stroke, compose, palette};
+use regatta::lab::{Command, Interpolation, Lab, Race, Scene, TruthSample};
+use regatta::sim::bodies::Input;
+
+fn open(scene: &str, tick_hz: u32) -> Lab {
+    let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+    lab.apply(Command::TickHz(tick_hz));
+    lab.apply(Command::Restart);
+    lab
+}
+
+fn samples(lab: &Lab) -> Vec<TruthSample> {
+    lab.race().truth_curves()[0].samples().copied().collect()
+}
+
+#[test]
+fn a_spring_at_5_hz_reaches_both_ends_of_its_swing() {
+    let mut lab = open("spring", 5);
+    (0..100).for_each(|_| lab.tick());
+    let samples = samples(&lab);
+    let ends = samples
+        .iter()
+        .map(|sample| sample.q)
+        .fold([0.0, 0.0], |[low, high]: [f64; 2], q| [low.min(q), high.max(q)]);
+    assert!((ends[0] + 1.0).abs() < 1e-3 && (ends[1] - 1.0).abs() < 1e-3, "{ends:?}");
+    for TruthSample { t, q, v, at } in samples {
+        assert!((q - libm::cos(TAU * t)).abs() < 1e-11, "{q} at {t} s");
+        assert!((v + TAU * libm::sin(TAU * t)).abs() < 1e-10, "{v} at {t} s");
+        assert_eq!(at.x, q);
+    }
+}
+
+#[test]
+fn a_stiff_spring_at_49_hz_swings_as_far_at_every_swing() {
+    let mut lab = open("stiff", 49);
+    (0..600).for_each(|_| lab.tick());
+    let samples = samples(&lab);
+    let period_s = TAU / 100.0;
+    let mut swings = 0;
+    for swing in samples.chunk_by(|a, b| (a.t / period_s).floor() == (b.t / period_s).floor()) {
+        if swing[swing.len() - 1].t - swing[0].t > 0.95 * period_s {
+            let reach = |sign: f64| swing.iter().map(|s| sign * s.q).fold(0.0, f64::max);
+            assert!(reach(1.0) > 0.995 && reach(-1.0) > 0.995, "at {} s", swing[0].t);
+            swings += 1;
+        }
+    }
+    assert!(swings > 70, "{swings} swings");
+}
+
+#[test]
+fn the_grid_reaches_back_as_long_as_the_scene_lasts_and_does_not_depend_on_the_tick_rate() {
+    for scene in ["spring", "pendulum", "helm", "orbit"] {
+        let seconds = Scene::built_in(scene).unwrap().seconds;
+        let [coarse, fine] = [5, 240].map(|hz| {
+            let mut lab = open(scene, hz);
+            (0..hz * 70).for_each(|_| lab.tick());
+            let samples = samples(&lab);
+            assert!(samples.is_sorted_by(|a, b| a.t < b.t || (a.t == b.t && a.v != b.v)));
+            assert!(samples.len() >= 4096, "{}", samples.len());
+            assert!(samples[0].t <= lab.race().t() - seconds, "{scene}");
+            samples
+        });
+        if scene != "helm" {
+            // The helm's script counts ticks.
+            for (a, b) in coarse.iter().rev().zip(fine.iter().rev()) {
+                assert!((a.t - b.t).abs() < 1e-9, "{scene}: {} and {} s", a.t, b.t);
+                assert!((a.q - b.q).abs() < 1e-6, "{scene}: {} and {} at {} s", a.q, b.q, a.t);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_kick_is_a_jump_of_the_velocity_at_its_tick() {
+    let mut lab = open("spring", 10);
+    (0..7).for_each(|_| lab.tick());
+    let before = lab.race().truth().bodies()[0].stepper.v()[0];
+    lab.apply(Command::Kick(1.0));
+    let after = lab.race().truth().bodies()[0].stepper.v()[0];
+    (0..5).for_each(|_| lab.tick());
+    let samples = samples(&lab);
+    let corner = samples.windows(2).find(|pair| pair[0].t == pair[1].t).expect("a jump");
+    assert!((corner[0].t - 0.7).abs() < 1e-12);
+    assert_eq!((corner[0].v, corner[1].v), (before, after));
+    assert_eq!(corner[0].q, corner[1].q);
+}
+
+#[test]
+fn an_input_bends_the_curve_from_its_tick_on_and_not_the_tick_before_it() {
+    let mut lab = open("ship", 1);
+    (0..10).for_each(|_| lab.tick());
+    let shown = lab.race().truth_between(0, 0.5);
+    lab.apply(Command::Throttle(-1.0));
+    assert_eq!(lab.race().truth_between(0, 0.5), shown);
+    lab.tick();
+    let (_, v) = lab.race().truth_between(0, 0.0);
+    assert!(lab.race().truth_between(0, 0.5).1 < v, "the engine runs backwards");
+}
+
+/// The strokes of the ghost, which are in no method's colour.
+fn ghost(picture: &Picture) -> Vec<Stroke> {
+    let colour = palette::faded(palette::TRUTH, 0.75);
+    picture.strokes.iter().filter(|stroke| stroke.colour == colour).copied().collect()
+}
+
+#[test]
+fn the_ghost_is_the_exact_motion_at_the_moment_shown_however_lanes_are_drawn() {
+    let mut lab = open("spring", 5);
+    let size = [780.0, 500.0];
+    let mut seen = Vec::new();
+    for frame in 0..300 {
+        lab.advance(16_666_667);
+        let moment_s = (lab.race().tick() as f64 - 1.0 + lab.clock().alpha()) / 5.0;
+        if moment_s < 0.0 {
+            continue;
+        }
+        let exact = libm::cos(TAU * moment_s);
+        let (q, v) = lab.race().truth_between(0, lab.clock().alpha());
+        assert!((q[0] - exact).abs() < 1e-12, "frame {frame}");
+        assert!((v[0] + TAU * libm::sin(TAU * moment_s)).abs() < 1e-11, "frame {frame}");
+        let drawn = [(); 3].map(|()| {
+            lab.apply(Command::NextInterpolation);
+            ghost(&compose(&lab, size))
+        });
+        assert_eq!(lab.display().interpolation, Interpolation::Hermite);
+        assert!(drawn[0] == drawn[1] && drawn[1] == drawn[2], "frame {frame}");
+        seen.push((exact, mass(&drawn[0])));
+    }
+    let of_all = |pick: fn(f32, f32) -> f32| seen.iter().map(|(_, x)| *x).reduce(pick).unwrap();
+    let (left, right) = (of_all(f32::min), of_all(f32::max));
+    let (middle, scale) = ((left + right) / 2.0, (right - left) / 2.0);
+    assert!(scale > 50.0, "{left} to {right}");
+    for (exact, x) in seen {
+        assert!((f64::from((x - middle) / scale) - exact).abs() < 0.005, "{x} at {exact} m");
+    }
+}
+
+/// The middle of the mass, which is the last stroke of a spring's outline.
+fn mass(strokes: &[Stroke]) -> f32 {
+    let block = strokes.last().expect("a ghost");
+    (block.from[0] + block.to[0]) / 2.0
+}
+
+#[test]
+fn recording_the_curve_moves_no_bit_of_the_truth() {
+    for scene in ["harbour", "pendulum", "helm", "chain", "orbit"] {
+        let scene = Scene::built_in(scene).unwrap();
+        let mut recorded = Race::new(&scene, []);
+        let mut unseen = Race::new(&scene, []);
+        for tick in 0..400 {
+            if tick % 60 == 30 {
+                for race in [&mut recorded, &mut unseen] {
+                    race.input(Input::Kick(0.5));
+                    race.input(Input::Throttle(0.3));
+                    race.input(Input::Rudder(-0.7));
+                }
+            }
+            recorded.step();
+            recorded.record();
+            recorded.truth_between(0, 0.3);
+            unseen.step();
+        }
+        for (a, b) in recorded.truth().bodies().iter().zip(unseen.truth().bodies()) {
+            assert_eq!((a.stepper.q(), a.stepper.v()), (b.stepper.q(), b.stepper.v()));
+        }
+    }
+}
+
+#[test]
+fn a_scene_shorter_than_a_tick_has_a_curve_no_finer_than_a_tick_needs() {
+    let text = "title = \"short\"\ntick_hz = 1\nseconds = 0.01\n\
+        [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nx0_m = 1\n";
+    let mut lab = Lab::new(Scene::parse("short.toml", text).unwrap());
+    (0..3).for_each(|_| lab.tick());
+    let samples = samples(&lab);
+    assert!((4096..6000).contains(&samples.len()), "{}", samples.len());
+    assert_eq!(samples[samples.len() - 1].t, 3.0);
+}
