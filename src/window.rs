@@ -49,7 +49,8 @@ pub enum WindowError {
     Gpu(#[from] GpuError),
 }
 
-/// Opens a window on `lab` and runs it until it is closed, or until `seconds` of simulated time.
+/// Opens a window on `lab` and runs it until it is closed, or until the tick nearest to
+/// `seconds` of simulated time.
 ///
 /// # Errors
 /// [`WindowError::NoDisplay`] before anything else is tried; the others at any time.
@@ -187,7 +188,7 @@ impl App {
         if let Some(pace) = self.meter.pace() {
             self.lab.set_pace(pace);
         }
-        if self.seconds.is_some_and(|seconds| self.lab.race().t() >= seconds) {
+        if self.seconds.is_some_and(|s| self.lab.race().tick() >= self.lab.nearest_tick(s)) {
             self.end(event_loop, Ok(()));
         }
         let title = self.lab.title();

@@ -254,7 +254,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         motion: true,
         mark_every: args
             .mark_every
-            .unwrap_or_else(|| logbook::usual_stride(schedule.ticks(experiment.scene.tick_hz))),
+            .unwrap_or_else(|| logbook::usual_stride(schedule.ticks(&experiment.lab()))),
     };
     if format != PictureFormat::Png && args.resume {
         return Err(CaptureError::NotResumable.into());

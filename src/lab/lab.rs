@@ -288,6 +288,8 @@ impl Lab {
         if !self.running {
             return Due::default();
         }
+        // A tick rate that the script sets at this tick is that of the time from here on.
+        self.follow_script();
         let due = self.clock.advance(frame_ns);
         for _ in 0..due.ticks {
             self.tick();
@@ -299,18 +301,23 @@ impl Lab {
 
     /// Does what the script says for this tick, and steps to the next.
     pub fn tick(&mut self) {
+        self.follow_script();
+        let halted = self.halted_lanes();
+        self.race.step();
+        self.race.record();
+        if self.halted_lanes() > halted {
+            self.announce_halt();
+        }
+    }
+
+    /// Does what the script says for the present tick, once.
+    fn follow_script(&mut self) {
         while let Some(scripted) = self.scene.script.get(self.next_scripted)
             && scripted.tick <= self.race.tick()
         {
             let command = scripted.command;
             self.next_scripted += 1;
             self.perform(command);
-        }
-        let halted = self.halted_lanes();
-        self.race.step();
-        self.race.record();
-        if self.halted_lanes() > halted {
-            self.announce_halt();
         }
     }
 

@@ -8,6 +8,7 @@ mod advice;
 mod clock;
 mod command;
 mod display;
+mod duration;
 mod history;
 mod judge;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
