@@ -9,8 +9,8 @@
 //!   - `scene`: `name`, `text` (the TOML) and the text's `hash`.
 //!   - `lanes`: what the scene's lanes are, after the command line: each a `method`, its `substeps` and, where
 //!     the scene gives one, its `tolerance`.
-//!   - `race`: whether all of them race; else the `selected` method sails alone, `null` for the one
-//!     that the window opens with.
+//!   - `race`: whether all of them race; else the `selected` method sails alone. Where it is `null`, as
+//!     older programs wrote, it is the one that the scene opens with.
 //!   - `tick_hz` at the start, `frames` asked for, `fps`, `size` in pixels, `scale` in pixels a point,
 //!     whether there are `panels`, whether there is `motion`, and `mark_every`, in ticks.
 //! - `settings_hash`: the hash of `settings` as JSON without spaces.

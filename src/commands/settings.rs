@@ -26,7 +26,7 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
         },
         lanes: scene.lanes.iter().map(lane).collect(),
         race: experiment.lineup == Lineup::Everyone,
-        selected: experiment.selected.map(|method| method.id.to_owned()),
+        selected: Some(experiment.opening_method().id.to_owned()),
         tick_hz: scene.tick_hz,
         frames: recording.schedule.frames,
         fps: recording.schedule.fps,
