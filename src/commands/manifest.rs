@@ -22,7 +22,8 @@
 //!   `halted` or `null`, and for each of its `bodies` its `name` and, at the end, every metric of
 //!   `regatta list metrics` against the exact solution, `null` where it has no meaning.
 //! - `marks`: the state of each lane at every `mark_every`th `tick` and at the end: for each of the
-//!   `lanes` its `hash` and, body by body, `q` and `v`.
+//!   `lanes` its `hash` and, body by body, `q` and `v`; a value that is no number, for which JSON has no
+//!   word, is one of the strings `inf`, `-inf` and `NaN`.
 //!
 //! A lane's `hash` is [`Race::lane_hashes`](crate::lab::Race::lane_hashes). The other hashes are XXH3's
 //! 64 bits ([`fingerprint`]). All are hexadecimal. There is no seed, for nothing in a run is random.
@@ -31,6 +32,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 pub use super::fingerprint::fingerprint;
+
+mod any_number;
 
 /// The number of the description above. A manifest of another one cannot be judged.
 pub const SCHEMA: u32 = 1;
@@ -154,8 +157,29 @@ pub struct Mark {
 #[expect(missing_docs, reason = "the module describes every field")]
 pub struct LaneMark {
     pub hash: String,
+    #[serde(with = "any_number")]
     pub q: Vec<Vec<f64>>,
+    #[serde(with = "any_number")]
     pub v: Vec<Vec<f64>>,
+}
+
+impl LaneMark {
+    /// Whether both are of the same state: the same numbers, and where one is no number, neither is the
+    /// other.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let rows = |a: &[Vec<f64>], b: &[Vec<f64>]| {
+            let values = |a: &Vec<f64>, b: &Vec<f64>| {
+                a.len() == b.len() && a.iter().zip(b).all(|(&a, &b)| is_same_value(a, b))
+            };
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| values(a, b))
+        };
+        self.hash == other.hash && rows(&self.q, &other.q) && rows(&self.v, &other.v)
+    }
+}
+
+/// Whether both values are the same number, or no number both.
+pub(super) fn is_same_value(a: f64, b: f64) -> bool {
+    a == b || a.is_nan() && b.is_nan()
 }
 
 impl Manifest {
