@@ -2,7 +2,7 @@
 
 use super::experiment::{Experiment, Lineup};
 use super::fingerprint::fingerprint;
-use super::frame_folder::frame_name;
+use super::frame_names::frame_name;
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::recording::Recording;
 use super::voyage::Schedule;
