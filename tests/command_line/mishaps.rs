@@ -14,10 +14,10 @@ const FRAMES: usize = 25;
 const CAPTURE: &str = "capture --scene harbour --race --frames 25 --size 96x54 --scale 0.5 --out";
 
 /// Random numbers from a seed that is printed, so that a failure can be had again.
-struct XorShift(u64);
+pub(crate) struct XorShift(u64);
 
 impl XorShift {
-    fn new(test: &str) -> Self {
+    pub(crate) fn new(test: &str) -> Self {
         let since = SystemTime::now().duration_since(UNIX_EPOCH).expect("after 1970");
         let given = std::env::var("SEED").ok().and_then(|seed| seed.parse().ok());
         let seed = given.unwrap_or(since.as_nanos() as u64 | 1);
@@ -25,7 +25,7 @@ impl XorShift {
         Self(seed)
     }
 
-    fn below(&mut self, limit: u64) -> u64 {
+    pub(crate) fn below(&mut self, limit: u64) -> u64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
