@@ -7,7 +7,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::atomic_file::{AtomicFile, Older, sync_directory, write_whole};
+use super::atomic_file::{AtomicFile, sync_directory, write_whole};
 use super::blessing::{self, Blessing};
 use super::directory_lock::DirectoryLock;
 use super::file_error::FileError;
@@ -16,9 +16,11 @@ use super::manifest;
 
 mod entries;
 mod errors;
+mod queue;
 
 use entries::{Entries, is_a_captures};
 pub(super) use errors::FrameFolderError;
+use queue::{FrameQueue, Settled};
 
 /// What may become of the frames that a folder holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,14 +43,19 @@ pub(super) struct FrameFolder {
     existing: Existing,
     /// What names it on the command line.
     option: &'static str,
-    /// None while there is no folder.
-    lock: Option<DirectoryLock>,
     entries: Entries,
-    /// Frames of an earlier capture that stay.
+    /// Frames of an earlier capture that may stay.
     kept: u32,
+    /// Frames added.
     frames: u32,
+    /// Those of them that were there.
+    stayed: u32,
+    // What follows is dropped in this order: no frame comes after its directory or its lock is gone.
+    queue: FrameQueue,
     /// Where frames are drawn that are to be swapped in.
     blessing: Option<Blessing>,
+    /// None while there is no folder.
+    lock: Option<DirectoryLock>,
 }
 
 impl FrameFolder {
@@ -63,11 +70,13 @@ impl FrameFolder {
             path: path.to_owned(),
             existing,
             option,
-            lock: None,
             entries: Entries::default(),
             kept: 0,
             frames: 0,
+            stayed: 0,
+            queue: FrameQueue::default(),
             blessing: None,
+            lock: None,
         };
         match fs::metadata(path) {
             Ok(entry) if !entry.is_dir() => {
@@ -182,10 +191,12 @@ impl FrameFolder {
             let failed = FileError::of("make a directory in", &self.path, self.option);
             self.blessing = Some(blessing.map_err(failed)?);
         }
+        self.queue = FrameQueue::open();
         Ok(())
     }
 
-    /// Adds the next frame; one that stays has to be the same to the byte.
+    /// Adds the next frame; one that stays has to be the same to the byte. A failure may be that of a frame
+    /// before it.
     pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), FrameFolderError> {
         let name = frame_name(self.frames);
         let shown = self.path.join(&name);
@@ -194,19 +205,34 @@ impl FrameFolder {
             if fs::read(&shown).map_err(fail)? != picture {
                 return Err(FrameFolderError::Foreign { path: shown });
             }
+            self.stayed += 1;
         } else {
-            write_frame(&self.place().join(name), picture).map_err(FileError::of(
-                "write",
-                &shown,
-                self.option,
-            ))?;
+            let written = AtomicFile::create(&self.place().join(name)).and_then(|mut file| {
+                file.write_all(picture)?;
+                Ok(file)
+            });
+            let file = written.map_err(FileError::of("write", &shown, self.option))?;
+            if !self.queue.push(file, shown) {
+                return self.settle();
+            }
         }
         self.frames += 1;
         Ok(())
     }
 
+    /// Waits until every frame has its name, or one cannot have it: then those before it are left.
+    pub(super) fn settle(&mut self) -> Result<(), FrameFolderError> {
+        let Some(Settled { frames, failed }) = self.queue.close() else { return Ok(()) };
+        self.frames = self.stayed + frames;
+        match failed {
+            Some((error, path)) => Err(FileError::of("write", &path, self.option)(error).into()),
+            None => Ok(()),
+        }
+    }
+
     /// Writes the manifest, after all frames; frames to be swapped in are.
     pub(super) fn finish(mut self, manifest: &str) -> Result<(), FrameFolderError> {
+        self.settle()?;
         let path = self.place().join(manifest::FILE_NAME);
         let shown = self.path.join(manifest::FILE_NAME);
         sync_directory(self.place())
@@ -230,14 +256,6 @@ impl FrameFolder {
     pub(super) fn others(&self) -> &[OsString] {
         &self.entries.others
     }
-}
-
-/// Writes a frame whole. Its name is synced with all others, before the manifest.
-fn write_frame(path: &Path, picture: &[u8]) -> io::Result<()> {
-    let mut file = AtomicFile::create(path)?;
-    file.write_all(picture)?;
-    file.sync()?;
-    file.rename(Older::Replace)
 }
 
 #[cfg(test)]
@@ -286,6 +304,7 @@ mod tests {
         let mut frames = inspect(folder.path(), Existing::Replace).unwrap();
         frames.clear(9).unwrap();
         frames.push(&frame(1)).unwrap();
+        frames.settle().unwrap();
         let others = ["frame-000001.png.part", "manifest.json.part", "notes.txt"];
         assert_eq!(names(folder.path()), [&["frame-000000.png"], &others[..]].concat());
         assert_eq!(fs::read(file("frame-000000.png")).unwrap(), frame(1));
@@ -335,6 +354,7 @@ mod tests {
         assert!(matches!(error, FrameFolderError::Foreign { .. }), "{error}");
         frames.push(&frame(0)).unwrap();
         frames.push(&frame(1)).unwrap();
+        frames.settle().unwrap();
         assert_eq!(fs::read(file("frame-000002.png")).unwrap(), frame(1));
     }
 
@@ -371,11 +391,15 @@ mod tests {
         let mut frames = inspect(parent.path(), Existing::Refuse).unwrap();
         frames.clear(9).unwrap();
         // A directory of that name cannot be replaced by a file.
-        fs::create_dir_all(parent.path().join("frame-000000.png/in the way")).unwrap();
-        let error = frames.push(&frame(0)).unwrap_err().to_string();
+        fs::create_dir_all(parent.path().join("frame-000001.png/in the way")).unwrap();
+        frames.push(&frame(0)).unwrap();
+        let pushed: Vec<_> = (1..9).map(|_| frames.push(&frame(0))).collect();
+        let failed = pushed.into_iter().chain([frames.settle()]).find_map(Result::err);
+        let error = failed.unwrap().to_string();
         assert!(error.starts_with("cannot write "), "{error}");
-        assert_eq!(names(parent.path()).len(), 1);
-        assert_eq!(frames.range(), "none");
+        assert!(error.contains("frame-000001.png: "), "{error}");
+        assert_eq!(names(parent.path()), ["frame-000000.png", "frame-000001.png"]);
+        assert!(frames.range().ends_with("frame-000000.png"), "{}", frames.range());
     }
 
     #[test]

@@ -91,6 +91,7 @@ pub(super) fn record(
         Ok(())
     });
     progress.finish_and_clear();
+    let settled = folder.settle();
     let whole = folder.range();
     match drawn {
         Ok(_) => {}
@@ -98,6 +99,7 @@ pub(super) fn record(
         Err(Stop::Taken(source @ FrameFolderError::Foreign { .. })) => return Err(source.into()),
         Err(Stop::Taken(source)) => return Err(CaptureError::Write { source, whole }),
     }
+    settled.map_err(|source| CaptureError::Write { source, whole: whole.clone() })?;
     let (done, frames) = (entries.len() as u32, schedule.frames);
     if done < frames && !folder.takes_a_part() {
         return Err(CaptureError::Interrupted { done, frames, whole: "those of before".into() });
