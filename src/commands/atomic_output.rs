@@ -11,6 +11,9 @@ use super::file_error::FileError;
 /// The path that means standard output.
 pub(super) const STDOUT: &str = "-";
 
+/// Names of what the process has open, such as standard error: links, and what they lead to is in use.
+const OPEN_ALREADY: [&str; 4] = ["/dev/fd", "/dev/stdout", "/dev/stderr", "/proc/self/fd"];
+
 /// Links that lead to links: more than these are a ring, on every system.
 const MOST_LINKS: usize = 40;
 
@@ -117,8 +120,8 @@ impl AtomicOutput {
         let path = path.to_owned();
         match fs::metadata(&path) {
             Ok(entry) if entry.is_dir() => Err(OutputError::Directory { path, option }),
-            Ok(entry) if !entry.is_file() => {
-                let device = File::options().write(true).open(&path).map_err(fail)?;
+            Ok(entry) if !entry.is_file() || OPEN_ALREADY.iter().any(|o| path.starts_with(o)) => {
+                let device = File::options().append(true).open(&path).map_err(fail)?;
                 Ok(AtomicOutput::Device { device: BufWriter::new(device), path, option })
             }
             // A link that leads nowhere yet is taken too.

@@ -18,7 +18,7 @@ pub(super) struct ExperimentArgs {
     #[arg(value_parser = SceneParser, hide_possible_values = true)]
     scene: PathBuf,
 
-    /// An integrator (`regatta list methods`); give several to race them [default: of the scene's]
+    /// An integrator (`regatta list methods`); give several to race them
     #[arg(long = "method", value_name = "ID", value_parser = MethodParser)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,

@@ -321,6 +321,24 @@ fn a_report_through_a_link_is_written_to_its_target() {
     assert!(fs::read_to_string(target).unwrap().contains("<testsuite "));
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_report_to_what_is_open_already_is_added_to_it() {
+    let Some(folder) = clip_or_skip("a_report_to_what_is_open_already_is_added_to_it") else {
+        return;
+    };
+    let log = folder.path().join("log");
+    let status = regatta()
+        .current_dir(folder.path())
+        .args("verify clip --physics-only --report junit /dev/stdout".split(' '))
+        .stdout(fs::File::options().append(true).create(true).open(&log).unwrap())
+        .status();
+    assert!(status.unwrap().success());
+    let log = fs::read_to_string(log).unwrap();
+    assert!(log.starts_with("physics: same to the bit: "), "{log}");
+    assert!(log.ends_with("</testsuite>\n"), "{log}");
+}
+
 #[test]
 fn differences_never_replace_what_is_judged_or_what_is_not_ours() {
     let test = "differences_never_replace_what_is_judged_or_what_is_not_ours";
