@@ -49,7 +49,8 @@ pub enum WindowError {
     Gpu(#[from] GpuError),
 }
 
-/// Opens a window on `lab` and runs it until it is closed, or until `seconds` of simulated time.
+/// Opens a window on `lab` and runs it until it is closed, or until the tick nearest to
+/// `seconds` of simulated time.
 ///
 /// # Errors
 /// [`WindowError::NoDisplay`] before anything else is tried; the others at any time.
@@ -185,7 +186,7 @@ impl App {
         self.last_frame = self.lab.running().then_some(now);
         self.lab.advance(i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX));
         self.lab.set_pace(self.meter.pace());
-        if self.seconds.is_some_and(|seconds| self.lab.race().t() >= seconds) {
+        if self.seconds.is_some_and(|s| self.lab.race().tick() >= self.lab.nearest_tick(s)) {
             self.end(event_loop, Ok(()));
         }
         let title = self.lab.title();

@@ -1,16 +1,18 @@
 //! `regatta capture`: a run drawn frame by frame, by a clock that is computed and not read, so that the
 //! same command makes the same bytes.
 
-use std::io;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
 use super::Error;
+use super::atomic_file::Older;
+use super::atomic_output::{AtomicOutput, OutputError, Place};
 use super::experiment::{self, ExperimentArgs, Lineup};
-use super::frame_folder::{Existing, FrameFolder, FrameFolderError, MOST_FRAMES};
+use super::frame_folder::{Existing, FrameFolder, FrameFolderError};
+use super::frame_names::MOST_FRAMES;
 use super::movie::{self, MOST_GIF_FPS, MovieFormat};
-use super::outlet::Outlet;
+use super::picture_format::{FormatError, PictureFormat};
 use super::recording::{Recording, record};
 use super::voyage::Schedule;
 use super::{logbook, sheet};
@@ -54,7 +56,7 @@ pub(super) struct CaptureArgs {
 
     /// Frames in a simulated second, 1 to 1000 [default: 30; sheet: 1]
     #[arg(long, value_name = "F")]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_FPS)))]
     fps: Option<u32>,
 
     /// Width and height in pixels, 1x1 to 8192x8192; in a sheet of each cell [default: 1280x720;
@@ -75,9 +77,10 @@ pub(super) struct CaptureArgs {
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     mark_every: Option<u64>,
 
-    /// How to write pictures: png, apng, gif, y4m, rgba or sheet
-    #[arg(long, value_name = "FORMAT", default_value = "png", hide_possible_values = true)]
-    format: PictureFormat,
+    /// How to write pictures: png, apng, gif, y4m, rgba or sheet [default: by the ending of FILE; png for
+    /// a DIR]
+    #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
+    format: Option<PictureFormat>,
 
     /// Replace the frames that DIR holds, other files in it stay; or replace FILE
     #[arg(long)]
@@ -88,29 +91,6 @@ pub(super) struct CaptureArgs {
     resume: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PictureFormat {
-    /// Numbered pictures and a manifest in a directory
-    Png,
-    /// One animated PNG
-    Apng,
-    /// One GIF, each frame with a palette of its own
-    Gif,
-    /// YUV4MPEG2, for a video encoder
-    Y4m,
-    /// Raw RGBA bytes, for a video encoder
-    Rgba,
-    /// One picture, time across, lanes down
-    Sheet,
-}
-
-impl PictureFormat {
-    /// What a sheet wants instead of what all others do.
-    fn or_sheet<T>(self, others: T, sheet: T) -> T {
-        if self == PictureFormat::Sheet { sheet } else { others }
-    }
-}
-
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Shown {
     On,
@@ -119,6 +99,9 @@ enum Shown {
 
 /// Smooth enough for every scene, at half the files and half the time of 60.
 pub(super) const FPS: u32 = 30;
+
+/// The most frames in a simulated second: no display shows as many.
+pub(super) const MOST_FPS: u32 = 1000;
 
 /// A moment a second: enough to see a method go astray on every scene.
 const SHEET_FPS: u32 = 1;
@@ -174,15 +157,9 @@ pub enum CaptureError {
     /// A frame was drawn but did not come back.
     #[error(transparent)]
     Readback(#[from] ReadbackError),
-    /// A file that would be replaced, or a directory.
-    #[error("{} is there already; give another --out, or --force to replace a file", .path.display())]
-    Taken {
-        /// The path.
-        path: PathBuf,
-    },
-    /// Bytes that are no text would go to a terminal.
-    #[error("pictures do not go to a terminal; give --out FILE, or send standard output elsewhere")]
-    Terminal,
+    /// The name of the file and the format do not go together.
+    #[error(transparent)]
+    Format(#[from] FormatError),
     /// Only a directory can be taken up again.
     #[error("only pictures in a directory can be resumed; leave out --resume, or --format")]
     NotResumable,
@@ -192,9 +169,9 @@ pub enum CaptureError {
         /// Asked for.
         fps: u32,
     },
-    /// Standard output took no more.
-    #[error("cannot write to standard output: {0}")]
-    Output(#[from] io::Error),
+    /// One file, or standard output, could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
     /// Somebody pressed Ctrl-C.
     #[error("interrupted after {done} of {frames} frames; whole: {whole}")]
     Interrupted {
@@ -214,24 +191,20 @@ impl CaptureError {
         match self {
             CaptureError::TooManyFrames { .. }
             | CaptureError::TooManyPixels { .. }
-            | CaptureError::Taken { .. }
-            | CaptureError::Terminal
+            | CaptureError::Format(_)
             | CaptureError::NotResumable
             | CaptureError::TooFastForGif { .. }
-            | CaptureError::Folder(
-                FrameFolderError::NotEmpty { .. }
-                | FrameFolderError::NotADirectory { .. }
-                | FrameFolderError::Foreign { .. },
-            )
             | CaptureError::Gpu(GpuError::TooLarge { .. } | GpuError::Empty { .. }) => 2,
+            CaptureError::Folder(error) => error.exit_code(),
+            CaptureError::Output(error) => error.exit_code(),
             CaptureError::Interrupted { .. } => 130,
-            _ => 1,
+            CaptureError::Write { .. } | CaptureError::Gpu(_) | CaptureError::Readback(_) => 1,
         }
     }
 }
 
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
-    let format = args.format;
+    let format = PictureFormat::of(&args.out, args.format).map_err(CaptureError::from)?;
     let everyone = args.race || format == PictureFormat::Sheet && args.experiment.names_no_method();
     let lineup = if everyone { Lineup::Everyone } else { Lineup::Solo };
     let experiment = args.experiment.load(lineup)?;
@@ -254,7 +227,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         motion: true,
         mark_every: args
             .mark_every
-            .unwrap_or_else(|| logbook::usual_stride(schedule.ticks(experiment.scene.tick_hz))),
+            .unwrap_or_else(|| logbook::usual_stride(schedule.ticks(&experiment.lab()))),
     };
     if format != PictureFormat::Png && args.resume {
         return Err(CaptureError::NotResumable.into());
@@ -266,12 +239,13 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
                 (_, true) => Existing::Continue,
                 _ => Existing::Refuse,
             };
-            let folder = FrameFolder::inspect(&args.out, existing).map_err(CaptureError::from)?;
+            let folder = FrameFolder::inspect(&args.out, existing, "--out");
+            let folder = folder.map_err(CaptureError::from)?;
             return Ok(record(&experiment, recording, folder)?);
         }
         PictureFormat::Sheet => {
-            let outlet = Outlet::open(&args.out, args.force)?;
-            return Ok(sheet::draw(&experiment, recording, outlet)?);
+            let output = open(args)?;
+            return Ok(sheet::draw(&experiment, recording, output)?);
         }
         PictureFormat::Gif if fps > MOST_GIF_FPS => {
             return Err(CaptureError::TooFastForGif { fps }.into());
@@ -281,8 +255,13 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         PictureFormat::Y4m => MovieFormat::Y4m,
         PictureFormat::Rgba => MovieFormat::Rgba,
     };
-    let outlet = Outlet::open(&args.out, args.force)?;
-    Ok(movie::record(&experiment, recording, movie, outlet)?)
+    let output = open(args)?;
+    Ok(movie::record(&experiment, recording, movie, output)?)
+}
+
+fn open(args: &CaptureArgs) -> Result<AtomicOutput, CaptureError> {
+    let older = if args.force { Older::Replace } else { Older::Keep };
+    Ok(AtomicOutput::open(Place { path: &args.out, option: "--out", older })?)
 }
 
 /// How many frames cover this many seconds; the start is one of them in any case.

@@ -32,7 +32,7 @@ pub(super) struct ExperimentArgs {
 /// Which lanes there are where fewer than two methods are named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lineup {
-    /// The one method named, else the one that the window opens with.
+    /// The one method named, else the one that the scene opens with.
     Solo,
     /// All methods of the scene; the one named, if any, is selected.
     Everyone,
@@ -44,6 +44,7 @@ pub(super) struct Experiment {
     pub(super) scene: Scene,
     /// The scene file's text, as it was.
     pub(super) text: String,
+    /// The first method named.
     pub(super) selected: Option<&'static Method>,
     pub(super) lineup: Lineup,
 }
@@ -91,13 +92,22 @@ fn lanes_of(scene: &Scene, methods: &[&'static Method]) -> Vec<LaneSpec> {
     lanes
 }
 
+/// The lane that a scene opens with where nobody names a method: always one that it lists.
+fn opening_lane(scene: &Scene) -> &LaneSpec {
+    let named = scene.lanes.iter().find(|lane| Some(lane.method) == scene.opening_method);
+    named.or(scene.lanes.first()).expect("a scene has a lane")
+}
+
 impl Experiment {
+    /// The method that is flown alone, or selected in a race.
+    pub(super) fn opening_method(&self) -> &'static Method {
+        self.selected.unwrap_or_else(|| opening_lane(&self.scene).method)
+    }
+
     /// The lab at tick 0. One lane alone sails solo.
     pub(super) fn lab(&self) -> Lab {
         let mut lab = Lab::new(self.scene.clone());
-        if let Some(method) = self.selected {
-            lab.apply(Command::Method(method));
-        }
+        lab.apply(Command::Method(self.opening_method()));
         if self.lineup == Lineup::Everyone && lab.scene().lanes.len() > 1 {
             lab.apply(Command::ToggleRace);
         } else {

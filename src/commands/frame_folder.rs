@@ -4,13 +4,23 @@
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use super::atomic_file::{AtomicFile, sync_directory, write_whole};
+use super::blessing::{self, Blessing};
+use super::directory_lock::DirectoryLock;
+use super::file_error::FileError;
+use super::frame_names::frame_name;
 use super::manifest;
 
-/// The most frames in a folder: as many as six digits number.
-pub(super) const MOST_FRAMES: u32 = 1_000_000;
+mod entries;
+mod errors;
+mod queue;
+
+use entries::{Entries, is_a_captures};
+pub(super) use errors::FrameFolderError;
+use queue::{FrameQueue, Settled};
 
 /// What may become of the frames that a folder holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,117 +32,115 @@ pub(super) enum Existing {
     /// Frames from the first on, without a gap, stay, and so does a manifest; whatever else a capture
     /// left makes way.
     Continue,
+    /// Frames make way once all the new ones are there, and not before.
+    Bless,
 }
 
-/// Why frames could not be kept in a folder.
-#[derive(Debug, thiserror::Error)]
-pub enum FrameFolderError {
-    /// The path is taken by something else.
-    #[error("{} is not a directory; give another --out", .path.display())]
-    NotADirectory {
-        /// The path.
-        path: PathBuf,
-    },
-    /// The folder is in use.
-    #[error(
-        "{} is not empty; give another --out, or --force to replace the frames in it, or --resume \
-         to add those that are missing",
-        .path.display()
-    )]
-    NotEmpty {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// A frame that is there already is none of this capture.
-    #[error(
-        "{} is not what this command draws here; give the command that drew it, or --force to draw \
-         all anew",
-        .path.display()
-    )]
-    Foreign {
-        /// The frame.
-        path: PathBuf,
-    },
-    /// The system refused.
-    #[error("cannot {doing} {}: {source}{}", .path.display(), remedy(.source))]
-    Io {
-        /// What was tried.
-        doing: &'static str,
-        /// On what.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-}
-
-/// A folder of frames.
+/// A folder of frames. While it exists no other process may write there.
 #[derive(Debug)]
 pub(super) struct FrameFolder {
     path: PathBuf,
-    /// What an earlier capture left, whole or not, and is to go.
-    old: Vec<OsString>,
-    /// Names of the entries that are none of ours.
-    others: Vec<OsString>,
-    /// Frames of an earlier capture that stay.
+    existing: Existing,
+    /// What names it on the command line.
+    option: &'static str,
+    entries: Entries,
+    /// Frames of an earlier capture that may stay.
     kept: u32,
+    /// Frames added.
     frames: u32,
+    /// Those of them that were there.
+    stayed: u32,
+    // What follows is dropped in this order: no frame comes after its directory or its lock is gone.
+    queue: FrameQueue,
+    /// Where frames are drawn that are to be swapped in.
+    blessing: Option<Blessing>,
+    /// None while there is no folder.
+    lock: Option<DirectoryLock>,
 }
 
 impl FrameFolder {
-    /// Looks at the folder at `path`, which need not exist yet, and changes nothing.
-    pub(super) fn inspect(path: &Path, existing: Existing) -> Result<Self, FrameFolderError> {
-        let fail = failure("read", path);
-        let mut folder = Self::empty(path);
-        match fs::read_dir(path) {
-            Ok(entries) => {
-                for entry in entries {
-                    let entry = entry.map_err(&fail)?;
-                    let is_directory = entry.file_type().map_err(&fail)?.is_dir();
-                    let name = entry.file_name();
-                    let list = if is_ours(&name) && !is_directory {
-                        &mut folder.old
-                    } else {
-                        &mut folder.others
-                    };
-                    list.push(name);
-                }
+    /// Looks at the folder at `path`, which need not exist yet and is called `option` on the command line.
+    /// Changes nothing but that a blessing stopped in the middle of its swap is carried to its end.
+    pub(super) fn inspect(
+        path: &Path,
+        existing: Existing,
+        option: &'static str,
+    ) -> Result<Self, FrameFolderError> {
+        let mut folder = Self {
+            path: path.to_owned(),
+            existing,
+            option,
+            entries: Entries::default(),
+            kept: 0,
+            frames: 0,
+            stayed: 0,
+            queue: FrameQueue::default(),
+            blessing: None,
+            lock: None,
+        };
+        match fs::metadata(path) {
+            Ok(entry) if !entry.is_dir() => {
+                Err(FrameFolderError::NotADirectory { path: path.to_owned() })
             }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            Ok(_) => folder.look().map(|()| folder),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(folder),
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
-                return Err(FrameFolderError::NotADirectory { path: path.to_owned() });
+                Err(FrameFolderError::NotADirectory { path: path.to_owned() })
             }
-            Err(error) => return Err(fail(error)),
+            Err(error) => Err(FileError::of("read", path, option)(error).into()),
         }
-        folder.others.sort();
-        let is_empty = folder.old.is_empty() && folder.others.is_empty();
-        if existing == Existing::Refuse && !is_empty {
-            return Err(FrameFolderError::NotEmpty { path: path.to_owned() });
-        }
-        if existing == Existing::Continue {
-            // The manifest of what is there holds until another is whole.
-            folder.old.retain(|name| name != manifest::FILE_NAME);
-            folder.kept = (0..MOST_FRAMES)
-                .find(|&frame| !folder.old.contains(&frame_name(frame).into()))
-                .unwrap_or(MOST_FRAMES);
-        }
-        Ok(folder)
     }
 
     /// The first of `name`, `name-2`, `name-3` … that is new or an empty directory.
     pub(super) fn beside(name: &str) -> Result<Self, FrameFolderError> {
         let siblings = (2..).map(|n: u32| format!("{name}-{n}"));
         for sibling in std::iter::once(name.to_owned()).chain(siblings) {
-            match Self::inspect(Path::new(&sibling), Existing::Refuse) {
-                Err(FrameFolderError::NotEmpty { .. } | FrameFolderError::NotADirectory { .. }) => {
-                }
+            match Self::inspect(Path::new(&sibling), Existing::Refuse, "working directory") {
+                Err(
+                    FrameFolderError::NotEmpty { .. }
+                    | FrameFolderError::NotADirectory { .. }
+                    | FrameFolderError::Busy { .. },
+                ) => {}
                 found => return found,
             }
         }
         unreachable!("no file system holds as many directories")
     }
 
-    fn empty(path: &Path) -> Self {
-        Self { path: path.to_owned(), old: Vec::new(), others: Vec::new(), kept: 0, frames: 0 }
+    /// Locks the folder, and finds out what is in it and may stay.
+    fn look(&mut self) -> Result<(), FrameFolderError> {
+        let (path, option) = (&self.path, self.option);
+        let lock = DirectoryLock::exclusive(path).map_err(FileError::of("lock", path, option))?;
+        if lock.is_none() {
+            return Err(FrameFolderError::Busy { path: path.clone(), option });
+        }
+        self.lock = lock;
+        if self.existing != Existing::Refuse && blessing::is_pending(path) {
+            blessing::complete(path).map_err(FileError::of(
+                "finish the --bless in",
+                path,
+                option,
+            ))?;
+        }
+        let mut entries = Entries::read(path).map_err(FileError::of("read", path, option))?;
+        match self.existing {
+            Existing::Refuse if !entries.is_empty() => {
+                return Err(FrameFolderError::NotEmpty { path: path.clone() });
+            }
+            Existing::Refuse | Existing::Replace => {}
+            Existing::Continue => {
+                self.kept = entries.frames();
+                // The manifest of what is there holds until another is whole.
+                entries.ours.remove(OsStr::new(manifest::FILE_NAME));
+            }
+            // Frames that come one by one may end before it; those that come at once cannot.
+            Existing::Bless => entries.foreign = entries.foreign.or(entries.in_the_way.take()),
+        }
+        if let Some(path) = entries.foreign {
+            return Err(FrameFolderError::NotOurs { path, option });
+        }
+        self.entries = entries;
+        Ok(())
     }
 
     /// Where it is.
@@ -140,37 +148,98 @@ impl FrameFolder {
         &self.path
     }
 
+    /// Whether frames are of use before all of them are there.
+    pub(super) fn takes_a_part(&self) -> bool {
+        self.existing != Existing::Bless
+    }
+
+    /// Where files go.
+    fn place(&self) -> &Path {
+        self.blessing.as_ref().map_or(&self.path, Blessing::place)
+    }
+
     /// Makes the folder where there is none, and removes what an earlier capture left but for the
     /// first `frames` of the frames to be kept, so that it never holds frames of two.
     pub(super) fn clear(&mut self, frames: u32) -> Result<(), FrameFolderError> {
-        fs::create_dir_all(&self.path).map_err(failure("make the directory", &self.path))?;
+        if self.lock.is_none() {
+            fs::create_dir_all(&self.path).map_err(FileError::of(
+                "make the directory",
+                &self.path,
+                self.option,
+            ))?;
+            self.look()?;
+        }
+        let fail = |path: &Path| FileError::of("replace", path, self.option);
+        for name in self.entries.our_directories.drain(..) {
+            let path = self.path.join(name);
+            fs::remove_dir_all(&path).map_err(fail(&path))?;
+        }
         self.kept = self.kept.min(frames);
         let kept: BTreeSet<OsString> =
             (0..self.kept).map(|frame| frame_name(frame).into()).collect();
-        for name in self.old.drain(..).filter(|name| !kept.contains(name)) {
+        let goes = |name: &OsString| match self.existing {
+            Existing::Bless => name.to_str().is_some_and(|name| !is_a_captures(name)),
+            _ => !kept.contains(name),
+        };
+        // The manifest, which speaks of the frames, goes before them.
+        for name in self.entries.ours.iter().rev().filter(|name| goes(name)) {
             let path = self.path.join(name);
-            fs::remove_file(&path).map_err(failure("replace", &path))?;
+            fs::remove_file(&path).map_err(fail(&path))?;
         }
+        if self.existing == Existing::Bless {
+            let blessing = Blessing::begin(&self.path);
+            let failed = FileError::of("make a directory in", &self.path, self.option);
+            self.blessing = Some(blessing.map_err(failed)?);
+        }
+        self.queue = FrameQueue::open();
         Ok(())
     }
 
-    /// Adds the next frame; one that stays has to be the same to the byte.
+    /// Adds the next frame; one that stays has to be the same to the byte. A failure may be that of a frame
+    /// before it.
     pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), FrameFolderError> {
-        let path = self.path.join(frame_name(self.frames));
+        let name = frame_name(self.frames);
+        let shown = self.path.join(&name);
         if self.frames < self.kept {
-            if fs::read(&path).map_err(failure("read", &path))? != picture {
-                return Err(FrameFolderError::Foreign { path });
+            let fail = FileError::of("read", &shown, self.option);
+            if fs::read(&shown).map_err(fail)? != picture {
+                return Err(FrameFolderError::Foreign { path: shown });
             }
+            self.stayed += 1;
         } else {
-            write_whole(&path, picture)?;
+            let written = AtomicFile::create(&self.place().join(name)).and_then(|mut file| {
+                file.write_all(picture)?;
+                Ok(file)
+            });
+            let file = written.map_err(FileError::of("write", &shown, self.option))?;
+            if !self.queue.push(file, shown) {
+                return self.settle();
+            }
         }
         self.frames += 1;
         Ok(())
     }
 
-    /// Writes the manifest.
-    pub(super) fn write_manifest(&self, text: &str) -> Result<(), FrameFolderError> {
-        write_whole(&self.path.join(manifest::FILE_NAME), text.as_bytes())
+    /// Waits until every frame has its name, or one cannot have it: then those before it are left.
+    pub(super) fn settle(&mut self) -> Result<(), FrameFolderError> {
+        let Some(Settled { frames, failed }) = self.queue.close() else { return Ok(()) };
+        self.frames = self.stayed + frames;
+        match failed {
+            Some((error, path)) => Err(FileError::of("write", &path, self.option)(error).into()),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes the manifest, after all frames; frames to be swapped in are.
+    pub(super) fn finish(mut self, manifest: &str) -> Result<(), FrameFolderError> {
+        self.settle()?;
+        let path = self.place().join(manifest::FILE_NAME);
+        let shown = self.path.join(manifest::FILE_NAME);
+        sync_directory(self.place())
+            .and_then(|()| write_whole(&path, manifest.as_bytes()))
+            .map_err(FileError::of("write", &shown, self.option))?;
+        let swapped = self.blessing.take().map_or(Ok(()), Blessing::swap);
+        Ok(swapped.map_err(FileError::of("put the new frames into", &self.path, self.option))?)
     }
 
     /// The frames written, by the names of the first and the last.
@@ -185,69 +254,29 @@ impl FrameFolder {
 
     /// Names of the entries that are none of our frames and have been left alone.
     pub(super) fn others(&self) -> &[OsString] {
-        &self.others
-    }
-}
-
-/// Writes a file that appears whole or not at all: under a name of its own until it is.
-pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), FrameFolderError> {
-    let part = part_of(path);
-    fs::write(&part, bytes).and_then(|()| fs::rename(&part, path)).map_err(|error| {
-        // It may never have come to be; then there is nothing to remove.
-        let _ = fs::remove_file(&part);
-        failure("write", path)(error)
-    })
-}
-
-/// What a file is called until it is whole.
-pub(super) fn part_of(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".part");
-    name.into()
-}
-
-pub(super) fn frame_name(frame: u32) -> String {
-    format!("frame-{frame:06}.png")
-}
-
-/// Whether a capture gives files this name, for whole ones or for those under way.
-fn is_ours(name: &OsStr) -> bool {
-    let Some(name) = name.to_str() else { return false };
-    let name = name.strip_suffix(".part").unwrap_or(name);
-    let digits = name.strip_prefix("frame-").and_then(|name| name.strip_suffix(".png"));
-    let is_frame = |digits: &str| digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit());
-    name == manifest::FILE_NAME || digits.is_some_and(is_frame)
-}
-
-pub(super) fn failure(doing: &'static str, path: &Path) -> impl Fn(io::Error) -> FrameFolderError {
-    let path = path.to_owned();
-    move |source| FrameFolderError::Io { doing, path: path.clone(), source }
-}
-
-fn remedy(error: &io::Error) -> &'static str {
-    match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-            "; free some space, or give another --out"
-        }
-        _ => "; give an --out that you may write to",
+        &self.entries.others
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::view::png;
 
-    #[test]
-    fn only_numbered_pictures_and_the_manifest_are_ours() {
-        for name in
-            ["frame-000000.png", "frame-999999.png", "frame-000012.png.part", "manifest.json"]
-        {
-            assert!(is_ours(OsStr::new(name)), "{name}");
-        }
-        for name in ["frame-00000.png", "frame-0000000.png", "frame-+00001.png", "frame-000001.gif"]
-        {
-            assert!(!is_ours(OsStr::new(name)), "{name}");
-        }
+    fn inspect(path: &Path, existing: Existing) -> Result<FrameFolder, FrameFolderError> {
+        FrameFolder::inspect(path, existing, "--out")
+    }
+
+    /// A picture as a capture writes it, one pixel of this grey.
+    fn frame(grey: u8) -> Vec<u8> {
+        png::encode([1, 1], &[grey, grey, grey, 255])
+    }
+
+    fn names(folder: &Path) -> Vec<OsString> {
+        let mut names: Vec<_> =
+            fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        names
     }
 
     #[test]
@@ -255,9 +284,9 @@ mod tests {
         let parent = tempfile::tempdir().unwrap();
         let path = parent.path().join("clip");
         fs::create_dir(&path).unwrap();
-        assert!(FrameFolder::inspect(&path, Existing::Refuse).is_ok());
+        assert!(inspect(&path, Existing::Refuse).is_ok());
         fs::write(path.join("frame-000000.png"), "old").unwrap();
-        let error = FrameFolder::inspect(&path, Existing::Refuse).unwrap_err();
+        let error = inspect(&path, Existing::Refuse).unwrap_err();
         assert!(matches!(error, FrameFolderError::NotEmpty { .. }), "{error}");
         assert_eq!(fs::read(path.join("frame-000000.png")).unwrap(), b"old");
     }
@@ -266,52 +295,111 @@ mod tests {
     fn frames_replace_frames_and_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str| folder.path().join(name);
-        for name in ["frame-000000.png", "frame-000001.png", "frame-000001.png.part", "notes.txt"] {
-            fs::write(file(name), "old").unwrap();
+        for name in ["frame-000000.png", "frame-000001.png", "frame-000001.png.a1B2c3.part"] {
+            fs::write(file(name), frame(0)).unwrap();
         }
-        let mut frames = FrameFolder::inspect(folder.path(), Existing::Replace).unwrap();
+        for name in ["frame-000001.png.part", "manifest.json.part", "notes.txt"] {
+            fs::write(file(name), "mine").unwrap();
+        }
+        let mut frames = inspect(folder.path(), Existing::Replace).unwrap();
         frames.clear(9).unwrap();
-        frames.push(b"new").unwrap();
-        let mut names: Vec<_> =
-            fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-        names.sort();
-        assert_eq!(names, ["frame-000000.png", "notes.txt"]);
-        assert_eq!(fs::read(file("frame-000000.png")).unwrap(), b"new");
-        assert_eq!(frames.others(), ["notes.txt"]);
+        frames.push(&frame(1)).unwrap();
+        frames.settle().unwrap();
+        let others = ["frame-000001.png.part", "manifest.json.part", "notes.txt"];
+        assert_eq!(names(folder.path()), [&["frame-000000.png"], &others[..]].concat());
+        assert_eq!(fs::read(file("frame-000000.png")).unwrap(), frame(1));
+        assert_eq!(frames.others(), others);
         assert!(frames.range().ends_with("frame-000000.png"), "{}", frames.range());
+        frames.finish("{}").unwrap();
+        for name in others {
+            assert_eq!(fs::read(file(name)).unwrap(), b"mine", "{name}");
+        }
+    }
+
+    #[test]
+    fn what_only_has_the_name_of_ours_is_never_touched() {
+        for existing in [Existing::Replace, Existing::Continue, Existing::Bless] {
+            for (name, bytes) in [
+                ("manifest.json", &br#"{"name":"my web app","version":"1"}"#[..]),
+                ("frame-000003.png", b"a frame of another program"),
+            ] {
+                let folder = tempfile::tempdir().unwrap();
+                fs::write(folder.path().join("frame-000000.png"), frame(0)).unwrap();
+                fs::write(folder.path().join(name), bytes).unwrap();
+                let error = inspect(folder.path(), existing).unwrap_err();
+                assert!(matches!(error, FrameFolderError::NotOurs { .. }), "{error}");
+                assert!(error.to_string().contains(name), "{error}");
+                assert_eq!(fs::read(folder.path().join(name)).unwrap(), bytes);
+            }
+        }
     }
 
     #[test]
     fn frames_up_to_the_first_gap_are_kept_and_have_to_be_the_same() {
         let folder = tempfile::tempdir().unwrap();
         let file = |name: &str| folder.path().join(name);
-        for name in
-            ["frame-000000.png", "frame-000001.png", "frame-000002.png.part", "frame-000003.png"]
-        {
-            fs::write(file(name), "old").unwrap();
+        for name in [
+            "frame-000000.png",
+            "frame-000001.png",
+            "frame-000002.png.a1B2c3.part",
+            "frame-000003.png",
+        ] {
+            fs::write(file(name), frame(0)).unwrap();
         }
-        let mut frames = FrameFolder::inspect(folder.path(), Existing::Continue).unwrap();
+        let mut frames = inspect(folder.path(), Existing::Continue).unwrap();
         frames.clear(9).unwrap();
-        assert_eq!((frames.kept, fs::read_dir(folder.path()).unwrap().count()), (2, 2));
-        frames.push(b"old").unwrap();
-        let error = frames.push(b"new").unwrap_err();
+        assert_eq!((frames.kept, names(folder.path()).len()), (2, 2));
+        frames.push(&frame(0)).unwrap();
+        let error = frames.push(&frame(1)).unwrap_err();
         assert!(matches!(error, FrameFolderError::Foreign { .. }), "{error}");
-        frames.push(b"old").unwrap();
-        frames.push(b"new").unwrap();
-        assert_eq!(fs::read(file("frame-000002.png")).unwrap(), b"new");
+        frames.push(&frame(0)).unwrap();
+        frames.push(&frame(1)).unwrap();
+        frames.settle().unwrap();
+        assert_eq!(fs::read(file("frame-000002.png")).unwrap(), frame(1));
+    }
+
+    #[test]
+    fn a_folder_has_one_writer_at_a_time() {
+        let parent = tempfile::tempdir().unwrap();
+        let path = parent.path().join("clip");
+        let [mut first, mut second] = [0, 1].map(|_| inspect(&path, Existing::Replace).unwrap());
+        first.clear(9).unwrap();
+        for busy in [second.clear(9).unwrap_err(), inspect(&path, Existing::Refuse).unwrap_err()] {
+            assert!(matches!(busy, FrameFolderError::Busy { .. }), "{busy}");
+        }
+        first.push(&frame(0)).unwrap();
+        drop(first);
+        second.clear(9).unwrap();
+        assert!(names(&path).is_empty(), "the second found what the first had left");
+    }
+
+    #[test]
+    fn a_folder_filled_while_it_was_waited_for_is_refused() {
+        let parent = tempfile::tempdir().unwrap();
+        let path = parent.path().join("clip");
+        let [mut first, mut second] = [0, 1].map(|_| inspect(&path, Existing::Refuse).unwrap());
+        first.clear(9).unwrap();
+        first.push(&frame(0)).unwrap();
+        first.finish("{}").unwrap();
+        let error = second.clear(9).unwrap_err();
+        assert!(matches!(error, FrameFolderError::NotEmpty { .. }), "{error}");
     }
 
     #[test]
     fn a_frame_that_cannot_be_written_leaves_nothing_behind() {
         let parent = tempfile::tempdir().unwrap();
-        let mut frames = FrameFolder::inspect(parent.path(), Existing::Refuse).unwrap();
+        let mut frames = inspect(parent.path(), Existing::Refuse).unwrap();
         frames.clear(9).unwrap();
         // A directory of that name cannot be replaced by a file.
-        fs::create_dir_all(parent.path().join("frame-000000.png/in the way")).unwrap();
-        let error = frames.push(b"new").unwrap_err().to_string();
+        fs::create_dir_all(parent.path().join("frame-000001.png/in the way")).unwrap();
+        frames.push(&frame(0)).unwrap();
+        let pushed: Vec<_> = (1..9).map(|_| frames.push(&frame(0))).collect();
+        let failed = pushed.into_iter().chain([frames.settle()]).find_map(Result::err);
+        let error = failed.unwrap().to_string();
         assert!(error.starts_with("cannot write "), "{error}");
-        assert_eq!(fs::read_dir(parent.path()).unwrap().count(), 1);
-        assert_eq!(frames.range(), "none");
+        assert!(error.contains("frame-000001.png: "), "{error}");
+        assert_eq!(names(parent.path()), ["frame-000000.png", "frame-000001.png"]);
+        assert!(frames.range().ends_with("frame-000000.png"), "{}", frames.range());
     }
 
     #[test]
@@ -319,7 +407,7 @@ mod tests {
         let parent = tempfile::tempdir().unwrap();
         let path = parent.path().join("clip");
         fs::write(&path, "mine").unwrap();
-        let error = FrameFolder::inspect(&path, Existing::Replace).unwrap_err();
+        let error = inspect(&path, Existing::Replace).unwrap_err();
         assert!(matches!(error, FrameFolderError::NotADirectory { .. }), "{error}");
     }
 

@@ -9,8 +9,8 @@
 //!   - `scene`: `name`, `text` (the TOML) and the text's `hash`.
 //!   - `lanes`: what the scene's lanes are, after the command line: each a `method`, its `substeps` and, where
 //!     the scene gives one, its `tolerance`.
-//!   - `race`: whether all of them race; else the `selected` method sails alone, `null` for the one
-//!     that the window opens with.
+//!   - `race`: whether all of them race; else the `selected` method sails alone. Where it is `null`, as
+//!     older programs wrote, it is the one that the scene opens with.
 //!   - `tick_hz` at the start, `frames` asked for, `fps`, `size` in pixels, `scale` in pixels a point,
 //!     whether there are `panels`, whether there is `motion`, and `mark_every`, in ticks.
 //! - `settings_hash`: the hash of `settings` as JSON without spaces.
@@ -23,7 +23,8 @@
 //!   and, at the end, every metric of `regatta list metrics` against the exact solution, `null` where it has no
 //!   meaning.
 //! - `marks`: the state of each lane at every `mark_every`th `tick` and at the end: for each of the
-//!   `lanes` its `hash` and, body by body, `q` and `v`.
+//!   `lanes` its `hash` and, body by body, `q` and `v`; a value that is no number, for which JSON has no
+//!   word, is one of the strings `inf`, `-inf` and `NaN`.
 //!
 //! A lane's `hash` is [`Race::lane_hashes`](crate::lab::Race::lane_hashes). The other hashes are XXH3's
 //! 64 bits ([`fingerprint`]). All are hexadecimal. There is no seed, for nothing in a run is random.
@@ -32,6 +33,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 pub use super::fingerprint::fingerprint;
+
+mod any_number;
 
 /// The number of the description above. A manifest of another one cannot be judged.
 pub const SCHEMA: u32 = 1;
@@ -155,8 +158,29 @@ pub struct Mark {
 #[expect(missing_docs, reason = "the module describes every field")]
 pub struct LaneMark {
     pub hash: String,
+    #[serde(with = "any_number")]
     pub q: Vec<Vec<f64>>,
+    #[serde(with = "any_number")]
     pub v: Vec<Vec<f64>>,
+}
+
+impl LaneMark {
+    /// Whether both are of the same state: the same numbers, and where one is no number, neither is the
+    /// other.
+    pub fn is_same(&self, other: &Self) -> bool {
+        let rows = |a: &[Vec<f64>], b: &[Vec<f64>]| {
+            let values = |a: &Vec<f64>, b: &Vec<f64>| {
+                a.len() == b.len() && a.iter().zip(b).all(|(&a, &b)| is_same_value(a, b))
+            };
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| values(a, b))
+        };
+        self.hash == other.hash && rows(&self.q, &other.q) && rows(&self.v, &other.v)
+    }
+}
+
+/// Whether both values are the same number, or no number both.
+pub(super) fn is_same_value(a: f64, b: f64) -> bool {
+    a == b || a.is_nan() && b.is_nan()
 }
 
 impl Manifest {

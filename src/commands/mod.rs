@@ -10,17 +10,23 @@ use annotate_snippets::{Group, Level, Renderer};
 use clap::{Parser, Subcommand, ValueEnum};
 
 mod advise;
+mod atomic_file;
+mod atomic_output;
+mod blessing;
 mod capture;
 mod chapter;
 mod completions;
+mod directory_lock;
 mod experiment;
+mod file_error;
 mod fingerprint;
 mod frame_folder;
+mod frame_names;
 mod list;
 mod logbook;
 pub mod manifest;
 mod movie;
-mod outlet;
+mod picture_format;
 mod pipeline;
 mod play;
 mod recording;
@@ -103,7 +109,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Completions(args) => completions::run(&args),
     };
     match done {
-        Err(Error::Output(error)) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        Err(error) if error.is_closed_pipe() => Ok(()),
         done => done,
     }
 }
@@ -149,6 +155,16 @@ impl Error {
             Error::Sweep(error) => error.exit_code(),
             Error::Verify(error) => error.exit_code(),
             Error::Window(_) | Error::Output(_) => 1,
+        }
+    }
+
+    /// Whether whoever reads what the command writes has enough.
+    fn is_closed_pipe(&self) -> bool {
+        match self {
+            Error::Output(error) => error.kind() == io::ErrorKind::BrokenPipe,
+            Error::Capture(CaptureError::Output(error))
+            | Error::Sweep(SweepError::Output(error)) => error.is_closed_pipe(),
+            _ => false,
         }
     }
 

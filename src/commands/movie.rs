@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
+use super::atomic_output::AtomicOutput;
 use super::capture::CaptureError;
 use super::experiment::Experiment;
 use super::logbook::Logbook;
-use super::outlet::Outlet;
 use super::pipeline::{Drawn, Run, Stop};
 use super::recording::{Recording, closing_line, progress, watch_for_interrupt};
 use super::tell;
@@ -31,12 +31,12 @@ pub(super) const MOST_GIF_FPS: u32 = 50;
 /// as middling care, and on flat colours no worse.
 const GIF_SPEED: i32 = 30;
 
-/// Draws a run into `outlet`, and says on standard error what it wrote.
+/// Draws a run into `output`, and says on standard error what it wrote.
 pub(super) fn record(
     experiment: &Experiment,
     recording: Recording,
     format: MovieFormat,
-    mut outlet: Outlet,
+    mut output: AtomicOutput,
 ) -> Result<(), CaptureError> {
     let mut artist = recording.artist()?;
     let interrupted = watch_for_interrupt();
@@ -52,7 +52,7 @@ pub(super) fn record(
         interrupted: &interrupted,
     };
     let written =
-        Movie::begin(format, &mut outlet, &recording).map_err(Stop::Taken).and_then(|mut movie| {
+        Movie::begin(format, &mut output, &recording).map_err(Stop::Taken).and_then(|mut movie| {
             let make = |drawn: &Drawn| picture(format, &recording, drawn);
             let done = run.draw_all(make, |drawn, picture| {
                 movie.push(&drawn.rgba, picture)?;
@@ -67,17 +67,19 @@ pub(super) fn record(
     progress.finish_and_clear();
     match written {
         Err(Stop::Readback(error)) => Err(error.into()),
-        Err(Stop::Taken(error)) => Err(outlet.failed(error)),
+        Err(Stop::Taken(error)) => Err(output.failed(error).into()),
         Ok(done) if done < frames => {
-            let whole = match outlet {
-                Outlet::Stdout(_) => "those on standard output".into(),
-                Outlet::File { .. } => "none, a stream is whole at its end".into(),
+            let whole = match output {
+                AtomicOutput::Stdout(_) | AtomicOutput::Device { .. } => {
+                    format!("those on {}", output.name())
+                }
+                AtomicOutput::File { .. } => "none, a stream is whole at its end".into(),
             };
             Err(CaptureError::Interrupted { done, frames, whole })
         }
         Ok(_) => {
-            let name = outlet.name();
-            outlet.close()?;
+            let name = output.name();
+            output.close()?;
             tell(&closing_line(&recording, &name));
             Ok(())
         }
@@ -86,16 +88,16 @@ pub(super) fn record(
 
 /// A stream of frames being encoded.
 enum Movie<'a> {
-    Apng(Box<png::Writer<&'a mut Outlet>>),
-    Gif(gif::Encoder<&'a mut Outlet>),
-    Y4m { out: &'a mut Outlet, planes: Vec<u8> },
-    Rgba(&'a mut Outlet),
+    Apng(Box<png::Writer<&'a mut AtomicOutput>>),
+    Gif(gif::Encoder<&'a mut AtomicOutput>),
+    Y4m { out: &'a mut AtomicOutput, planes: Vec<u8> },
+    Rgba(&'a mut AtomicOutput),
 }
 
 impl<'a> Movie<'a> {
     fn begin(
         format: MovieFormat,
-        out: &'a mut Outlet,
+        out: &'a mut AtomicOutput,
         recording: &Recording,
     ) -> Result<Self, io::Error> {
         let [width, height] = recording.size_px;

@@ -54,11 +54,9 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(lineup)?;
     let mut lab = experiment.lab();
     lab.set_motion(!args.reduced_motion);
-    let tick_hz = f64::from(experiment.scene.tick_hz);
-    let seconds = args.seconds.map(|seconds| (seconds * tick_hz).round() / tick_hz);
-    match window::run(lab, seconds) {
+    match window::run(lab, args.seconds) {
         Err(WindowError::NoDisplay(reason)) => {
-            let frames = match seconds {
+            let frames = match args.seconds {
                 Some(seconds) => capture::frames_in(seconds, FPS)?,
                 None => FRAMES,
             };
@@ -75,7 +73,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
                 scale: 1.0,
                 panels: Panels::Shown,
                 motion: !args.reduced_motion,
-                mark_every: logbook::usual_stride(schedule.ticks(experiment.scene.tick_hz)),
+                mark_every: logbook::usual_stride(schedule.ticks(&experiment.lab())),
             };
             Ok(recording::record(&experiment, recording, folder)?)
         }

@@ -8,7 +8,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::capture::CaptureError;
 use super::experiment::Experiment;
 use super::fingerprint::fingerprint;
-use super::frame_folder::{FrameFolder, FrameFolderError, frame_name};
+use super::frame_folder::{FrameFolder, FrameFolderError};
+use super::frame_names::frame_name;
 use super::logbook::{self, Logbook};
 use super::manifest::{Adapter, FrameEntry, Manifest, SCHEMA};
 use super::pipeline::{Drawn, Run, Stop};
@@ -90,6 +91,7 @@ pub(super) fn record(
         Ok(())
     });
     progress.finish_and_clear();
+    let settled = folder.settle();
     let whole = folder.range();
     match drawn {
         Ok(_) => {}
@@ -97,7 +99,11 @@ pub(super) fn record(
         Err(Stop::Taken(source @ FrameFolderError::Foreign { .. })) => return Err(source.into()),
         Err(Stop::Taken(source)) => return Err(CaptureError::Write { source, whole }),
     }
+    settled.map_err(|source| CaptureError::Write { source, whole: whole.clone() })?;
     let (done, frames) = (entries.len() as u32, schedule.frames);
+    if done < frames && !folder.takes_a_part() {
+        return Err(CaptureError::Interrupted { done, frames, whole: "those of before".into() });
+    }
     let settings = settings::written(experiment, &recording);
     let manifest = Manifest {
         schema: SCHEMA,
@@ -110,16 +116,16 @@ pub(super) fn record(
         lanes: logbook::ends(&lab),
         marks: logbook.close(&lab),
     };
-    let written = folder.write_manifest(&manifest.to_text());
+    let (path, others) = (folder.path().to_owned(), folder.others().to_vec());
+    let written = folder.finish(&manifest.to_text());
     written.map_err(|source| CaptureError::Write { source, whole: whole.clone() })?;
     if done < frames {
         return Err(CaptureError::Interrupted { done, frames, whole });
     }
     tell(&closing_line(&recording, &whole));
-    if !folder.others().is_empty() {
-        let others: Vec<_> =
-            folder.others().iter().map(|name| name.display().to_string()).collect();
-        tell(&format!("left alone in {}: {}", folder.path().display(), others.join(", ")));
+    if !others.is_empty() {
+        let others: Vec<_> = others.iter().map(|name| name.display().to_string()).collect();
+        tell(&format!("left alone in {}: {}", path.display(), others.join(", ")));
     }
     Ok(())
 }

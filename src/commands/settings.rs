@@ -1,12 +1,13 @@
 //! From an experiment and a recording to the settings in a manifest, and back.
 
+use super::capture::MOST_FPS;
 use super::experiment::{Experiment, Lineup};
 use super::fingerprint::fingerprint;
-use super::frame_folder::frame_name;
+use super::frame_names::{MOST_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::recording::Recording;
 use super::voyage::Schedule;
-use crate::lab::{Clock, LaneSpec, MOST_LANES, MOST_SUBSTEPS, Scene};
+use crate::lab::{Clock, LaneSpec, MOST_LANES, MOST_SUBSTEPS, Scene, TOLERANCES};
 use crate::sim::integrators::method;
 use crate::view::Panels;
 
@@ -26,7 +27,7 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
         },
         lanes: scene.lanes.iter().map(lane).collect(),
         race: experiment.lineup == Lineup::Everyone,
-        selected: experiment.selected.map(|method| method.id.to_owned()),
+        selected: Some(experiment.opening_method().id.to_owned()),
         tick_hz: scene.tick_hz,
         frames: recording.schedule.frames,
         fps: recording.schedule.fps,
@@ -46,13 +47,18 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
     let mut scene = Scene::parse(&format!("{name}.toml"), text)
         .map_err(|errors| format!("this program does not take the scene: {errors}"))?;
     let substeps = |lane: &LaneEntry| (1..=MOST_SUBSTEPS).contains(&lane.substeps);
+    let tolerance = |lane: &LaneEntry| {
+        lane.tolerance.is_none_or(|given| (TOLERANCES.0..=TOLERANCES.1).contains(&given))
+    };
     for (key, is_in_range) in [
         ("tick_hz", Clock::TICK_HZ.contains(&settings.tick_hz)),
-        ("fps", settings.fps > 0),
+        ("frames", (1..=MOST_FRAMES).contains(&settings.frames)),
+        ("fps", (1..=MOST_FPS).contains(&settings.fps)),
         ("scale", (0.5..=4.0).contains(&settings.scale)),
         ("mark_every", settings.mark_every > 0),
         ("lanes", (1..=MOST_LANES).contains(&settings.lanes.len())),
         ("substeps", settings.lanes.iter().all(substeps)),
+        ("tolerance", settings.lanes.iter().all(tolerance)),
     ] {
         if !is_in_range {
             return Err(format!("its {key} is out of range; capture anew"));
@@ -61,6 +67,9 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
     scene.tick_hz = settings.tick_hz;
     let lane = |lane: &LaneEntry| {
         let method = known(&lane.method)?;
+        if lane.tolerance.is_some() && method.tolerance.is_none() {
+            return Err(format!("its {} has a tolerance and takes none; capture anew", method.id));
+        }
         Ok(LaneSpec { method, substeps: lane.substeps, tolerance: lane.tolerance })
     };
     scene.lanes = settings.lanes.iter().map(lane).collect::<Result<_, String>>()?;
@@ -89,6 +98,10 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), String> {
         return Err("the scene's text was altered, its hash says; capture anew".into());
     }
     let mut names = manifest.frames.iter().zip(0..).map(|(frame, n)| (&frame.file, frame_name(n)));
+    let (drawn, asked) = (manifest.frames.len(), settings.frames as usize);
+    if drawn > asked || manifest.complete && drawn < asked {
+        return Err(format!("it lists {drawn} frames of {asked}; capture anew"));
+    }
     if let Some((file, name)) = names.find(|(file, name)| *file != name) {
         return Err(format!("it has {file:?} in the place of {name}; capture anew"));
     }

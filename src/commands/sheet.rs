@@ -1,12 +1,13 @@
 //! A contact sheet: one picture of a race, time across, lanes down.
 
 use std::io::Write;
+use std::sync::atomic::Ordering;
 
+use super::atomic_output::AtomicOutput;
 use super::capture::CaptureError;
 use super::experiment::{Experiment, Lineup};
-use super::outlet::Outlet;
 use super::pipeline::know_what_is_shown;
-use super::recording::{Recording, progress};
+use super::recording::{Recording, progress, watch_for_interrupt};
 use super::tell;
 use crate::lab::LaneSpec;
 use crate::view::png;
@@ -18,7 +19,7 @@ const MOST_SHEET_PIXELS: u64 = 1 << 28;
 pub(super) fn draw(
     experiment: &Experiment,
     recording: Recording,
-    mut outlet: Outlet,
+    mut output: AtomicOutput,
 ) -> Result<(), CaptureError> {
     let [width, height] = recording.size_px;
     let columns = recording.schedule.frames;
@@ -39,6 +40,7 @@ pub(super) fn draw(
         });
     }
     let mut artist = recording.artist()?;
+    let interrupted = watch_for_interrupt();
     let progress = progress(cells, "frames");
     let row_bytes = 4 * width as usize;
     let sheet_row_bytes = row_bytes * columns as usize;
@@ -51,6 +53,11 @@ pub(super) fn draw(
         let alone = Experiment { scene, text, selected: Some(lane.method), lineup: Lineup::Solo };
         let mut lab = recording.lab(&alone);
         for column in 0..columns {
+            if interrupted.load(Ordering::Relaxed) {
+                progress.finish_and_clear();
+                let (done, whole) = (row as u32 * columns + column, "none, a sheet is one".into());
+                return Err(CaptureError::Interrupted { done, frames: cells, whole });
+            }
             recording.schedule.advance(&mut lab, column, |_| ());
             know_what_is_shown(&mut lab, &artist);
             artist.draw(&lab, &mut cell)?;
@@ -64,9 +71,9 @@ pub(super) fn draw(
     }
     progress.finish_and_clear();
     let size_px = [columns * width, rows * height];
-    outlet.write_all(&png::encode(size_px, &sheet)).map_err(|error| outlet.failed(error))?;
-    let name = outlet.name();
-    outlet.close()?;
+    output.write_all(&png::encode(size_px, &sheet)).map_err(|error| output.failed(error))?;
+    let name = output.name();
+    output.close()?;
     tell(&format!(
         "wrote a sheet of {}x{}: {name}; {columns} moments across; down: {}",
         size_px[0],

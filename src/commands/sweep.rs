@@ -7,9 +7,9 @@ use clap::Args;
 use rayon::ThreadPoolBuildError;
 use serde_json::json;
 
-use super::capture::CaptureError;
+use super::atomic_file::Older;
+use super::atomic_output::{AtomicOutput, OutputError, Place, STDOUT};
 use super::experiment::{self, MethodParser, SceneParser, range_of};
-use super::outlet::{Outlet, STDOUT};
 use super::recording::watch_for_interrupt;
 use super::scene_file::{self, SceneFileError};
 use super::table::{self, Column};
@@ -104,13 +104,7 @@ pub enum SweepError {
     Threads(#[from] ThreadPoolBuildError),
     /// Rows or picture could not be written.
     #[error(transparent)]
-    Out(#[from] CaptureError),
-    /// A file that would be replaced by the picture, or a directory.
-    #[error("{} is there already; give another --plot, or --force to replace a file", .path.display())]
-    PlotTaken {
-        /// The path.
-        path: PathBuf,
-    },
+    Output(#[from] OutputError),
     /// Rows and picture cannot both go there.
     #[error("rows and picture would go to the same place; give another --out or --plot")]
     SamePlace,
@@ -139,11 +133,9 @@ pub enum SweepError {
 impl SweepError {
     pub(super) fn exit_code(&self) -> u8 {
         match self {
-            SweepError::Out(error) => error.exit_code(),
+            SweepError::Output(error) => error.exit_code(),
             SweepError::Interrupted => 130,
-            SweepError::PlotTaken { .. }
-            | SweepError::SamePlace
-            | SweepError::TooManyCharts { .. } => 2,
+            SweepError::SamePlace | SweepError::TooManyCharts { .. } => 2,
             SweepError::Threads(_) | SweepError::Gpu(_) | SweepError::Readback(_) => 1,
         }
     }
@@ -160,29 +152,30 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     }
     let interrupted = watch_for_interrupt();
     // Before anything is gone through: a refusal should not come minutes late.
-    let out = Outlet::open_for_text(&args.out, args.force).map_err(SweepError::Out)?;
+    let older = if args.force { Older::Replace } else { Older::Keep };
+    let out = Place { path: &args.out, option: "--out", older };
+    let out = AtomicOutput::open_for_text(out).map_err(SweepError::from)?;
     let charts = swept.scenes.len() + 1;
-    let plot = args.plot.as_ref().map(|path| Plot::open(path, args.force, charts)).transpose()?;
+    let plot = args.plot.as_deref().map(|path| Place { path, option: "--plot", older });
+    let plot = plot.map(|place| Plot::open(place, charts)).transpose()?;
     let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
     let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
     let written = finish(out, table::rows(args.format, COLUMNS, &rows).as_bytes(), &what);
     // Whatever became of the rows: whoever reads them may want the first few only.
     if let Some(plot) = plot {
-        let (outlet, [width, height], png) = plot.draw(&diagrams::figure(&swept, &rows))?;
-        finish(outlet, &png, &format!("a picture of {width}x{height}"))?;
+        let (output, [width, height], png) = plot.draw(&diagrams::figure(&swept, &rows))?;
+        finish(output, &png, &format!("a picture of {width}x{height}"))?;
     }
     written
 }
 
 /// Writes all of it, and says what a file now holds.
-fn finish(mut outlet: Outlet, bytes: &[u8], what: &str) -> Result<(), Error> {
-    let written = outlet.write_all(bytes).map_err(|error| outlet.failed(error));
-    let (name, is_file) = (outlet.name(), matches!(outlet, Outlet::File { .. }));
-    match written.and_then(|()| outlet.close()) {
-        Ok(()) if is_file => tell(&format!("wrote {what}: {name}")),
-        Ok(()) => {}
-        Err(CaptureError::Output(error)) => return Err(error.into()),
-        Err(error) => return Err(SweepError::Out(error).into()),
+fn finish(mut output: AtomicOutput, bytes: &[u8], what: &str) -> Result<(), Error> {
+    let written = output.write_all(bytes).map_err(|error| output.failed(error));
+    let (name, is_file) = (output.name(), matches!(output, AtomicOutput::File { .. }));
+    written.and_then(|()| output.close()).map_err(SweepError::from)?;
+    if is_file {
+        tell(&format!("wrote {what}: {name}"));
     }
     Ok(())
 }

@@ -52,9 +52,6 @@ pub(super) struct TraceArgs {
     format: RowFormat,
 }
 
-/// A tie between two ticks goes to the later one, though `t` may be off by its last bit.
-const TIE: f64 = 1e-6;
-
 pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let lineup = if args.experiment.names_no_method() { Lineup::Everyone } else { Lineup::Solo };
     let experiment = args.experiment.load(lineup)?;
@@ -65,7 +62,8 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
 
     trace.begin()?;
     trace.tick(&lab)?;
-    while ticks_left(&lab, seconds) >= 1.0 {
+    let last = lab.nearest_tick(seconds);
+    while lab.race().tick() < last {
         lab.tick();
         trace.tick(&lab)?;
         halts.note(&lab);
@@ -74,12 +72,6 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     tell_accuracy(&experiment.scene.bodies);
     halts.lines.iter().for_each(|line| tell(line));
     Ok(())
-}
-
-/// A script may change the tick rate, so that the last tick is not known beforehand.
-fn ticks_left(lab: &Lab, seconds: f64) -> f64 {
-    let race = lab.race();
-    ((seconds - race.t()) * f64::from(race.tick_hz()) + TIE).round()
 }
 
 /// The table being written.

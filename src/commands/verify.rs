@@ -4,16 +4,21 @@
 //! physics has not.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use super::atomic_file::Older;
+use super::atomic_output::{OutputError, Place, write_text};
 use super::capture::CaptureError;
+use super::directory_lock::DirectoryLock;
 use super::experiment::Experiment;
-use super::frame_folder::{Existing, FrameFolder, FrameFolderError, write_whole};
+use super::file_error::FileError;
+use super::frame_folder::{Existing, FrameFolder, FrameFolderError};
 use super::manifest::{Adapter, FILE_NAME, Manifest, SCHEMA};
 use super::recording::{self, Recording, record};
-use super::{Error, settings, tell};
+use super::{Error, blessing, settings, tell};
 use crate::lab::SCENES;
 
 mod physics;
@@ -48,7 +53,7 @@ pub(super) struct VerifyArgs {
     #[arg(long)]
     physics_only: bool,
 
-    /// Write the result to FILE too, as junit or json
+    /// Write the result to FILE too, as junit or json; give it twice for both
     #[arg(long, num_args = 2, value_names = ["FORMAT", "FILE"])]
     report: Option<Vec<String>>,
 
@@ -64,7 +69,7 @@ pub(super) struct VerifyArgs {
     #[arg(long, value_name = "P", value_parser = percent)]
     max_pixels: Option<f64>,
 
-    /// Draw all anew and take that for right from now on
+    /// Draw all anew and take that for right from now on; until all is drawn the clip stays as it is
     #[arg(long, conflicts_with_all = ["physics_only", "report", "diff"])]
     bless: bool,
 }
@@ -97,22 +102,48 @@ pub enum VerifyError {
     /// `--report` with something else than a known format.
     #[error("no report format is called {0:?}; give junit or json")]
     Format(String),
-    /// A report or a difference could not be written.
+    /// Two reports would go to the same file.
+    #[error("two reports would go to {}; give each a file of its own", .path.display())]
+    SameReport {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Pictures of differences would replace the frames.
+    #[error("{} holds the frames that are judged; give another --diff", .path.display())]
+    DifferencesAmongFrames {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A report, or a line for people, could not be written.
     #[error(transparent)]
-    Write(#[from] FrameFolderError),
+    Output(#[from] OutputError),
+    /// A difference could not be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A folder cannot take what would be written there.
+    #[error(transparent)]
+    Folder(#[from] FrameFolderError),
     /// The frames could not be drawn.
     #[error("the pixels cannot be judged: {0}")]
     Capture(#[from] CaptureError),
+    /// The frames could not be drawn anew.
+    #[error("not blessed: {0}")]
+    Bless(CaptureError),
 }
 
 impl VerifyError {
     pub(super) fn exit_code(&self) -> u8 {
         match self {
-            VerifyError::Different { .. }
-            | VerifyError::Write(_)
-            | VerifyError::Capture(CaptureError::Output(_)) => 1,
+            VerifyError::Different { .. } | VerifyError::File(_) => 1,
+            VerifyError::Output(error) => error.exit_code(),
+            VerifyError::Folder(error) => error.exit_code(),
+            VerifyError::Bless(error) => error.exit_code(),
             VerifyError::Capture(CaptureError::Interrupted { .. }) => 130,
-            _ => 2,
+            VerifyError::Unjudged { .. }
+            | VerifyError::Format(_)
+            | VerifyError::SameReport { .. }
+            | VerifyError::DifferencesAmongFrames { .. }
+            | VerifyError::Capture(_) => 2,
         }
     }
 }
@@ -122,17 +153,22 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
 }
 
 fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
-    let report_to = args.report.as_deref().map(report_file).transpose()?;
+    let reports = reports(args.report.as_deref().unwrap_or_default())?;
     let path = args.dir.join(FILE_NAME);
     let unjudged = |reason| VerifyError::Unjudged { manifest: path.clone(), reason };
+    if args.bless {
+        return bless(&args.dir, unjudged);
+    }
+    let _lock = lock(&args.dir).map_err(unjudged)?;
     let manifest = read(&path).map_err(unjudged)?;
     let (experiment, recording) = settings::read(&manifest.settings).map_err(unjudged)?;
-    if args.bless {
-        let folder = FrameFolder::inspect(&args.dir, Existing::Replace)?;
-        return match record(&experiment, recording, folder) {
-            Err(CaptureError::Write { source, .. }) => Err(VerifyError::Write(source)),
-            done => Ok(done?),
-        };
+    if !manifest.complete {
+        return Err(unjudged(format!(
+            "its capture was stopped after {} of {} frames; complete it with the same command and \
+             --resume, or draw all with --bless",
+            manifest.frames.len(),
+            manifest.settings.frames
+        )));
     }
     let scene = &manifest.settings.scene;
     if SCENES.iter().any(|built_in| built_in.name == scene.name && built_in.text != scene.text) {
@@ -151,16 +187,58 @@ fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
             judged => judged?,
         }
     }
-    if let Some((format, file)) = report_to {
+    for (format, path) in reports {
         let text = match format {
             ReportFormat::Junit => report.to_junit(),
             ReportFormat::Json => report.to_json(),
         };
-        write_whole(&file, text.as_bytes())?;
+        write_text(Place { path, option: "--report", older: Older::Replace }, &text)?;
     }
     match report.what_differs() {
         None => Ok(()),
         Some(what) => Err(VerifyError::Different { what, manifest: path }),
+    }
+}
+
+/// Draws the clip in `dir` anew, and puts it into the place of the old one once it is whole.
+fn bless(dir: &Path, unjudged: impl Fn(String) -> VerifyError) -> Result<(), VerifyError> {
+    let path = dir.join(FILE_NAME);
+    // Looked for first: where there is no clip, the reason is not that of a folder.
+    if !path.exists() && !blessing::is_pending(dir) {
+        read(&path).map_err(&unjudged)?;
+    }
+    let folder = FrameFolder::inspect(dir, Existing::Bless, "DIR")?;
+    let manifest = read(&path).map_err(&unjudged)?;
+    let (experiment, recording) = settings::read(&manifest.settings).map_err(&unjudged)?;
+    match record(&experiment, recording, folder) {
+        Err(CaptureError::Write { source, .. } | CaptureError::Folder(source)) => {
+            Err(source.into())
+        }
+        Err(error) => Err(VerifyError::Bless(error)),
+        Ok(()) => Ok(()),
+    }
+}
+
+/// Keeps writers out of `dir` while it is judged, after the end of what a killed one began; `None` where
+/// there is no such directory.
+fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
+    let busy = || "another regatta is at work there; wait for it".to_owned();
+    if blessing::is_pending(dir) {
+        let stopped = "a --bless was stopped while it swapped the frames in";
+        let fail = |error| format!("{stopped}, and that cannot be finished: {error}");
+        let _writer = DirectoryLock::exclusive(dir).map_err(fail)?.ok_or_else(busy)?;
+        // Somebody else may have been faster.
+        if blessing::is_pending(dir) {
+            blessing::complete(dir).map_err(fail)?;
+            tell(&format!("{stopped}; it is finished now: {}", dir.display()));
+        }
+    }
+    match DirectoryLock::shared(dir) {
+        Ok(lock) => lock.ok_or_else(busy).map(Some),
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+            Ok(None)
+        }
+        Err(error) => Err(format!("it cannot be locked: {error}")),
     }
 }
 
@@ -211,11 +289,19 @@ fn read(path: &Path) -> Result<Manifest, String> {
     Ok(manifest)
 }
 
-fn report_file(words: &[String]) -> Result<(ReportFormat, PathBuf), VerifyError> {
-    let [format, file] = words else { unreachable!("clap takes two words") };
-    let format =
-        ReportFormat::from_str(format, false).map_err(|_| VerifyError::Format(format.clone()))?;
-    Ok((format, file.into()))
+/// The reports asked for, of two words each.
+fn reports(words: &[String]) -> Result<Vec<(ReportFormat, &Path)>, VerifyError> {
+    let mut reports: Vec<(ReportFormat, &Path)> = Vec::new();
+    for words in words.chunks_exact(2) {
+        let format = ReportFormat::from_str(&words[0], false)
+            .map_err(|_| VerifyError::Format(words[0].clone()))?;
+        let path = Path::new(&words[1]);
+        if reports.iter().any(|(_, other)| *other == path) {
+            return Err(VerifyError::SameReport { path: path.to_owned() });
+        }
+        reports.push((format, path));
+    }
+    Ok(reports)
 }
 
 fn percent(written: &str) -> Result<f64, String> {

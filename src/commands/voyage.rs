@@ -17,9 +17,9 @@ impl Schedule {
         (u64::from(frame) * SECOND_NS).div_ceil(u64::from(self.fps))
     }
 
-    /// The tick of the last frame, at a rate that stays.
-    pub(super) fn ticks(self, tick_hz: u32) -> u64 {
-        u64::from(self.frames.saturating_sub(1)) * u64::from(tick_hz) / u64::from(self.fps)
+    /// The tick nearest to the last frame, for a lab that stands at the start.
+    pub(super) fn ticks(self, lab: &Lab) -> u64 {
+        lab.nearest_tick(f64::from(self.frames.saturating_sub(1)) / f64::from(self.fps))
     }
 
     /// Advances a lab that stands at the frame before `frame`, or at the start, to `frame`.
@@ -29,7 +29,7 @@ impl Schedule {
         let mut left = self.time_ns(frame) - self.time_ns(before);
         // In stretches that the clock takes whole.
         while left > 0 {
-            let stretch = left.min(longest);
+            let stretch = left.min(longest).min(until_rate_changes(lab));
             let due = lab.advance_seen(stretch as i64, &mut after_tick);
             assert_eq!(due.dropped, 0, "a stretch is no longer than the clock's longest frame");
             left -= stretch;
@@ -37,10 +37,41 @@ impl Schedule {
     }
 }
 
+/// Nanoseconds, rounded up, until the tick is reached at which the script sets the next tick rate.
+fn until_rate_changes(lab: &Lab) -> u64 {
+    let (tick, clock) = (lab.race().tick(), lab.clock());
+    let Some((next, _)) = lab.scene().rates_from(tick + 1).next() else { return u64::MAX };
+    // The clock counts in nanoseconds × hertz × percent.
+    let (owed, whole) = clock.alpha_fraction();
+    let due = u128::from(next - tick) * u128::from(whole) - u128::from(owed);
+    let pace = u64::from(clock.tick_hz()) * u64::from(clock.speed_percent());
+    u64::try_from(due.div_ceil(pace.into())).unwrap_or(u64::MAX)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lab::Scene;
+
+    #[test]
+    fn a_frame_shows_its_moment_whatever_tick_rates_a_script_sets() {
+        let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
+                    stiffness_n_per_m = 1\n[[command]]\ntick = 5\ntick_hz = 1000\n\
+                    [[command]]\ntick = 1505\ntick_hz = 8\n";
+        let mut lab = Lab::new(Scene::parse("x.toml", text).unwrap());
+        let schedule = Schedule { frames: 301, fps: 30 };
+        for frame in 0..schedule.frames {
+            schedule.advance(&mut lab, frame, |_| ());
+            let present = lab.race().t();
+            let next_hz = lab.scene().rates_from(lab.race().tick()).next();
+            let next_hz = next_hz.filter(|(tick, _)| *tick == lab.race().tick());
+            let hz = next_hz.map_or(lab.clock().tick_hz(), |(_, hz)| hz);
+            let shown = present + lab.clock().alpha() / f64::from(hz);
+            let moment = f64::from(frame) / f64::from(schedule.fps);
+            assert!((shown - moment).abs() < 1e-6, "frame {frame} shows {shown} s, not {moment} s");
+        }
+        assert_eq!(schedule.ticks(&Lab::new(lab.scene().clone())), lab.race().tick());
+    }
 
     #[test]
     fn each_frame_has_just_the_ticks_that_are_due() {

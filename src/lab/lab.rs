@@ -290,6 +290,8 @@ impl Lab {
         if !self.running {
             return Due::default();
         }
+        // A tick rate that the script sets at this tick is that of the time from here on.
+        self.follow_script();
         let due = self.clock.advance(frame_ns);
         for _ in 0..due.ticks {
             self.tick();
@@ -304,16 +306,21 @@ impl Lab {
 
     /// Does what the script says for this tick, and steps to the next.
     pub fn tick(&mut self) {
+        self.follow_script();
+        self.race.step();
+        self.race.record();
+        if let Some(told) = notices::of_halts(&self.scene, &self.entries, &self.race) {
+            self.notice = Some(told);
+        }
+    }
+
+    /// Does what the script says for the present tick, once.
+    fn follow_script(&mut self) {
         while let Some(command) = self.script.due(self.race.tick()) {
             let is_by_hand = Control::of(command).is_some_and(|c| self.by_hand.contains(&c));
             if !is_by_hand && let Some(told) = self.perform(command) {
                 self.notice = Some(told);
             }
-        }
-        self.race.step();
-        self.race.record();
-        if let Some(told) = notices::of_halts(&self.scene, &self.entries, &self.race) {
-            self.notice = Some(told);
         }
     }
 

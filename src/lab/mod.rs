@@ -8,6 +8,7 @@ mod analysis;
 mod clock;
 mod command;
 mod display;
+mod duration;
 mod extent;
 mod history;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]

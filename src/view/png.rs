@@ -1,7 +1,10 @@
 //! Pixels as a PNG file.
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+/// What each file says of where it comes from, under the keyword that PNG has for it.
+const SOFTWARE: (&str, &str) = ("Software", "regatta");
+
+/// Signature, header and note stand in as many bytes at the start of a file.
+pub const NOTED_WITHIN: usize = 128;
 
 /// The file for `rgba`, straight 8-bit pixels of a picture of `size_px`, top row first. One fixed
 /// filter, since choosing one for each row takes twenty times as long: the difference to the pixel at the
@@ -11,10 +14,30 @@ use image::{ExtendedColorType, ImageEncoder};
 /// If there are not `4 × width × height` bytes.
 pub fn encode([width, height]: [u32; 2], rgba: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
-    PngEncoder::new_with_quality(&mut file, CompressionType::Fast, FilterType::Sub)
-        .write_image(rgba, width, height, ExtendedColorType::Rgba8)
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Sub);
+    let (keyword, text) = SOFTWARE;
+    encoder
+        .add_text_chunk(keyword.into(), text.into())
+        .and_then(|()| encoder.write_header())
+        .and_then(|mut writer| {
+            writer.write_image_data(rgba)?;
+            writer.finish()
+        })
         .expect("memory takes any picture");
     file
+}
+
+/// Whether the file that begins with these bytes, [`NOTED_WITHIN`] of them if it has as many, says that
+/// this program made it.
+pub fn is_encoded_here(start: &[u8]) -> bool {
+    let (keyword, text) = SOFTWARE;
+    let note = format!("tEXt{keyword}\0{text}");
+    start.starts_with(b"\x89PNG\r\n\x1a\n")
+        && start.windows(note.len()).any(|window| window == note.as_bytes())
 }
 
 #[cfg(test)]
@@ -22,9 +45,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_picture_survives_to_the_bit() {
+    fn a_picture_survives_to_the_bit_and_says_where_it_comes_from() {
         let rgba: Vec<u8> = (0..4 * 5 * 3).map(|byte| byte * 4).collect();
-        let picture = image::load_from_memory(&encode([5, 3], &rgba)).unwrap().into_rgba8();
-        assert_eq!((picture.dimensions(), picture.into_raw()), ((5, 3), rgba));
+        let file = encode([5, 3], &rgba);
+        let picture = image::load_from_memory(&file).unwrap().into_rgba8();
+        assert_eq!((picture.dimensions(), picture.into_raw()), ((5, 3), rgba.clone()));
+        assert!(is_encoded_here(&file[..NOTED_WITHIN]));
+        let mut other = std::io::Cursor::new(Vec::new());
+        let picture = image::RgbaImage::from_raw(5, 3, rgba).unwrap();
+        picture.write_to(&mut other, image::ImageFormat::Png).unwrap();
+        assert!(!is_encoded_here(other.get_ref()));
     }
 }

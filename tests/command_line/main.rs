@@ -5,8 +5,10 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 mod advise;
+mod bless;
 mod capture;
 mod chapter;
+mod files;
 mod formats;
 mod list;
 mod manifest;

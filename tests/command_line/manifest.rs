@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::process::Output;
 
 use regatta::commands::manifest::{Manifest, SCHEMA};
 use regatta::lab::{Command, Lab, METRICS, Scene};
@@ -46,6 +47,65 @@ fn every_key_is_described_and_what_is_described_reads_back() {
     let manifest: Manifest = serde_json::from_str(&text).unwrap();
     assert_eq!(manifest.schema, SCHEMA);
     assert!(manifest.to_text() == text, "what is read is written again to the byte");
+}
+
+/// Captures this scene, and what `verify` says of that.
+fn captured_or_skip(test: &str, scene: &str, arguments: &str) -> Option<(Manifest, Output)> {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("my.toml"), scene).unwrap();
+    let capture =
+        format!("capture --scene my.toml --size 32x18 --scale 0.5 --out clip {arguments}");
+    let output = drawn_or_skip(test, folder.path(), &capture)?;
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = fs::read_to_string(folder.path().join("clip/manifest.json")).unwrap();
+    let judged = run_in(folder.path(), "verify clip");
+    Some((serde_json::from_str(&text).unwrap(), judged))
+}
+
+const SPRING: &str = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\n";
+
+#[test]
+fn settings_and_lanes_name_the_methods_that_flew() {
+    let test = "settings_and_lanes_name_the_methods_that_flew";
+    for (listed, option, selected, flown) in [
+        ("['explicit-euler']", "", "explicit-euler", vec!["explicit-euler"]),
+        ("['explicit-euler']", "--race", "explicit-euler", vec!["explicit-euler"]),
+        ("['midpoint', 'pefrl']", "", "midpoint", vec!["midpoint"]),
+        ("['midpoint', 'rk4']", "", "rk4", vec!["rk4"]),
+        ("['midpoint', 'pefrl']", "--race", "midpoint", vec!["midpoint", "pefrl"]),
+        ("['midpoint']", "--method bdf2", "bdf2", vec!["bdf2"]),
+    ] {
+        let scene = format!("title = 'x'\ntick_hz = 10\nseconds = 1\nmethods = {listed}\n{SPRING}");
+        let arguments = format!("--frames 2 {option}");
+        let Some((manifest, judged)) = captured_or_skip(test, &scene, &arguments) else { return };
+        assert_eq!(manifest.settings.selected.as_deref(), Some(selected), "{listed} {option}");
+        let lanes: Vec<_> = manifest.lanes.iter().map(|lane| lane.method.as_str()).collect();
+        assert_eq!(lanes, flown, "{listed} {option}");
+        assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
+    }
+}
+
+#[test]
+fn frames_show_their_moment_across_the_rates_that_a_script_sets() {
+    let test = "frames_show_their_moment_across_the_rates_that_a_script_sets";
+    let scene = format!(
+        "title = 'x'\ntick_hz = 1\nseconds = 9\n{SPRING}[[command]]\ntick = 5\ntick_hz = 100\n"
+    );
+    let arguments = "--fps 2 --frames 14";
+    let Some((manifest, judged)) = captured_or_skip(test, &scene, arguments) else { return };
+    let ticks: Vec<u64> = manifest.frames.iter().map(|frame| frame.tick).collect();
+    assert_eq!(ticks, [0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 55, 105, 155]);
+    assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
+}
+
+#[test]
+fn a_run_of_any_values_can_be_judged() {
+    let test = "a_run_of_any_values_can_be_judged";
+    let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\n\
+                 [[spring]]\nmass_kg = 1e-300\nstiffness_n_per_m = 1e-300\n\
+                 [[command]]\ntick = 3\nkick = 1e12\n";
+    let Some((_, judged)) = captured_or_skip(test, scene, "--race --frames 9") else { return };
+    assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
 }
 
 #[test]

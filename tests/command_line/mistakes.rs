@@ -48,7 +48,17 @@ fn each_mistake_is_named_with_its_remedy() {
         ("capture --out x --format avi", "png, apng, gif, y4m, rgba, sheet"),
         ("capture --out x --format gif --fps 51", "at most 50 frames a second, not 51"),
         ("capture --out x --format gif --resume", "only pictures in a directory can be resumed"),
-        ("capture --out src --format gif", "src is there already; give another --out"),
+        ("capture --out src --format gif", "src is a directory; give --out a file"),
+        ("capture --out src --format gif --force", "src is a directory; give --out a file"),
+        ("capture --out x.png", "x.png is the name of one picture; give --format sheet or"),
+        ("capture --out x.png --format gif", "give a name that ends in .gif, or --format sheet"),
+        ("capture --out x.gif --format png", "give the name of a directory, or --format gif"),
+        ("capture --out x.gif --format sheet", "give a name that ends in .png, or --format gif"),
+        ("capture --out x.mp4", "regatta writes no .mp4 files; give --format y4m --out -"),
+        ("capture --out x.mp4 --format y4m", "give a name that ends in .y4m, or"),
+        ("capture --out x.gif --resume", "only pictures in a directory can be resumed"),
+        ("capture --out x.gif --fps 51", "at most 50 frames a second, not 51"),
+        ("capture --out -", "numbered pictures need a directory; give --format y4m, rgba, apng"),
         ("capture --out Cargo.toml --format y4m", "Cargo.toml is there already"),
         ("capture --out x --format sheet --frames 9999", "fewer --frames or a smaller --size"),
         ("capture --out x --mark-every 0", "0 is not in 1..="),
@@ -56,6 +66,9 @@ fn each_mistake_is_named_with_its_remedy() {
         ("verify nowhere", "`regatta capture` writes it"),
         ("verify src --max-pixels 101", "give a percentage from 0 to 100"),
         ("verify src --report xml x", "no report format is called \"xml\"; give junit or json"),
+        ("verify src --report json x --report xml y", "no report format is called \"xml\""),
+        ("verify src --report json x --report junit x", "two reports would go to x"),
+        ("verify src --bless", "cannot judge src/manifest.json: No such file"),
     ] {
         let message = refusal(arguments, 2);
         assert!(message.starts_with("error: "), "{arguments}: {message}");

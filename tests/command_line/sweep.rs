@@ -239,12 +239,19 @@ fn mistakes_are_refused_before_anything_is_swept() {
         ("--seconds -1", "give 0 to 31536000 seconds"),
         ("--threads 0", "0 is not in 1..=256"),
         ("--format xml", "csv, json"),
-        ("--plot src", "src is there already; give another --plot, or --force"),
+        ("--plot src", "src is a directory; give --plot a file"),
+        ("--plot Cargo.toml", "Cargo.toml is there already; give another --plot, or --force"),
         ("--plot -", "rows and picture would go to the same place"),
         ("--plot x --out ./x", "rows and picture would go to the same place"),
     ] {
         let message = refusal(&format!("sweep {options}"), 2);
         assert!(message.starts_with("error: ") && message.contains(said), "{options}: {message}");
+    }
+    for option in ["--out", "--plot"] {
+        let message = refusal(&format!("sweep {option} no/x"), 1);
+        assert!(message.starts_with("error: cannot write no/x: No such file"), "{message}");
+        let remedy = format!("; give another {option}, in a directory that is there\n");
+        assert!(message.ends_with(&remedy), "{message}");
     }
 }
 
@@ -274,7 +281,7 @@ fn an_interrupt_ends_the_longest_sweep_at_once_and_leaves_nothing() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    while !folder.path().join("rows.csv.part").exists() {
+    while names(folder.path()).is_empty() {
         std::thread::sleep(Duration::from_millis(1));
     }
     let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();

@@ -134,6 +134,41 @@ fn seconds_round_to_the_nearest_tick() {
 }
 
 #[test]
+fn seconds_are_counted_across_the_rates_that_a_script_sets() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 1\nseconds = 1\n\
+                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\n\
+                 [[command]]\ntick = 5\ntick_hz = 100\n";
+    fs::write(folder.path().join("my.toml"), scene).unwrap();
+    for (seconds, last) in
+        [("4.4", ["4", "4.0"]), ("5.4", ["45", "5.4"]), ("5.996", ["105", "6.0"])]
+    {
+        let output = run_in(folder.path(), &format!("trace --scene my.toml --seconds {seconds}"));
+        let csv = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(rows(&csv).last().unwrap()[..2], last, "{seconds} s");
+    }
+}
+
+#[test]
+fn a_method_that_the_scene_does_not_list_is_not_flown() {
+    let folder = tempfile::tempdir().unwrap();
+    for (lanes, flown) in [
+        ("methods = ['explicit-euler']\n", vec!["exact", "explicit-euler"]),
+        ("methods = ['midpoint', 'pefrl']\n", vec!["exact", "midpoint", "pefrl"]),
+    ] {
+        let scene = format!(
+            "title = 'x'\ntick_hz = 10\nseconds = 1\n{lanes}\
+             [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\n"
+        );
+        fs::write(folder.path().join("my.toml"), scene).unwrap();
+        let output = run_in(folder.path(), "trace --scene my.toml --seconds 0");
+        let csv = String::from_utf8(output.stdout).unwrap();
+        let methods: Vec<_> = rows(&csv).iter().map(|row| row[3].to_owned()).collect();
+        assert_eq!(methods, flown);
+    }
+}
+
+#[test]
 fn every_keeps_the_multiples_only() {
     let csv = stdout_of("trace --scene ship --method rk4 --seconds 10 --every 6");
     let ticks: Vec<_> = rows(&csv).iter().map(|row| row[0].to_owned()).collect();

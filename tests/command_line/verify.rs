@@ -193,6 +193,28 @@ fn what_cannot_be_judged_says_why() {
         },
         "its scale is out of range",
     );
+    refused(
+        &|manifest| {
+            manifest.settings.lanes[4].tolerance = Some(-1.0);
+            rehash(manifest);
+        },
+        "its tolerance is out of range",
+    );
+    refused(
+        &|manifest| {
+            manifest.settings.lanes[0].tolerance = Some(1e-3);
+            rehash(manifest);
+        },
+        "its explicit-euler has a tolerance and takes none",
+    );
+    refused(&|manifest| drop(manifest.frames.pop()), "it lists 6 frames of 7");
+    refused(
+        &|manifest| {
+            manifest.frames.pop();
+            manifest.complete = false;
+        },
+        "its capture was stopped after 6 of 7 frames; complete it with the same command and --resume",
+    );
     for (text, said) in [("{", "it is no JSON"), ("{}", "does not name its schema")] {
         fs::write(manifest_of(folder.path()), text).unwrap();
         let (code, _, stderr) = verify(folder.path(), "");
@@ -260,6 +282,83 @@ fn reports_are_written_for_programs() {
     let failed = "<testcase classname=\"regatta\" name=\"frame-000002.png\"><failure message=\"";
     assert!(junit.contains(failed), "{junit}");
     assert_eq!(junit.matches("<testcase ").count(), 8);
+}
+
+#[test]
+fn two_reports_are_two_files() {
+    let Some(folder) = clip_or_skip("two_reports_are_two_files") else { return };
+    let reports = "--physics-only --report junit a.xml --report json b.json";
+    let (code, _, stderr) = verify(folder.path(), reports);
+    assert_eq!((code, &*stderr), (Some(0), ""));
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert!(read("a.xml").contains("<testsuite "), "{}", read("a.xml"));
+    assert!(serde_json::from_str::<Value>(&read("b.json")).unwrap()["same"] == true);
+}
+
+#[test]
+fn a_report_that_cannot_be_written_names_its_own_option() {
+    let Some(folder) = clip_or_skip("a_report_that_cannot_be_written_names_its_own_option") else {
+        return;
+    };
+    let (code, _, stderr) = verify(folder.path(), "--physics-only --report json no/x");
+    assert_eq!(code, Some(1), "{stderr}");
+    let remedy = "; give another --report, in a directory that is there\n";
+    assert!(stderr.ends_with(remedy), "{stderr}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_report_through_a_link_is_written_to_its_target() {
+    let Some(folder) = clip_or_skip("a_report_through_a_link_is_written_to_its_target") else {
+        return;
+    };
+    let [link, target] = ["link", "target"].map(|name| folder.path().join(name));
+    fs::write(&target, "old").unwrap();
+    std::os::unix::fs::symlink("target", &link).unwrap();
+    let (code, _, stderr) = verify(folder.path(), "--physics-only --report junit link");
+    assert_eq!(code, Some(0), "{stderr}");
+    assert_eq!(fs::read_link(link).unwrap(), Path::new("target"));
+    assert!(fs::read_to_string(target).unwrap().contains("<testsuite "));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_report_to_what_is_open_already_is_added_to_it() {
+    let Some(folder) = clip_or_skip("a_report_to_what_is_open_already_is_added_to_it") else {
+        return;
+    };
+    let log = folder.path().join("log");
+    let status = regatta()
+        .current_dir(folder.path())
+        .args("verify clip --physics-only --report junit /dev/stdout".split(' '))
+        .stdout(fs::File::options().append(true).create(true).open(&log).unwrap())
+        .status();
+    assert!(status.unwrap().success());
+    let log = fs::read_to_string(log).unwrap();
+    assert!(log.starts_with("physics: same to the bit: "), "{log}");
+    assert!(log.ends_with("</testsuite>\n"), "{log}");
+}
+
+#[test]
+fn differences_never_replace_what_is_judged_or_what_is_not_ours() {
+    let test = "differences_never_replace_what_is_judged_or_what_is_not_ours";
+    let Some(folder) = clip_or_skip(test) else { return };
+    let frame = folder.path().join("clip/frame-000003.png");
+    fs::copy(folder.path().join("clip/frame-000004.png"), &frame).unwrap();
+    let before = fs::read(&frame).unwrap();
+    let (code, _, stderr) = verify(folder.path(), "--diff clip");
+    assert_eq!(code, Some(2), "{stderr}");
+    assert!(
+        stderr.contains("clip holds the frames that are judged; give another --diff"),
+        "{stderr}"
+    );
+    assert!(fs::read(&frame).unwrap() == before);
+    fs::create_dir(folder.path().join("off")).unwrap();
+    fs::write(folder.path().join("off/frame-000003.png"), "mine").unwrap();
+    let (code, _, stderr) = verify(folder.path(), "--diff off");
+    assert_eq!(code, Some(2), "{stderr}");
+    assert!(stderr.contains("off/frame-000003.png was not made by regatta"), "{stderr}");
+    assert_eq!(fs::read(folder.path().join("off/frame-000003.png")).unwrap(), b"mine");
 }
 
 #[test]

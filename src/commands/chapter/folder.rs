@@ -6,7 +6,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::ChapterError;
-use crate::commands::frame_folder::{FrameFolderError, failure, write_whole};
+use crate::commands::atomic_file::{final_name, write_whole};
+use crate::commands::file_error::FileError;
+use crate::commands::frame_folder::FrameFolderError;
 
 /// A folder for figures.
 pub(super) struct FigureFolder {
@@ -20,6 +22,7 @@ pub(super) struct FigureFolder {
 impl FigureFolder {
     /// Looks at the folder at `path`, which need not exist yet, and changes nothing.
     pub(super) fn inspect(path: &Path) -> Result<Self, ChapterError> {
+        let fail = FileError::of("read", path, "--out");
         let mut folder = Self { path: path.to_owned(), old: Vec::new(), others: Vec::new() };
         let entries = match fs::read_dir(path) {
             Ok(entries) => entries,
@@ -27,11 +30,12 @@ impl FigureFolder {
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
                 return Err(FrameFolderError::NotADirectory { path: path.to_owned() }.into());
             }
-            Err(error) => return Err(failure("read", path)(error).into()),
+            Err(error) => return Err(FrameFolderError::from(fail(error)).into()),
         };
         for entry in entries {
-            let entry = entry.map_err(failure("read", path))?;
-            let is_file = !entry.file_type().map_err(failure("read", path))?.is_dir();
+            let entry = entry.map_err(&fail).map_err(FrameFolderError::from)?;
+            let is_file =
+                !entry.file_type().map_err(&fail).map_err(FrameFolderError::from)?.is_dir();
             let name = entry.file_name();
             let is_old = is_file && name.to_str().is_some_and(is_ours);
             let list = if is_old { &mut folder.old } else { &mut folder.others };
@@ -48,17 +52,23 @@ impl FigureFolder {
 
     /// Makes the folder where there is none, and removes the figures of an earlier run.
     pub(super) fn clear(&mut self) -> Result<(), ChapterError> {
-        fs::create_dir_all(&self.path).map_err(failure("make the directory", &self.path))?;
+        fs::create_dir_all(&self.path)
+            .map_err(FileError::of("make the directory", &self.path, "--out"))
+            .map_err(FrameFolderError::from)?;
         for name in self.old.drain(..) {
             let path = self.path.join(name);
-            fs::remove_file(&path).map_err(failure("replace", &path))?;
+            fs::remove_file(&path)
+                .map_err(FileError::of("replace", &path, "--out"))
+                .map_err(FrameFolderError::from)?;
         }
         Ok(())
     }
 
     /// Writes a file: under a name of its own until it is whole.
     pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), ChapterError> {
-        Ok(write_whole(&self.path.join(name), bytes)?)
+        let path = self.path.join(name);
+        let written = write_whole(&path, bytes).map_err(FileError::of("write", &path, "--out"));
+        Ok(written.map_err(FrameFolderError::from)?)
     }
 
     /// Where it is.
@@ -74,7 +84,7 @@ impl FigureFolder {
 
 /// Whether a file of this name is a figure or its data, whole or under way.
 fn is_ours(name: &str) -> bool {
-    let whole = name.strip_suffix(".part").unwrap_or(name);
+    let whole = final_name(name).unwrap_or(name);
     let stem = whole.strip_suffix(".png").or_else(|| whole.strip_suffix(".csv"));
     let number = stem.and_then(|stem| stem.strip_prefix("figure-7-"));
     number.is_some_and(|n| n.len() == 1 && n.bytes().all(|b| (b'2'..=b'8').contains(&b)))

@@ -1,10 +1,7 @@
 //! The file that a sweep's picture goes to, and what draws it.
 
-use std::path::Path;
-
 use super::SweepError;
-use crate::commands::capture::CaptureError;
-use crate::commands::outlet::Outlet;
+use crate::commands::atomic_output::{AtomicOutput, Place};
 use crate::view::{AdapterPreference, Artist, Figure, Gpu, GpuError, png};
 
 /// Pixels of a chart, and pixels to a point: legible where a few of them fill a screen.
@@ -17,16 +14,13 @@ const MARGIN_PX: u32 = 240;
 /// A picture to be made.
 pub(super) struct Plot {
     artist: Artist,
-    outlet: Outlet,
+    output: AtomicOutput,
 }
 
 impl Plot {
     /// Makes sure that there are a place for a picture of so many charts, and something to draw it with.
-    pub(super) fn open(path: &Path, replace: bool, charts: usize) -> Result<Self, SweepError> {
-        let outlet = Outlet::open(path, replace).map_err(|error| match error {
-            CaptureError::Taken { path } => SweepError::PlotTaken { path },
-            error => error.into(),
-        })?;
+    pub(super) fn open(place: Place<'_>, charts: usize) -> Result<Self, SweepError> {
+        let output = AtomicOutput::open(place)?;
         let columns = columns(charts);
         let [across, down] = [columns, charts.div_ceil(columns)].map(|number| number as u32);
         let size_px = [across * CHART_PX[0], down * CHART_PX[1] + MARGIN_PX];
@@ -35,17 +29,17 @@ impl Plot {
             GpuError::TooLarge { limit, .. } => SweepError::TooManyCharts { charts, limit },
             error => error.into(),
         })?;
-        Ok(Self { artist, outlet })
+        Ok(Self { artist, output })
     }
 
     /// Draws it: where it goes, its size in pixels, and the file.
     pub(super) fn draw(
         mut self,
         figure: &Figure,
-    ) -> Result<(Outlet, [u32; 2], Vec<u8>), SweepError> {
+    ) -> Result<(AtomicOutput, [u32; 2], Vec<u8>), SweepError> {
         let (size_px, mut rgba) = (self.artist.size_px(), Vec::new());
         self.artist.draw_figure(figure, &mut rgba)?;
-        Ok((self.outlet, size_px, png::encode(size_px, &rgba)))
+        Ok((self.output, size_px, png::encode(size_px, &rgba)))
     }
 }
 

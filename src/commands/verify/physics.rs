@@ -2,7 +2,7 @@
 
 use super::super::experiment::Experiment;
 use super::super::logbook::Logbook;
-use super::super::manifest::{LaneMark, Manifest, Mark};
+use super::super::manifest::{LaneMark, Manifest, Mark, is_same_value};
 use super::super::recording::Recording;
 use super::report::{PhysicsChange, Report};
 use crate::lab::Lab;
@@ -45,7 +45,7 @@ fn change(then: &Mark, now: &Mark, lab: &Lab) -> Option<PhysicsChange> {
     }
     let lanes = then.lanes.iter().zip(&now.lanes).enumerate();
     lanes
-        .filter(|(_, (then, now))| then != now)
+        .filter(|(_, (then, now))| !then.is_same(now))
         .map(|(n, (was, is))| {
             let entrant = &lab.race().entrants()[n];
             let method = lab.entries()[entrant.entry].method.id;
@@ -69,7 +69,7 @@ fn first_coordinate(then: &LaneMark, now: &LaneMark, lab: &Lab, lane: usize) -> 
         let names = body.coordinates.iter();
         let names = names.clone().map(|c| c.name).chain(names.map(|c| c.velocity));
         for ((name, was), is) in names.zip(values(then)).zip(values(now)) {
-            if was != is {
+            if !is_same_value(was, is) {
                 let body = &lab.scene().bodies[n].name;
                 let off = (is - was).abs();
                 return format!("{body}, {name}: {was} in the manifest, {is} now, off by {off:e}");

@@ -3,10 +3,13 @@
 use std::fs;
 use std::path::Path;
 
+use super::super::atomic_file::write_whole;
 use super::super::capture::CaptureError;
 use super::super::experiment::Experiment;
+use super::super::file_error::FileError;
 use super::super::fingerprint::fingerprint;
-use super::super::frame_folder::{failure, write_whole};
+use super::super::frame_folder::FrameFolderError;
+use super::super::frame_names::is_marked;
 use super::super::logbook::Logbook;
 use super::super::manifest::{FrameEntry, Manifest};
 use super::super::pipeline::{Drawn, Run, Stop};
@@ -86,7 +89,10 @@ pub(super) fn judge(
     let frames = manifest.frames.len() as u32;
     let schedule = Schedule { frames, ..recording.schedule };
     if let Some(path) = folder.differences {
-        fs::create_dir_all(path).map_err(failure("make the directory", path))?;
+        fs::create_dir_all(path).map_err(FileError::of("make the directory", path, "--diff"))?;
+        if fs::canonicalize(path).ok() == fs::canonicalize(folder.frames).ok() {
+            return Err(VerifyError::DifferencesAmongFrames { path: path.to_owned() });
+        }
     }
     let interrupted = watch_for_interrupt();
     let progress = progress(frames, "frames");
@@ -153,7 +159,11 @@ fn compare(
     if let Some(directory) = folder.differences.filter(|_| difference.off > 0) {
         let path = directory.join(&entry.file);
         let picture = picture_of(&then, now, difference.worst);
-        write_whole(&path, &png::encode(size_px, &picture))?;
+        if path.exists() && !is_marked(&path) {
+            return Err(FrameFolderError::NotOurs { path, option: "--diff" }.into());
+        }
+        write_whole(&path, &png::encode(size_px, &picture))
+            .map_err(FileError::of("write", &path, "--diff"))?;
         what.push_str(&format!("; see {}", path.display()));
     }
     Ok(Some(what))

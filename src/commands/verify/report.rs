@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::VerifyError;
-use crate::commands::capture::CaptureError;
+use crate::commands::atomic_output::OutputError;
 
 /// The first mark that is another now.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -165,7 +165,7 @@ fn say(line: &str) -> Result<(), VerifyError> {
     match writeln!(io::stdout(), "{line}") {
         // Whoever listens no more still gets the exit code.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(CaptureError::Output(error).into())
+            Err(OutputError::Stdout(error).into())
         }
         _ => Ok(()),
     }

@@ -1,0 +1,217 @@
+//! Where one stream of bytes goes: standard output, a device or a pipe, or a file that appears whole or
+//! not at all.
+
+use std::fs::{self, File, Metadata};
+use std::io::{self, BufWriter, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use super::atomic_file::{AtomicFile, Older};
+use super::file_error::FileError;
+
+/// The path that means standard output.
+pub(super) const STDOUT: &str = "-";
+
+/// Names of what the process has open, such as standard error: links, and what they lead to is in use.
+const OPEN_ALREADY: [&str; 4] = ["/dev/fd", "/dev/stdout", "/dev/stderr", "/proc/self/fd"];
+
+/// Links that lead to links: more than these are a ring, on every system.
+const MOST_LINKS: usize = 40;
+
+/// Where an output may go, and what is said of it if it cannot.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place<'a> {
+    /// A file, a link to one, a device, or [`STDOUT`].
+    pub(super) path: &'a Path,
+    /// The option that names it, such as `--out`.
+    pub(super) option: &'static str,
+    /// What becomes of a file that is there.
+    pub(super) older: Older,
+}
+
+/// A stream being written.
+pub(super) enum AtomicOutput {
+    Stdout(BufWriter<io::Stdout>),
+    /// Nothing that could be replaced: a device, a pipe.
+    Device {
+        device: BufWriter<File>,
+        path: PathBuf,
+        option: &'static str,
+    },
+    File {
+        part: BufWriter<AtomicFile>,
+        path: PathBuf,
+        option: &'static str,
+        older: Older,
+    },
+}
+
+/// Why a stream could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// A file that would be replaced.
+    #[error("{} is there already; give another {option}, or --force to replace it", .path.display())]
+    Taken {
+        /// The path.
+        path: PathBuf,
+        /// The option that names it.
+        option: &'static str,
+    },
+    /// A directory has the name.
+    #[error("{} is a directory; give {option} a file", .path.display())]
+    Directory {
+        /// The path.
+        path: PathBuf,
+        /// The option that names it.
+        option: &'static str,
+    },
+    /// Bytes that are no text would go to a terminal.
+    #[error(
+        "pictures do not go to a terminal; give {option} FILE, or send standard output elsewhere"
+    )]
+    Terminal {
+        /// The option that names standard output.
+        option: &'static str,
+    },
+    /// The file could not be made or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Standard output took no more.
+    #[error("cannot write to standard output: {0}")]
+    Stdout(io::Error),
+}
+
+impl OutputError {
+    pub(super) fn exit_code(&self) -> u8 {
+        match self {
+            OutputError::Taken { .. }
+            | OutputError::Directory { .. }
+            | OutputError::Terminal { .. } => 2,
+            OutputError::File(_) | OutputError::Stdout(_) => 1,
+        }
+    }
+
+    /// Whether whoever reads has enough.
+    pub(super) fn is_closed_pipe(&self) -> bool {
+        let source = match self {
+            OutputError::File(error) => &error.source,
+            OutputError::Stdout(error) => error,
+            _ => return false,
+        };
+        source.kind() == io::ErrorKind::BrokenPipe
+    }
+}
+
+impl AtomicOutput {
+    /// Opens a place for bytes that are no text.
+    pub(super) fn open(place: Place<'_>) -> Result<Self, OutputError> {
+        if place.path == Path::new(STDOUT) && io::stdout().is_terminal() {
+            return Err(OutputError::Terminal { option: place.option });
+        }
+        Self::open_for_text(place)
+    }
+
+    /// Opens a place for text, which may go to a terminal.
+    pub(super) fn open_for_text(place: Place<'_>) -> Result<Self, OutputError> {
+        let Place { path, option, older } = place;
+        if path == Path::new(STDOUT) {
+            return Ok(AtomicOutput::Stdout(BufWriter::new(io::stdout())));
+        }
+        let fail = FileError::of("write", path, option);
+        let path = path.to_owned();
+        match fs::metadata(&path) {
+            Ok(entry) if entry.is_dir() => Err(OutputError::Directory { path, option }),
+            Ok(entry) if !entry.is_file() || OPEN_ALREADY.iter().any(|o| path.starts_with(o)) => {
+                let device = File::options().append(true).open(&path).map_err(fail)?;
+                Ok(AtomicOutput::Device { device: BufWriter::new(device), path, option })
+            }
+            // A link that leads nowhere yet is taken too.
+            _ if older == Older::Keep && fs::symlink_metadata(&path).is_ok() => {
+                Err(OutputError::Taken { path, option })
+            }
+            entry => {
+                let part = begin(&path, entry.ok().as_ref()).map_err(fail)?;
+                Ok(AtomicOutput::File { part: BufWriter::new(part), path, option, older })
+            }
+        }
+    }
+
+    /// What to call it.
+    pub(super) fn name(&self) -> String {
+        match self {
+            AtomicOutput::Stdout(_) => "standard output".into(),
+            AtomicOutput::Device { path, .. } | AtomicOutput::File { path, .. } => {
+                path.display().to_string()
+            }
+        }
+    }
+
+    /// What a failure to write means.
+    pub(super) fn failed(&self, error: io::Error) -> OutputError {
+        match self {
+            AtomicOutput::Stdout(_) => OutputError::Stdout(error),
+            AtomicOutput::Device { path, option, .. } | AtomicOutput::File { path, option, .. } => {
+                FileError::of("write", path, option)(error).into()
+            }
+        }
+    }
+
+    /// Writes what is left; the file takes its name.
+    pub(super) fn close(mut self) -> Result<(), OutputError> {
+        self.flush().map_err(|error| self.failed(error))?;
+        let AtomicOutput::File { part, path, option, older } = self else { return Ok(()) };
+        let whole = part.into_inner().map_err(io::IntoInnerError::into_error);
+        whole.and_then(|part| part.commit(older)).map_err(|error| {
+            // Somebody else made a file of that name in the meantime.
+            if older == Older::Keep && error.kind() == io::ErrorKind::AlreadyExists {
+                return OutputError::Taken { path: path.clone(), option };
+            }
+            FileError::of("write", &path, option)(error).into()
+        })
+    }
+}
+
+/// Writes text in the place of whatever file is there.
+pub(super) fn write_text(place: Place<'_>, text: &str) -> Result<(), OutputError> {
+    let mut output = AtomicOutput::open_for_text(place)?;
+    output.write_all(text.as_bytes()).map_err(|error| output.failed(error))?;
+    output.close()
+}
+
+/// Begins a file at `path`; a link stays one, and leads to the file.
+fn begin(path: &Path, older: Option<&Metadata>) -> io::Result<AtomicFile> {
+    let part = AtomicFile::create(&end_of_links(path)?)?;
+    if let Some(older) = older {
+        part.set_permissions_of(older)?;
+    }
+    Ok(part)
+}
+
+/// Where the links that begin at `path` lead, whether there is a file or not.
+fn end_of_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&path) {
+            Ok(target) => path = path.parent().unwrap_or(Path::new("")).join(target),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("its links lead in a ring"))
+}
+
+impl Write for AtomicOutput {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            AtomicOutput::Stdout(out) => out.write(bytes),
+            AtomicOutput::Device { device, .. } => device.write(bytes),
+            AtomicOutput::File { part, .. } => part.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            AtomicOutput::Stdout(out) => out.flush(),
+            AtomicOutput::Device { device, .. } => device.flush(),
+            AtomicOutput::File { part, .. } => part.flush(),
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! One writer to a directory at a time, or any number of readers.
+//!
+//! The lock is the system's and ends with the process, however that ends.
+
+use std::fs::{File, TryLockError};
+use std::io;
+use std::path::Path;
+
+/// Where a directory cannot be locked itself, this file in it is.
+const LOCK_NAME: &str = ".regatta-lock";
+
+/// Held until it is dropped.
+#[derive(Debug)]
+pub(super) struct DirectoryLock {
+    _file: File,
+}
+
+impl DirectoryLock {
+    /// A writer's lock on a directory; `None` where another process has it locked.
+    pub(super) fn exclusive(directory: &Path) -> io::Result<Option<Self>> {
+        Self::lock(directory, File::try_lock)
+    }
+
+    /// A reader's lock on a directory; `None` where another process writes.
+    pub(super) fn shared(directory: &Path) -> io::Result<Option<Self>> {
+        Self::lock(directory, File::try_lock_shared)
+    }
+
+    fn lock(
+        directory: &Path,
+        lock: impl Fn(&File) -> Result<(), TryLockError>,
+    ) -> io::Result<Option<Self>> {
+        let file = open(directory)?;
+        match lock(&file) {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Ok(None),
+            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+                log::warn!("{}: the file system has no locks", directory.display());
+            }
+            Err(TryLockError::Error(error)) => return Err(error),
+        }
+        Ok(Some(Self { _file: file }))
+    }
+}
+
+/// Whether an entry of a directory is there for its lock.
+pub(super) fn is_lock(name: &str) -> bool {
+    name == LOCK_NAME
+}
+
+#[cfg(unix)]
+fn open(directory: &Path) -> io::Result<File> {
+    File::open(directory)
+}
+
+#[cfg(not(unix))]
+fn open(directory: &Path) -> io::Result<File> {
+    let mut options = File::options();
+    options.write(true).create(true).truncate(false).open(directory.join(LOCK_NAME))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn readers_keep_writers_out_and_a_writer_keeps_everybody_out() {
+        let folder = tempfile::tempdir().unwrap();
+        let exclusive = || DirectoryLock::exclusive(folder.path()).unwrap();
+        let shared = || DirectoryLock::shared(folder.path()).unwrap();
+        let reader = shared();
+        assert!(reader.is_some() && shared().is_some() && exclusive().is_none());
+        drop(reader);
+        let writer = exclusive();
+        assert!(writer.is_some() && shared().is_none() && exclusive().is_none());
+        drop(writer);
+        assert!(exclusive().is_some());
+    }
+}

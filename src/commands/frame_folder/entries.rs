@@ -1,0 +1,86 @@
+//! What is in a folder of frames, and whose it is.
+
+use std::collections::BTreeSet;
+use std::ffi::{OsStr, OsString};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::commands::atomic_file;
+use crate::commands::blessing;
+use crate::commands::directory_lock::is_lock;
+use crate::commands::frame_names::{
+    MOST_FRAMES, frame_name, frame_number, frames_claimed, is_marked,
+};
+use crate::commands::manifest;
+
+/// The entries of a folder, by name.
+#[derive(Debug, Default)]
+pub(super) struct Entries {
+    /// Files that an earlier capture left, whole or not.
+    pub(super) ours: BTreeSet<OsString>,
+    /// Directories that a stopped blessing left.
+    pub(super) our_directories: Vec<OsString>,
+    /// All that is none of ours and not called as a capture calls its files.
+    pub(super) others: Vec<OsString>,
+    /// A file that is called as if it were ours, and is not.
+    pub(super) foreign: Option<PathBuf>,
+    /// A directory that is called so.
+    pub(super) in_the_way: Option<PathBuf>,
+}
+
+impl Entries {
+    /// Looks at every entry of the folder at `path`.
+    pub(super) fn read(path: &Path) -> io::Result<Self> {
+        let mut entries = Self::default();
+        let claimed = frames_claimed(&path.join(manifest::FILE_NAME));
+        for entry in fs::read_dir(path)? {
+            let entry = entry?;
+            let is_directory = entry.file_type()?.is_dir();
+            let name = entry.file_name();
+            let text = name.to_str().unwrap_or_default();
+            let is_under_way = atomic_file::final_name(text).is_some_and(is_a_captures);
+            match (is_a_captures(text), is_directory) {
+                (true, true) => {
+                    entries.in_the_way = Some(entry.path());
+                    entries.others.push(name);
+                }
+                (true, false) => {
+                    let is_ours = match &claimed {
+                        Some(claimed) => text == manifest::FILE_NAME || claimed.contains(text),
+                        None => false,
+                    };
+                    if is_ours || frame_number(text).is_some() && is_marked(&entry.path()) {
+                        entries.ours.insert(name);
+                    } else {
+                        entries.foreign = Some(entry.path());
+                    }
+                }
+                (false, true) if blessing::is_left_over(text) => entries.our_directories.push(name),
+                (false, false) if is_under_way => drop(entries.ours.insert(name)),
+                (false, false) if is_lock(text) => {}
+                (false, _) => entries.others.push(name),
+            }
+        }
+        entries.others.sort();
+        Ok(entries)
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.ours.is_empty()
+            && self.our_directories.is_empty()
+            && self.others.is_empty()
+            && self.foreign.is_none()
+    }
+
+    /// How many frames of ours there are from the first on, without a gap.
+    pub(super) fn frames(&self) -> u32 {
+        let is_there = |frame: &u32| self.ours.contains(OsStr::new(&frame_name(*frame)));
+        (0..MOST_FRAMES).take_while(is_there).count() as u32
+    }
+}
+
+/// Whether a capture gives files this name.
+pub(super) fn is_a_captures(name: &str) -> bool {
+    name == manifest::FILE_NAME || frame_number(name).is_some()
+}

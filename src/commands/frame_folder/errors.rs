@@ -1,0 +1,67 @@
+//! Why a folder cannot take frames.
+
+use std::path::PathBuf;
+
+use crate::commands::file_error::FileError;
+
+/// Why frames could not be kept in a folder.
+#[derive(Debug, thiserror::Error)]
+pub enum FrameFolderError {
+    /// The path is taken by something else.
+    #[error("{} is not a directory; give another --out", .path.display())]
+    NotADirectory {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The folder is in use.
+    #[error(
+        "{} is not empty; give another --out, or --force to replace the frames in it, or --resume \
+         to add those that are missing",
+        .path.display()
+    )]
+    NotEmpty {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Another process writes there.
+    #[error("another regatta is at work in {}; wait for it, or give another {option}", .path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+        /// What names it on the command line.
+        option: &'static str,
+    },
+    /// A file has the name of a frame or of the manifest, and no capture made it.
+    #[error(
+        "{} was not made by regatta and is not replaced; move it away, or give another {option}",
+        .path.display()
+    )]
+    NotOurs {
+        /// The file.
+        path: PathBuf,
+        /// What names its folder on the command line.
+        option: &'static str,
+    },
+    /// A frame that is there already is none of this capture.
+    #[error(
+        "{} is not what this command draws here; give the command that drew it, or --force to draw \
+         all anew",
+        .path.display()
+    )]
+    Foreign {
+        /// The frame.
+        path: PathBuf,
+    },
+    /// The system refused.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl FrameFolderError {
+    pub(in crate::commands) fn exit_code(&self) -> u8 {
+        match self {
+            FrameFolderError::File(_) => 1,
+            _ => 2,
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Frames on their way to the disk, synced and renamed in order on a thread of their own: a sync takes
+//! about as long as drawing a frame, and is all waiting.
+
+use std::io;
+use std::panic;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::{self, JoinHandle};
+
+use crate::commands::atomic_file::{AtomicFile, Older};
+
+/// Frames that may wait for the disk. They are written already, and hold no memory of ours; more would
+/// be lost with the power.
+const MOST_WAITING: usize = 4;
+
+/// A frame that is written, and how it is called.
+type Frame = (AtomicFile, PathBuf);
+
+/// What became of the frames.
+#[derive(Debug)]
+pub(super) struct Settled {
+    /// Frames that have their names.
+    pub(super) frames: u32,
+    /// The one after them, and why it has not.
+    pub(super) failed: Option<(io::Error, PathBuf)>,
+}
+
+/// Dropped, it waits for its frames.
+#[derive(Debug, Default)]
+pub(super) struct FrameQueue {
+    /// None before it is opened and once it is closed.
+    open: Option<(SyncSender<Frame>, JoinHandle<Settled>)>,
+}
+
+impl FrameQueue {
+    /// A queue that takes frames.
+    pub(super) fn open() -> Self {
+        let (frames, waiting) = sync_channel(MOST_WAITING);
+        Self { open: Some((frames, thread::spawn(move || settle(&waiting)))) }
+    }
+
+    /// Adds the next frame; `false` where one before it failed, or the queue is closed.
+    pub(super) fn push(&self, file: AtomicFile, path: PathBuf) -> bool {
+        self.open.as_ref().is_some_and(|(frames, _)| frames.send((file, path)).is_ok())
+    }
+
+    /// Waits until every frame has its name, or one cannot have it. Once it is closed, there is nothing
+    /// to say.
+    pub(super) fn close(&mut self) -> Option<Settled> {
+        let (frames, thread) = self.open.take()?;
+        drop(frames);
+        Some(thread.join().unwrap_or_else(|bug| panic::resume_unwind(bug)))
+    }
+}
+
+impl Drop for FrameQueue {
+    fn drop(&mut self) {
+        self.close();
+    }
+}
+
+fn settle(waiting: &Receiver<Frame>) -> Settled {
+    let mut frames = 0;
+    for (file, path) in waiting {
+        if let Err(error) = file.sync().and_then(|()| file.rename(Older::Replace)) {
+            return Settled { frames, failed: Some((error, path)) };
+        }
+        frames += 1;
+    }
+    Settled { frames, failed: None }
+}

@@ -1,0 +1,80 @@
+//! How frames are called, and which files a capture made: their content says so, and not their names.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::view::png;
+
+/// The most frames in a folder: as many as six digits number.
+pub(super) const MOST_FRAMES: u32 = 1_000_000;
+
+/// The file name of the frame with this number, from 0.
+pub(super) fn frame_name(frame: u32) -> String {
+    format!("frame-{frame:06}.png")
+}
+
+/// The number of the frame with this file name, if it is one that frames have.
+pub(super) fn frame_number(name: &str) -> Option<u32> {
+    let digits = name.strip_prefix("frame-")?.strip_suffix(".png")?;
+    let is_number = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit());
+    is_number.then(|| digits.parse().ok()).flatten()
+}
+
+/// Whether the picture at `path` says that this program made it.
+pub(super) fn is_marked(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let read = File::open(path)
+        .and_then(|file| file.take(png::NOTED_WITHIN as u64).read_to_end(&mut start));
+    read.is_ok() && png::is_encoded_here(&start)
+}
+
+/// The files that the manifest at `path` lists; `None` if a capture did not write it, whatever its schema.
+pub(super) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
+    let manifest: Value = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
+    let is_ours = manifest["schema"].is_u64()
+        && manifest["regatta"].is_string()
+        && manifest["settings_hash"].is_string();
+    let files = |frames: &Vec<Value>| {
+        let files = frames.iter().filter_map(|frame| frame["file"].as_str());
+        files.map(String::from).collect()
+    };
+    is_ours.then(|| manifest["frames"].as_array().map(files).unwrap_or_default())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_have_six_digits() {
+        for frame in [0, 12, 999_999] {
+            assert_eq!(frame_number(&frame_name(frame)), Some(frame));
+        }
+        for name in ["frame-00000.png", "frame-0000000.png", "frame-+00001.png", "frame-000001.gif"]
+        {
+            assert_eq!(frame_number(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_file_is_ours_by_what_is_in_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str, bytes: &[u8]| {
+            let path = folder.path().join(name);
+            fs::write(&path, bytes).unwrap();
+            path
+        };
+        assert!(is_marked(&file("frame-000000.png", &png::encode([1, 1], &[0; 4]))));
+        assert!(!is_marked(&file("frame-000000.png", b"my own")));
+        let text = r#"{"schema":9,"regatta":"0.1.0","settings_hash":"x","frames":[{"file":"a"}]}"#;
+        let ours = file("manifest.json", text.as_bytes());
+        assert_eq!(frames_claimed(&ours), Some(BTreeSet::from(["a".to_owned()])));
+        for other in ["", "{}", r#"{"name":"web app","schema":1}"#, "[1]"] {
+            assert_eq!(frames_claimed(&file("manifest.json", other.as_bytes())), None, "{other}");
+        }
+    }
+}
