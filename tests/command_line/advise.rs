@@ -39,7 +39,7 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     assert!((doubles / expected - 1.0).abs() < 1e-6, "{doubles}, not {expected}");
     assert!(explicit["verdict"]["halves_in_s"].is_null());
     assert!(explicit["criteria"].as_object().unwrap().values().all(Value::is_null));
-    assert!(explicit["rates"].as_object().unwrap().values().all(Value::is_null));
+    assert!(explicit["rates"]["bounded"].is_null() && explicit["rates"]["accurate"].is_null());
 
     let semi_implicit = row(&advice, "semi-implicit-euler");
     let bounded = &semi_implicit["criteria"]["bounded"];

@@ -71,7 +71,7 @@ fn settings_and_lanes_name_the_methods_that_flew() {
         ("['explicit-euler']", "", "explicit-euler", vec!["explicit-euler"]),
         ("['explicit-euler']", "--race", "explicit-euler", vec!["explicit-euler"]),
         ("['midpoint', 'pefrl']", "", "midpoint", vec!["midpoint"]),
-        ("['midpoint', 'rk4']", "", "rk4", vec!["rk4"]),
+        ("['midpoint', 'rk4']\nmethod = 'rk4'", "", "rk4", vec!["rk4"]),
         ("['midpoint', 'pefrl']", "--race", "midpoint", vec!["midpoint", "pefrl"]),
         ("['midpoint']", "--method bdf2", "bdf2", vec!["bdf2"]),
     ] {

@@ -9,8 +9,9 @@ const FLOOR: f64 = -17.0;
 const HEALTHY_SHARE: f64 = 25.0;
 /// And of more than this is lost.
 const LOST_SHARE: f64 = 300.0;
-/// The least range of an axis, against the values on it: the digits that a label has room for.
-const NARROWEST: f64 = 1e-3;
+/// The least half range of an axis, against the values on it: a body that has not moved yet is shown with labels no
+/// longer than when it has.
+const NARROWEST: f64 = 0.02;
 
 /// The range of the truth along an axis, stretched to take in what is at most `healthy` times as far out.
 pub(super) fn around_truth(
@@ -25,7 +26,7 @@ pub(super) fn around_truth(
     let near = |value: &f64| (value - middle).abs() <= healthy * half;
     let all = lanes.iter().flat_map(|lane| lane.along(axis)).filter(near);
     let (low, high) = range(all.chain([low, high])).unwrap_or((low, high));
-    let pad = 0.12 * (high - low).max(half);
+    let pad = (0.12 * (high - low)).max(half - (high - low) / 2.0);
     (low - pad, high + pad)
 }
 
