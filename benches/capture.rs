@@ -1,11 +1,11 @@
-//! What a capture does in a second, as the program is used, and how much of its time is its slowest
-//! stage's: drawing, each frame read back before the next is begun, or encoding. Beside it stands what a
-//! capture takes that only draws, its frames overlapped as in the whole. All take turns; the figures are
-//! medians over the rounds.
+//! Frames per second of a capture, as the program is used, and the processor time that a frame takes, against
+//! that of its stages alone: drawing, each frame read back before the next is begun, and encoding. All take
+//! turns; the figures are medians over the rounds. How the stages share two processors is the machine's doing,
+//! and no aim.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use regatta::commands::manifest::fingerprint;
 use regatta::lab::{self, Lab, Scene};
@@ -21,53 +21,64 @@ const FPS: u32 = 30;
 /// The aims, in frames a second and as a ratio, on two cores with a software adapter.
 const FEWEST_WITH_PANELS: f64 = 60.0;
 const FEWEST_WITHOUT: f64 = 150.0;
-const MOST_OF_SLOWEST_STAGE: f64 = 1.15;
+const MOST_OF_STAGES: f64 = 1.1;
 
 fn main() {
     for (panels, fewest) in [(Panels::Shown, FEWEST_WITH_PANELS), (Panels::Off, FEWEST_WITHOUT)] {
-        let rounds: Result<Vec<[f64; 4]>, String> = (0..ROUNDS).map(|_| round(panels)).collect();
+        let rounds: Result<Vec<Round>, String> = (0..ROUNDS).map(|_| round(panels)).collect();
         let rounds = match rounds {
             Ok(rounds) => rounds,
             Err(said) => return println!("SKIPPED capture: {said}"),
         };
-        let [whole, drawing, encoding, overlapped] =
-            [0, 1, 2, 3].map(|part| median(rounds.iter().map(|round| round[part]).collect()));
+        let of = |part: fn(&Round) -> f64| median(rounds.iter().map(part).collect());
+        let (fps, work) = (1.0 / of(|round| round.whole.wall_s), of(|round| round.whole.cpu_s));
         println!(
-            "harbour, race, 1280x720, panels {panels:?}: {:.0} frames a second; a frame takes {:.2} ms; \
-             drawing alone {:.2} ms, or {:.2} ms overlapped; encoding alone {:.2} ms",
-            1.0 / whole,
-            1e3 * whole,
-            1e3 * drawing,
-            1e3 * overlapped,
-            1e3 * encoding
+            "harbour, race, 1280x720, panels {panels:?}: {fps:.0} frames per second; processor time per \
+             frame {:.2} ms: drawing alone {:.2} ms, encoding alone {:.2} ms",
+            1e3 * work,
+            1e3 * of(|round| round.drawing_cpu_s),
+            1e3 * of(|round| round.encoding_cpu_s),
         );
-        let of_slowest = |[whole, drawing, encoding, _]: &[f64; 4]| whole / drawing.max(*encoding);
-        let ratio = median(rounds.iter().map(of_slowest).collect());
+        let ratio = of(|round| round.whole.cpu_s / (round.drawing_cpu_s + round.encoding_cpu_s));
         let holds = |held: bool| if held { "holds" } else { "MISSED" };
         println!(
-            "aims: {fewest} frames a second {}; {ratio:.2} of the slowest stage, at most \
-             {MOST_OF_SLOWEST_STAGE}, {}",
-            holds(1.0 / whole >= fewest),
-            holds(ratio <= MOST_OF_SLOWEST_STAGE)
+            "aims: {fewest} frames per second {}; processor time {ratio:.2} of the stages' together, at \
+             most {MOST_OF_STAGES}, {}",
+            holds(fps >= fewest),
+            holds(ratio <= MOST_OF_STAGES)
         );
     }
 }
 
-/// Seconds that a frame takes from start to file, drawing alone, encoding alone, and all but encoding.
-fn round(panels: Panels) -> Result<[f64; 4], String> {
-    // A new one each time: where files were just removed a file system makes new ones slowly.
-    let folder = tempfile::tempdir().expect("a directory for frames");
-    // Without the start of the program, which is not a frame's doing.
-    let seconds_a_frame = |format: &str| -> Result<f64, String> {
-        let capture = |frames| capture(folder.path(), panels, format, frames);
-        Ok((capture(FRAMES + FEW)? - capture(FEW)?) / f64::from(FRAMES))
-    };
-    let (overlapped, whole) = (seconds_a_frame("rgba")?, seconds_a_frame("png")?);
-    let (drawing, encoding) = stages(panels)?;
-    Ok([whole, drawing, encoding, overlapped])
+/// What a frame takes, in seconds of the clock and of all processors together.
+#[derive(Clone, Copy)]
+struct Spent {
+    wall_s: f64,
+    cpu_s: f64,
 }
 
-/// Seconds that it takes to draw a frame of the run and have it read back, and to encode one.
+struct Round {
+    whole: Spent,
+    drawing_cpu_s: f64,
+    encoding_cpu_s: f64,
+}
+
+fn round(panels: Panels) -> Result<Round, String> {
+    // A new one each time: where files were just removed a file system makes new ones slowly.
+    let folder = tempfile::tempdir().expect("a directory for frames");
+    let capture = |frames| capture(folder.path(), panels, frames);
+    let (all, start_up) = (capture(FRAMES + FEW)?, capture(FEW)?);
+    // Without the start of the program, which is not a frame's doing.
+    let of_frame = |all: f64, start_up: f64| (all - start_up) / f64::from(FRAMES);
+    let whole = Spent {
+        wall_s: of_frame(all.wall_s, start_up.wall_s),
+        cpu_s: of_frame(all.cpu_s, start_up.cpu_s),
+    };
+    let (drawing_cpu_s, encoding_cpu_s) = stages(panels)?;
+    Ok(Round { whole, drawing_cpu_s, encoding_cpu_s })
+}
+
+/// Processor time, in seconds, that it takes to draw a frame of the run and have it read back, and to encode one.
 fn stages(panels: Panels) -> Result<(f64, f64), String> {
     let gpu = Gpu::headless(AdapterPreference::Any).map_err(|error| error.to_string())?;
     let artist = Artist::new(gpu, SIZE_PX, 1.0).map_err(|error| error.to_string())?;
@@ -75,38 +86,68 @@ fn stages(panels: Panels) -> Result<(f64, f64), String> {
     let mut lab = Lab::new(Scene::built_in("harbour").expect("a built-in scene"));
     lab.apply(lab::Command::ToggleRace);
     lab.think();
-    let (mut rgba, mut drawing, mut encoding) = (Vec::new(), Duration::ZERO, Duration::ZERO);
-    for frame in 0..FRAMES + FEW {
+    // All frames first drawn and then encoded: the system counts processor time too coarsely for one frame.
+    let mut frames = Vec::new();
+    let start = processor_s(Whose::Own);
+    for _ in 0..FRAMES {
         lab.advance(1_000_000_000 / i64::from(FPS));
-        let start = Instant::now();
+        let mut rgba = Vec::new();
         artist.draw(&lab, &mut rgba).map_err(|error| error.to_string())?;
-        let drawn = Instant::now();
-        std::hint::black_box((png::encode(SIZE_PX, &rgba), fingerprint(&rgba)));
-        if frame >= FEW {
-            drawing += drawn - start;
-            encoding += drawn.elapsed();
-        }
+        frames.push(rgba);
     }
-    let of_frame = |time: Duration| time.as_secs_f64() / f64::from(FRAMES);
-    Ok((of_frame(drawing), of_frame(encoding)))
+    let drawn = processor_s(Whose::Own);
+    for rgba in &frames {
+        std::hint::black_box((png::encode(SIZE_PX, rgba), fingerprint(rgba)));
+    }
+    let encoded = processor_s(Whose::Own);
+    let of_frame = |seconds: f64| seconds / f64::from(FRAMES);
+    Ok((of_frame(drawn - start), of_frame(encoded - drawn)))
 }
 
-/// How many seconds a run of the program takes, or what it said where it failed.
-fn capture(folder: &Path, panels: Panels, format: &str, frames: u32) -> Result<f64, String> {
+#[derive(Clone, Copy)]
+enum Whose {
+    Own,
+    Children,
+}
+
+/// The processor time taken by now, in seconds, by the user's code and by the system for it; 0 where the system does not
+/// tell as Linux does.
+fn processor_s(whose: Whose) -> f64 {
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // After the program's name, which may hold blanks; the fields are numbered in proc(5).
+    let fields: Vec<&str> =
+        stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
+    let field = |number: usize| fields.get(number - 3).and_then(|x| x.parse::<f64>().ok());
+    let [user, system] = match whose {
+        Whose::Own => [14, 15],
+        Whose::Children => [16, 17],
+    };
+    let ticks = field(user).unwrap_or(0.0) + field(system).unwrap_or(0.0);
+    ticks / TICKS_PER_S
+}
+
+/// In which Linux counts it.
+const TICKS_PER_S: f64 = 100.0;
+
+/// What a run of the program takes, or what it said where it failed.
+fn capture(folder: &Path, panels: Panels, frames: u32) -> Result<Spent, String> {
     let (frames, fps) = (frames.to_string(), FPS.to_string());
-    let out = if format == "png" { &*frames } else { "-" };
     let panels = if panels == Panels::Off { "off" } else { "on" };
-    let start = Instant::now();
+    let (start, before) = (Instant::now(), processor_s(Whose::Children));
     let output = Command::new(env!("CARGO_BIN_EXE_regatta"))
         .args(["capture", "--scene", "harbour", "--race", "--size", "1280x720"])
-        .args(["--panels", panels, "--format", format, "--out", out])
+        .args(["--panels", panels, "--format", "png", "--out", &frames])
         .args(["--frames", &frames, "--fps", &fps])
         .current_dir(folder)
         .stdout(Stdio::null())
         .output()
         .expect("the program starts");
+    let spent = Spent {
+        wall_s: start.elapsed().as_secs_f64(),
+        cpu_s: processor_s(Whose::Children) - before,
+    };
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    output.status.success().then(|| start.elapsed().as_secs_f64()).ok_or(said)
+    output.status.success().then_some(spent).ok_or(said)
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

@@ -8,12 +8,13 @@
 //! - [`sim`] is mathematics: a [`State`](sim::State), an equation of motion ([`System`](sim::System)),
 //!   and ways to step it ([`Integrator`](sim::integrators::Integrator)). It knows no files, clocks or
 //!   pixels. RK4's formula is in `sim/integrators/rk4.rs`. [`sim::stability`] finds what a method makes of
-//!   a body in one tick.
+//!   a body, or of a linear body's [normal modes](sim::stability::NormalMode), in one tick.
 //! - [`lab`] is the experiment: a [`Scene`](lab::Scene) is read from text, a [`Clock`](lab::Clock)
 //!   turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the truth, and a
 //!   [`Picture`](lab::picture::Picture) says what to draw. A lane is one method on its own copy of the
-//!   scene's bodies; a [`Judge`](lab::Judge) says how far one strays, and a [`Thinker`](lab::Thinker) has it
-//!   do so beside the race. The truth is a lane whose solver is the exact flow, or where a body has none
+//!   scene's bodies; a [`Judge`](lab::Judge) measures how far one strays, an
+//!   [`Adviser`](lab::Adviser) searches for the substeps that meet a [`Criterion`](lab::Criterion), and a
+//!   [`Thinker`](lab::Thinker) has both done beside the race. The truth is a lane whose solver is the exact flow, or where a body has none
 //!   a [reference](sim::REFERENCE_ACCURACY). The layer knows no GPU and no wall clock: time comes in as
 //!   integers, text as `&str`.
 //! - `view` is pixels: a graphics device, seas, ribbons and strokes on the stage, panels in egui, and

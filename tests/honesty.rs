@@ -174,7 +174,7 @@ fn plain(scene: &Scene, spec: LaneSpec, tick_hz: u32, amplitudes: &[f64], scenes
         let t = tick as f64 / hz;
         let done = lane.advance(t, 1.0 / hz, spec.substeps);
         let here = components(&*lane);
-        if done.is_err() || here.iter().any(|x| !(x.abs() <= 1e38)) {
+        if done.is_err() || !here.iter().all(|x| x.abs() <= 1e38) {
             plain.failed_at = Some(t);
             if tick < horizon {
                 plain.error = f64::INFINITY;
@@ -200,7 +200,7 @@ fn plain(scene: &Scene, spec: LaneSpec, tick_hz: u32, amplitudes: &[f64], scenes
 fn centre_of_orbit(start: &[f64], mu: f64) -> [f64; 2] {
     let (r, v) = (start[0], start[3]);
     let a = 1.0 / (2.0 / r - v * v / mu);
-    [if v * v < mu / r { r - a } else { r - a }, 0.0]
+    [r - a, 0.0]
 }
 
 /// Crossings of zero upwards, in ticks.

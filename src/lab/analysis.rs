@@ -3,6 +3,8 @@
 
 mod advice;
 mod judge;
+mod modes;
+mod pitch;
 mod run;
 mod survey;
 mod thinking;

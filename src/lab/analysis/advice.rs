@@ -75,7 +75,7 @@ pub struct Met {
     pub evaluations_per_s: f64,
     /// The slowest tick rate in Hz, down from the one asked about, at which it still holds with as many substeps.
     pub slowest_hz: u32,
-    /// How many times stiffer the bodies may be, of the factors in [`FACTORS`].
+    /// How many times stiffer the bodies may be, one to ten thousand, to two digits.
     pub stiffness_factor: f64,
     /// What that factor is of, on the body that fails first beyond it.
     pub limited_by: String,

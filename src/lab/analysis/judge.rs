@@ -4,12 +4,13 @@
 //! A linear body under a method of equal steps has one map from tick to tick, whose modes say what becomes of its motion
 //! ever after. Any other is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and what is not seen by then is not said.
 
+use super::modes::{Modes, TooMuch};
+use super::pitch::{Pitch, pitch};
 use super::run::{MOST_WORK, Run, Until, follow};
 use super::truth::{BodyTruth, Swing, ticks};
 use super::verdict::{NoTruth, Verdict, Word};
 use crate::lab::scene::{LaneSpec, Scene};
 use crate::sim::integrators::StepFailure;
-use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, undriven};
 
 /// The error that still counts as accurate: a hundredth of the amplitude, about what can be seen.
 pub const TOLERANCE: f64 = 0.01;
@@ -79,11 +80,6 @@ impl Judge {
         self.horizon_s
     }
 
-    /// The names of the bodies, in scene order.
-    pub fn bodies(&self) -> impl Iterator<Item = &str> {
-        self.truths.iter().map(|truth| truth.body.name.as_str())
-    }
-
     /// What is to be said of a lane at this tick rate: of the body that fares worst.
     pub fn verdict(&self, spec: LaneSpec, tick_hz: u32) -> Verdict {
         let verdicts: Vec<Verdict> =
@@ -102,9 +98,11 @@ impl Judge {
 
     fn of_body(&self, body: usize, spec: LaneSpec, tick_hz: u32) -> Verdict {
         let truth = &self.truths[body];
-        let modes = Modes::of(truth, spec, tick_hz);
+        let found = Modes::of(truth, spec, tick_hz);
+        let most_work = if found.is_ok() { self.most_work } else { 0 };
+        let modes = found.ok().flatten();
         let until = if modes.is_some() { Until::Horizon } else { Until::LongRun };
-        let run = follow(truth, spec, tick_hz, until, self.most_work);
+        let run = follow(truth, spec, tick_hz, until, most_work);
         let mut verdict = Verdict {
             word: Word::Accurate,
             body,
@@ -151,6 +149,9 @@ impl Judge {
         if let Some(failure) = run.no_truth.as_ref().or(truth.failure.as_ref()) {
             return Some(NoTruth::Failed(failure.clone()));
         }
+        if run.is_too_much && run.seconds < run.horizon_s {
+            return None;
+        }
         let gap = truth.course(tick_hz).gap(ticks(run.seconds, tick_hz));
         (gap.is_nan() || gap > TOLERANCE / 2.0).then_some(NoTruth::Vague(gap))
     }
@@ -162,11 +163,11 @@ impl Judge {
                 _ => Word::GaveUp,
             };
         }
-        if verdict.no_truth.is_some() {
-            return Word::NoTruth;
-        }
         if run.is_too_much && run.seconds < run.horizon_s {
             return Word::NotJudged;
+        }
+        if verdict.no_truth.is_some() {
+            return Word::NoTruth;
         }
         match change {
             _ if run.error <= ROUNDING && gap <= ROUNDING => Word::Rounding,
@@ -180,7 +181,7 @@ impl Judge {
     /// Whether nothing grows that should not, over the horizon and in the long run.
     pub(super) fn is_bounded(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
         self.each(|truth| {
-            if let Some(modes) = Modes::of(truth, spec, tick_hz) {
+            if let Some(modes) = Modes::of(truth, spec, tick_hz).map_err(|TooMuch| true)? {
                 if !modes.are_bounded() {
                     return Err(false);
                 }
@@ -221,7 +222,7 @@ impl Judge {
             if run.fate.is_some() || !is_as_wide {
                 return Err(false);
             }
-            let error = match Modes::of(truth, spec, tick_hz) {
+            let error = match Modes::of(truth, spec, tick_hz).map_err(|TooMuch| true)? {
                 Some(modes) => modes.frequency_error(),
                 None => pitch(truth, &run).map(|pitch| pitch.error),
             };
@@ -257,110 +258,20 @@ fn verdict_on(run: &Run, holds: bool) -> Result<f64, bool> {
 
 /// What becomes of the amplitude within the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Change {
+pub(super) enum Change {
     None,
     Grows,
     Dies,
 }
 
-/// What a method of equal steps makes of the modes of a linear body.
-struct Modes<'a> {
-    /// Each with its share of the motion's energy.
-    modes: Vec<(&'a NormalMode, f64, Stability)>,
-}
-
-impl<'a> Modes<'a> {
-    /// `None` where the body is not linear, where the method chooses its own steps, or where it gives up.
-    fn of(truth: &'a BodyTruth, spec: LaneSpec, tick_hz: u32) -> Option<Self> {
-        let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
-        let modes = truth.modes.as_ref().filter(|_| !chooses)?;
-        let free = undriven(&*truth.start(crate::sim::Solver::Truth));
-        let tick = Tick { t: 0.0, h: 1.0 / f64::from(tick_hz), substeps: spec.substeps };
-        let each = modes.iter().map(|(mode, share)| {
-            let stability = mode.stability(&*free, spec.solver(), tick).ok()?;
-            Some((mode, *share, stability))
-        });
-        Some(Self { modes: each.collect::<Option<_>>()? })
-    }
-
-    fn are_bounded(&self) -> bool {
-        self.modes.iter().all(|(.., stability)| stability.is_bounded())
-    }
-
-    /// Of the mode that carries the most energy of those that swing.
-    fn frequency_error(&self) -> Option<f64> {
-        let swinging = self.modes.iter().filter(|(mode, ..)| mode.swing().is_some());
-        swinging.max_by(|a, b| a.1.total_cmp(&b.1))?.2.frequency_error
-    }
-
-    fn are_conserved(&self) -> bool {
-        self.modes.iter().all(|(mode, ..)| mode.is_conserved() && mode.omega_squared > 0.0)
-    }
-
-    /// The amplitude after `t` seconds, in units of that at the start; of modes that decay in truth, what grows.
-    fn amplitude(&self, t: f64) -> f64 {
-        let conserved = self.are_conserved();
-        let energy = self.modes.iter().map(|(_, share, stability)| {
-            let growth = if stability.is_bounded() { 0.0 } else { stability.growth_per_s };
-            let rate = if conserved && growth <= 0.0 { -stability.loss_per_s } else { growth };
-            if *share > 0.0 {
-                share * libm::exp(2.0 * rate.max(0.0) * t + 2.0 * rate.min(0.0) * t)
-            } else {
-                0.0
-            }
-        });
-        energy.sum::<f64>().sqrt()
-    }
-
-    /// The first time, up to [`FOREVER_S`], at which the amplitude is past `level`.
-    fn reaches(&self, is_past: impl Fn(f64) -> bool) -> Option<f64> {
-        let (mut low, mut high) = (0.0, FIRST_LOOK_S);
-        while !is_past(self.amplitude(high)) {
-            (low, high) = (high, high * LOOKS_APART);
-            if low > FOREVER_S {
-                return None;
-            }
+impl Change {
+    /// Of a swing whose amplitude has become this part of what it was.
+    pub(super) fn of(amplitude: f64) -> Self {
+        match amplitude {
+            a if a >= 1.0 + VISIBLE => Change::Grows,
+            a if a <= 1.0 - VISIBLE => Change::Dies,
+            _ => Change::None,
         }
-        for _ in 0..60 {
-            let middle = low + (high - low) / 2.0;
-            if is_past(self.amplitude(middle)) { high = middle } else { low = middle }
-        }
-        Some(high)
-    }
-
-    fn tell(&self, verdict: &mut Verdict, horizon_s: f64) -> Change {
-        verdict.is_bounded = Some(self.are_bounded());
-        verdict.frequency_error = self.frequency_error();
-        let moves = self.modes.iter().any(|(_, share, _)| *share > 0.0);
-        if moves {
-            verdict.doubles_in_s = self.reaches(|amplitude| amplitude >= 2.0);
-            if self.are_conserved() {
-                verdict.halves_in_s = self.reaches(|amplitude| amplitude <= 0.5);
-            }
-        }
-        let worst = self.modes.iter().filter_map(|(.., stability)| stability.doubling_s());
-        let worst = worst.min_by(f64::total_cmp);
-        // A mode that is not in the motion yet grows out of its rounding.
-        let hidden =
-            worst.filter(|&worst| verdict.doubles_in_s.is_none_or(|all| worst < all / 2.0));
-        verdict.parasite_doubles_in_s = hidden;
-        let amplitude = if moves { self.amplitude(horizon_s) } else { 1.0 };
-        if self.are_conserved() && moves {
-            verdict.energy_change = Some(amplitude * amplitude - 1.0);
-        }
-        change(amplitude)
-    }
-}
-
-/// When the amplitude is first looked at, in seconds, and the factor from one look to the next.
-const FIRST_LOOK_S: f64 = 1e-9;
-const LOOKS_APART: f64 = 1.05;
-
-fn change(amplitude: f64) -> Change {
-    match amplitude {
-        a if a >= 1.0 + VISIBLE => Change::Grows,
-        a if a <= 1.0 - VISIBLE => Change::Dies,
-        _ => Change::None,
     }
 }
 
@@ -382,8 +293,8 @@ fn tell_of_run(verdict: &mut Verdict, truth: &BodyTruth, run: &Run, horizon_s: f
     let amplitude = |quarter: f64| (1.0 + quarter).max(0.0).sqrt();
     let (first, last) = (amplitude(run.quarters[0]), amplitude(run.quarters[3]));
     verdict.energy_change = Some(run.quarters[3]).filter(|change| change.is_finite());
-    let trend = change(last / first);
-    match change(last) {
+    let trend = Change::of(last / first);
+    match Change::of(last) {
         _ if within(run.doubled_at) => Change::Grows,
         Change::Grows if trend == Change::Grows || last >= LEAP => Change::Grows,
         Change::Dies if trend == Change::Dies || last * LEAP <= 1.0 => Change::Dies,
@@ -404,83 +315,4 @@ fn bounded(truth: &BodyTruth, run: &Run) -> Option<bool> {
     let [_, early, _, late] = run.long_quarters.map(amplitude);
     let grows = truth.energy_scale.is_some() && late / early > 1.0 + GROWTH_SEEN;
     Some(!grows)
-}
-
-/// How much too fast a lane swings, as a part of the true frequency: over all its turns and over either half of them.
-struct Pitch {
-    error: f64,
-    halves: [f64; 2],
-    /// What the moments between ticks may make of the error.
-    blur: f64,
-}
-
-impl Pitch {
-    /// Whether the error is the same all the time, and can be told from that of its measuring.
-    fn is_steady(&self) -> bool {
-        let least = (0.005 * self.error.abs()).max(2.5e-5);
-        let [a, b] = self.halves;
-        self.blur <= least && (a - b).abs() <= 2.0 * least
-    }
-}
-
-fn pitch(truth: &BodyTruth, run: &Run) -> Option<Pitch> {
-    let swing = truth.swing.as_ref()?;
-    let h = run.horizon_s / run.series.len().max(1) as f64;
-    let level = truth.centres[swing.coordinate];
-    let lane = crossings(&run.series, level);
-    let count = lane.len().min(swing.crossings.len());
-    if count < 3 {
-        return None;
-    }
-    let error = |from: usize, to: usize| {
-        let exact = swing.crossings[to] - swing.crossings[from];
-        exact / (h * (lane[to].at - lane[from].at)) - 1.0
-    };
-    let middle = count / 2;
-    let span = lane[count - 1].at - lane[0].at;
-    Some(Pitch {
-        error: error(0, count - 1),
-        halves: [error(0, middle), error(middle, count - 1)],
-        blur: (lane[0].blur + lane[count - 1].blur) / span,
-    })
-}
-
-/// Where a series passes a level upwards, counted in samples.
-struct Crossing {
-    at: f64,
-    /// By how much the place may be off.
-    blur: f64,
-}
-
-fn crossings(series: &[f64], level: f64) -> Vec<Crossing> {
-    let passes = |k: &usize| series[*k] < level && series[k + 1] >= level;
-    (1..series.len().saturating_sub(2))
-        .filter(passes)
-        .map(|k| {
-            let y: [f64; 4] = std::array::from_fn(|i| series[k - 1 + i] - level);
-            let straight = y[1] / (y[1] - y[2]);
-            let (mut low, mut high) = (0.0, 1.0);
-            for _ in 0..40 {
-                let middle = (low + high) / 2.0;
-                if cubic(&y, middle) < 0.0 { low = middle } else { high = middle }
-            }
-            Crossing { at: (k + 1) as f64 + low, blur: 0.2 * (low - straight).abs() }
-        })
-        .collect()
-}
-
-/// The cubic through four values at -1, 0, 1 and 2.
-fn cubic(y: &[f64; 4], s: f64) -> f64 {
-    let [a, b, c, d] = y;
-    -s * (s - 1.0) * (s - 2.0) / 6.0 * a + (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0 * b
-        - (s + 1.0) * s * (s - 2.0) / 2.0 * c
-        + (s + 1.0) * s * (s - 1.0) / 6.0 * d
-}
-
-impl Swing {
-    /// The mean time from one crossing to the next, in seconds.
-    fn period(&self) -> f64 {
-        let turns = self.crossings.len() - 1;
-        (self.crossings[turns] - self.crossings[0]) / turns as f64
-    }
 }

@@ -13,7 +13,7 @@ pub const MOST_WORK: u64 = 50_000_000;
 /// Coordinates from which on an implicit method spends more on its matrix than on evaluations.
 const SMALL_MATRIX: u64 = 20;
 
-/// Ticks between two looks at the work done.
+/// Ticks between two looks at the work done, of a body of one coordinate.
 const TICKS_PER_LOOK: u64 = 64;
 
 /// A swing that reaches this many times as far as the truth has grown, and one that stays below its inverse has died
@@ -89,9 +89,13 @@ pub(super) struct Run {
 
 /// Work spent by now.
 fn work(stepper: &dyn Stepper, spec: LaneSpec) -> u64 {
-    let n = stepper.q().len() as u64;
+    work_of(stepper.evaluations(), stepper.q().len() as u64, spec)
+}
+
+/// The work of so many evaluations of a body of `n` coordinates.
+pub(super) fn work_of(evaluations: u64, n: u64, spec: LaneSpec) -> u64 {
     let matrix = if spec.method.family == Family::Implicit { n / SMALL_MATRIX } else { 0 };
-    stepper.evaluations().saturating_mul(n * (1 + matrix))
+    evaluations.saturating_mul(n * (1 + matrix))
 }
 
 /// Follows `truth`'s body under `spec` from its start.
@@ -113,7 +117,12 @@ pub(super) fn follow(
     let mut run = Run::new(truth, horizon as f64 / hz);
     // What is judged without its error needs no truth.
     let course = (until != Until::Grown).then(|| truth.course(tick_hz));
+    if course.as_ref().is_some_and(|course| course.is_too_much) {
+        run.is_too_much = true;
+        return run;
+    }
     let mut energy = Energy::of(&*stepper, truth, horizon, end);
+    let ticks_per_look = (TICKS_PER_LOOK / coordinates.len() as u64).max(1);
     let mut peaks = Peaks::new(truth, &*stepper);
     let mut tick = 0;
     while tick < end {
@@ -168,7 +177,7 @@ pub(super) fn follow(
         if until == Until::Grown && (run.doubled_at.is_some() || run.rushed_at.is_some()) {
             break;
         }
-        if tick.is_multiple_of(TICKS_PER_LOOK) && work(&*stepper, spec) > most_work {
+        if tick.is_multiple_of(ticks_per_look) && work(&*stepper, spec) > most_work {
             run.is_too_much = tick < end;
             break;
         }
@@ -235,7 +244,7 @@ impl Run {
                     if off <= self.coordinate_error { self.coordinate_error } else { off };
             }
         }
-        if !(off <= self.error) {
+        if off.is_nan() || off > self.error {
             (self.error, self.error_at_s) = (off, t);
         }
         if 20 * tick > 19 * horizon {

@@ -7,7 +7,7 @@ use super::survey::{Moment, Ranges, walk};
 use crate::lab::extent::Extent;
 use crate::lab::lane::check;
 use crate::lab::scene::SceneBody;
-use crate::sim::bodies::{Coordinate, Input};
+use crate::sim::bodies::{Coordinate, Input, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::stability::{NormalMode, normal_modes};
 use crate::sim::{Solver, Stepper};
@@ -21,8 +21,12 @@ const KEEPS_STILL: f64 = 1e-9;
 /// Moments of a walk, and products that its exact flow takes, at most: for a chain the square of its masses at each
 /// moment.
 const MOST_MOMENTS: usize = 100_000;
+const MOST_REFERENCE_MOMENTS: usize = 20_000;
 const FEWEST_MOMENTS: usize = 512;
 const MOST_PRODUCTS: usize = 40_000_000;
+
+/// Products that the exact flow takes at the ticks of a course, at most: less than a second's work, and memory for it.
+const MOST_COURSE_PRODUCTS: u64 = 500_000_000;
 
 /// Values of true courses that are kept, some ten megabytes: those of the rates last asked about.
 const MOST_KEPT: usize = 1 << 20;
@@ -75,6 +79,8 @@ pub(super) struct Course {
     /// The most by which the truth may be off up to each tick, in amplitudes.
     gaps: Vec<f64>,
     pub(super) failure: Option<StepFailure>,
+    /// Whether it was not followed for the work that it would take.
+    pub(super) is_too_much: bool,
 }
 
 impl Course {
@@ -126,7 +132,11 @@ impl BodyTruth {
     fn survey(&mut self) {
         let mut body = self.start(Solver::Truth);
         let n = body.q().len();
-        let most = (MOST_PRODUCTS / (n * n)).clamp(FEWEST_MOMENTS, MOST_MOMENTS);
+        let most_moments = match self.body.kind.truth {
+            Truth::Exact => MOST_MOMENTS,
+            Truth::Reference => MOST_REFERENCE_MOMENTS,
+        };
+        let most = (MOST_PRODUCTS / (n * n)).clamp(FEWEST_MOMENTS, most_moments);
         self.modes = normal_modes(&*body).map(|modes| shares(&*body, modes));
         let mut there = self.start(Solver::Truth);
         let mut ranges = Ranges::at(&*body);
@@ -245,10 +255,20 @@ impl BodyTruth {
     fn follow(&self, tick_hz: u32) -> Course {
         let mut body = self.start(Solver::Truth);
         let (n, hz) = (body.q().len(), f64::from(tick_hz));
-        let mut course =
-            Course { values: Vec::new(), components: 2 * n, gaps: Vec::new(), failure: None };
+        let mut course = Course {
+            values: Vec::new(),
+            components: 2 * n,
+            gaps: Vec::new(),
+            failure: None,
+            is_too_much: false,
+        };
         let mut gap: f64 = 0.0;
-        for tick in 0..ticks(self.horizon_s, tick_hz) {
+        let ticks = ticks(self.horizon_s, tick_hz);
+        if ticks.saturating_mul((n * n) as u64) > MOST_COURSE_PRODUCTS {
+            course.is_too_much = true;
+            return course;
+        }
+        for tick in 0..ticks {
             let advanced = body.advance(tick as f64 / hz, 1.0 / hz, 1);
             if let Err(failure) = advanced.and_then(|()| check(&*body, self.coordinates())) {
                 course.failure = Some(failure);

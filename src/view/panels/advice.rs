@@ -58,7 +58,8 @@ fn row(
             continue;
         };
         let colour = if *best == Some(index) { WELL } else { TEXT };
-        let text = format!("×{} · {}/s", met.substeps, significant(met.evaluations_per_s, 3));
+        let rate = whole(met.evaluations_per_s);
+        let text = format!("use ×{} · {rate}/s", met.substeps);
         let used = ui.button(RichText::new(text).color(colour).size(11.5));
         let name = format!("{}: {}", criterion.name(), spec.method.name);
         used.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
@@ -74,7 +75,7 @@ fn told(met: &Met) -> String {
         "use this: {} substep{} a tick, {} evaluations per simulated second; holds down to {} Hz, or {} × {}",
         met.substeps,
         if met.substeps == 1 { "" } else { "s" },
-        significant(met.evaluations_per_s, 4),
+        whole(met.evaluations_per_s),
         met.slowest_hz,
         round(met.stiffness_factor, 3),
         met.limited_by,
@@ -101,4 +102,9 @@ fn summary(ui: &mut Ui, advice: &Advice, best: &[Option<usize>]) {
         let text = format!("at {} Hz, {}: {what}", advice.tick_hz, criterion.name());
         ui.label(RichText::new(text).color(TEXT));
     }
+}
+
+/// A count in as few figures as tell it.
+fn whole(count: f64) -> String {
+    if count < 1e5 { format!("{}", count.round()) } else { significant(count, 3) }
 }

@@ -1,0 +1,123 @@
+//! What becomes of the motion of a linear body under a method of equal steps, by its normal modes.
+
+use super::judge::Change;
+use super::run::{MOST_WORK, work_of};
+use super::truth::BodyTruth;
+use super::verdict::Verdict;
+use crate::lab::scene::LaneSpec;
+use crate::sim::Solver;
+use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, undriven};
+
+/// To find the modes takes more work than a run may.
+pub(super) struct TooMuch;
+
+/// Ticks that a mode's map is found from: three from each of two states.
+const TICKS_PER_MODE: u64 = 6;
+
+/// What a method of equal steps makes of the modes of a linear body.
+pub(super) struct Modes<'a> {
+    /// Each with its share of the motion's energy.
+    modes: Vec<(&'a NormalMode, f64, Stability)>,
+}
+
+impl<'a> Modes<'a> {
+    /// `None` where the body is not linear, where the method chooses its own steps, or where it gives up.
+    ///
+    /// # Errors
+    /// Where that takes too much work.
+    pub(super) fn of(
+        truth: &'a BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+    ) -> Result<Option<Self>, TooMuch> {
+        let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
+        let Some(modes) = truth.modes.as_ref().filter(|_| !chooses) else { return Ok(None) };
+        let n = modes.len() as u64;
+        // An implicit step differences the force along every coordinate.
+        let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
+        let steps = TICKS_PER_MODE * n * u64::from(spec.substeps);
+        if work_of(steps * evaluations, n, spec) > MOST_WORK {
+            return Err(TooMuch);
+        }
+        let free = undriven(&*truth.start(Solver::Truth));
+        let tick = Tick { t: 0.0, h: 1.0 / f64::from(tick_hz), substeps: spec.substeps };
+        let each = modes.iter().map(|(mode, share)| {
+            let stability = mode.stability(&*free, spec.solver(), tick).ok()?;
+            Some((mode, *share, stability))
+        });
+        Ok(each.collect::<Option<_>>().map(|modes| Self { modes }))
+    }
+
+    pub(super) fn are_bounded(&self) -> bool {
+        self.modes.iter().all(|(.., stability)| stability.is_bounded())
+    }
+
+    /// Of the mode that carries the most energy of those that swing.
+    pub(super) fn frequency_error(&self) -> Option<f64> {
+        let swinging = self.modes.iter().filter(|(mode, ..)| mode.swing().is_some());
+        swinging.max_by(|a, b| a.1.total_cmp(&b.1))?.2.frequency_error
+    }
+
+    fn are_conserved(&self) -> bool {
+        self.modes.iter().all(|(mode, ..)| mode.is_conserved() && mode.omega_squared > 0.0)
+    }
+
+    /// The amplitude after `t` seconds, in units of that at the start; of modes that decay in truth, what grows.
+    fn amplitude(&self, t: f64) -> f64 {
+        let conserved = self.are_conserved();
+        let energy = self.modes.iter().map(|(_, share, stability)| {
+            let growth = if stability.is_bounded() { 0.0 } else { stability.growth_per_s };
+            let rate = if conserved && growth <= 0.0 { -stability.loss_per_s } else { growth };
+            if *share > 0.0 {
+                share * libm::exp(2.0 * rate.max(0.0) * t + 2.0 * rate.min(0.0) * t)
+            } else {
+                0.0
+            }
+        });
+        energy.sum::<f64>().sqrt()
+    }
+
+    /// The first time, up to [`FOREVER_S`], at which the amplitude is past `level`.
+    fn reaches(&self, is_past: impl Fn(f64) -> bool) -> Option<f64> {
+        let (mut low, mut high) = (0.0, FIRST_LOOK_S);
+        while !is_past(self.amplitude(high)) {
+            (low, high) = (high, high * LOOKS_APART);
+            if low > FOREVER_S {
+                return None;
+            }
+        }
+        for _ in 0..60 {
+            let middle = low + (high - low) / 2.0;
+            if is_past(self.amplitude(middle)) { high = middle } else { low = middle }
+        }
+        Some(high)
+    }
+
+    /// Puts into a verdict what becomes of the motion, and returns what does within the horizon.
+    pub(super) fn tell(&self, verdict: &mut Verdict, horizon_s: f64) -> Change {
+        verdict.is_bounded = Some(self.are_bounded());
+        verdict.frequency_error = self.frequency_error();
+        let moves = self.modes.iter().any(|(_, share, _)| *share > 0.0);
+        if moves {
+            verdict.doubles_in_s = self.reaches(|amplitude| amplitude >= 2.0);
+            if self.are_conserved() {
+                verdict.halves_in_s = self.reaches(|amplitude| amplitude <= 0.5);
+            }
+        }
+        let worst = self.modes.iter().filter_map(|(.., stability)| stability.doubling_s());
+        let worst = worst.min_by(f64::total_cmp);
+        // A mode that is not in the motion yet grows out of its rounding.
+        let hidden =
+            worst.filter(|&worst| verdict.doubles_in_s.is_none_or(|all| worst < all / 2.0));
+        verdict.parasite_doubles_in_s = hidden;
+        let amplitude = if moves { self.amplitude(horizon_s) } else { 1.0 };
+        if self.are_conserved() && moves {
+            verdict.energy_change = Some(amplitude * amplitude - 1.0);
+        }
+        Change::of(amplitude)
+    }
+}
+
+/// When the amplitude is first looked at, in seconds, and the factor from one look to the next.
+const FIRST_LOOK_S: f64 = 1e-9;
+const LOOKS_APART: f64 = 1.05;
