@@ -259,6 +259,7 @@ impl Lab {
     pub fn question(&self) -> Question {
         Question {
             scene: Arc::clone(&self.scene),
+            entries: self.entries.clone(),
             tick_hz: self.clock.tick_hz(),
             throttle: self.throttle(),
             advice: self.display.instrument == Instrument::Advice,
@@ -386,12 +387,18 @@ impl Lab {
         notices::of_taken_up(&self.scene, &taken_up)
     }
 
-    /// Gives a method of the list other substeps, its lane in a race too, and picks it.
+    /// Gives a method of the list other substeps, its lane in a race too, and picks it. A race that it is not in begins
+    /// again with it.
     fn fly(&mut self, spec: LaneSpec) -> Option<String> {
         let listed = self.entries.iter().position(|known| known.method == spec.method);
         let entry = listed.expect("every method is on the list");
         self.entries[entry] = spec;
         let flown = self.race.entrants().iter().position(|entrant| entrant.entry == entry);
+        if self.mode == Mode::Race && flown.is_none() {
+            self.choice.entry = entry;
+            self.restart();
+            return Some(format!("the race began again, with {} in it", spec.method.name));
+        }
         let taken_up = flown.map(|index| self.race.switch(index, entry, spec));
         let notice = taken_up.and_then(|taken| notices::of_taken_up(&self.scene, &taken));
         self.pick(entry).or(notice)

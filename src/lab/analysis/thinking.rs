@@ -13,6 +13,8 @@ use crate::sim::integrators::METHODS;
 #[derive(Clone, Debug)]
 pub struct Question {
     pub(in crate::lab) scene: Arc<Scene>,
+    /// The lanes that verdicts are wanted on.
+    pub(in crate::lab) entries: Vec<LaneSpec>,
     pub(in crate::lab) tick_hz: u32,
     pub(in crate::lab) throttle: f64,
     /// Whether advice is wanted too.
@@ -22,6 +24,7 @@ pub struct Question {
 impl PartialEq for Question {
     fn eq(&self, other: &Self) -> bool {
         self.is_of(&other.scene)
+            && self.entries == other.entries
             && self.tick_hz == other.tick_hz
             && self.throttle == other.throttle
             && self.advice == other.advice
@@ -76,7 +79,6 @@ pub struct Advice {
 pub struct Thinker {
     question: Question,
     judge: Option<Judge>,
-    entries: Vec<LaneSpec>,
     verdicts: Vec<Option<Verdict>>,
     /// How many of the verdicts, from the first, answer the question.
     judged: usize,
@@ -113,9 +115,8 @@ impl Advising {
 impl Thinker {
     /// Sets out to answer `question`.
     pub fn new(question: Question) -> Self {
-        let entries = entries(&question.scene);
-        let verdicts = vec![None; entries.len()];
-        Self { question, judge: None, entries, verdicts, judged: 0, advising: None }
+        let verdicts = vec![None; question.entries.len()];
+        Self { question, judge: None, verdicts, judged: 0, advising: None }
     }
 
     /// Sets out to answer another question. What is found already and answers it too is kept.
@@ -132,14 +133,17 @@ impl Thinker {
             self.judged = 0;
             self.advising = None;
         }
+        if question.entries != self.question.entries {
+            self.judged = 0;
+        }
         self.question = question;
     }
 
     /// Finds one verdict that is missing or, where none is, looks into one more criterion for the advice that is asked
     /// for. Returns whether there is more to do.
     pub fn go_on(&mut self) -> bool {
-        let Question { scene, tick_hz, throttle, advice } = &self.question;
-        if let Some(&spec) = self.entries.get(self.judged) {
+        let Question { scene, entries, tick_hz, throttle, advice } = &self.question;
+        if let Some(&spec) = entries.get(self.judged) {
             let judge = self.judge.get_or_insert_with(|| Judge::new(scene, *throttle));
             self.verdicts[self.judged] = Some(judge.verdict(spec, *tick_hz));
             self.judged += 1;
@@ -162,7 +166,7 @@ impl Thinker {
 
     fn is_done(&self) -> bool {
         let advised = self.advising.as_ref().is_some_and(Advising::is_done);
-        self.judged == self.entries.len() && (advised || !self.question.advice)
+        self.judged == self.question.entries.len() && (advised || !self.question.advice)
     }
 
     /// What is found by now.
@@ -189,7 +193,8 @@ mod tests {
 
     fn question(name: &str) -> Question {
         let scene = Arc::new(Scene::built_in(name).unwrap());
-        Question { scene, tick_hz: 60, throttle: 1.0, advice: false }
+        let entries = entries(&scene);
+        Question { scene, entries, tick_hz: 60, throttle: 1.0, advice: false }
     }
 
     /// Thinks to the end. Returns how often it had to go on, and what the verdicts say.
@@ -217,6 +222,22 @@ mod tests {
         assert_eq!(answer(&mut thinker, &slower).0, METHODS.len());
         assert_eq!(answer(&mut thinker, &first), (METHODS.len(), fine));
         assert_eq!(answer(&mut thinker, &question("spring")).0, METHODS.len());
+    }
+
+    #[test]
+    fn a_verdict_is_of_the_substeps_that_are_flown() {
+        let plain = question("stiff");
+        let mut thinker = Thinker::new(plain.clone());
+        let (_, once) = answer(&mut thinker, &plain);
+        let mut finer = plain.clone();
+        let lane = finer.entries.iter_mut().find(|spec| spec.method.id == "rk4").unwrap();
+        lane.substeps = 8;
+        let (count, finer) = answer(&mut thinker, &finer);
+        assert_eq!(count, METHODS.len());
+        let changed: Vec<_> = (0..once.len()).filter(|&i| once[i] != finer[i]).collect();
+        let rk4 = plain.entries.iter().position(|spec| spec.method.id == "rk4").unwrap();
+        assert_eq!(changed, [rk4]);
+        assert!(finer[rk4].starts_with("accurate"), "{}", finer[rk4]);
     }
 
     #[test]
