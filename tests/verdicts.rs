@@ -200,11 +200,11 @@ fn the_recommended_lanes_meet_their_criterion_in_a_race() {
             .map(|id| regatta::lab::Advised {
                 spec: spec(id),
                 verdict: adviser.verdict(spec(id)),
-                met: CRITERIA.map(|criterion| adviser.met(spec(id), criterion)),
+                met: CRITERIA.map(|criterion| adviser.meets(spec(id), criterion)),
             })
             .into();
         let taken = recommended(&advised, accurate, 1.0, |_, met| met.evaluations_per_s).unwrap();
-        let substeps = advised[taken].met[accurate].as_ref().unwrap().substeps;
+        let substeps = advised[taken].met[accurate].met().unwrap().substeps;
         let lane = LaneSpec { substeps, ..advised[taken].spec };
         let mut race = Race::new(&scene, [(0, lane)]);
         let mut errors = vec![0.0_f64; scene.bodies.len()];
@@ -223,4 +223,77 @@ fn the_recommended_lanes_meet_their_criterion_in_a_race() {
             assert!(*error <= 2.0 * TOLERANCE * size, "{name}: {error} of {size}");
         }
     }
+}
+
+#[test]
+fn a_scene_is_judged_with_the_inputs_of_its_script() {
+    let text = "title = \"t\"\ntick_hz = 60\nseconds = 20\n[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 400\n\
+                x0_m = 0\n[[command]]\ntick = 60\nkick = 1.0\n";
+    let kicked = Scene::parse("t", text).unwrap();
+    let found = verdict(&kicked, "explicit-euler", 60);
+    assert!(matches!(found.word, Word::GainsEnergy | Word::BlewUp), "{found}");
+    assert_eq!(verdict(&kicked, "dormand-prince-54", 60).word, Word::Accurate);
+    // The helm turns, and explicit Euler's course with it: off by metres.
+    let helm = built_in("helm");
+    let found = verdict(&helm, "explicit-euler", helm.tick_hz);
+    assert!(found.error > 0.03, "{found}");
+    let adviser = Adviser::new(&helm, 1.0, helm.tick_hz);
+    let met = adviser.meets(spec("explicit-euler"), CRITERIA[BOUNDED]);
+    let factor = met.met().unwrap().stiffness_factor;
+    assert!((1.0..10.0).contains(&factor), "{factor} times the side drag");
+}
+
+#[test]
+fn a_map_past_all_numbers_is_unbounded_and_no_panic() {
+    for body in [
+        "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 4e9",
+        "[[spring]]\nmass_kg = 1e-15\nstiffness_n_per_m = 40",
+        "[[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 1e9\nmass_kg = 1",
+    ] {
+        let scene = scene(1.0, body);
+        for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+            let found = verdict(&scene, method.id, 60);
+            let is_implicit = method.evaluations.is_none();
+            assert!(
+                is_implicit || found.is_bounded != Some(true),
+                "{body}, {}: {found}",
+                method.id
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_accurate_looks_right_and_what_rushes_does_not() {
+    let looks_right = 1;
+    for (hz, body, id) in [
+        (60, "[[pendulum]]\nlength_m = 12", "rk4"),
+        (60, "[[pendulum]]\nlength_m = 0.36\ntheta0_rad = 0.82", "dormand-prince-54"),
+        (20, "[[spring]]\nmass_kg = 80.1143\nstiffness_n_per_m = 164359", "dormand-prince-54"),
+        (
+            60,
+            "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 10000\ndamping_n_s_per_m = 100",
+            "dormand-prince-54",
+        ),
+    ] {
+        let adviser = Adviser::new(&scene(5.0, body), 1.0, hz);
+        assert!(adviser.verdict(spec(id)).is_accurate(), "{body}");
+        let meets = adviser.meets(spec(id), CRITERIA[looks_right]);
+        assert_eq!(meets.met().map(|met| met.substeps), Some(1), "{body}: {meets:?}");
+    }
+    let surge = Adviser::new(&built_in("surge"), 1.0, 1);
+    let meets = surge.meets(spec("position-verlet"), CRITERIA[looks_right]);
+    assert!(meets.met().is_none_or(|met| met.substeps > 1), "{meets:?}");
+}
+
+#[test]
+fn what_does_not_come_back_has_no_swing_to_double() {
+    let ship = scene(20.0, "[[ship]]\nthrust_n = 1234.5\ndrag_n_s_per_m = 0\nmass_kg = 777");
+    assert_eq!(verdict(&ship, "adaptive-euler-as-printed", 7).doubles_in_s, None);
+    let hyperbola = scene(
+        20.0,
+        "[[orbit]]\nmu_m3_per_s2 = 10969.2\nx0_m = 4.26479\nvx0_m_per_s = -12.9282\nvy0_m_per_s = 73.04756",
+    );
+    let found = verdict(&hyperbola, "midpoint", 20);
+    assert_eq!(found.doubles_in_s, None, "{found}");
 }

@@ -16,13 +16,14 @@ use super::table::{self, Column};
 use super::{Error, TableFormat, tell};
 use crate::lab::number::{round, significant};
 use crate::lab::{
-    Advised, Adviser, CRITERIA, LaneSpec, MOST_ADVISED_SUBSTEPS, Met, Scene, Verdict, recommended,
+    Advised, Adviser, CRITERIA, LaneSpec, MOST_ADVISED_SUBSTEPS, Meets, Met, Scene, Verdict,
+    recommended,
 };
 use crate::sim::integrators::METHODS;
 
 const ABOUT: &str = "\
-Each method is judged on the scene from its start, without its script, against the exact solution, at the
-scene's tick rate or at --tick-hz. It is asked for the fewest substeps in a tick, 1 to 64, that meet
+Each method is judged on the scene from its start, with its script's inputs, against the exact solution, at
+the scene's tick rate or at --tick-hz. It is asked for the fewest substeps in a tick, 1 to 64, that meet
 
   bounded      nothing grows that should not, over the scene and in the long run: no mode of a linear body
                doubles within a year; any other body is followed for 20 times the scene's length
@@ -105,8 +106,8 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
         row.time(scene);
     }
     let text = match args.format {
-        TableFormat::Text => text(scene, &adviser, &rows),
-        TableFormat::Json => format!("{:#}\n", object(scene, &adviser, &rows)),
+        TableFormat::Text => text(scene, &adviser, &rows, wanted),
+        TableFormat::Json => format!("{:#}\n", object(scene, &adviser, &rows, wanted)),
     };
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;
@@ -152,7 +153,7 @@ fn judge_all(
 
 impl Row {
     fn judged(adviser: &Adviser, spec: LaneSpec, rates: bool) -> Self {
-        let met = CRITERIA.map(|criterion| adviser.met(spec, criterion));
+        let met = CRITERIA.map(|criterion| adviser.meets(spec, criterion));
         let plain = LaneSpec { substeps: 1, ..spec };
         Self {
             advised: Advised { spec, verdict: adviser.verdict(spec), met },
@@ -165,9 +166,9 @@ impl Row {
     fn time(&mut self, scene: &Scene) {
         let ticks = (scene.seconds.min(10.0) * f64::from(scene.tick_hz)).round() as u64;
         for (i, met) in self.advised.met.iter().enumerate() {
-            let Some(met) = met else { continue };
+            let Some(met) = met.met() else { continue };
             let known = (0..i).find(|&j| {
-                self.advised.met[j].as_ref().is_some_and(|other| other.substeps == met.substeps)
+                self.advised.met[j].met().is_some_and(|other| other.substeps == met.substeps)
             });
             self.timings[i] = match known {
                 Some(j) => self.timings[j],
@@ -207,10 +208,10 @@ fn best(rows: &[Row], criterion: usize) -> Option<(&Row, &Met)> {
         row.and_then(|row| row.ns_per_s(criterion)).unwrap_or(f64::INFINITY)
     };
     let row = &rows[recommended(&advised, criterion, BLUR, cost)?];
-    Some((row, row.advised.met[criterion].as_ref()?))
+    Some((row, row.advised.met[criterion].met()?))
 }
 
-fn text(scene: &Scene, adviser: &Adviser, rows: &[Row]) -> String {
+fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> String {
     let mut text = table::text(VERDICTS, rows, "");
     for (i, criterion) in CRITERIA.iter().enumerate() {
         let met: Vec<MetRow> = rows.iter().filter_map(|row| MetRow::of(row, i)).collect();
@@ -218,13 +219,15 @@ fn text(scene: &Scene, adviser: &Adviser, rows: &[Row]) -> String {
         if !met.is_empty() {
             text += &table::text(METS, &met, "  ");
         }
-        let missed = rows.iter().filter(|row| row.advised.met[i].is_none());
-        let missed: Vec<&str> = missed.map(|row| row.advised.spec.method.id).collect();
-        if !missed.is_empty() {
-            text += &format!(
-                "  not, or not known to, with up to {MOST_ADVISED_SUBSTEPS} substeps: {}\n",
-                missed.join(", ")
-            );
+        for (meets, why) in [
+            (Meets::No, format!("not with up to {MOST_ADVISED_SUBSTEPS} substeps")),
+            (Meets::Unknown, "not known: no truth, or too much work".to_owned()),
+        ] {
+            let those = rows.iter().filter(|row| row.advised.met[i] == meets);
+            let ids: Vec<&str> = those.map(|row| row.advised.spec.method.id).collect();
+            if !ids.is_empty() {
+                text += &format!("  {why}: {}\n", ids.join(", "));
+            }
         }
     }
     if rows.iter().any(|row| row.rates.is_some()) {
@@ -232,11 +235,14 @@ fn text(scene: &Scene, adviser: &Adviser, rows: &[Row]) -> String {
         text += &table::text(RATES, rows, "  ");
     }
     text.push('\n');
+    if rows.len() < wanted {
+        text += &format!("interrupted: of the {} methods judged, of {wanted},\n", rows.len());
+    }
     for (i, criterion) in CRITERIA.iter().enumerate() {
         text += &format!("at {} Hz: {}: ", adviser.tick_hz(), criterion.id());
         text += &match best(rows, i) {
             Some((row, met)) => line(row, met),
-            None => format!(
+            None if rows.iter().all(|row| row.advised.met[i] == Meets::No) => format!(
                 "none of these with up to {MOST_ADVISED_SUBSTEPS} substeps; raise the tick rate, soften the \
                  stiffest of {}, or damp it",
                 match &scene.bodies[..] {
@@ -244,6 +250,10 @@ fn text(scene: &Scene, adviser: &Adviser, rows: &[Row]) -> String {
                     bodies => format!("the {} bodies", bodies.len()),
                 }
             ),
+            None => {
+                "not known of any of these that might: there is no truth, or it takes too much work"
+                    .into()
+            }
         };
         text.push('\n');
     }
@@ -264,7 +274,7 @@ fn line(row: &Row, met: &Met) -> String {
     )
 }
 
-fn object(scene: &Scene, adviser: &Adviser, rows: &[Row]) -> Value {
+fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> Value {
     let recommended = CRITERIA.iter().enumerate().map(|(i, criterion)| {
         let take = best(rows, i).map(|(row, met)| {
             json!({
@@ -280,6 +290,7 @@ fn object(scene: &Scene, adviser: &Adviser, rows: &[Row]) -> Value {
         "tick_hz": adviser.tick_hz(),
         "horizon_s": adviser.judge().horizon_s(),
         "bodies": scene.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),
+        "complete": rows.len() == wanted,
         "methods": rows.iter().map(|row| method(scene, row)).collect::<Vec<_>>(),
         "recommended": recommended.collect::<Map<_, _>>(),
     })
@@ -289,7 +300,7 @@ fn method(scene: &Scene, row: &Row) -> Value {
     let Verdict { word, body, error, doubles_in_s, halves_in_s, frequency_error, .. } =
         &row.advised.verdict;
     let criteria = CRITERIA.iter().enumerate().map(|(i, criterion)| {
-        let met = row.advised.met[i].as_ref().map(|met| {
+        let met = row.advised.met[i].met().map(|met| {
             json!({
                 "substeps": met.substeps,
                 "evaluations_per_s": met.evaluations_per_s,
@@ -358,7 +369,7 @@ struct MetRow {
 
 impl MetRow {
     fn of(row: &Row, criterion: usize) -> Option<Self> {
-        let met = row.advised.met[criterion].clone()?;
+        let met = row.advised.met[criterion].met()?.clone();
         Some(Self { id: row.advised.spec.method.id, met, ns_per_s: row.ns_per_s(criterion) })
     }
 }

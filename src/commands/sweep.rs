@@ -38,7 +38,7 @@ One row for each scene, body, method and tick rate, in that order whatever the n
                         no-truth or not-judged
   halted                why, if it blew up or gave up: a method that blows up is a row like others
 
-A body is judged as `regatta advise` judges it, from its start and without the scene's script.
+A body is judged as `regatta advise` judges it, from its start and with the inputs of the scene's script.
 Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
 
 Examples:

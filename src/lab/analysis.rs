@@ -11,7 +11,9 @@ mod thinking;
 mod truth;
 mod verdict;
 
-pub use advice::{Advised, Adviser, CRITERIA, Criterion, MOST_ADVISED_SUBSTEPS, Met, recommended};
+pub use advice::{
+    Advised, Adviser, CRITERIA, Criterion, MOST_ADVISED_SUBSTEPS, Meets, Met, recommended,
+};
 pub use judge::{Judge, LONGEST_HORIZON_S, RIGHT_PITCH, TOLERANCE, VISIBLE};
 pub use run::MOST_WORK;
 pub(super) use thinking::entries;

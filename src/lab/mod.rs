@@ -27,8 +27,8 @@ mod truth_curve;
 pub use crate::sim::stability::Stability;
 pub use analysis::{
     Advice, Advised, Adviser, CRITERIA, Criterion, Fate, Findings, Judge, LONG_RUN,
-    LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK, Met, NoTruth, Question, RIGHT_PITCH,
-    Severity, TOLERANCE, Thinker, VISIBLE, Verdict, Word, duration, recommended,
+    LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK, Meets, Met, NoTruth, Question,
+    RIGHT_PITCH, Severity, TOLERANCE, Thinker, VISIBLE, Verdict, Word, duration, recommended,
 };
 pub use clock::{Clock, Due};
 pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};

@@ -47,8 +47,8 @@ impl Criterion {
     pub fn about(self) -> &'static str {
         match self {
             Criterion::Bounded => {
-                "nothing grows that should not: no mode of a linear body doubles within a year, no other body's swing \
-                 within 20 times the scene"
+                "nothing grows that should not: no mode of a linear body doubles within a year; no other body, followed \
+                 for 20 times the scene, doubles its swing or goes on gaining"
             }
             Criterion::LooksRight => {
                 "amplitude within 5 % of the truth's and frequency within 1 %; without a swing, within 5 % of the range"
@@ -89,7 +89,28 @@ pub struct Advised {
     /// At the rate that was asked about.
     pub verdict: Verdict,
     /// For each of [`CRITERIA`] how the method meets it, if it does.
-    pub met: [Option<Met>; CRITERIA.len()],
+    pub met: [Meets; CRITERIA.len()],
+}
+
+/// Whether a method meets a criterion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Meets {
+    /// So it does.
+    With(Met),
+    /// Not with [`MOST_ADVISED_SUBSTEPS`] or fewer.
+    No,
+    /// That takes too much work to tell, or there is no truth to tell it by.
+    Unknown,
+}
+
+impl Meets {
+    /// How, if it does.
+    pub fn met(&self) -> Option<&Met> {
+        match self {
+            Meets::With(met) => Some(met),
+            Meets::No | Meets::Unknown => None,
+        }
+    }
 }
 
 /// Judges methods on a scene at one tick rate. What several of them need is worked out once, and they may be asked about
@@ -136,9 +157,9 @@ impl Adviser {
         self.judge.verdict(spec, self.tick_hz)
     }
 
-    /// How a method meets a criterion with the fewest substeps, if it does with [`MOST_ADVISED_SUBSTEPS`] or fewer. The
-    /// substeps of `spec` do not matter. One substep fewer does not meet it.
-    pub fn met(&self, spec: LaneSpec, criterion: Criterion) -> Option<Met> {
+    /// Whether a method meets a criterion, and how with the fewest substeps: one fewer does not. The substeps of `spec`
+    /// do not matter.
+    pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> Meets {
         let with = |substeps: u32| LaneSpec { substeps, ..spec };
         let tried = |substeps| find(&self.judge, criterion, with(substeps), self.tick_hz);
         let (mut fails, mut holds) = (0, None);
@@ -149,10 +170,10 @@ impl Adviser {
                     break;
                 }
                 Finding::Fails { .. } => fails = substeps,
-                Finding::Unknown => return None,
+                Finding::Unknown => return Meets::Unknown,
             }
         }
-        let (mut substeps, mut evaluations_per_s) = holds?;
+        let Some((mut substeps, mut evaluations_per_s)) = holds else { return Meets::No };
         while substeps - fails > 1 {
             let middle = fails.midpoint(substeps);
             match tried(middle) {
@@ -165,7 +186,7 @@ impl Adviser {
         let spec = with(substeps);
         let (stiffness_factor, limited_by) = self.stiffest(spec, criterion);
         let slowest_hz = self.slowest_down(spec, criterion);
-        Some(Met { substeps, evaluations_per_s, slowest_hz, stiffness_factor, limited_by })
+        Meets::With(Met { substeps, evaluations_per_s, slowest_hz, stiffness_factor, limited_by })
     }
 
     /// The slowest rate in Hz of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion; `None`
@@ -179,9 +200,10 @@ impl Adviser {
     fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> u32 {
         let holds = |hz: u32| holds(find(&self.judge, criterion, spec, hz));
         let (mut held, mut failed) = (self.tick_hz, 0);
-        // Down by a sixth each time: a gap between rates that hold would have to be narrower to be missed.
+        // A linear body's rates have few gaps, and only wide ones; others are tried at nearly every rate.
+        let strides = if self.judge.is_linear() { 6 } else { 60 };
         while held > 1 {
-            let next = held - (held / 6).max(1);
+            let next = held - (held / strides).max(1);
             if !holds(next) {
                 failed = next;
                 break;
@@ -302,7 +324,7 @@ pub fn recommended(
     cost: impl Fn(&Advised, &Met) -> f64,
 ) -> Option<usize> {
     let met = |(i, advised): (usize, &Advised)| {
-        let met = advised.met[criterion].as_ref().filter(|_| !advised.spec.method.as_printed)?;
+        let met = advised.met[criterion].met().filter(|_| !advised.spec.method.as_printed)?;
         Some((i, cost(advised, met), met.evaluations_per_s))
     };
     let all: Vec<(usize, f64, f64)> = advised.iter().enumerate().filter_map(met).collect();

@@ -1,15 +1,18 @@
 //! How a lane fares on a scene: measured on the run, tick by tick against the truth.
 //!
-//! A scene is judged from its start, without its script, under one throttle from beginning to end, each body by itself.
+//! A scene is judged from its start, at one tick rate, with the inputs of its script, each body by itself.
 //! A linear body under a method of equal steps has one map from tick to tick, whose modes say what becomes of its motion
 //! ever after. Any other is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and what is not seen by then is not said.
 
 use super::modes::{Modes, TooMuch};
 use super::pitch::{Pitch, pitch};
 use super::run::{MOST_WORK, Run, Until, follow};
+use super::survey::TimedInput;
 use super::truth::{BodyTruth, Swing, ticks};
 use super::verdict::{NoTruth, Verdict, Word};
+use crate::lab::command::Command;
 use crate::lab::scene::{LaneSpec, Scene};
+use crate::sim::bodies::Input;
 use crate::sim::integrators::StepFailure;
 
 /// The error that still counts as accurate: a hundredth of the amplitude, about what can be seen.
@@ -41,6 +44,28 @@ pub struct Judge {
     truths: Vec<BodyTruth>,
 }
 
+/// What the script does to the bodies, by the clock of the scene's own tick rates.
+fn inputs_of(scene: &Scene) -> Vec<TimedInput> {
+    let (mut tick, mut t, mut hz) = (0, 0.0, f64::from(scene.tick_hz));
+    let mut inputs = Vec::new();
+    for scripted in &scene.script {
+        t += (scripted.tick - tick) as f64 / hz;
+        tick = scripted.tick;
+        let input = match scripted.command {
+            Command::Throttle(part) => Input::Throttle(part.clamp(-1.0, 1.0)),
+            Command::Rudder(part) => Input::Rudder(part.clamp(-1.0, 1.0)),
+            Command::Kick(times) => Input::Kick(times),
+            Command::TickHz(tick_hz) => {
+                hz = f64::from(tick_hz);
+                continue;
+            }
+            _ => continue,
+        };
+        inputs.push(TimedInput { t, input });
+    }
+    inputs
+}
+
 /// Whether a lane meets a [`Criterion`](super::advice::Criterion).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Finding {
@@ -60,7 +85,9 @@ impl Judge {
 
     /// The same over `horizon_s` simulated seconds, more than 0, however long the scene is.
     pub fn over(scene: &Scene, throttle: f64, horizon_s: f64) -> Self {
-        let truths = scene.bodies.iter().map(|body| BodyTruth::new(body, throttle, horizon_s));
+        let inputs = inputs_of(scene);
+        let of = |body| BodyTruth::new(body, &inputs, throttle, horizon_s);
+        let truths = scene.bodies.iter().map(of);
         Self { horizon_s, throttle, most_work: MOST_WORK, truths: truths.collect() }
     }
 
@@ -68,6 +95,11 @@ impl Judge {
     pub(super) fn within(mut self, most_work: u64) -> Self {
         self.most_work = most_work;
         self
+    }
+
+    /// Whether all bodies are linear.
+    pub(super) fn is_linear(&self) -> bool {
+        self.truths.iter().all(|truth| truth.modes.is_some())
     }
 
     /// The throttle that the scene is judged under.
@@ -125,7 +157,7 @@ impl Judge {
             horizon_s: self.horizon_s,
         };
         let change = match &modes {
-            Some(modes) => modes.tell(&mut verdict, self.horizon_s),
+            Some(modes) => modes.tell(&mut verdict, self.horizon_s - truth.last_input_s()),
             None => tell_of_run(&mut verdict, truth, &run, self.horizon_s),
         };
         if run.fate.is_some() {
@@ -206,27 +238,27 @@ impl Judge {
     }
 
     /// Whether every body swings as far as its truth, within [`VISIBLE`], and as often, within [`RIGHT_PITCH`]; one that
-    /// does not swing, whether it stays within [`VISIBLE`] of its range.
+    /// does not swing, or of which too few turns are seen, whether it stays within [`VISIBLE`] of its range. What is
+    /// accurate looks right.
     pub(super) fn looks_right(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
         self.each(|truth| {
-            let Some(swing) = &truth.swing else {
-                let run = follow(truth, spec, tick_hz, Until::Error(f64::INFINITY), self.most_work);
-                self.usable(truth, &run, tick_hz)?;
-                // The range is twice the amplitude.
-                return verdict_on(&run, run.coordinate_error <= 2.0 * VISIBLE);
-            };
             let run = follow(truth, spec, tick_hz, Until::Horizon, self.most_work);
             self.usable(truth, &run, tick_hz)?;
-            let pairs = run.windows.iter().zip(&swing.windows);
-            let is_as_wide = pairs.clone().all(|(lane, truth)| (lane - truth).abs() <= VISIBLE);
-            if run.fate.is_some() || !is_as_wide {
-                return Err(false);
+            if run.fate.is_some() || run.error <= TOLERANCE {
+                return verdict_on(&run, run.fate.is_none());
             }
-            let error = match Modes::of(truth, spec, tick_hz).map_err(|TooMuch| true)? {
+            // The range is twice the amplitude.
+            let is_near = run.error <= 2.0 * VISIBLE;
+            let Some(swing) = &truth.swing else { return verdict_on(&run, is_near) };
+            let modes = Modes::of(truth, spec, tick_hz).map_err(|TooMuch| true)?;
+            let error = match &modes {
                 Some(modes) => modes.frequency_error(),
                 None => pitch(truth, &run).map(|pitch| pitch.error),
             };
-            verdict_on(&run, error.is_some_and(|error| error.abs() <= RIGHT_PITCH))
+            let Some(error) = error else { return verdict_on(&run, is_near) };
+            let mut pairs = run.windows.iter().zip(&swing.windows);
+            let is_as_wide = pairs.all(|(lane, truth)| (lane - truth).abs() <= VISIBLE);
+            verdict_on(&run, is_as_wide && error.abs() <= RIGHT_PITCH)
         })
     }
 

@@ -48,8 +48,6 @@ pub(super) struct Run {
     /// body did not get through.
     pub(super) error: f64,
     pub(super) error_at_s: f64,
-    /// The same of coordinates alone.
-    pub(super) coordinate_error: f64,
     /// The largest error of the last twentieth of the horizon.
     pub(super) last_error: f64,
     /// The energy drift of largest magnitude over the horizon, in percent of the energy in motion.
@@ -124,10 +122,12 @@ pub(super) fn follow(
     let mut energy = Energy::of(&*stepper, truth, horizon, end);
     let ticks_per_look = (TICKS_PER_LOOK / coordinates.len() as u64).max(1);
     let mut peaks = Peaks::new(truth, &*stepper);
+    peaks.start(truth, &mut run.windows);
     let mut tick = 0;
     while tick < end {
         tick += 1;
         let t = tick as f64 / hz;
+        truth.give_inputs(&mut *stepper, tick - 1, tick_hz);
         let advanced = stepper.advance((tick - 1) as f64 / hz, 1.0 / hz, spec.substeps);
         if let Err(failure) = advanced.and_then(|()| check(&*stepper, coordinates)) {
             let fate = Some(Fate { t: (tick - 1) as f64 / hz, failure });
@@ -166,7 +166,8 @@ pub(super) fn follow(
         }
         run.watch_reach(&*stepper, truth, drift, t);
         if tick == end && tick > horizon && !run.is_losing {
-            run.is_losing = energy.is_losing();
+            // What does not come back goes on further than its truth was followed.
+            run.is_losing = energy.is_losing() && truth.swing.is_some();
             end *= if run.is_losing { FOLLOWED_ON } else { 1 };
         }
         if run.is_losing
@@ -184,7 +185,7 @@ pub(super) fn follow(
     }
     (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
     if run.fate.is_some() {
-        (run.error, run.coordinate_error) = (f64::INFINITY, f64::INFINITY);
+        run.error = f64::INFINITY;
         (run.error_at_s, run.last_error) = (run.seconds, f64::INFINITY);
     }
     run
@@ -196,7 +197,6 @@ impl Run {
         Self {
             error: 0.0,
             error_at_s: 0.0,
-            coordinate_error: 0.0,
             last_error: 0.0,
             energy_drift: None,
             fate: None,
@@ -232,18 +232,11 @@ impl Run {
             self.no_truth = course.failure.clone();
             return;
         };
-        let n = stepper.q().len();
         let values = stepper.q().iter().chain(stepper.v());
-        let mut off: f64 = 0.0;
-        for (i, ((x, exact), amplitude)) in values.zip(exact).zip(&truth.amplitudes).enumerate() {
-            let part = (x - exact).abs() / amplitude;
-            // Written so that what is not a number is kept.
-            off = if part <= off { off } else { part };
-            if i + 1 == n {
-                self.coordinate_error =
-                    if off <= self.coordinate_error { self.coordinate_error } else { off };
-            }
-        }
+        let parts = values.zip(exact).zip(&truth.amplitudes);
+        let parts = parts.map(|((x, exact), amplitude)| (x - exact).abs() / amplitude);
+        // Written so that what is not a number is kept.
+        let off = parts.fold(0.0, |off, part| if part <= off { off } else { part });
         if off.is_nan() || off > self.error {
             (self.error, self.error_at_s) = (off, t);
         }
@@ -372,6 +365,14 @@ impl Peaks {
     fn new(truth: &BodyTruth, stepper: &dyn Stepper) -> Self {
         let from = stepper.q().iter().zip(&truth.centres);
         Self { last: from.map(|(q, middle)| [f64::NAN, q - middle]).collect() }
+    }
+
+    /// Takes in where the swing begins.
+    fn start(&self, truth: &BodyTruth, windows: &mut [f64]) {
+        if let Some(first) = windows.first_mut() {
+            let parts = self.last.iter().zip(&truth.amplitudes).map(|(last, a)| last[1].abs() / a);
+            *first = parts.fold(0.0, f64::max);
+        }
     }
 
     fn take_in(&mut self, stepper: &dyn Stepper, truth: &BodyTruth, t: f64, windows: &mut [f64]) {

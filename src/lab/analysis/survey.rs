@@ -1,6 +1,7 @@
 //! A walk along the true motion of one body: how far it reaches, how often it swings, how much energy it moves.
 
 use crate::sim::Stepper;
+use crate::sim::bodies::Input;
 use crate::sim::integrators::StepFailure;
 
 /// The part of a step at which it is checked: no fraction of a period that a regular step could meet.
@@ -75,7 +76,14 @@ impl Ranges {
     }
 }
 
-/// Walks from the start of `body` over `seconds`, and shows each piece of the way to `see`. The steps follow the
+/// What is done to a body, and when, in seconds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TimedInput {
+    pub(super) t: f64,
+    pub(super) input: Input,
+}
+
+/// Walks from the start of `body` over `seconds`, its inputs given on the way, in order, and shows each piece to `see`. The steps follow the
 /// motion: a cubic through both ends of each is as good as exact. A walk that would take more than `most` moments
 /// goes on at scattered ones, of which only the ends are shown.
 ///
@@ -83,6 +91,7 @@ impl Ranges {
 /// Where the truth cannot be found, or is not finite, any more.
 pub(super) fn walk(
     body: &mut dyn Stepper,
+    mut inputs: &[TimedInput],
     seconds: f64,
     most: usize,
     mut see: impl FnMut(&Moment, &Moment),
@@ -93,6 +102,15 @@ pub(super) fn walk(
     let mut moments = 0;
     let kept = most / KEPT;
     while here.t < seconds && moments + kept < most {
+        if let Some((next, rest)) = inputs.split_first()
+            && next.t <= here.t
+        {
+            body.input(here.t, next.input);
+            (here, inputs) = (Moment::of(body, here.t), rest);
+            step = FIRST_STEP * seconds;
+            continue;
+        }
+        let seconds = inputs.first().map_or(seconds, |next| next.t.min(seconds));
         let end = if here.t + 1.001 * step < seconds { here.t + step } else { seconds };
         let check = Moment::of_advanced(body, here.t, here.t + CHECKED_AT * (end - here.t))?;
         let there = Moment::of_advanced(body, check.t, end)?;
@@ -113,7 +131,15 @@ pub(super) fn walk(
         parts.sort_by(f64::total_cmp);
         let start = here.t;
         for part in parts {
-            let there = Moment::of_advanced(body, here.t, start + part * left)?;
+            let t = start + part * left;
+            while let Some((next, rest)) = inputs.split_first()
+                && next.t <= t
+            {
+                here = Moment::of_advanced(body, here.t, next.t.max(here.t))?;
+                body.input(here.t, next.input);
+                inputs = rest;
+            }
+            let there = Moment::of_advanced(body, here.t, t)?;
             see(&there, &there);
             here = there;
         }

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::advice::{Advised, Adviser, CRITERIA, Met};
+use super::advice::{Advised, Adviser, CRITERIA, Meets};
 use super::judge::Judge;
 use super::verdict::Verdict;
 use crate::lab::scene::{LaneSpec, Scene};
@@ -90,7 +90,7 @@ struct Advising {
     adviser: Adviser,
     advised: Vec<Advised>,
     /// What is known of the method under way.
-    met: Vec<Option<Met>>,
+    met: Vec<Meets>,
 }
 
 impl Advising {
@@ -99,7 +99,7 @@ impl Advising {
         let Some(method) = METHODS.get(self.advised.len()) else { return };
         let spec = LaneSpec::plain(method);
         if let Some(&criterion) = CRITERIA.get(self.met.len()) {
-            self.met.push(self.adviser.met(spec, criterion));
+            self.met.push(self.adviser.meets(spec, criterion));
         } else {
             let met =
                 std::mem::take(&mut self.met).try_into().expect("each criterion was looked into");

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
-use super::survey::{Moment, Ranges, walk};
+use super::survey::{Moment, Ranges, TimedInput, walk};
 use crate::lab::extent::Extent;
 use crate::lab::lane::check;
 use crate::lab::scene::SceneBody;
@@ -37,10 +37,15 @@ const FAINT: f64 = 1e-3;
 /// The windows in which the swing is compared, at most.
 const MOST_WINDOWS: usize = 64;
 
+/// The turns in a window, at least: at a coarse tick few of them show their peak.
+const TURNS_PER_WINDOW: f64 = 4.0;
+
 /// The true motion of one body under one throttle.
 pub(super) struct BodyTruth {
     pub(super) body: SceneBody,
     pub(super) throttle: f64,
+    /// What the scene's script does to it within the horizon, in order.
+    pub(super) inputs: Vec<TimedInput>,
     pub(super) horizon_s: f64,
     /// The amplitude of each component of the state, coordinates first.
     pub(super) amplitudes: Vec<f64>,
@@ -99,10 +104,16 @@ impl Course {
 impl BodyTruth {
     /// The amplitude of a component is half the range that the truth covers in it, or in another component of the
     /// same body and unit that covers more; of what keeps its value, that value.
-    pub(super) fn new(body: &SceneBody, throttle: f64, horizon_s: f64) -> Self {
+    pub(super) fn new(
+        body: &SceneBody,
+        inputs: &[TimedInput],
+        throttle: f64,
+        horizon_s: f64,
+    ) -> Self {
         let mut truth = Self {
             body: body.clone(),
             throttle,
+            inputs: inputs.iter().filter(|input| input.t < horizon_s).copied().collect(),
             horizon_s,
             amplitudes: Vec::new(),
             centres: Vec::new(),
@@ -125,6 +136,34 @@ impl BodyTruth {
         stepper
     }
 
+    /// Gives `stepper`, which stands after `tick` ticks of this rate, the inputs that come then.
+    pub(super) fn give_inputs(&self, stepper: &mut dyn Stepper, tick: u64, tick_hz: u32) {
+        let hz = f64::from(tick_hz);
+        let due = |input: &&TimedInput| (input.t * hz - ON_TIME).ceil().max(0.0) as u64 == tick;
+        for TimedInput { input, .. } in self.inputs.iter().filter(due) {
+            stepper.input(tick as f64 / hz, *input);
+        }
+    }
+
+    /// When the last input comes, in seconds; 0 without one.
+    pub(super) fn last_input_s(&self) -> f64 {
+        self.inputs.last().map_or(0.0, |input| input.t)
+    }
+
+    /// The truth once all inputs are given, or as near to that as it comes.
+    fn after_inputs(&self) -> Box<dyn Stepper> {
+        let mut body = self.start(Solver::Truth);
+        let mut t = 0.0;
+        for input in &self.inputs {
+            if body.advance(t, input.t - t, 1).is_err() {
+                break;
+            }
+            t = input.t;
+            body.input(t, input.input);
+        }
+        body
+    }
+
     pub(super) fn coordinates(&self) -> &'static [Coordinate] {
         (self.body.kind.coordinates)(&self.body.values)
     }
@@ -137,14 +176,14 @@ impl BodyTruth {
             Truth::Reference => MOST_REFERENCE_MOMENTS,
         };
         let most = (MOST_PRODUCTS / (n * n)).clamp(FEWEST_MOMENTS, most_moments);
-        self.modes = normal_modes(&*body).map(|modes| shares(&*body, modes));
+        self.modes = normal_modes(&*body).map(|modes| shares(&*self.after_inputs(), modes));
         let mut there = self.start(Solver::Truth);
         let mut ranges = Ranges::at(&*body);
         let mut kinetic: f64 = body.kinetic_energy().unwrap_or(0.0);
         let mut extent = Extent::default();
         extent.cover(0.0, body.kinetic_energy());
-        let conserves = body.energy().is_some();
-        let walked = walk(&mut *body, self.horizon_s, most, |from, to| {
+        let conserves = body.energy().is_some() && self.inputs.is_empty();
+        let walked = walk(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
             ranges.take_in(from, to);
             for moment in fastest(from, to).into_iter().filter(|_| conserves) {
                 there.set(0.0, &moment.x[..n], &moment.x[n..]);
@@ -170,7 +209,7 @@ impl BodyTruth {
             ranges = Ranges::at(&*body);
             let mut sums = vec![0.0; n];
             let mut seconds = 0.0;
-            let _ = walk(&mut *body, LONG_RUN * self.horizon_s, most, |from, to| {
+            let _ = walk(&mut *body, &self.inputs, LONG_RUN * self.horizon_s, most, |from, to| {
                 ranges.take_in(from, to);
                 seconds += to.t - from.t;
                 for (i, sum) in sums.iter_mut().enumerate() {
@@ -191,6 +230,16 @@ impl BodyTruth {
             (centre, (high - centre).max(centre - low).max(self.amplitudes[i]))
         };
         self.reach = (0..2 * n).map(reach).collect();
+        let coordinates = self.coordinates();
+        let alike = |i: usize, j: usize| {
+            i / n == j / n && coordinates[i % n].unit == coordinates[j % n].unit
+        };
+        let halves: Vec<f64> = (0..2 * n)
+            .map(|i| {
+                (0..2 * n).filter(|&j| alike(i, j)).map(|j| self.reach[j].1).fold(0.0, f64::max)
+            })
+            .collect();
+        self.reach.iter_mut().zip(halves).for_each(|(reach, half)| reach.1 = half);
     }
 
     /// Whether all that it does is to swing for ever, linearly.
@@ -207,7 +256,7 @@ impl BodyTruth {
         let fast: Vec<f64> = self.amplitudes[n..].iter().map(|v| FAINT * v).collect();
         let mut peaks: Vec<(f64, f64)> = Vec::new();
         let mut body = self.start(Solver::Truth);
-        walk(&mut *body, self.horizon_s, most, |from, to| {
+        walk(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
             let mut peak: f64 = 0.0;
             for i in 0..n {
                 let (a, b) = (from.x[i] - middles[i], to.x[i] - middles[i]);
@@ -227,7 +276,7 @@ impl BodyTruth {
         let coordinate = (0..n).find(|&i| crossings[i].len() >= 2)?;
         let crossings = std::mem::take(&mut crossings[coordinate]);
         let period = (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f64;
-        let count = ((self.horizon_s / period) as usize).clamp(1, MOST_WINDOWS);
+        let count = ((self.horizon_s / TURNS_PER_WINDOW / period) as usize).clamp(1, MOST_WINDOWS);
         let mut windows = vec![0.0_f64; count];
         for (t, peak) in peaks {
             let window = window(t / self.horizon_s, count);
@@ -269,6 +318,7 @@ impl BodyTruth {
             return course;
         }
         for tick in 0..ticks {
+            self.give_inputs(&mut *body, tick, tick_hz);
             let advanced = body.advance(tick as f64 / hz, 1.0 / hz, 1);
             if let Err(failure) = advanced.and_then(|()| check(&*body, self.coordinates())) {
                 course.failure = Some(failure);
@@ -285,6 +335,9 @@ impl BodyTruth {
         course
     }
 }
+
+/// An input that comes less than this part of a tick after it is on time: the rounding of its moment.
+const ON_TIME: f64 = 1e-6;
 
 /// Ticks of this rate in a stretch, at least one.
 pub(super) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
@@ -375,7 +428,7 @@ mod tests {
     fn truth(text: &str, seconds: f64) -> BodyTruth {
         let text = format!("title = \"t\"\ntick_hz = 60\nseconds = {seconds}\n{text}");
         let scene = Scene::parse("t", &text).unwrap();
-        BodyTruth::new(&scene.bodies[0], 1.0, seconds)
+        BodyTruth::new(&scene.bodies[0], &[], 1.0, seconds)
     }
 
     #[test]

@@ -202,16 +202,25 @@ impl Verdict {
         if self.swings { "swing" } else { "deviation" }
     }
 
-    /// What the error is, and whether it is one of time.
+    /// What the error is, when, and whether it is one of time: a phase alone makes no error of more than twice the
+    /// amplitude, and what dies away is off for other reasons too.
     fn out_of_phase(&self) -> String {
         let (error, horizon) = (percent(self.error), duration(self.horizon_s));
         let bounded = if self.is_bounded == Some(true) { "stable, " } else { "" };
-        if self.last_error <= TOLERANCE {
-            let at = duration(self.error_at_s);
-            return format!("{bounded}off by {error} at {at}, settled by {horizon}");
+        let is_phase = self.swings && self.energy_change.is_some() && self.error <= 2.0;
+        if is_phase {
+            return format!("{bounded}out of phase by {error} after {horizon}");
         }
-        let phase = if self.swings { "out of phase" } else { "off" };
-        format!("{bounded}{phase} by {error} after {horizon}")
+        let at = duration(self.error_at_s);
+        match self.last_error {
+            last if last <= TOLERANCE => {
+                format!("{bounded}off by {error} at {at}, settled by {horizon}")
+            }
+            last if last < 0.9 * self.error => {
+                format!("{bounded}off by {error} at {at}, by {} after {horizon}", percent(last))
+            }
+            _ => format!("{bounded}off by {error} after {horizon}"),
+        }
     }
 
     /// What stands in brackets after the word and its number: how fast the body swings, and which it is.

@@ -161,6 +161,10 @@ fn with_memory(now: &[DMatrix<f64>; 3], later: &[DMatrix<f64>; 2]) -> Option<DMa
     let factors = ColPivQR::new(reached);
     let (q, r) = (factors.q(), factors.r());
     let rank = (0..2 * n).take_while(|&i| r[(i, i)].abs() > RANK * r[(0, 0)].abs()).count();
+    // Not a number, or past all numbers.
+    if rank == 0 {
+        return None;
+    }
     factors.p().permute_columns(&mut next);
     let basis = q.columns(0, rank);
     let square = r.view((0, 0), (rank, rank)).into_owned();

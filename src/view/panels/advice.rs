@@ -5,7 +5,8 @@ use egui::{Grid, RichText, ScrollArea, Ui};
 use super::{QUIET, TEXT, WELL, tone};
 use crate::lab::number::{round, significant};
 use crate::lab::{
-    Advice, Advised, CRITERIA, Command, Lab, LaneSpec, MOST_ADVISED_SUBSTEPS, Met, recommended,
+    Advice, Advised, CRITERIA, Command, Lab, LaneSpec, MOST_ADVISED_SUBSTEPS, Meets, Met,
+    recommended,
 };
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
@@ -52,10 +53,18 @@ fn row(
     ui.label(RichText::new(spec.method.name).color(tone(verdict.word)))
         .on_hover_text(verdict.to_string());
     for ((met, best), criterion) in met.iter().zip(best).zip(&CRITERIA) {
-        let Some(met) = met else {
-            let missed = format!("not with {MOST_ADVISED_SUBSTEPS} substeps");
-            ui.label(RichText::new("-").color(QUIET)).on_hover_text(missed);
-            continue;
+        let met = match met {
+            Meets::With(met) => met,
+            Meets::No => {
+                let missed = format!("not with {MOST_ADVISED_SUBSTEPS} substeps");
+                ui.label(RichText::new("-").color(QUIET)).on_hover_text(missed);
+                continue;
+            }
+            Meets::Unknown => {
+                ui.label(RichText::new("?").color(QUIET))
+                    .on_hover_text("not known: there is no truth, or it takes too much work");
+                continue;
+            }
         };
         let colour = if *best == Some(index) { WELL } else { TEXT };
         let rate = whole(met.evaluations_per_s);
@@ -93,7 +102,7 @@ fn summary(ui: &mut Ui, advice: &Advice, best: &[Option<usize>]) {
     for (i, (criterion, best)) in CRITERIA.iter().zip(best).enumerate() {
         let taken = best.and_then(|row| {
             let advised = &advice.advised[row];
-            Some((advised, advised.met[i].as_ref()?))
+            Some((advised, advised.met[i].met()?))
         });
         let what = match taken {
             Some((advised, met)) => format!("{} ×{}", advised.spec.method.name, met.substeps),
