@@ -227,6 +227,14 @@ fn the_error_of_a_motion_that_has_come_to_rest_grows_no_more() {
     let [q, v] = ship.truth_error().unwrap();
     assert_eq!(ship.q(), [1.0]);
     assert!(q < 1e-13 && v < 1e-14, "{q:e} m, {v:e} m/s");
+    // At its final speed of a thousandth of the full one it has run a kilometre.
+    let ship =
+        Ship { thrust: 2.0, throttle: 1e-3, drag: 2.0, mass: 2.0, s0: 0.0, v0: 0.0, kick: 1.0 };
+    let mut ship = stepper(ship, Solver::Truth);
+    ship.advance(0.0, 1e6, 1).unwrap();
+    let [q, v] = ship.truth_error().unwrap();
+    assert!(q < 100.0 * f64::EPSILON * 1e3, "{q:e} m");
+    assert!(v < 100.0 * f64::EPSILON * 1e-3, "{v:e} m/s");
 }
 
 #[test]
