@@ -249,3 +249,108 @@ fn true_modes(body: &dyn Stepper, tick: Tick) -> Result<Vec<Mode>, StepFailure> 
 
 /// From a second down to a microsecond.
 const MOST_HALVINGS: u32 = 20;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::bodies::kind;
+    use std::f64::consts::PI;
+
+    /// Modes that grow by these rates per second and do not swing.
+    fn creeping<const N: usize>(rates: [f64; N]) -> [Mode; N] {
+        rates.map(|growth_per_s| Mode { growth_per_s, frequency: 0.0 })
+    }
+
+    fn values<const N: usize>(values: [(f64, f64); N]) -> [Eigenvalue; N] {
+        values.map(|(modulus, angle)| Eigenvalue { modulus, angle })
+    }
+
+    fn near(found: f64, wanted: f64) -> bool {
+        (found - wanted).abs() <= 1e-9 * wanted.abs()
+    }
+
+    #[test]
+    fn what_creeps_in_truth_is_held_against_the_nearest_eigenvalue() {
+        let h = 0.1;
+        for (case, nearest) in [
+            // Nearer than what turns a sixth of a turn, whose real part is a quarter.
+            ([(0.5, PI / 3.0), (0.5, PI / 3.0), (0.4, 0.0)], 0.4),
+            // Further off than what hardly turns.
+            ([(0.9, 0.2), (0.9, 0.2), (0.7, 0.0)], 0.9),
+            // What flips is far off, however near in modulus.
+            ([(0.99, PI), (0.99, PI), (0.8, 0.0)], 0.8),
+        ] {
+            let found = against(&creeping([0.0, -1.0, -1.0]), &values(case), h);
+            assert!(near(found.loss_per_s, -libm::log(nearest) / h), "{case:?}: {found:?}");
+        }
+        // The nearest to e^0.2 and to e³.
+        let found = against(&creeping([2.0, 30.0]), &values([(19.0, 0.0), (1.2, 0.0)]), h);
+        assert_eq!(found.growth_per_s, 0.0);
+    }
+
+    #[test]
+    fn growth_is_counted_beyond_that_of_the_truth_and_from_a_tenth_of_it() {
+        for h in [0.1, 4.0] {
+            for (own, grows, counted) in [
+                (2.0, 2.15, 0.0),
+                (2.0, 1.85, 0.0),
+                (2.0, 2.3, 0.3),
+                (2.0, 1.5, -0.5),
+                (-2.0, 0.5, 0.5),
+                (-2.0, -0.5, -0.5),
+                (0.0, 0.1, 0.1),
+            ] {
+                let value = (libm::exp(grows * h), 0.0);
+                let found = against(&creeping([own]), &values([value]), h).growth_per_s;
+                assert!((found - counted).abs() < 1e-9, "{own}, {grows}: {found}");
+            }
+        }
+        // Truth that seems to grow by 1e-10 in a tick stands still.
+        let found = against(&creeping([1e-6]), &values([(1.0 + 1e-10, 0.0)]), 1e-4);
+        assert!((found.growth_per_s / 1e-6 - 1.0).abs() < 1e-3, "{found:?}");
+        let found = against(&creeping([1e-6]), &values([(0.5, 0.0)]), 1e-4);
+        assert!(near(found.loss_per_s, libm::log(2.0) / 1e-4), "{found:?}");
+        // A loss of what decays in truth is none.
+        let found = against(&creeping([-1.0]), &values([(0.5, 0.0)]), 1.0);
+        assert_eq!(found.loss_per_s, 0.0);
+    }
+
+    #[test]
+    fn of_all_frequencies_the_one_furthest_off_is_told() {
+        let swing = |frequency: f64| Mode { growth_per_s: 0.0, frequency };
+        let truth = [swing(40.0), swing(10.0), swing(40.0), swing(10.0)];
+        let turning = |of: [f64; 2]| values([of[0], of[0], of[1], of[1]].map(|a| (1.0, a * 0.01)));
+        let error = |of| against(&truth, &turning(of), 0.01).frequency_error.unwrap();
+        assert!(near(error([10.1, 38.8]), -0.03));
+        assert!(near(error([40.4, 10.3]), 0.03));
+        // One that flips swings no more, and then nothing is told of the other.
+        let flipped = values([(1.0, 0.1), (1.0, 0.1), (1.0, PI), (1.0, PI)]);
+        assert_eq!(against(&truth, &flipped, 0.01).frequency_error, None);
+    }
+
+    #[test]
+    fn what_a_method_remembers_counts_where_it_grows() {
+        let h = 0.1;
+        let found = against(&creeping([-1.0]), &values([(1.1, PI), (0.9, 0.0)]), h);
+        assert!(near(found.growth_per_s, libm::log(1.1) / h), "{found:?}");
+        assert_eq!(found.spectral_radius, 1.1);
+    }
+
+    #[test]
+    fn true_modes_turn_as_fast_as_they_do_up_to_a_turn_and_a_half_in_a_tick() {
+        for (omega, damping) in [(0.3, 0.0), (30.0, 2.0), (100.0, 0.0), (105.0, 9.0)] {
+            let values = [1.0, omega * omega, damping, 1.0, 0.0, 1.0];
+            let spring = (kind("spring").unwrap().build)(&values, Solver::Truth);
+            let swing = libm::sqrt(omega * omega - damping * damping / 4.0);
+            for h in [0.1, 1.0 / 60.0] {
+                let modes = true_modes(&*spring, Tick { t: 0.0, h, substeps: 1 }).unwrap();
+                assert_eq!(modes.len(), 2);
+                for mode in modes {
+                    let shown = format!("{omega}, {h}: {mode:?}");
+                    assert!((mode.frequency / swing - 1.0).abs() < 1e-6, "{shown}");
+                    assert!((mode.growth_per_s + damping / 2.0).abs() < 1e-6 * swing, "{shown}");
+                }
+            }
+        }
+    }
+}

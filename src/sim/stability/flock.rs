@@ -106,7 +106,7 @@ mod tests {
     use super::*;
     use crate::sim::Solver;
     use crate::sim::bodies::kind;
-    use crate::sim::integrators::METHODS;
+    use crate::sim::integrators::{METHODS, method};
 
     #[test]
     fn each_copy_moves_as_the_lanes_stepper_does() {
@@ -127,6 +127,51 @@ mod tests {
                 let allowed = if method.evaluations.is_some() { 0.0 } else { 1e-12 };
                 assert!(apart.fold(0.0, f64::max) <= allowed, "{}", method.id);
             }
+        }
+    }
+
+    /// Whether both states agree but for rounding.
+    fn near(found: &[f64], wanted: &[f64]) -> bool {
+        found.iter().zip(wanted).all(|(a, b)| (a - b).abs() <= 1e-12 * (1.0 + b.abs()))
+    }
+
+    #[test]
+    fn copies_of_several_coordinates_stay_apart() {
+        let values = [3.0, 0.5, 200.0, 0.2, 2.0, 0.7, 2.0];
+        let chain = |solver| (kind("chain").unwrap().build)(&values, solver);
+        let rk4 = method("rk4").unwrap();
+        let states: Vec<Vec<f64>> = (0..4)
+            .map(|copy| (0..6).map(|i| 0.1 * f64::from(copy * 7 + i) - 0.9).collect())
+            .collect();
+        let mut flock = Flock::new(chain(Solver::Truth), rk4, 4);
+        flock.set(&states);
+        flock.advance(0.0, 0.05, 2).unwrap();
+        let mut stepper = chain(Solver::Method(rk4));
+        for (copy, from) in states.iter().enumerate() {
+            stepper.set(0.0, &from[..3], &from[3..]);
+            stepper.advance(0.0, 0.05, 2).unwrap();
+            let alone = [stepper.q(), stepper.v()].concat();
+            assert!(near(&flock.state(copy), &alone), "{copy}: {:?}", flock.state(copy));
+        }
+    }
+
+    #[test]
+    fn forces_that_are_straight_already_stay_as_they_are() {
+        let spring = kind("spring").unwrap();
+        let rk4 = method("rk4").unwrap();
+        // From a place where neither coordinate, velocity nor force is 0.
+        let body = (spring.build)(&[2.0, 180.0, 3.0, 0.7, 1.5, 1.0], Solver::Truth);
+        let derivative = DMatrix::from_row_slice(1, 2, &[-90.0, -1.5]);
+        let mut flock = Flock::straightened(&*body, derivative, 0.0, rk4, 2);
+        let states = [vec![0.2, -4.0], vec![-1.0, 0.3]];
+        flock.set(&states);
+        flock.advance(0.0, 0.05, 3).unwrap();
+        let mut stepper = body.with_solver(Solver::Method(rk4), 0.0);
+        for (copy, from) in states.iter().enumerate() {
+            stepper.set(0.0, &from[..1], &from[1..]);
+            stepper.advance(0.0, 0.05, 3).unwrap();
+            let alone = [stepper.q(), stepper.v()].concat();
+            assert!(near(&flock.state(copy), &alone), "{copy}: {:?}", flock.state(copy));
         }
     }
 }

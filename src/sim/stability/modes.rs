@@ -155,3 +155,130 @@ pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
 
 /// Modes that feel each other by less than this, as a part of the largest entry, do not: rounding.
 const COUPLING: f64 = 1e-10;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::bodies::kind;
+    use crate::sim::integrators::{METHODS, method};
+
+    fn body(id: &str, values: &[f64]) -> Box<dyn Stepper> {
+        (kind(id).unwrap().build)(values, Solver::Truth)
+    }
+
+    fn mode(omega_squared: f64, damping_per_s: f64) -> NormalMode {
+        NormalMode { shape: vec![1.0], omega_squared, damping_per_s }
+    }
+
+    fn near(found: f64, wanted: f64) -> bool {
+        (found - wanted).abs() <= 1e-12 * wanted.abs()
+    }
+
+    #[test]
+    fn a_mode_swings_below_its_critical_damping_and_creeps_at_two_rates_beyond() {
+        for (omega_squared, damping, swing, rates) in [
+            (25.0, 0.0, Some(5.0), [0.0, 0.0]),
+            (25.0, 6.0, Some(4.0), [-3.0, -3.0]),
+            (4.0, 4.0, None, [-2.0, -2.0]),
+            (6.0, 5.0, None, [-2.0, -3.0]),
+            (0.0, 5.0, None, [0.0, -5.0]),
+            (0.0, 0.0, None, [0.0, 0.0]),
+        ] {
+            let mode = mode(omega_squared, damping);
+            assert_eq!(mode.swing(), swing, "{mode:?}");
+            assert_eq!(mode.is_conserved(), damping == 0.0);
+            let found = mode.true_modes();
+            assert_eq!(found.map(|mode| mode.frequency), [swing.unwrap_or(0.0); 2]);
+            let grow = found.map(|mode| mode.growth_per_s);
+            assert!((0..2).all(|i| near(grow[i], rates[i])), "{mode:?}: {grow:?}");
+        }
+    }
+
+    const MASSES: usize = 5;
+
+    fn chain(damping: f64) -> Box<dyn Stepper> {
+        body("chain", &[MASSES as f64, 0.5, 200.0, damping, 2.0, 0.7, 2.0])
+    }
+
+    #[test]
+    fn the_modes_of_a_chain_are_its_standing_waves() {
+        for damping in [0.0, 0.3] {
+            let mut modes = normal_modes(&*chain(damping)).unwrap();
+            modes.sort_by(|a, b| a.omega_squared.total_cmp(&b.omega_squared));
+            assert_eq!(modes.len(), MASSES);
+            for (n, mode) in (1..).zip(&modes) {
+                let half = n as f64 * std::f64::consts::PI / 2.0 / (MASSES + 1) as f64;
+                let wanted = 4.0 * libm::sin(half) * libm::sin(half);
+                assert!((mode.omega_squared / (wanted * 400.0) - 1.0).abs() < 1e-12, "{mode:?}");
+                let decay = wanted * damping / 0.5;
+                assert!((mode.damping_per_s - decay).abs() < 1e-12, "{mode:?}");
+                // Half of what a wave of amplitude 1 has in it, for a shape of length 1.
+                let wave: Vec<f64> =
+                    (1..=MASSES).map(|j| libm::sin(2.0 * half * j as f64)).collect();
+                let length = ((MASSES + 1) as f64 / 2.0).sqrt();
+                for other in &modes {
+                    let part = if other == mode { length } else { 0.0 };
+                    assert!((other.part(&wave).abs() - part).abs() < 1e-12, "{n}: {other:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_linear_has_no_modes_and_a_thrust_changes_none() {
+        assert_eq!(normal_modes(&*body("pendulum", &[1.0, 1.0, 9.81, 0.0, 1.0, 0.0, 1.0])), None);
+        assert_eq!(normal_modes(&*body("orbit", &[1000.0, 9.0, 2.0, 1.5, 10.0, 0.3])), None);
+        let ship = body("ship", &[2000.0, 300.0, 1000.0, 0.0, 0.0, 1.0]);
+        let modes = normal_modes(&*ship).unwrap();
+        assert_eq!(modes.len(), 1);
+        assert_eq!((modes[0].omega_squared, modes[0].damping_per_s), (0.0, 0.3));
+    }
+
+    #[test]
+    fn a_mode_of_a_chain_fares_as_the_spring_of_its_frequency_and_damping() {
+        for damping in [0.0, 0.3] {
+            let chain = undriven(&*chain(damping));
+            for mode in normal_modes(&*chain).unwrap() {
+                let values = [1.0, mode.omega_squared, mode.damping_per_s, 1.0, 0.0, 1.0];
+                let spring = body("spring", &values);
+                for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+                    for (h, substeps) in [(0.02, 1), (0.04, 2), (0.06, 1)] {
+                        let solver = Solver::Method(method);
+                        let tick = Tick { t: 0.0, h, substeps };
+                        let found = mode.stability(&*chain, solver, tick).unwrap();
+                        let alone = Stability::of(&*spring, solver, tick).unwrap();
+                        let all = |s: Stability| {
+                            [
+                                s.spectral_radius,
+                                s.growth_per_s,
+                                s.loss_per_s,
+                                s.frequency_error.unwrap_or(9.0),
+                            ]
+                        };
+                        for (found, alone) in all(found).into_iter().zip(all(alone)) {
+                            let off = (found - alone).abs();
+                            assert!(
+                                off <= 1e-6,
+                                "{}, {mode:?}, {h} s: {found}, {alone}",
+                                method.id
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_faint_loss_of_a_method_with_memory_is_told_from_many_ticks() {
+        let h = 0.001;
+        let spring = body("spring", &[1.0, 25.0, 0.0, 1.0, 0.0, 1.0]);
+        let tick = Tick { t: 0.0, h, substeps: 1 };
+        let solver = Solver::Method(method("bdf2").unwrap());
+        let found = mode(25.0, 0.0).stability(&*spring, solver, tick).unwrap();
+        // Of BDF2 on y′ = iω y the amplitude loses z⁴/4 a step, to the first order.
+        let wanted = 0.005_f64.powi(4) / 4.0 / h;
+        assert!((found.loss_per_s / wanted - 1.0).abs() < 0.01, "{found:?}, not {wanted}");
+        assert!((found.growth_per_s / wanted + 1.0).abs() < 0.01, "{found:?}, not {wanted}");
+    }
+}

@@ -212,4 +212,55 @@ mod tests {
         assert!((found[0].modulus - (root - 0.6)).abs() < 1e-12, "{found:?}");
         assert_eq!(found[0].angle, std::f64::consts::PI);
     }
+
+    #[test]
+    fn what_only_stretches_or_flips_does_not_turn() {
+        for (re, im, turns) in
+            [(0.9, 0.0, false), (-0.9, 0.0, false), (0.5, 0.1, true), (-0.5, -0.1, true)]
+        {
+            assert_eq!(Eigenvalue::new(re, im).turns(), turns, "{re} {im}");
+        }
+    }
+
+    /// Derivatives of a body whose map is `first`, a tick later `then`, and then that for ever.
+    fn without_memory(first: &DMatrix<f64>, then: &DMatrix<f64>) -> Derivatives {
+        let now = [first.clone(), then * first, then * then * first];
+        Derivatives { now, later: [then.clone(), then * then] }
+    }
+
+    #[test]
+    fn memory_and_bends_are_told_from_rounding_whatever_the_size_of_the_map() {
+        for size in [1.0, 1e5] {
+            let map = DMatrix::from_row_slice(2, 2, &[0.8, 0.3 * size, -0.5 / size, 0.9]);
+            let still = without_memory(&map, &map);
+            assert!(!still.has_memory() && !still.bends(), "{size}");
+            let turned = without_memory(&map, &(&map * (1.0 + 1e-8)));
+            assert!(!turned.has_memory() && turned.bends(), "{size}");
+            let blurred = without_memory(&map, &(&map * (1.0 + 1e-11)));
+            assert!(!blurred.has_memory() && !blurred.bends(), "{size}");
+            for (off, remembers) in [(1e-8, true), (1e-12, false)] {
+                let Derivatives { mut now, later } = without_memory(&map, &map);
+                now[1] *= 1.0 + off;
+                let found = Derivatives { now, later };
+                assert_eq!(found.has_memory(), remembers, "{size}: {off}");
+                assert!(!found.bends(), "{size}: {off}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_map_without_memory_keeps_its_own_eigenvalues() {
+        let (cos, sin) = (libm::cos(0.3), libm::sin(0.3));
+        for size in [1.0, 1e6] {
+            let map = DMatrix::from_row_slice(
+                2,
+                2,
+                &[0.9 * cos, 0.9 * sin * size, -0.9 * sin / size, 0.9 * cos],
+            );
+            for value in eigenvalues(&without_memory(&map, &map)).unwrap() {
+                assert!((value.modulus - 0.9).abs() < 1e-12, "{size}: {value:?}");
+                assert!((value.angle - 0.3).abs() < 1e-12, "{size}: {value:?}");
+            }
+        }
+    }
 }

@@ -1,0 +1,254 @@
+//! What a stepper says of its body besides its state: energies, inputs taken and refused, errors, lost time.
+
+use regatta::sim::bodies::{BODIES, Input, Ship, Spring, View, kind};
+use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::{Solver, Stepper, stepper};
+
+fn by(id: &str) -> Solver {
+    Solver::Method(method(id).expect("a method"))
+}
+
+/// A body of each kind, none of whose parameters is 0 or 1 but its damping, which is `damping`.
+fn bodies(solver: Solver, damping: f64) -> impl Iterator<Item = (&'static str, Box<dyn Stepper>)> {
+    let values = move |id: &str| match id {
+        "ship" => vec![1500.0, damping, 700.0, 3.0, 2.0, 500.0],
+        "spring" => vec![2.5, 180.0, damping, 0.7, 1.5, 3.0],
+        "chain" => vec![4.0, 0.5, 200.0, damping, 2.0, 0.7, 2.0],
+        "pendulum" => vec![1.7, 0.4, 9.81, damping, 0.6, 0.3, 2.0],
+        "orbit" => vec![1000.0, 9.0, 2.0, 1.5, 10.0, 0.3],
+        "helm" => {
+            let card = kind("helm").unwrap().parameters;
+            let plain = card[..card.len() - 1].iter().map(|p| p.default.unwrap_or(1.5));
+            plain.chain([0.0, 2.0, 10.0, 1.0]).collect()
+        }
+        id => panic!("{id} has no values here"),
+    };
+    BODIES.iter().map(move |kind| (kind.id, (kind.build)(&values(kind.id), solver)))
+}
+
+fn state(body: &dyn Stepper) -> [Vec<f64>; 2] {
+    [body.q().to_vec(), body.v().to_vec()]
+}
+
+fn acceleration(body: &dyn Stepper, [q, v]: &[Vec<f64>; 2]) -> Vec<f64> {
+    let mut a = vec![0.0; q.len()];
+    body.acceleration(0.0, q, v, &mut a);
+    a
+}
+
+fn near(found: f64, wanted: f64) -> bool {
+    (found - wanted).abs() <= 1e-12 * wanted.abs()
+}
+
+#[test]
+fn a_body_says_that_it_is_linear_just_where_its_forces_add_up() {
+    let mut linear = Vec::new();
+    for (id, body) in bodies(Solver::Truth, 0.9) {
+        let some = |from: f64, by: f64| (0..body.q().len()).map(|i| from + by * i as f64).collect();
+        let here: [Vec<f64>; 2] = [some(0.3, 0.4), some(1.1, -0.7)];
+        let [rest, doubled] = [0.0, 2.0]
+            .map(|by: f64| here.clone().map(|half| half.iter().map(|x| by * x).collect()));
+        let [still, once, twice] = [&rest, &here, &doubled].map(|at| acceleration(&*body, at));
+        let adds_up =
+            (0..still.len()).all(|i| near(twice[i] - still[i], 2.0 * (once[i] - still[i])));
+        assert_eq!(body.is_linear(), adds_up, "{id}");
+        linear.extend(adds_up.then_some(id));
+    }
+    assert_eq!(linear, ["ship", "spring", "chain"]);
+}
+
+#[test]
+fn only_what_conserves_its_energy_says_that_it_has_one() {
+    for (damping, conserving) in
+        [(0.0, &["ship", "spring", "chain", "pendulum", "orbit"][..]), (1e-6, &["orbit"])]
+    {
+        for (id, body) in bodies(Solver::Truth, damping) {
+            assert_eq!(body.energy().is_some(), conserving.contains(&id), "{id}, {damping}");
+            assert_eq!(body.kinetic_energy().is_some(), body.energy().is_some(), "{id}");
+        }
+    }
+}
+
+#[test]
+fn energy_stays_along_the_true_motion_and_the_motions_part_is_what_is_missing_at_rest() {
+    for (id, mut body) in bodies(Solver::Truth, 0.0).filter(|(id, _)| *id != "helm") {
+        body.input(0.0, Input::Throttle(0.4));
+        let start = body.energy().unwrap();
+        for tick in 0..30 {
+            body.advance(f64::from(tick) / 20.0, 1.0 / 20.0, 1).unwrap();
+            let scale = start.abs() + body.kinetic_energy().unwrap();
+            let drift = body.energy().unwrap() - start;
+            assert!(drift.abs() < 1e-9 * scale, "{id}: {drift} J of {scale}");
+        }
+        let (energy, moving) = (body.energy().unwrap(), body.kinetic_energy().unwrap());
+        let [q, v] = state(&*body);
+        body.set(1.5, &q, &vec![0.0; v.len()]);
+        assert!((energy - body.energy().unwrap() - moving).abs() < 1e-9 * energy.abs(), "{id}");
+        assert!(moving > 0.0, "{id}");
+    }
+}
+
+#[test]
+fn energies_are_those_of_the_school_book() {
+    let ship =
+        Ship { thrust: 30.0, throttle: 0.5, drag: 0.0, mass: 4.0, s0: 7.0, v0: 3.0, kick: 1.0 };
+    let ship = stepper(ship, Solver::Truth);
+    assert_eq!((ship.energy(), ship.kinetic_energy()), (Some(18.0 - 105.0), Some(18.0)));
+    let spring = |damping| {
+        let body = Spring { mass: 4.0, stiffness: 50.0, damping, x0: 0.2, v0: 3.0, kick: 1.0 };
+        stepper(body, Solver::Truth)
+    };
+    assert_eq!(spring(0.0).energy(), Some(19.0));
+    assert_eq!(spring(0.0).kinetic_energy(), Some(18.0));
+    assert_eq!(spring(0.1).energy(), None);
+}
+
+#[test]
+fn a_kick_is_an_impulse_whatever_is_hit() {
+    // Speed gained by 1.5 kicks: of 500 N s on 700 kg, of 3 N s on 2.5 kg.
+    for (id, gained) in [("ship", 750.0 / 700.0), ("spring", 4.5 / 2.5)] {
+        let (_, mut body) = bodies(by("rk4"), 0.9).find(|(found, _)| *found == id).unwrap();
+        let before = state(&*body);
+        assert!(body.input(0.0, Input::Kick(1.5)));
+        assert!(near(body.v()[0], before[1][0] + gained), "{id}: {}", body.v()[0]);
+        assert_eq!(body.q(), before[0], "{id}");
+    }
+}
+
+#[test]
+fn the_inputs_on_its_card_are_taken_and_any_other_is_refused_and_changes_no_bit() {
+    let inputs = [
+        ("throttle", Input::Throttle(0.3)),
+        ("rudder", Input::Rudder(0.3)),
+        ("kick", Input::Kick(1.0)),
+    ];
+    // With a memory, that would be lost.
+    for solver in [by("adams-bashforth-2"), by("bdf2"), by("dormand-prince-54"), Solver::Truth] {
+        for (name, input) in inputs {
+            let both = bodies(solver, 0.9).zip(bodies(solver, 0.9));
+            for ((id, mut body), (_, mut untouched)) in both {
+                for tick in 0..6 {
+                    let t = f64::from(tick) / 60.0;
+                    let is_taken = tick == 3 && body.input(t, input);
+                    let is_on_card = kind(id).unwrap().inputs.contains(&name);
+                    assert!(tick != 3 || is_taken == is_on_card, "{id}: {name}");
+                    body.advance(t, 1.0 / 60.0, 1).unwrap();
+                    untouched.advance(t, 1.0 / 60.0, 1).unwrap();
+                }
+                let stayed = state(&*body) == state(&*untouched)
+                    && body.evaluations() == untouched.evaluations()
+                    && body.truth_error() == untouched.truth_error();
+                assert_eq!(stayed, !kind(id).unwrap().inputs.contains(&name), "{id}: {name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_a_method_lost_stays_lost_under_the_next() {
+    let printed = METHODS.iter().find(|m| m.tolerance.is_some() && !m.keeps_time).unwrap();
+    let (_, mut body) = bodies(Solver::Method(printed), 0.9).nth(1).unwrap();
+    assert_eq!(body.lost_time(), 0.0);
+    let run = |body: &mut dyn Stepper, from: u32| {
+        for tick in from..from + 4 {
+            body.advance(0.5 * f64::from(tick), 0.5, 1).unwrap();
+        }
+        body.lost_time()
+    };
+    let lost = run(&mut *body, 0);
+    assert!(lost > 0.0 && lost < 2.0, "{lost} s of 2");
+    for solver in [by("rk4"), Solver::Truth] {
+        let mut next = body.with_solver(solver, 2.0);
+        assert_eq!(run(&mut *next, 4), lost, "{solver:?}");
+        let mut again = next.with_solver(Solver::Method(printed), 4.0);
+        assert!(run(&mut *again, 8) > lost, "{solver:?}");
+    }
+}
+
+/// What is said of a ship and a spring at a time, both in units so many times smaller: lengths, times and masses.
+fn in_units(length: f64, time: f64, mass: f64, drag: f64, t: f64) -> [Box<dyn Stepper>; 2] {
+    let (speed, force) = (length / time, mass * length / time / time);
+    let ship = Ship {
+        thrust: 3.0 * force,
+        throttle: 0.75,
+        drag: drag * mass / time,
+        mass: 2.5 * mass,
+        s0: 1.5 * length,
+        v0: -0.7 * speed,
+        kick: force * time,
+    };
+    let spring = Spring {
+        mass: 2.5 * mass,
+        stiffness: 30.0 * force / length,
+        damping: drag * mass / time,
+        x0: 0.3 * length,
+        v0: 2.0 * speed,
+        kick: force * time,
+    };
+    [stepper(ship, Solver::Truth), stepper(spring, Solver::Truth)].map(|mut body| {
+        body.advance(0.0, t * time, 1).expect("a closed form does not fail");
+        body
+    })
+}
+
+#[test]
+fn units_of_length_time_and_mass_change_nothing_but_the_numbers() {
+    // The spring swings, nearly creeps, and creeps.
+    for (drag, t) in [(0.0, 1.7), (1.0, 1.7), (20.0, 0.1), (20.0, 3.0), (60.0, 3.0)] {
+        let plain = in_units(1.0, 1.0, 1.0, drag, t);
+        for [length, time, mass] in [[8.0, 1.0, 1.0], [1.0, 8.0, 1.0], [1.0, 1.0, 8.0]] {
+            for (body, plain) in in_units(length, time, mass, drag, t).iter().zip(&plain) {
+                let shown = format!("{drag}, {t} s; {length} {time} {mass}");
+                let (speed, unit) = (length / time, mass * length * length / time / time);
+                assert_eq!(body.q()[0], length * plain.q()[0], "{shown}");
+                assert_eq!(body.v()[0], speed * plain.v()[0], "{shown}");
+                assert_eq!(body.energy(), plain.energy().map(|energy| unit * energy), "{shown}");
+                let [q, v] = plain.truth_error().unwrap();
+                assert_eq!(body.truth_error(), Some([length * q, speed * v]), "{shown}");
+                if let (
+                    View::Recorder { half_width_m },
+                    View::Recorder { half_width_m: plain_half_width_m },
+                ) = (body.view(), plain.view())
+                {
+                    assert_eq!(half_width_m, length * plain_half_width_m, "{shown}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_error_of_a_motion_that_has_come_to_rest_grows_no_more() {
+    // After a million time constants, a metre from the start.
+    let ship =
+        Ship { thrust: 0.0, throttle: 1.0, drag: 2.0, mass: 2.0, s0: 0.0, v0: 1.0, kick: 1.0 };
+    let mut ship = stepper(ship, Solver::Truth);
+    ship.advance(0.0, 1e6, 1).unwrap();
+    let [q, v] = ship.truth_error().unwrap();
+    assert_eq!(ship.q(), [1.0]);
+    assert!(q < 1e-13 && v < 1e-14, "{q:e} m, {v:e} m/s");
+    // At its final speed of a thousandth of the full one it has run a kilometre.
+    let ship =
+        Ship { thrust: 2.0, throttle: 1e-3, drag: 2.0, mass: 2.0, s0: 0.0, v0: 0.0, kick: 1.0 };
+    let mut ship = stepper(ship, Solver::Truth);
+    ship.advance(0.0, 1e6, 1).unwrap();
+    let [q, v] = ship.truth_error().unwrap();
+    assert!(q < 100.0 * f64::EPSILON * 1e3, "{q:e} m");
+    assert!(v < 100.0 * f64::EPSILON * 1e-3, "{v:e} m/s");
+}
+
+#[test]
+fn a_spring_is_shown_as_far_as_it_swings_on_both_sides() {
+    let half_width = |x0: f64, v0: f64| {
+        let body = Spring { mass: 4.0, stiffness: 100.0, damping: 0.5, x0, v0, kick: 1.0 };
+        match stepper(body, Solver::Truth).view() {
+            View::Recorder { half_width_m } => half_width_m,
+            view => panic!("{view:?}"),
+        }
+    };
+    // At 5 rad/s; at rest, a metre.
+    for (x0, v0, amplitude) in [(0.5, 0.0, 0.5), (0.0, -2.0, 0.4), (0.3, 2.0, 0.5), (0.0, 0.0, 1.0)]
+    {
+        assert!(near(half_width(x0, v0), 2.0 * amplitude), "{x0} m, {v0} m/s");
+    }
+}
