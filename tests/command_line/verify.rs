@@ -135,7 +135,8 @@ fn a_lane_that_ends_otherwise_is_a_change_of_physics() {
     let test = "a_lane_that_ends_otherwise_is_a_change_of_physics";
     let Some(folder) = clip_or_skip(test) else { return };
     let whole = fs::read(manifest_of(folder.path())).unwrap();
-    let changes: [(fn(&mut Manifest), &str); 3] = [
+    type Change = fn(&mut Manifest);
+    let changes: [(Change, &str); 3] = [
         (
             |manifest| manifest.lanes[1].hash = "0".repeat(16),
             "its hash at the end is 0000000000000000",
