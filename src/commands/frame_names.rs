@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
-use std::io::Read;
-use std::path::Path;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use super::manifest;
 use crate::view::png;
 
 /// The most frames in a folder: as many as six digits number.
@@ -43,6 +44,31 @@ pub(super) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
         files.map(String::from).collect()
     };
     is_ours.then(|| manifest["frames"].as_array().map(files).unwrap_or_default())
+}
+
+/// Whether `path` is where the capture in `clip` has its manifest or a frame, be it there or not, or is a
+/// file that any capture made.
+pub(super) fn is_of_a_capture(path: &Path, clip: &Path) -> bool {
+    let resolved = resolved(path);
+    let name = resolved.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let is_in_clip = resolved
+        .parent()
+        .is_some_and(|parent| fs::canonicalize(clip).is_ok_and(|clip| clip == parent));
+    if is_in_clip && (name == manifest::FILE_NAME || frame_number(name).is_some()) {
+        return true;
+    }
+    // A pipe would be waited for.
+    resolved.is_file() && (is_marked(&resolved) || frames_claimed(&resolved).is_some())
+}
+
+/// The path without links, as far as it is there.
+fn resolved(path: &Path) -> PathBuf {
+    let parent = path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."));
+    fs::canonicalize(path)
+        .or_else(|_| {
+            Ok::<_, io::Error>(fs::canonicalize(parent)?.join(path.file_name().unwrap_or_default()))
+        })
+        .unwrap_or_else(|_| path.to_owned())
 }
 
 #[cfg(test)]

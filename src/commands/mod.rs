@@ -55,7 +55,7 @@ use crate::window::WindowError;
 
 const EXAMPLES: &str = "\
 Examples:
-  regatta                                          open the harbour under Runge-Kutta
+  regatta                                          open the harbour under explicit Euler
   regatta --scene stiff --race                     race all methods on a stiff spring
   regatta --scene ship --method explicit-euler --tick-hz 2
   regatta trace --scene ship --method rk4 > ship.csv

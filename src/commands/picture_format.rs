@@ -48,6 +48,20 @@ const ENDINGS: &[(&str, &[PictureFormat])] = &[
     ("webp", &[]),
 ];
 
+/// Endings of files that hold no pictures, and so of none that a capture writes.
+const NO_PICTURES: &[&str] =
+    &["csv", "html", "json", "log", "md", "pdf", "sheet", "toml", "txt", "xml", "zip"];
+
+/// What a name ends in, after its last dot, in small letters.
+pub(super) fn ending(path: &Path) -> Option<String> {
+    path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase)
+}
+
+/// Whether files with this ending hold pictures.
+pub(super) fn is_of_pictures(ending: &str) -> bool {
+    ENDINGS.iter().any(|(known, _)| *known == ending)
+}
+
 /// Why a name and a format do not go together.
 #[derive(Debug, thiserror::Error)]
 pub enum FormatError {
@@ -81,6 +95,18 @@ pub enum FormatError {
         /// What it ends in.
         ending: &'static str,
     },
+    /// The ending is that of a file that holds no pictures.
+    #[error(
+        "regatta capture writes no .{ending} files; give {} without its ending for a directory, or a \
+         name that ends in .gif, .apng or .y4m, or in .png with --format sheet",
+        .path.display()
+    )]
+    NoPictures {
+        /// The name.
+        path: PathBuf,
+        /// What it ends in.
+        ending: &'static str,
+    },
     /// Numbered pictures are no stream.
     #[error(
         "numbered pictures need a directory; give --format y4m, rgba, apng, gif or sheet with --out -"
@@ -95,7 +121,11 @@ impl PictureFormat {
         if out == Path::new(STDOUT) {
             return asked.filter(|format| *format != Self::Png).ok_or(FormatError::NoStream);
         }
-        let ending = out.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase);
+        let ending = ending(out);
+        let strange = |known: &&&str| ending.as_deref() == Some(**known);
+        if let Some(ending) = NO_PICTURES.iter().find(strange) {
+            return Err(FormatError::NoPictures { path, ending });
+        }
         let known = ending.and_then(|ending| ENDINGS.iter().find(|(known, _)| *known == ending));
         match (asked, known) {
             (None, None) => Ok(Self::Png),
@@ -152,6 +182,9 @@ mod tests {
             ("x.gif", Some(Png), None),
             ("x.gif", Some(Sheet), None),
             ("x.mp4", None, None),
+            ("x.txt", None, None),
+            ("x.CSV", Some(Gif), None),
+            ("x.sheet", Some(Sheet), None),
             ("x.mp4", Some(Y4m), None),
             ("-", Some(Y4m), Some(Y4m)),
             ("-", Some(Png), None),

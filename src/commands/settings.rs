@@ -105,6 +105,11 @@ pub(super) fn check(manifest: &Manifest) -> Result<(), String> {
     if let Some((file, name)) = names.find(|(file, name)| *file != name) {
         return Err(format!("it has {file:?} in the place of {name}; capture anew"));
     }
+    let marked = manifest.marks.last().map_or(0, |mark| mark.lanes.len());
+    if manifest.lanes.len() < marked {
+        let ended = manifest.lanes.len();
+        return Err(format!("it lists the ends of {ended} lanes of {marked}; capture anew"));
+    }
     if settings.hash() == manifest.settings_hash {
         return Ok(());
     }

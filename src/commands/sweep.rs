@@ -19,9 +19,11 @@ use crate::sim::integrators::{METHODS, Method};
 use crate::view::{GpuError, ReadbackError};
 
 mod diagrams;
+mod file_names;
 mod grid;
 mod plot;
 
+use file_names::{check_picture_name, row_format};
 use grid::{Grid, Row, Swept};
 use plot::Plot;
 
@@ -44,7 +46,7 @@ Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded d
 Examples:
   regatta sweep > sweep.csv
   regatta sweep --scene spring --method rk4 --method velocity-verlet --tick-hz 30,60,120
-  regatta sweep --scene my.toml --seconds 5 --format json --out sweep.json --plot sweep.png";
+  regatta sweep --scene my.toml --seconds 5 --out sweep.json --plot sweep.png";
 
 /// Go through methods, tick rates and scenes, and write a row for each
 #[derive(Debug, Args)]
@@ -73,9 +75,9 @@ pub(super) struct SweepArgs {
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// How to write it: csv or json
-    #[arg(long, value_name = "FORMAT", default_value = "csv", hide_possible_values = true)]
-    format: RowFormat,
+    /// How to write it: csv or json [default: by the ending of --out, else csv]
+    #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
+    format: Option<RowFormat>,
 
     /// Threads that make the runs, 1 to 256 [default: one for each core]
     #[arg(long, value_name = "N")]
@@ -108,6 +110,20 @@ pub enum SweepError {
     /// Rows and picture cannot both go there.
     #[error("rows and picture would go to the same place; give another --out or --plot")]
     SamePlace,
+    /// The name of the rows' file says that it holds something else.
+    #[error("{} would not hold what its name says; {remedy}", .path.display())]
+    Mislabelled {
+        /// The name.
+        path: PathBuf,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The name of the picture's file says that it holds something else than PNG.
+    #[error("{} would hold PNG; give --plot a name that ends in .png", .path.display())]
+    PictureMislabelled {
+        /// The name.
+        path: PathBuf,
+    },
     /// More scenes than one picture holds.
     #[error(
         "a picture of {charts} charts is larger than {limit}x{limit}, what this adapter can make; \
@@ -135,7 +151,10 @@ impl SweepError {
         match self {
             SweepError::Output(error) => error.exit_code(),
             SweepError::Interrupted => 130,
-            SweepError::SamePlace | SweepError::TooManyCharts { .. } => 2,
+            SweepError::SamePlace
+            | SweepError::Mislabelled { .. }
+            | SweepError::PictureMislabelled { .. }
+            | SweepError::TooManyCharts { .. } => 2,
             SweepError::Threads(_) | SweepError::Gpu(_) | SweepError::Readback(_) => 1,
         }
     }
@@ -143,6 +162,8 @@ impl SweepError {
 
 pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let swept = args.load()?;
+    let format = row_format(&args.out, args.format)?;
+    args.plot.as_deref().map_or(Ok(()), check_picture_name)?;
     if args
         .plot
         .as_ref()
@@ -160,7 +181,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let plot = plot.map(|place| Plot::open(place, charts)).transpose()?;
     let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
     let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
-    let written = finish(out, table::rows(args.format, COLUMNS, &rows).as_bytes(), &what);
+    let written = finish(out, table::rows(format, COLUMNS, &rows).as_bytes(), &what);
     // Whatever became of the rows: whoever reads them may want the first few only.
     if let Some(plot) = plot {
         let (output, [width, height], png) = plot.draw(&diagrams::figure(&swept, &rows))?;

@@ -16,6 +16,7 @@ use super::directory_lock::DirectoryLock;
 use super::experiment::Experiment;
 use super::file_error::FileError;
 use super::frame_folder::{Existing, FrameFolder, FrameFolderError};
+use super::frame_names::is_of_a_capture;
 use super::manifest::{Adapter, FILE_NAME, Manifest, SCHEMA};
 use super::recording::{self, Recording, record};
 use super::{Error, blessing, settings, tell};
@@ -108,9 +109,21 @@ pub enum VerifyError {
         /// The file.
         path: PathBuf,
     },
+    /// A report would replace a frame or a manifest.
+    #[error("{} is a file of a capture; give another --report", .path.display())]
+    ReportOverCapture {
+        /// The file.
+        path: PathBuf,
+    },
     /// Pictures of differences would replace the frames.
     #[error("{} holds the frames that are judged; give another --diff", .path.display())]
     DifferencesAmongFrames {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Pictures of differences would replace the frames of another capture.
+    #[error("{} holds another capture; give another --diff", .path.display())]
+    DifferencesInCapture {
         /// The folder.
         path: PathBuf,
     },
@@ -142,7 +155,9 @@ impl VerifyError {
             VerifyError::Unjudged { .. }
             | VerifyError::Format(_)
             | VerifyError::SameReport { .. }
+            | VerifyError::ReportOverCapture { .. }
             | VerifyError::DifferencesAmongFrames { .. }
+            | VerifyError::DifferencesInCapture { .. }
             | VerifyError::Capture(_) => 2,
         }
     }
@@ -153,7 +168,7 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
 }
 
 fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
-    let reports = reports(args.report.as_deref().unwrap_or_default())?;
+    let reports = reports(args.report.as_deref().unwrap_or_default(), &args.dir)?;
     let path = args.dir.join(FILE_NAME);
     let unjudged = |reason| VerifyError::Unjudged { manifest: path.clone(), reason };
     if args.bless {
@@ -289,8 +304,11 @@ fn read(path: &Path) -> Result<Manifest, String> {
     Ok(manifest)
 }
 
-/// The reports asked for, of two words each.
-fn reports(words: &[String]) -> Result<Vec<(ReportFormat, &Path)>, VerifyError> {
+/// The reports asked for, of two words each, none of them in the place of a file of a capture.
+fn reports<'a>(
+    words: &'a [String],
+    dir: &Path,
+) -> Result<Vec<(ReportFormat, &'a Path)>, VerifyError> {
     let mut reports: Vec<(ReportFormat, &Path)> = Vec::new();
     for words in words.chunks_exact(2) {
         let format = ReportFormat::from_str(&words[0], false)
@@ -298,6 +316,9 @@ fn reports(words: &[String]) -> Result<Vec<(ReportFormat, &Path)>, VerifyError> 
         let path = Path::new(&words[1]);
         if reports.iter().any(|(_, other)| *other == path) {
             return Err(VerifyError::SameReport { path: path.to_owned() });
+        }
+        if is_of_a_capture(path, dir) {
+            return Err(VerifyError::ReportOverCapture { path: path.to_owned() });
         }
         reports.push((format, path));
     }

@@ -2,7 +2,9 @@
 
 use std::fs;
 
-use crate::{refusal, regatta, run, run_in, stderr};
+use regatta::lab::Scene;
+
+use crate::{refusal, regatta, run, run_in, stderr, stdout_of};
 
 #[test]
 fn each_mistake_is_named_with_its_remedy() {
@@ -42,7 +44,7 @@ fn each_mistake_is_named_with_its_remedy() {
         ("capture --out x --frames 2 --seconds 2", "cannot be used with"),
         ("capture --out x --frames 1000000 --size 8192x8192", "fewer --frames or a smaller --size"),
         ("capture --out x --fps 1000 --seconds 9999", "a lower --fps or fewer --seconds"),
-        ("capture --out Cargo.toml", "Cargo.toml is not a directory; give another --out"),
+        ("capture --out LICENSE-MIT", "LICENSE-MIT is not a directory; give another --out"),
         ("capture --out src", "src is not empty; give another --out, or --force"),
         ("capture --out x --panels some", "on, off"),
         ("capture --out x --format avi", "png, apng, gif, y4m, rgba, sheet"),
@@ -54,12 +56,18 @@ fn each_mistake_is_named_with_its_remedy() {
         ("capture --out x.png --format gif", "give a name that ends in .gif, or --format sheet"),
         ("capture --out x.gif --format png", "give the name of a directory, or --format gif"),
         ("capture --out x.gif --format sheet", "give a name that ends in .png, or --format gif"),
+        (
+            "capture --out x.txt",
+            "regatta capture writes no .txt files; give x.txt without its ending",
+        ),
+        ("capture --out x.sheet", "or in .png with --format sheet"),
+        ("capture --out x.csv --format gif", "or a name that ends in .gif"),
         ("capture --out x.mp4", "regatta writes no .mp4 files; give --format y4m --out -"),
         ("capture --out x.mp4 --format y4m", "give a name that ends in .y4m, or"),
         ("capture --out x.gif --resume", "only pictures in a directory can be resumed"),
         ("capture --out x.gif --fps 51", "at most 50 frames a second, not 51"),
         ("capture --out -", "numbered pictures need a directory; give --format y4m, rgba, apng"),
-        ("capture --out Cargo.toml --format y4m", "Cargo.toml is there already"),
+        ("capture --out LICENSE-MIT --format y4m", "LICENSE-MIT is there already"),
         ("capture --out x --format sheet --frames 9999", "fewer --frames or a smaller --size"),
         ("capture --out x --mark-every 0", "0 is not in 1..="),
         ("verify src", "cannot judge src/manifest.json: No such file"),
@@ -124,6 +132,14 @@ fn help_and_version_are_data() {
         assert_eq!(output.status.code(), Some(0), "{arguments}");
         assert!(!output.stdout.is_empty() && output.stderr.is_empty(), "{arguments}");
     }
+}
+
+#[test]
+fn the_first_example_names_the_method_that_the_harbour_opens_with() {
+    let opening = Scene::built_in("harbour").unwrap().opening_method.unwrap();
+    let example = format!("open the harbour under {}\n", opening.name.to_lowercase());
+    let help = stdout_of("--help").to_lowercase();
+    assert!(help.contains(&example), "{help}");
 }
 
 #[test]

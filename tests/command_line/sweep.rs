@@ -240,7 +240,7 @@ fn mistakes_are_refused_before_anything_is_swept() {
         ("--threads 0", "0 is not in 1..=256"),
         ("--format xml", "csv, json"),
         ("--plot src", "src is a directory; give --plot a file"),
-        ("--plot Cargo.toml", "Cargo.toml is there already; give another --plot, or --force"),
+        ("--plot LICENSE-MIT", "LICENSE-MIT is there already; give another --plot, or --force"),
         ("--plot -", "rows and picture would go to the same place"),
         ("--plot x --out ./x", "rows and picture would go to the same place"),
     ] {
@@ -361,4 +361,30 @@ fn a_pipe_that_closes_early_does_not_take_the_picture_with_it() {
     assert_eq!(stderr(&output), "wrote a picture of 1840x900: sweep.png\n");
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(names(folder.path()), ["sweep.png"]);
+}
+
+#[test]
+fn names_of_files_choose_the_format_and_contradict_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let sweep = "sweep --scene spring --method rk4 --tick-hz 60 --seconds 0.1";
+    for (out, start) in [("rows.json", "[\n{"), ("rows.CSV", HEADER), ("rows", HEADER)] {
+        let output = run_in(folder.path(), &format!("{sweep} --out {out}"));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let written = fs::read_to_string(folder.path().join(out)).unwrap();
+        assert!(written.starts_with(start), "{out}: {written}");
+    }
+    for (options, said) in [
+        (
+            "--format csv --out a.json",
+            "a.json would not hold what its name says; give --out a name that",
+        ),
+        ("--format json --out a.csv", "ends in .json, or --format csv"),
+        ("--out a.png", "give --out a name that ends in .csv or .json"),
+        ("--plot a.gif", "a.gif would hold PNG; give --plot a name that ends in .png"),
+    ] {
+        let output = run_in(folder.path(), &format!("{sweep} {options}"));
+        assert_eq!((output.status.code(), &*output.stdout), (Some(2), &b""[..]), "{options}");
+        assert!(stderr(&output).contains(said), "{}", stderr(&output));
+    }
+    assert_eq!(names(folder.path()), ["rows", "rows.CSV", "rows.json"]);
 }

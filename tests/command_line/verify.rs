@@ -131,6 +131,32 @@ fn a_state_of_another_run_is_a_change_of_physics_at_its_tick() {
 }
 
 #[test]
+fn a_lane_that_ends_otherwise_is_a_change_of_physics() {
+    let test = "a_lane_that_ends_otherwise_is_a_change_of_physics";
+    let Some(folder) = clip_or_skip(test) else { return };
+    let whole = fs::read(manifest_of(folder.path())).unwrap();
+    type Change = fn(&mut Manifest);
+    let changes: [(Change, &str); 3] = [
+        (
+            |manifest| manifest.lanes[1].hash = "0".repeat(16),
+            "its hash at the end is 0000000000000000",
+        ),
+        (|manifest| manifest.lanes[1].method = "rk4".into(), "its method at the end is rk4"),
+        (|manifest| manifest.lanes[1].halted = Some(3), "its halt at the end is at tick 3"),
+    ];
+    for (change, said) in changes {
+        fs::write(manifest_of(folder.path()), &whole).unwrap();
+        edit(folder.path(), change);
+        let (code, stdout, stderr) = verify(folder.path(), "--physics-only");
+        assert_eq!(code, Some(1), "{stdout}{stderr}");
+        let first = format!(
+            "physics: differs first at tick 12: lane 2, semi-implicit-euler, {said} in the manifest"
+        );
+        assert!(stdout.starts_with(&first), "{stdout}");
+    }
+}
+
+#[test]
 fn a_changed_constant_is_a_change_of_physics_at_the_first_tick() {
     let test = "a_changed_constant_is_a_change_of_physics_at_the_first_tick";
     let Some(folder) = clip_or_skip(test) else { return };
@@ -208,6 +234,7 @@ fn what_cannot_be_judged_says_why() {
         "its explicit-euler has a tolerance and takes none",
     );
     refused(&|manifest| drop(manifest.frames.pop()), "it lists 6 frames of 7");
+    refused(&|manifest| manifest.lanes.clear(), "it lists the ends of 0 lanes of 5; capture anew");
     refused(
         &|manifest| {
             manifest.frames.pop();
@@ -306,6 +333,34 @@ fn a_report_that_cannot_be_written_names_its_own_option() {
     assert!(stderr.ends_with(remedy), "{stderr}");
 }
 
+#[test]
+fn a_report_never_replaces_a_file_of_a_capture() {
+    let Some(folder) = clip_or_skip("a_report_never_replaces_a_file_of_a_capture") else { return };
+    fs::create_dir(folder.path().join("other")).unwrap();
+    for name in ["manifest.json", "frame-000002.png"] {
+        let [from, to] = ["clip", "other"].map(|clip| folder.path().join(clip).join(name));
+        fs::copy(from, to).unwrap();
+    }
+    fs::remove_file(folder.path().join("clip/frame-000003.png")).unwrap();
+    for name in [
+        "clip/manifest.json",
+        "clip/frame-000002.png",
+        "clip/../clip/frame-000003.png",
+        "other/manifest.json",
+        "other/frame-000002.png",
+    ] {
+        let path = folder.path().join(name);
+        let before = fs::read(&path).ok();
+        let (code, stdout, stderr) = verify(folder.path(), &format!("--report junit {name}"));
+        assert_eq!((code, &*stdout), (Some(2), ""), "{stderr}");
+        let said = format!("{name} is a file of a capture; give another --report");
+        assert!(stderr.contains(&said), "{stderr}");
+        assert!(fs::read(&path).ok() == before, "{name}");
+    }
+    let (code, _, stderr) = verify(folder.path(), "--physics-only --report junit clip/report.xml");
+    assert_eq!(code, Some(0), "{stderr}");
+}
+
 #[cfg(unix)]
 #[test]
 fn a_report_through_a_link_is_written_to_its_target() {
@@ -353,6 +408,15 @@ fn differences_never_replace_what_is_judged_or_what_is_not_ours() {
         "{stderr}"
     );
     assert!(fs::read(&frame).unwrap() == before);
+    let other = folder.path().join("other");
+    fs::create_dir(&other).unwrap();
+    for name in ["manifest.json", "frame-000003.png"] {
+        fs::copy(folder.path().join("clip").join(name), other.join(name)).unwrap();
+    }
+    let (code, _, stderr) = verify(folder.path(), "--diff other");
+    assert_eq!(code, Some(2), "{stderr}");
+    assert!(stderr.contains("other holds another capture; give another --diff"), "{stderr}");
+    assert!(fs::read(other.join("frame-000003.png")).unwrap() == before);
     fs::create_dir(folder.path().join("off")).unwrap();
     fs::write(folder.path().join("off/frame-000003.png"), "mine").unwrap();
     let (code, _, stderr) = verify(folder.path(), "--diff off");

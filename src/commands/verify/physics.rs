@@ -1,13 +1,14 @@
 //! The run again, against the marks in the manifest.
 
 use super::super::experiment::Experiment;
-use super::super::logbook::Logbook;
-use super::super::manifest::{LaneMark, Manifest, Mark, is_same_value};
+use super::super::logbook::{self, Logbook};
+use super::super::manifest::{LaneEnd, LaneMark, Manifest, Mark, is_same_value};
 use super::super::recording::Recording;
 use super::report::{PhysicsChange, Report};
 use crate::lab::Lab;
 
-/// Runs to where the manifest's run ended, and reports the first mark that is another now.
+/// Runs to where the manifest's run ended, and reports the first mark, or else the first lane's end, that is
+/// another now.
 pub(super) fn judge(
     manifest: &Manifest,
     experiment: &Experiment,
@@ -28,7 +29,35 @@ pub(super) fn judge(
         .iter()
         .zip(&now)
         .find_map(|(then, now)| change(then, now, &lab))
-        .or_else(|| other_length(&manifest.marks, &now));
+        .or_else(|| other_length(&manifest.marks, &now))
+        .or_else(|| other_end(&manifest.lanes, &lab));
+}
+
+/// What is another of how the lanes ended, metrics aside, if anything is.
+fn other_end(then: &[LaneEnd], lab: &Lab) -> Option<PhysicsChange> {
+    let tick = lab.race().tick();
+    let now = logbook::ends(lab);
+    if then.len() != now.len() {
+        let what = format!("{} lanes at the end in the manifest, {} now", then.len(), now.len());
+        return Some(PhysicsChange { tick, lane: None, what });
+    }
+    let halt =
+        |end: &LaneEnd| end.halted.map_or("never".to_owned(), |tick| format!("at tick {tick}"));
+    then.iter().zip(&now).zip(lab.race().entrants()).enumerate().find_map(
+        |(n, ((then, now), entrant))| {
+            let (key, was, is) = [
+                ("method", then.method.clone(), now.method.clone()),
+                ("substeps", then.substeps.to_string(), now.substeps.to_string()),
+                ("hash", then.hash.clone(), now.hash.clone()),
+                ("halt", halt(then), halt(now)),
+            ]
+            .into_iter()
+            .find(|(_, was, is)| was != is)?;
+            let what = format!("its {key} at the end is {was} in the manifest and {is} now");
+            let method = lab.entries()[entrant.entry].method.id;
+            Some(PhysicsChange { tick, lane: Some((n + 1, method)), what })
+        },
+    )
 }
 
 /// What is another at this tick, if anything is.

@@ -9,9 +9,9 @@ use super::super::experiment::Experiment;
 use super::super::file_error::FileError;
 use super::super::fingerprint::fingerprint;
 use super::super::frame_folder::FrameFolderError;
-use super::super::frame_names::is_marked;
+use super::super::frame_names::{frames_claimed, is_marked};
 use super::super::logbook::Logbook;
-use super::super::manifest::{FrameEntry, Manifest};
+use super::super::manifest::{FILE_NAME, FrameEntry, Manifest};
 use super::super::pipeline::{Drawn, Run, Stop};
 use super::super::recording::{Recording, progress, watch_for_interrupt};
 use super::super::voyage::Schedule;
@@ -92,6 +92,9 @@ pub(super) fn judge(
         fs::create_dir_all(path).map_err(FileError::of("make the directory", path, "--diff"))?;
         if fs::canonicalize(path).ok() == fs::canonicalize(folder.frames).ok() {
             return Err(VerifyError::DifferencesAmongFrames { path: path.to_owned() });
+        }
+        if frames_claimed(&path.join(FILE_NAME)).is_some() {
+            return Err(VerifyError::DifferencesInCapture { path: path.to_owned() });
         }
     }
     let interrupted = watch_for_interrupt();
