@@ -183,6 +183,18 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
 }
 
 #[test]
+fn the_halt_of_a_lane_is_not_told_once_that_lane_is_gone() {
+    let mut lab = Lab::new(Scene::built_in("stiff").expect("a built-in scene"));
+    lab.apply(Command::ToggleRace);
+    while lab.notice().is_none() {
+        lab.tick();
+        assert!(lab.race().tick() < 1000);
+    }
+    lab.apply(Command::ToggleRace);
+    assert_eq!(lab.notice(), None);
+}
+
+#[test]
 fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
     for (mass, times, reason) in
         [(1e-300, 1.0, "left the numbers: v is inf"), (1.0, 1e30, "left the stage: v reached")]

@@ -207,3 +207,23 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
     let alone = said(&lab);
     assert!(alone.contains(&ship[1].to_owned()), "{alone:?}");
 }
+
+#[test]
+fn a_body_alone_has_its_numbers_of_the_tick_however_it_is_drawn_between_ticks() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let numbers = |lab: &Lab| {
+        let labels = compose(lab, [780.0, 500.0]).labels.into_iter().map(|label| label.text);
+        labels.filter(|text| text.contains(" m/s")).collect::<Vec<_>>()
+    };
+    lab.advance(40_000_000);
+    let (tick, said) = (lab.race().tick(), numbers(&lab));
+    assert_eq!(said.len(), 1);
+    let drawn = compose(&lab, [780.0, 500.0]).strokes;
+    lab.advance(5_000_000);
+    assert_eq!(lab.race().tick(), tick);
+    assert!(compose(&lab, [780.0, 500.0]).strokes != drawn);
+    for _ in 0..3 {
+        assert_eq!(numbers(&lab), said);
+        lab.apply(Command::NextInterpolation);
+    }
+}

@@ -214,6 +214,8 @@ impl Lab {
             | Command::Kick(_) => self.take_in_hand(command),
             Command::ToggleRace => {
                 self.mode = if self.mode == Mode::Solo { Mode::Race } else { Mode::Solo };
+                // It may be of a lane that is no more.
+                self.notice = None;
                 match self.mode {
                     Mode::Race => self.restart(),
                     Mode::Solo => self.race.keep_only(self.active),

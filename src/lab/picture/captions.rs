@@ -8,7 +8,6 @@ use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::number::{round, significant};
 use crate::lab::race::Entrant;
 use crate::lab::{Halt, Lab, LaneBody};
-use crate::sim::bodies::Coordinate;
 
 /// The least height of a cell, in points, that marks along its bottom do not crowd.
 const ROOM_FOR_BAR: f32 = 64.0;
@@ -81,14 +80,8 @@ pub(super) fn column(picture: &mut Picture, rect: Rect, lab: &Lab, index: usize)
     }
 }
 
-/// Names the body and the method that it flies under, and says where it is.
-pub(super) fn solo(
-    picture: &mut Picture,
-    rect: Rect,
-    lab: &Lab,
-    index: usize,
-    (coordinate, q, v): (&Coordinate, f64, f64),
-) {
+/// Names the body and the method that it flies under, and says where it is at the present tick.
+pub(super) fn solo(picture: &mut Picture, rect: Rect, lab: &Lab, index: usize, flown: &LaneBody) {
     let Some(at) = caption_place(rect) else { return };
     let body = &lab.scene().bodies[index];
     let method = lab.entries()[lab.active()].method;
@@ -102,16 +95,17 @@ pub(super) fn solo(
     picture.labels.push(Label { at, align: Align::Left, size, colour, text });
 
     let at = [rect.max[0] - 9.0, at[1]];
-    if let Some(halt) = lab.race().entrants()[0].lane.bodies()[index].halted() {
+    if let Some(halt) = flown.halted() {
         let (colour, text) = (palette::ALARM, format!("halted at tick {}", halt.tick));
         picture.labels.push(Label { at, align: Align::Right, size, colour, text });
     } else if width > ROOM_FOR_NUMBERS {
+        let coordinate = &flown.coordinates[0];
         let text = format!(
             "{} = {} {unit}   {} = {} {unit}/s",
             coordinate.name,
-            significant(q, 4),
+            significant(flown.stepper.q()[0], 4),
             coordinate.velocity,
-            significant(v, 4),
+            significant(flown.stepper.v()[0], 4),
             unit = coordinate.unit,
         );
         let colour = palette::TEXT;

@@ -223,8 +223,7 @@ impl Shown<'_> {
         }
         match self.lab.mode() {
             Mode::Solo => {
-                let shown = (&body.coordinates[0], q[0], v[0]);
-                captions::solo(picture, rect, self.lab, index, shown);
+                captions::solo(picture, rect, self.lab, index, body);
                 captions::halts(picture, rect, None, truth);
             }
             Mode::Race => {

@@ -1,6 +1,6 @@
 //! Which method to take for the scene at its tick rate: what is known by now, as a table.
 
-use egui::{Grid, RichText, ScrollArea, Ui};
+use egui::{Grid, Label, Response, RichText, ScrollArea, Ui};
 
 use super::{QUIET, TEXT, WELL, tone};
 use crate::lab::number::{round, significant};
@@ -9,6 +9,9 @@ use crate::lab::{
     recommended,
 };
 
+/// What is written in a cell.
+const CELLS: &str = "in each cell: use ×substeps · evaluations/s";
+
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let Some(advice) = lab.advice() else {
         ui.label(RichText::new("judging every method …").color(QUIET));
@@ -16,7 +19,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     };
     let best: Vec<Option<usize>> = (0..CRITERIA.len()).map(|i| best(advice, i)).collect();
     summary(ui, advice, &best);
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    line(ui, RichText::new(CELLS).size(10.5).color(QUIET));
+    ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         let columns = 2 + CRITERIA.len();
         let grid = Grid::new("advice").num_columns(columns).spacing([10.0, 2.0]);
         grid.min_row_height(15.0).show(ui, |ui| {
@@ -38,8 +42,13 @@ fn best(advice: &Advice, criterion: usize) -> Option<usize> {
     recommended(&advice.advised, criterion, 1.0, |_, met| met.evaluations_per_s)
 }
 
-fn head(ui: &mut Ui, text: &str) -> egui::Response {
+fn head(ui: &mut Ui, text: &str) -> Response {
     ui.label(RichText::new(text).size(10.5).color(QUIET))
+}
+
+/// A line above the table, which is cut off rather than to widen the panel.
+fn line(ui: &mut Ui, text: RichText) {
+    ui.add(Label::new(text).truncate());
 }
 
 fn row(
@@ -96,7 +105,7 @@ fn summary(ui: &mut Ui, advice: &Advice, best: &[Option<usize>]) {
     let done = advice.advised.len();
     if done < advice.wanted {
         let text = format!("judging every method: {done} of {} …", advice.wanted);
-        ui.label(RichText::new(text).color(QUIET));
+        line(ui, RichText::new(text).color(QUIET));
         return;
     }
     for (i, (criterion, best)) in CRITERIA.iter().zip(best).enumerate() {
@@ -109,11 +118,76 @@ fn summary(ui: &mut Ui, advice: &Advice, best: &[Option<usize>]) {
             None => format!("none with up to {MOST_ADVISED_SUBSTEPS} substeps"),
         };
         let text = format!("at {} Hz, {}: {what}", advice.tick_hz, criterion.name());
-        ui.label(RichText::new(text).color(TEXT));
+        line(ui, RichText::new(text).color(TEXT));
     }
 }
 
 /// A count in as few figures as tell it.
 fn whole(count: f64) -> String {
     if count < 1e5 { format!("{}", count.round()) } else { significant(count, 3) }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{
+        Context, Event, Modifiers, MouseWheelUnit, Pos2, RawInput, Rect, Shape, TouchPhase, vec2,
+    };
+
+    use super::*;
+    use crate::lab::{Instrument, Scene};
+    use crate::view::panels;
+
+    /// Shows a frame of this size. Returns the stage and every text that is seen whole.
+    fn frame(
+        context: &Context,
+        lab: &Lab,
+        size: [f32; 2],
+        events: Vec<Event>,
+    ) -> (Rect, Vec<String>) {
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size.into()));
+        let input = RawInput { screen_rect, events, ..RawInput::default() };
+        let mut stage = Rect::NOTHING;
+        let mut output = context.run_ui(input, |ui| stage = panels::show(ui, lab).1);
+        output.textures_delta.clear();
+        let texts = output.shapes.iter().filter_map(|shape| match &shape.shape {
+            Shape::Text(text) => {
+                let is_seen = shape.clip_rect.contains_rect(text.visual_bounding_rect());
+                is_seen.then(|| text.galley.text().to_owned())
+            }
+            _ => None,
+        });
+        (stage, texts.collect())
+    }
+
+    #[test]
+    fn the_table_keeps_off_the_stage_and_its_last_column_can_be_reached() {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        lab.apply(Command::Instrument(Instrument::Advice));
+        lab.think();
+        assert_eq!(lab.advice().map(|advice| advice.advised.len()), lab.advice().map(|a| a.wanted));
+        for size in [[800.0, 600.0], [900.0, 600.0], [1024.0, 640.0], [1280.0, 720.0]] {
+            let context = Context::default();
+            panels::dress(&context);
+            let stage_to = size[0] * (1.0 - panels::INSTRUMENTS);
+            for _ in 0..3 {
+                let (stage, texts) = frame(&context, &lab, size, Vec::new());
+                assert!((stage.right() - stage_to).abs() < 1.0, "{size:?}: {stage:?}");
+                assert!(texts.iter().any(|text| text == CELLS), "{size:?}: {texts:?}");
+            }
+            let events = vec![
+                Event::PointerMoved(Pos2::new(0.9 * size[0], 0.57 * size[1])),
+                Event::MouseWheel {
+                    unit: MouseWheelUnit::Point,
+                    source: egui::MouseWheelSource::Unknown,
+                    delta: vec2(-1000.0, 0.0),
+                    phase: TouchPhase::Move,
+                    modifiers: Modifiers::NONE,
+                },
+            ];
+            frame(&context, &lab, size, events);
+            let last = CRITERIA[CRITERIA.len() - 1].name();
+            let mut frames = (0..60).map(|_| frame(&context, &lab, size, Vec::new()).1);
+            assert!(frames.any(|texts| texts.iter().any(|text| text == last)), "{size:?}");
+        }
+    }
 }

@@ -12,6 +12,7 @@ use crate::lab::picture::palette;
 use crate::lab::{
     Command, Instrument, Lab, LaneBody, METRICS, Mode, Scale, TruthCurve, TruthSample,
 };
+use crate::sim::bodies::Coordinate;
 use crate::view::plot::{CURVE, Curve, Dots, SwitchMark, X_AXIS, draw, plot};
 use crate::view::ticks::{self, NEVER_FADED};
 
@@ -50,11 +51,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     if height >= ROOM_FOR_BOTH {
         ui.horizontal(|ui| {
             body_choice(ui, lab, commands);
-            let truth = body(lab);
-            let (coordinate, words) = (&truth.coordinates[0], truth.truth_in_words());
-            let title = format!("{} ({}), {words} in white", coordinate.name, coordinate.unit);
             ui.add_space(6.0);
-            ui.add(Label::new(RichText::new(title).color(QUIET)).truncate());
+            ui.add(Label::new(quiet(title(body(lab)))).truncate());
         });
         value(ui, lab, vec2(width, height * 0.5 - 26.0));
         ui.horizontal_wrapped(|ui| instrument_choice(ui, lab, ROOM_FOR_TABS, commands));
@@ -69,6 +67,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         Instrument::Metric(index) => metric(ui, lab, room, index),
         Instrument::Phase => phase(ui, lab, room),
         Instrument::Advice => advice::show(ui, lab, commands),
+    }
+}
+
+/// What the plot of the value shows, of this body's truth.
+fn title(truth: &LaneBody) -> String {
+    let Coordinate { name, unit, .. } = truth.coordinates[0];
+    match truth.halted() {
+        Some(_) => format!("{name} ({unit}), no truth"),
+        None => format!("{name} ({unit}), {} in white", truth.truth_in_words()),
     }
 }
 
@@ -362,6 +369,19 @@ mod tests {
                 assert!(here.any(|(_, text)| text.len() > 10), "{what}: {texts:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_truth_that_halted_is_not_said_to_be_in_white() {
+        let text = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
+                    [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nkick_n_s = 1e15\n";
+        let mut lab = Lab::new(Scene::parse("kicked.toml", text).unwrap());
+        let says = |lab: &Lab, title: &str| {
+            texts(lab, vec2(1280.0, 720.0)).iter().any(|(_, text)| text == title)
+        };
+        assert!(says(&lab, "x (m), exact in white"));
+        lab.apply(Command::Kick(1e30));
+        assert!(says(&lab, "x (m), no truth"));
     }
 
     #[test]

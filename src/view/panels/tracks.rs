@@ -78,8 +78,9 @@ pub(super) fn drawing(lab: &Lab, tracks: &[Track], bounds: &PlotBounds, look: Lo
 
 fn add(drawing: &mut Drawing, lab: &Lab, points: &[Point], bounds: &PlotBounds, look: Look) {
     let rgba = |point: &Point| colour(palette::style(lab.entries()[point.entry].method).0);
+    // A body that had halted has no samples from there to the switch.
     for pair in points.windows(2).filter(|pair| pair[0].entry != pair[1].entry) {
-        drawing.switches.push(Switch { at: pair[0].at, colour: rgba(&pair[1]) });
+        drawing.switches.push(Switch { at: pair[1].at, colour: rgba(&pair[1]) });
     }
     let within = |point: &Point| {
         let [low, high] = [bounds.min(), bounds.max()];
@@ -194,6 +195,23 @@ mod tests {
         assert!(arrows.is_empty());
         let marks: Vec<_> = switches.iter().map(|switch| (switch.at[0], switch.colour)).collect();
         assert_eq!(marks, [(1.0, colour_of(&lab, 1)), (2.5, colour_of(&lab, 4))]);
+    }
+
+    #[test]
+    fn a_switch_after_a_halt_is_marked_where_the_other_method_took_over() {
+        let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+        lab.apply(Command::Pick(0));
+        while lab.race().entrants()[0].lane.halted().is_none() {
+            lab.tick();
+            assert!(lab.race().tick() < 1000);
+        }
+        tick(&mut lab, 30);
+        let taken_over = lab.race().t();
+        lab.apply(Command::Pick(3));
+        tick(&mut lab, 30);
+        let marks: Vec<_> =
+            drawn(&lab, -2.0, 2.0).switches.iter().map(|switch| switch.at[0]).collect();
+        assert_eq!(marks, [taken_over]);
     }
 
     #[test]
