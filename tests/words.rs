@@ -37,13 +37,16 @@ fn a_verdict_says_the_number_that_its_word_is_about() {
     );
     is(Verdict { error: 0.004, ..plain(Word::Accurate) }, "accurate: error 0.40 % in 20 s");
 
-    let phase = plain(Word::OutOfPhase);
+    let phase = Verdict { energy_change: Some(0.0), ..plain(Word::OutOfPhase) };
     is(phase.clone(), "stable, out of phase by 25 % after 20 s");
     is(Verdict { is_bounded: None, ..phase.clone() }, "out of phase by 25 % after 20 s");
-    is(Verdict { swings: false, ..phase.clone() }, "stable, off by 25 % after 20 s");
+    let off = Verdict { energy_change: None, ..phase.clone() };
+    is(off.clone(), "stable, off by 25 % at 3 s, by 20 % after 20 s");
+    is(Verdict { last_error: 0.25, ..off.clone() }, "stable, off by 25 % after 20 s");
+    is(Verdict { last_error: TOLERANCE, ..off }, "stable, off by 25 % at 3 s, settled by 20 s");
     is(
-        Verdict { last_error: TOLERANCE, ..phase.clone() },
-        "stable, off by 25 % at 3 s, settled by 20 s",
+        Verdict { error: 2.81, last_error: 2.7, ..phase.clone() },
+        "stable, off by 281 % after 20 s",
     );
     let slow = Verdict { frequency_error: Some(-0.02), ..phase.clone() };
     is(slow.clone(), "stable, out of phase by 25 % after 20 s (2.0 % slow)");

@@ -24,14 +24,14 @@ pub const REFERENCE_ACCURACY: f64 = 1e-10;
 /// `tests/bodies/fifty_digits.rs` measures what this is worth.
 const MARGIN: f64 = 8.0;
 
-/// The evaluations that a solution may take for each call, about the work of 10 calls of a built-in
+/// The evaluations that a solution may take for each call, about the work of 30 calls of a built-in
 /// scene, beside what it has saved. With fewer, a stiff body would have no truth at a coarse tick; with
 /// many more, one without hope would keep its judge waiting.
-const GRANTED: u64 = 2_000;
+const GRANTED: u64 = 6_000;
 
 /// The most evaluations that are saved for hard stretches; there are as many at the start. Some tenths of a
 /// second's work.
-const SAVED: u64 = 2_000_000;
+const SAVED: u64 = 4_000_000;
 
 /// A reference solution.
 #[derive(Debug)]

@@ -37,9 +37,6 @@ const FAINT: f64 = 1e-3;
 /// The windows in which the swing is compared, at most.
 const MOST_WINDOWS: usize = 64;
 
-/// The turns in a window, at least: at a coarse tick few of them show their peak.
-const TURNS_PER_WINDOW: f64 = 4.0;
-
 /// The true motion of one body under one throttle.
 pub(super) struct BodyTruth {
     pub(super) body: SceneBody,
@@ -276,7 +273,7 @@ impl BodyTruth {
         let coordinate = (0..n).find(|&i| crossings[i].len() >= 2)?;
         let crossings = std::mem::take(&mut crossings[coordinate]);
         let period = (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f64;
-        let count = ((self.horizon_s / TURNS_PER_WINDOW / period) as usize).clamp(1, MOST_WINDOWS);
+        let count = ((self.horizon_s / period) as usize).clamp(1, MOST_WINDOWS);
         let mut windows = vec![0.0_f64; count];
         for (t, peak) in peaks {
             let window = window(t / self.horizon_s, count);

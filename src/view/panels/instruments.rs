@@ -12,7 +12,6 @@ use crate::lab::picture::palette;
 use crate::lab::{
     Command, Instrument, Lab, LaneBody, METRICS, Mode, Scale, TruthCurve, TruthSample,
 };
-use crate::sim::bodies::Coordinate;
 use crate::view::plot::{CURVE, Curve, Dots, SwitchMark, X_AXIS, draw, plot};
 use crate::view::ticks::{self, NEVER_FADED};
 
@@ -72,7 +71,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 
 /// What the plot of the value shows, of this body's truth.
 fn title(truth: &LaneBody) -> String {
-    let Coordinate { name, unit, .. } = truth.coordinates[0];
+    let (name, unit) = (truth.coordinates[0].name, truth.coordinates[0].unit);
     match truth.halted() {
         Some(_) => format!("{name} ({unit}), no truth"),
         None => format!("{name} ({unit}), {} in white", truth.truth_in_words()),
