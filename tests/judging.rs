@@ -306,7 +306,7 @@ fn the_body_that_fares_worst_speaks_and_all_are_counted() {
         assert_eq!((found.body, found.is_bounded), (place, Some(is_bounded)), "{found}");
         let alone: Vec<Verdict> =
             bodies.iter().map(|body| Judge::new(&of(&[body]), 1.0).verdict(spec(id), 60)).collect();
-        assert_eq!(found.evaluations, alone.iter().map(|v| v.evaluations).sum());
+        assert_eq!(found.evaluations, alone.iter().map(|v| v.evaluations).sum::<u64>());
         assert_eq!((found.word, found.error), (alone[place].word, alone[place].error));
         assert_eq!(alone[place].body_name, None);
     }
