@@ -332,3 +332,34 @@ pub fn recommended(
     let near = all.iter().filter(|(_, cost, _)| *cost <= least * blur);
     near.min_by(|a, b| a.2.total_cmp(&b.2)).map(|(i, ..)| *i)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn substeps_are_tried_twice_an_octave_up_to_the_most_that_are_advised() {
+        let tried: Vec<u32> = (0..).map(rung).take_while(|&n| n <= MOST_ADVISED_SUBSTEPS).collect();
+        assert_eq!(tried, [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64]);
+    }
+
+    #[test]
+    fn factors_rise_from_one_to_ten_thousand() {
+        let factors: Vec<f64> = (0..=DECADE.len() * DECADES).map(factor).collect();
+        assert!(factors.is_sorted_by(|a, b| a < b));
+        assert_eq!((factors[0], factors[factors.len() - 1]), (1.0, 10_000.0));
+        assert!(factors.windows(2).all(|pair| pair[1] / pair[0] < 1.22), "{factors:?}");
+    }
+
+    #[test]
+    fn a_key_is_called_by_its_quantity() {
+        for (key, name) in [
+            ("stiffness_n_per_m", "stiffness"),
+            ("side_drag_n_s_per_m", "side drag"),
+            ("mu_m3_per_s2", "mu"),
+            ("gravity_m_per_s2", "gravity"),
+        ] {
+            assert_eq!(quantity(key), name);
+        }
+    }
+}
