@@ -8,7 +8,7 @@ use super::modes::{Modes, TooMuch};
 use super::pitch::{Pitch, pitch};
 use super::run::{MOST_WORK, Run, Until, follow};
 use super::survey::TimedInput;
-use super::truth::{BodyTruth, Swing, ticks};
+use super::truth::{BodyTruth, Swing};
 use super::verdict::{NoTruth, Verdict, Word};
 use crate::lab::command::Command;
 use crate::lab::scene::{LaneSpec, Scene};
@@ -78,6 +78,21 @@ pub(super) enum Finding {
     Fails { body: usize },
     /// It would take too much work, or there is no truth, to tell.
     Unknown,
+}
+
+/// Why one body does not meet a criterion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Missed {
+    /// It fails.
+    Fails,
+    /// It would take too much work, or there is no truth, to tell.
+    Unknown,
+}
+
+impl From<TooMuch> for Missed {
+    fn from(_: TooMuch) -> Self {
+        Missed::Unknown
+    }
 }
 
 impl Judge {
@@ -166,9 +181,9 @@ impl Judge {
         if run.fate.is_some() {
             verdict.is_bounded = Some(false);
         }
-        verdict.no_truth = self.without_truth(truth, &run, tick_hz);
-        let gap = truth.course(tick_hz).gap(ticks(run.seconds, tick_hz));
-        verdict.word = self.word(&verdict, &run, change, gap);
+        let gap = truth.gap(run.seconds, tick_hz);
+        verdict.no_truth = without_truth(truth, &run, gap);
+        verdict.word = word(&verdict, &run, change, gap);
         if matches!(verdict.word, Word::NotJudged | Word::NoTruth | Word::BlewUp | Word::GaveUp) {
             verdict.frequency_error = None;
             verdict.energy_drift = None;
@@ -179,54 +194,20 @@ impl Judge {
         verdict
     }
 
-    /// Why the truth cannot serve, if it cannot.
-    fn without_truth(&self, truth: &BodyTruth, run: &Run, tick_hz: u32) -> Option<NoTruth> {
-        if let Some(failure) = run.no_truth.as_ref().or(truth.failure.as_ref()) {
-            return Some(NoTruth::Failed(failure.clone()));
-        }
-        if run.is_too_much && run.seconds < run.horizon_s {
-            return None;
-        }
-        let gap = truth.course(tick_hz).gap(ticks(run.seconds, tick_hz));
-        (gap.is_nan() || gap > TOLERANCE / 2.0).then_some(NoTruth::Vague(gap))
-    }
-
-    fn word(&self, verdict: &Verdict, run: &Run, change: Change, gap: f64) -> Word {
-        if let Some(fate) = &run.fate {
-            return match fate.failure {
-                StepFailure::Escaped { .. } | StepFailure::NotFinite { .. } => Word::BlewUp,
-                _ => Word::GaveUp,
-            };
-        }
-        if run.is_too_much && run.seconds < run.horizon_s {
-            return Word::NotJudged;
-        }
-        if verdict.no_truth.is_some() {
-            return Word::NoTruth;
-        }
-        match change {
-            _ if run.error <= ROUNDING && gap <= ROUNDING => Word::Rounding,
-            _ if run.error <= TOLERANCE => Word::Accurate,
-            Change::Grows => Word::GainsEnergy,
-            Change::Dies => Word::LosesEnergy,
-            Change::None => Word::OutOfPhase,
-        }
-    }
-
     /// Whether nothing grows that should not, over the horizon and in the long run.
     pub(super) fn is_bounded(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
         self.each(|truth| {
-            if let Some(modes) = Modes::of(truth, spec, tick_hz).map_err(|TooMuch| true)? {
+            if let Some(modes) = Modes::of(truth, spec, tick_hz)? {
                 if !modes.are_bounded() {
-                    return Err(false);
+                    return Err(Missed::Fails);
                 }
                 let run = follow(truth, spec, tick_hz, Until::Horizon, self.most_work);
-                return verdict_on(&run, run.fate.is_none());
+                return cost_if(run.fate.is_none(), &run);
             }
             let run = follow(truth, spec, tick_hz, Until::Grown, self.most_work);
             match bounded(truth, &run) {
-                Some(is_bounded) => verdict_on(&run, is_bounded),
-                None => Err(true),
+                Some(is_bounded) => cost_if(is_bounded, &run),
+                None => Err(Missed::Unknown),
             }
         })
     }
@@ -235,8 +216,8 @@ impl Judge {
     pub(super) fn is_accurate(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
         self.each(|truth| {
             let run = follow(truth, spec, tick_hz, Until::Error(TOLERANCE), self.most_work);
-            self.usable(truth, &run, tick_hz)?;
-            verdict_on(&run, run.error <= TOLERANCE)
+            require_truth(truth, &run, tick_hz)?;
+            cost_if(run.error <= TOLERANCE, &run)
         })
     }
 
@@ -246,19 +227,19 @@ impl Judge {
     pub(super) fn looks_right(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
         self.each(|truth| {
             let run = follow(truth, spec, tick_hz, Until::Horizon, self.most_work);
-            self.usable(truth, &run, tick_hz)?;
+            require_truth(truth, &run, tick_hz)?;
             if run.fate.is_some() || run.error <= TOLERANCE {
-                return verdict_on(&run, run.fate.is_none());
+                return cost_if(run.fate.is_none(), &run);
             }
             // The range is twice the amplitude.
             let is_near = run.error <= 2.0 * VISIBLE;
-            let Some(swing) = &truth.swing else { return verdict_on(&run, is_near) };
-            let modes = Modes::of(truth, spec, tick_hz).map_err(|TooMuch| true)?;
+            let Some(swing) = &truth.swing else { return cost_if(is_near, &run) };
+            let modes = Modes::of(truth, spec, tick_hz)?;
             let error = match &modes {
                 Some(modes) => modes.frequency_error(),
                 None => pitch(truth, &run).map(|pitch| pitch.error),
             };
-            let Some(error) = error else { return verdict_on(&run, is_near) };
+            let Some(error) = error else { return cost_if(is_near, &run) };
             // At a coarse tick few turns show their peak.
             let ticks_per_turn = swing.period() * f64::from(tick_hz);
             let together = if ticks_per_turn < FEW_TICKS { 4 } else { 1 };
@@ -266,34 +247,70 @@ impl Judge {
             let mut pairs = run.windows.chunks(together).zip(swing.windows.chunks(together));
             let is_as_wide =
                 pairs.all(|(lane, truth)| (widest(lane) - widest(truth)).abs() <= VISIBLE);
-            verdict_on(&run, is_as_wide && error.abs() <= RIGHT_PITCH)
+            cost_if(is_as_wide && error.abs() <= RIGHT_PITCH, &run)
         })
     }
 
-    fn usable(&self, truth: &BodyTruth, run: &Run, tick_hz: u32) -> Result<(), bool> {
-        if self.without_truth(truth, run, tick_hz).is_some() { Err(true) } else { Ok(()) }
-    }
-
-    /// What `of` finds of all bodies together: evaluations per second, or whether that it does not hold is unknown.
-    fn each(&self, of: impl Fn(&BodyTruth) -> Result<f64, bool>) -> Finding {
+    /// What `of` finds of all bodies together; of one that meets the criterion it returns the evaluations per second.
+    fn each(&self, of: impl Fn(&BodyTruth) -> Result<f64, Missed>) -> Finding {
         let mut evaluations_per_s = 0.0;
         let mut is_unknown = false;
         for (body, truth) in self.truths.iter().enumerate() {
             match of(truth) {
                 Ok(evaluations) => evaluations_per_s += evaluations,
-                Err(false) => return Finding::Fails { body },
-                Err(true) => is_unknown = true,
+                Err(Missed::Fails) => return Finding::Fails { body },
+                Err(Missed::Unknown) => is_unknown = true,
             }
         }
         if is_unknown { Finding::Unknown } else { Finding::Holds { evaluations_per_s } }
     }
 }
 
-fn verdict_on(run: &Run, holds: bool) -> Result<f64, bool> {
-    if run.is_too_much {
-        return Err(true);
+/// The one word for a run; `change` is that of its amplitude, `gap` by how much the truth may be off.
+fn word(verdict: &Verdict, run: &Run, change: Change, gap: f64) -> Word {
+    if let Some(fate) = &run.fate {
+        return match fate.failure {
+            StepFailure::Escaped { .. } | StepFailure::NotFinite { .. } => Word::BlewUp,
+            _ => Word::GaveUp,
+        };
     }
-    if holds { Ok(run.evaluations as f64 / run.seconds) } else { Err(false) }
+    if run.is_cut_short() {
+        return Word::NotJudged;
+    }
+    if verdict.no_truth.is_some() {
+        return Word::NoTruth;
+    }
+    match change {
+        _ if run.error <= ROUNDING && gap <= ROUNDING => Word::Rounding,
+        _ if run.error <= TOLERANCE => Word::Accurate,
+        Change::Grows => Word::GainsEnergy,
+        Change::Dies => Word::LosesEnergy,
+        Change::None => Word::OutOfPhase,
+    }
+}
+
+/// What a run costs per simulated second if it meets a criterion.
+fn cost_if(holds: bool, run: &Run) -> Result<f64, Missed> {
+    match holds {
+        _ if run.is_too_much => Err(Missed::Unknown),
+        true => Ok(run.evaluations as f64 / run.seconds),
+        false => Err(Missed::Fails),
+    }
+}
+
+/// Why the truth cannot serve, if it cannot; `gap` is the most by which it may be off, in amplitudes.
+fn without_truth(truth: &BodyTruth, run: &Run, gap: f64) -> Option<NoTruth> {
+    if let Some(failure) = run.no_truth.as_ref().or(truth.failure.as_ref()) {
+        return Some(NoTruth::Failed(failure.clone()));
+    }
+    let is_vague = gap.is_nan() || gap > TOLERANCE / 2.0;
+    (is_vague && !run.is_cut_short()).then_some(NoTruth::Vague(gap))
+}
+
+/// Refuses to hold a run against a truth that cannot serve.
+fn require_truth(truth: &BodyTruth, run: &Run, tick_hz: u32) -> Result<(), Missed> {
+    let gap = truth.gap(run.seconds, tick_hz);
+    without_truth(truth, run, gap).map_or(Ok(()), |_| Err(Missed::Unknown))
 }
 
 /// What becomes of the amplitude within the horizon.

@@ -1,6 +1,7 @@
 //! One body under one method, followed tick by tick and held against its truth.
 
-use super::truth::{BodyTruth, Course, LONG_RUN, ticks, window};
+use super::course::{Course, ticks};
+use super::truth::{BodyTruth, LONG_RUN, window};
 use super::verdict::Fate;
 use crate::lab::lane::check;
 use crate::lab::scene::LaneSpec;
@@ -277,6 +278,11 @@ impl Run {
 }
 
 impl Run {
+    /// Whether it was given up within the horizon.
+    pub(super) fn is_cut_short(&self) -> bool {
+        self.is_too_much && self.seconds < self.horizon_s
+    }
+
     /// Whether neither coordinates nor velocities are far from where they rest.
     fn rests(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
         let values = stepper.q().iter().chain(stepper.v());

@@ -1,11 +1,8 @@
 //! What is known of the true motion of one body before any method is held against it.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex};
-
+use super::course::Courses;
 use super::survey::{Moment, Ranges, TimedInput, walk};
 use crate::lab::extent::Extent;
-use crate::lab::lane::check;
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Coordinate, Input, Truth};
 use crate::sim::integrators::StepFailure;
@@ -24,12 +21,6 @@ const MOST_MOMENTS: usize = 100_000;
 const MOST_REFERENCE_MOMENTS: usize = 20_000;
 const FEWEST_MOMENTS: usize = 512;
 const MOST_PRODUCTS: usize = 40_000_000;
-
-/// Products that the exact flow takes at the ticks of a course, at most: less than a second's work, and memory for it.
-const MOST_COURSE_PRODUCTS: u64 = 500_000_000;
-
-/// Values of true courses that are kept, some ten megabytes: those of the rates last asked about.
-const MOST_KEPT: usize = 1 << 20;
 
 /// A crossing at less than this part of the largest speed is no swing any more.
 const FAINT: f64 = 1e-3;
@@ -60,7 +51,7 @@ pub(super) struct BodyTruth {
     pub(super) swing: Option<Swing>,
     /// Why the truth is not known over the whole horizon, if it is not.
     pub(super) failure: Option<StepFailure>,
-    courses: Mutex<HashMap<u32, Arc<Course>>>,
+    pub(super) courses: Courses,
 }
 
 /// How a body swings in truth.
@@ -71,31 +62,6 @@ pub(super) struct Swing {
     pub(super) crossings: Vec<f64>,
     /// The largest swing from the middle of any coordinate, in amplitudes, in each of equal windows of the horizon.
     pub(super) windows: Vec<f64>,
-}
-
-/// The truth at the ticks of one rate.
-pub(super) struct Course {
-    /// The components after each tick, tick after tick.
-    values: Vec<f64>,
-    components: usize,
-    /// The most by which the truth may be off up to each tick, in amplitudes.
-    gaps: Vec<f64>,
-    pub(super) failure: Option<StepFailure>,
-    /// Whether it was not followed for the work that it would take.
-    pub(super) is_too_much: bool,
-}
-
-impl Course {
-    /// The components after `tick` ticks, from 1; `None` where the truth is not known any more.
-    pub(super) fn at(&self, tick: u64) -> Option<&[f64]> {
-        let from = (tick as usize - 1) * self.components;
-        self.values.get(from..from + self.components)
-    }
-
-    /// The most by which the truth may be off up to `tick` ticks, in amplitudes.
-    pub(super) fn gap(&self, tick: u64) -> f64 {
-        self.gaps.get(tick as usize - 1).copied().unwrap_or(f64::INFINITY)
-    }
 }
 
 impl BodyTruth {
@@ -120,7 +86,7 @@ impl BodyTruth {
             exchanged_j: None,
             swing: None,
             failure: None,
-            courses: Mutex::default(),
+            courses: Courses::default(),
         };
         truth.survey();
         truth
@@ -131,15 +97,6 @@ impl BodyTruth {
         let mut stepper = (self.body.kind.build)(&self.body.values, solver);
         stepper.input(0.0, Input::Throttle(self.throttle));
         stepper
-    }
-
-    /// Gives `stepper`, which stands after `tick` ticks of this rate, the inputs that come then.
-    pub(super) fn give_inputs(&self, stepper: &mut dyn Stepper, tick: u64, tick_hz: u32) {
-        let hz = f64::from(tick_hz);
-        let due = |input: &&TimedInput| (input.t * hz - ON_TIME).ceil().max(0.0) as u64 == tick;
-        for TimedInput { input, .. } in self.inputs.iter().filter(due) {
-            stepper.input(tick as f64 / hz, *input);
-        }
     }
 
     /// When the last input comes, in seconds; 0 without one.
@@ -227,16 +184,10 @@ impl BodyTruth {
             (centre, (high - centre).max(centre - low).max(self.amplitudes[i]))
         };
         self.reach = (0..2 * n).map(reach).collect();
-        let coordinates = self.coordinates();
-        let alike = |i: usize, j: usize| {
-            i / n == j / n && coordinates[i % n].unit == coordinates[j % n].unit
-        };
-        let halves: Vec<f64> = (0..2 * n)
-            .map(|i| {
-                (0..2 * n).filter(|&j| alike(i, j)).map(|j| self.reach[j].1).fold(0.0, f64::max)
-            })
-            .collect();
-        self.reach.iter_mut().zip(halves).for_each(|(reach, half)| reach.1 = half);
+        let halves: Vec<f64> = self.reach.iter().map(|(_, half)| *half).collect();
+        for (i, reach) in self.reach.iter_mut().enumerate() {
+            reach.1 = largest_alike((self.body.kind.coordinates)(&self.body.values), &halves, i);
+        }
     }
 
     /// Whether all that it does is to swing for ever, linearly.
@@ -272,73 +223,15 @@ impl BodyTruth {
         .ok()?;
         let coordinate = (0..n).find(|&i| crossings[i].len() >= 2)?;
         let crossings = std::mem::take(&mut crossings[coordinate]);
-        let period = (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f64;
-        let count = ((self.horizon_s / period) as usize).clamp(1, MOST_WINDOWS);
-        let mut windows = vec![0.0_f64; count];
+        let mut swing = Swing { coordinate, crossings, windows: Vec::new() };
+        let count = ((self.horizon_s / swing.period()) as usize).clamp(1, MOST_WINDOWS);
+        swing.windows = vec![0.0; count];
         for (t, peak) in peaks {
-            let window = window(t / self.horizon_s, count);
-            windows[window] = windows[window].max(peak);
+            let window = &mut swing.windows[window(t / self.horizon_s, count)];
+            *window = window.max(peak);
         }
-        Some(Swing { coordinate, crossings, windows })
+        Some(swing)
     }
-
-    /// The truth at the ticks of this rate, up to the horizon.
-    pub(super) fn course(&self, tick_hz: u32) -> Arc<Course> {
-        let kept = |courses: &HashMap<u32, Arc<Course>>| courses.get(&tick_hz).map(Arc::clone);
-        if let Some(course) = kept(&self.courses.lock().expect("no thread panics with it")) {
-            return course;
-        }
-        let course = Arc::new(self.follow(tick_hz));
-        let mut courses = self.courses.lock().expect("no thread panics with it");
-        let held: usize = courses.values().map(|course| course.values.len()).sum();
-        if held + course.values.len() > MOST_KEPT {
-            courses.clear();
-        }
-        courses.insert(tick_hz, Arc::clone(&course));
-        course
-    }
-
-    fn follow(&self, tick_hz: u32) -> Course {
-        let mut body = self.start(Solver::Truth);
-        let (n, hz) = (body.q().len(), f64::from(tick_hz));
-        let mut course = Course {
-            values: Vec::new(),
-            components: 2 * n,
-            gaps: Vec::new(),
-            failure: None,
-            is_too_much: false,
-        };
-        let mut gap: f64 = 0.0;
-        let ticks = ticks(self.horizon_s, tick_hz);
-        if ticks.saturating_mul((n * n) as u64) > MOST_COURSE_PRODUCTS {
-            course.is_too_much = true;
-            return course;
-        }
-        for tick in 0..ticks {
-            self.give_inputs(&mut *body, tick, tick_hz);
-            let advanced = body.advance(tick as f64 / hz, 1.0 / hz, 1);
-            if let Err(failure) = advanced.and_then(|()| check(&*body, self.coordinates())) {
-                course.failure = Some(failure);
-                break;
-            }
-            course.values.extend(body.q().iter().chain(body.v()));
-            let off = body.truth_error().unwrap_or([0.0; 2]);
-            for (i, amplitude) in self.amplitudes.iter().enumerate() {
-                let part = off[i / n] / amplitude;
-                gap = if part <= gap { gap } else { part };
-            }
-            course.gaps.push(gap);
-        }
-        course
-    }
-}
-
-/// An input that comes less than this part of a tick after it is on time: the rounding of its moment.
-const ON_TIME: f64 = 1e-6;
-
-/// Ticks of this rate in a stretch, at least one.
-pub(super) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
-    ((seconds * f64::from(tick_hz)).round() as u64).max(1)
 }
 
 /// The window, of `count`, that this part of the horizon falls into.
@@ -390,23 +283,27 @@ fn shares(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<(NormalMode, f64)> 
     modes.into_iter().zip(energies).map(|(mode, energy)| (mode, share(energy))).collect()
 }
 
+/// The largest of the values that are of the same half of the state as component `i` and in its unit.
+fn largest_alike(coordinates: &[Coordinate], values: &[f64], i: usize) -> f64 {
+    let n = coordinates.len();
+    let is_alike = |j: &usize| i / n == j / n && coordinates[i % n].unit == coordinates[j % n].unit;
+    (0..2 * n).filter(is_alike).map(|j| values[j]).fold(0.0, f64::max)
+}
+
 /// The amplitude of each component, from what the truth covers.
 fn amplitudes(ranges: &[(f64, f64)], coordinates: &[Coordinate]) -> Vec<f64> {
-    let n = ranges.len() / 2;
-    let unit = |i: usize| coordinates[i % n].unit;
-    let alike = |i: usize| (0..2 * n).filter(move |&j| i / n == j / n && unit(i) == unit(j));
-    let most =
-        |of: fn(&(f64, f64)) -> f64, i: usize| alike(i).map(|j| of(&ranges[j])).fold(0.0, f64::max);
+    let halves: Vec<f64> = ranges.iter().map(|(low, high)| (high - low) / 2.0).collect();
+    let sizes: Vec<f64> = ranges.iter().map(|(low, high)| low.abs().max(high.abs())).collect();
     let amplitude = |i: usize| {
-        let half = most(|(low, high)| (high - low) / 2.0, i);
-        let largest = most(|(low, high)| low.abs().max(high.abs()), i);
+        let half = largest_alike(coordinates, &halves, i);
+        let largest = largest_alike(coordinates, &sizes, i);
         match (half > KEEPS_STILL * largest, largest > 0.0) {
             (true, _) => half,
             (false, true) => largest,
             (false, false) => 1.0,
         }
     };
-    (0..2 * n).map(amplitude).collect()
+    (0..ranges.len()).map(amplitude).collect()
 }
 
 #[cfg(test)]
