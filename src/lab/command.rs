@@ -5,6 +5,7 @@
 
 use super::display::Instrument;
 use super::scene::LaneSpec;
+use crate::sim::bodies::Input;
 use crate::sim::integrators::Method;
 
 /// Something to be done, at the next tick where it touches the bodies.
@@ -80,6 +81,18 @@ pub enum Command {
     ToggleFullScreen,
     /// Closes the overlay, else quits.
     Escape,
+}
+
+impl Command {
+    /// What it does to the bodies, if that does not depend on what they are under already.
+    pub fn input(self) -> Option<Input> {
+        match self {
+            Command::Throttle(part) => Some(Input::Throttle(part.clamp(-1.0, 1.0))),
+            Command::Rudder(part) => Some(Input::Rudder(part.clamp(-1.0, 1.0))),
+            Command::Kick(times) => Some(Input::Kick(times)),
+            _ => None,
+        }
+    }
 }
 
 /// The tick rates that the bracket keys walk, in Hz: the usual ones, with 49 and 50 beside the limit of

@@ -212,15 +212,12 @@ impl Race {
     /// Does what a command does to the bodies, at the present tick; nothing, where it is about something else.
     pub fn act(&mut self, command: Command) {
         match command {
-            Command::Throttle(part) => self.input(Input::Throttle(part)),
             Command::ThrottleUp => self.input(Input::Throttle(tenths(self.throttle, 1.0))),
             Command::ThrottleDown => self.input(Input::Throttle(tenths(self.throttle, -1.0))),
-            Command::Rudder(part) => self.input(Input::Rudder(part)),
             Command::RudderLeft => self.input(Input::Rudder(tenths(self.rudder, 1.0))),
             Command::RudderRight => self.input(Input::Rudder(tenths(self.rudder, -1.0))),
-            Command::Kick(times) => self.input(Input::Kick(times)),
             Command::TickHz(tick_hz) => self.set_tick_hz(tick_hz),
-            _ => {}
+            command => command.input().into_iter().for_each(|input| self.input(input)),
         }
     }
 

@@ -12,7 +12,6 @@ use super::truth::{BodyTruth, Swing};
 use super::verdict::{NoTruth, Verdict, Word};
 use crate::lab::command::Command;
 use crate::lab::scene::{LaneSpec, Scene};
-use crate::sim::bodies::Input;
 use crate::sim::integrators::StepFailure;
 
 /// The error that still counts as accurate: a hundredth of the amplitude, about what can be seen.
@@ -54,17 +53,10 @@ fn inputs_of(scene: &Scene) -> Vec<TimedInput> {
     for scripted in &scene.script {
         t += (scripted.tick - tick) as f64 / hz;
         tick = scripted.tick;
-        let input = match scripted.command {
-            Command::Throttle(part) => Input::Throttle(part.clamp(-1.0, 1.0)),
-            Command::Rudder(part) => Input::Rudder(part.clamp(-1.0, 1.0)),
-            Command::Kick(times) => Input::Kick(times),
-            Command::TickHz(tick_hz) => {
-                hz = f64::from(tick_hz);
-                continue;
-            }
-            _ => continue,
-        };
-        inputs.push(TimedInput { t, input });
+        if let Command::TickHz(tick_hz) = scripted.command {
+            hz = f64::from(tick_hz);
+        }
+        inputs.extend(scripted.command.input().map(|input| TimedInput { t, input }));
     }
     inputs
 }
