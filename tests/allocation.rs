@@ -7,19 +7,21 @@ use std::cell::Cell;
 use regatta::lab::{Command, Lab, Race, SCENES, Scene};
 use regatta::sim::bodies::{Input, Spring};
 use regatta::sim::integrators::{METHODS, integrator};
-use regatta::sim::{State, System, Vector};
+use regatta::sim::{Solver, State, System, Vector};
 
 struct Counting;
 
 thread_local! {
     /// By thread, because the harness allocates on its own.
     static ALLOCATIONS: Cell<u64> = const { Cell::new(0) };
+    static BYTES: Cell<usize> = const { Cell::new(0) };
 }
 
 // SAFETY: everything is passed on unchanged; the count is a plain cell that needs no allocation.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        BYTES.set(BYTES.get() + layout.size());
         unsafe { SystemAllocator.alloc(layout) }
     }
 
@@ -40,6 +42,13 @@ fn allocations_in(work: impl FnOnce()) -> u64 {
     let before = ALLOCATIONS.get();
     work();
     ALLOCATIONS.get() - before
+}
+
+/// What `work` makes, with the bytes that it allocates for it.
+fn bytes_in<T>(work: impl FnOnce() -> T) -> (T, usize) {
+    let before = BYTES.get();
+    let made = work();
+    (made, BYTES.get() - before)
 }
 
 #[test]
@@ -129,5 +138,21 @@ fn a_lab_does_not_allocate_in_a_tick() {
             lab.advance(1_000_000_000);
         });
         assert_eq!(count, 0, "{}", lab.scene().name);
+    }
+}
+
+#[test]
+fn a_stepper_takes_no_more_memory_than_it_says_and_not_less_than_a_third() {
+    let solvers = METHODS.iter().map(Solver::Method).chain([Solver::Truth]);
+    for solver in solvers {
+        for name in ["harbour", "chain", "helm", "orbit", "pendulum"] {
+            for body in &Scene::built_in(name).expect("a built-in scene").bodies {
+                let stepper = (body.kind.build)(&body.values, solver);
+                let (copy, allocated) = bytes_in(|| stepper.clone());
+                let said = copy.bytes();
+                let place = format!("{}, {solver:?}: {said}, {allocated}", body.kind.id);
+                assert!((allocated..=3 * allocated).contains(&said), "{place}");
+            }
+        }
     }
 }

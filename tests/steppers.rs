@@ -252,3 +252,42 @@ fn a_spring_is_shown_as_far_as_it_swings_on_both_sides() {
         assert!(near(half_width(x0, v0), 2.0 * amplitude), "{x0} m, {v0} m/s");
     }
 }
+
+/// Everything that a stepper says of itself that a step may change, to the bit.
+fn account(body: &dyn Stepper) -> Vec<u64> {
+    let state = body.q().iter().chain(body.v()).copied();
+    let error = body.truth_error().into_iter().flatten();
+    let numbers = state.chain(error).chain([body.lost_time()]);
+    numbers.map(f64::to_bits).chain([body.evaluations()]).collect()
+}
+
+#[test]
+fn a_copy_of_a_stepper_goes_on_alike_to_the_bit() {
+    const H: f64 = 1.0 / 60.0;
+    let fly = |body: &mut dyn Stepper, ticks: std::ops::Range<u32>| {
+        for tick in ticks {
+            let t = f64::from(tick) * H;
+            if tick % 16 == 7 {
+                body.input(t, Input::Kick(0.5));
+            }
+            body.advance(t, H, 2).expect("soft bodies at a fine tick");
+        }
+    };
+    let methods = METHODS.iter().map(Solver::Method);
+    let adaptive = METHODS.iter().filter(|method| method.tolerance.is_some());
+    let tolerant = adaptive.map(|method| Solver::Within(method, 1e-7));
+    for solver in methods.chain(tolerant).chain([Solver::Truth]) {
+        for (id, mut body) in bodies(solver, 0.4) {
+            // Not at a kick, so that methods with a memory have one.
+            fly(&mut *body, 0..20);
+            let mut copy = body.clone();
+            assert_eq!(account(&*copy), account(&*body), "{id}, {solver:?}");
+            fly(&mut *body, 20..45);
+            let mut again = copy.clone();
+            fly(&mut *copy, 20..45);
+            assert_eq!(account(&*copy), account(&*body), "{id}, {solver:?}");
+            fly(&mut *again, 20..45);
+            assert_eq!(account(&*again), account(&*body), "{id}, {solver:?}");
+        }
+    }
+}

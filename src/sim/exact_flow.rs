@@ -6,6 +6,7 @@ use super::stepper::Drive;
 use super::system::{Counted, State, Vector};
 
 /// The exact flow, always computed in one stride from the anchor, so that nothing accumulates.
+#[derive(Clone)]
 pub(super) struct ExactFlow<V> {
     anchor: Anchor<V>,
     /// The time that the state is at.
@@ -16,6 +17,7 @@ pub(super) struct ExactFlow<V> {
 }
 
 /// Where the flow comes from.
+#[derive(Clone)]
 struct Anchor<V> {
     state: State<V>,
     t: f64,

@@ -34,7 +34,7 @@ const GRANTED: u64 = 6_000;
 const SAVED: u64 = 4_000_000;
 
 /// A reference solution.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Reference<V> {
     solution: Track<V>,
     /// The same by other steps.
@@ -135,6 +135,11 @@ impl<V: Vector> Reference<V> {
             self.farthest[1].max(largest(&self.apart.v)),
         ];
         Ok(())
+    }
+
+    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        self.work.heap_bytes()
     }
 
     /// How far `y`, where it has come to, may be off: in a coordinate and in a velocity. An estimate.

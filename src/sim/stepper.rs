@@ -79,6 +79,18 @@ pub trait Stepper: Send {
 
     /// The same body, under the same input and in the same state to the bit, under another solver.
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper>;
+
+    /// The same body under the same solver, with all that the solver carries from step to step: both go on
+    /// alike to the bit.
+    fn boxed_clone(&self) -> Box<dyn Stepper>;
+    /// The memory that it takes, in bytes, no less than it is.
+    fn bytes(&self) -> usize;
+}
+
+impl Clone for Box<dyn Stepper> {
+    fn clone(&self) -> Self {
+        (**self).boxed_clone()
+    }
 }
 
 /// Puts `body` at its start, at time 0, under `solver`.
@@ -124,7 +136,7 @@ impl<B: Body> Launch<B> {
 impl<B: Body> Construct<Counted<B>> for Launch<B> {
     type Output = Box<dyn Stepper>;
 
-    fn of<I: Integrator<Counted<B>> + 'static>(self) -> Self::Output {
+    fn of<I: Integrator<Counted<B>> + Clone + 'static>(self) -> Self::Output {
         let mut integrator = I::new(&self.state.q);
         if let Some(tolerance) = self.tolerance {
             integrator.set_tolerance(tolerance);
@@ -134,7 +146,7 @@ impl<B: Body> Construct<Counted<B>> for Launch<B> {
 }
 
 /// What carries a body of one type forward.
-pub(super) trait Drive<B: Body>: Send + 'static {
+pub(super) trait Drive<B: Body>: Clone + Send + 'static {
     fn advance(
         &mut self,
         body: &Counted<B>,
@@ -165,9 +177,15 @@ pub(super) trait Drive<B: Body>: Send + 'static {
     fn lost_time(&self) -> f64 {
         0.0
     }
+
+    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
+    fn heap_bytes(&self) -> usize {
+        0
+    }
 }
 
 /// A body under what drives it; monomorphic, so that force law and method become one loop.
+#[derive(Clone)]
 struct Driven<B: Body, D> {
     body: Counted<B>,
     drive: D,
@@ -248,12 +266,24 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
         let (body, state, behind) = (self.body.clone(), self.state.clone(), self.lost_time());
         Launch { body, state, behind, tolerance: None }.under(solver, t)
     }
+
+    fn boxed_clone(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+
+    fn bytes(&self) -> usize {
+        // As if it were made of coordinate vectors and nothing else.
+        let vectors = size_of::<Self>() / size_of::<B::Vector>();
+        let vectors = vectors * self.state.q.heap_bytes();
+        size_of::<Self>() + vectors + self.body.system.heap_bytes() + self.drive.heap_bytes()
+    }
 }
 
 /// A method from the table.
+#[derive(Clone)]
 struct ByMethod<I>(I);
 
-impl<B: Body, I: Integrator<Counted<B>> + 'static> Drive<B> for ByMethod<I> {
+impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Drive<B> for ByMethod<I> {
     fn advance(
         &mut self,
         body: &Counted<B>,
@@ -279,6 +309,10 @@ impl<B: Body, I: Integrator<Counted<B>> + 'static> Drive<B> for ByMethod<I> {
 
     fn lost_time(&self) -> f64 {
         self.0.lost_time()
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.0.heap_bytes()
     }
 }
 
@@ -309,6 +343,10 @@ impl<B: Body> Drive<B> for Reference<B::Vector> {
 
     fn truth_error(&self, _body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
         Some(self.error(state))
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.heap_bytes()
     }
 }
 

@@ -42,6 +42,10 @@ pub trait Vector: Clone + Send + 'static {
     }
     /// The components in order.
     fn components(&self) -> &[f64];
+    /// The memory that it takes beyond its own size, in bytes.
+    fn heap_bytes(&self) -> usize {
+        0
+    }
     /// The components in order, to be written.
     fn components_mut(&mut self) -> &mut [f64];
 }
@@ -122,6 +126,9 @@ impl Vector for Vec<f64> {
     }
     fn components(&self) -> &[f64] {
         self
+    }
+    fn heap_bytes(&self) -> usize {
+        size_of_val(&self[..])
     }
     fn components_mut(&mut self) -> &mut [f64] {
         self

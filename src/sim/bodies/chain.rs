@@ -188,6 +188,10 @@ impl System for Chain {
 }
 
 impl Body for Chain {
+    fn heap_bytes(&self) -> usize {
+        size_of_val(&self.sines[..])
+    }
+
     fn start(&self) -> State<Vec<f64>> {
         let (held, walls) = (self.plucked as f64, (self.masses + 1) as f64);
         let aside = |j: usize| {

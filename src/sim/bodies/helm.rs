@@ -255,6 +255,10 @@ impl System for Helm {
 }
 
 impl Body for Helm {
+    fn heap_bytes(&self) -> usize {
+        size_of_val(&self.thrust.points[..])
+    }
+
     fn start(&self) -> State<DVec3> {
         State { q: self.q0, v: (self.u0 * bow(self.q0.z)).extend(0.0) }
     }

@@ -30,6 +30,11 @@ pub use spring::Spring;
 
 /// Something that moves by an equation of motion and can be drawn.
 pub trait Body: System + Clone + Send + 'static {
+    /// The memory that it takes beyond its own size, in bytes.
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+
     /// The state at tick 0.
     fn start(&self) -> State<Self::Vector>;
 

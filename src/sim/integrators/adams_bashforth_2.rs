@@ -22,6 +22,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `y' = y + h (3 f - g) / 2`, with `f` the slope here and `g` the slope one step ago.
+#[derive(Clone)]
 pub struct AdamsBashforth2<V> {
     f: State<V>,
     g: State<V>,

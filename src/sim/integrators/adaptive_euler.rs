@@ -26,6 +26,7 @@ const TOLERANCE: Tolerance = Tolerance { absolute_q: 1e-3, absolute_v: 1e-3, rel
 
 /// Step doubling: `y1` by one Euler step of `h`, `y2` by two of `h/2`. Their difference is the error;
 /// the extrapolated `2 y2 - y1` is kept, which is second order.
+#[derive(Clone)]
 pub struct AdaptiveEuler<V> {
     step_size: StepSize,
     k1: State<V>,

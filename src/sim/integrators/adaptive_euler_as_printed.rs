@@ -27,6 +27,7 @@ const TOLERANCE: Tolerance =
 
 /// `v1` by one step of `h`, `v2` by two of `h/2`, `e = |v1 - v2|`. If `h √(tolerance / e)` is less than
 /// `h`, a step of so much is taken, unchecked, and nothing after it.
+#[derive(Clone)]
 pub struct AdaptiveEulerAsPrinted<V> {
     tolerance: Tolerance,
     /// What was cut off, in all, in seconds.

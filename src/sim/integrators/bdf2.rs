@@ -25,6 +25,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `y' = y + (y - y") / 3 + 2/3 h f(t + h, y')`, with `y"` the state one step before `y`.
+#[derive(Clone)]
 pub struct Bdf2<V> {
     newton: Newton<V, 1>,
     /// `y"`
@@ -75,5 +76,9 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
 
     fn reset(&mut self) {
         self.seam.cut();
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.newton.heap_bytes()
     }
 }

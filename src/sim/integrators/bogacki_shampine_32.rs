@@ -25,6 +25,7 @@ pub(super) const CARD: Method = Method {
 pub type BogackiShampine32<V> = EmbeddedPair<V, Tableau, 4>;
 
 /// The coefficients of the paper.
+#[derive(Clone)]
 pub struct Tableau;
 
 impl Pair<4> for Tableau {

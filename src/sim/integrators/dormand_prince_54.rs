@@ -25,6 +25,7 @@ pub(super) const CARD: Method = Method {
 pub type DormandPrince54<V> = EmbeddedPair<V, Tableau, 7>;
 
 /// The coefficients of the paper.
+#[derive(Clone)]
 pub struct Tableau;
 
 #[rustfmt::skip]

@@ -21,6 +21,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `y' = y + h f(t, y)` on the whole state `y = (q, v)`.
+#[derive(Clone)]
 pub struct ExplicitEuler<V> {
     k1: State<V>,
 }

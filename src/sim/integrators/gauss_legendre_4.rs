@@ -29,6 +29,7 @@ const A: [[f64; 2]; 2] = [[0.25, 0.25 - R], [0.25 + R, 0.25]];
 const A2: [[f64; 2]; 2] = [[1.0 / 24.0, 0.125 - R / 2.0], [0.125 + R / 2.0, 1.0 / 24.0]];
 
 /// `Yi = y + h Σ aij f(t + ci h, Yj)`, then `y' = y + h (f(Y1) + f(Y2)) / 2`.
+#[derive(Clone)]
 pub struct GaussLegendre4<V> {
     newton: Newton<V, 2>,
 }
@@ -62,5 +63,9 @@ impl<S: System> Integrator<S> for GaussLegendre4<S::Vector> {
         y.q.add_terms([(h, &y.v), (h * h / 2.0 * C[1], a1), (h * h / 2.0 * C[0], a2)]);
         y.v.add_terms([(h / 2.0, a1), (h / 2.0, a2)]);
         Ok(())
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.newton.heap_bytes()
     }
 }

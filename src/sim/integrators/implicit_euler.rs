@@ -22,6 +22,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `y' = y + h f(t + h, y')` on the whole state `y = (q, v)`.
+#[derive(Clone)]
 pub struct ImplicitEuler<V> {
     newton: Newton<V, 1>,
 }
@@ -39,5 +40,9 @@ impl<S: System> Integrator<S> for ImplicitEuler<S::Vector> {
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         self.newton.backward(system, t + h, h, y)
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.newton.heap_bytes()
     }
 }

@@ -22,6 +22,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `m = y + h/2 f(t + h/2, m)`, then `y' = 2 m - y`, on the whole state `y = (q, v)`.
+#[derive(Clone)]
 pub struct ImplicitMidpoint<V> {
     newton: Newton<V, 1>,
     /// `m`
@@ -47,5 +48,9 @@ impl<S: System> Integrator<S> for ImplicitMidpoint<S::Vector> {
         y.q.add_scaled(h, &middle.v);
         y.v.add_scaled(h, &newton.a[0]);
         Ok(())
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.newton.heap_bytes()
     }
 }

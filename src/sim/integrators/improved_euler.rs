@@ -21,6 +21,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `k1 = f(t, y)`, `k2 = f(t + h, y + h k1)`, `y' = y + h (k1 + k2) / 2`.
+#[derive(Clone)]
 pub struct ImprovedEuler<V> {
     k1: State<V>,
     k2: State<V>,

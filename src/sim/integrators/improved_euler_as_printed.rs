@@ -21,6 +21,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `k1 = a(t, q, v)`, `k2 = a(t + h, q, v + h k1)`, `v' = v + h (k1 + k2) / 2`, then `q' = q + h v'`.
+#[derive(Clone)]
 pub struct ImprovedEulerAsPrinted<V> {
     k1: V,
     k2: V,

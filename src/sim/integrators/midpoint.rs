@@ -21,6 +21,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `k1 = f(t, y)`, `k2 = f(t + h/2, y + h k1 / 2)`, `y' = y + h k2`.
+#[derive(Clone)]
 pub struct Midpoint<V> {
     k1: State<V>,
     k2: State<V>,

@@ -114,6 +114,11 @@ pub trait Integrator<S: System>: Send {
     fn lost_time(&self) -> f64 {
         0.0
     }
+
+    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
+    fn heap_bytes(&self) -> usize {
+        0
+    }
 }
 
 /// Why a body could not be carried to the end of its tick.
@@ -238,7 +243,7 @@ pub trait Construct<S: System> {
     /// What is made.
     type Output;
     /// Makes it of the method `I`.
-    fn of<I: Integrator<S> + 'static>(self) -> Self::Output;
+    fn of<I: Integrator<S> + Clone + 'static>(self) -> Self::Output;
 }
 
 macro_rules! methods {
@@ -309,7 +314,7 @@ pub fn integrator<S: System + 'static>(
     struct Boxed<'a, V>(&'a V);
     impl<S: System + 'static> Construct<S> for Boxed<'_, S::Vector> {
         type Output = Box<dyn Integrator<S>>;
-        fn of<I: Integrator<S> + 'static>(self) -> Self::Output {
+        fn of<I: Integrator<S> + Clone + 'static>(self) -> Self::Output {
             Box::new(Watched::<I, _>::new(self.0))
         }
     }

@@ -23,6 +23,7 @@ pub(super) const CARD: Method = Method {
 
 /// `q' = q + h v + h² ((1/2 - β) a + β a')` and `v' = v + h ((1 - γ) a + γ a')`, with
 /// `a' = a(t + h, q', v')`.
+#[derive(Clone)]
 pub struct Newmark<V> {
     a: V,
     newton: Newton<V, 1>,
@@ -57,5 +58,9 @@ impl<S: System> Integrator<S> for Newmark<S::Vector> {
         y.q.add_scaled(alpha, &newton.a[0]);
         y.v.add_scaled(beta, &newton.a[0]);
         Ok(())
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.newton.heap_bytes()
     }
 }

@@ -35,6 +35,7 @@ const STAGES: [(f64, f64); 4] = [
 const LAST: f64 = XI;
 
 /// Drifts by ξ, χ, 1-2(χ+ξ), χ, ξ of the step, and between them kicks by (1-2λ)/2, λ, λ, (1-2λ)/2.
+#[derive(Clone)]
 pub struct Pefrl<V> {
     a: V,
 }

@@ -21,6 +21,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `q½ = q + h v / 2`, `v' = v + h a(t + h/2, q½, v)`, `q' = q½ + h v' / 2`.
+#[derive(Clone)]
 pub struct PositionVerlet<V> {
     a: V,
 }

@@ -21,6 +21,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `y' = y + h (k1 + 2 k2 + 2 k3 + k4) / 6` on the whole state `y = (q, v)`.
+#[derive(Clone)]
 pub struct Rk4<V> {
     k1: State<V>,
     k2: State<V>,

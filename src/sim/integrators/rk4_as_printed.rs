@@ -21,6 +21,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `v' = v + h (k1 + 2 k2 + 2 k3 + k4) / 6`, all four at the position `q`, then `q' = q + h v'`.
+#[derive(Clone)]
 pub struct Rk4AsPrinted<V> {
     k1: V,
     k2: V,

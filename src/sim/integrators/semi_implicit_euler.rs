@@ -21,6 +21,7 @@ pub(super) const CARD: Method = Method {
 };
 
 /// `v' = v + h a(t, q, v)`, then `q' = q + h v'`.
+#[derive(Clone)]
 pub struct SemiImplicitEuler<V> {
     a: V,
 }

@@ -24,6 +24,7 @@ pub(super) const CARD: Method = Method {
 /// `y1 = y + h f(t, y)`, `y2 = (3 y + y1 + h f(t + h, y1)) / 4`,
 /// `y' = (y + 2 y2 + 2 h f(t + h/2, y2)) / 3`: written with the three slopes
 /// `y2 = y + h (k1 + k2) / 4` and `y' = y + h (k1 + k2 + 4 k3) / 6`.
+#[derive(Clone)]
 pub struct SspRk3<V> {
     k1: State<V>,
     k2: State<V>,

@@ -25,6 +25,7 @@ pub(super) const CARD: Method = Method {
 ///
 /// The plain difference `(q' - q) / h` is the velocity of half a step ago, and first order; half a kick
 /// by the force at the end, which the next step needs anyway, makes it second order.
+#[derive(Clone)]
 pub struct StormerVerlet<V> {
     p: V,
     a: V,

@@ -25,6 +25,7 @@ pub(super) const CARD: Method = Method {
 ///
 /// The second force is taken at the velocity predicted for the end, which keeps the order under drag; at
 /// the half-step velocity `v½` it would be 1.
+#[derive(Clone)]
 pub struct VelocityVerlet<V> {
     a: V,
     /// The force at the end, which the next step starts with.

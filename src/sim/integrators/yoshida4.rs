@@ -30,6 +30,7 @@ const STAGES: [(f64, f64); 3] =
 const LAST: f64 = THETA / 2.0;
 
 /// Drifts by θ/2, (1-θ)/2, (1-θ)/2, θ/2 of the step, and between them kicks by θ, 1-2θ, θ.
+#[derive(Clone)]
 pub struct Yoshida4<V> {
     a: V,
 }

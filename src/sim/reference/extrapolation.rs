@@ -27,7 +27,7 @@ impl<B: Body> System for Smooth<'_, B> {
 }
 
 /// What a step is made in.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Extrapolation<V> {
     /// What the step adds to the state, by the finest column so far and by the coarser ones.
     table: Vec<State<V>>,
@@ -58,6 +58,12 @@ impl<V: Vector> Extrapolation<V> {
             least_room: [f64::INFINITY; 2],
             evaluations: 0,
         }
+    }
+
+    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        let column = size_of::<State<V>>() + 2 * self.begin.q.heap_bytes();
+        self.table.len() * column
     }
 
     /// What the last attempt adds to the state.

@@ -23,6 +23,7 @@ pub trait Pair<const N: usize>: Send + 'static {
 }
 
 /// An adaptive method that steps by the pair `P`.
+#[derive(Clone)]
 pub struct EmbeddedPair<V, P, const N: usize> {
     step_size: StepSize,
     /// The slopes at the stages; the first outlives the tick.

@@ -5,6 +5,7 @@
 //! lines.
 
 /// A square matrix and, after [`Lu::factor`], its triangular factors in the same place.
+#[derive(Clone)]
 pub(super) struct Lu {
     size: usize,
     /// Column by column.
@@ -16,6 +17,11 @@ pub(super) struct Lu {
 impl Lu {
     pub(super) fn new(size: usize) -> Self {
         Self { size, entries: vec![0.0; size * size], swaps: vec![0; size] }
+    }
+
+    /// The memory that it takes beyond its own size, in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        size_of_val(&self.entries[..]) + size_of_val(&self.swaps[..])
     }
 
     /// A column of the matrix, to be written before it is factored.

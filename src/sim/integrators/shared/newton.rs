@@ -28,6 +28,7 @@ const EXTREMES: (f64, f64) = (1e-150, 1e150);
 
 /// Solves `A_i = a(t_i, Q_i, V_i)` for all `S` stages at once, where `Q_i = q_i + Σ α_ij A_j` and
 /// `V_i = v_i + Σ β_ij A_j`.
+#[derive(Clone)]
 pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
     /// `q_i` and `v_i`, to be written before solving.
     pub(in crate::sim::integrators) known: [State<V>; S],
@@ -91,6 +92,12 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             blur: vec![0.0; size],
             curve: Curve::new(size),
         }
+    }
+
+    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
+    pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
+        let vectors = size_of_val(&self.missing[..]) + size_of_val(&self.blur[..]);
+        self.matrix.heap_bytes() + self.curve.heap_bytes() + vectors
     }
 
     /// Finds the accelerations.

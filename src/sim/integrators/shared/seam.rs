@@ -4,6 +4,7 @@
 ///
 /// That the next also begins in the state that the last one left is for the method's caller to see to:
 /// see [`Integrator::reset`](crate::sim::integrators::Integrator::reset).
+#[derive(Clone)]
 pub(in crate::sim::integrators) struct Seam {
     /// In seconds; NaN, which equals nothing, where there is nothing to join.
     h: f64,

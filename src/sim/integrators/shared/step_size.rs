@@ -83,6 +83,7 @@ pub(in crate::sim::integrators) fn steady_factor(error: f64, order: u32) -> f64 
 }
 
 /// The step size of an adaptive method.
+#[derive(Clone)]
 pub(in crate::sim::integrators) struct StepSize {
     pub(in crate::sim::integrators) tolerance: Tolerance,
     /// The step to try next, carried from tick to tick; `None` tries the whole tick.

@@ -27,7 +27,7 @@ const CORRECTED: f64 = 1e-6;
 const NUDGE: f64 = 1e-6;
 
 /// The place on the curve and its direction.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Curve {
     lambda: f64,
     /// What the accelerations are measured in: the largest that the force made of them.
@@ -52,6 +52,12 @@ impl Curve {
             tangent_lambda: 1.0,
             from: zeros(),
         }
+    }
+
+    /// The memory that it takes beyond its own size, in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        let vectors = [&self.side, &self.tangent, &self.from];
+        vectors.into_iter().map(|vector| size_of_val(&vector[..])).sum()
     }
 }
 
