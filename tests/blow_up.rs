@@ -1,6 +1,6 @@
 //! A method that blows up hurts nobody else: it halts, once, and says when and why.
 
-use regatta::lab::{Clock, Command, ESCAPE, Lab, LaneBody, LaneSpec, Mode, Race, Scene};
+use regatta::lab::{Clock, Command, ESCAPE, Lab, LaneBody, LaneSpec, Mode, Past, Race, Scene};
 use regatta::sim::integrators::{METHODS, StepFailure, method};
 
 /// Ticks of the long race: 4 h 38 min at 60 Hz.
@@ -36,10 +36,10 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_a_million_ticks_go_on() {
     let blown = "explicit-euler";
     let mut with = Race::new(&stiff(), entries(""));
     let mut without = Race::new(&stiff(), entries(blown));
+    let mut past = Past::new(&with, stiff().seconds);
     let mut halt = None;
     for tick in 0..TICKS {
-        with.step();
-        with.record();
+        with.step_seen(&mut past);
         let lane = &with.entrants()[0].lane;
         match (&halt, lane.halted()) {
             (None, Some(found)) => {
@@ -64,9 +64,9 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_a_million_ticks_go_on() {
         panic!("halted for {:?}", halt.failure)
     };
     assert!(value.is_finite() && value.abs() > ESCAPE && value.abs() < 3.0 * ESCAPE, "{value:e}");
-    for entrant in with.entrants() {
-        assert!(states(&with, "").iter().all(|(_, bits)| bits.len() == 2));
-        for sample in entrant.histories[0].samples() {
+    assert!(states(&with, "").iter().all(|(_, bits)| bits.len() == 2));
+    for place in 0..with.entrants().len() {
+        for sample in past.histories(place)[0].samples() {
             let numbers = [sample.t, sample.q, sample.v];
             assert!(numbers.iter().all(|x| x.is_finite() && x.abs() <= ESCAPE), "{sample:?}");
         }
@@ -78,20 +78,19 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_a_million_ticks_go_on() {
 #[test]
 fn a_halted_lane_keeps_its_last_good_state() {
     let mut race = Race::new(&stiff(), entries("").take(1));
+    let mut past = Past::new(&race, stiff().seconds);
     let mut last = states(&race, "");
     while race.entrants()[0].lane.halted().is_none() {
         last = states(&race, "");
-        race.step();
-        race.record();
+        race.step_seen(&mut past);
         assert!(race.tick() < 1000);
     }
-    let samples = race.entrants()[0].histories[0].samples().len();
+    let samples = past.histories(0)[0].samples().count();
     for _ in 0..100 {
-        race.step();
-        race.record();
+        race.step_seen(&mut past);
     }
     assert_eq!(states(&race, ""), last);
-    assert_eq!(race.entrants()[0].histories[0].samples().len(), samples, "nothing is recorded");
+    assert_eq!(past.histories(0)[0].samples().count(), samples, "nothing is recorded");
     let body = &race.entrants()[0].lane.bodies()[0];
     assert_eq!(body.previous_q, body.stepper.q(), "nothing is drawn moving");
     assert_eq!(body.previous_v, body.stepper.v());
@@ -139,16 +138,16 @@ fn a_halted_body_keeps_its_last_good_state_beside_others_that_go_on() {
         harbour.step();
         alone.step();
     }
+    let mut past = Past::new(&harbour, 20.0);
     for _ in 0..100 {
-        harbour.step();
-        harbour.record();
+        harbour.step_seen(&mut past);
     }
     let lane = &harbour.entrants()[0].lane;
     let (kept, single) = (&lane.bodies()[spring], &alone.entrants()[0].lane.bodies()[0]);
     assert_eq!((kept.stepper.q(), kept.stepper.v()), (single.stepper.q(), single.stepper.v()));
-    let histories = &harbour.entrants()[0].histories;
-    assert_eq!(histories[spring].samples().len(), 0, "nothing is recorded of it");
-    assert!(histories[2].samples().len() > 0);
+    let histories = past.histories(0);
+    assert_eq!(histories[spring].samples().count(), 0, "nothing is recorded of it");
+    assert!(histories[2].samples().count() > 0);
 }
 
 #[test]
@@ -162,7 +161,7 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
         for _ in 0..ticks {
             lab.set_notice("nothing new");
             lab.tick();
-            let news = lab.notice().filter(|notice| *notice != "nothing new");
+            let news = lab.viewer().notice.as_deref().filter(|notice| *notice != "nothing new");
             notices.extend(news.map(String::from));
         }
         let halts = lab.race().entrants().iter().flat_map(|e| e.lane.halts().map(move |h| (e, h)));
@@ -186,12 +185,12 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
 fn the_halt_of_a_lane_is_not_told_once_that_lane_is_gone() {
     let mut lab = Lab::new(Scene::built_in("stiff").expect("a built-in scene"));
     lab.apply(Command::ToggleRace);
-    while lab.notice().is_none() {
+    while lab.viewer().notice.as_deref().is_none() {
         lab.tick();
         assert!(lab.race().tick() < 1000);
     }
     lab.apply(Command::ToggleRace);
-    assert_eq!(lab.notice(), None);
+    assert_eq!(lab.viewer().notice.as_deref(), None);
 }
 
 #[test]
@@ -218,7 +217,7 @@ fn a_kick_past_all_bounds_is_no_state_but_a_halt_with_its_reason() {
             assert_eq!(spring.previous_v, spring.stepper.v(), "nothing is drawn moving");
         }
         lab.tick();
-        let notice = lab.notice().expect("a halt is told");
+        let notice = lab.viewer().notice.as_deref().expect("a halt is told");
         assert!(notice.contains(&format!("halted at tick 5: light {reason}")), "{notice}");
         assert!(notice.starts_with("the exact solution halted at tick 5: "), "{notice}");
     }

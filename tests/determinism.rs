@@ -6,7 +6,7 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 
-use regatta::lab::{Command, Lab, LaneSpec, Race, SCENES, Scene, SceneBody, Scripted};
+use regatta::lab::{Action, Command, Lab, LaneSpec, Race, SCENES, Scene, SceneBody, Scripted};
 use regatta::sim::bodies::Input;
 use regatta::sim::integrators::{METHODS, Method, method};
 
@@ -169,23 +169,23 @@ fn every_scene_and_method_keeps_its_hash_at_any_pacing() {
 
 /// Every kind of input that a script can give.
 fn script() -> Vec<Scripted> {
-    let of = |tick, command| Scripted { tick, command };
-    let switch = |tick, id| of(tick, Command::Method(method(id).expect("a method")));
+    let of = |tick, action| Scripted { tick, action };
+    let switch = |tick, id| of(tick, Action::Method(method(id).expect("a method")));
     vec![
-        of(0, Command::Kick(0.5)),
-        of(7, Command::Throttle(0.3)),
+        of(0, Action::Kick(0.5)),
+        of(7, Action::Throttle(0.3)),
         switch(60, "semi-implicit-euler"),
-        of(61, Command::Kick(-1.0)),
-        of(200, Command::TickHz(49)),
+        of(61, Action::Kick(-1.0)),
+        of(200, Action::TickHz(49)),
         switch(300, "adaptive-euler"),
-        of(301, Command::ThrottleDown),
-        of(301, Command::ThrottleDown),
-        of(800, Command::TickHz(240)),
+        of(301, Action::Throttle(0.2)),
+        of(301, Action::Throttle(0.1)),
+        of(800, Action::TickHz(240)),
         switch(1000, "rk4"),
-        of(1001, Command::Throttle(-1.0)),
-        of(1001, Command::Rudder(0.7)),
-        of(1400, Command::RudderRight),
-        of(1500, Command::Kick(2.0)),
+        of(1001, Action::Throttle(-1.0)),
+        of(1001, Action::Rudder(0.7)),
+        of(1400, Action::Rudder(0.6)),
+        of(1500, Action::Kick(2.0)),
     ]
 }
 
@@ -227,7 +227,7 @@ fn a_persons_commands_act_as_the_same_script_does() {
         let mut commands = script().into_iter().peekable();
         for tick in 0..SCRIPTED_TICKS {
             while let Some(due) = commands.next_if(|scripted| scripted.tick == tick) {
-                by_hand.apply(due.command);
+                by_hand.apply(Command::Act(due.action));
             }
             by_hand.tick();
             by_script.tick();

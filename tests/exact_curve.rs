@@ -3,8 +3,7 @@
 use std::f64::consts::TAU;
 
 use regatta::lab::picture::{Picture, Stroke, compose, palette};
-use regatta::lab::{Command, Interpolation, Lab, Race, Scene, TruthSample};
-use regatta::sim::bodies::Input;
+use regatta::lab::{Action, Command, Interpolation, Lab, Past, Race, Scene, TruthSample};
 
 fn open(scene: &str, tick_hz: u32) -> Lab {
     let mut lab = Lab::new(Scene::built_in(scene).unwrap());
@@ -14,7 +13,7 @@ fn open(scene: &str, tick_hz: u32) -> Lab {
 }
 
 fn samples(lab: &Lab) -> Vec<TruthSample> {
-    lab.race().truth_curves()[0].samples().copied().collect()
+    lab.past().truth_curves()[0].samples().copied().collect()
 }
 
 #[test]
@@ -93,12 +92,12 @@ fn a_kick_is_a_jump_of_the_velocity_at_its_tick() {
 fn an_input_bends_the_curve_from_its_tick_on_and_not_the_tick_before_it() {
     let mut lab = open("ship", 1);
     (0..10).for_each(|_| lab.tick());
-    let shown = lab.race().truth_between(0, 0.5);
+    let shown = lab.past().truth_between(lab.race(), 0, 0.5);
     lab.apply(Command::Throttle(-1.0));
-    assert_eq!(lab.race().truth_between(0, 0.5), shown);
+    assert_eq!(lab.past().truth_between(lab.race(), 0, 0.5), shown);
     lab.tick();
-    let (_, v) = lab.race().truth_between(0, 0.0);
-    assert!(lab.race().truth_between(0, 0.5).1 < v, "the engine runs backwards");
+    let (_, v) = lab.past().truth_between(lab.race(), 0, 0.0);
+    assert!(lab.past().truth_between(lab.race(), 0, 0.5).1 < v, "the engine runs backwards");
 }
 
 /// The strokes of the ghost, which are in no method's colour.
@@ -119,7 +118,7 @@ fn the_ghost_is_the_exact_motion_at_the_moment_shown_however_lanes_are_drawn() {
             continue;
         }
         let exact = libm::cos(TAU * moment_s);
-        let (q, v) = lab.race().truth_between(0, lab.clock().alpha());
+        let (q, v) = lab.past().truth_between(lab.race(), 0, lab.clock().alpha());
         assert!((q[0] - exact).abs() < 1e-12, "frame {frame}");
         assert!((v[0] + TAU * libm::sin(TAU * moment_s)).abs() < 1e-11, "frame {frame}");
         let drawn = [(); 3].map(|()| {
@@ -151,17 +150,16 @@ fn recording_the_curve_moves_no_bit_of_the_truth() {
         let scene = Scene::built_in(scene).unwrap();
         let mut recorded = Race::new(&scene, []);
         let mut unseen = Race::new(&scene, []);
+        let mut past = Past::new(&recorded, scene.seconds);
         for tick in 0..400 {
             if tick % 60 == 30 {
-                for race in [&mut recorded, &mut unseen] {
-                    race.input(Input::Kick(0.5));
-                    race.input(Input::Throttle(0.3));
-                    race.input(Input::Rudder(-0.7));
+                for action in [Action::Kick(0.5), Action::Throttle(0.3), Action::Rudder(-0.7)] {
+                    recorded.perform(&action, &mut past);
+                    unseen.perform(&action, &mut ());
                 }
             }
-            recorded.step();
-            recorded.record();
-            recorded.truth_between(0, 0.3);
+            recorded.step_seen(&mut past);
+            past.truth_between(&recorded, 0, 0.3);
             unseen.step();
         }
         for (a, b) in recorded.truth().bodies().iter().zip(unseen.truth().bodies()) {

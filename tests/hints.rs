@@ -176,10 +176,10 @@ fn explicit_euler_is_calm_on_all_three_ships_one_press_higher() {
 fn the_arrows_steer_the_helm_from_the_first_press_on() {
     let mut lab = open("helm");
     press(&mut lab, &[Key::Right, Key::Right, Key::Up, Key::Down]);
-    assert_eq!((lab.rudder(), lab.throttle()), (-0.2, 0.9));
+    assert_eq!((lab.race().rudder(), lab.race().throttle()), (-0.2, 0.9));
     for _ in 0..300 {
         lab.tick();
-        assert_eq!(lab.rudder(), -0.2, "at tick {}", lab.race().tick());
+        assert_eq!(lab.race().rudder(), -0.2, "at tick {}", lab.race().tick());
     }
     let heading = lab.race().truth().bodies()[0].stepper.q()[2];
     assert!(heading < -1.0, "to the right: {heading}");
@@ -197,7 +197,7 @@ fn scripted() -> Lab {
 
 fn controls(lab: &Lab) -> (&'static str, u32, f64, f64) {
     let method = lab.entries()[lab.active()].method.id;
-    (method, lab.clock().tick_hz(), lab.throttle(), lab.rudder())
+    (method, lab.clock().tick_hz(), lab.race().throttle(), lab.race().rudder())
 }
 
 #[test]
@@ -214,10 +214,10 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
         (Command::Rudder(0.0), "rudder", ("rk4", 10, 0.5, 0.0)),
     ] {
         let mut lab = scripted();
-        assert_eq!(lab.notice(), None);
-        lab.apply(command);
+        assert_eq!(lab.viewer().notice.as_deref(), None);
+        lab.apply(command.clone());
         let said = format!("the {name} is yours: the script leaves it alone until a restart");
-        assert_eq!(lab.notice(), Some(&*said), "{command:?}");
+        assert_eq!(lab.viewer().notice.as_deref(), Some(&*said), "{command:?}");
         (0..60).for_each(|_| lab.tick());
         assert_eq!(controls(&lab), expected, "{command:?}");
 
@@ -233,10 +233,10 @@ fn taking_the_same_control_again_is_not_told_again() {
     lab.apply(Command::Rudder(0.3));
     lab.set_notice("something else");
     lab.apply(Command::RudderRight);
-    assert_eq!(lab.notice(), Some("something else"));
+    assert_eq!(lab.viewer().notice.as_deref(), Some("something else"));
     lab.apply(Command::Throttle(0.1));
     assert_eq!(
-        lab.notice(),
+        lab.viewer().notice.as_deref(),
         Some("the throttle is yours: the script leaves it alone until a restart")
     );
 }
@@ -245,11 +245,11 @@ fn taking_the_same_control_again_is_not_told_again() {
 fn where_no_script_is_to_come_there_is_nothing_to_tell() {
     let mut lab = open("spring");
     for command in [Command::Pick(3), Command::TickRateUp, Command::Throttle(0.3)] {
-        lab.apply(command);
-        assert_eq!(lab.notice(), None, "{command:?}");
+        lab.apply(command.clone());
+        assert_eq!(lab.viewer().notice.as_deref(), None, "{command:?}");
     }
     let mut lab = open("helm");
     (0..200).for_each(|_| lab.tick());
     lab.apply(Command::Rudder(0.5));
-    assert_eq!(lab.notice(), None, "the script is over");
+    assert_eq!(lab.viewer().notice.as_deref(), None, "the script is over");
 }

@@ -9,7 +9,7 @@ fn lab(seconds: f64, tick_hz: u32) -> Lab {
 }
 
 fn history(lab: &Lab) -> &History {
-    &lab.race().entrants()[0].histories[0]
+    &lab.past().histories(0)[0]
 }
 
 const FRAME_NS: i64 = 16_666_667;
@@ -25,7 +25,7 @@ fn the_newest_sample_is_the_present_after_every_frame_however_rare_samples_are()
         let stepper = &lab.race().entrants()[0].lane.bodies()[0].stepper;
         assert_eq!((newest.q, newest.v), (stepper.q()[0], stepper.v()[0]));
     }
-    let count = history(&lab).samples().len();
+    let count = history(&lab).samples().count();
     assert!((100..=104).contains(&count), "{count} samples of 5 s");
     lab.apply(Command::TickForward);
     assert_eq!(history(&lab).samples().last().unwrap().t, lab.race().t());

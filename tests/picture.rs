@@ -104,7 +104,7 @@ fn an_orbits_trail_lies_on_its_ellipse() {
     for _ in 0..400 {
         lab.advance(16_666_667);
     }
-    let curve = &lab.race().truth_curves()[0];
+    let curve = &lab.past().truth_curves()[0];
     for sample in curve.samples() {
         // The distances from the two foci of a = 10 m, e = 0.6 add up to 2 a.
         let sum = sample.at.length() + (sample.at + glam::DVec2::new(12.0, 0.0)).length();

@@ -5,8 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use regatta::lab::{
-    Command, LAST_TICK, Lab, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ, Race,
-    SCENES, Scene, SceneBody, TICK_LADDER,
+    Action, Command, LAST_TICK, Lab, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ,
+    Race, SCENES, Scene, SceneBody, TICK_LADDER,
 };
 use regatta::sim::bodies::Chain;
 use regatta::sim::integrators::{METHODS, method};
@@ -233,8 +233,8 @@ fn the_orbit_is_an_ellipse_of_6_s_and_strays_as_its_scene_says() {
 #[test]
 fn the_helm_turns_to_its_script_and_the_methods_part_there_as_its_scene_says() {
     let scene = built_in("helm");
-    let rudder: Vec<_> = scene.script.iter().map(|scripted| scripted.command).collect();
-    assert_eq!(rudder, [Command::Rudder(1.0), Command::Rudder(-1.0), Command::Rudder(0.0)]);
+    let rudder: Vec<_> = scene.script.iter().map(|scripted| scripted.action.clone()).collect();
+    assert_eq!(rudder, [Action::Rudder(1.0), Action::Rudder(-1.0), Action::Rudder(0.0)]);
     let mut lab = Lab::new(scene.clone());
     lab.apply(Command::ToggleRace);
     let heading = |lab: &Lab| lab.race().truth().bodies()[0].stepper.q()[2];
@@ -308,7 +308,7 @@ fn a_lane_sails_within_the_tolerance_that_it_is_given() {
 
     let mut race = Race::new(&scene, scene.lanes.iter().copied().enumerate());
     // The last one comes into its tolerance on the way.
-    race.switch(3, 2, scene.lanes[2]);
+    race.switch(3, scene.lanes[2]);
     for _ in 0..20 {
         race.step();
     }
@@ -346,12 +346,12 @@ fn a_script_is_sorted_by_tick_and_keeps_the_order_of_the_file_within_one() {
     let script: String = script.map(|command| format!("[[command]]\n{command}\n")).concat();
     let ship = "[[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 0\nmass_kg = 1\n";
     let scene = parse_body(&format!("{script}{ship}"));
-    let script: Vec<_> = scene.script.iter().map(|each| (each.tick, each.command)).collect();
+    let script: Vec<_> = scene.script.iter().map(|each| (each.tick, each.action.clone())).collect();
     let expected = [
-        (0, Command::TickHz(10_000)),
-        (7, Command::Kick(-2.0)),
-        (120, Command::Method(method("rk4").unwrap())),
-        (120, Command::Throttle(-1.0)),
+        (0, Action::TickHz(10_000)),
+        (7, Action::Kick(-2.0)),
+        (120, Action::Method(method("rk4").unwrap())),
+        (120, Action::Throttle(-1.0)),
     ];
     assert_eq!(script, expected);
 }

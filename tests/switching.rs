@@ -2,7 +2,8 @@
 //! left it.
 
 use regatta::lab::{
-    Command, Lab, Lane, LaneBody, LaneSpec, Mode, Origin, Race, Scene, SceneBody, TakenUp,
+    Action, Command, Lab, Lane, LaneBody, LaneSpec, Observer, Origin, Past, Race, Scene, SceneBody,
+    TakenUp,
 };
 use regatta::sim::bodies::{Body, Input, Ship, Spring};
 use regatta::sim::integrators::{METHODS, Method, method};
@@ -35,12 +36,12 @@ fn a_switch_carries_the_state_to_the_bit() {
             let mut race = solo(&scene("harbour"), from.id);
             run(&mut race, 100);
             let (before, hash) = (bits(&race.entrants()[0].lane), race.state_hash());
-            race.switch(0, 1, LaneSpec::plain(to));
+            race.switch(0, LaneSpec::plain(to));
             let lane = &race.entrants()[0].lane;
             assert_eq!(bits(lane), before, "{} to {}", from.id, to.id);
             assert_eq!(lane.solver(), Solver::Method(to));
             assert_eq!(race.state_hash(), hash);
-            race.switch(0, 0, LaneSpec::plain(from));
+            race.switch(0, LaneSpec::plain(from));
             assert_eq!(race.state_hash(), hash, "{} to {} and back", from.id, to.id);
         }
     }
@@ -54,8 +55,8 @@ fn there_and_back_in_one_tick_changes_nothing_that_follows() {
         let mut detour = solo(&scene("harbour"), method.id);
         run(&mut straight, 500);
         run(&mut detour, 100);
-        detour.switch(0, 1, LaneSpec { substeps: 3, ..LaneSpec::plain(METHODS.last().unwrap()) });
-        detour.switch(0, 0, LaneSpec::plain(method));
+        detour.switch(0, LaneSpec { substeps: 3, ..LaneSpec::plain(METHODS.last().unwrap()) });
+        detour.switch(0, LaneSpec::plain(method));
         run(&mut detour, 400);
         assert_eq!(detour.state_hash(), straight.state_hash(), "{}", method.id);
     }
@@ -76,7 +77,7 @@ fn goes_on_as_if_started_there(from: &'static Method, to: &'static Method, chang
     run(&mut race, 77);
     change(&mut race);
     if from != to {
-        race.switch(0, 0, LaneSpec::plain(to));
+        race.switch(0, LaneSpec::plain(to));
     }
     let State { q, v } = state(&race.entrants()[0].lane);
     let mut there = scene.clone();
@@ -125,15 +126,14 @@ fn mixed() -> Scene {
 
 #[test]
 fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
-    let set_again: [fn(&mut Race); 6] = [
+    let set_again: [fn(&mut Race); 5] = [
         |race| race.input(Input::Throttle(0.5)),
         |race| race.input(Input::Rudder(-0.25)),
         |race| race.input(Input::Kick(0.0)),
         |race| race.set_tick_hz(7),
-        |race| race.act(Command::TickHz(7)),
         |race| {
             let spec = LaneSpec::plain(race.entrants()[0].lane.solver().method().unwrap());
-            assert!(race.switch(0, 0, spec).is_empty());
+            assert!(race.switch(0, spec).is_empty());
         },
     ];
     for method in METHODS {
@@ -183,7 +183,7 @@ fn a_persons_action_that_changes_nothing_changes_no_bit() {
             Command::Rudder(0.0),
         ] {
             let mut told = begun();
-            told.apply(command);
+            told.apply(command.clone());
             assert!(ended(told) == left, "{}: {command:?}", method.id);
         }
     }
@@ -193,7 +193,7 @@ fn a_persons_action_that_changes_nothing_changes_no_bit() {
 fn evaluations_go_on_counting_across_a_switch() {
     let mut race = solo(&scene("spring"), "rk4");
     run(&mut race, 10);
-    race.switch(0, 1, LaneSpec::plain(method("explicit-euler").unwrap()));
+    race.switch(0, LaneSpec::plain(method("explicit-euler").unwrap()));
     run(&mut race, 5);
     assert_eq!(race.entrants()[0].lane.evaluations(), 4 * 10 + 5);
 }
@@ -293,13 +293,18 @@ fn scene_body(kind: &str) -> SceneBody {
 
 /// The race of a scene under explicit Euler, in which a body has halted.
 fn halted(scene: &Scene) -> Race {
+    halted_before(scene, |_| ()).0
+}
+
+/// The same, before the eyes of an observer.
+fn halted_before<O: Observer>(scene: &Scene, observer: impl FnOnce(&Race) -> O) -> (Race, O) {
     let mut race = solo(scene, "explicit-euler");
+    let mut observer = observer(&race);
     while race.entrants()[0].lane.halted().is_none() {
-        race.step();
-        race.record();
+        race.step_seen(&mut observer);
         assert!(race.tick() < 1000);
     }
-    race
+    (race, observer)
 }
 
 /// The state of a body to the bit.
@@ -313,12 +318,14 @@ fn rk4() -> LaneSpec {
 
 #[test]
 fn a_body_that_blew_up_is_taken_up_from_the_truth_and_the_others_from_where_they_are() {
-    let mut race = halted(&ship_and_lively_spring());
+    let scene = ship_and_lively_spring();
+    let (mut race, mut past) = halted_before(&scene, |race| Past::new(race, scene.seconds));
     let halt = race.entrants()[0].lane.halted().unwrap().clone();
     assert_eq!((halt.body, halt.is_blow_up()), (1, true));
     run(&mut race, 10);
     let ship = body_bits(&race.entrants()[0].lane.bodies()[0]);
-    let taken_up = race.switch(0, 1, rk4());
+    let switch = Action::Lane { lane: 1, spec: rk4() };
+    let taken_up = race.perform(&switch, &mut past);
     assert_eq!(taken_up, [TakenUp { halt, from: Origin::Truth }]);
     let (lane, truth) = (&race.entrants()[0].lane, race.truth());
     assert_eq!(lane.halted(), None);
@@ -326,10 +333,11 @@ fn a_body_that_blew_up_is_taken_up_from_the_truth_and_the_others_from_where_they
     let spring = &lane.bodies()[1];
     assert_eq!(body_bits(spring), body_bits(&truth.bodies()[1]));
     assert_eq!(spring.previous_q, spring.stepper.q(), "it is not drawn on its way there");
-    let history = &race.entrants()[0].histories[1];
+    let history = &past.histories(0)[1];
     assert_eq!(history.unbroken_since(), race.t());
     let runs: Vec<usize> = history.runs().map(|run| run.entry).collect();
-    assert_eq!(runs, [0, 1]);
+    let listed = race.list().iter().position(|spec| *spec == rk4());
+    assert_eq!(runs, [0, listed.unwrap()]);
     run(&mut race, 1000);
     assert_eq!(race.entrants()[0].lane.halted(), None);
 }
@@ -342,7 +350,7 @@ fn where_the_truth_has_failed_too_a_body_is_taken_up_from_its_last_good_state() 
     race.input(Input::Kick(1e300));
     run(&mut race, 10);
     assert!(race.truth().halted().is_some());
-    let taken_up = race.switch(0, 1, rk4());
+    let taken_up = race.switch(0, rk4());
     let from: Vec<_> = taken_up.iter().map(|taken_up| taken_up.from).collect();
     assert_eq!(from, [Origin::LastGood]);
     assert_eq!(bits(&race.entrants()[0].lane), last);
@@ -360,7 +368,7 @@ fn a_throttle_set_while_a_ship_had_halted_holds_when_it_goes_on() {
     let last = bits(&race.entrants()[0].lane);
     race.input(Input::Kick(1.0));
     assert_eq!(bits(&race.entrants()[0].lane), last, "a halted body feels no kick");
-    assert_eq!(race.switch(0, 1, rk4()).len(), 1);
+    assert_eq!(race.switch(0, rk4()).len(), 1);
     run(&mut race, 3000);
     // After 6000 time constants both ships have the speed that the throttle asks for.
     let (lane, truth) = (state(&race.entrants()[0].lane), state(race.truth()));
@@ -381,116 +389,16 @@ fn a_method_is_not_blamed_for_a_state_that_it_inherits_and_the_notice_says_where
     (0..30).for_each(|_| lab.tick());
     lab.apply(Command::Pick(3));
     assert_eq!(
-        lab.notice(),
+        lab.viewer().notice.as_deref(),
         Some("stiff spring had blown up: taken up again from the exact solution")
     );
     for _ in 0..1000 {
         lab.tick();
-        assert!(!lab.notice().unwrap().contains("Runge-Kutta 4"), "{:?}", lab.notice());
+        assert!(
+            !lab.viewer().notice.as_deref().unwrap().contains("Runge-Kutta 4"),
+            "{:?}",
+            lab.viewer().notice.as_deref()
+        );
     }
     assert_eq!(lab.race().entrants()[0].lane.halted(), None);
-}
-
-#[test]
-fn solo_to_race_and_back_flies_the_method_that_was_selected() {
-    let mut lab = Lab::new(scene("spring"));
-    for method in METHODS {
-        lab.apply(Command::Method(method));
-        lab.apply(Command::ToggleRace);
-        assert_eq!(lab.mode(), Mode::Race);
-        let guest = lab.scene().lanes.iter().all(|spec| spec.method != method);
-        assert_eq!(lab.race().entrants().len(), lab.scene().lanes.len() + usize::from(guest));
-        for _ in 0..50 {
-            lab.tick();
-        }
-        let active = lab.active();
-        let mut entrants = lab.race().entrants().iter();
-        let selected = &entrants.find(|entrant| entrant.entry == active).unwrap().lane;
-        assert_eq!(selected.solver(), Solver::Method(method));
-        let before = bits(selected);
-        lab.apply(Command::ToggleRace);
-        assert_eq!(lab.race().entrants().len(), 1);
-        let lane = &lab.race().entrants()[0].lane;
-        assert_eq!((lane.solver(), bits(lane)), (Solver::Method(method), before));
-    }
-}
-
-#[test]
-fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_others() {
-    let text = "title = \"pair\"\ntick_hz = 60\nseconds = 5\nmethods = [\"rk4\", \"improved-euler\"]\n\
-                [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
-    let racing = |lab: &Lab| lab.race().entrants().iter().map(|e| e.entry).collect::<Vec<_>>();
-    let mut lab = Lab::new(Scene::parse("pair.toml", text).unwrap());
-    assert_eq!(lab.entries().len(), METHODS.len(), "every method can be flown");
-    lab.apply(Command::ToggleRace);
-    assert_eq!(racing(&lab), [0, 1]);
-    for _ in 0..30 {
-        lab.tick();
-    }
-    lab.apply(Command::Pick(3));
-    assert_eq!((lab.race().tick(), racing(&lab), lab.active()), (30, vec![0, 1], 0));
-    lab.apply(Command::PreviousMethod);
-    assert_eq!(lab.active(), 1);
-    lab.apply(Command::NextMethod);
-    assert_eq!(lab.active(), 0);
-
-    lab.apply(Command::ToggleRace);
-    lab.apply(Command::Pick(3));
-    let lane = &lab.race().entrants()[0].lane;
-    assert_eq!(lane.solver(), Solver::Method(lab.entries()[3].method));
-    lab.apply(Command::ToggleRace);
-    assert_eq!((racing(&lab), lab.active()), (vec![0, 1, 3], 3));
-}
-
-#[test]
-fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_after_a_restart() {
-    let mut lab = Lab::new(scene("helm"));
-    assert!(lab.takes("rudder") && lab.takes("throttle") && !lab.takes("anchor"));
-    assert_eq!((lab.rudder(), lab.throttle()), (0.0, 1.0));
-    for (command, times, rudder) in [
-        (Command::RudderLeft, 3, 0.3),
-        (Command::RudderRight, 3, 0.0),
-        (Command::RudderRight, 14, -1.0),
-        (Command::RudderLeft, 10, 0.0),
-        (Command::Rudder(7.0), 1, 1.0),
-    ] {
-        for _ in 0..times {
-            lab.apply(command);
-        }
-        assert_eq!(lab.rudder(), rudder);
-    }
-    for _ in 0..10 {
-        lab.tick();
-    }
-    let heading = |lab: &Lab| lab.race().entrants()[0].lane.bodies()[0].stepper.q()[2];
-    assert!(heading(&lab) > 0.1, "left is counter-clockwise");
-    lab.apply(Command::Restart);
-    assert_eq!((lab.rudder(), heading(&lab)), (0.0, 0.0));
-    assert!(!Lab::new(scene("ship")).takes("rudder"));
-}
-
-#[test]
-fn a_lane_takes_the_substeps_that_are_advised_in_flight_and_keeps_them() {
-    let spec = |substeps| LaneSpec { substeps, ..LaneSpec::plain(method("rk4").unwrap()) };
-    let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
-    (0..10).for_each(|_| lab.tick());
-    let before = lab.race().entrants()[0].lane.bodies()[0].stepper.q().to_vec();
-    lab.apply(Command::Fly(spec(8)));
-    let lane = &lab.race().entrants()[0].lane;
-    assert_eq!((lane.solver(), lane.substeps()), (spec(8).solver(), 8));
-    assert_eq!(lane.bodies()[0].stepper.q(), before);
-    assert_eq!(lab.entries()[lab.active()], spec(8));
-    lab.apply(Command::Restart);
-    assert_eq!(lab.race().entrants()[0].lane.substeps(), 8);
-    // In a race the method's own lane takes them, and the others go on.
-    lab.apply(Command::ToggleRace);
-    (0..10).for_each(|_| lab.tick());
-    lab.apply(Command::Fly(spec(4)));
-    let substeps = lab.race().entrants().iter().map(|entrant| entrant.lane.substeps());
-    assert_eq!(substeps.collect::<Vec<_>>(), [1, 1, 1, 4, 1]);
-    // One that is not in the race is taken in.
-    lab.apply(Command::Fly(LaneSpec { substeps: 3, ..LaneSpec::plain(method("pefrl").unwrap()) }));
-    assert_eq!(lab.notice(), Some("the race began again, with PEFRL in it"));
-    assert_eq!((lab.race().tick(), lab.race().entrants().len()), (0, 6));
-    assert_eq!(lab.entries()[lab.active()].substeps, 3);
 }

@@ -17,7 +17,6 @@ pub use advice::{
 };
 pub use judge::{Judge, LONGEST_HORIZON_S, RIGHT_PITCH, TOLERANCE, VISIBLE};
 pub use run::MOST_WORK;
-pub(super) use thinking::entries;
 pub use thinking::{Advice, Findings, Question, Thinker};
 pub use truth::LONG_RUN;
 pub use verdict::{Fate, NoTruth, Severity, Verdict, Word, duration};

@@ -3,14 +3,17 @@
 //! Keyboard, panels, scene scripts and tests all make the same [`Command`]s; [`KEYS`] is the one table
 //! from which the window, the help overlay and `regatta list keys` are made.
 
+use super::action::Action;
 use super::display::Instrument;
-use super::scene::LaneSpec;
-use crate::sim::bodies::Input;
+use super::lane_spec::LaneSpec;
 use crate::sim::integrators::Method;
 
-/// Something to be done, at the next tick where it touches the bodies.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Something that a person asks for. What touches the run becomes an [`Action`], which says what is to be, and not
+/// by how much it changes.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Command {
+    /// Does this to the run.
+    Act(Action),
     /// Solo: switches the bodies to this method in flight. Race: selects its lane.
     Method(&'static Method),
     /// Solo: switches to the method on this place of the lane list, from 0. Race: selects that lane.
@@ -28,6 +31,16 @@ pub enum Command {
     TogglePause,
     /// Pauses and goes one tick forward.
     TickForward,
+    /// Pauses and goes one tick back.
+    TickBack,
+    /// Pauses and goes one second forward.
+    SecondForward,
+    /// Pauses and goes one second back.
+    SecondBack,
+    /// Pauses and goes to this tick, or to the last that was reached.
+    Seek(u64),
+    /// Brings back the future that was discarded last.
+    Undo,
     /// Back to tick 0, the bodies at their start and the script from its top. The method and the tick
     /// rate that a person chose stay; a script's do not.
     Restart,
@@ -83,18 +96,6 @@ pub enum Command {
     Escape,
 }
 
-impl Command {
-    /// What it does to the bodies, if that does not depend on what they are under already.
-    pub fn input(self) -> Option<Input> {
-        match self {
-            Command::Throttle(part) => Some(Input::Throttle(part.clamp(-1.0, 1.0))),
-            Command::Rudder(part) => Some(Input::Rudder(part.clamp(-1.0, 1.0))),
-            Command::Kick(times) => Some(Input::Kick(times)),
-            _ => None,
-        }
-    }
-}
-
 /// The tick rates that the bracket keys walk, in Hz: the usual ones, with 49 and 50 beside the limit of
 /// the stiff spring.
 pub const TICK_LADDER: [u32; 13] = [2, 5, 10, 15, 20, 30, 49, 50, 60, 100, 120, 240, 1000];
@@ -111,6 +112,8 @@ pub enum Key {
     Sign(char),
     /// The same letter with Shift held.
     ShiftSign(char),
+    /// A letter or a sign with Control held, or with Command on a Mac.
+    ControlSign(char),
     /// The space bar.
     Space,
     /// The up arrow.
@@ -183,10 +186,25 @@ pub static KEYS: &[Binding] = &[
         repeats: false,
     },
     Binding {
-        shown: ".",
-        about: "one tick forward",
-        keys: &[(Key::Sign('.'), Command::TickForward)],
+        shown: ", .",
+        about: "one tick back, forward",
+        keys: &[(Key::Sign(','), Command::TickBack), (Key::Sign('.'), Command::TickForward)],
         repeats: true,
+    },
+    Binding {
+        shown: "Shift , .",
+        about: "one second back, forward",
+        keys: &[
+            (Key::ShiftSign(','), Command::SecondBack),
+            (Key::ShiftSign('.'), Command::SecondForward),
+        ],
+        repeats: true,
+    },
+    Binding {
+        shown: "Ctrl Z",
+        about: "bring back the future that an action in the past discarded",
+        keys: &[(Key::ControlSign('z'), Command::Undo)],
+        repeats: false,
     },
     Binding {
         shown: "Home",
@@ -282,6 +300,6 @@ pub static KEYS: &[Binding] = &[
 pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
     KEYS.iter().find_map(|binding| {
         let (_, command) = binding.keys.iter().find(|(bound, _)| *bound == key)?;
-        Some((*command, binding))
+        Some((command.clone(), binding))
     })
 }

@@ -2,15 +2,6 @@
 
 use super::metrics::METRICS;
 
-/// One method at a time, or all of them at once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
-    /// One lane, whose method is switched in flight.
-    Solo,
-    /// A lane for every method that the scene lists, and one for the method last flown solo.
-    Race,
-}
-
 /// How a body is drawn between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {

@@ -1,6 +1,6 @@
 //! From simulated seconds to ticks, across the changes of tick rate that a script makes.
 
-use super::command::Command;
+use super::action::Action;
 use super::lab::Lab;
 use super::scene::Scene;
 
@@ -11,8 +11,8 @@ impl Scene {
     /// The ticks from `tick` on before which the script sets a tick rate, in order, with that rate in Hz.
     pub fn rates_from(&self, tick: u64) -> impl Iterator<Item = (u64, u32)> {
         let first = self.script.partition_point(|scripted| scripted.tick < tick);
-        self.script[first..].iter().filter_map(|scripted| match scripted.command {
-            Command::TickHz(tick_hz) => Some((scripted.tick, tick_hz)),
+        self.script[first..].iter().filter_map(|scripted| match scripted.action {
+            Action::TickHz(tick_hz) => Some((scripted.tick, tick_hz)),
             _ => None,
         })
     }

@@ -51,6 +51,7 @@ pub enum Origin {
 }
 
 /// One body of a lane.
+#[derive(Clone)]
 pub struct LaneBody {
     /// Its card.
     pub kind: &'static Kind,
@@ -183,9 +184,33 @@ impl LaneBody {
         Some(TakenUp { halt, from })
     }
 
+    /// Puts the body into a state at time `t` (s), before tick `tick`: at rest or on its way, whether it had halted
+    /// or not.
+    fn place(&mut self, place: usize, tick: u64, t: f64, [q, v]: [&[f64]; 2]) {
+        self.halted = None;
+        let [q0, v0] = &mut self.before_input;
+        q0.copy_from_slice(self.stepper.q());
+        v0.copy_from_slice(self.stepper.v());
+        self.stepper.set(t, q, v);
+        if let Err(failure) = check(&*self.stepper, self.coordinates) {
+            let [q, v] = &self.before_input;
+            self.stepper.set(t, q, v);
+            self.halted = Some(Halt { tick, body: place, failure });
+        }
+        self.remember();
+        self.cover();
+    }
+
     fn remember(&mut self) {
         self.previous_q.copy_from_slice(self.stepper.q());
         self.previous_v.copy_from_slice(self.stepper.v());
+    }
+
+    fn bytes(&self) -> usize {
+        let [q, v] = &self.before_input;
+        let vectors = [&self.previous_q, &self.previous_v, q, v];
+        let vectors = vectors.map(|vector| size_of_val(&vector[..])).iter().sum::<usize>();
+        size_of::<Self>() + vectors + self.stepper.bytes()
     }
 
     /// Takes the present into what the true motion has covered.
@@ -214,6 +239,7 @@ pub(super) fn check(body: &dyn Stepper, coordinates: &[Coordinate]) -> Result<()
 }
 
 /// A solver on its own copy of the scene.
+#[derive(Clone)]
 pub struct Lane {
     solver: Solver,
     substeps: u32,
@@ -268,6 +294,22 @@ impl Lane {
         for (place, body) in self.bodies.iter_mut().enumerate() {
             body.input(place, tick, t, input);
         }
+    }
+
+    /// Puts a body into a state at time `t` (s), before tick `tick`. One that had halted goes on; one that cannot be
+    /// in that state keeps its own, and halts.
+    pub(super) fn place(&mut self, body: usize, tick: u64, t: f64, state: [&[f64]; 2]) {
+        self.bodies[body].place(body, tick, t, state);
+    }
+
+    /// Sets a parameter of a body at time `t` (s).
+    pub(super) fn set_parameter(&mut self, body: usize, t: f64, parameter: usize, value: f64) {
+        self.bodies[body].stepper.set_parameter(t, parameter, value);
+    }
+
+    /// The memory that it takes beyond its own size, in bytes, no less than it is.
+    pub(super) fn heap_bytes(&self) -> usize {
+        self.bodies.iter().map(LaneBody::bytes).sum()
     }
 
     /// Makes the solver begin anew from the state as it is: the steps to come are of another length.

@@ -4,27 +4,32 @@
 //! This layer knows no GPU, no window, no files and no wall clock: text comes in as `&str`, time as
 //! integers, and what comes out is plain data. [`Lab`] holds it all together.
 
+mod action;
 mod analysis;
 mod clock;
 mod command;
 mod display;
 mod duration;
 mod extent;
-mod history;
+mod journal;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
 mod lab;
 mod lane;
+mod lane_spec;
 mod metrics;
 mod notices;
 pub mod number;
+mod past;
 pub mod picture;
 mod race;
 pub mod round_off;
 mod scene;
-mod script;
-mod truth_curve;
+mod session;
+mod start;
+mod viewer;
 
 pub use crate::sim::stability::Stability;
+pub use action::Action;
 pub use analysis::{
     Advice, Advised, Adviser, CRITERIA, Criterion, Fate, Findings, Judge, LONG_RUN,
     LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK, Meets, Met, NoTruth, Question,
@@ -32,15 +37,18 @@ pub use analysis::{
 };
 pub use clock::{Clock, Due};
 pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};
-pub use display::{Ask, Display, Instrument, Interpolation, Mode, Pace};
-pub use history::{CAPACITY, History, Run, Sample};
+pub use display::{Ask, Display, Instrument, Interpolation, Pace};
+pub use journal::{Journal, JournalRow, Source};
 pub use lab::Lab;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Origin, TakenUp};
+pub use lane_spec::LaneSpec;
 pub use metrics::{METRICS, Metric, Scale, Unit};
-pub use race::{Entrant, Race};
+pub use past::{CAPACITY, History, Past, Run, Sample, Samples, TruthCurve, TruthSample};
+pub use race::{Entrant, Mode, Observer, Race};
 pub use scene::{
-    BuiltIn, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, LaneSpec, MOST_BODIES, MOST_LANES,
-    MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene,
-    SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, nearest,
+    BuiltIn, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS,
+    MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene, SceneBody, SceneError,
+    SceneErrors, Scripted, TOLERANCES, nearest,
 };
-pub use truth_curve::{TruthCurve, TruthSample};
+pub use session::{Event, EventKind, SNAPSHOT_BYTES, Session, Timeline};
+pub use viewer::Viewer;

@@ -1,17 +1,47 @@
 //! What a person is told of bodies that halt and go on.
 
+use super::action::Action;
 use super::lane::{Halt, LaneBody, Origin, TakenUp};
-use super::race::Race;
-use super::scene::{LaneSpec, Scene};
+use super::race::{Observer, Race};
+use super::scene::Scene;
+
+/// Listens for what a person is to be told.
+pub(super) struct Notices<'s> {
+    scene: &'s Scene,
+    /// The latest of it.
+    pub(super) told: Option<String>,
+}
+
+impl<'s> Notices<'s> {
+    pub(super) fn new(scene: &'s Scene) -> Self {
+        Self { scene, told: None }
+    }
+
+    fn tell(&mut self, told: Option<String>) {
+        if told.is_some() {
+            self.told = told;
+        }
+    }
+}
+
+impl Observer for Notices<'_> {
+    fn after(&mut self, _race: &Race, _action: &Action, taken_up: &[TakenUp]) {
+        self.tell(of_taken_up(self.scene, taken_up));
+    }
+
+    fn ticked(&mut self, race: &Race) {
+        self.tell(of_halts(self.scene, race));
+    }
+}
 
 /// What there is to tell of the bodies that halted in the tick before, if any did. Allocates nothing if none did.
-pub(super) fn of_halts(scene: &Scene, entries: &[LaneSpec], race: &Race) -> Option<String> {
+fn of_halts(scene: &Scene, race: &Race) -> Option<String> {
     just_halted(race).next()?;
     let told = just_halted(race).map(|(entry, Halt { tick, body, failure })| {
         let body = &scene.bodies[*body];
         match entry {
             Some(entry) => {
-                let method = entries[entry].method.name;
+                let method = race.list()[entry].method.name;
                 format!("{method} halted at tick {tick}: {} {failure}", body.name)
             }
             None => {
@@ -40,7 +70,7 @@ fn just_halted(race: &Race) -> impl Iterator<Item = (Option<usize>, &Halt)> {
 }
 
 /// What there is to tell of bodies that go on after a switch, if any had halted.
-pub(super) fn of_taken_up(scene: &Scene, taken_up: &[TakenUp]) -> Option<String> {
+fn of_taken_up(scene: &Scene, taken_up: &[TakenUp]) -> Option<String> {
     let told = taken_up.iter().map(|TakenUp { halt, from }| {
         let body = &scene.bodies[halt.body];
         let fate = if halt.is_blow_up() { "had blown up" } else { "had halted" };

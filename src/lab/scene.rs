@@ -6,10 +6,10 @@
 
 use std::path::Path;
 
-use super::Command;
-use crate::sim::Solver;
+use super::action::Action;
+use super::lane_spec::LaneSpec;
 use crate::sim::bodies::Kind;
-use crate::sim::integrators::Method;
+use crate::sim::integrators::{METHODS, Method};
 
 mod cause;
 mod document;
@@ -79,33 +79,6 @@ pub struct Scene {
     pub script: Vec<Scripted>,
 }
 
-/// A lane of the race.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LaneSpec {
-    /// How its bodies are stepped.
-    pub method: &'static Method,
-    /// Equal steps in a tick, 1 to [`MOST_SUBSTEPS`].
-    pub substeps: u32,
-    /// The absolute and the relative error that an adaptive method allows in a substep of its own, within
-    /// [`TOLERANCES`]; `None` leaves it at its card's, and does for all other methods.
-    pub tolerance: Option<f64>,
-}
-
-impl LaneSpec {
-    /// A method as its card has it, in one step a tick.
-    pub fn plain(method: &'static Method) -> Self {
-        Self { method, substeps: 1, tolerance: None }
-    }
-
-    /// What carries the lane's bodies forward.
-    pub fn solver(&self) -> Solver {
-        match self.tolerance {
-            Some(tolerance) => Solver::Within(self.method, tolerance),
-            None => Solver::Method(self.method),
-        }
-    }
-}
-
 /// A body of a scene.
 #[derive(Clone, Debug)]
 pub struct SceneBody {
@@ -119,12 +92,12 @@ pub struct SceneBody {
 }
 
 /// A command of a scene's script.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scripted {
     /// The tick before which it is applied, at most [`LAST_TICK`].
     pub tick: u64,
     /// What is done.
-    pub command: Command,
+    pub action: Action,
 }
 
 impl Scene {
@@ -155,6 +128,13 @@ impl Scene {
         let stem = Path::new(file).file_stem().and_then(|stem| stem.to_str());
         document::read(stem.unwrap_or(file), text)
             .map_err(|errors| SceneErrors::new(file, text, errors))
+    }
+
+    /// The methods that digits and lanes refer to: the scene's lanes, then all other methods.
+    pub fn method_list(&self) -> Vec<LaneSpec> {
+        let is_listed = |method: &Method| self.lanes.iter().any(|spec| spec.method == method);
+        let others = METHODS.iter().filter(|method| !is_listed(method));
+        self.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
     }
 
     /// The scene of [`SCENES`] with this name.

@@ -48,6 +48,12 @@ pub trait Stepper: Send {
     /// Makes the solver forget what it carried from step to step, the state left as it is.
     fn reset(&mut self);
 
+    /// Sets the parameter at this place of its kind's at time `t` (s), the state left as it is. Returns whether that
+    /// changed the body at once.
+    fn set_parameter(&mut self, _t: f64, _parameter: usize, _value: f64) -> bool {
+        false
+    }
+
     /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
     fn input(&mut self, t: f64, input: Input) -> bool;
 

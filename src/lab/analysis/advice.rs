@@ -6,7 +6,8 @@ use std::sync::{Arc, Mutex};
 
 use super::judge::{Finding, Judge};
 use super::verdict::Verdict;
-use crate::lab::scene::{LaneSpec, Scene};
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::scene::Scene;
 use crate::sim::stability::RateSearch;
 
 /// What a developer may want of a method.

@@ -10,8 +10,9 @@ use super::run::{MOST_WORK, Run, Until, follow};
 use super::survey::TimedInput;
 use super::truth::{BodyTruth, Swing};
 use super::verdict::{NoTruth, Verdict, Word};
-use crate::lab::command::Command;
-use crate::lab::scene::{LaneSpec, Scene};
+use crate::lab::action::Action;
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::scene::Scene;
 use crate::sim::integrators::StepFailure;
 
 /// The error that still counts as accurate: a hundredth of the amplitude, about what can be seen.
@@ -53,10 +54,10 @@ fn inputs_of(scene: &Scene) -> Vec<TimedInput> {
     for scripted in &scene.script {
         t += (scripted.tick - tick) as f64 / hz;
         tick = scripted.tick;
-        if let Command::TickHz(tick_hz) = scripted.command {
+        if let Action::TickHz(tick_hz) = scripted.action {
             hz = f64::from(tick_hz);
         }
-        inputs.extend(scripted.command.input().map(|input| TimedInput { t, input }));
+        inputs.extend(scripted.action.input().map(|input| TimedInput { t, input }));
     }
     inputs
 }

@@ -4,7 +4,7 @@ use super::judge::Change;
 use super::run::{MOST_WORK, work_of};
 use super::truth::BodyTruth;
 use super::verdict::Verdict;
-use crate::lab::scene::LaneSpec;
+use crate::lab::lane_spec::LaneSpec;
 use crate::sim::Solver;
 use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, undriven};
 

@@ -4,7 +4,7 @@ use super::course::{Course, ticks};
 use super::truth::{BodyTruth, LONG_RUN, window};
 use super::verdict::Fate;
 use crate::lab::lane::check;
-use crate::lab::scene::LaneSpec;
+use crate::lab::lane_spec::LaneSpec;
 use crate::sim::Stepper;
 use crate::sim::integrators::{Family, StepFailure};
 

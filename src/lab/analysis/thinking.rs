@@ -6,7 +6,8 @@ use std::sync::Arc;
 use super::advice::{Advised, Adviser, CRITERIA, Meets};
 use super::judge::Judge;
 use super::verdict::Verdict;
-use crate::lab::scene::{LaneSpec, Scene};
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::scene::Scene;
 use crate::sim::integrators::METHODS;
 
 /// What is to be worked out. Two questions of one [`Lab`](crate::lab::Lab) are equal if they have the same answer.
@@ -36,12 +37,6 @@ impl Question {
     pub(in crate::lab) fn is_of(&self, scene: &Arc<Scene>) -> bool {
         Arc::ptr_eq(&self.scene, scene)
     }
-}
-
-/// The methods that digits and lanes refer to: the scene's lanes, then all others.
-pub(in crate::lab) fn entries(scene: &Scene) -> Vec<LaneSpec> {
-    let others = METHODS.iter().filter(|m| !scene.lanes.iter().any(|spec| spec.method == *m));
-    scene.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
 }
 
 /// What was found by now.
@@ -193,7 +188,7 @@ mod tests {
 
     fn question(name: &str) -> Question {
         let scene = Arc::new(Scene::built_in(name).unwrap());
-        let entries = entries(&scene);
+        let entries = scene.method_list();
         Question { scene, entries, tick_hz: 60, throttle: 1.0, advice: false }
     }
 

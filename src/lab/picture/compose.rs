@@ -169,7 +169,10 @@ impl Shown<'_> {
     ) {
         let truth = &self.lab.race().truth().bodies()[index];
         let body = &entrant.lane.bodies()[index];
-        let history = &entrant.histories[index];
+        let race = self.lab.race().entrants();
+        let place = race.iter().position(|other| other.lane_number == entrant.lane_number);
+        let place = place.expect("it is in the race");
+        let history = &self.lab.past().histories(place)[index];
         let (q, v) = self.state(body);
         let mut pen = Pen::default();
         body.stepper.outline(&q, &v, &mut pen);
@@ -214,7 +217,6 @@ impl Shown<'_> {
         picture.strokes.extend(strokes(&pen.marks, &camera, own));
 
         captions::arrow(picture, &camera, pen.at, colour);
-        let race = self.lab.race().entrants();
         if self.lab.mode() == Mode::Solo || entrant.entry == race[race.len() - 1].entry {
             captions::scale_bar(picture, &camera);
         }

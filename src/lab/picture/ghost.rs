@@ -32,8 +32,9 @@ impl Ghost {
     pub(super) fn new(shown: &Shown<'_>, index: usize, cell: Rect) -> Self {
         let race = shown.lab.race();
         let body = &race.truth().bodies()[index];
-        let curve = &race.truth_curves()[index];
-        let (q, v) = race.truth_between(index, shown.alpha);
+        let past_of_race = shown.lab.past();
+        let curve = &past_of_race.truth_curves()[index];
+        let (q, v) = past_of_race.truth_between(race, index, shown.alpha);
         let mut pen = Pen::default();
         body.stepper.outline(&q, &v, &mut pen);
         let view = body.stepper.view();

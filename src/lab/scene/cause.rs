@@ -3,8 +3,9 @@
 use std::fmt;
 use std::ops::RangeInclusive;
 
+use super::LARGEST_FILE;
 use super::errors::clip;
-use super::{LARGEST_FILE, LaneSpec};
+use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{self, BODIES, Fault};
 use crate::sim::integrators::METHODS;
 

@@ -9,10 +9,11 @@ use super::errors::{SceneError, position};
 use super::syntax;
 use super::table::{Field, Table};
 use super::{
-    LAST_TICK, LEAST_SECONDS, LaneSpec, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS,
+    LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS,
     MOST_SUBSTEPS, MOST_TICK_HZ, Scene, SceneBody, Scripted, TOLERANCES,
 };
-use crate::lab::Command;
+use crate::lab::action::Action;
+use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{BODIES, Kind, LARGEST, Parameter, Range};
 use crate::sim::integrators::{METHODS, Method};
 
@@ -51,38 +52,38 @@ const fn optional(key: &'static str) -> Field {
 }
 
 /// Something that a `[[command]]` may do, by its key.
-struct Action {
+struct Doable {
     field: Field,
     /// The input that some body must take for the action to have an effect.
     input: Option<&'static str>,
-    read: fn(&mut Table<'_>, Field) -> Option<Command>,
+    read: fn(&mut Table<'_>, Field) -> Option<Action>,
 }
 
-static ACTIONS: [Action; 5] = [
-    Action {
+static DOABLE: [Doable; 5] = [
+    Doable {
         field: optional("method"),
         input: None,
-        read: |table, field| table.method(field).map(Command::Method),
+        read: |table, field| table.method(field).map(Action::Method),
     },
-    Action {
+    Doable {
         field: optional("throttle"),
         input: Some("throttle"),
-        read: |table, field| table.number(field, Range::Within(1.0)).map(Command::Throttle),
+        read: |table, field| table.number(field, Range::Within(1.0)).map(Action::Throttle),
     },
-    Action {
+    Doable {
         field: optional("rudder"),
         input: Some("rudder"),
-        read: |table, field| table.number(field, Range::Within(1.0)).map(Command::Rudder),
+        read: |table, field| table.number(field, Range::Within(1.0)).map(Action::Rudder),
     },
-    Action {
+    Doable {
         field: optional("kick"),
         input: Some("kick"),
-        read: |table, field| table.number(field, Range::Within(LARGEST)).map(Command::Kick),
+        read: |table, field| table.number(field, Range::Within(LARGEST)).map(Action::Kick),
     },
-    Action {
+    Doable {
         field: optional("tick_hz"),
         input: None,
-        read: |table, field| table.whole(field, 1..=MOST_TICK_HZ).map(Command::TickHz),
+        read: |table, field| table.whole(field, 1..=MOST_TICK_HZ).map(Action::TickHz),
     },
 ];
 
@@ -281,18 +282,18 @@ fn read_script(bodies: &[Described], top: &mut Table<'_>) -> Vec<Scripted> {
     let mut script = Vec::new();
     for mut row in top.rows("command") {
         let tick = row.whole(TICK, 0..=LAST_TICK);
-        let command = read_action(bodies, &mut row);
-        script.extend(tick.zip(command).map(|(tick, command)| Scripted { tick, command }));
+        let action = read_action(bodies, &mut row);
+        script.extend(tick.zip(action).map(|(tick, action)| Scripted { tick, action }));
         top.adopt(row, &TOP);
     }
     script.sort_by_key(|scripted| scripted.tick);
     script
 }
 
-fn read_action(bodies: &[Described], row: &mut Table<'_>) -> Option<Command> {
+fn read_action(bodies: &[Described], row: &mut Table<'_>) -> Option<Action> {
     let mut command = None;
     let mut found = Vec::new();
-    for Action { field, input, read } in &ACTIONS {
+    for Doable { field, input, read } in &DOABLE {
         // Each is read, also where one too many is found: a row knows only the keys it was asked for.
         command = read(row, *field).or(command);
         if !row.has(field.key) {
@@ -309,7 +310,7 @@ fn read_action(bodies: &[Described], row: &mut Table<'_>) -> Option<Command> {
     let header = row.header.clone();
     match found.len() {
         0 => {
-            let known = ACTIONS.iter().map(|action| action.field.key).collect();
+            let known = DOABLE.iter().map(|action| action.field.key).collect();
             row.complain(header, Cause::NoAction { known });
         }
         1 => {}

@@ -13,7 +13,7 @@ use crate::lab::{
 const CELLS: &str = "in each cell: use ×substeps · evaluations/s";
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
-    let Some(advice) = lab.advice() else {
+    let Some(advice) = lab.viewer().advice() else {
         ui.label(RichText::new("judging every method …").color(QUIET));
         return;
     };
@@ -164,7 +164,10 @@ mod tests {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         lab.apply(Command::Instrument(Instrument::Advice));
         lab.think();
-        assert_eq!(lab.advice().map(|advice| advice.advised.len()), lab.advice().map(|a| a.wanted));
+        assert_eq!(
+            lab.viewer().advice().map(|advice| advice.advised.len()),
+            lab.viewer().advice().map(|a| a.wanted)
+        );
         for size in [[800.0, 600.0], [900.0, 600.0], [1024.0, 640.0], [1280.0, 720.0]] {
             let context = Context::default();
             panels::dress(&context);

@@ -26,13 +26,13 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) {
             };
             let keys = format!(
                 "{}{}K kick  Space pause  H all keys",
-                part("throttle", "↑ ↓", lab.throttle()),
-                part("rudder", "← →", lab.rudder()),
+                part("throttle", "↑ ↓", lab.race().throttle()),
+                part("rudder", "← →", lab.race().rudder()),
             );
             ui.label(RichText::new(keys).color(QUIET));
         }
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            let (text, colour) = match (lab.notice(), &lab.scene().hint) {
+            let (text, colour) = match (lab.viewer().notice.as_deref(), &lab.scene().hint) {
                 (Some(notice), _) => (notice, TEXT),
                 (None, Some(hint)) => (hint.as_str(), ACCENT),
                 (None, None) => (lab.scene().about.as_str(), QUIET),

@@ -105,9 +105,9 @@ fn choice(
     commands: &mut Vec<Command>,
 ) {
     let mut offer = |ui: &mut Ui| {
-        for &(command, name) in options {
-            if ui.selectable_label(command == chosen, name).clicked() {
-                commands.push(command);
+        for (command, name) in options {
+            if ui.selectable_label(*command == chosen, *name).clicked() {
+                commands.push(command.clone());
             }
         }
     };
@@ -122,7 +122,7 @@ fn choice(
 }
 
 fn truth(lab: &Lab) -> &TruthCurve {
-    &lab.race().truth_curves()[lab.display().body]
+    &lab.past().truth_curves()[lab.display().body]
 }
 
 /// The exact curve as far as the present, to be drawn over the lanes.

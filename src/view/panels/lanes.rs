@@ -313,7 +313,7 @@ fn fate(ui: &Ui, row: &Row<'_>, rect: Rect, left: f32, column: &Column) {
     let halts = halts.join("; ");
     let (text, colour) = match halts.is_empty() {
         false => (halts, colour(palette::ALARM)),
-        true => match row.lab.verdict(row.index) {
+        true => match row.lab.viewer().verdict(row.index) {
             Some(verdict) => (verdict.to_string(), super::tone(verdict.word)),
             None => return,
         },

@@ -98,7 +98,7 @@ mod tests {
         lab.apply(Command::ToggleRace);
         (0..600).for_each(|_| lab.tick());
         let tracks = Track::of(&lab, |s| [s.t, s.q]);
-        let truth = || lab.race().truth_curves()[0].samples().map(|s| s.q);
+        let truth = || lab.past().truth_curves()[0].samples().map(|s| s.q);
         let (low, high) = around_truth(truth(), &tracks, 1, 1.6);
         assert!((-2.1..-1.1).contains(&low) && (1.1..2.1).contains(&high), "{low} to {high}");
         let (low, high) = around_truth(truth(), &tracks, 1, 4.0);

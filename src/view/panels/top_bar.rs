@@ -114,7 +114,7 @@ fn pace(ui: &mut Ui, lab: &Lab) {
         ui.label(RichText::new("paused").color(ACCENT));
         return;
     }
-    let text = match lab.pace() {
+    let text = match lab.viewer().pace {
         Some(Pace::Measured { frames_per_second, real_time_factor }) => {
             format!("{frames_per_second:5.1} fps · {real_time_factor:.2}× real time")
         }

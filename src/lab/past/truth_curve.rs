@@ -1,12 +1,14 @@
 //! The true motion of one body between ticks: its recent past on a fine time grid that no tick rate
 //! changes, and its state at any moment of the last tick. Bounded, and allocated once.
 
-use std::collections::VecDeque;
+use std::collections::vec_deque;
 use std::mem::discriminant;
 
 use glam::DVec2;
 
-use super::lane::LaneBody;
+use super::log::Log;
+use crate::lab::lane::LaneBody;
+use crate::lab::race::LastTick;
 use crate::sim::bodies::Input;
 use crate::sim::{Solver, Stepper};
 
@@ -18,6 +20,9 @@ const OFF_GRID: usize = 512;
 
 /// The kinds of input that wait for a tick to begin: more would make the list grow.
 const KINDS_OF_INPUT: usize = 3;
+
+/// Grid points kept beside, to go back to at once.
+const SPARE: usize = GRID / 2;
 
 /// One moment of the true motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,24 +47,17 @@ impl TruthSample {
     }
 }
 
-/// The last tick of the truth.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LastTick {
-    /// When it began, in seconds.
-    pub(super) from_s: f64,
-    /// When it ended.
-    pub(super) to_s: f64,
-}
-
 /// The true motion of one body as a curve.
 pub struct TruthCurve {
-    /// A copy of the true body, which is moved about within the last tick. The truth itself is only
-    /// read, so that no bit of it depends on what is drawn.
+    /// A copy of the true body under what pushed it in the last tick, which is moved about within that tick. The
+    /// truth itself is only read, so that no bit of it depends on what is drawn.
     between: Box<dyn Stepper>,
     /// What was done to the truth since the last tick: `between` takes it when that tick is over.
     pending: Vec<Input>,
+    /// Whether the truth was changed otherwise: a new copy is to be made.
+    is_stale: bool,
     spacing_s: f64,
-    samples: VecDeque<TruthSample>,
+    samples: Log<TruthSample>,
 }
 
 impl TruthCurve {
@@ -68,18 +66,17 @@ impl TruthCurve {
         let mut curve = Self {
             between: truth.stepper.with_solver(Solver::Truth, 0.0),
             pending: Vec::with_capacity(KINDS_OF_INPUT),
+            is_stale: false,
             spacing_s: span_s / GRID as f64,
-            samples: VecDeque::with_capacity(GRID + OFF_GRID),
+            samples: Log::new(GRID + OFF_GRID, SPARE),
         };
         curve.keep(0.0, truth);
         curve
     }
 
     /// The recent past, oldest first: at every point of the grid, and on both sides of an input.
-    pub fn samples(
-        &self,
-    ) -> impl DoubleEndedIterator<Item = &TruthSample> + ExactSizeIterator + Clone {
-        self.samples.iter()
+    pub fn samples(&self) -> vec_deque::Iter<'_, TruthSample> {
+        self.samples.shown()
     }
 
     /// The coordinates and velocities at the part `part`, 0 to 1, of the last tick of `truth`.
@@ -89,7 +86,8 @@ impl TruthCurve {
         LastTick { from_s, to_s }: LastTick,
         part: f64,
     ) -> (Vec<f64>, Vec<f64>) {
-        let mut copy = self.between.with_solver(Solver::Truth, from_s);
+        let body = if self.is_stale { &truth.stepper } else { &self.between };
+        let mut copy = body.with_solver(Solver::Truth, from_s);
         copy.set(from_s, &truth.previous_q, &truth.previous_v);
         let reached = copy.advance(from_s, part * (to_s - from_s), 1);
         if reached.is_err() || copy.q().iter().chain(copy.v()).any(|value| !value.is_finite()) {
@@ -98,8 +96,10 @@ impl TruthCurve {
         (copy.q().to_vec(), copy.v().to_vec())
     }
 
-    /// Takes in the tick that `truth` has just made. Never allocates.
+    /// Takes in the tick that `truth` has just made. Never allocates, but after the truth was
+    /// [changed](Self::change).
     pub(super) fn extend(&mut self, truth: &LaneBody, LastTick { from_s, to_s }: LastTick) {
+        self.refresh(truth, from_s);
         for input in self.pending.drain(..) {
             self.between.input(from_s, input);
         }
@@ -134,14 +134,46 @@ impl TruthCurve {
         self.pending.push(input);
     }
 
+    /// Takes notice of anything else that was done to the truth.
+    pub(super) fn change(&mut self) {
+        self.is_stale = true;
+    }
+
+    /// Makes a new copy of `truth`, where it was changed before time `t` (s).
+    pub(super) fn refresh(&mut self, truth: &LaneBody, t: f64) {
+        if std::mem::take(&mut self.is_stale) {
+            self.between = truth.stepper.with_solver(Solver::Truth, t);
+            self.pending.clear();
+        }
+    }
+
     fn push(&mut self, sample: TruthSample) {
-        let follows = self.samples.back().is_none_or(|&last| last != sample && last.t <= sample.t);
-        if !follows || !sample.is_finite() {
-            return;
+        let newest = self.samples.newest();
+        let follows = newest.is_none_or(|&last| last != sample && last.t <= sample.t);
+        if follows && sample.is_finite() {
+            self.samples.push(sample);
         }
-        if self.samples.len() == GRID + OFF_GRID {
-            self.samples.pop_front();
-        }
-        self.samples.push_back(sample);
+    }
+
+    /// How much was recorded since the start.
+    pub(super) fn mark(&self) -> u64 {
+        self.samples.mark()
+    }
+
+    /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
+    pub(super) fn fills(&self, from: u64, mark: u64) -> bool {
+        self.samples.fills(from, mark)
+    }
+
+    /// Goes back to a mark, or forward to one of the future that is kept.
+    pub(super) fn rewind(&mut self, mark: u64) {
+        self.samples.rewind(mark);
+        self.pending.clear();
+        self.is_stale = true;
+    }
+
+    /// Forgets the future: another one begins.
+    pub(super) fn forget_future(&mut self) {
+        self.samples.forget_future();
     }
 }

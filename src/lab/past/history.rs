@@ -4,18 +4,23 @@
 //! A switch of method leaves a mark: the run of samples under the old method ends, and that under the new
 //! one begins, with a sample at the moment of the switch.
 
-use std::collections::{VecDeque, vec_deque};
+use std::collections::vec_deque;
+use std::{iter, option};
 
 use glam::DVec2;
 
-use super::lane::LaneBody;
-use super::metrics::METRICS;
+use super::log::Log;
+use crate::lab::lane::LaneBody;
+use crate::lab::metrics::METRICS;
 
-/// Samples kept: enough for every tick of 30 s at 60 Hz, and more than a plot has pixels.
+/// Samples shown: enough for every tick of 30 s at 60 Hz, and more than a plot has pixels.
 pub const CAPACITY: usize = 2048;
 
+/// Samples kept beside, to go back to at once: as many as 17 s at 60 Hz.
+const SPARE: usize = 1024;
+
 /// One moment of a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Sample {
     /// Time in seconds.
     pub t: f64,
@@ -29,26 +34,41 @@ pub struct Sample {
     pub entry: usize,
     /// One value for each of [`METRICS`]; NaN where it has no meaning.
     pub metrics: [f64; METRICS.len()],
+    /// Whether the body was put here: no path leads from the samples before.
+    pub jumped: bool,
+}
+
+/// To the bit.
+impl PartialEq for Sample {
+    fn eq(&self, other: &Self) -> bool {
+        let numbers = |s: &Self| [s.t, s.q, s.v, s.at.x, s.at.y].map(f64::to_bits);
+        let metrics = |s: &Self| s.metrics.map(f64::to_bits);
+        numbers(self) == numbers(other)
+            && metrics(self) == metrics(other)
+            && (self.entry, self.jumped) == (other.entry, other.jumped)
+    }
 }
 
 impl Sample {
     /// The present of `body`, in a lane whose method has place `entry`.
-    pub(super) fn new(t: f64, entry: usize, body: &LaneBody, truth: &LaneBody) -> Self {
+    pub(in crate::lab) fn new(t: f64, entry: usize, body: &LaneBody, truth: &LaneBody) -> Self {
         let (q, v) = (body.stepper.q()[0], body.stepper.v()[0]);
         let metrics =
             std::array::from_fn(|i| (METRICS[i].measure)(body, truth).unwrap_or(f64::NAN));
-        Self { t, q, v, at: body.stepper.place(), entry, metrics }
+        Self { t, q, v, at: body.stepper.place(), entry, metrics, jumped: false }
     }
 }
 
 /// The recent past of one body in one lane, oldest first.
 #[derive(Debug)]
 pub struct History {
-    samples: VecDeque<Sample>,
-    /// Whether the newest sample is to give way to the next one.
-    newest_passes: bool,
-    unbroken_since: f64,
+    samples: Log<Sample>,
+    /// The present, where it is no sample that stays.
+    present: Option<Sample>,
 }
+
+/// Samples of a [`History`], oldest first.
+pub type Samples<'h> = iter::Chain<vec_deque::Iter<'h, Sample>, option::Iter<'h, Sample>>;
 
 /// Samples that follow each other under one method.
 #[derive(Clone, Debug)]
@@ -56,88 +76,110 @@ pub struct Run<'h> {
     /// The method's place on the list: what gives this stretch of the past its colour.
     pub entry: usize,
     /// The samples, oldest first; at least one.
-    pub samples: vec_deque::Iter<'h, Sample>,
+    pub samples: iter::Take<Samples<'h>>,
 }
 
 impl History {
     /// An empty history with room for [`CAPACITY`] samples.
     pub fn new() -> Self {
-        let samples = VecDeque::with_capacity(CAPACITY);
-        Self { samples, newest_passes: false, unbroken_since: f64::NEG_INFINITY }
+        Self { samples: Log::new(CAPACITY, SPARE), present: None }
     }
 
     /// The samples, oldest first. The newest is the present, but for a body that has halted.
-    pub fn samples(&self) -> impl DoubleEndedIterator<Item = &Sample> + ExactSizeIterator + Clone {
-        self.samples.iter()
+    pub fn samples(&self) -> Samples<'_> {
+        self.after(0)
+    }
+
+    fn after(&self, skipped: usize) -> Samples<'_> {
+        let of_present = skipped.saturating_sub(self.samples.len());
+        let present = if of_present == 0 { &self.present } else { &None };
+        self.samples.range(skipped.min(self.samples.len())).chain(present)
     }
 
     /// The samples cut where the method was switched, oldest run first. A run ends at the moment of the switch
     /// and the next one begins there; if it begins later, the body had halted and was taken up again.
     pub fn runs(&self) -> impl Iterator<Item = Run<'_>> {
         let mut from = 0;
-        std::iter::from_fn(move || {
-            let entry = self.samples.get(from)?.entry;
-            let rest = self.samples.range(from..);
-            let to = from + rest.take_while(|sample| sample.entry == entry).count();
-            let samples = self.samples.range(from..to);
-            from = to;
-            Some(Run { entry, samples })
+        iter::from_fn(move || {
+            let rest = self.after(from);
+            let entry = rest.clone().next()?.entry;
+            let count = rest.clone().take_while(|sample| sample.entry == entry).count();
+            from += count;
+            Some(Run { entry, samples: rest.take(count) })
         })
     }
 
-    /// The time (s) since which the samples are one motion: a body that had blown up and was taken up again
-    /// from the truth did not go there, so that no path leads from the samples before to those after.
+    /// The time (s) since which the samples are one motion: a body that was put where it did not go has no path
+    /// from the samples before to those after.
     pub fn unbroken_since(&self) -> f64 {
-        self.unbroken_since
+        let jump = self.samples().rev().find(|sample| sample.jumped);
+        jump.map_or(f64::NEG_INFINITY, |sample| sample.t)
     }
 
     /// Adds the present, and forgets the oldest sample if full.
     pub(super) fn record(&mut self, now: Sample) {
-        if std::mem::take(&mut self.newest_passes) {
-            self.samples.pop_back();
-        }
-        if self.samples.len() == CAPACITY {
-            self.samples.pop_front();
-        }
-        self.samples.push_back(now);
+        self.present = None;
+        self.samples.push(now);
     }
 
-    /// Adds the present until the next sample comes.
+    /// Shows the present until the next sample comes.
     pub(super) fn record_passing(&mut self, now: Sample) {
-        if self.samples.back().is_some_and(|newest| newest.t == now.t && !self.newest_passes) {
-            return;
-        }
-        self.record(now);
-        self.newest_passes = true;
+        let is_there = self.samples.newest().is_some_and(|newest| newest.t == now.t);
+        self.present = (!is_there).then_some(now);
     }
 
     /// Ends the run of the present method now.
     pub(super) fn end_run(&mut self, now: Sample) {
-        if self.samples.back().is_none_or(|newest| newest.t != now.t) {
+        self.present = None;
+        if self.samples.newest().is_none_or(|newest| newest.t != now.t) {
             self.record(now);
         }
-        self.newest_passes = false;
     }
 
     /// Begins the run of the method that `now` is under. One that began at this very moment leaves no trace:
     /// nothing was flown under it.
-    pub(super) fn begin_run(&mut self, now: Sample) {
-        let mut newest_first = self.samples.iter().rev();
+    pub(super) fn begin_run(&mut self, mut now: Sample) {
+        let mut newest_first = self.samples.shown().rev();
         let newest = newest_first.next().filter(|newest| newest.t == now.t);
-        let is_alone =
-            |newest: &Sample| newest_first.next().is_none_or(|s| s.entry != newest.entry);
-        if newest.is_some_and(is_alone) {
-            self.samples.pop_back();
+        if let Some(newest) = newest
+            && newest_first.next().is_none_or(|before| before.entry != newest.entry)
+        {
+            now.jumped |= newest.jumped;
+            self.samples.pop();
         }
-        let newest = self.samples.back();
-        if newest.is_none_or(|newest| newest.t != now.t || newest.entry != now.entry) {
+        let newest = self.samples.newest();
+        let is_new = |newest: &Sample| {
+            newest.t != now.t || newest.entry != now.entry || now.jumped && !newest.jumped
+        };
+        if newest.is_none_or(is_new) {
             self.record(now);
         }
     }
 
-    /// Notes that the body was set into another state at time `t` (s).
-    pub(super) fn break_off(&mut self, t: f64) {
-        self.unbroken_since = t;
+    /// Goes on from `now`, where the body was put.
+    pub(super) fn jump(&mut self, now: Sample) {
+        self.record(Sample { jumped: true, ..now });
+    }
+
+    /// How much was recorded since the start.
+    pub(super) fn mark(&self) -> u64 {
+        self.samples.mark()
+    }
+
+    /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
+    pub(super) fn fills(&self, from: u64, mark: u64) -> bool {
+        self.samples.fills(from, mark)
+    }
+
+    /// Goes back to a mark, or forward to one of the future that is kept.
+    pub(super) fn rewind(&mut self, mark: u64) {
+        self.present = None;
+        self.samples.rewind(mark);
+    }
+
+    /// Forgets the future: another one begins.
+    pub(super) fn forget_future(&mut self) {
+        self.samples.forget_future();
     }
 }
 
@@ -152,7 +194,15 @@ mod tests {
     use super::*;
 
     fn sample(t: f64, entry: usize) -> Sample {
-        Sample { t, q: 0.0, v: 0.0, at: DVec2::ZERO, entry, metrics: [0.0; METRICS.len()] }
+        Sample {
+            t,
+            q: 0.0,
+            v: 0.0,
+            at: DVec2::ZERO,
+            entry,
+            metrics: [0.0; METRICS.len()],
+            jumped: false,
+        }
     }
 
     /// The entry and the times of each run.
@@ -202,7 +252,7 @@ mod tests {
     fn the_present_shows_until_the_next_moment_comes() {
         let mut history = flown(0);
         history.record_passing(sample(2.0, 0));
-        assert_eq!(history.samples().len(), 3, "it is there already");
+        assert_eq!(history.samples().count(), 3, "it is there already");
         history.record_passing(sample(2.2, 0));
         history.record_passing(sample(2.4, 0));
         assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0, 2.4])]);
@@ -219,7 +269,7 @@ mod tests {
         let mut history = History::new();
         (0..=CAPACITY).for_each(|t| history.record(sample(t as f64, 0)));
         history.record_passing(sample(1e9, 0));
-        assert_eq!(history.samples().len(), CAPACITY);
-        assert_eq!(history.samples().next().unwrap().t, 2.0);
+        assert_eq!(history.samples().count(), CAPACITY + 1, "the present is beside them");
+        assert_eq!(history.samples().next().unwrap().t, 1.0);
     }
 }

@@ -1,0 +1,116 @@
+//! Everything that can be done to a run: what a person, a script, a recording and a test all do.
+
+use super::lane_spec::LaneSpec;
+use crate::sim::bodies::Input;
+use crate::sim::integrators::Method;
+
+/// Something done to a run at a tick. It says what is to be, not by how much it changes: done twice, it does no more
+/// than done once, but for a kick.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// Solo: puts the bodies under this method, with the substeps and the tolerance that the list of methods has for
+    /// it. In a race it does nothing, as each lane keeps its own.
+    Method(&'static Method),
+    /// Puts a lane under this method, with these substeps and this tolerance.
+    Lane {
+        /// The lane's number, from 1 in the order of the scene.
+        lane: usize,
+        /// What it is to be under.
+        spec: LaneSpec,
+    },
+    /// Gives a lane so many substeps in a tick.
+    Substeps {
+        /// The lane's number, from 1.
+        lane: usize,
+        /// The substeps, 1 to [`MOST_SUBSTEPS`](super::MOST_SUBSTEPS).
+        substeps: u32,
+    },
+    /// Gives a lane under an adaptive method this tolerance.
+    Tolerance {
+        /// The lane's number, from 1.
+        lane: usize,
+        /// Within [`TOLERANCES`](super::TOLERANCES).
+        tolerance: f64,
+    },
+    /// Sets the tick rate in Hz.
+    TickHz(u32),
+    /// Sets the throttle of every body that has one, -1 to 1.
+    Throttle(f64),
+    /// Lays the rudder of every body that has one, from -1, hard right, to 1, hard left.
+    Rudder(f64),
+    /// Gives every body an impulse of this many times its own kick.
+    Kick(f64),
+    /// Sets a parameter of a body.
+    Set {
+        /// The body's place in the scene.
+        body: usize,
+        /// The parameter's place among those of its kind.
+        parameter: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// Puts a body into a state, in every lane and in truth.
+    Place {
+        /// The body's place in the scene.
+        body: usize,
+        /// Its coordinates.
+        q: Box<[f64]>,
+        /// Its velocities.
+        v: Box<[f64]>,
+    },
+    /// Leaves only this lane in the race.
+    Solo {
+        /// The lane's number, from 1.
+        lane: usize,
+    },
+}
+
+impl Action {
+    /// What it does to the bodies as an input, if it is one.
+    pub fn input(&self) -> Option<Input> {
+        match *self {
+            Action::Throttle(part) => Some(Input::Throttle(part.clamp(-1.0, 1.0))),
+            Action::Rudder(part) => Some(Input::Rudder(part.clamp(-1.0, 1.0))),
+            Action::Kick(times) => Some(Input::Kick(times)),
+            _ => None,
+        }
+    }
+
+    /// What it works, if a script and a person can work it in turn.
+    pub(super) fn control(&self) -> Option<Control> {
+        match *self {
+            Action::Method(_)
+            | Action::Lane { .. }
+            | Action::Substeps { .. }
+            | Action::Tolerance { .. } => Some(Control::Method),
+            Action::TickHz(_) => Some(Control::TickRate),
+            Action::Throttle(_) => Some(Control::Throttle),
+            Action::Rudder(_) => Some(Control::Rudder),
+            Action::Set { body, parameter, .. } => Some(Control::Parameter { body, parameter }),
+            Action::Kick(_) | Action::Place { .. } | Action::Solo { .. } => None,
+        }
+    }
+}
+
+/// What a script and a person can both work: who takes it in hand keeps it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Control {
+    Method,
+    TickRate,
+    Throttle,
+    Rudder,
+    Parameter { body: usize, parameter: usize },
+}
+
+impl Control {
+    /// Its name for people.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Control::Method => "method",
+            Control::TickRate => "tick rate",
+            Control::Throttle => "throttle",
+            Control::Rudder => "rudder",
+            Control::Parameter { .. } => "parameter",
+        }
+    }
+}

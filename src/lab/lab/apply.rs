@@ -1,0 +1,225 @@
+//! What a person's commands do: each becomes an [action](Action) on the run, or a change of how it is looked at.
+
+use super::Lab;
+use crate::lab::action::Action;
+use crate::lab::command::{Command, SPEED_LADDER, TICK_LADDER};
+use crate::lab::display::{Ask, Display};
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::{Acted, Mode};
+use crate::lab::scene::{SCENES, Scene};
+use crate::lab::session::Timeline;
+
+impl Lab {
+    /// Does what a person asked for. What is not the lab's business comes back.
+    pub fn apply(&mut self, command: Command) -> Option<Ask> {
+        let race = self.race();
+        match command {
+            Command::Act(action) => self.act(action),
+            Command::Method(method) => {
+                let listed = race.list().iter().position(|spec| spec.method == method);
+                self.pick(listed.expect("every method is on the list"));
+            }
+            Command::Pick(entry) => self.pick(entry),
+            Command::Fly(spec) => self.fly(spec),
+            Command::NextMethod => self.pick_beside(1),
+            Command::PreviousMethod => self.pick_beside(-1),
+            Command::TickHz(tick_hz) => self.act(Action::TickHz(tick_hz)),
+            Command::TickRateUp => {
+                let higher = TICK_LADDER.iter().find(|&&hz| hz > race.tick_hz());
+                higher.into_iter().for_each(|&hz| self.act(Action::TickHz(hz)));
+            }
+            Command::TickRateDown => {
+                let lower = TICK_LADDER.iter().rfind(|&&hz| hz < race.tick_hz());
+                lower.into_iter().for_each(|&hz| self.act(Action::TickHz(hz)));
+            }
+            Command::SpeedPercent(percent) => self.clock.set_speed_percent(percent),
+            Command::SpeedUp => {
+                let faster = SPEED_LADDER.iter().find(|&&p| p > self.clock.speed_percent());
+                self.clock.set_speed_percent(*faster.unwrap_or(&self.clock.speed_percent()));
+            }
+            Command::SpeedDown => {
+                let slower = SPEED_LADDER.iter().rfind(|&&p| p < self.clock.speed_percent());
+                self.clock.set_speed_percent(*slower.unwrap_or(&self.clock.speed_percent()));
+            }
+            Command::Throttle(part) => self.act(Action::Throttle(part)),
+            Command::ThrottleUp => self.act(Action::Throttle(tenths(race.throttle(), 1.0))),
+            Command::ThrottleDown => self.act(Action::Throttle(tenths(race.throttle(), -1.0))),
+            Command::Rudder(part) => self.act(Action::Rudder(part)),
+            Command::RudderLeft => self.act(Action::Rudder(tenths(race.rudder(), 1.0))),
+            Command::RudderRight => self.act(Action::Rudder(tenths(race.rudder(), -1.0))),
+            Command::Kick(times) => self.act(Action::Kick(times)),
+            Command::ToggleRace => match race.mode() {
+                Mode::Solo => {
+                    self.start.mode = Mode::Race;
+                    self.restart();
+                }
+                Mode::Race => {
+                    let selected = self.viewer.selected;
+                    let lane = race.entrants().iter().find(|e| e.entry == selected);
+                    let lane = lane.expect("the selected lane is in the race").lane_number;
+                    self.start.mode = Mode::Solo;
+                    self.act(Action::Solo { lane });
+                    // It may be of a lane that is no more.
+                    self.viewer.notice = None;
+                }
+            },
+            Command::TogglePause => self.running = !self.running,
+            Command::TickForward => self.step_by(1),
+            Command::TickBack => self.step_by(-1),
+            Command::SecondForward => self.step_by(i64::from(race.tick_hz())),
+            Command::SecondBack => self.step_by(-i64::from(race.tick_hz())),
+            Command::Seek(tick) => {
+                self.running = false;
+                self.seek(tick);
+            }
+            Command::Undo => self.undo(),
+            Command::Restart => self.restart(),
+            Command::Scene(index) => self.open(index % SCENES.len()),
+            Command::NextScene => self.open_beside(1),
+            Command::PreviousScene => self.open_beside(SCENES.len() - 1),
+            Command::ToggleGhost => self.viewer.display.ghost = !self.viewer.display.ghost,
+            Command::NextInterpolation => self.viewer.next_interpolation(),
+            Command::Instrument(instrument) => self.viewer.display.instrument = instrument,
+            Command::NextInstrument => self.viewer.next_instrument(),
+            Command::Body(body) => {
+                self.viewer.display.body = body.min(self.scene().bodies.len() - 1);
+            }
+            Command::ToggleHelp => self.viewer.display.help = !self.viewer.display.help,
+            Command::Escape if self.viewer.display.help => self.viewer.display.help = false,
+            Command::Escape => return Some(Ask::Quit),
+            Command::Screenshot => return Some(Ask::Screenshot),
+            Command::ToggleFullScreen => return Some(Ask::ToggleFullScreen),
+        }
+        None
+    }
+
+    /// Does something to the run, by hand.
+    fn act(&mut self, action: Action) {
+        let was_past = self.timeline.is_in_past();
+        let (acted, told) =
+            self.watched(|timeline, notices| timeline.act_seen(action.clone(), notices));
+        let Acted::Done { released } = acted else { return self.tell(told) };
+        self.start.keep(&action, self.timeline.session().lanes());
+        let discarded = was_past.then(|| {
+            let tick = self.race().tick();
+            format!("another future begins at tick {tick}: Ctrl Z brings the old one back")
+        });
+        let released = released.map(|control| {
+            format!("the {} is yours: the script leaves it alone until a restart", control.name())
+        });
+        let told: Vec<String> = told.into_iter().chain(released).chain(discarded).collect();
+        self.tell((!told.is_empty()).then(|| told.join("; ")));
+    }
+
+    /// Whether there is something to pick at this place of the list: in a race, a lane.
+    fn can_pick(&self, entry: usize) -> bool {
+        match self.mode() {
+            Mode::Solo => entry < self.entries().len(),
+            Mode::Race => self.race().entrants().iter().any(|entrant| entrant.entry == entry),
+        }
+    }
+
+    fn pick(&mut self, entry: usize) {
+        if !self.can_pick(entry) {
+            return;
+        }
+        self.viewer.selected = entry;
+        self.start.entry = entry;
+        if self.mode() == Mode::Solo {
+            let (lane, spec) = (self.race().entrants()[0].lane_number, self.entries()[entry]);
+            self.act(Action::Lane { lane, spec });
+        }
+    }
+
+    /// Gives a method of the list other substeps, its lane in a race too, and picks it. A race that it is not in begins
+    /// again with it.
+    fn fly(&mut self, spec: LaneSpec) {
+        let listed = self.entries().iter().position(|known| known.method == spec.method);
+        let entry = listed.expect("every method is on the list");
+        let flown = self.race().entrants().iter().find(|entrant| entrant.entry == entry);
+        match (self.mode(), flown) {
+            (Mode::Race, None) => {
+                self.start.list[entry] = spec;
+                self.start.entry = entry;
+                self.restart();
+                self.set_notice(format!("the race began again, with {} in it", spec.method.name));
+            }
+            (Mode::Race, Some(flown)) => {
+                let lane = flown.lane_number;
+                self.act(Action::Lane { lane, spec });
+                self.pick(entry);
+            }
+            (Mode::Solo, _) => {
+                let lane = self.race().entrants()[0].lane_number;
+                self.act(Action::Lane { lane, spec });
+                self.start.entry = self.active();
+            }
+        }
+    }
+
+    /// The next place on the list that can be picked, round, `step` forward or back.
+    fn pick_beside(&mut self, step: isize) {
+        let (active, count) = (self.active() as isize, self.entries().len() as isize);
+        let mut around = (1..=count).map(|i| (active + i * step).rem_euclid(count) as usize);
+        if let Some(entry) = around.find(|&entry| self.can_pick(entry)) {
+            self.pick(entry);
+        }
+    }
+
+    /// Pauses, and goes so many ticks on or back.
+    fn step_by(&mut self, ticks: i64) {
+        self.running = false;
+        let tick = self.race().tick().saturating_add_signed(ticks);
+        self.seek(tick);
+        while self.race().tick() < tick {
+            self.tick();
+        }
+        self.timeline.show_present();
+    }
+
+    fn seek(&mut self, tick: u64) {
+        self.timeline.seek(tick);
+        self.timeline.show_present();
+        self.clock.set_tick_hz(self.race().tick_hz());
+    }
+
+    fn undo(&mut self) {
+        if self.timeline.undo() {
+            self.timeline.show_present();
+            self.clock.set_tick_hz(self.race().tick_hz());
+            self.set_notice("the old future is back");
+        }
+    }
+
+    pub(super) fn restart(&mut self) {
+        self.timeline = Timeline::new(self.start.session());
+        self.viewer.selected = self.start.entry;
+        self.viewer.notice = None;
+        self.clock.set_tick_hz(self.start.tick_hz);
+        self.clock.restart();
+        self.dropped = 0;
+    }
+
+    fn open_beside(&mut self, offset: usize) {
+        let here = SCENES.iter().position(|scene| scene.name == self.scene().name);
+        self.open(here.map_or(0, |here| (here + offset) % SCENES.len()));
+    }
+
+    /// Opens a built-in scene under its own opening method; mode and look stay as they are.
+    fn open(&mut self, index: usize) {
+        let scene = Scene::built_in(SCENES[index].name).expect("every name in SCENES is built in");
+        let mut lab = Lab::new(scene);
+        lab.start.mode = self.mode();
+        lab.viewer.display = Display { body: 0, ..self.viewer.display.clone() };
+        lab.viewer.pace = self.viewer.pace;
+        lab.clock.set_speed_percent(self.clock.speed_percent());
+        lab.running = self.running;
+        lab.restart();
+        *self = lab;
+    }
+}
+
+/// `part` and so many tenths more, in whole tenths, so that ten steps up and down end where they began.
+fn tenths(part: f64, more: f64) -> f64 {
+    ((part * 10.0).round() + more) / 10.0
+}

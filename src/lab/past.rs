@@ -1,0 +1,300 @@
+//! What is remembered of a race to be drawn: the recent past of every body in every lane, and the truth as a curve.
+//!
+//! It watches a race and is no part of it: a race that is copied leaves it behind, and one that goes back in time
+//! finds in it what it showed then.
+
+use super::action::Action;
+use super::lane::{Origin, TakenUp};
+use super::race::{Entrant, Observer, Race};
+
+mod history;
+mod log;
+mod truth_curve;
+
+pub use history::{CAPACITY, History, Run, Sample, Samples};
+pub use truth_curve::{TruthCurve, TruthSample};
+
+/// The recent past of a race.
+pub struct Past {
+    /// One for each body, for each lane.
+    histories: Vec<Vec<History>>,
+    /// The lanes that they are of, by their numbers.
+    lanes: Vec<usize>,
+    /// One for each body.
+    truth_curves: Vec<TruthCurve>,
+    /// The stretch of time, in seconds, that histories are to reach back.
+    span_s: f64,
+}
+
+/// How much was recorded by some tick: where to [rewind](Past::rewind) to.
+#[derive(Clone, Debug)]
+pub(super) struct PastMark {
+    /// By lane number and body.
+    histories: Box<[(usize, Box<[u64]>)]>,
+    truth_curves: Box<[u64]>,
+}
+
+impl PastMark {
+    /// The memory that it takes beyond its own size, in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        let row = |(_, marks): &(usize, Box<[u64]>)| size_of_val(&marks[..]);
+        size_of_val(&self.histories[..])
+            + self.histories.iter().map(row).sum::<usize>()
+            + size_of_val(&self.truth_curves[..])
+    }
+}
+
+impl Past {
+    /// The past of `race`, which begins with its present and is to reach back `span_s` seconds.
+    pub fn new(race: &Race, span_s: f64) -> Self {
+        let bodies = race.truth().bodies();
+        let histories = || bodies.iter().map(|_| History::new()).collect();
+        let mut past = Self {
+            histories: race.entrants().iter().map(|_| histories()).collect(),
+            lanes: race.entrants().iter().map(|entrant| entrant.lane_number).collect(),
+            truth_curves: bodies.iter().map(|body| TruthCurve::new(body, span_s)).collect(),
+            span_s,
+        };
+        past.sample(race);
+        past
+    }
+
+    /// The histories of the bodies of the lane at this place of the race.
+    pub fn histories(&self, place: usize) -> &[History] {
+        &self.histories[place]
+    }
+
+    /// The recent past of the truth, one curve for each body.
+    pub fn truth_curves(&self) -> &[TruthCurve] {
+        &self.truth_curves
+    }
+
+    /// The true coordinates and velocities of the body at this place of the scene, at the part `part`, 0 to 1, of the
+    /// last tick of `race`.
+    pub fn truth_between(&self, race: &Race, body: usize, part: f64) -> (Vec<f64>, Vec<f64>) {
+        self.truth_curves[body].state(&race.truth().bodies()[body], race.last_tick(), part)
+    }
+
+    /// Shows the present of `race` until the next sample comes, so that what is drawn reaches the present. Never
+    /// allocates.
+    pub fn show_present(&mut self, race: &Race) {
+        self.each(race, History::record_passing);
+    }
+
+    /// Ticks between samples.
+    fn stride(&self, race: &Race) -> u64 {
+        let samples = self.span_s * f64::from(race.tick_hz());
+        ((samples / CAPACITY as f64).ceil() as u64).max(1)
+    }
+
+    /// Adds the present to the histories if it is time for a sample.
+    fn sample(&mut self, race: &Race) {
+        if race.tick().is_multiple_of(self.stride(race)) {
+            self.each(race, History::record);
+        }
+    }
+
+    fn each(&mut self, race: &Race, add: fn(&mut History, Sample)) {
+        let t = race.t();
+        for (Entrant { entry, lane, .. }, histories) in
+            race.entrants().iter().zip(&mut self.histories)
+        {
+            let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(histories);
+            for ((body, truth), history) in bodies.filter(|((b, _), _)| b.halted().is_none()) {
+                add(history, Sample::new(t, *entry, body, truth));
+            }
+        }
+    }
+
+    fn keep_corner(&mut self, race: &Race) {
+        for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
+            curve.keep(race.t(), body);
+        }
+    }
+
+    /// Keeps the histories of the lanes that are still in the race.
+    fn leave_with(&mut self, race: &Race) {
+        let is_there = |number: &usize| race.entrants().iter().any(|e| e.lane_number == *number);
+        let mut lanes = self.lanes.iter();
+        self.histories.retain(|_| lanes.next().is_some_and(is_there));
+        self.lanes.retain(is_there);
+    }
+
+    /// How much is recorded by now.
+    pub(super) fn mark(&self) -> PastMark {
+        let marks = |histories: &Vec<History>| histories.iter().map(History::mark).collect();
+        let rows = self.lanes.iter().copied().zip(self.histories.iter().map(marks));
+        PastMark {
+            histories: rows.collect(),
+            truth_curves: self.truth_curves.iter().map(TruthCurve::mark).collect(),
+        }
+    }
+
+    /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
+    pub(super) fn fills(&self, from: &PastMark, mark: &PastMark) -> bool {
+        let histories = mark.histories.iter().all(|(number, marks)| {
+            let begun = from.histories.iter().find(|(other, _)| other == number);
+            let kept = self.lanes.iter().position(|lane| lane == number);
+            let (Some((_, begun)), Some(kept)) = (begun, kept) else { return false };
+            let mut bodies = self.histories[kept].iter().zip(begun.iter().zip(marks));
+            bodies.all(|(history, (&begun, &mark))| history.fills(begun, mark))
+        });
+        let mut curves =
+            self.truth_curves.iter().zip(from.truth_curves.iter().zip(&mark.truth_curves));
+        histories && curves.all(|(curve, (&begun, &mark))| curve.fills(begun, mark))
+    }
+
+    /// Goes back to a mark, or forward to one of the future that is kept: to where `race` stands.
+    pub(super) fn rewind(&mut self, mark: &PastMark, race: &Race) {
+        self.leave_with(race);
+        for (number, marks) in &mark.histories {
+            if !self.lanes.contains(number) {
+                // A lane that had left comes back.
+                let place = race.entrants().iter().position(|e| e.lane_number == *number);
+                let place = place.expect("a mark is of the lanes that the race then had");
+                self.lanes.insert(place, *number);
+                self.histories.insert(place, marks.iter().map(|_| History::new()).collect());
+            }
+            let place = self.lanes.iter().position(|lane| lane == number).expect("it is there now");
+            for (history, &mark) in self.histories[place].iter_mut().zip(marks) {
+                history.rewind(mark);
+            }
+        }
+        for (curve, &mark) in self.truth_curves.iter_mut().zip(&mark.truth_curves) {
+            curve.rewind(mark);
+        }
+    }
+
+    /// Forgets the future: another one begins.
+    pub(super) fn forget_future(&mut self) {
+        self.histories.iter_mut().flatten().for_each(History::forget_future);
+        self.truth_curves.iter_mut().for_each(TruthCurve::forget_future);
+    }
+}
+
+impl Observer for Past {
+    fn before(&mut self, race: &Race, action: &Action) {
+        for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
+            curve.refresh(body, race.t());
+        }
+        match action {
+            Action::Throttle(_)
+            | Action::Rudder(_)
+            | Action::Kick(_)
+            | Action::Set { .. }
+            | Action::Place { .. } => {
+                self.keep_corner(race);
+            }
+            _ => {}
+        }
+        if let Action::Place { body, .. } = action {
+            let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
+            for (entrant, histories) in race.entrants().iter().zip(&mut self.histories) {
+                let placed = &entrant.lane.bodies()[*body];
+                if placed.halted().is_none() {
+                    histories[*body].end_run(Sample::new(t, entrant.entry, placed, truth));
+                }
+            }
+        }
+        if let Some(place) = race.switched_by(action) {
+            let Entrant { entry, lane, .. } = &race.entrants()[place];
+            let bodies = lane.bodies().iter().zip(race.truth().bodies());
+            for ((body, truth), history) in bodies.zip(&mut self.histories[place]) {
+                if body.halted().is_none() {
+                    history.end_run(Sample::new(race.t(), *entry, body, truth));
+                }
+            }
+        }
+    }
+
+    fn after(&mut self, race: &Race, action: &Action, taken_up: &[TakenUp]) {
+        match action {
+            Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => {
+                self.keep_corner(race);
+                let input = action.input().expect("it is one");
+                self.truth_curves.iter_mut().for_each(|curve| curve.bend(input));
+            }
+            Action::Set { .. } => {
+                self.keep_corner(race);
+                self.truth_curves.iter_mut().for_each(TruthCurve::change);
+            }
+            Action::Place { body, .. } => {
+                self.keep_corner(race);
+                let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
+                for (entrant, histories) in race.entrants().iter().zip(&mut self.histories) {
+                    let placed = &entrant.lane.bodies()[*body];
+                    let sample = Sample::new(t, entrant.entry, placed, truth);
+                    histories[*body].jump(sample);
+                }
+            }
+            Action::Solo { .. } => self.leave_with(race),
+            _ => {}
+        }
+        let Some(place) = race.switched_by(action) else { return };
+        let Entrant { entry, lane, .. } = &race.entrants()[place];
+        let bodies = lane.bodies().iter().zip(race.truth().bodies()).enumerate();
+        for ((index, (body, truth)), history) in bodies.zip(&mut self.histories[place]) {
+            let from_truth = |it: &&TakenUp| it.halt.body == index && it.from == Origin::Truth;
+            let jumped = taken_up.iter().any(|it| from_truth(&it));
+            let sample = Sample::new(race.t(), *entry, body, truth);
+            history.begin_run(Sample { jumped, ..sample });
+        }
+    }
+
+    fn ticked(&mut self, race: &Race) {
+        let tick = race.last_tick();
+        for (body, curve) in race.truth().bodies().iter().zip(&mut self.truth_curves) {
+            if body.halted().is_none() {
+                curve.extend(body, tick);
+            }
+        }
+        self.sample(race);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::lane_spec::LaneSpec;
+    use crate::lab::scene::Scene;
+    use crate::sim::integrators::method;
+
+    fn race(seconds: f64, tick_hz: u32) -> (Race, Past) {
+        let scene = Scene { seconds, tick_hz, ..Scene::built_in("spring").unwrap() };
+        let race = Race::new(&scene, [(0, LaneSpec::plain(method("rk4").unwrap()))]);
+        let past = Past::new(&race, seconds);
+        (race, past)
+    }
+
+    /// Runs the race through so many seconds, and returns the times of the samples.
+    fn sampled((race, past): &mut (Race, Past), seconds: f64) -> Vec<f64> {
+        let end = race.t() + seconds - 1e-9;
+        while race.t() < end {
+            race.step_seen(past);
+        }
+        past.histories(0)[0].samples().map(|sample| sample.t).collect()
+    }
+
+    #[test]
+    fn histories_reach_over_the_scene_with_no_fewer_samples_than_they_must() {
+        // Just as many ticks as there is room for, and one more.
+        for (ticks, stride) in
+            [(CAPACITY as u32 - 1, 1), (CAPACITY as u32, 1), (CAPACITY as u32 + 1, 2)]
+        {
+            let times = sampled(&mut race(f64::from(ticks), 1), f64::from(ticks));
+            assert_eq!(
+                times[times.len() - 1] - times[times.len() - 2],
+                f64::from(stride),
+                "{ticks}"
+            );
+            assert!(times[0] <= f64::from(stride), "{ticks} ticks: from {} s on", times[0]);
+        }
+        let mut race = race(20.0, 10);
+        assert_eq!(sampled(&mut race, 10.0).len(), 101);
+        race.0.perform(&Action::TickHz(1000), &mut race.1);
+        let times = sampled(&mut race, 10.0);
+        // 20 s at 1000 Hz are ten times the room.
+        assert!((times[times.len() - 1] - times[times.len() - 2] - 0.01).abs() < 1e-9);
+        assert!(times[0] == 0.0 && (times[times.len() - 1] - 20.0).abs() < 1e-9);
+    }
+}

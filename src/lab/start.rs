@@ -1,0 +1,67 @@
+//! What a run begins with: a scene as a person has edited it, and the methods, lanes and tick rate that were chosen.
+
+use std::sync::Arc;
+
+use super::action::Action;
+use super::lane_spec::LaneSpec;
+use super::race::{Mode, Race};
+use super::scene::Scene;
+use super::session::Session;
+
+/// What a restart begins with: what a person chose stays, what a script did is not in it.
+#[derive(Clone, Debug)]
+pub(super) struct Start {
+    /// With the parameters that the person has set.
+    pub(super) scene: Arc<Scene>,
+    /// The methods, with the substeps and tolerances that the person has given them.
+    pub(super) list: Vec<LaneSpec>,
+    pub(super) mode: Mode,
+    /// The method flown in solo, which is in a race too, by its place on the list.
+    pub(super) entry: usize,
+    pub(super) tick_hz: u32,
+}
+
+impl Start {
+    /// Of a scene as it is written, solo, under the method that it opens with.
+    pub(super) fn of(scene: Scene) -> Self {
+        let opens_with = |spec: &LaneSpec| Some(spec.method) == scene.opening_method;
+        let entry = scene.lanes.iter().position(opens_with).unwrap_or(0);
+        Self {
+            list: scene.method_list(),
+            mode: Mode::Solo,
+            entry,
+            tick_hz: scene.tick_hz,
+            scene: Arc::new(scene),
+        }
+    }
+
+    /// The run at its start.
+    pub(super) fn session(&self) -> Session {
+        let race = match self.mode {
+            Mode::Solo => Race::solo(&self.scene, self.list.clone(), self.entry),
+            Mode::Race => {
+                let others = (self.entry >= self.scene.lanes.len()).then_some(self.entry);
+                let lanes = (0..self.scene.lanes.len()).chain(others);
+                Race::among(&self.scene, self.list.clone(), lanes)
+            }
+        };
+        Session::new(Arc::clone(&self.scene), race.at_rate(self.tick_hz))
+    }
+
+    /// Takes notice of what a person did in `race`: it holds after a restart too.
+    pub(super) fn keep(&mut self, action: &Action, race: &Race) {
+        match *action {
+            Action::TickHz(_) => self.tick_hz = race.tick_hz(),
+            Action::Set { body, parameter, value } => {
+                Arc::make_mut(&mut self.scene).bodies[body].values[parameter] = value;
+            }
+            Action::Method(_)
+            | Action::Lane { .. }
+            | Action::Substeps { .. }
+            | Action::Tolerance { .. } => {
+                self.list.copy_from_slice(race.list());
+            }
+            _ => {}
+        }
+    }
+}

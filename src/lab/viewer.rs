@@ -1,0 +1,66 @@
+//! What a person looks at: nothing here touches a run, and no run remembers it.
+
+use super::analysis::{Advice, Findings, Verdict};
+use super::display::{Display, Instrument, Interpolation, Pace};
+
+/// How a run is looked at, and what there is to read beside it.
+#[derive(Clone, Debug)]
+pub struct Viewer {
+    /// What is shown, and how.
+    pub display: Display,
+    /// The lane selected in a race, by its method's place on the list.
+    pub(super) selected: usize,
+    /// How fast the driver goes while time runs; `None` where there is no real time, as in a capture.
+    pub pace: Option<Pace>,
+    /// The latest thing worth telling, such as a screenshot's file name.
+    pub notice: Option<String>,
+    pub(super) findings: Option<Findings>,
+}
+
+impl Viewer {
+    /// A viewer who has selected this lane.
+    pub(super) fn new(selected: usize) -> Self {
+        Self {
+            display: Display {
+                ghost: true,
+                interpolation: Interpolation::Hermite,
+                instrument: Instrument::Metric(0),
+                body: 0,
+                help: false,
+                motion: true,
+            },
+            selected,
+            pace: None,
+            notice: None,
+            findings: None,
+        }
+    }
+
+    /// What is to be said of the method on this place of the list, over the scene from its start at the
+    /// present tick rate and throttle; `None` until it was [learnt](super::Lab::learn).
+    pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
+        self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
+    }
+
+    /// What is known of every method on this scene, as far as it was [learnt](super::Lab::learn) and is shown.
+    pub fn advice(&self) -> Option<&Advice> {
+        self.findings.as_ref()?.advice.as_ref()
+    }
+
+    /// Shows the next way of drawing between ticks, and tells its name.
+    pub(super) fn next_interpolation(&mut self) {
+        self.display.interpolation = match self.display.interpolation {
+            Interpolation::Raw => Interpolation::Linear,
+            Interpolation::Linear => Interpolation::Hermite,
+            Interpolation::Hermite => Interpolation::Raw,
+        };
+        let name = self.display.interpolation.name();
+        self.notice = Some(format!("drawing between ticks: {name}"));
+    }
+
+    /// Shows the next instrument, round.
+    pub(super) fn next_instrument(&mut self) {
+        let mut after = Instrument::all().skip_while(|i| *i != self.display.instrument);
+        self.display.instrument = after.nth(1).unwrap_or(Instrument::Metric(0));
+    }
+}

@@ -1,0 +1,328 @@
+//! A run is a value: a copy goes on alike to the bit, and any tick of the past is what it was. On random journals; the
+//! seed is printed, and `REGATTA_SEED` sets another.
+
+use std::sync::Arc;
+
+use regatta::lab::{
+    Action, Command, Lab, LaneSpec, Past, SNAPSHOT_BYTES, Scene, Session, Timeline, TruthSample,
+};
+use regatta::sim::bodies::BODIES;
+use regatta::sim::integrators::METHODS;
+
+/// SplitMix64.
+struct Dice(u64);
+
+impl Dice {
+    fn new(of_test: u64) -> Self {
+        let seed = std::env::var("REGATTA_SEED").ok().and_then(|seed| seed.parse().ok());
+        let seed = seed.unwrap_or(20_261_120);
+        println!("seed {seed}");
+        Self(seed ^ of_test << 32)
+    }
+
+    fn part(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + self.part() * (high - low)
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.part() * count as f64) as usize
+    }
+
+    fn spec(&mut self) -> LaneSpec {
+        let method = &METHODS[self.below(METHODS.len())];
+        let tolerance = (method.tolerance.is_some() && self.part() < 0.5)
+            .then(|| 10.0_f64.powf(self.between(-8.0, -3.0)));
+        LaneSpec { method, substeps: 1 + self.below(3) as u32, tolerance }
+    }
+}
+
+/// A scene of one or two bodies and up to three lanes. The bodies are drawn from all kinds, those without a closed
+/// form more rarely, as their truth takes long.
+fn scene(dice: &mut Dice, n: usize) -> Scene {
+    let kinds = ["spring", "ship", "chain", "orbit", "spring", "ship"];
+    let first = if n.is_multiple_of(40) {
+        "helm"
+    } else if n % 40 == 20 {
+        "pendulum"
+    } else {
+        kinds[n % 6]
+    };
+    let names = ["harbour", "spring", "chain", "orbit", "ship", "pendulum", "helm", "stiff"];
+    let built_in = |name: &&str| Scene::built_in(name).expect("a built-in scene");
+    let all: Vec<Scene> = names.iter().map(built_in).collect();
+    let of = |kind: &str| all.iter().flat_map(|s| &s.bodies).find(|b| b.kind.id == kind).cloned();
+    let mut bodies = vec![of(first).expect("a body of each kind")];
+    if dice.part() < 0.5 {
+        let mut second = of(kinds[dice.below(4)]).expect("a body of each kind");
+        second.name = "the second".into();
+        bodies.push(second);
+    }
+    let mut lanes: Vec<LaneSpec> = Vec::new();
+    while lanes.len() < 1 + n % 3 {
+        let spec = dice.spec();
+        if !lanes.contains(&spec) {
+            lanes.push(spec);
+        }
+    }
+    Scene { bodies, lanes, opening_method: None, tick_hz: 60, seconds: 20.0, ..all[0].clone() }
+}
+
+/// Something that can be done to the session as it stands.
+fn action(dice: &mut Dice, session: &Session) -> Action {
+    let race = session.lanes();
+    let lane = race.entrants()[dice.below(race.entrants().len())].lane_number;
+    let body = dice.below(race.truth().bodies().len());
+    match dice.below(20) {
+        0..5 => Action::Lane { lane, spec: dice.spec() },
+        5 => Action::Substeps { lane, substeps: 1 + dice.below(4) as u32 },
+        6 => Action::Tolerance { lane, tolerance: 10.0_f64.powf(dice.between(-8.0, -3.0)) },
+        7..9 => Action::TickHz([30, 49, 60, 120, 240][dice.below(5)]),
+        9..11 => Action::Throttle(dice.between(-1.0, 1.0)),
+        11..13 => Action::Rudder(dice.between(-1.0, 1.0)),
+        13..15 => Action::Kick(dice.between(-1.0, 1.0)),
+        15..17 => {
+            let kind = race.truth().bodies()[body].kind;
+            let parameter = dice.below(kind.parameters.len());
+            let value = race.values(body)[parameter] * dice.between(0.8, 1.25);
+            Action::Set { body, parameter, value }
+        }
+        17 => Action::Method(&METHODS[dice.below(METHODS.len())]),
+        18 => {
+            let truth = &race.truth().bodies()[body].stepper;
+            let factor = dice.between(0.9, 1.1);
+            let moved = |values: &[f64]| values.iter().map(|x| factor * x).collect();
+            Action::Place { body, q: moved(truth.q()), v: moved(truth.v()) }
+        }
+        _ if dice.part() < 0.1 => Action::Solo { lane },
+        _ => Action::Kick(0.1),
+    }
+}
+
+fn start(dice: &mut Dice, n: usize) -> Session {
+    let scene = Arc::new(scene(dice, n));
+    match n % 4 {
+        0 => Session::solo(scene, 0),
+        _ => Session::race(scene),
+    }
+}
+
+fn hashes(session: &Session) -> Vec<u64> {
+    session.lanes().lane_hashes().collect()
+}
+
+/// The ticks at which something is done, in order.
+fn ticks_of_actions(dice: &mut Dice, ticks: u64) -> Vec<u64> {
+    let mut at: Vec<u64> = (0..40).map(|_| dice.below(ticks as usize) as u64).collect();
+    at.sort_unstable();
+    at
+}
+
+const TICKS: u64 = 10_000;
+
+/// Runs journals `from`, `from + 2` and so on: whole, from copies made on the way, and again from what the journal says.
+fn journals(from: usize) {
+    let mut dice = Dice::new(from as u64);
+    for n in (from..200).step_by(2) {
+        let begun = start(&mut dice, n);
+        let mut whole = begun.clone();
+        let mut at = ticks_of_actions(&mut dice, TICKS).into_iter().peekable();
+        let mut cuts: Vec<u64> = (0..20).map(|_| dice.below(TICKS as usize) as u64).collect();
+        cuts.sort_unstable();
+        cuts.push(TICKS);
+        let mut copies: Vec<Session> = Vec::new();
+        let mut marks: Vec<(u64, Vec<u64>)> = Vec::new();
+        for tick in 0..TICKS {
+            // As the tick is reached, before anything is done there.
+            if cuts.contains(&tick) {
+                copies.push(whole.clone());
+                marks.push((tick, hashes(&whole)));
+            }
+            while at.next_if_eq(&tick).is_some() {
+                let action = action(&mut dice, &whole);
+                whole.act(action);
+            }
+            whole.tick();
+        }
+        marks.push((TICKS, hashes(&whole)));
+        let journal = whole.journal().clone();
+        assert!(journal.rows().len() > 10, "journal {n}");
+
+        // From each cut to the next but two, the last ones to the end, by the journal of the whole.
+        for (i, mut copy) in copies.into_iter().enumerate() {
+            copy.follow(journal.clone());
+            for (tick, hashes_then) in marks.iter().skip(i).take(4) {
+                copy.run(tick - copy.lanes().tick());
+                assert_eq!(&hashes(&copy), hashes_then, "journal {n} from cut {i} to {tick}");
+            }
+        }
+
+        let mut again = begun;
+        again.follow(journal);
+        for (tick, hashes_then) in &marks {
+            again.run(tick - again.lanes().tick());
+            assert_eq!(&hashes(&again), hashes_then, "journal {n} again, to {tick}");
+        }
+    }
+}
+
+#[test]
+fn random_journals_run_whole_from_copies_and_again_to_the_same_bit() {
+    journals(0);
+}
+
+#[test]
+fn more_random_journals_run_whole_from_copies_and_again_to_the_same_bit() {
+    journals(1);
+}
+
+/// All that is shown of a run, to the bit.
+#[derive(Debug, PartialEq)]
+struct Shown {
+    tick: u64,
+    hashes: Vec<u64>,
+    evaluations: Vec<u64>,
+    histories: Vec<Vec<String>>,
+    truth: Vec<Vec<TruthSample>>,
+}
+
+fn shown(timeline: &Timeline) -> Shown {
+    let race = timeline.session().lanes();
+    let past: &Past = timeline.past();
+    let samples = |place: usize| {
+        let histories = past.histories(place).iter();
+        histories.map(|history| format!("{:?}", history.samples().collect::<Vec<_>>())).collect()
+    };
+    Shown {
+        tick: race.tick(),
+        hashes: race.lane_hashes().collect(),
+        evaluations: race.entrants().iter().map(|entrant| entrant.lane.evaluations()).collect(),
+        histories: (0..race.entrants().len()).map(samples).collect(),
+        truth: past.truth_curves().iter().map(|curve| curve.samples().copied().collect()).collect(),
+    }
+}
+
+#[test]
+fn to_go_to_a_tick_is_the_same_from_anywhere_as_to_run_there() {
+    let mut dice = Dice::new(2);
+    for n in 0..24 {
+        let mut timeline = Timeline::new(start(&mut dice, n));
+        let mut at = ticks_of_actions(&mut dice, 4000).into_iter().peekable();
+        let wanted: Vec<u64> = (0..12).map(|_| dice.below(4000) as u64).collect();
+        let mut ran = Vec::new();
+        for tick in 0..4000 {
+            if wanted.contains(&tick) {
+                ran.push(shown(&timeline));
+            }
+            while at.next_if_eq(&tick).is_some() {
+                let action = action(&mut dice, timeline.session());
+                timeline.act(action);
+            }
+            timeline.tick();
+        }
+        ran.push(shown(&timeline));
+        for _ in 0..30 {
+            let then = &ran[dice.below(ran.len())];
+            timeline.seek(then.tick);
+            let now = shown(&timeline);
+            assert!(now == *then, "scene {n}, tick {}: {}", then.tick, difference(&now, then));
+        }
+    }
+}
+
+fn difference(found: &Shown, wanted: &Shown) -> String {
+    let lengths = |s: &Shown| s.truth.iter().map(Vec::len).collect::<Vec<_>>();
+    let same_histories: Vec<bool> = found
+        .histories
+        .iter()
+        .flatten()
+        .zip(wanted.histories.iter().flatten())
+        .map(|(a, b)| a == b)
+        .collect();
+    format!(
+        "ticks {} and {}, hashes {}, evaluations {}, histories {same_histories:?}, truth {:?} and {:?}: {}",
+        found.tick,
+        wanted.tick,
+        found.hashes == wanted.hashes,
+        found.evaluations == wanted.evaluations,
+        lengths(found),
+        lengths(wanted),
+        found.truth == wanted.truth,
+    )
+}
+
+#[test]
+fn an_action_in_the_past_begins_another_future_and_undo_brings_the_old_one_back() {
+    let mut dice = Dice::new(3);
+    for n in 0..8 {
+        let mut lab = Lab::new(scene(&mut dice, n));
+        (0..700).for_each(|_| lab.tick());
+        lab.apply(Command::Act(Action::Kick(0.3)));
+        (0..300).for_each(|_| lab.tick());
+        let end = shown(lab.timeline());
+        lab.apply(Command::Seek(400));
+        assert_eq!((lab.timeline().end(), lab.timeline().is_in_past()), (1000, true));
+        // What changes nothing leaves the future as it is.
+        let throttle = lab.race().throttle();
+        lab.apply(Command::Throttle(throttle));
+        assert_eq!((lab.timeline().end(), lab.timeline().can_undo()), (1000, false));
+
+        let rows = lab.timeline().session().journal().rows().len();
+        lab.apply(Command::Act(Action::Kick(-0.4)));
+        assert_eq!((lab.timeline().end(), lab.timeline().is_in_past()), (400, false));
+        assert_eq!(lab.timeline().session().journal().rows().len(), rows, "one came, one went");
+        let notice = lab.viewer().notice.clone().expect("it says so");
+        assert!(notice.contains("Ctrl Z"), "{notice}");
+        (0..900).for_each(|_| lab.tick());
+        assert_ne!(shown(lab.timeline()).hashes, end.hashes);
+
+        lab.apply(Command::Undo);
+        assert_eq!((lab.race().tick(), lab.timeline().end()), (400, 1000));
+        lab.apply(Command::Seek(1000));
+        let found = shown(lab.timeline());
+        assert!(found == end, "scene {n}: {}", difference(&found, &end));
+        assert!(!lab.timeline().can_undo());
+        lab.apply(Command::Undo);
+        assert_eq!(lab.timeline().end(), 1000, "there is no more to undo");
+    }
+}
+
+#[test]
+fn ten_hours_stay_within_the_memory_that_is_granted() {
+    // Of a million ticks, more than of ten hours at the scene's rate.
+    let scene = Scene { tick_hz: 30, ..Scene::built_in("spring").unwrap() };
+    let limit = 1 << 20;
+    let mut timeline = Timeline::with_limit(Session::race(scene.into()), limit);
+    let mut most = 0;
+    for _ in 0..10 * 3600 * 30 {
+        timeline.tick();
+        most = most.max(timeline.bytes());
+    }
+    assert!((limit / 4..=limit).contains(&most), "{most} of {limit} bytes");
+    let end = timeline.session().lanes().state_hash();
+    timeline.seek(12_345);
+    assert!(timeline.bytes() <= limit);
+    timeline.seek(u64::MAX);
+    assert_eq!(timeline.session().lanes().state_hash(), end);
+    assert!(SNAPSHOT_BYTES == 64 << 20 && timeline.limit() == limit);
+}
+
+#[test]
+fn every_kind_of_body_is_among_the_random_scenes() {
+    let mut dice = Dice::new(4);
+    let scenes: Vec<Scene> = (0..200).map(|n| scene(&mut dice, n)).collect();
+    for kind in BODIES {
+        assert!(
+            scenes.iter().any(|s| s.bodies.iter().any(|b| b.kind.id == kind.id)),
+            "{}",
+            kind.id
+        );
+    }
+}
