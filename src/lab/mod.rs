@@ -39,8 +39,9 @@ pub use lane::{ESCAPE, Halt, Lane, LaneBody, Origin, TakenUp};
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use race::{Entrant, Race};
 pub use scene::{
-    BuiltIn, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, LaneSpec, MOST_BODIES, MOST_LANES,
+    BuiltIn, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, LaneSpec, MOST_BODIES, MOST_LANES,
     MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene,
-    SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, nearest,
+    SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, edited_values, nearest,
+    parameter_named,
 };
 pub use truth_curve::{TruthCurve, TruthSample};

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::bodies::{Body, Input, Pen, View};
+use super::bodies::{Body, Input, ParameterOf, Pen, View};
 use super::exact_flow::ExactFlow;
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
 use super::reference::Reference;
@@ -50,6 +50,12 @@ pub trait Stepper: Send {
 
     /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
     fn input(&mut self, t: f64, input: Input) -> bool;
+
+    /// Sets a parameter of the body, by its place among the kind's
+    /// [`parameters`](super::bodies::Kind::parameters), at time `t` (s), the state left as it is. Returns whether
+    /// that changed the body: a value that is set already does not, nor does a parameter that
+    /// [acts at the start](super::bodies::Acts). `value` is in the parameter's range and fits the others.
+    fn set_parameter(&mut self, t: f64, place: usize, value: f64) -> bool;
 
     /// Overwrites `a` with the acceleration in the given state under the present input; not counted.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
@@ -159,10 +165,11 @@ pub(super) trait Drive<B: Body>: Clone + Send + 'static {
     /// Takes notice that at time `t` (s) the body was put into this state.
     fn placed(&mut self, t: f64, state: &State<B::Vector>);
 
-    /// Takes notice that at time `t` (s) an input changed the forces on `body`, or its state to this one.
+    /// Takes notice that at time `t` (s) an input or an edit changed the forces on `body`, or its state to this
+    /// one.
     fn pushed(&mut self, body: &Counted<B>, t: f64, state: &State<B::Vector>);
 
-    /// Takes notice that an input may be about to change `body`, which is in this state.
+    /// Takes notice that an input or an edit may be about to change `body`, which is in this state.
     fn about_to_be_pushed(&mut self, _body: &Counted<B>, _state: &State<B::Vector>) {}
 
     /// Forgets what is carried from step to step.
@@ -220,6 +227,19 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
             self.drive.pushed(&self.body, t, &self.state);
         }
         taken
+    }
+
+    fn set_parameter(&mut self, t: f64, place: usize, value: f64) -> bool {
+        let parameter = B::PARAMETERS.get(place);
+        let Some(field) = parameter.and_then(ParameterOf::acting_at_once) else { return false };
+        if *field(&mut self.body.system) == value {
+            return false;
+        }
+        self.drive.about_to_be_pushed(&self.body, &self.state);
+        *field(&mut self.body.system) = value;
+        self.body.system.prepare();
+        self.drive.pushed(&self.body, t, &self.state);
+        true
     }
 
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {

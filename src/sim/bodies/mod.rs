@@ -15,6 +15,7 @@ mod helm;
 mod kepler;
 mod orbit;
 mod oscillator;
+mod parameter;
 mod pen;
 mod pendulum;
 mod ship;
@@ -23,6 +24,7 @@ mod spring;
 pub use chain::Chain;
 pub use helm::{Helm, ThrustCurve};
 pub use orbit::Orbit;
+pub use parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
 pub use pen::{Mark, Pen};
 pub use pendulum::Pendulum;
 pub use ship::Ship;
@@ -30,6 +32,24 @@ pub use spring::Spring;
 
 /// Something that moves by an equation of motion and can be drawn.
 pub trait Body: System + Clone + Send + 'static {
+    /// What can be set about the body. Its card lists the descriptions, as [`Kind::parameters`].
+    const PARAMETERS: &'static [ParameterOf<Self>] = &[];
+
+    /// The body with these values of its [parameters](Body::PARAMETERS), in their order: one value for each
+    /// parameter, and two for each point of a curve.
+    ///
+    /// # Panics
+    /// If there are fewer values or more, or if no body of this kind can be built from them: see [`Kind::check`].
+    fn with_parameters(mut self, values: &[f64]) -> Self {
+        parameter::write(&mut self, Self::PARAMETERS, values);
+        self.prepare();
+        self
+    }
+
+    /// Computes again what the body keeps besides its parameters because it follows from them. Called whenever
+    /// they were written.
+    fn prepare(&mut self) {}
+
     /// The memory that it takes beyond its own size, in bytes.
     fn heap_bytes(&self) -> usize {
         0
@@ -212,7 +232,7 @@ pub struct Kind {
     pub about: &'static str,
     /// The coordinates of a body with these parameter values, in state order.
     pub coordinates: fn(&[f64]) -> &'static [Coordinate],
-    /// The keys of its table, in the order [`Kind::build`] takes their values.
+    /// The keys of its table, in the order in which [`Kind::build`] takes their values.
     pub parameters: &'static [Parameter],
     /// The kinds of input it takes: `throttle`, `rudder`, `kick`.
     pub inputs: &'static [&'static str],
@@ -222,8 +242,8 @@ pub struct Kind {
     pub truth: Truth,
     /// Says what is wrong with values that are each in range but do not go together.
     pub check: fn(&[f64]) -> Result<(), Fault>,
-    /// Puts a body with these parameter values at its start under a solver: one value for each
-    /// parameter, but of a curve, which is the last, all its points, each as two values.
+    /// Puts a body with these parameter values, as [`Body::with_parameters`] takes them, at its start under a
+    /// solver.
     pub build: fn(&[f64], Solver) -> Box<dyn Stepper>,
 }
 
@@ -233,17 +253,11 @@ impl Kind {
         let default = |parameter: &Parameter| parameter.default.unwrap_or(1.0);
         (self.coordinates)(&self.parameters.iter().map(default).collect::<Vec<_>>())
     }
-}
 
-/// What is wrong with a body's parameters taken together, in lower case.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
-    /// The key whose value would have to change.
-    pub key: &'static str,
-    /// What is wrong.
-    pub what: String,
-    /// What to do about it.
-    pub remedy: String,
+    /// The parameter with this key, and its place among [`Kind::parameters`].
+    pub fn parameter(&self, key: &str) -> Option<(usize, &'static Parameter)> {
+        self.parameters.iter().enumerate().find(|(_, parameter)| parameter.key == key)
+    }
 }
 
 /// One coordinate of a body.
@@ -256,79 +270,6 @@ pub struct Coordinate {
     /// Its unit.
     pub unit: &'static str,
 }
-
-/// One key of a body's table in a scene.
-#[derive(Debug)]
-pub struct Parameter {
-    /// The key, unit included.
-    pub key: &'static str,
-    /// What it is.
-    pub about: &'static str,
-    /// Its value where the scene does not say; `None` where the scene must.
-    pub default: Option<f64>,
-    /// What values are possible.
-    pub range: Range,
-}
-
-/// The values a parameter may take. All are finite.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Range {
-    /// Greater than 0 and at most this.
-    Positive(f64),
-    /// From 0 to this.
-    NonNegative(f64),
-    /// From minus this to this.
-    Within(f64),
-    /// Whole numbers from 1 to this.
-    Count(u32),
-    /// A curve of 2 to [`MOST_POINTS`] points `[x, y]` with rising x, each number from minus
-    /// [`LARGEST`] to that. Only a kind's last parameter can be one.
-    Curve {
-        /// The unit of x.
-        x: &'static str,
-        /// The unit of y.
-        y: &'static str,
-    },
-    /// From the one to the other.
-    Between(f64, f64),
-}
-
-/// The most points of a curve: what a person still types in.
-pub const MOST_POINTS: usize = 64;
-
-impl Range {
-    /// Whether `value` is possible: of a curve, whether it may be a number of a point.
-    pub fn contains(self, value: f64) -> bool {
-        match self {
-            Range::Positive(most) => value > 0.0 && value <= most,
-            Range::NonNegative(most) => value >= 0.0 && value <= most,
-            Range::Within(most) => value >= -most && value <= most,
-            Range::Count(most) => value >= 1.0 && value <= f64::from(most) && value.fract() == 0.0,
-            Range::Curve { .. } => Range::Within(LARGEST).contains(value),
-            Range::Between(least, most) => value >= least && value <= most,
-        }
-    }
-}
-
-impl std::fmt::Display for Range {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let is_plain = |x: f64| x == 0.0 || (1e-4..1e9).contains(&x.abs());
-        let short = |x: f64| if is_plain(x) { format!("{x}") } else { format!("{x:e}") };
-        match *self {
-            Range::Positive(most) => write!(f, "greater than 0 and at most {}", short(most)),
-            Range::NonNegative(most) => write!(f, "from 0 to {}", short(most)),
-            Range::Within(most) => write!(f, "from {} to {}", short(-most), short(most)),
-            Range::Count(most) => write!(f, "whole, from 1 to {most}"),
-            Range::Curve { x, y } => {
-                write!(f, "2 to {MOST_POINTS} points [{x}, {y}] in rising order")
-            }
-            Range::Between(least, most) => write!(f, "from {} to {}", short(least), short(most)),
-        }
-    }
-}
-
-/// The largest magnitude of a body's parameter: beyond it, products in the force laws overflow.
-pub const LARGEST: f64 = 1e15;
 
 /// Every kind of body, in menu order.
 pub static BODIES: &[Kind] =

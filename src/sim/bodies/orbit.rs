@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{
-    Body, Coordinate, Fault, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View, kepler,
+    Body, Coordinate, Fault, Input, Kind, ParameterOf, Pen, Range, Truth, View, kepler, parameter,
 };
 use crate::sim::{State, System, stepper};
 
@@ -16,44 +16,7 @@ pub(super) const KIND: Kind = Kind {
             Coordinate { name: "y", velocity: "vy", unit: "m" },
         ]
     },
-    parameters: &[
-        Parameter {
-            key: "mu_m3_per_s2",
-            about: "μ, the pull of the centre, at the origin, times the distance squared",
-            default: None,
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "x0_m",
-            about: "x at the start",
-            default: None,
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "y0_m",
-            about: "y at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "vx0_m_per_s",
-            about: "the velocity along x at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "vy0_m_per_s",
-            about: "the velocity along y at the start",
-            default: None,
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "kick_m_per_s",
-            about: "what one kick adds to the speed, along the path",
-            default: Some(0.1),
-            range: Range::Within(LARGEST),
-        },
-    ],
+    parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["kick"],
     leading: "mu_m3_per_s2",
     truth: Truth::Exact,
@@ -65,12 +28,30 @@ pub(super) const KIND: Kind = Kind {
         }),
         _ => Ok(()),
     },
-    build: |values, solver| {
-        let &[mu, x0, y0, vx0, vy0, kick] = values else { unreachable!("one value a key") };
-        let (q0, v0) = (DVec2::new(x0, y0), DVec2::new(vx0, vy0));
-        stepper(Orbit { mu, q0, v0, kick }, solver)
-    },
+    build: |values, solver| stepper(Orbit::BLANK.with_parameters(values), solver),
 };
+
+type Of = ParameterOf<Orbit>;
+
+const PARAMETERS: [Of; 6] = [
+    Of::number("mu_m3_per_s2", Range::POSITIVE, |orbit| &mut orbit.mu)
+        .about("μ, the pull of the centre, at the origin, times the distance squared"),
+    Of::number("x0_m", Range::ANY, |orbit| &mut orbit.q0.x).at_start().about("x at the start"),
+    Of::number("y0_m", Range::ANY, |orbit| &mut orbit.q0.y)
+        .or(0.0)
+        .at_start()
+        .about("y at the start"),
+    Of::number("vx0_m_per_s", Range::ANY, |orbit| &mut orbit.v0.x)
+        .or(0.0)
+        .at_start()
+        .about("the velocity along x at the start"),
+    Of::number("vy0_m_per_s", Range::ANY, |orbit| &mut orbit.v0.y)
+        .at_start()
+        .about("the velocity along y at the start"),
+    Of::number("kick_m_per_s", Range::ANY, |orbit| &mut orbit.kick)
+        .or(0.1)
+        .about("what one kick adds to the speed, along the path"),
+];
 
 /// A satellite of no mass to speak of; its energy is for each kilogram. Its coordinates are its place
 /// from the centre, in metres.
@@ -95,6 +76,9 @@ struct Ellipse {
 }
 
 impl Orbit {
+    /// Every parameter is 0: for [`Body::with_parameters`] to fill in.
+    pub const BLANK: Self = Self { mu: 0.0, q0: DVec2::ZERO, v0: DVec2::ZERO, kick: 0.0 };
+
     /// The ellipse that the start lies on, if it is one.
     fn ellipse(&self) -> Option<Ellipse> {
         let Self { mu, q0, v0, .. } = *self;
@@ -125,6 +109,8 @@ impl System for Orbit {
 }
 
 impl Body for Orbit {
+    const PARAMETERS: &'static [Of] = &PARAMETERS;
+
     fn start(&self) -> State<DVec2> {
         State { q: self.q0, v: self.v0 }
     }
