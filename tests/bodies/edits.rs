@@ -197,3 +197,20 @@ fn every_parameter_has_the_unit_that_ends_its_key_and_says_what_it_is() {
         }
     }
 }
+
+#[test]
+fn a_parameter_is_called_by_its_key_without_the_unit() {
+    let called = |id: &str| {
+        let parameters = kind(id).unwrap().parameters.iter();
+        parameters.map(|parameter| parameter.quantity()).collect::<Vec<_>>()
+    };
+    let names = ["length", "mass", "gravity", "damping", "theta0", "omega0", "kick"];
+    assert_eq!(called("pendulum"), names);
+    assert_eq!(called("chain")[4], "plucked mass");
+    assert_eq!(called("helm")[3], "side drag");
+    for kind in BODIES {
+        assert!(
+            kind.parameter(kind.leading).is_some_and(|(_, leading)| leading.acts == Acts::AtOnce)
+        );
+    }
+}

@@ -30,6 +30,14 @@ pub struct Parameter {
     pub acts: Acts,
 }
 
+impl Parameter {
+    /// What it is called: the key without its unit, in words.
+    pub fn quantity(&self) -> String {
+        let end = unit(self.key).0;
+        self.key.strip_suffix(end).unwrap_or(self.key).replace('_', " ")
+    }
+}
+
 /// When a change of a parameter is felt by a body that moves already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acts {
@@ -137,7 +145,8 @@ enum Slot<B> {
 
 impl<B> ParameterOf<B> {
     const fn new(key: &'static str, range: Range, acts: Acts, slot: Slot<B>) -> Self {
-        let parameter = Parameter { key, about: "", unit: unit(key), default: None, range, acts };
+        let unit = unit(key).1;
+        let parameter = Parameter { key, about: "", unit, default: None, range, acts };
         Self { parameter, slot }
     }
 
@@ -236,16 +245,17 @@ const UNITS: [(&str, &str); 13] = [
     ("_m", "m"),
 ];
 
-const fn unit(key: &str) -> &'static str {
+/// The end of a key and the symbol that it stands for; both are empty where the key names no unit.
+const fn unit(key: &str) -> (&'static str, &'static str) {
     let mut n = 0;
     while n < UNITS.len() {
         let (end, symbol) = UNITS[n];
         if ends_with(key.as_bytes(), end.as_bytes()) {
-            return symbol;
+            return (end, symbol);
         }
         n += 1;
     }
-    ""
+    ("", "")
 }
 
 const fn ends_with(mut text: &[u8], mut end: &[u8]) -> bool {
