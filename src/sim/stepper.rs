@@ -1,8 +1,10 @@
 //! One body, its solver and its state behind one object-safe face: one dynamic call a tick.
 
+use std::any::Any;
+
 use glam::DVec2;
 
-use super::bodies::{Body, Input, ParameterOf, Pen, View};
+use super::bodies::{Body, Input, ParameterOf};
 use super::exact_flow::ExactFlow;
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
 use super::reference::Reference;
@@ -78,10 +80,8 @@ pub trait Stepper: Send {
 
     /// Where the body is, in metres. Never allocates.
     fn place(&self) -> DVec2;
-    /// Draws the body in the given state, in metres.
-    fn outline(&self, q: &[f64], v: &[f64], pen: &mut Pen);
-    /// How the body wants to be looked at.
-    fn view(&self) -> View;
+    /// The body with its present parameters, of the type that its kind builds.
+    fn body(&self) -> &dyn Any;
 
     /// The same body, under the same input and in the same state to the bit, under another solver.
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper>;
@@ -272,14 +272,8 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
     fn place(&self) -> DVec2 {
         self.body.system.place(&self.state.q)
     }
-    fn outline(&self, q: &[f64], v: &[f64], pen: &mut Pen) {
-        let mut shown = self.state.clone();
-        write(&mut shown, q, v);
-        pen.at = self.body.system.place(&shown.q);
-        self.body.system.outline(&shown, pen);
-    }
-    fn view(&self) -> View {
-        self.body.system.view()
+    fn body(&self) -> &dyn Any {
+        &self.body.system
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {

@@ -11,8 +11,7 @@ use std::sync::LazyLock;
 use glam::DVec2;
 
 use super::{
-    Body, Coordinate, Fault, Input, Kind, ParameterOf, Pen, Range, Truth, View, oscillator,
-    parameter,
+    Body, Coordinate, Fault, Input, Kind, ParameterOf, Range, Truth, oscillator, parameter,
 };
 use crate::sim::{State, System, stepper};
 
@@ -108,6 +107,9 @@ impl Chain {
         sines: Vec::new(),
     };
 
+    /// Half the distance of the walls, in units of the amplitude.
+    pub const HALF_LENGTH: f64 = 2.4;
+
     /// `masses` of `mass` kg, joined by springs of `stiffness` N/m with dash-pots of `damping` N·s/m;
     /// number `plucked`, from 1, is held at `x0` m and kicked with `kick` N·s.
     ///
@@ -146,9 +148,16 @@ impl Chain {
         })
     }
 
-    /// The displacement of the plucked mass at the start, for scale, in metres.
-    fn amplitude(&self) -> f64 {
+    /// How far the plucked mass is held aside at the start, in metres; 1 where it is not.
+    pub fn amplitude(&self) -> f64 {
         if self.x0 == 0.0 { 1.0 } else { self.x0.abs() }
+    }
+
+    /// Where mass `j`, from 1, is when it is displaced by `x`, in metres. The displacements are along the chain;
+    /// they are shown across it, where they do not hide each other.
+    pub fn place_of(&self, j: usize, x: f64) -> DVec2 {
+        let part = j as f64 / (self.masses + 1) as f64;
+        DVec2::new((2.0 * part - 1.0) * Self::HALF_LENGTH * self.amplitude(), x)
     }
 }
 
@@ -271,46 +280,6 @@ impl Body for Chain {
     }
 
     fn place(&self, q: &Vec<f64>) -> DVec2 {
-        self.drawn(self.plucked, q[self.plucked - 1])
-    }
-
-    /// The displacements are along the chain; they are drawn across it, where they do not hide each
-    /// other.
-    fn outline(&self, state: &State<Vec<f64>>, pen: &mut Pen) {
-        let unit = self.amplitude();
-        let half_wall = DVec2::Y * 0.5 * unit;
-        let mut last = self.drawn(0, 0.0);
-        for (j, &q) in (1..).zip(state.q.iter().chain([&0.0])) {
-            let next = self.drawn(j, q);
-            pen.line(last, next, 0.7);
-            last = next;
-        }
-        for end in [self.drawn(0, 0.0), last] {
-            pen.line(end - half_wall, end + half_wall, 2.0);
-        }
-        let room = 2.0 * HALF_LENGTH * unit / (self.masses + 1) as f64;
-        for (j, &q) in (1..).zip(&state.q) {
-            let at = self.drawn(j, q);
-            pen.taper(at, (0.28 * room).min(0.11 * unit), at, (0.28 * room).min(0.11 * unit));
-        }
-    }
-
-    fn view(&self) -> View {
-        View::Fixed {
-            centre_m: DVec2::ZERO,
-            half_m: DVec2::new(1.08 * HALF_LENGTH, 1.15) * self.amplitude(),
-            trail_s: 0.0,
-        }
-    }
-}
-
-/// Half the length of the chain as drawn, in units of how far it is plucked.
-const HALF_LENGTH: f64 = 2.4;
-
-impl Chain {
-    /// Where mass `j`, from 1, is drawn when it is displaced by `x`.
-    fn drawn(&self, j: usize, x: f64) -> DVec2 {
-        let part = j as f64 / (self.masses + 1) as f64;
-        DVec2::new((2.0 * part - 1.0) * HALF_LENGTH * self.amplitude(), x)
+        self.place_of(self.plucked, q[self.plucked - 1])
     }
 }

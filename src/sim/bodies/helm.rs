@@ -7,7 +7,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Body, Coordinate, Input, Kind, ParameterOf, Pen, Range, Truth, View, parameter};
+use super::{Body, Coordinate, Input, Kind, ParameterOf, Range, Truth, parameter};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
@@ -262,15 +262,4 @@ impl Body for Helm {
     fn place(&self, q: &DVec3) -> DVec2 {
         q.truncate()
     }
-
-    fn outline(&self, state: &State<DVec3>, pen: &mut Pen) {
-        pen.hull(bow(state.q.z), 0.15 * WIDTH_M);
-    }
-
-    fn view(&self) -> View {
-        View::Follow { width_m: WIDTH_M, height_m: 0.6 * WIDTH_M, wake_s: 10.0 }
-    }
 }
-
-/// What is shown across, in metres: a turning circle.
-const WIDTH_M: f64 = 150.0;

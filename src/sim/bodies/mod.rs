@@ -1,8 +1,9 @@
 //! The bodies: one file each, one line each in the table below.
 //!
-//! A body is a closed system with natural coordinates, an exact flow where there is one, and an
-//! outline. Its [`Kind`] card says how a scene describes it. To add one, copy `spring.rs`, declare it,
-//! and name it in [`BODIES`].
+//! A body is a closed system with natural coordinates, and an exact flow where there is one. Its
+//! [`Kind`] card says how a scene describes it; how it looks is said elsewhere, by
+//! [`Look`](crate::lab::picture::Look). To add one, copy `spring.rs`, declare it, and name it in
+//! [`BODIES`].
 
 use glam::DVec2;
 
@@ -16,21 +17,19 @@ mod kepler;
 mod orbit;
 mod oscillator;
 mod parameter;
-mod pen;
 mod pendulum;
 mod ship;
 mod spring;
 
 pub use chain::Chain;
 pub use helm::{Helm, ThrustCurve};
-pub use orbit::Orbit;
+pub use orbit::{Ellipse, Orbit};
 pub use parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
-pub use pen::{Mark, Pen};
 pub use pendulum::Pendulum;
 pub use ship::Ship;
 pub use spring::Spring;
 
-/// Something that moves by an equation of motion and can be drawn.
+/// Something that moves by an equation of motion.
 pub trait Body: System + Clone + Send + 'static {
     /// What can be set about the body. Its card lists the descriptions, as [`Kind::parameters`].
     const PARAMETERS: &'static [ParameterOf<Self>] = &[];
@@ -140,12 +139,6 @@ pub trait Body: System + Clone + Send + 'static {
 
     /// Where the body is, in metres: the point that the camera, trails and arrows refer to.
     fn place(&self, q: &Self::Vector) -> DVec2;
-
-    /// Draws the body in metres, x right and y up, colourless: the lane brings the colour.
-    fn outline(&self, state: &State<Self::Vector>, pen: &mut Pen);
-
-    /// How the body wants to be looked at.
-    fn view(&self) -> View;
 }
 
 /// What a person or a script does to a body.
@@ -157,38 +150,6 @@ pub enum Input {
     Rudder(f64),
     /// Adds an impulse: this many times the body's own kick.
     Kick(f64),
-}
-
-/// How a body wants to be looked at: what part of its world the stage shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum View {
-    /// Afloat: the camera follows the true body over the water, and a wake lies where the body has
-    /// been.
-    Follow {
-        /// The metres shown across, at least; a sixth of that is about a hull.
-        width_m: f64,
-        /// The metres shown from top to bottom, at least.
-        height_m: f64,
-        /// How far the wake reaches back, in seconds.
-        wake_s: f64,
-    },
-    /// The camera stays on the origin and shows this many metres to each side, more if the true
-    /// body swings further. The body moves along x only, and its trail is drawn as a chart recorder
-    /// would.
-    Recorder {
-        /// Metres from the middle to the edge.
-        half_width_m: f64,
-    },
-    /// The camera stays and shows a rectangle, more if the true body moves further. The trail lies
-    /// where the body has been.
-    Fixed {
-        /// The rectangle's middle.
-        centre_m: DVec2,
-        /// Metres from there to the edges.
-        half_m: DVec2,
-        /// How far the trail reaches back, in seconds.
-        trail_s: f64,
-    },
 }
 
 /// What is known of a body's motion, for methods to be held against.

@@ -2,9 +2,7 @@
 
 use glam::DVec2;
 
-use super::{
-    Body, Coordinate, Fault, Input, Kind, ParameterOf, Pen, Range, Truth, View, kepler, parameter,
-};
+use super::{Body, Coordinate, Fault, Input, Kind, ParameterOf, Range, Truth, kepler, parameter};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
@@ -68,11 +66,14 @@ pub struct Orbit {
 }
 
 /// An ellipse about the centre.
-struct Ellipse {
-    middle: DVec2,
-    /// How far it reaches from there along x and along y.
-    half: DVec2,
-    period_s: f64,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ellipse {
+    /// Its middle, in metres.
+    pub middle: DVec2,
+    /// How far it reaches from there along x and along y, in metres.
+    pub half: DVec2,
+    /// How long a round takes, in seconds.
+    pub period_s: f64,
 }
 
 impl Orbit {
@@ -80,7 +81,7 @@ impl Orbit {
     pub const BLANK: Self = Self { mu: 0.0, q0: DVec2::ZERO, v0: DVec2::ZERO, kick: 0.0 };
 
     /// The ellipse that the start lies on, if it is one.
-    fn ellipse(&self) -> Option<Ellipse> {
+    pub fn ellipse(&self) -> Option<Ellipse> {
         let Self { mu, q0, v0, .. } = *self;
         let beta = 2.0 * mu / q0.length() - v0.length_squared();
         let period_s = kepler::period(mu, beta)?;
@@ -141,25 +142,5 @@ impl Body for Orbit {
 
     fn place(&self, q: &DVec2) -> DVec2 {
         *q
-    }
-
-    fn outline(&self, _state: &State<DVec2>, pen: &mut Pen) {
-        let unit = self.ellipse().map_or(self.q0.length(), |ellipse| ellipse.half.max_element());
-        let (centre, at) = (DVec2::ZERO, pen.at);
-        pen.taper(centre, 0.075 * unit, centre, 0.075 * unit);
-        pen.taper(at, 0.045 * unit, at, 0.045 * unit);
-    }
-
-    fn view(&self) -> View {
-        match self.ellipse() {
-            Some(Ellipse { middle, half, period_s }) => {
-                View::Fixed { centre_m: middle, half_m: 1.12 * half, trail_s: period_s }
-            }
-            None => {
-                let half_m = DVec2::splat(3.0 * self.q0.length());
-                let trail_s = 10.0 * self.q0.length() / self.v0.length();
-                View::Fixed { centre_m: DVec2::ZERO, half_m, trail_s }
-            }
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Body, Coordinate, Input, Kind, ParameterOf, Pen, Range, Truth, View, parameter};
+use super::{Body, Coordinate, Input, Kind, ParameterOf, Range, Truth, parameter};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
@@ -130,17 +130,5 @@ impl Body for Pendulum {
 
     fn place(&self, theta: &f64) -> DVec2 {
         self.bob(*theta)
-    }
-
-    fn outline(&self, _state: &State<f64>, pen: &mut Pen) {
-        let (pivot, bob, unit) = (DVec2::ZERO, pen.at, self.length);
-        pen.line(pivot, bob, 1.4);
-        pen.taper(pivot, 0.035 * unit, pivot, 0.035 * unit);
-        pen.taper(bob, 0.12 * unit, bob, 0.12 * unit);
-    }
-
-    fn view(&self) -> View {
-        let half_m = DVec2::splat(1.2 * self.length);
-        View::Fixed { centre_m: DVec2::ZERO, half_m, trail_s: 1.0 }
     }
 }

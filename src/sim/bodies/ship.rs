@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Body, Coordinate, Input, Kind, ParameterOf, Pen, Range, Truth, View, parameter};
+use super::{Body, Coordinate, Input, Kind, ParameterOf, Range, Truth, parameter};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
@@ -126,14 +126,6 @@ impl Body for Ship {
 
     fn place(&self, s: &f64) -> DVec2 {
         DVec2::new(*s, 0.0)
-    }
-
-    fn outline(&self, _state: &State<f64>, pen: &mut Pen) {
-        pen.hull(DVec2::X, 9.0);
-    }
-
-    fn view(&self) -> View {
-        View::Follow { width_m: 60.0, height_m: 9.0, wake_s: 3.0 }
     }
 }
 

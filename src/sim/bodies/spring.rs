@@ -2,9 +2,7 @@
 
 use glam::DVec2;
 
-use super::{
-    Body, Coordinate, Input, Kind, ParameterOf, Pen, Range, Truth, View, oscillator, parameter,
-};
+use super::{Body, Coordinate, Input, Kind, ParameterOf, Range, Truth, oscillator, parameter};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
@@ -67,12 +65,6 @@ impl Spring {
     pub fn angular_frequency(&self) -> f64 {
         (self.stiffness / self.mass).sqrt()
     }
-
-    /// The amplitude that the undamped spring would swing with from its start, in metres.
-    fn amplitude(&self) -> f64 {
-        let amplitude = libm::hypot(self.x0, self.v0 / self.angular_frequency());
-        if amplitude > 0.0 { amplitude } else { 1.0 }
-    }
 }
 
 impl System for Spring {
@@ -125,18 +117,5 @@ impl Body for Spring {
 
     fn place(&self, x: &f64) -> DVec2 {
         DVec2::new(*x, 0.0)
-    }
-
-    fn outline(&self, _state: &State<f64>, pen: &mut Pen) {
-        let unit = self.amplitude();
-        let wall = DVec2::new(-1.9 * unit, 0.0);
-        let half = 0.16 * unit;
-        pen.line(wall - DVec2::Y * 0.45 * unit, wall + DVec2::Y * 0.45 * unit, 2.0);
-        pen.coil(wall, pen.at - DVec2::X * half, 9, 0.14 * unit);
-        pen.block(pen.at, DVec2::X, half);
-    }
-
-    fn view(&self) -> View {
-        View::Recorder { half_width_m: 2.0 * self.amplitude() }
     }
 }
