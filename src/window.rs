@@ -23,6 +23,7 @@ mod screenshot;
 mod thinking;
 
 use canvas::{Canvas, Drawn};
+use keys::Held;
 use pace::Meter;
 use thinking::ThinkingThread;
 
@@ -66,8 +67,7 @@ pub fn run(lab: Lab, seconds: Option<f64>) -> Result<(), WindowError> {
         proxy,
         canvas: None,
         asked: Vec::new(),
-        shift: false,
-        other_modifier: false,
+        held: Held::default(),
         last_frame: None,
         redraw_owed: false,
         occluded: false,
@@ -113,9 +113,7 @@ struct App {
     canvas: Option<Canvas>,
     /// Commands for the beginning of the next frame.
     asked: Vec<Command>,
-    shift: bool,
-    /// Control, Alt or Super: a chord with them is not ours.
-    other_modifier: bool,
+    held: Held,
     /// When the last frame began; `None` where time did not run.
     last_frame: Option<Instant>,
     /// Whether a frame was asked for that the window system has not called for yet.
@@ -247,10 +245,10 @@ impl App {
     }
 
     fn key(&mut self, event: &KeyEvent, widget_has_focus: bool, menu_is_open: bool) {
-        if event.state != ElementState::Pressed || self.other_modifier {
+        if event.state != ElementState::Pressed {
             return;
         }
-        let Some(key) = keys::key(event, self.shift) else { return };
+        let Some(key) = keys::key(event, self.held) else { return };
         // A widget with the focus is worked by these, and Escape closes a menu; all other keys stay ours.
         if widget_has_focus && keys::works_widgets(key) || menu_is_open && key == Key::Escape {
             return;
@@ -334,12 +332,10 @@ impl ApplicationHandler<Event> for App {
                 self.key(event, response.consumed, menu_is_open);
             }
             WindowEvent::ModifiersChanged(modifiers) => {
-                let state = modifiers.state();
-                self.shift = state.shift_key();
-                self.other_modifier = state.control_key() || state.alt_key() || state.super_key();
+                self.held = modifiers.state().into();
             }
             // The release of a key pressed here may go to another window.
-            WindowEvent::Focused(false) => (self.shift, self.other_modifier) = (false, false),
+            WindowEvent::Focused(false) => self.held = Held::default(),
             WindowEvent::Occluded(occluded) => self.occluded = *occluded,
             WindowEvent::Resized(size) => {
                 canvas.resize();

@@ -216,8 +216,7 @@ fn a_throttle_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
     race.input(Input::Throttle(-0.5));
     run(&mut race, 20);
 
-    let &[thrust, drag, mass, s0, v0, kick] = &scene.bodies[0].values[..] else { unreachable!() };
-    let ahead = Ship { thrust, throttle: 1.0, drag, mass, s0, v0, kick };
+    let ahead = Ship::BLANK.with_parameters(&scene.bodies[0].values);
     let astern = Ship { throttle: -0.5, ..ahead.clone() };
     let h = 1.0 / f64::from(scene.tick_hz);
     let turned = ahead.exact(10.0 * h, &ahead.start()).unwrap();
@@ -240,14 +239,12 @@ fn a_kick_reaches_truth_and_lanes_and_the_flow_goes_on_from_there() {
     let kicked = state(&race.entrants()[0].lane);
     run(&mut race, 40);
 
-    let &[mass, stiffness, damping, x0, v0, kick] = &scene.bodies[0].values[..] else {
-        unreachable!()
-    };
-    assert_eq!((kicked.q, kicked.v), (before.q, before.v - 2.0 * kick / mass));
-    let spring = Spring { mass, stiffness, damping, x0, v0, kick };
+    let spring = Spring::BLANK.with_parameters(&scene.bodies[0].values);
+    let gained = -2.0 * spring.kick / spring.mass;
+    assert_eq!((kicked.q, kicked.v), (before.q, before.v + gained));
     let h = 1.0 / f64::from(scene.tick_hz);
     let mut wanted = spring.exact(31.0 * h, &spring.start()).unwrap();
-    wanted.v -= 2.0 * kick / mass;
+    wanted.v += gained;
     let wanted = spring.exact(40.0 * h, &wanted).unwrap();
     let truth = state(race.truth());
     assert!(close(truth.q, wanted.q) && close(truth.v, wanted.v), "{truth:?}, {wanted:?}");
@@ -266,10 +263,7 @@ fn a_change_of_tick_rate_keeps_the_time_and_the_truth() {
     run(&mut race, 50);
     let wanted = t + 0.5;
     assert!((race.t() - wanted).abs() < 1e-12, "{}", race.t());
-    let &[mass, stiffness, damping, x0, v0, kick] = &scene.bodies[0].values[..] else {
-        unreachable!()
-    };
-    let spring = Spring { mass, stiffness, damping, x0, v0, kick };
+    let spring = Spring::BLANK.with_parameters(&scene.bodies[0].values);
     let there = spring.exact(wanted, &spring.start()).unwrap();
     let truth = state(race.truth());
     assert!(close(truth.q, there.q) && close(truth.v, there.v), "{truth:?}, {there:?}");

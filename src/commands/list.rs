@@ -163,8 +163,10 @@ const COORDINATE: &[Column<Coordinate>] = &[
 
 const PARAMETER: &[Column<Parameter>] = &[
     Column { key: "key", heading: Some("KEY"), value: |parameter| json!(parameter.key) },
+    Column { key: "unit", heading: None, value: |parameter| json!(parameter.unit) },
     Column { key: "default", heading: Some("DEFAULT"), value: |p| json!(p.default) },
     Column { key: "range", heading: Some("RANGE"), value: |p| json!(p.range.to_string()) },
+    Column { key: "acts", heading: None, value: |parameter| json!(parameter.acts.id()) },
     Column { key: "about", heading: Some("ABOUT"), value: |parameter| json!(parameter.about) },
 ];
 

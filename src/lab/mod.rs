@@ -46,9 +46,10 @@ pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use past::{CAPACITY, History, Past, Run, Sample, Samples, TruthCurve, TruthSample};
 pub use race::{Entrant, Mode, Observer, Race};
 pub use scene::{
-    BuiltIn, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS,
-    MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene, SceneBody, SceneError,
-    SceneErrors, Scripted, TOLERANCES, nearest,
+    BuiltIn, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES,
+    MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene,
+    SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, edited_values, nearest,
+    parameter_named,
 };
 pub use session::{Event, EventKind, SNAPSHOT_BYTES, Session, Timeline};
 pub use viewer::Viewer;

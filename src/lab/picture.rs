@@ -6,11 +6,15 @@
 mod captions;
 mod compose;
 mod ghost;
+mod look;
+mod outline;
 pub mod palette;
 mod sketch;
 mod trails;
 
 pub use compose::compose;
+pub use look::{Framing, Look};
+pub use outline::{Mark, Outline};
 
 /// The largest coordinate in a picture, in points: far outside any stage, and exact in an f32.
 pub const FAR: f32 = 1e5;

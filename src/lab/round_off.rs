@@ -84,10 +84,7 @@ pub fn error_curves() -> Vec<ErrorCurve> {
 
 fn chapters_ship() -> Ship {
     let scene = Scene::built_in("ship").expect("it is built in");
-    let &[thrust, drag, mass, s0, v0, kick] = &scene.bodies[0].values[..] else {
-        unreachable!("a ship has these parameters")
-    };
-    Ship { thrust, throttle: 1.0, drag, mass, s0, v0, kick }
+    Ship::BLANK.with_parameters(&scene.bodies[0].values)
 }
 
 fn step_error(ship: &Ship, formula: Formula, width: Width, h_log2: i32) -> StepError {

@@ -13,11 +13,13 @@ use crate::sim::integrators::{METHODS, Method};
 
 mod cause;
 mod document;
+mod edit;
 mod errors;
 mod nearest;
 mod syntax;
 mod table;
 
+pub use edit::{EditError, edited_values, parameter_named};
 pub use errors::{MOST_SHOWN, SceneError, SceneErrors};
 pub use nearest::nearest;
 

@@ -1,8 +1,10 @@
 //! One body, its solver and its state behind one object-safe face: one dynamic call a tick.
 
+use std::any::Any;
+
 use glam::DVec2;
 
-use super::bodies::{Body, Input, Pen, View};
+use super::bodies::{Body, Input, ParameterOf};
 use super::exact_flow::ExactFlow;
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
 use super::reference::Reference;
@@ -48,14 +50,14 @@ pub trait Stepper: Send {
     /// Makes the solver forget what it carried from step to step, the state left as it is.
     fn reset(&mut self);
 
-    /// Sets the parameter at this place of its kind's at time `t` (s), the state left as it is. Returns whether that
-    /// changed the body at once.
-    fn set_parameter(&mut self, _t: f64, _parameter: usize, _value: f64) -> bool {
-        false
-    }
-
     /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
     fn input(&mut self, t: f64, input: Input) -> bool;
+
+    /// Sets a parameter of the body, by its place among the kind's
+    /// [`parameters`](super::bodies::Kind::parameters), at time `t` (s), the state left as it is. Returns whether
+    /// that changed the body: a value that is set already does not, nor does a parameter that
+    /// [acts at the start](super::bodies::Acts). `value` is in the parameter's range and fits the others.
+    fn set_parameter(&mut self, t: f64, place: usize, value: f64) -> bool;
 
     /// Overwrites `a` with the acceleration in the given state under the present input; not counted.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
@@ -78,10 +80,8 @@ pub trait Stepper: Send {
 
     /// Where the body is, in metres. Never allocates.
     fn place(&self) -> DVec2;
-    /// Draws the body in the given state, in metres.
-    fn outline(&self, q: &[f64], v: &[f64], pen: &mut Pen);
-    /// How the body wants to be looked at.
-    fn view(&self) -> View;
+    /// The body with its present parameters, of the type that its kind builds.
+    fn body(&self) -> &dyn Any;
 
     /// The same body, under the same input and in the same state to the bit, under another solver.
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper>;
@@ -165,10 +165,11 @@ pub(super) trait Drive<B: Body>: Clone + Send + 'static {
     /// Takes notice that at time `t` (s) the body was put into this state.
     fn placed(&mut self, t: f64, state: &State<B::Vector>);
 
-    /// Takes notice that at time `t` (s) an input changed the forces on `body`, or its state to this one.
+    /// Takes notice that at time `t` (s) an input or an edit changed the forces on `body`, or its state to this
+    /// one.
     fn pushed(&mut self, body: &Counted<B>, t: f64, state: &State<B::Vector>);
 
-    /// Takes notice that an input may be about to change `body`, which is in this state.
+    /// Takes notice that an input or an edit may be about to change `body`, which is in this state.
     fn about_to_be_pushed(&mut self, _body: &Counted<B>, _state: &State<B::Vector>) {}
 
     /// Forgets what is carried from step to step.
@@ -228,6 +229,19 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
         taken
     }
 
+    fn set_parameter(&mut self, t: f64, place: usize, value: f64) -> bool {
+        let parameter = B::PARAMETERS.get(place);
+        let Some(field) = parameter.and_then(ParameterOf::acting_at_once) else { return false };
+        if *field(&mut self.body.system) == value {
+            return false;
+        }
+        self.drive.about_to_be_pushed(&self.body, &self.state);
+        *field(&mut self.body.system) = value;
+        self.body.system.prepare();
+        self.drive.pushed(&self.body, t, &self.state);
+        true
+    }
+
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
         let mut at = self.state.clone();
         write(&mut at, q, v);
@@ -258,14 +272,8 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
     fn place(&self) -> DVec2 {
         self.body.system.place(&self.state.q)
     }
-    fn outline(&self, q: &[f64], v: &[f64], pen: &mut Pen) {
-        let mut shown = self.state.clone();
-        write(&mut shown, q, v);
-        pen.at = self.body.system.place(&shown.q);
-        self.body.system.outline(&shown, pen);
-    }
-    fn view(&self) -> View {
-        self.body.system.view()
+    fn body(&self) -> &dyn Any {
+        &self.body.system
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {

@@ -1,13 +1,33 @@
 //! From the window system's keys to ours.
 
 use winit::event::KeyEvent;
-use winit::keyboard::{Key as Logical, KeyCode, NamedKey, PhysicalKey};
+use winit::keyboard::{Key as Logical, KeyCode, ModifiersState, NamedKey, PhysicalKey};
 
 use crate::lab::Key;
 
+/// The modifiers that are held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Held {
+    pub(super) shift: bool,
+    /// Control, or Command on a Mac.
+    pub(super) control: bool,
+    /// Any other: a chord with it is not ours.
+    pub(super) other: bool,
+}
+
+impl From<ModifiersState> for Held {
+    fn from(state: ModifiersState) -> Self {
+        let (control, other) = match cfg!(target_os = "macos") {
+            true => (state.super_key(), state.control_key()),
+            false => (state.control_key(), state.super_key()),
+        };
+        Self { shift: state.shift_key(), control, other: other || state.alt_key() }
+    }
+}
+
 /// The key of an event, if it is one that could be bound.
-pub(super) fn key(event: &KeyEvent, shift: bool) -> Option<Key> {
-    from_parts(event.physical_key, &event.logical_key, shift)
+pub(super) fn key(event: &KeyEvent, held: Held) -> Option<Key> {
+    from_parts(event.physical_key, &event.logical_key, held)
 }
 
 /// Whether a widget with the focus is worked by this key.
@@ -18,7 +38,24 @@ pub(super) fn works_widgets(key: Key) -> bool {
     )
 }
 
-fn from_parts(physical: PhysicalKey, logical: &Logical, shift: bool) -> Option<Key> {
+fn from_parts(physical: PhysicalKey, logical: &Logical, held: Held) -> Option<Key> {
+    if held.other {
+        return None;
+    }
+    if held.control {
+        // By the layout, but where it makes a control character of the chord.
+        let Logical::Character(text) = logical else { return None };
+        let sign = text.chars().next().filter(|sign| !sign.is_control());
+        let sign = sign.and_then(|sign| sign.to_lowercase().next());
+        return sign.map(Key::ControlSign);
+    }
+    let shift = held.shift;
+    if let PhysicalKey::Code(code @ (KeyCode::Comma | KeyCode::Period)) = physical
+        && shift
+        && matches!(logical, Logical::Character(sign) if ["<", ">", ",", "."].contains(&sign.as_str()))
+    {
+        return Some(Key::ShiftSign(if code == KeyCode::Comma { ',' } else { '.' }));
+    }
     // By place, since on some layouts the digits are shifted; but where a layout has these signs on a
     // digit's key, they are meant, being behind Shift or AltGr.
     if let PhysicalKey::Code(code) = physical
@@ -77,7 +114,11 @@ mod tests {
     use crate::lab::{Command, KEYS, command_for};
 
     fn pressed(code: KeyCode, text: &str, shift: bool) -> Option<Key> {
-        from_parts(PhysicalKey::Code(code), &Logical::Character(text.into()), shift)
+        held(code, text, Held { shift, ..Held::default() })
+    }
+
+    fn held(code: KeyCode, text: &str, held: Held) -> Option<Key> {
+        from_parts(PhysicalKey::Code(code), &Logical::Character(text.into()), held)
     }
 
     #[test]
@@ -89,6 +130,20 @@ mod tests {
         assert_eq!(pressed(KeyCode::Slash, "?", true), Some(Key::Sign('?')));
         assert_eq!(pressed(KeyCode::Digit8, "[", false), Some(Key::Sign('[')));
         assert_eq!(pressed(KeyCode::Digit0, "=", true), Some(Key::Sign('=')));
+    }
+
+    #[test]
+    fn shift_and_control_make_other_keys_and_other_modifiers_none() {
+        assert_eq!(pressed(KeyCode::Comma, "<", true), Some(Key::ShiftSign(',')));
+        assert_eq!(pressed(KeyCode::Period, ">", true), Some(Key::ShiftSign('.')));
+        assert_eq!(pressed(KeyCode::Comma, ",", false), Some(Key::Sign(',')));
+        // Where Shift and the comma's key make another sign, it is that sign.
+        assert_eq!(pressed(KeyCode::Comma, "?", true), Some(Key::Sign('?')));
+        let control = Held { control: true, ..Held::default() };
+        assert_eq!(held(KeyCode::KeyZ, "z", control), Some(Key::ControlSign('z')));
+        assert_eq!(held(KeyCode::KeyY, "z", control), Some(Key::ControlSign('z')));
+        let alt = Held { other: true, ..Held::default() };
+        assert_eq!(held(KeyCode::KeyN, "n", alt), None);
     }
 
     #[test]

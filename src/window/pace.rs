@@ -118,11 +118,11 @@ mod tests {
             [Command::TogglePause, Command::SpeedUp, Command::TickHz(2), Command::Restart]
         {
             assert!(is_real_time(run.frames(60).last().unwrap()));
-            run.0.apply(command);
+            run.0.apply(command.clone());
             assert_eq!(run.frames(1), [Pace::Unknown], "{command:?}");
             if command == Command::TogglePause {
                 assert_eq!(run.frames(100), [Pace::Unknown; 100]);
-                run.0.apply(command);
+                run.0.apply(command.clone());
             }
             run.0.apply(Command::SpeedPercent(100));
         }

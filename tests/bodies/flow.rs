@@ -92,12 +92,6 @@ fn a_wrong_flow_is_seen() {
             fn place(&self, q: &f64) -> glam::DVec2 {
                 self.0.place(q)
             }
-            fn outline(&self, state: &State<f64>, pen: &mut regatta::sim::bodies::Pen) {
-                self.0.outline(state, pen);
-            }
-            fn view(&self) -> regatta::sim::bodies::View {
-                self.0.view()
-            }
         }
         satisfies_its_equation(&Off(ship.clone()), &from, 0.4, 1.0, 1e-11);
     };

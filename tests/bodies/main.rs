@@ -5,6 +5,7 @@
 //! coordinate that have a closed form are in `tests/exact_flows.rs`.
 
 mod chain;
+mod edits;
 mod fifty_digits;
 mod flow;
 mod helm;

@@ -54,6 +54,8 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
             object["parameters"].as_array().unwrap().iter().zip(body.parameters)
         {
             assert_eq!(listed["key"], parameter.key);
+            assert_eq!(listed["unit"], parameter.unit);
+            assert_eq!(listed["acts"], parameter.acts.id());
             assert_eq!(listed["default"], Value::from(parameter.default));
         }
     }

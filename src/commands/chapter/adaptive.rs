@@ -3,7 +3,6 @@
 use std::fmt::Write;
 
 use super::run::{exactly, scene};
-use crate::lab::SceneBody;
 use crate::lab::number::significant;
 use crate::sim::bodies::{Body, Ship};
 use crate::sim::integrators::{AdaptiveEuler, AdaptiveEulerAsPrinted, Integrator, Tolerance};
@@ -13,29 +12,12 @@ use crate::sim::{Counted, State};
 const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
 const TICKS: u32 = 17;
 
-/// The ship of a scene.
-fn ship(body: &SceneBody) -> Ship {
-    let value = |key: &str| {
-        let place = body.kind.parameters.iter().position(|parameter| parameter.key == key);
-        body.values[place.expect("a key of the ship's")]
-    };
-    Ship {
-        thrust: value("thrust_n"),
-        throttle: 1.0,
-        drag: value("drag_n_s_per_m"),
-        mass: value("mass_kg"),
-        s0: value("s0_m"),
-        v0: value("v0_m_per_s"),
-        kick: value("kick_n_s"),
-    }
-}
-
 /// Both listings side by side.
 pub(super) fn listings() -> String {
     let scene = scene("ship");
     let h = 1.0 / f64::from(scene.tick_hz);
     let asked = h * f64::from(TICKS);
-    let ship = ship(&scene.bodies[0]);
+    let ship = Ship::BLANK.with_parameters(&scene.bodies[0].values);
     let truth = exactly(&scene, asked, f64::from(scene.tick_hz)).last().map_or(0.0, |end| end.v);
     let mut text = format!(
         "Adaptive Euler, {TICKS} ticks of {h} s: {asked} s are asked for, the speed is then {truth:.6} m/s\n\n\

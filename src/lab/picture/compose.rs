@@ -5,10 +5,9 @@ use glam::DVec2;
 use super::ghost::Ghost;
 use super::palette::{self, faded, style};
 use super::sketch::{Camera, Paint, demote, line, strokes};
-use super::{Picture, Rect, Sea, captions};
+use super::{Framing, Look, Picture, Rect, Sea, captions};
 use crate::lab::race::Entrant;
 use crate::lab::{Interpolation, Lab, LaneBody, Mode};
-use crate::sim::bodies::{Pen, View};
 
 /// The head of a cell in which its lane is named, and may have halted, in points.
 const CAPTION: f32 = 32.0;
@@ -135,28 +134,26 @@ impl Shown<'_> {
     /// moves both across and up. Other bodies move along rows.
     fn shape(&self) -> Option<DVec2> {
         let [body] = self.lab.race().truth().bodies() else { return None };
-        match body.stepper.view() {
-            View::Fixed { half_m, .. } => Some(half_m),
-            View::Follow { width_m, height_m, .. } if turns(body) => {
+        match Look::of(body.kind).framing(&*body.stepper) {
+            Framing::Fixed { half_m, .. } => Some(half_m),
+            Framing::Follow { width_m, height_m, .. } if turns(body) => {
                 Some(DVec2::new(width_m, height_m))
             }
-            View::Follow { .. } | View::Recorder { .. } => None,
+            Framing::Follow { .. } | Framing::Recorder { .. } => None,
         }
     }
 
-    /// A body's coordinates and velocities at the moment drawn.
-    fn state(&self, body: &LaneBody) -> (Vec<f64>, Vec<f64>) {
+    /// A body's coordinates at the moment drawn.
+    fn coordinates(&self, body: &LaneBody) -> Vec<f64> {
         let (q0, v0) = (&body.previous_q, &body.previous_v);
         let (q1, v1) = (body.stepper.q(), body.stepper.v());
-        let each = |f: &dyn Fn(usize) -> f64| (0..q1.len()).map(f).collect::<Vec<_>>();
-        let line = |a: f64, b: f64| a + (b - a) * self.alpha;
+        let each = |f: &dyn Fn(usize) -> f64| (0..q1.len()).map(f).collect();
         match self.lab.display().interpolation {
-            Interpolation::Raw => (q1.to_vec(), v1.to_vec()),
-            Interpolation::Linear => (each(&|i| line(q0[i], q1[i])), each(&|i| line(v0[i], v1[i]))),
-            Interpolation::Hermite => (
-                each(&|i| hermite(self.alpha, self.h, [q0[i], q1[i]], [v0[i], v1[i]])),
-                each(&|i| line(v0[i], v1[i])),
-            ),
+            Interpolation::Raw => q1.to_vec(),
+            Interpolation::Linear => each(&|i| q0[i] + (q1[i] - q0[i]) * self.alpha),
+            Interpolation::Hermite => {
+                each(&|i| hermite(self.alpha, self.h, [q0[i], q1[i]], [v0[i], v1[i]]))
+            }
         }
     }
 
@@ -173,27 +170,25 @@ impl Shown<'_> {
         let place = race.iter().position(|other| other.lane_number == entrant.lane_number);
         let place = place.expect("it is in the race");
         let history = &self.lab.past().histories(place)[index];
-        let (q, v) = self.state(body);
-        let mut pen = Pen::default();
-        body.stepper.outline(&q, &v, &mut pen);
+        let outline = Look::of(body.kind).outline(&*body.stepper, &self.coordinates(body));
 
-        let view = ghost.view;
+        let framing = ghost.framing;
         let camera = self.camera(rect, turns(body), ghost);
         let (colour, _) = style(self.lab.entries()[entrant.entry].method);
         let own = Paint { colour, line_width: 2.0, grow: 0.0 };
         let exact = Paint { colour: faded(palette::TRUTH, 0.75), line_width: 1.0, grow: 1.6 };
 
         let shows_ghost = self.lab.display().ghost && truth.halted().is_none();
-        picture.seas.push(self.sea(&camera, view));
-        match view {
-            View::Follow { width_m, wake_s, .. } => {
-                self.wake(picture, &camera, pen.at, history, width_m, wake_s);
+        picture.seas.push(self.sea(&camera, framing));
+        match framing {
+            Framing::Follow { width_m, wake_s, .. } => {
+                self.wake(picture, &camera, outline.at, history, width_m, wake_s);
             }
-            View::Recorder { .. } => {
+            Framing::Recorder { .. } => {
                 if shows_ghost {
                     self.recorded(picture, &camera, &ghost.past);
                 }
-                for leg in self.legs(pen.at, history, self.paper_s) {
+                for leg in self.legs(outline.at, history, self.paper_s) {
                     self.recorded(picture, &camera, &leg);
                     self.dots(picture, &camera, &leg, self.paper_s, |moment| {
                         self.on_paper(&camera, moment)
@@ -201,26 +196,26 @@ impl Shown<'_> {
                 }
                 envelope(picture, &camera, ghost.reach_m.x);
             }
-            View::Fixed { trail_s, .. } => {
+            Framing::Fixed { trail_s, .. } => {
                 if shows_ghost {
                     self.path(picture, &camera, &ghost.past, trail_s);
                 }
-                for leg in self.legs(pen.at, history, trail_s) {
+                for leg in self.legs(outline.at, history, trail_s) {
                     self.path(picture, &camera, &leg, trail_s);
                     self.dots(picture, &camera, &leg, trail_s, |moment| camera.points(moment.at));
                 }
             }
         }
         if shows_ghost {
-            picture.strokes.extend(strokes(&ghost.marks, &camera, exact));
+            picture.strokes.extend(strokes(&ghost.outline.marks, &camera, exact));
         }
-        picture.strokes.extend(strokes(&pen.marks, &camera, own));
+        picture.strokes.extend(strokes(&outline.marks, &camera, own));
 
-        captions::arrow(picture, &camera, pen.at, colour);
+        captions::arrow(picture, &camera, outline.at, colour);
         if self.lab.mode() == Mode::Solo || entrant.entry == race[race.len() - 1].entry {
             captions::scale_bar(picture, &camera);
         }
-        if let (View::Follow { .. }, false) = (view, turns(body)) {
+        if let (Framing::Follow { .. }, false) = (framing, turns(body)) {
             captions::distance_marks(picture, &camera);
         }
         match self.lab.mode() {
@@ -239,15 +234,15 @@ impl Shown<'_> {
     pub(super) fn camera(&self, rect: Rect, turns: bool, ghost: &Ghost) -> Camera {
         let [width, height] = [0, 1].map(|i| f64::from(rect.max[i] - rect.min[i]).max(1.0));
         let middle = [0, 1].map(|i| (rect.min[i] + rect.max[i]) / 2.0);
-        match ghost.view {
-            View::Follow { width_m, height_m, .. } => {
+        match ghost.framing {
+            Framing::Follow { width_m, height_m, .. } => {
                 let centre_m = if self.lab.display().motion {
-                    ghost.at
+                    ghost.outline.at
                 } else {
                     // In pages, so that nothing but the ship moves.
                     let (page, leaf) = (0.6 * width_m, 0.5 * height_m);
-                    let x = (libm::floor(ghost.at.x / page) + 0.5) * page;
-                    DVec2::new(x, libm::round(ghost.at.y / leaf) * leaf)
+                    let x = (libm::floor(ghost.outline.at.x / page) + 0.5) * page;
+                    DVec2::new(x, libm::round(ghost.outline.at.y / leaf) * leaf)
                 };
                 // On a straight course half a ship's length ahead of the middle leaves room for the
                 // wake.
@@ -256,13 +251,13 @@ impl Shown<'_> {
                 let points_per_metre = (width / width_m).min(height / height_m);
                 Camera { rect, centre_m, at, points_per_metre }
             }
-            View::Recorder { half_width_m } => {
+            Framing::Recorder { half_width_m } => {
                 let half_width_m = half_width_m.max(1.15 * ghost.reach_m.x);
                 let at = [middle[0] + 0.05 * width as f32, rect.min[1] + 0.46 * height as f32];
                 let points_per_metre = (width / 2.1).min(height * 1.1) / half_width_m;
                 Camera { rect, centre_m: DVec2::ZERO, at, points_per_metre }
             }
-            View::Fixed { centre_m, half_m, .. } => {
+            Framing::Fixed { centre_m, half_m, .. } => {
                 let half_m = half_m.max(1.05 * ghost.reach_m);
                 let head = HEAD.min(height / 4.0);
                 let at = [middle[0], middle[1] + head as f32 / 2.0];
@@ -272,7 +267,7 @@ impl Shown<'_> {
         }
     }
 
-    fn sea(&self, camera: &Camera, view: View) -> Sea {
+    fn sea(&self, camera: &Camera, framing: Framing) -> Sea {
         let step_m = camera.round_length_m(48.0);
         // The nearest grid line to the camera, so that no large number reaches an f32.
         let line = (camera.centre_m / step_m).round() * step_m;
@@ -280,7 +275,7 @@ impl Shown<'_> {
             rect: camera.rect,
             grid_origin: camera.points(line),
             grid_step: camera.length(step_m),
-            waves: if matches!(view, View::Follow { .. }) { 1.0 } else { 0.0 },
+            waves: if matches!(framing, Framing::Follow { .. }) { 1.0 } else { 0.0 },
             phase: if self.lab.display().motion {
                 demote((self.t * 0.7) % std::f64::consts::TAU)
             } else {

@@ -2,21 +2,18 @@
 
 use glam::DVec2;
 
-use super::Rect;
 use super::compose::{Shown, turns};
 use super::palette::{self, faded};
 use super::trails::Moment;
+use super::{Framing, Look, Outline, Rect};
 use crate::lab::TruthCurve;
-use crate::sim::bodies::{Mark, Pen, View};
 
 /// The true motion of one body at the moment drawn.
 pub(super) struct Ghost {
-    /// How the body wants to be looked at.
-    pub(super) view: View,
-    /// Where it is, in metres.
-    pub(super) at: DVec2,
-    /// Its outline there.
-    pub(super) marks: Vec<Mark>,
+    /// What part of the body's world is shown.
+    pub(super) framing: Framing,
+    /// What it looks like there.
+    pub(super) outline: Outline,
     /// Where it has been, newest first, as far back as its trail shows.
     pub(super) past: Vec<Moment>,
     /// How far it has been from what its camera looks at, along x and along y, in metres.
@@ -32,27 +29,26 @@ impl Ghost {
     pub(super) fn new(shown: &Shown<'_>, index: usize, cell: Rect) -> Self {
         let race = shown.lab.race();
         let body = &race.truth().bodies()[index];
-        let past_of_race = shown.lab.past();
-        let curve = &past_of_race.truth_curves()[index];
-        let (q, v) = past_of_race.truth_between(race, index, shown.alpha);
-        let mut pen = Pen::default();
-        body.stepper.outline(&q, &v, &mut pen);
-        let view = body.stepper.view();
-        let (trail_s, centre_m) = match view {
-            View::Follow { .. } => (0.0, DVec2::ZERO),
-            View::Recorder { .. } => (shown.paper_s, DVec2::ZERO),
-            View::Fixed { centre_m, trail_s, .. } => (trail_s, centre_m),
+        let remembered = shown.lab.past();
+        let curve = &remembered.truth_curves()[index];
+        let (q, _) = remembered.truth_between(race, index, shown.alpha);
+        let look = Look::of(body.kind);
+        let outline = look.outline(&*body.stepper, &q);
+        let framing = look.framing(&*body.stepper);
+        let (trail_s, centre_m) = match framing {
+            Framing::Follow { .. } => (0.0, DVec2::ZERO),
+            Framing::Recorder { .. } => (shown.paper_s, DVec2::ZERO),
+            Framing::Fixed { centre_m, trail_s, .. } => (trail_s, centre_m),
         };
         let mut ghost = Self {
-            view,
-            at: pen.at,
+            framing,
+            outline,
             past: Vec::new(),
-            marks: pen.marks,
             reach_m: curve.samples().map(|s| (s.at - centre_m).abs()).fold(DVec2::ZERO, DVec2::max),
         };
         let camera = shown.camera(cell, turns(body), &ghost);
         let tolerance_m = TOLERANCE / camera.points_per_metre;
-        ghost.past = thinned(past(curve, pen.at, shown.t, trail_s), tolerance_m);
+        ghost.past = thinned(past(curve, ghost.outline.at, shown.t, trail_s), tolerance_m);
         ghost
     }
 }

@@ -2,8 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Cap, FAR, Rect, Rgba, Stroke};
-use crate::sim::bodies::Mark;
+use super::{Cap, FAR, Mark, Rect, Rgba, Stroke};
 
 /// Looks at one body's world through one cell of the stage.
 #[derive(Clone, Copy, Debug)]

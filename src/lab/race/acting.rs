@@ -5,6 +5,7 @@ use super::{Mode, Race};
 use crate::lab::action::{Action, Control};
 use crate::lab::lane::{Lane, TakenUp};
 use crate::lab::lane_spec::LaneSpec;
+use crate::lab::scene::edited_values;
 use crate::sim::bodies::Input;
 
 /// What became of an action.
@@ -52,12 +53,19 @@ impl Race {
             Action::Kick(times) => *times != 0.0,
             Action::TickHz(tick_hz) => self.tick_hz != *tick_hz,
             Action::Set { body, parameter, value } => {
-                self.values[*body].get(*parameter).is_some_and(|present| present != value)
+                let present = &self.values[*body];
+                let is_new = present.get(*parameter).is_some_and(|present| present != value);
+                let kind = self.truth.bodies()[*body].kind;
+                is_new && edited_values(kind, present, *parameter, *value).is_ok()
             }
             Action::Place { body, q, v } => {
                 let bodies = self.entrants.iter().map(|e| &e.lane).chain([&self.truth]);
                 let mut bodies = bodies.map(|lane| &lane.bodies()[*body]);
-                bodies.any(|at| {
+                let coordinates = self.truth.bodies()[*body].coordinates.len();
+                let fits = [q, v].iter().all(|values| {
+                    values.len() == coordinates && values.iter().all(|value| value.is_finite())
+                });
+                fits && bodies.any(|at| {
                     let is_there = at.stepper.q() == &q[..] && at.stepper.v() == &v[..];
                     !is_there || at.halted().is_some()
                 })

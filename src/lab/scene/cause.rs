@@ -193,6 +193,15 @@ impl fmt::Display for Place {
 }
 
 impl Wanted {
+    /// What a parameter of this range takes.
+    pub(super) fn of(range: bodies::Range) -> Self {
+        match range {
+            bodies::Range::Count(most) => Wanted::Whole(1..=most.into()),
+            bodies::Range::Curve { .. } => Wanted::Curve(range),
+            _ => Wanted::Number(range),
+        }
+    }
+
     fn noun(&self) -> &'static str {
         match self {
             Wanted::Text(_) | Wanted::Method => "a string",

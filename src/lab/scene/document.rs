@@ -230,7 +230,7 @@ fn read_bodies(top: &mut Table<'_>) -> Vec<Described> {
 
 fn read_values(kind: &Kind, row: &mut Table<'_>) -> Option<Vec<f64>> {
     let read = |parameter: &Parameter| {
-        let Parameter { key, about, default, range } = *parameter;
+        let Parameter { key, about, default, range, .. } = *parameter;
         let field = if default.is_some() { optional(key) } else { required(key, about) };
         let given = match range {
             Range::Curve { .. } => row.curve(field, range).map(|points| points.concat()),

@@ -11,7 +11,7 @@ use std::sync::LazyLock;
 use glam::DVec2;
 
 use super::{
-    Body, Coordinate, Fault, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View, oscillator,
+    Body, Coordinate, Fault, Input, Kind, ParameterOf, Range, Truth, oscillator, parameter,
 };
 use crate::sim::{State, System, stepper};
 
@@ -33,50 +33,7 @@ pub(super) const KIND: Kind = Kind {
     id: "chain",
     about: "m xᵢ″ = Σ k (xⱼ - xᵢ) + c (xⱼ - xᵢ)′, j = i ± 1: masses joined by springs between two walls",
     coordinates: |values| &COORDINATES[..values[0] as usize],
-    parameters: &[
-        Parameter {
-            key: "masses",
-            about: "how many masses there are",
-            default: Some(8.0),
-            range: Range::Count(MOST_MASSES),
-        },
-        Parameter {
-            key: "mass_kg",
-            about: "m, each mass",
-            default: None,
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "stiffness_n_per_m",
-            about: "k, the force of each spring for each metre of stretch",
-            default: None,
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "damping_n_s_per_m",
-            about: "c, the force of each spring's dash-pot for each metre per second of stretching",
-            default: Some(0.0),
-            range: Range::NonNegative(LARGEST),
-        },
-        Parameter {
-            key: "plucked_mass",
-            about: "the mass that is held aside at the start, and that a kick hits",
-            default: Some(1.0),
-            range: Range::Count(MOST_MASSES),
-        },
-        Parameter {
-            key: "x0_m",
-            about: "how far aside it is held; the others are in line between it and the walls",
-            default: Some(1.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "kick_n_s",
-            about: "the impulse of one kick",
-            default: Some(3.0),
-            range: Range::Within(LARGEST),
-        },
-    ],
+    parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["kick"],
     leading: "stiffness_n_per_m",
     truth: Truth::Exact,
@@ -88,14 +45,32 @@ pub(super) const KIND: Kind = Kind {
         }),
         _ => Ok(()),
     },
-    build: |values, solver| {
-        let &[masses, mass, stiffness, damping, plucked, x0, kick] = values else {
-            unreachable!("one value a key")
-        };
-        let (masses, plucked) = (masses as usize, plucked as usize);
-        stepper(Chain::new(masses, mass, stiffness, damping, plucked, x0, kick), solver)
-    },
+    build: |values, solver| stepper(Chain::BLANK.with_parameters(values), solver),
 };
+
+type Of = ParameterOf<Chain>;
+
+const PARAMETERS: [Of; 7] = [
+    Of::count("masses", MOST_MASSES, |chain| &mut chain.masses)
+        .or(8.0)
+        .about("how many masses there are"),
+    Of::number("mass_kg", Range::POSITIVE, |chain| &mut chain.mass).about("m, each mass"),
+    Of::number("stiffness_n_per_m", Range::POSITIVE, |chain| &mut chain.stiffness)
+        .about("k, the force of each spring for each metre of stretch"),
+    Of::number("damping_n_s_per_m", Range::NON_NEGATIVE, |chain| &mut chain.damping)
+        .or(0.0)
+        .about("c, the force of each spring's dash-pot for each metre per second of stretching"),
+    Of::count("plucked_mass", MOST_MASSES, |chain| &mut chain.plucked)
+        .or(1.0)
+        .about("the mass that is held aside at the start, and that a kick hits"),
+    Of::number("x0_m", Range::ANY, |chain| &mut chain.x0)
+        .or(1.0)
+        .at_start()
+        .about("how far aside it is held; the others are in line between it and the walls"),
+    Of::number("kick_n_s", Range::ANY, |chain| &mut chain.kick)
+        .or(3.0)
+        .about("the impulse of one kick"),
+];
 
 /// A chain of masses. Its coordinates are their displacements, in metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,6 +95,21 @@ pub struct Chain {
 }
 
 impl Chain {
+    /// No masses, and every parameter is 0: for [`Body::with_parameters`] to fill in.
+    pub const BLANK: Self = Self {
+        masses: 0,
+        mass: 0.0,
+        stiffness: 0.0,
+        damping: 0.0,
+        plucked: 0,
+        x0: 0.0,
+        kick: 0.0,
+        sines: Vec::new(),
+    };
+
+    /// Half the distance of the walls, in units of the amplitude.
+    pub const HALF_LENGTH: f64 = 2.4;
+
     /// `masses` of `mass` kg, joined by springs of `stiffness` N/m with dash-pots of `damping` N·s/m;
     /// number `plucked`, from 1, is held at `x0` m and kicked with `kick` N·s.
     ///
@@ -134,13 +124,10 @@ impl Chain {
         x0: f64,
         kick: f64,
     ) -> Self {
-        assert!((1..=masses).contains(&plucked), "mass {plucked} of {masses}");
-        let sine = |i: usize| libm::sin(PI * i as f64 / (masses + 1) as f64);
-        // By the symmetry of the sine, so that equal numbers are equal to the bit.
-        let quarter = |i: usize| sine(i.min(masses + 1 - i));
-        let half = (0..=masses).map(quarter);
-        let sines = half.clone().chain(half.map(|sine| -sine)).collect();
-        Self { masses, mass, stiffness, damping, plucked, x0, kick, sines }
+        let mut chain =
+            Self { masses, mass, stiffness, damping, plucked, x0, kick, sines: Vec::new() };
+        chain.prepare();
+        chain
     }
 
     /// The undamped angular frequency of mode `n`, from 1, in radians per second.
@@ -161,9 +148,16 @@ impl Chain {
         })
     }
 
-    /// The displacement of the plucked mass at the start, for scale, in metres.
-    fn amplitude(&self) -> f64 {
+    /// How far the plucked mass is held aside at the start, in metres; 1 where it is not.
+    pub fn amplitude(&self) -> f64 {
         if self.x0 == 0.0 { 1.0 } else { self.x0.abs() }
+    }
+
+    /// Where mass `j`, from 1, is when it is displaced by `x`, in metres. The displacements are along the chain;
+    /// they are shown across it, where they do not hide each other.
+    pub fn place_of(&self, j: usize, x: f64) -> DVec2 {
+        let part = j as f64 / (self.masses + 1) as f64;
+        DVec2::new((2.0 * part - 1.0) * Self::HALF_LENGTH * self.amplitude(), x)
     }
 }
 
@@ -188,6 +182,18 @@ impl System for Chain {
 }
 
 impl Body for Chain {
+    const PARAMETERS: &'static [Of] = &PARAMETERS;
+
+    fn prepare(&mut self) {
+        let (masses, plucked) = (self.masses, self.plucked);
+        assert!((1..=masses).contains(&plucked), "mass {plucked} of {masses}");
+        let sine = |i: usize| libm::sin(PI * i as f64 / (masses + 1) as f64);
+        // By the symmetry of the sine, so that equal numbers are equal to the bit.
+        let quarter = |i: usize| sine(i.min(masses + 1 - i));
+        let half = (0..=masses).map(quarter);
+        self.sines = half.clone().chain(half.map(|sine| -sine)).collect();
+    }
+
     fn heap_bytes(&self) -> usize {
         size_of_val(&self.sines[..])
     }
@@ -274,46 +280,6 @@ impl Body for Chain {
     }
 
     fn place(&self, q: &Vec<f64>) -> DVec2 {
-        self.drawn(self.plucked, q[self.plucked - 1])
-    }
-
-    /// The displacements are along the chain; they are drawn across it, where they do not hide each
-    /// other.
-    fn outline(&self, state: &State<Vec<f64>>, pen: &mut Pen) {
-        let unit = self.amplitude();
-        let half_wall = DVec2::Y * 0.5 * unit;
-        let mut last = self.drawn(0, 0.0);
-        for (j, &q) in (1..).zip(state.q.iter().chain([&0.0])) {
-            let next = self.drawn(j, q);
-            pen.line(last, next, 0.7);
-            last = next;
-        }
-        for end in [self.drawn(0, 0.0), last] {
-            pen.line(end - half_wall, end + half_wall, 2.0);
-        }
-        let room = 2.0 * HALF_LENGTH * unit / (self.masses + 1) as f64;
-        for (j, &q) in (1..).zip(&state.q) {
-            let at = self.drawn(j, q);
-            pen.taper(at, (0.28 * room).min(0.11 * unit), at, (0.28 * room).min(0.11 * unit));
-        }
-    }
-
-    fn view(&self) -> View {
-        View::Fixed {
-            centre_m: DVec2::ZERO,
-            half_m: DVec2::new(1.08 * HALF_LENGTH, 1.15) * self.amplitude(),
-            trail_s: 0.0,
-        }
-    }
-}
-
-/// Half the length of the chain as drawn, in units of how far it is plucked.
-const HALF_LENGTH: f64 = 2.4;
-
-impl Chain {
-    /// Where mass `j`, from 1, is drawn when it is displaced by `x`.
-    fn drawn(&self, j: usize, x: f64) -> DVec2 {
-        let part = j as f64 / (self.masses + 1) as f64;
-        DVec2::new((2.0 * part - 1.0) * HALF_LENGTH * self.amplitude(), x)
+        self.place_of(self.plucked, q[self.plucked - 1])
     }
 }

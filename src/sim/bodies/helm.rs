@@ -7,7 +7,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Body, Coordinate, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View};
+use super::{Body, Coordinate, Input, Kind, ParameterOf, Range, Truth, parameter};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
@@ -20,124 +20,58 @@ pub(super) const KIND: Kind = Kind {
             Coordinate { name: "psi", velocity: "r", unit: "rad" },
         ]
     },
-    parameters: &[
-        Parameter {
-            key: "mass_kg",
-            about: "m, the mass",
-            default: None,
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "inertia_kg_m2",
-            about: "I, the moment of inertia about the upright axis",
-            default: None,
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "drag_n_s_per_m",
-            about: "C, the drag for each metre per second ahead",
-            default: None,
-            range: Range::NonNegative(LARGEST),
-        },
-        Parameter {
-            key: "side_drag_n_s_per_m",
-            about: "S, the drag for each metre per second sideways",
-            default: None,
-            range: Range::NonNegative(LARGEST),
-        },
-        Parameter {
-            key: "yaw_drag_n_m_s",
-            about: "D, the moment against turning for each radian per second",
-            default: None,
-            range: Range::NonNegative(LARGEST),
-        },
-        Parameter {
-            key: "rudder_n_s",
-            about: "L, the moment of the full rudder for each metre per second ahead",
-            default: None,
-            range: Range::NonNegative(LARGEST),
-        },
-        Parameter {
-            key: "x0_m",
-            about: "x at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "y0_m",
-            about: "y at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "psi0_rad",
-            about: "the heading at the start, counter-clockwise from x",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "u0_m_per_s",
-            about: "the speed ahead at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "kick_n_s",
-            about: "the impulse of one kick, ahead",
-            default: Some(20_000.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "thrust_curve",
-            about: "the full thrust at speeds ahead: straight between them, level beyond them",
-            default: None,
-            range: Range::Curve { x: "m/s", y: "N" },
-        },
-    ],
+    parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["throttle", "rudder", "kick"],
     leading: "side_drag_n_s_per_m",
     truth: Truth::Reference,
     check: |_| Ok(()),
-    build: |values, solver| {
-        let &[
-            mass,
-            inertia,
-            drag,
-            side_drag,
-            yaw_drag,
-            rudder_moment,
-            x0,
-            y0,
-            psi0,
-            u0,
-            kick,
-            ref points @ ..,
-        ] = values
-        else {
-            unreachable!("one value a key, and two a point")
-        };
-        let helm = Helm {
-            mass,
-            inertia,
-            drag,
-            side_drag,
-            yaw_drag,
-            rudder_moment,
-            thrust: ThrustCurve::new(points.chunks_exact(2).map(|point| [point[0], point[1]])),
-            throttle: 1.0,
-            rudder: 0.0,
-            q0: DVec3::new(x0, y0, psi0),
-            u0,
-            kick,
-        };
-        stepper(helm, solver)
-    },
+    build: |values, solver| stepper(Helm::BLANK.with_parameters(values), solver),
 };
+
+type Of = ParameterOf<Helm>;
+
+const PARAMETERS: [Of; 12] = [
+    Of::number("mass_kg", Range::POSITIVE, |helm| &mut helm.mass).about("m, the mass"),
+    Of::number("inertia_kg_m2", Range::POSITIVE, |helm| &mut helm.inertia)
+        .about("I, the moment of inertia about the upright axis"),
+    Of::number("drag_n_s_per_m", Range::NON_NEGATIVE, |helm| &mut helm.drag)
+        .about("C, the drag for each metre per second ahead"),
+    Of::number("side_drag_n_s_per_m", Range::NON_NEGATIVE, |helm| &mut helm.side_drag)
+        .about("S, the drag for each metre per second sideways"),
+    Of::number("yaw_drag_n_m_s", Range::NON_NEGATIVE, |helm| &mut helm.yaw_drag)
+        .about("D, the moment against turning for each radian per second"),
+    Of::number("rudder_n_s", Range::NON_NEGATIVE, |helm| &mut helm.rudder_moment)
+        .about("L, the moment of the full rudder for each metre per second ahead"),
+    Of::number("x0_m", Range::ANY, |helm| &mut helm.q0.x)
+        .or(0.0)
+        .at_start()
+        .about("x at the start"),
+    Of::number("y0_m", Range::ANY, |helm| &mut helm.q0.y)
+        .or(0.0)
+        .at_start()
+        .about("y at the start"),
+    Of::number("psi0_rad", Range::ANY, |helm| &mut helm.q0.z)
+        .or(0.0)
+        .at_start()
+        .about("the heading at the start, counter-clockwise from x"),
+    Of::number("u0_m_per_s", Range::ANY, |helm| &mut helm.u0)
+        .or(0.0)
+        .at_start()
+        .about("the speed ahead at the start"),
+    Of::number("kick_n_s", Range::ANY, |helm| &mut helm.kick)
+        .or(20_000.0)
+        .about("the impulse of one kick, ahead"),
+    Of::curve("thrust_curve", ["m/s", "N"], |helm, points| {
+        helm.thrust = ThrustCurve::new(points.iter().copied())
+    })
+    .about("the full thrust at speeds ahead: straight between them, level beyond them"),
+];
 
 /// Thrust over speed, from a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThrustCurve {
-    /// Speeds in metres per second with the thrust there in newtons, in order of speed.
+    /// Speeds in metres per second with the thrust there in newtons, in order of speed. Without a point there is
+    /// no thrust.
     points: Vec<[f64; 2]>,
 }
 
@@ -184,7 +118,7 @@ impl ThrustCurve {
         match self.ends(piece) {
             (Some([x0, y0]), Some([x1, y1])) => y0 + (speed - x0) / (x1 - x0) * (y1 - y0),
             (Some([_, y]), None) | (None, Some([_, y])) => *y,
-            (None, None) => unreachable!("a curve has a point"),
+            (None, None) => 0.0,
         }
     }
 }
@@ -232,6 +166,23 @@ fn surge(state: &State<DVec3>) -> f64 {
 const ROUNDED: f64 = 16.0 * f64::EPSILON;
 
 impl Helm {
+    /// Full thrust is set, the rudder lies amidships, and every parameter is 0: for [`Body::with_parameters`] to
+    /// fill in.
+    pub const BLANK: Self = Self {
+        mass: 0.0,
+        inertia: 0.0,
+        drag: 0.0,
+        side_drag: 0.0,
+        yaw_drag: 0.0,
+        rudder_moment: 0.0,
+        thrust: ThrustCurve { points: Vec::new() },
+        throttle: 1.0,
+        rudder: 0.0,
+        q0: DVec3::ZERO,
+        u0: 0.0,
+        kick: 0.0,
+    };
+
     /// The acceleration where the thrust at speed `u` is `thrust(u)`.
     #[inline]
     fn pushed_by(&self, thrust: impl Fn(f64) -> f64, q: &DVec3, v: &DVec3) -> DVec3 {
@@ -255,6 +206,8 @@ impl System for Helm {
 }
 
 impl Body for Helm {
+    const PARAMETERS: &'static [Of] = &PARAMETERS;
+
     fn heap_bytes(&self) -> usize {
         size_of_val(&self.thrust.points[..])
     }
@@ -309,15 +262,4 @@ impl Body for Helm {
     fn place(&self, q: &DVec3) -> DVec2 {
         q.truncate()
     }
-
-    fn outline(&self, state: &State<DVec3>, pen: &mut Pen) {
-        pen.hull(bow(state.q.z), 0.15 * WIDTH_M);
-    }
-
-    fn view(&self) -> View {
-        View::Follow { width_m: WIDTH_M, height_m: 0.6 * WIDTH_M, wake_s: 10.0 }
-    }
 }
-
-/// What is shown across, in metres: a turning circle.
-const WIDTH_M: f64 = 150.0;

@@ -1,8 +1,9 @@
 //! The bodies: one file each, one line each in the table below.
 //!
-//! A body is a closed system with natural coordinates, an exact flow where there is one, and an
-//! outline. Its [`Kind`] card says how a scene describes it. To add one, copy `spring.rs`, declare it,
-//! and name it in [`BODIES`].
+//! A body is a closed system with natural coordinates, and an exact flow where there is one. Its
+//! [`Kind`] card says how a scene describes it; how it looks is said elsewhere, by
+//! [`Look`](crate::lab::picture::Look). To add one, copy `spring.rs`, declare it, and name it in
+//! [`BODIES`].
 
 use glam::DVec2;
 
@@ -15,21 +16,39 @@ mod helm;
 mod kepler;
 mod orbit;
 mod oscillator;
-mod pen;
+mod parameter;
 mod pendulum;
 mod ship;
 mod spring;
 
 pub use chain::Chain;
 pub use helm::{Helm, ThrustCurve};
-pub use orbit::Orbit;
-pub use pen::{Mark, Pen};
+pub use orbit::{Ellipse, Orbit};
+pub use parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
 pub use pendulum::Pendulum;
 pub use ship::Ship;
 pub use spring::Spring;
 
-/// Something that moves by an equation of motion and can be drawn.
+/// Something that moves by an equation of motion.
 pub trait Body: System + Clone + Send + 'static {
+    /// What can be set about the body. Its card lists the descriptions, as [`Kind::parameters`].
+    const PARAMETERS: &'static [ParameterOf<Self>] = &[];
+
+    /// The body with these values of its [parameters](Body::PARAMETERS), in their order: one value for each
+    /// parameter, and two for each point of a curve.
+    ///
+    /// # Panics
+    /// If there are fewer values or more, or if no body of this kind can be built from them: see [`Kind::check`].
+    fn with_parameters(mut self, values: &[f64]) -> Self {
+        parameter::write(&mut self, Self::PARAMETERS, values);
+        self.prepare();
+        self
+    }
+
+    /// Computes again what the body keeps besides its parameters because it follows from them. Called whenever
+    /// they were written.
+    fn prepare(&mut self) {}
+
     /// The memory that it takes beyond its own size, in bytes.
     fn heap_bytes(&self) -> usize {
         0
@@ -120,12 +139,6 @@ pub trait Body: System + Clone + Send + 'static {
 
     /// Where the body is, in metres: the point that the camera, trails and arrows refer to.
     fn place(&self, q: &Self::Vector) -> DVec2;
-
-    /// Draws the body in metres, x right and y up, colourless: the lane brings the colour.
-    fn outline(&self, state: &State<Self::Vector>, pen: &mut Pen);
-
-    /// How the body wants to be looked at.
-    fn view(&self) -> View;
 }
 
 /// What a person or a script does to a body.
@@ -137,38 +150,6 @@ pub enum Input {
     Rudder(f64),
     /// Adds an impulse: this many times the body's own kick.
     Kick(f64),
-}
-
-/// How a body wants to be looked at: what part of its world the stage shows.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum View {
-    /// Afloat: the camera follows the true body over the water, and a wake lies where the body has
-    /// been.
-    Follow {
-        /// The metres shown across, at least; a sixth of that is about a hull.
-        width_m: f64,
-        /// The metres shown from top to bottom, at least.
-        height_m: f64,
-        /// How far the wake reaches back, in seconds.
-        wake_s: f64,
-    },
-    /// The camera stays on the origin and shows this many metres to each side, more if the true
-    /// body swings further. The body moves along x only, and its trail is drawn as a chart recorder
-    /// would.
-    Recorder {
-        /// Metres from the middle to the edge.
-        half_width_m: f64,
-    },
-    /// The camera stays and shows a rectangle, more if the true body moves further. The trail lies
-    /// where the body has been.
-    Fixed {
-        /// The rectangle's middle.
-        centre_m: DVec2,
-        /// Metres from there to the edges.
-        half_m: DVec2,
-        /// How far the trail reaches back, in seconds.
-        trail_s: f64,
-    },
 }
 
 /// What is known of a body's motion, for methods to be held against.
@@ -212,7 +193,7 @@ pub struct Kind {
     pub about: &'static str,
     /// The coordinates of a body with these parameter values, in state order.
     pub coordinates: fn(&[f64]) -> &'static [Coordinate],
-    /// The keys of its table, in the order [`Kind::build`] takes their values.
+    /// The keys of its table, in the order in which [`Kind::build`] takes their values.
     pub parameters: &'static [Parameter],
     /// The kinds of input it takes: `throttle`, `rudder`, `kick`.
     pub inputs: &'static [&'static str],
@@ -222,8 +203,8 @@ pub struct Kind {
     pub truth: Truth,
     /// Says what is wrong with values that are each in range but do not go together.
     pub check: fn(&[f64]) -> Result<(), Fault>,
-    /// Puts a body with these parameter values at its start under a solver: one value for each
-    /// parameter, but of a curve, which is the last, all its points, each as two values.
+    /// Puts a body with these parameter values, as [`Body::with_parameters`] takes them, at its start under a
+    /// solver.
     pub build: fn(&[f64], Solver) -> Box<dyn Stepper>,
 }
 
@@ -233,17 +214,11 @@ impl Kind {
         let default = |parameter: &Parameter| parameter.default.unwrap_or(1.0);
         (self.coordinates)(&self.parameters.iter().map(default).collect::<Vec<_>>())
     }
-}
 
-/// What is wrong with a body's parameters taken together, in lower case.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
-    /// The key whose value would have to change.
-    pub key: &'static str,
-    /// What is wrong.
-    pub what: String,
-    /// What to do about it.
-    pub remedy: String,
+    /// The parameter with this key, and its place among [`Kind::parameters`].
+    pub fn parameter(&self, key: &str) -> Option<(usize, &'static Parameter)> {
+        self.parameters.iter().enumerate().find(|(_, parameter)| parameter.key == key)
+    }
 }
 
 /// One coordinate of a body.
@@ -256,79 +231,6 @@ pub struct Coordinate {
     /// Its unit.
     pub unit: &'static str,
 }
-
-/// One key of a body's table in a scene.
-#[derive(Debug)]
-pub struct Parameter {
-    /// The key, unit included.
-    pub key: &'static str,
-    /// What it is.
-    pub about: &'static str,
-    /// Its value where the scene does not say; `None` where the scene must.
-    pub default: Option<f64>,
-    /// What values are possible.
-    pub range: Range,
-}
-
-/// The values a parameter may take. All are finite.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Range {
-    /// Greater than 0 and at most this.
-    Positive(f64),
-    /// From 0 to this.
-    NonNegative(f64),
-    /// From minus this to this.
-    Within(f64),
-    /// Whole numbers from 1 to this.
-    Count(u32),
-    /// A curve of 2 to [`MOST_POINTS`] points `[x, y]` with rising x, each number from minus
-    /// [`LARGEST`] to that. Only a kind's last parameter can be one.
-    Curve {
-        /// The unit of x.
-        x: &'static str,
-        /// The unit of y.
-        y: &'static str,
-    },
-    /// From the one to the other.
-    Between(f64, f64),
-}
-
-/// The most points of a curve: what a person still types in.
-pub const MOST_POINTS: usize = 64;
-
-impl Range {
-    /// Whether `value` is possible: of a curve, whether it may be a number of a point.
-    pub fn contains(self, value: f64) -> bool {
-        match self {
-            Range::Positive(most) => value > 0.0 && value <= most,
-            Range::NonNegative(most) => value >= 0.0 && value <= most,
-            Range::Within(most) => value >= -most && value <= most,
-            Range::Count(most) => value >= 1.0 && value <= f64::from(most) && value.fract() == 0.0,
-            Range::Curve { .. } => Range::Within(LARGEST).contains(value),
-            Range::Between(least, most) => value >= least && value <= most,
-        }
-    }
-}
-
-impl std::fmt::Display for Range {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let is_plain = |x: f64| x == 0.0 || (1e-4..1e9).contains(&x.abs());
-        let short = |x: f64| if is_plain(x) { format!("{x}") } else { format!("{x:e}") };
-        match *self {
-            Range::Positive(most) => write!(f, "greater than 0 and at most {}", short(most)),
-            Range::NonNegative(most) => write!(f, "from 0 to {}", short(most)),
-            Range::Within(most) => write!(f, "from {} to {}", short(-most), short(most)),
-            Range::Count(most) => write!(f, "whole, from 1 to {most}"),
-            Range::Curve { x, y } => {
-                write!(f, "2 to {MOST_POINTS} points [{x}, {y}] in rising order")
-            }
-            Range::Between(least, most) => write!(f, "from {} to {}", short(least), short(most)),
-        }
-    }
-}
-
-/// The largest magnitude of a body's parameter: beyond it, products in the force laws overflow.
-pub const LARGEST: f64 = 1e15;
 
 /// Every kind of body, in menu order.
 pub static BODIES: &[Kind] =

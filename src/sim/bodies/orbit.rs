@@ -2,9 +2,7 @@
 
 use glam::DVec2;
 
-use super::{
-    Body, Coordinate, Fault, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View, kepler,
-};
+use super::{Body, Coordinate, Fault, Input, Kind, ParameterOf, Range, Truth, kepler, parameter};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
@@ -16,44 +14,7 @@ pub(super) const KIND: Kind = Kind {
             Coordinate { name: "y", velocity: "vy", unit: "m" },
         ]
     },
-    parameters: &[
-        Parameter {
-            key: "mu_m3_per_s2",
-            about: "μ, the pull of the centre, at the origin, times the distance squared",
-            default: None,
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "x0_m",
-            about: "x at the start",
-            default: None,
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "y0_m",
-            about: "y at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "vx0_m_per_s",
-            about: "the velocity along x at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "vy0_m_per_s",
-            about: "the velocity along y at the start",
-            default: None,
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "kick_m_per_s",
-            about: "what one kick adds to the speed, along the path",
-            default: Some(0.1),
-            range: Range::Within(LARGEST),
-        },
-    ],
+    parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["kick"],
     leading: "mu_m3_per_s2",
     truth: Truth::Exact,
@@ -65,12 +26,30 @@ pub(super) const KIND: Kind = Kind {
         }),
         _ => Ok(()),
     },
-    build: |values, solver| {
-        let &[mu, x0, y0, vx0, vy0, kick] = values else { unreachable!("one value a key") };
-        let (q0, v0) = (DVec2::new(x0, y0), DVec2::new(vx0, vy0));
-        stepper(Orbit { mu, q0, v0, kick }, solver)
-    },
+    build: |values, solver| stepper(Orbit::BLANK.with_parameters(values), solver),
 };
+
+type Of = ParameterOf<Orbit>;
+
+const PARAMETERS: [Of; 6] = [
+    Of::number("mu_m3_per_s2", Range::POSITIVE, |orbit| &mut orbit.mu)
+        .about("μ, the pull of the centre, at the origin, times the distance squared"),
+    Of::number("x0_m", Range::ANY, |orbit| &mut orbit.q0.x).at_start().about("x at the start"),
+    Of::number("y0_m", Range::ANY, |orbit| &mut orbit.q0.y)
+        .or(0.0)
+        .at_start()
+        .about("y at the start"),
+    Of::number("vx0_m_per_s", Range::ANY, |orbit| &mut orbit.v0.x)
+        .or(0.0)
+        .at_start()
+        .about("the velocity along x at the start"),
+    Of::number("vy0_m_per_s", Range::ANY, |orbit| &mut orbit.v0.y)
+        .at_start()
+        .about("the velocity along y at the start"),
+    Of::number("kick_m_per_s", Range::ANY, |orbit| &mut orbit.kick)
+        .or(0.1)
+        .about("what one kick adds to the speed, along the path"),
+];
 
 /// A satellite of no mass to speak of; its energy is for each kilogram. Its coordinates are its place
 /// from the centre, in metres.
@@ -87,16 +66,22 @@ pub struct Orbit {
 }
 
 /// An ellipse about the centre.
-struct Ellipse {
-    middle: DVec2,
-    /// How far it reaches from there along x and along y.
-    half: DVec2,
-    period_s: f64,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ellipse {
+    /// Its middle, in metres.
+    pub middle: DVec2,
+    /// How far it reaches from there along x and along y, in metres.
+    pub half: DVec2,
+    /// How long a round takes, in seconds.
+    pub period_s: f64,
 }
 
 impl Orbit {
+    /// Every parameter is 0: for [`Body::with_parameters`] to fill in.
+    pub const BLANK: Self = Self { mu: 0.0, q0: DVec2::ZERO, v0: DVec2::ZERO, kick: 0.0 };
+
     /// The ellipse that the start lies on, if it is one.
-    fn ellipse(&self) -> Option<Ellipse> {
+    pub fn ellipse(&self) -> Option<Ellipse> {
         let Self { mu, q0, v0, .. } = *self;
         let beta = 2.0 * mu / q0.length() - v0.length_squared();
         let period_s = kepler::period(mu, beta)?;
@@ -125,6 +110,8 @@ impl System for Orbit {
 }
 
 impl Body for Orbit {
+    const PARAMETERS: &'static [Of] = &PARAMETERS;
+
     fn start(&self) -> State<DVec2> {
         State { q: self.q0, v: self.v0 }
     }
@@ -155,25 +142,5 @@ impl Body for Orbit {
 
     fn place(&self, q: &DVec2) -> DVec2 {
         *q
-    }
-
-    fn outline(&self, _state: &State<DVec2>, pen: &mut Pen) {
-        let unit = self.ellipse().map_or(self.q0.length(), |ellipse| ellipse.half.max_element());
-        let (centre, at) = (DVec2::ZERO, pen.at);
-        pen.taper(centre, 0.075 * unit, centre, 0.075 * unit);
-        pen.taper(at, 0.045 * unit, at, 0.045 * unit);
-    }
-
-    fn view(&self) -> View {
-        match self.ellipse() {
-            Some(Ellipse { middle, half, period_s }) => {
-                View::Fixed { centre_m: middle, half_m: 1.12 * half, trail_s: period_s }
-            }
-            None => {
-                let half_m = DVec2::splat(3.0 * self.q0.length());
-                let trail_s = 10.0 * self.q0.length() / self.v0.length();
-                View::Fixed { centre_m: DVec2::ZERO, half_m, trail_s }
-            }
-        }
     }
 }

@@ -2,68 +2,47 @@
 
 use glam::DVec2;
 
-use super::{Body, Coordinate, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View};
+use super::{Body, Coordinate, Input, Kind, ParameterOf, Range, Truth, parameter};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
     id: "pendulum",
     about: "m l² θ″ = -m g l sin θ - c θ′: a bob on a rod, at any angle",
     coordinates: |_| &[Coordinate { name: "theta", velocity: "omega", unit: "rad" }],
-    parameters: &[
-        Parameter {
-            key: "length_m",
-            about: "l, from the pivot to the bob",
-            default: None,
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "mass_kg",
-            about: "m, the bob",
-            default: Some(1.0),
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "gravity_m_per_s2",
-            about: "g, downwards",
-            default: Some(9.81),
-            range: Range::NonNegative(LARGEST),
-        },
-        Parameter {
-            key: "damping_n_m_s",
-            about: "c, the torque for each radian per second",
-            default: Some(0.0),
-            range: Range::NonNegative(LARGEST),
-        },
-        Parameter {
-            key: "theta0_rad",
-            about: "the angle at the start, from hanging down, counter-clockwise",
-            default: Some(1.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "omega0_rad_per_s",
-            about: "the angular velocity at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "kick_n_m_s",
-            about: "the angular impulse of one kick",
-            default: Some(1.0),
-            range: Range::Within(LARGEST),
-        },
-    ],
+    parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["kick"],
     leading: "gravity_m_per_s2",
     truth: Truth::Reference,
     check: |_| Ok(()),
-    build: |values, solver| {
-        let &[length, mass, gravity, damping, theta0, omega0, kick] = values else {
-            unreachable!("one value a key")
-        };
-        stepper(Pendulum { length, mass, gravity, damping, theta0, omega0, kick }, solver)
-    },
+    build: |values, solver| stepper(Pendulum::BLANK.with_parameters(values), solver),
 };
+
+type Of = ParameterOf<Pendulum>;
+
+const PARAMETERS: [Of; 7] = [
+    Of::number("length_m", Range::POSITIVE, |pendulum| &mut pendulum.length)
+        .about("l, from the pivot to the bob"),
+    Of::number("mass_kg", Range::POSITIVE, |pendulum| &mut pendulum.mass)
+        .or(1.0)
+        .about("m, the bob"),
+    Of::number("gravity_m_per_s2", Range::NON_NEGATIVE, |pendulum| &mut pendulum.gravity)
+        .or(9.81)
+        .about("g, downwards"),
+    Of::number("damping_n_m_s", Range::NON_NEGATIVE, |pendulum| &mut pendulum.damping)
+        .or(0.0)
+        .about("c, the torque for each radian per second"),
+    Of::number("theta0_rad", Range::ANY, |pendulum| &mut pendulum.theta0)
+        .or(1.0)
+        .at_start()
+        .about("the angle at the start, from hanging down, counter-clockwise"),
+    Of::number("omega0_rad_per_s", Range::ANY, |pendulum| &mut pendulum.omega0)
+        .or(0.0)
+        .at_start()
+        .about("the angular velocity at the start"),
+    Of::number("kick_n_m_s", Range::ANY, |pendulum| &mut pendulum.kick)
+        .or(1.0)
+        .about("the angular impulse of one kick"),
+];
 
 /// A pendulum. Its coordinate is the angle from hanging down, in radians, counter-clockwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,6 +64,17 @@ pub struct Pendulum {
 }
 
 impl Pendulum {
+    /// Every parameter is 0: for [`Body::with_parameters`] to fill in.
+    pub const BLANK: Self = Self {
+        length: 0.0,
+        mass: 0.0,
+        gravity: 0.0,
+        damping: 0.0,
+        theta0: 0.0,
+        omega0: 0.0,
+        kick: 0.0,
+    };
+
     /// m l², in kilogram square metres.
     fn inertia(&self) -> f64 {
         self.mass * self.length * self.length
@@ -107,6 +97,8 @@ impl System for Pendulum {
 }
 
 impl Body for Pendulum {
+    const PARAMETERS: &'static [Of] = &PARAMETERS;
+
     fn start(&self) -> State<f64> {
         State { q: self.theta0, v: self.omega0 }
     }
@@ -138,17 +130,5 @@ impl Body for Pendulum {
 
     fn place(&self, theta: &f64) -> DVec2 {
         self.bob(*theta)
-    }
-
-    fn outline(&self, _state: &State<f64>, pen: &mut Pen) {
-        let (pivot, bob, unit) = (DVec2::ZERO, pen.at, self.length);
-        pen.line(pivot, bob, 1.4);
-        pen.taper(pivot, 0.035 * unit, pivot, 0.035 * unit);
-        pen.taper(bob, 0.12 * unit, bob, 0.12 * unit);
-    }
-
-    fn view(&self) -> View {
-        let half_m = DVec2::splat(1.2 * self.length);
-        View::Fixed { centre_m: DVec2::ZERO, half_m, trail_s: 1.0 }
     }
 }

@@ -2,60 +2,40 @@
 
 use glam::DVec2;
 
-use super::{Body, Coordinate, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View};
+use super::{Body, Coordinate, Input, Kind, ParameterOf, Range, Truth, parameter};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
     id: "ship",
     about: "m s″ = T - C s′: full thrust times throttle, against linear drag",
     coordinates: |_| &[Coordinate { name: "s", velocity: "v", unit: "m" }],
-    parameters: &[
-        Parameter {
-            key: "thrust_n",
-            about: "T, the full thrust",
-            default: None,
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "drag_n_s_per_m",
-            about: "C, the drag for each metre per second",
-            default: None,
-            range: Range::NonNegative(LARGEST),
-        },
-        Parameter {
-            key: "mass_kg",
-            about: "m, the mass",
-            default: None,
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "s0_m",
-            about: "the distance run at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "v0_m_per_s",
-            about: "the speed at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "kick_n_s",
-            about: "the impulse of one kick",
-            default: Some(20_000.0),
-            range: Range::Within(LARGEST),
-        },
-    ],
+    parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["throttle", "kick"],
     leading: "drag_n_s_per_m",
     truth: Truth::Exact,
     check: |_| Ok(()),
-    build: |values, solver| {
-        let &[thrust, drag, mass, s0, v0, kick] = values else { unreachable!("one value a key") };
-        stepper(Ship { thrust, throttle: 1.0, drag, mass, s0, v0, kick }, solver)
-    },
+    build: |values, solver| stepper(Ship::BLANK.with_parameters(values), solver),
 };
+
+type Of = ParameterOf<Ship>;
+
+const PARAMETERS: [Of; 6] = [
+    Of::number("thrust_n", Range::ANY, |ship| &mut ship.thrust).about("T, the full thrust"),
+    Of::number("drag_n_s_per_m", Range::NON_NEGATIVE, |ship| &mut ship.drag)
+        .about("C, the drag for each metre per second"),
+    Of::number("mass_kg", Range::POSITIVE, |ship| &mut ship.mass).about("m, the mass"),
+    Of::number("s0_m", Range::ANY, |ship| &mut ship.s0)
+        .or(0.0)
+        .at_start()
+        .about("the distance run at the start"),
+    Of::number("v0_m_per_s", Range::ANY, |ship| &mut ship.v0)
+        .or(0.0)
+        .at_start()
+        .about("the speed at the start"),
+    Of::number("kick_n_s", Range::ANY, |ship| &mut ship.kick)
+        .or(20_000.0)
+        .about("the impulse of one kick"),
+];
 
 /// A ship on a straight course. Its coordinate is the distance run, in metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,6 +56,12 @@ pub struct Ship {
     pub kick: f64,
 }
 
+impl Ship {
+    /// Full thrust is set, and every parameter is 0: for [`Body::with_parameters`] to fill in.
+    pub const BLANK: Self =
+        Self { thrust: 0.0, throttle: 1.0, drag: 0.0, mass: 0.0, s0: 0.0, v0: 0.0, kick: 0.0 };
+}
+
 impl System for Ship {
     type Vector = f64;
 
@@ -89,6 +75,8 @@ impl System for Ship {
 }
 
 impl Body for Ship {
+    const PARAMETERS: &'static [Of] = &PARAMETERS;
+
     fn start(&self) -> State<f64> {
         State { q: self.s0, v: self.v0 }
     }
@@ -138,14 +126,6 @@ impl Body for Ship {
 
     fn place(&self, s: &f64) -> DVec2 {
         DVec2::new(*s, 0.0)
-    }
-
-    fn outline(&self, _state: &State<f64>, pen: &mut Pen) {
-        pen.hull(DVec2::X, 9.0);
-    }
-
-    fn view(&self) -> View {
-        View::Follow { width_m: 60.0, height_m: 9.0, wake_s: 3.0 }
     }
 }
 

@@ -2,64 +2,42 @@
 
 use glam::DVec2;
 
-use super::{
-    Body, Coordinate, Input, Kind, LARGEST, Parameter, Pen, Range, Truth, View, oscillator,
-};
+use super::{Body, Coordinate, Input, Kind, ParameterOf, Range, Truth, oscillator, parameter};
 use crate::sim::{State, System, stepper};
 
 pub(super) const KIND: Kind = Kind {
     id: "spring",
     about: "m x″ = -k x - c x′: a mass on a spring with a dash-pot",
     coordinates: |_| &[Coordinate { name: "x", velocity: "v", unit: "m" }],
-    parameters: &[
-        Parameter {
-            key: "mass_kg",
-            about: "m, the mass",
-            default: None,
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "stiffness_n_per_m",
-            about: "k, the force for each metre of stretch",
-            default: None,
-            range: Range::Positive(LARGEST),
-        },
-        Parameter {
-            key: "damping_n_s_per_m",
-            about: "c, the force for each metre per second",
-            default: Some(0.0),
-            range: Range::NonNegative(LARGEST),
-        },
-        Parameter {
-            key: "x0_m",
-            about: "the stretch at the start",
-            default: Some(1.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "v0_m_per_s",
-            about: "the velocity at the start",
-            default: Some(0.0),
-            range: Range::Within(LARGEST),
-        },
-        Parameter {
-            key: "kick_n_s",
-            about: "the impulse of one kick",
-            default: Some(3.0),
-            range: Range::Within(LARGEST),
-        },
-    ],
+    parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["kick"],
     leading: "stiffness_n_per_m",
     truth: Truth::Exact,
     check: |_| Ok(()),
-    build: |values, solver| {
-        let &[mass, stiffness, damping, x0, v0, kick] = values else {
-            unreachable!("one value a key")
-        };
-        stepper(Spring { mass, stiffness, damping, x0, v0, kick }, solver)
-    },
+    build: |values, solver| stepper(Spring::BLANK.with_parameters(values), solver),
 };
+
+type Of = ParameterOf<Spring>;
+
+const PARAMETERS: [Of; 6] = [
+    Of::number("mass_kg", Range::POSITIVE, |spring| &mut spring.mass).about("m, the mass"),
+    Of::number("stiffness_n_per_m", Range::POSITIVE, |spring| &mut spring.stiffness)
+        .about("k, the force for each metre of stretch"),
+    Of::number("damping_n_s_per_m", Range::NON_NEGATIVE, |spring| &mut spring.damping)
+        .or(0.0)
+        .about("c, the force for each metre per second"),
+    Of::number("x0_m", Range::ANY, |spring| &mut spring.x0)
+        .or(1.0)
+        .at_start()
+        .about("the stretch at the start"),
+    Of::number("v0_m_per_s", Range::ANY, |spring| &mut spring.v0)
+        .or(0.0)
+        .at_start()
+        .about("the velocity at the start"),
+    Of::number("kick_n_s", Range::ANY, |spring| &mut spring.kick)
+        .or(3.0)
+        .about("the impulse of one kick"),
+];
 
 /// A mass on a spring. Its coordinate is the stretch, in metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,15 +57,13 @@ pub struct Spring {
 }
 
 impl Spring {
+    /// Every parameter is 0: for [`Body::with_parameters`] to fill in.
+    pub const BLANK: Self =
+        Self { mass: 0.0, stiffness: 0.0, damping: 0.0, x0: 0.0, v0: 0.0, kick: 0.0 };
+
     /// The undamped angular frequency √(k/m), in radians per second.
     pub fn angular_frequency(&self) -> f64 {
         (self.stiffness / self.mass).sqrt()
-    }
-
-    /// The amplitude that the undamped spring would swing with from its start, in metres.
-    fn amplitude(&self) -> f64 {
-        let amplitude = libm::hypot(self.x0, self.v0 / self.angular_frequency());
-        if amplitude > 0.0 { amplitude } else { 1.0 }
     }
 }
 
@@ -106,6 +82,8 @@ impl System for Spring {
 }
 
 impl Body for Spring {
+    const PARAMETERS: &'static [Of] = &PARAMETERS;
+
     fn start(&self) -> State<f64> {
         State { q: self.x0, v: self.v0 }
     }
@@ -139,18 +117,5 @@ impl Body for Spring {
 
     fn place(&self, x: &f64) -> DVec2 {
         DVec2::new(*x, 0.0)
-    }
-
-    fn outline(&self, _state: &State<f64>, pen: &mut Pen) {
-        let unit = self.amplitude();
-        let wall = DVec2::new(-1.9 * unit, 0.0);
-        let half = 0.16 * unit;
-        pen.line(wall - DVec2::Y * 0.45 * unit, wall + DVec2::Y * 0.45 * unit, 2.0);
-        pen.coil(wall, pen.at - DVec2::X * half, 9, 0.14 * unit);
-        pen.block(pen.at, DVec2::X, half);
-    }
-
-    fn view(&self) -> View {
-        View::Recorder { half_width_m: 2.0 * self.amplitude() }
     }
 }

@@ -1,4 +1,4 @@
-//! What a body draws itself with: marks in metres, without colour.
+//! The outline of a body: marks in metres, without colour, which the lane brings.
 
 use glam::DVec2;
 
@@ -36,16 +36,16 @@ pub enum Mark {
     },
 }
 
-/// Collects the marks of one outline, in painting order.
-#[derive(Debug, Default)]
-pub struct Pen {
-    /// What was drawn, the first at the bottom.
+/// The marks that show a body.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outline {
+    /// What is drawn, the first at the bottom.
     pub marks: Vec<Mark>,
-    /// Where the body is, as its [`place`](super::Body::place) says.
+    /// Where the body is, as its [`place`](crate::sim::bodies::Body::place) says.
     pub at: DVec2,
 }
 
-impl Pen {
+impl Outline {
     /// Draws a line.
     pub fn line(&mut self, from: DVec2, to: DVec2, weight: f64) {
         self.marks.push(Mark::Line { from, to, weight });
@@ -61,7 +61,7 @@ impl Pen {
         self.marks.push(Mark::Block { centre, along, half });
     }
 
-    /// Draws the hull of a ship `length` metres long at [`Pen::at`], its bow in the direction `bow`.
+    /// Draws the hull of a ship `length` metres long at [`Outline::at`], its bow in the direction `bow`.
     pub fn hull(&mut self, bow: DVec2, length: f64) {
         let unit = length / 9.0;
         let at = self.at;

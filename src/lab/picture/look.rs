@@ -1,0 +1,158 @@
+//! How each kind of body looks: its outline, and what part of its world the stage shows. One file a kind, one
+//! line each in the table below.
+
+use std::any::Any;
+
+use glam::DVec2;
+
+use super::outline::Outline;
+use crate::sim::bodies::{Body, Chain, Helm, Kind, Orbit, Pendulum, Ship, Spring};
+use crate::sim::{Stepper, Vector};
+
+mod chain;
+mod helm;
+mod orbit;
+mod pendulum;
+mod ship;
+mod spring;
+
+/// What part of a body's world the stage shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Framing {
+    /// Afloat: the camera follows the true body over the water, and a wake lies where the body has
+    /// been.
+    Follow {
+        /// The metres shown across, at least; a sixth of that is about a hull.
+        width_m: f64,
+        /// The metres shown from top to bottom, at least.
+        height_m: f64,
+        /// How far the wake reaches back, in seconds.
+        wake_s: f64,
+    },
+    /// The camera stays on the origin and shows this many metres to each side, more if the true
+    /// body swings further. The body moves along x only, and its trail is drawn as a chart recorder
+    /// would.
+    Recorder {
+        /// Metres from the middle to the edge.
+        half_width_m: f64,
+    },
+    /// The camera stays and shows a rectangle, more if the true body moves further. The trail lies
+    /// where the body has been.
+    Fixed {
+        /// The rectangle's middle.
+        centre_m: DVec2,
+        /// Metres from there to the edges.
+        half_m: DVec2,
+        /// How far the trail reaches back, in seconds.
+        trail_s: f64,
+    },
+}
+
+/// How bodies of one type look.
+trait Drawn: Body {
+    /// Draws a body with these coordinates, in metres, x right and y up; [`Outline::at`] is where it is.
+    fn draw(&self, q: &Self::Vector, outline: &mut Outline);
+
+    /// What part of its world the stage shows.
+    fn framing(&self) -> Framing;
+}
+
+/// How bodies of one kind look.
+#[derive(Debug)]
+pub struct Look {
+    /// The kind's id.
+    kind: &'static str,
+    outline: fn(&dyn Any, &[f64]) -> Outline,
+    framing: fn(&dyn Any) -> Framing,
+}
+
+/// Every kind's look, in the order of [`BODIES`](crate::sim::bodies::BODIES).
+static LOOKS: &[Look] = &[
+    Look::of_type::<Ship>("ship"),
+    Look::of_type::<Spring>("spring"),
+    Look::of_type::<Chain>("chain"),
+    Look::of_type::<Pendulum>("pendulum"),
+    Look::of_type::<Orbit>("orbit"),
+    Look::of_type::<Helm>("helm"),
+];
+
+impl Look {
+    const fn of_type<B: Drawn>(kind: &'static str) -> Self {
+        let outline = |body: &dyn Any, q: &[f64]| {
+            let body = typed::<B>(body);
+            let mut shown = body.start().q;
+            shown.components_mut().copy_from_slice(q);
+            let mut outline = Outline { at: body.place(&shown), marks: Vec::new() };
+            body.draw(&shown, &mut outline);
+            outline
+        };
+        Self { kind, outline, framing: |body| typed::<B>(body).framing() }
+    }
+
+    /// The look of bodies of this kind.
+    pub fn of(kind: &Kind) -> &'static Look {
+        let look = LOOKS.iter().find(|look| look.kind == kind.id);
+        look.expect("the tests below find a look for every kind")
+    }
+
+    /// The outline of `body`, which is of this kind, at the coordinates `q`.
+    pub fn outline(&self, body: &dyn Stepper, q: &[f64]) -> Outline {
+        (self.outline)(body.body(), q)
+    }
+
+    /// What part of the world of `body`, which is of this kind, the stage shows.
+    pub fn framing(&self, body: &dyn Stepper) -> Framing {
+        (self.framing)(body.body())
+    }
+}
+
+fn typed<B: Body>(body: &dyn Any) -> &B {
+    body.downcast_ref().expect("the tests below look at a body of every kind")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Scene;
+    use crate::sim::Solver;
+    use crate::sim::bodies::BODIES;
+
+    /// The body of the scene of the kind's name.
+    fn body(kind: &Kind) -> Box<dyn Stepper> {
+        let scene = Scene::built_in(kind.id).expect("a scene for each kind");
+        (kind.build)(&scene.bodies[0].values, Solver::Truth)
+    }
+
+    #[test]
+    fn every_kind_has_a_look_that_shows_where_the_body_is() {
+        assert!(LOOKS.iter().map(|look| look.kind).eq(BODIES.iter().map(|kind| kind.id)));
+        for kind in BODIES {
+            let (look, mut body) = (Look::of(kind), body(kind));
+            for tick in 0..30 {
+                let outline = look.outline(&*body, body.q());
+                assert!(outline.at == body.place() && !outline.marks.is_empty(), "{}", kind.id);
+                body.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+            }
+            let (Framing::Follow { width_m: wide, .. }
+            | Framing::Recorder { half_width_m: wide }
+            | Framing::Fixed { half_m: DVec2 { x: wide, .. }, .. }) = look.framing(&*body);
+            assert!(wide > 0.0 && wide.is_finite(), "{}: {wide} m", kind.id);
+        }
+    }
+
+    #[test]
+    fn a_look_follows_an_edit() {
+        let pendulum = BODIES.iter().find(|kind| kind.id == "pendulum").unwrap();
+        let mut body = body(pendulum);
+        let half_m = |body: &dyn Stepper| match Look::of(pendulum).framing(body) {
+            Framing::Fixed { half_m, .. } => half_m,
+            framing => panic!("{framing:?}"),
+        };
+        let (before, (place, length)) = (half_m(&*body), pendulum.parameter("length_m").unwrap());
+        assert!(length.range.contains(7.0) && body.set_parameter(0.0, place, 7.0));
+        assert_ne!(half_m(&*body), before);
+        assert_eq!(half_m(&*body), DVec2::splat(1.2 * 7.0));
+        let outline = Look::of(pendulum).outline(&*body, &[0.0]);
+        assert_eq!(outline.at, DVec2::new(0.0, -7.0));
+    }
+}

@@ -1,0 +1,36 @@
+//! Beads on a line between two walls.
+
+use glam::DVec2;
+
+use super::{Drawn, Framing, Outline};
+use crate::sim::bodies::Chain;
+
+impl Drawn for Chain {
+    fn draw(&self, q: &Vec<f64>, outline: &mut Outline) {
+        let unit = self.amplitude();
+        let half_wall = DVec2::Y * 0.5 * unit;
+        let mut last = self.place_of(0, 0.0);
+        for (j, &x) in (1..).zip(q.iter().chain([&0.0])) {
+            let next = self.place_of(j, x);
+            outline.line(last, next, 0.7);
+            last = next;
+        }
+        for end in [self.place_of(0, 0.0), last] {
+            outline.line(end - half_wall, end + half_wall, 2.0);
+        }
+        let room = 2.0 * Chain::HALF_LENGTH * unit / (q.len() + 1) as f64;
+        let radius = (0.28 * room).min(0.11 * unit);
+        for (j, &x) in (1..).zip(q) {
+            let at = self.place_of(j, x);
+            outline.taper(at, radius, at, radius);
+        }
+    }
+
+    fn framing(&self) -> Framing {
+        Framing::Fixed {
+            centre_m: DVec2::ZERO,
+            half_m: DVec2::new(1.08 * Chain::HALF_LENGTH, 1.15) * self.amplitude(),
+            trail_s: 0.0,
+        }
+    }
+}

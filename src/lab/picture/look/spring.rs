@@ -1,0 +1,49 @@
+//! A block on a coil spring, on a chart recorder's paper.
+
+use glam::DVec2;
+
+use super::{Drawn, Framing, Outline};
+use crate::sim::bodies::Spring;
+
+/// The amplitude that the undamped spring would swing with from its start, in metres; of one that would not
+/// swing, 1.
+fn amplitude(spring: &Spring) -> f64 {
+    let amplitude = libm::hypot(spring.x0, spring.v0 / spring.angular_frequency());
+    if amplitude > 0.0 { amplitude } else { 1.0 }
+}
+
+impl Drawn for Spring {
+    fn draw(&self, _x: &f64, outline: &mut Outline) {
+        let unit = amplitude(self);
+        let wall = DVec2::new(-1.9 * unit, 0.0);
+        let half = 0.16 * unit;
+        outline.line(wall - DVec2::Y * 0.45 * unit, wall + DVec2::Y * 0.45 * unit, 2.0);
+        outline.coil(wall, outline.at - DVec2::X * half, 9, 0.14 * unit);
+        outline.block(outline.at, DVec2::X, half);
+    }
+
+    fn framing(&self) -> Framing {
+        Framing::Recorder { half_width_m: 2.0 * amplitude(self) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spring_is_shown_as_far_as_it_swings_on_both_sides() {
+        // At 5 rad/s; at rest, a metre.
+        for (x0, v0, amplitude) in [
+            (0.5, 0.0, 0.5),
+            (0.0, -2.0, 0.4),
+            (0.3, 2.0, 0.5),
+            (300.0, 2000.0, 500.0),
+            (0.0, 0.0, 1.0_f64),
+        ] {
+            let spring = Spring { mass: 4.0, stiffness: 100.0, damping: 0.5, x0, v0, kick: 1.0 };
+            let Framing::Recorder { half_width_m } = spring.framing() else { panic!() };
+            assert!((half_width_m / amplitude - 2.0).abs() < 1e-12, "{x0} m, {v0} m/s");
+        }
+    }
+}
