@@ -10,6 +10,7 @@ mod clock;
 mod command;
 mod display;
 mod duration;
+mod equal_cost;
 mod extent;
 mod journal;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
@@ -38,6 +39,7 @@ pub use analysis::{
 pub use clock::{Clock, Due};
 pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};
 pub use display::{Ask, Display, Instrument, Interpolation, Pace};
+pub use equal_cost::equal_cost;
 pub use journal::{Journal, JournalRow, Source};
 pub use lab::Lab;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Origin, TakenUp};
@@ -46,7 +48,7 @@ pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use past::{CAPACITY, History, Past, Run, Sample, Samples, TruthCurve, TruthSample};
 pub use race::{Entrant, Mode, Observer, Race};
 pub use scene::{
-    BuiltIn, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES,
+    BuiltIn, Check, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES,
     MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene,
     SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, edited_values, nearest,
     parameter_named,

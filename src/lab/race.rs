@@ -1,5 +1,6 @@
 //! All lanes and the truth, tick by tick, in integer time, with everything that is done to them.
 
+use super::equal_cost;
 use super::journal::Journal;
 use super::lane::Lane;
 use super::lane_spec::LaneSpec;
@@ -84,7 +85,8 @@ impl Race {
     /// }
     /// ```
     pub fn of(scene: &Scene) -> Self {
-        Self::new(scene, scene.lanes.iter().copied().enumerate()).with_script(&scene.script)
+        let lanes = equal_cost::lanes(scene);
+        Self::new(scene, lanes.into_iter().enumerate()).with_script(&scene.script)
     }
 
     /// The same race at its start, with this script.

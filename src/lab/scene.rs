@@ -16,8 +16,10 @@ mod document;
 mod edit;
 mod errors;
 mod nearest;
+mod script;
 mod syntax;
 mod table;
+mod writer;
 
 pub use edit::{EditError, edited_values, parameter_named};
 pub use errors::{MOST_SHOWN, SceneError, SceneErrors};
@@ -53,6 +55,10 @@ pub const MOST_SUBSTEPS: u32 = 1_000;
 /// error may be as large as the value.
 pub const TOLERANCES: (f64, f64) = (1e-14, 1.0);
 
+/// The largest magnitude of a coordinate that a body can be placed at: what is followed; see
+/// [`ESCAPE`](super::ESCAPE).
+const LARGEST_COORDINATE: f64 = 1e38;
+
 /// The most characters in a body's name: it stands in one line beside its cell.
 pub const MOST_NAME_CHARS: usize = 64;
 
@@ -75,10 +81,14 @@ pub struct Scene {
     pub lanes: Vec<LaneSpec>,
     /// The method that the program opens the scene with, one of the lanes'; `None` for the first lane's.
     pub opening_method: Option<&'static Method>,
+    /// Whether each lane gets as many substeps as bring its cost nearest to the dearest lane's.
+    pub equal_cost: bool,
     /// The bodies in the order of the file, 1 to [`MOST_BODIES`], no two of one name.
     pub bodies: Vec<SceneBody>,
     /// What happens without anybody's doing, by tick, and within a tick in the order of the file.
     pub script: Vec<Scripted>,
+    /// What a race of the scene is known to come to, in the order of the file.
+    pub checks: Vec<Check>,
 }
 
 /// A body of a scene.
@@ -100,6 +110,17 @@ pub struct Scripted {
     pub tick: u64,
     /// What is done.
     pub action: Action,
+}
+
+/// The state of a lane that a race of the scene is known to come to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Check {
+    /// When, at most [`LAST_TICK`].
+    pub tick: u64,
+    /// The lane's number, from 1.
+    pub lane: usize,
+    /// Its [hash](super::Race::lane_hashes) as the tick is reached, before anything is done there.
+    pub hash: u64,
 }
 
 impl Scene {

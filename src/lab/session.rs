@@ -7,6 +7,7 @@ use super::journal::Journal;
 use super::race::{Acted, Mode, Observer, Race};
 use super::scene::Scene;
 
+mod recording;
 mod timeline;
 
 pub use timeline::{Event, EventKind, SNAPSHOT_BYTES, Timeline};
@@ -16,6 +17,8 @@ pub use timeline::{Event, EventKind, SNAPSHOT_BYTES, Timeline};
 pub struct Session {
     scene: Arc<Scene>,
     race: Race,
+    /// The race at its start, without a journal: what a recording begins with.
+    start: Arc<Race>,
 }
 
 impl Session {
@@ -35,18 +38,28 @@ impl Session {
     /// assert_eq!(copy.lanes().state_hash(), session.lanes().state_hash());
     /// ```
     pub fn race(scene: Arc<Scene>) -> Self {
-        Self { race: Race::of(&scene), scene }
+        let race = Race::of(&scene);
+        Self::new(scene, race)
     }
 
     /// A run at its start.
     pub(super) fn new(scene: Arc<Scene>, race: Race) -> Self {
-        Self { scene, race }
+        let mut start = race.clone();
+        start.set_journal(Journal::default());
+        Self { scene, race, start: Arc::new(start) }
     }
 
     /// The scene at its start with one lane, that of the method on place `entry` of the scene's
     /// [list](Scene::method_list), which the scene's script may put under other methods.
     pub fn solo(scene: Arc<Scene>, entry: usize) -> Self {
-        Self { race: Race::solo(&scene, scene.method_list(), entry), scene }
+        let race = Race::solo(&scene, scene.method_list(), entry);
+        Self::new(scene, race)
+    }
+
+    /// The same run at its start, with nothing to do.
+    fn at_start(&self) -> Self {
+        let race = (*self.start).clone();
+        Self { scene: Arc::clone(&self.scene), race, start: Arc::clone(&self.start) }
     }
 
     /// The scene, as it was opened.

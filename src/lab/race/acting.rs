@@ -90,7 +90,7 @@ impl Race {
     }
 
     /// The lane that an action is about, by its place, and what it asks for it.
-    fn switch_asked(&self, action: &Action) -> Option<(usize, LaneSpec)> {
+    pub(in crate::lab) fn switch_asked(&self, action: &Action) -> Option<(usize, LaneSpec)> {
         let numbered = |lane: usize| self.entrants.iter().position(|e| e.lane_number == lane);
         let present = |place: usize| self.list[self.entrants[place].entry];
         match *action {

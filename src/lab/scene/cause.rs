@@ -82,6 +82,16 @@ pub(super) enum Cause {
     ManyActions { found: Vec<&'static str> },
     #[error("no body of this scene takes `{input}`")]
     NoTaker { input: &'static str },
+    #[error("`lane` means nothing to this command")]
+    LaneAlone { known: [&'static str; 3] },
+    #[error("the command does not say of which lane")]
+    NoLane { lanes: usize },
+    #[error("no body of this scene is called {:?}", clip(name))]
+    UnknownBody { name: String, known: Vec<String> },
+    #[error("{:?} is no parameter of this body", clip(key))]
+    UnknownParameter { key: String, nearest: Option<&'static str>, known: Vec<&'static str> },
+    #[error("`{key}` is {text:?}, not a hash")]
+    NoHash { key: &'static str, text: String },
 }
 
 /// Where a key stands.
@@ -91,6 +101,8 @@ pub(super) enum Place {
     Top,
     /// In a table array of this name.
     Table(&'static str),
+    /// In a table of this name.
+    Within(&'static str),
 }
 
 /// What a key takes.
@@ -112,6 +124,12 @@ pub(super) enum Wanted {
     Methods,
     /// A table array of this name.
     Tables(&'static str),
+    /// A table of this name.
+    Table(&'static str),
+    /// Yes or no.
+    Truth,
+    /// So many numbers.
+    Numbers(usize),
 }
 
 impl Cause {
@@ -174,6 +192,18 @@ impl Cause {
             Cause::ManyActions { .. } => {
                 "write a `[[command]]` with the same `tick` for each".into()
             }
+            Cause::LaneAlone { known } => {
+                format!("remove it, or give one of {}", list(known, '`', ", "))
+            }
+            Cause::NoLane { lanes } => format!("write `lane = …`: its number, from 1 to {lanes}"),
+            Cause::UnknownBody { known, .. } => {
+                let known: Vec<&str> = known.iter().map(String::as_str).collect();
+                format!("write one of {}", list(&known, '"', ", "))
+            }
+            Cause::UnknownParameter { nearest, known, .. } => offer(*nearest, known, '"'),
+            Cause::NoHash { .. } => {
+                "write 16 digits from 0 to 9 and a to f, as a recording has them".into()
+            }
             Cause::NoTaker { input } => {
                 let takers = BODIES.iter().filter(|kind| kind.inputs.contains(input));
                 let takers: Vec<_> = takers.map(|kind| kind.id).collect();
@@ -188,6 +218,7 @@ impl fmt::Display for Place {
         match self {
             Place::Top => f.write_str("at the top of the file"),
             Place::Table(name) => write!(f, "in `[[{name}]]`"),
+            Place::Within(name) => write!(f, "in `{name}`"),
         }
     }
 }
@@ -208,6 +239,9 @@ impl Wanted {
             Wanted::Number(_) => "a number",
             Wanted::Whole(_) => "an integer",
             Wanted::Methods | Wanted::Curve(_) => "a list",
+            Wanted::Numbers(_) => "a list of as many numbers",
+            Wanted::Truth => "a boolean",
+            Wanted::Table(_) => "a table",
             Wanted::Point => "a pair of numbers",
             Wanted::Tables(_) => "an array of tables",
         }
@@ -226,6 +260,10 @@ impl fmt::Display for Wanted {
             Wanted::Point => write!(f, "two numbers in brackets, such as [0.0, 1.0]"),
             Wanted::Method => write!(f, "a method's name in double quotes, such as \"rk4\""),
             Wanted::Methods => write!(f, "a list of methods' names, such as [\"rk4\"]"),
+            Wanted::Truth => write!(f, "true or false"),
+            Wanted::Numbers(1) => write!(f, "one number in brackets, such as [0.5]"),
+            Wanted::Numbers(count) => write!(f, "{count} numbers in brackets, with commas between"),
+            Wanted::Table(name) => write!(f, "`[{name}]` in brackets and its keys below"),
             Wanted::Tables(name) => write!(f, "`[[{name}]]` in double brackets and its keys below"),
         }
     }

@@ -6,15 +6,15 @@ use toml::de::DeTable;
 
 use super::cause::{Cause, Wanted};
 use super::errors::{SceneError, position};
+use super::script;
 use super::syntax;
 use super::table::{Field, Table};
 use super::{
-    LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS,
-    MOST_SUBSTEPS, MOST_TICK_HZ, Scene, SceneBody, Scripted, TOLERANCES,
+    LEAST_SECONDS, MOST_BODIES, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS, MOST_SUBSTEPS,
+    MOST_TICK_HZ, Scene, SceneBody, TOLERANCES,
 };
-use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::bodies::{BODIES, Kind, LARGEST, Parameter, Range};
+use crate::sim::bodies::{BODIES, Kind, Parameter, Range};
 use crate::sim::integrators::{METHODS, Method};
 
 /// The most characters of a title: it stands in the window's title bar.
@@ -33,59 +33,24 @@ const TICK_HZ: Field = required("tick_hz", "ticks a second");
 const SECONDS: Field = required("seconds", "how long it runs");
 const METHOD_LIST: Field = optional("methods");
 const OPENING_METHOD: Field = optional("method");
-const TOP: [Field; 7] = [TITLE, ABOUT, HINT, TICK_HZ, SECONDS, METHOD_LIST, OPENING_METHOD];
+pub(super) const TOP: [Field; 7] =
+    [TITLE, ABOUT, HINT, TICK_HZ, SECONDS, METHOD_LIST, OPENING_METHOD];
 
 const NAME: Field = optional("name");
 
 const LANE_METHOD: Field = required("method", "the method that races");
-const SUBSTEPS: Field = optional("substeps");
-const TOLERANCE: Field = optional("tolerance");
+pub(super) const SUBSTEPS: Field = optional("substeps");
+pub(super) const TOLERANCE: Field = optional("tolerance");
 
-const TICK: Field = required("tick", "the tick before which it is done");
+const EQUAL_COST: Field = optional("equal_cost");
 
-const fn required(key: &'static str, about: &'static str) -> Field {
+pub(super) const fn required(key: &'static str, about: &'static str) -> Field {
     Field { key, needed_as: Some(about) }
 }
 
-const fn optional(key: &'static str) -> Field {
+pub(super) const fn optional(key: &'static str) -> Field {
     Field { key, needed_as: None }
 }
-
-/// Something that a `[[command]]` may do, by its key.
-struct Doable {
-    field: Field,
-    /// The input that some body must take for the action to have an effect.
-    input: Option<&'static str>,
-    read: fn(&mut Table<'_>, Field) -> Option<Action>,
-}
-
-static DOABLE: [Doable; 5] = [
-    Doable {
-        field: optional("method"),
-        input: None,
-        read: |table, field| table.method(field).map(Action::Method),
-    },
-    Doable {
-        field: optional("throttle"),
-        input: Some("throttle"),
-        read: |table, field| table.number(field, Range::Within(1.0)).map(Action::Throttle),
-    },
-    Doable {
-        field: optional("rudder"),
-        input: Some("rudder"),
-        read: |table, field| table.number(field, Range::Within(1.0)).map(Action::Rudder),
-    },
-    Doable {
-        field: optional("kick"),
-        input: Some("kick"),
-        read: |table, field| table.number(field, Range::Within(LARGEST)).map(Action::Kick),
-    },
-    Doable {
-        field: optional("tick_hz"),
-        input: None,
-        read: |table, field| table.whole(field, 1..=MOST_TICK_HZ).map(Action::TickHz),
-    },
-];
 
 /// Reads the scene called `name`, or says everything that is wrong with its text, in no order.
 pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
@@ -107,9 +72,13 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let seconds = top.number(SECONDS, Range::Between(LEAST_SECONDS, MOST_SECONDS));
     let lanes = read_lanes(text, &mut top);
     let opening_method = read_opening_method(&lanes, &mut top);
-    let bodies = read_bodies(&mut top);
+    let equal_cost = read_equal_cost(&mut top);
+    let mut bodies = read_bodies(&mut top);
     check_names(text, &bodies, &mut top);
-    let script = read_script(&bodies, &mut top);
+    name_the_nameless(&mut bodies);
+    let cast = Cast { bodies: &bodies, lanes: lanes.len() };
+    let script = script::read(&cast, &mut top);
+    let checks = script::read_checks(&cast, &mut top);
     errors.extend(top.finish(&[]));
     let may_mean_a_body = |error: &SceneError| {
         matches!(
@@ -133,8 +102,10 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
                 seconds,
                 lanes,
                 opening_method,
+                equal_cost,
                 bodies,
                 script,
+                checks,
             })
         }
         _ => Err(errors),
@@ -159,13 +130,7 @@ fn read_lanes(text: &str, top: &mut Table<'_>) -> Vec<LaneSpec> {
     for mut row in rows.into_iter().take(MOST_LANES) {
         let method = row.method(LANE_METHOD);
         let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS).unwrap_or(1);
-        let tolerance = row.number(TOLERANCE, Range::Between(TOLERANCES.0, TOLERANCES.1));
-        if let (Some(method), true) = (method, row.has(TOLERANCE.key))
-            && method.tolerance.is_none()
-        {
-            let cause = Cause::NoTolerance { key: TOLERANCE.key, method: method.id };
-            row.complain(row.span(TOLERANCE.key), cause);
-        }
+        let tolerance = read_tolerance(&mut row, method);
         let span = row.span(LANE_METHOD.key);
         lanes.extend(method.map(|method| (span, LaneSpec { method, substeps, tolerance })));
         top.adopt(row, &TOP);
@@ -182,6 +147,18 @@ fn read_lanes(text: &str, top: &mut Table<'_>) -> Vec<LaneSpec> {
     } else {
         METHODS.iter().map(LaneSpec::plain).collect()
     }
+}
+
+/// A tolerance, for `method` if it is known.
+pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method>) -> Option<f64> {
+    let tolerance = row.number(TOLERANCE, Range::Between(TOLERANCES.0, TOLERANCES.1));
+    if let (Some(method), true) = (method, row.has(TOLERANCE.key))
+        && method.tolerance.is_none()
+    {
+        let cause = Cause::NoTolerance { key: TOLERANCE.key, method: method.id };
+        row.complain(row.span(TOLERANCE.key), cause);
+    }
+    tolerance
 }
 
 /// The method to open with, which has to be a lane's: what a person sees first is then among what races.
@@ -201,12 +178,19 @@ fn read_opening_method(lanes: &[LaneSpec], top: &mut Table<'_>) -> Option<&'stat
 }
 
 /// A body as the file describes it, faults included.
-struct Described {
-    kind: &'static Kind,
-    name: Option<String>,
+pub(super) struct Described {
+    pub(super) kind: &'static Kind,
+    pub(super) name: Option<String>,
     /// The bytes of the name, or of the table's header where it has none.
     name_at: Span<usize>,
-    values: Option<Vec<f64>>,
+    pub(super) values: Option<Vec<f64>>,
+}
+
+/// What a script is about.
+pub(super) struct Cast<'d> {
+    /// By now each has a name.
+    pub(super) bodies: &'d [Described],
+    pub(super) lanes: usize,
 }
 
 fn read_bodies(top: &mut Table<'_>) -> Vec<Described> {
@@ -260,61 +244,32 @@ fn check_names(text: &str, bodies: &[Described], top: &mut Table<'_>) {
 }
 
 /// Names the nameless after their kind, numbered where the kind has several bodies.
-fn finish_bodies(bodies: Vec<Described>) -> Vec<SceneBody> {
+fn name_the_nameless(bodies: &mut [Described]) {
     let mut taken: Vec<String> = bodies.iter().filter_map(|body| body.name.clone()).collect();
     let kinds: Vec<_> = bodies.iter().map(|body| body.kind.id).collect();
-    let mut finished = Vec::new();
-    for Described { kind, name, values, .. } in bodies {
+    for Described { kind, name, .. } in bodies {
         let is_alone = kinds.iter().filter(|id| **id == kind.id).count() == 1;
-        let name = name.unwrap_or_else(|| {
+        let name = name.get_or_insert_with(|| {
             let plain = is_alone.then(|| kind.id.to_owned());
             let numbered = (1..).map(|number| format!("{}-{number}", kind.id));
             let free = plain.into_iter().chain(numbered).find(|name| !taken.contains(name));
             free.expect("there is always a next number")
         });
         taken.push(name.clone());
-        finished.extend(values.map(|values| SceneBody { name, kind, values }));
     }
-    finished
 }
 
-fn read_script(bodies: &[Described], top: &mut Table<'_>) -> Vec<Scripted> {
-    let mut script = Vec::new();
-    for mut row in top.rows("command") {
-        let tick = row.whole(TICK, 0..=LAST_TICK);
-        let action = read_action(bodies, &mut row);
-        script.extend(tick.zip(action).map(|(tick, action)| Scripted { tick, action }));
-        top.adopt(row, &TOP);
-    }
-    script.sort_by_key(|scripted| scripted.tick);
-    script
+fn finish_bodies(bodies: Vec<Described>) -> Vec<SceneBody> {
+    let finish = |Described { kind, name, values, .. }| {
+        Some(SceneBody { name: name.expect("each has one by now"), kind, values: values? })
+    };
+    bodies.into_iter().filter_map(finish).collect()
 }
 
-fn read_action(bodies: &[Described], row: &mut Table<'_>) -> Option<Action> {
-    let mut command = None;
-    let mut found = Vec::new();
-    for Doable { field, input, read } in &DOABLE {
-        // Each is read, also where one too many is found: a row knows only the keys it was asked for.
-        command = read(row, *field).or(command);
-        if !row.has(field.key) {
-            continue;
-        }
-        found.push(field.key);
-        if let Some(input) = *input
-            && !bodies.is_empty()
-            && !bodies.iter().any(|body| body.kind.inputs.contains(&input))
-        {
-            row.complain(row.span(field.key), Cause::NoTaker { input });
-        }
-    }
-    let header = row.header.clone();
-    match found.len() {
-        0 => {
-            let known = DOABLE.iter().map(|action| action.field.key).collect();
-            row.complain(header, Cause::NoAction { known });
-        }
-        1 => {}
-        _ => row.complain(header, Cause::ManyActions { found }),
-    }
-    command
+/// What the scene's `[race]` says of the lanes' cost.
+fn read_equal_cost(top: &mut Table<'_>) -> bool {
+    let Some(mut race) = top.table("race") else { return false };
+    let equal_cost = race.truth(EQUAL_COST).unwrap_or(false);
+    top.adopt(race, &TOP);
+    equal_cost
 }

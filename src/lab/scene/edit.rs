@@ -2,13 +2,23 @@
 
 use super::cause::{Cause, Place, Wanted};
 use super::nearest::nearest;
-use crate::sim::bodies::{Kind, Parameter, Range};
+use crate::sim::bodies::{Fault, Kind, Parameter, Range};
 
 /// Why a parameter of a body cannot be set, and what to do about it, in one line.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{cause}; {}", cause.remedy())]
 pub struct EditError {
     cause: Cause,
+}
+
+impl EditError {
+    /// What is wrong with the values together, if that is it.
+    pub(super) fn fault(self) -> Option<Fault> {
+        match self.cause {
+            Cause::Fault(fault) => Some(fault),
+            _ => None,
+        }
+    }
 }
 
 /// The parameter of `kind` with this key, and its place among [`Kind::parameters`].

@@ -5,6 +5,7 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::LARGEST_COORDINATE as ESCAPE;
 use super::cause::{Cause, Place, Wanted};
 use super::errors::{SceneError, clip};
 use super::nearest::nearest;
@@ -62,6 +63,13 @@ impl<'t> Table<'t> {
 
     pub(super) fn has(&self, key: &str) -> bool {
         self.entries.contains_key(key)
+    }
+
+    /// Takes notice of a key that may stand here, whatever becomes of it.
+    pub(super) fn knows(&mut self, key: &'static str) {
+        if !self.keys.contains(&key) {
+            self.keys.push(key);
+        }
     }
 
     pub(super) fn text(&mut self, field: Field, most_chars: usize) -> Option<String> {
@@ -195,6 +203,36 @@ impl<'t> Table<'t> {
         rows.unwrap_or_default()
     }
 
+    /// The table `name`, if there is one.
+    pub(super) fn table(&mut self, name: &'static str) -> Option<Table<'t>> {
+        let value = self.value(Field { key: name, needed_as: None }, &Wanted::Table(name))?;
+        match value.get_ref().as_table() {
+            Some(entries) => {
+                Some(Table::new(self.text, Place::Within(name), value.span(), entries))
+            }
+            None => self.wrong_type(format!("`{name}`"), value, Wanted::Table(name)),
+        }
+    }
+
+    pub(super) fn truth(&mut self, field: Field) -> Option<bool> {
+        let value = self.value(field, &Wanted::Truth)?;
+        let truth = value.get_ref().as_bool();
+        truth.or_else(|| self.wrong_type(format!("`{}`", field.key), value, Wanted::Truth))
+    }
+
+    /// So many numbers.
+    pub(super) fn numbers(&mut self, field: Field, count: usize) -> Option<Vec<f64>> {
+        let wanted = Wanted::Numbers(count);
+        let value = self.value(field, &wanted)?;
+        let numbers = value.get_ref().as_array().filter(|array| array.len() == count);
+        let numbers = numbers.and_then(|array| array.iter().map(number).collect());
+        let Some(numbers): Option<Vec<f64>> = numbers else {
+            return self.wrong_type(format!("`{}`", field.key), value, wanted);
+        };
+        let are_in_range = numbers.iter().all(|number| number.abs() <= ESCAPE);
+        self.within(field, value, are_in_range.then_some(numbers), wanted)
+    }
+
     /// Takes in what is wrong with a table below this one; a key of `top` is known to belong to the
     /// top of the file.
     pub(super) fn adopt(&mut self, row: Table<'t>, top: &[Field]) {
@@ -247,7 +285,7 @@ impl<'t> Table<'t> {
 
     fn value(&mut self, field: Field, wanted: &Wanted) -> Option<&'t Spanned<DeValue<'t>>> {
         let Field { key, needed_as } = field;
-        self.keys.push(key);
+        self.knows(key);
         let value = self.entries.get(key);
         if let (None, Some(about)) = (value, needed_as) {
             let (place, wanted) = (self.place, wanted.clone());

@@ -1,0 +1,150 @@
+//! A scene as the text of its file: what is written is read back to the same scene, to the bit.
+
+use std::fmt::Write;
+
+use super::{Check, Scene, SceneBody, Scripted};
+use crate::lab::action::Action;
+use crate::lab::lane_spec::LaneSpec;
+use crate::sim::bodies::Range;
+
+impl Scene {
+    /// The text of a scene file that [reads](Scene::parse) as this scene.
+    ///
+    /// ```
+    /// use regatta::lab::Scene;
+    ///
+    /// let scene = Scene::built_in("helm").expect("a built-in scene");
+    /// let again = Scene::parse("helm.toml", &scene.to_toml()).expect("a scene");
+    /// assert_eq!(again.to_toml(), scene.to_toml());
+    /// ```
+    pub fn to_toml(&self) -> String {
+        let mut text = String::new();
+        let mut line = |key: &str, value: String| {
+            writeln!(text, "{key} = {value}").expect("a string takes all");
+        };
+        line("title", quoted(&self.title));
+        if !self.about.is_empty() {
+            line("about", quoted(&self.about));
+        }
+        if let Some(hint) = &self.hint {
+            line("hint", quoted(hint));
+        }
+        line("tick_hz", self.tick_hz.to_string());
+        line("seconds", number(self.seconds));
+        if let Some(method) = self.opening_method {
+            line("method", quoted(method.id));
+        }
+        let are_plain = self.lanes.iter().all(|spec| *spec == LaneSpec::plain(spec.method));
+        if are_plain {
+            let ids = self.lanes.iter().map(|spec| quoted(spec.method.id));
+            line("methods", list(ids));
+        }
+        if self.equal_cost {
+            text += "\n[race]\nequal_cost = true\n";
+        }
+        if !are_plain {
+            self.lanes.iter().for_each(|spec| write_lane(&mut text, spec));
+        }
+        self.bodies.iter().for_each(|body| write_body(&mut text, body));
+        self.script.iter().for_each(|scripted| self.write_command(&mut text, scripted));
+        self.checks.iter().for_each(|check| text += &check.to_toml());
+        text
+    }
+
+    fn write_command(&self, text: &mut String, Scripted { tick, action }: &Scripted) {
+        *text += &format!("\n[[command]]\ntick = {tick}\n");
+        let mut line = |key: &str, value: String| *text += &format!("{key} = {value}\n");
+        let name = |body: usize| quoted(&self.bodies[body].name);
+        match action {
+            Action::Method(method) => line("method", quoted(method.id)),
+            Action::Lane { lane, spec } => {
+                line("lane", lane.to_string());
+                line("method", quoted(spec.method.id));
+                if spec.substeps != 1 {
+                    line("substeps", spec.substeps.to_string());
+                }
+                spec.tolerance
+                    .into_iter()
+                    .for_each(|tolerance| line("tolerance", number(tolerance)));
+            }
+            Action::Substeps { lane, substeps } => {
+                line("lane", lane.to_string());
+                line("substeps", substeps.to_string());
+            }
+            Action::Tolerance { lane, tolerance } => {
+                line("lane", lane.to_string());
+                line("tolerance", number(*tolerance));
+            }
+            Action::TickHz(tick_hz) => line("tick_hz", tick_hz.to_string()),
+            Action::Throttle(part) => line("throttle", number(*part)),
+            Action::Rudder(part) => line("rudder", number(*part)),
+            Action::Kick(times) => line("kick", number(*times)),
+            Action::Set { body, parameter, value } => {
+                let parameter = &self.bodies[*body].kind.parameters[*parameter];
+                let (name, key) = (name(*body), quoted(parameter.key));
+                let value = parameter_value(parameter.range, *value);
+                line("set", format!("{{ body = {name}, key = {key}, value = {value} }}"));
+            }
+            Action::Place { body, q, v } => {
+                let name = name(*body);
+                let [q, v] = [q, v].map(|values| list(values.iter().map(|x| number(*x))));
+                line("place", format!("{{ body = {name}, q = {q}, v = {v} }}"));
+            }
+            Action::Solo { lane } => line("solo", lane.to_string()),
+        }
+    }
+}
+
+impl Check {
+    /// Its row in a scene file, with an empty line before it.
+    pub fn to_toml(&self) -> String {
+        let Self { tick, lane, hash } = self;
+        format!("\n[[check]]\ntick = {tick}\nlane = {lane}\nhash = \"{hash:016x}\"\n")
+    }
+}
+
+fn write_lane(text: &mut String, spec: &LaneSpec) {
+    *text += &format!("\n[[lane]]\nmethod = {}\n", quoted(spec.method.id));
+    if spec.substeps != 1 {
+        *text += &format!("substeps = {}\n", spec.substeps);
+    }
+    if let Some(tolerance) = spec.tolerance {
+        *text += &format!("tolerance = {}\n", number(tolerance));
+    }
+}
+
+fn write_body(text: &mut String, SceneBody { name, kind, values }: &SceneBody) {
+    *text += &format!("\n[[{}]]\nname = {}\n", kind.id, quoted(name));
+    for (parameter, place) in kind.parameters.iter().zip(0..) {
+        let value = match parameter.range {
+            // It is the last, and has all the values that are left.
+            Range::Curve { .. } => {
+                let points = values[place..].chunks_exact(2);
+                list(points.map(|point| list(point.iter().map(|x| number(*x)))))
+            }
+            range => parameter_value(range, values[place]),
+        };
+        *text += &format!("{} = {value}\n", parameter.key);
+    }
+}
+
+fn parameter_value(range: Range, value: f64) -> String {
+    match range {
+        Range::Count(_) => format!("{}", value as u64),
+        _ => number(value),
+    }
+}
+
+/// The shortest number that reads back as the same, with a point or an exponent, as TOML wants it.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+fn list(items: impl Iterator<Item = String>) -> String {
+    format!("[{}]", items.collect::<Vec<_>>().join(", "))
+}
+
+/// A string in double quotes. Texts of a scene hold no control characters.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}
