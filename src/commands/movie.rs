@@ -53,8 +53,8 @@ pub(super) fn record(
     };
     let written =
         Movie::begin(format, &mut output, &recording).map_err(Stop::Taken).and_then(|mut movie| {
-            let make = |drawn: &Drawn| picture(format, &recording, drawn);
-            let done = run.draw_all(make, |drawn, picture| {
+            let encode = |drawn: &Drawn| picture(format, &recording, drawn);
+            let done = run.draw_all(encode, |drawn, picture| {
                 movie.push(&drawn.rgba, picture)?;
                 progress.inc(1);
                 Ok(())

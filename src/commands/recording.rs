@@ -82,8 +82,8 @@ pub(super) fn record(
         schedule,
         interrupted: &interrupted,
     };
-    let make = |drawn: &Drawn| (png::encode(size_px, &drawn.rgba), fingerprint(&drawn.rgba));
-    let drawn = run.draw_all(make, |&Drawn { tick, alpha, .. }, (file, pixels)| {
+    let encode = |drawn: &Drawn| (png::encode(size_px, &drawn.rgba), fingerprint(&drawn.rgba));
+    let drawn = run.draw_all(encode, |&Drawn { tick, alpha, .. }, (file, pixels)| {
         folder.push(&file)?;
         let file = frame_name(entries.len() as u32);
         entries.push(FrameEntry { file, tick, alpha: [alpha.0, alpha.1], pixels });
