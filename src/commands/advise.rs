@@ -1,15 +1,16 @@
 //! `regatta advise`: which method to take for a scene at its tick rate, and why.
 
 use std::io::{self, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, mpsc};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use clap::Args;
-use rayon::prelude::*;
+use rayon::ThreadPoolBuilder;
 use serde_json::{Map, Value, json};
 
 use super::experiment::{ExperimentArgs, Lineup};
+use super::jobs;
 use super::recording::{progress, watch_for_interrupt};
 use super::stopwatch::{self, Timing};
 use super::table::{self, Column};
@@ -84,9 +85,6 @@ struct Row {
 /// How long each measurement goes on: for six dozen of them not long to wait.
 const EFFORT: Duration = Duration::from_millis(5);
 
-/// How long an interrupt may go unnoticed.
-const PATIENCE: Duration = Duration::from_millis(50);
-
 /// Costs that differ by less than this factor are equal.
 const BLUR: f64 = 1.2;
 
@@ -119,35 +117,18 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     }
 }
 
-/// Every method judged, in the order given; after an interrupt those judged by then. What is under way is then left to
-/// itself: the process is about to end.
+/// The methods judged, in the order given; after an interrupt those judged by then.
 fn judge_all(
     adviser: &Arc<Adviser>,
     specs: Vec<LaneSpec>,
     rates: bool,
     interrupted: &AtomicBool,
 ) -> Vec<Row> {
-    let progress = progress(specs.len() as u32, "methods judged");
-    let mut rows: Vec<Option<Row>> = specs.iter().map(|_| None).collect();
-    let (sender, results) = mpsc::channel();
-    let adviser = Arc::clone(adviser);
-    rayon::spawn(move || {
-        specs.into_par_iter().enumerate().for_each_with(sender, |sender, (i, spec)| {
-            // After an interrupt nobody listens.
-            let _ = sender.send((i, Row::judged(&adviser, spec, rates)));
-        });
-    });
-    while !interrupted.load(Ordering::Relaxed) {
-        match results.recv_timeout(PATIENCE) {
-            Ok((i, row)) => {
-                rows[i] = Some(row);
-                progress.inc(1);
-            }
-            Err(mpsc::RecvTimeoutError::Timeout) => {}
-            Err(mpsc::RecvTimeoutError::Disconnected) => break,
-        }
-    }
-    progress.finish_and_clear();
+    let pool = ThreadPoolBuilder::new().build().expect("the system starts a thread for each core");
+    let (methods, adviser) = (specs.len(), Arc::clone(adviser));
+    let judge = move |method: usize| Row::judged(&adviser, specs[method], rates);
+    let progress = progress(methods as u32, "methods judged");
+    let rows = jobs::results(&pool, methods, &progress, interrupted, judge);
     rows.into_iter().flatten().collect()
 }
 

@@ -22,6 +22,7 @@ mod file_error;
 mod fingerprint;
 mod frame_folder;
 mod frame_names;
+mod jobs;
 mod list;
 mod logbook;
 pub mod manifest;

@@ -1,13 +1,13 @@
 //! Every method at every rate on every body: the runs, made in parallel, and their rows.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 use rayon::ThreadPoolBuilder;
-use rayon::prelude::*;
 
 use super::SweepError;
+use crate::commands::jobs;
 use crate::commands::recording::progress;
 use crate::commands::stopwatch;
 use crate::lab::{Clock, Judge, LONGEST_HORIZON_S, LaneSpec, Scene, Verdict};
@@ -146,45 +146,21 @@ impl Grid {
 /// How long a run is timed: with a thousand or two of them not long to wait.
 const EFFORT: Duration = Duration::from_millis(1);
 
-/// How long an interrupt may go unnoticed.
-const PATIENCE: Duration = Duration::from_millis(50);
-
-/// The verdict on every run, in the order of the grid. After an interrupt the runs under way are left to
-/// themselves: some take minutes, and the process is about to end.
+/// The verdict on every run, in the order of the grid.
 fn judge_all(
     grid: &Arc<Grid>,
     threads: Option<usize>,
     interrupted: &AtomicBool,
 ) -> Result<Vec<Verdict>, SweepError> {
     let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build()?;
-    let (sender, results) = mpsc::channel();
+    let runs = grid.cells.len();
     let worked_on = Arc::clone(grid);
-    pool.spawn(move || {
-        let cells = worked_on.cells.par_iter().enumerate();
-        cells.for_each_with(sender, |sender, (i, &Cell { subject, spec, tick_hz })| {
-            let verdict = worked_on.subjects[subject].judge.verdict(spec, tick_hz);
-            // After an interrupt nobody listens.
-            let _ = sender.send((i, verdict));
-        });
-    });
-    let progress = progress(grid.cells.len() as u32, "runs");
-    let mut verdicts = vec![None; grid.cells.len()];
-    loop {
-        match results.recv_timeout(PATIENCE) {
-            Ok((i, verdict)) => {
-                verdicts[i] = Some(verdict);
-                progress.inc(1);
-            }
-            Err(mpsc::RecvTimeoutError::Timeout) => {}
-            Err(mpsc::RecvTimeoutError::Disconnected) => break,
-        }
-        if interrupted.load(Ordering::Relaxed) {
-            progress.finish_and_clear();
-            return Err(SweepError::Interrupted);
-        }
-    }
-    progress.finish_and_clear();
-    Ok(verdicts.into_iter().map(|verdict| verdict.expect("every run was made")).collect())
+    let judge = move |cell: usize| {
+        let Cell { subject, spec, tick_hz } = worked_on.cells[cell];
+        worked_on.subjects[subject].judge.verdict(spec, tick_hz)
+    };
+    let verdicts = jobs::results(&pool, runs, &progress(runs as u32, "runs"), interrupted, judge);
+    verdicts.into_iter().map(|verdict| verdict.ok_or(SweepError::Interrupted)).collect()
 }
 
 /// From a quarter of this rate to eight times, doubled from one to the next, whole, and within what a
