@@ -2,13 +2,13 @@
 
 use std::io::{self, Write};
 
-use super::atomic_output::AtomicOutput;
-use super::capture::CaptureError;
 use super::experiment::Experiment;
+use super::interrupt::watch_for_interrupt;
 use super::logbook::Logbook;
+use super::output::AtomicOutput;
 use super::pipeline::{Drawn, Run, Stop};
-use super::recording::{Recording, closing_line, progress, watch_for_interrupt};
-use super::tell;
+use super::recording::{Recording, RecordingError, closing_line};
+use super::terminal::{progress, tell};
 use super::voyage::Schedule;
 
 /// A format of one stream.
@@ -24,9 +24,6 @@ pub(super) enum MovieFormat {
     Rgba,
 }
 
-/// Players show a GIF's frame for two hundredths of a second at least.
-pub(super) const MOST_GIF_FPS: u32 = 50;
-
 /// The colours of one pixel in so many are looked at for a GIF's palette: the least care, twice as fast
 /// as middling care, and on flat colours no worse.
 const GIF_SPEED: i32 = 30;
@@ -37,7 +34,7 @@ pub(super) fn record(
     recording: Recording,
     format: MovieFormat,
     mut output: AtomicOutput,
-) -> Result<(), CaptureError> {
+) -> Result<(), RecordingError> {
     let mut artist = recording.artist()?;
     let interrupted = watch_for_interrupt();
     let Schedule { frames, .. } = recording.schedule;
@@ -75,7 +72,7 @@ pub(super) fn record(
                 }
                 AtomicOutput::File { .. } => "none, a stream is whole at its end".into(),
             };
-            Err(CaptureError::Interrupted { done, frames, whole })
+            Err(RecordingError::interrupted(done, frames, &whole))
         }
         Ok(_) => {
             let name = output.name();

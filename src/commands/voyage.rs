@@ -1,6 +1,14 @@
 //! From frame to frame of a recording, by a clock that is computed and not read.
 
+use super::error::Cause;
+use super::frame_folder::names::MOST_FRAMES;
 use crate::lab::{Clock, Lab};
+
+/// Smooth enough for every scene, at half the files and half the time of 60.
+pub(super) const FPS: u32 = 30;
+
+/// The most frames in a simulated second: no display shows as many.
+pub(super) const MOST_FPS: u32 = 1000;
 
 /// When frames are: `frames` of them, the first at the start, `fps` in a simulated second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,6 +18,31 @@ pub(super) struct Schedule {
 }
 
 const SECOND_NS: u64 = 1_000_000_000;
+
+/// More frames than six digits number.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "{frames} frames are asked for, and a capture has at most {MOST_FRAMES}; \
+     give a lower --fps or fewer --seconds"
+)]
+pub(super) struct TooManyFrames {
+    frames: f64,
+}
+
+impl Cause for TooManyFrames {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
+
+/// How many frames cover this many seconds; the start is one of them in any case.
+pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, TooManyFrames> {
+    let frames = (seconds * f64::from(fps)).round().max(1.0);
+    if frames > f64::from(MOST_FRAMES) {
+        return Err(TooManyFrames { frames });
+    }
+    Ok(frames as u32)
+}
 
 impl Schedule {
     /// When `frame` is, in nanoseconds: rounded up, so that a tick due at that very moment is done.
@@ -71,6 +104,14 @@ mod tests {
             assert!((shown - moment).abs() < 1e-6, "frame {frame} shows {shown} s, not {moment} s");
         }
         assert_eq!(schedule.ticks(&Lab::new(lab.scene().clone())), lab.race().tick());
+    }
+
+    #[test]
+    fn seconds_make_whole_frames_and_at_least_the_start() {
+        assert_eq!(frames_in(20.0, 30).unwrap(), 600);
+        assert_eq!(frames_in(0.0, 30).unwrap(), 1);
+        assert_eq!(frames_in(0.05, 30).unwrap(), 2);
+        assert!(frames_in(3e7, 1000).is_err());
     }
 
     #[test]

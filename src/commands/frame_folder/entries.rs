@@ -6,13 +6,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::commands::atomic_file;
-use crate::commands::blessing;
-use crate::commands::directory_lock::is_lock;
-use crate::commands::frame_names::{
-    MOST_FRAMES, frame_name, frame_number, frames_claimed, is_marked,
-};
+use super::blessing;
+use super::names::{MOST_FRAMES, frame_name, frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
+use crate::commands::output::{final_name, is_lock};
 
 /// The entries of a folder, by name.
 #[derive(Debug, Default)]
@@ -39,7 +36,7 @@ impl Entries {
             let is_directory = entry.file_type()?.is_dir();
             let name = entry.file_name();
             let text = name.to_str().unwrap_or_default();
-            let is_under_way = atomic_file::final_name(text).is_some_and(is_a_captures);
+            let is_under_way = final_name(text).is_some_and(is_a_captures);
             match (is_a_captures(text), is_directory) {
                 (true, true) => {
                     entries.in_the_way = Some(entry.path());

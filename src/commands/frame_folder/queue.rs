@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 
-use crate::commands::atomic_file::{AtomicFile, Older};
+use crate::commands::output::{AtomicFile, Older};
 
 /// Frames that may wait for the disk. They are written already, and hold no memory of ours; more would
 /// be lost with the power.

@@ -4,14 +4,26 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use rayon::ThreadPoolBuilder;
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
-use super::SweepError;
+use crate::commands::error::{Cause, Error};
+use crate::commands::interrupt::Interrupted;
 use crate::commands::jobs;
-use crate::commands::recording::progress;
 use crate::commands::stopwatch;
+use crate::commands::terminal::progress;
 use crate::lab::{Clock, Judge, LONGEST_HORIZON_S, LaneSpec, Scene, Verdict};
 use crate::sim::integrators::Method;
+
+/// The system has no threads left.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot start the threads: {0}; give fewer --threads")]
+struct TooManyThreads(ThreadPoolBuildError);
+
+impl Cause for TooManyThreads {
+    fn exit_code(&self) -> u8 {
+        1
+    }
+}
 
 /// What is to be gone through.
 pub(super) struct Swept {
@@ -104,19 +116,19 @@ impl Grid {
         grid
     }
 
-    /// Makes every run on so many threads, as many as there are cores where it is not said, and then
-    /// times each alone. The rows come in the order of the grid.
+    /// Makes the runs on so many `threads`, by default one for each core, and then times each run alone.
+    /// The rows come in the order of the grid.
     pub(super) fn run(
         self,
         threads: Option<usize>,
         interrupted: &AtomicBool,
-    ) -> Result<Vec<Row>, SweepError> {
+    ) -> Result<Vec<Row>, Error> {
         let grid = Arc::new(self);
         let verdicts = judge_all(&grid, threads, interrupted)?;
         let progress = progress(grid.cells.len() as u32, "runs timed");
         let rows = grid.cells.iter().zip(verdicts).map(|(cell, verdict)| {
             if interrupted.load(Ordering::Relaxed) {
-                return Err(SweepError::Interrupted);
+                return Err(Interrupted::NothingWritten.into());
             }
             progress.inc(1);
             Ok(grid.row(cell, verdict))
@@ -151,8 +163,9 @@ fn judge_all(
     grid: &Arc<Grid>,
     threads: Option<usize>,
     interrupted: &AtomicBool,
-) -> Result<Vec<Verdict>, SweepError> {
-    let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build()?;
+) -> Result<Vec<Verdict>, Error> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build();
+    let pool = pool.map_err(TooManyThreads)?;
     let runs = grid.cells.len();
     let worked_on = Arc::clone(grid);
     let judge = move |cell: usize| {
@@ -160,7 +173,8 @@ fn judge_all(
         worked_on.subjects[subject].judge.verdict(spec, tick_hz)
     };
     let verdicts = jobs::results(&pool, runs, &progress(runs as u32, "runs"), interrupted, judge);
-    verdicts.into_iter().map(|verdict| verdict.ok_or(SweepError::Interrupted)).collect()
+    let whole: Option<Vec<Verdict>> = verdicts.into_iter().collect();
+    Ok(whole.ok_or(Interrupted::NothingWritten)?)
 }
 
 /// From a quarter of this rate to eight times, doubled from one to the next, whole, and within what a

@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 
 use super::atomic_file::{AtomicFile, Older};
 use super::file_error::FileError;
+use crate::commands::error::{Cause, Error};
 
 /// The path that means standard output.
-pub(super) const STDOUT: &str = "-";
+pub(crate) const STDOUT: &str = "-";
 
 /// Names of what the process has open, such as standard error: links, and what they lead to is in use.
 const OPEN_ALREADY: [&str; 4] = ["/dev/fd", "/dev/stdout", "/dev/stderr", "/proc/self/fd"];
@@ -19,17 +20,17 @@ const MOST_LINKS: usize = 40;
 
 /// Where an output may go, and what is said of it if it cannot.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place<'a> {
+pub(crate) struct Place<'a> {
     /// A file, a link to one, a device, or [`STDOUT`].
-    pub(super) path: &'a Path,
+    pub(crate) path: &'a Path,
     /// The option that names it, such as `--out`.
-    pub(super) option: &'static str,
+    pub(crate) option: &'static str,
     /// What becomes of a file that is there.
-    pub(super) older: Older,
+    pub(crate) older: Older,
 }
 
 /// A stream being written.
-pub(super) enum AtomicOutput {
+pub(crate) enum AtomicOutput {
     Stdout(BufWriter<io::Stdout>),
     /// Nothing that could be replaced: a device, a pipe.
     Device {
@@ -47,7 +48,7 @@ pub(super) enum AtomicOutput {
 
 /// Why a stream could not be written.
 #[derive(Debug, thiserror::Error)]
-pub enum OutputError {
+pub(crate) enum OutputError {
     /// A file that would be replaced.
     #[error("{} is there already; give another {option}, or --force to replace it", .path.display())]
     Taken {
@@ -80,8 +81,8 @@ pub enum OutputError {
     Stdout(io::Error),
 }
 
-impl OutputError {
-    pub(super) fn exit_code(&self) -> u8 {
+impl Cause for OutputError {
+    fn exit_code(&self) -> u8 {
         match self {
             OutputError::Taken { .. }
             | OutputError::Directory { .. }
@@ -90,8 +91,7 @@ impl OutputError {
         }
     }
 
-    /// Whether whoever reads has enough.
-    pub(super) fn is_closed_pipe(&self) -> bool {
+    fn is_closed_pipe(&self) -> bool {
         let source = match self {
             OutputError::File(error) => &error.source,
             OutputError::Stdout(error) => error,
@@ -101,9 +101,16 @@ impl OutputError {
     }
 }
 
+/// What the system says to a command that writes to standard output.
+impl From<io::Error> for Error {
+    fn from(error: io::Error) -> Self {
+        OutputError::Stdout(error).into()
+    }
+}
+
 impl AtomicOutput {
     /// Opens a place for bytes that are no text.
-    pub(super) fn open(place: Place<'_>) -> Result<Self, OutputError> {
+    pub(crate) fn open(place: Place<'_>) -> Result<Self, OutputError> {
         if place.path == Path::new(STDOUT) && io::stdout().is_terminal() {
             return Err(OutputError::Terminal { option: place.option });
         }
@@ -111,7 +118,7 @@ impl AtomicOutput {
     }
 
     /// Opens a place for text, which may go to a terminal.
-    pub(super) fn open_for_text(place: Place<'_>) -> Result<Self, OutputError> {
+    pub(crate) fn open_for_text(place: Place<'_>) -> Result<Self, OutputError> {
         let Place { path, option, older } = place;
         if path == Path::new(STDOUT) {
             return Ok(AtomicOutput::Stdout(BufWriter::new(io::stdout())));
@@ -136,7 +143,7 @@ impl AtomicOutput {
     }
 
     /// What to call it.
-    pub(super) fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         match self {
             AtomicOutput::Stdout(_) => "standard output".into(),
             AtomicOutput::Device { path, .. } | AtomicOutput::File { path, .. } => {
@@ -146,7 +153,7 @@ impl AtomicOutput {
     }
 
     /// What a failure to write means.
-    pub(super) fn failed(&self, error: io::Error) -> OutputError {
+    pub(crate) fn failed(&self, error: io::Error) -> OutputError {
         match self {
             AtomicOutput::Stdout(_) => OutputError::Stdout(error),
             AtomicOutput::Device { path, option, .. } | AtomicOutput::File { path, option, .. } => {
@@ -156,7 +163,7 @@ impl AtomicOutput {
     }
 
     /// Writes what is left; the file takes its name.
-    pub(super) fn close(mut self) -> Result<(), OutputError> {
+    pub(crate) fn close(mut self) -> Result<(), OutputError> {
         self.flush().map_err(|error| self.failed(error))?;
         let AtomicOutput::File { part, path, option, older } = self else { return Ok(()) };
         let whole = part.into_inner().map_err(io::IntoInnerError::into_error);
@@ -170,8 +177,14 @@ impl AtomicOutput {
     }
 }
 
+/// Writes text to standard output.
+pub(crate) fn print(text: &str) -> Result<(), OutputError> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(OutputError::Stdout)
+}
+
 /// Writes text in the place of whatever file is there.
-pub(super) fn write_text(place: Place<'_>, text: &str) -> Result<(), OutputError> {
+pub(crate) fn write_text(place: Place<'_>, text: &str) -> Result<(), OutputError> {
     let mut output = AtomicOutput::open_for_text(place)?;
     output.write_all(text.as_bytes()).map_err(|error| output.failed(error))?;
     output.close()

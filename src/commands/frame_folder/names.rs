@@ -7,26 +7,26 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::manifest;
+use crate::commands::manifest;
 use crate::view::png;
 
 /// The most frames in a folder: as many as six digits number.
-pub(super) const MOST_FRAMES: u32 = 1_000_000;
+pub(crate) const MOST_FRAMES: u32 = 1_000_000;
 
 /// The file name of the frame with this number, from 0.
-pub(super) fn frame_name(frame: u32) -> String {
+pub(crate) fn frame_name(frame: u32) -> String {
     format!("frame-{frame:06}.png")
 }
 
 /// The number of the frame with this file name, if it is one that frames have.
-pub(super) fn frame_number(name: &str) -> Option<u32> {
+pub(crate) fn frame_number(name: &str) -> Option<u32> {
     let digits = name.strip_prefix("frame-")?.strip_suffix(".png")?;
     let is_number = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit());
     is_number.then(|| digits.parse().ok()).flatten()
 }
 
 /// Whether the picture at `path` says that this program made it.
-pub(super) fn is_marked(path: &Path) -> bool {
+pub(crate) fn is_marked(path: &Path) -> bool {
     let mut start = Vec::new();
     let read = File::open(path)
         .and_then(|file| file.take(png::NOTED_WITHIN as u64).read_to_end(&mut start));
@@ -34,7 +34,7 @@ pub(super) fn is_marked(path: &Path) -> bool {
 }
 
 /// The files that the manifest at `path` lists; `None` if a capture did not write it, whatever its schema.
-pub(super) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
+pub(crate) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
     let manifest: Value = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
     let is_ours = manifest["schema"].is_u64()
         && manifest["regatta"].is_string()
@@ -48,7 +48,7 @@ pub(super) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
 
 /// Whether `path` is where the capture in `clip` has its manifest or a frame, be it there or not, or is a
 /// file that any capture made.
-pub(super) fn is_of_a_capture(path: &Path, clip: &Path) -> bool {
+pub(crate) fn is_of_a_capture(path: &Path, clip: &Path) -> bool {
     let resolved = resolved(path);
     let name = resolved.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let is_in_clip = resolved

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use super::atomic_file::sync_directory;
-use super::frame_names::{frame_number, frames_claimed, is_marked};
-use super::manifest;
+use super::names::{frame_number, frames_claimed, is_marked};
+use crate::commands::manifest;
+use crate::commands::output::sync_directory;
 
 /// What the names of the directories begin with in which frames are drawn.
 const UNDER_WAY: &str = ".regatta-bless-";
@@ -21,25 +21,25 @@ const READY: &str = ".regatta-blessed";
 
 /// Frames being drawn for a clip. Dropped before it is swapped in, it leaves nothing.
 #[derive(Debug)]
-pub(super) struct Blessing {
+pub(crate) struct Blessing {
     clip: PathBuf,
     place: TempDir,
 }
 
 impl Blessing {
     /// Makes a directory for the frames in the clip's own.
-    pub(super) fn begin(clip: &Path) -> io::Result<Self> {
+    pub(crate) fn begin(clip: &Path) -> io::Result<Self> {
         let place = tempfile::Builder::new().prefix(UNDER_WAY).tempdir_in(clip)?;
         Ok(Self { clip: clip.to_owned(), place })
     }
 
     /// Where frames and manifest are to be written.
-    pub(super) fn place(&self) -> &Path {
+    pub(crate) fn place(&self) -> &Path {
         self.place.path()
     }
 
     /// Puts frames and manifest, which are synced, into the place of the clip's.
-    pub(super) fn swap(self) -> io::Result<()> {
+    pub(crate) fn swap(self) -> io::Result<()> {
         fs::rename(self.place.path(), self.clip.join(READY))?;
         // It has another name now, and stays.
         let _ = self.place.keep();
@@ -49,17 +49,17 @@ impl Blessing {
 }
 
 /// Whether a swap was stopped before its end.
-pub(super) fn is_pending(clip: &Path) -> bool {
+pub(crate) fn is_pending(clip: &Path) -> bool {
     fs::symlink_metadata(clip.join(READY)).is_ok_and(|entry| entry.is_dir())
 }
 
 /// Whether a directory of this name holds frames of a blessing that was stopped before its swap.
-pub(super) fn is_left_over(name: &str) -> bool {
+pub(crate) fn is_left_over(name: &str) -> bool {
     name.starts_with(UNDER_WAY)
 }
 
 /// Carries a pending swap to its end. Every step of it can be done again, and the manifest comes last.
-pub(super) fn complete(clip: &Path) -> io::Result<()> {
+pub(crate) fn complete(clip: &Path) -> io::Result<()> {
     let ready = clip.join(READY);
     for entry in fs::read_dir(&ready)? {
         let name = entry?.file_name();

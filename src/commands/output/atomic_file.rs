@@ -18,14 +18,14 @@ const LONGEST_STEM: usize = 200;
 
 /// A file under way. Dropped before it is committed, it leaves nothing.
 #[derive(Debug)]
-pub(super) struct AtomicFile {
+pub(crate) struct AtomicFile {
     part: NamedTempFile,
     path: PathBuf,
 }
 
 /// What may become of a file that has the name already.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Older {
+pub(crate) enum Older {
     /// It makes way.
     Replace,
     /// It stays, and the new file is given up.
@@ -34,7 +34,7 @@ pub(super) enum Older {
 
 impl AtomicFile {
     /// Makes a new file beside `path`, under a name that nothing had.
-    pub(super) fn create(path: &Path) -> io::Result<Self> {
+    pub(crate) fn create(path: &Path) -> io::Result<Self> {
         let name = path.file_name().filter(|name| name.len() <= LONGEST_STEM).unwrap_or_default();
         let mut prefix = name.to_owned();
         prefix.push(".");
@@ -47,17 +47,17 @@ impl AtomicFile {
     }
 
     /// Takes over the permissions of the file that will be replaced.
-    pub(super) fn set_permissions_of(&self, older: &Metadata) -> io::Result<()> {
+    pub(crate) fn set_permissions_of(&self, older: &Metadata) -> io::Result<()> {
         self.part.as_file().set_permissions(older.permissions())
     }
 
     /// Hands what was written to the disk, so that a commit has only the name left to change.
-    pub(super) fn sync(&self) -> io::Result<()> {
+    pub(crate) fn sync(&self) -> io::Result<()> {
         self.part.as_file().sync_all()
     }
 
     /// Gives the file its name. That the name survives a loss of power takes [`sync_directory`].
-    pub(super) fn rename(self, older: Older) -> io::Result<()> {
+    pub(crate) fn rename(self, older: Older) -> io::Result<()> {
         let renamed = match older {
             Older::Replace => self.part.persist(&self.path),
             Older::Keep => self.part.persist_noclobber(&self.path),
@@ -66,7 +66,7 @@ impl AtomicFile {
     }
 
     /// Syncs the file, gives it its name, and syncs the directory.
-    pub(super) fn commit(self, older: Older) -> io::Result<()> {
+    pub(crate) fn commit(self, older: Older) -> io::Result<()> {
         self.sync()?;
         let directory = directory_of(&self.path).to_owned();
         self.rename(older)?;
@@ -85,14 +85,14 @@ impl Write for AtomicFile {
 }
 
 /// Writes a file whole, in the place of an older one if there is one.
-pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = AtomicFile::create(path)?;
     file.write_all(bytes)?;
     file.commit(Older::Replace)
 }
 
 /// The name that the file had in the end, if `name` is one that [`AtomicFile`] gives to a file under way.
-pub(super) fn final_name(name: &str) -> Option<&str> {
+pub(crate) fn final_name(name: &str) -> Option<&str> {
     let (whole, random) = name.strip_suffix(ENDING)?.rsplit_once('.')?;
     let is_random =
         random.len() == RANDOM_CHARS && random.bytes().all(|b| b.is_ascii_alphanumeric());
@@ -100,7 +100,7 @@ pub(super) fn final_name(name: &str) -> Option<&str> {
 }
 
 /// Makes the names in a directory survive a loss of power, where the system has a way to.
-pub(super) fn sync_directory(path: &Path) -> io::Result<()> {
+pub(crate) fn sync_directory(path: &Path) -> io::Result<()> {
     if !cfg!(unix) {
         return Ok(());
     }

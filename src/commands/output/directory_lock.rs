@@ -11,18 +11,18 @@ const LOCK_NAME: &str = ".regatta-lock";
 
 /// Held until it is dropped.
 #[derive(Debug)]
-pub(super) struct DirectoryLock {
+pub(crate) struct DirectoryLock {
     _file: File,
 }
 
 impl DirectoryLock {
     /// A writer's lock on a directory; `None` where another process has it locked.
-    pub(super) fn exclusive(directory: &Path) -> io::Result<Option<Self>> {
+    pub(crate) fn exclusive(directory: &Path) -> io::Result<Option<Self>> {
         Self::lock(directory, File::try_lock)
     }
 
     /// A reader's lock on a directory; `None` where another process writes.
-    pub(super) fn shared(directory: &Path) -> io::Result<Option<Self>> {
+    pub(crate) fn shared(directory: &Path) -> io::Result<Option<Self>> {
         Self::lock(directory, File::try_lock_shared)
     }
 
@@ -44,7 +44,7 @@ impl DirectoryLock {
 }
 
 /// Whether an entry of a directory is there for its lock.
-pub(super) fn is_lock(name: &str) -> bool {
+pub(crate) fn is_lock(name: &str) -> bool {
     name == LOCK_NAME
 }
 

@@ -1,21 +1,38 @@
 //! One description of a list's columns, written as aligned text, as CSV or as JSON.
 
+use clap::ValueEnum;
 use serde_json::{Map, Value};
 
-use super::RowFormat;
+/// How data is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TableFormat {
+    /// Aligned columns, for people
+    Text,
+    /// An array of objects, for programs
+    Json,
+}
+
+/// How a tidy table is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum RowFormat {
+    /// Comma-separated values under a header
+    Csv,
+    /// An array of objects with the same names
+    Json,
+}
 
 /// One property of the things listed.
-pub(super) struct Column<T> {
+pub(crate) struct Column<T> {
     /// Its name in JSON.
-    pub(super) key: &'static str,
+    pub(crate) key: &'static str,
     /// Its heading in text; `None` where the text leaves it out, because it is long.
-    pub(super) heading: Option<&'static str>,
+    pub(crate) heading: Option<&'static str>,
     /// The property. `Null` where it has no meaning.
-    pub(super) value: fn(&T) -> Value,
+    pub(crate) value: fn(&T) -> Value,
 }
 
 /// An array with one object for each of `items`.
-pub(super) fn json<T>(columns: &[Column<T>], items: &[T]) -> Value {
+pub(crate) fn json<T>(columns: &[Column<T>], items: &[T]) -> Value {
     items.iter().map(|item| object(columns, item)).collect()
 }
 
@@ -25,7 +42,7 @@ fn object<T>(columns: &[Column<T>], item: &T) -> Value {
 }
 
 /// A tidy table: a line for each of `items`, below the columns' names or with them.
-pub(super) fn rows<T>(format: RowFormat, columns: &[Column<T>], items: &[T]) -> String {
+pub(crate) fn rows<T>(format: RowFormat, columns: &[Column<T>], items: &[T]) -> String {
     match format {
         RowFormat::Csv => {
             let line = |cells: Vec<String>| cells.join(",") + "\n";
@@ -50,7 +67,7 @@ fn bare(value: &Value) -> String {
     }
 }
 
-pub(super) fn csv_cell(text: &str) -> String {
+pub(crate) fn csv_cell(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
@@ -59,7 +76,7 @@ pub(super) fn csv_cell(text: &str) -> String {
 }
 
 /// A line of headings and a line for each of `items`, aligned; `indent` stands before each.
-pub(super) fn text<T>(columns: &[Column<T>], items: &[T], indent: &str) -> String {
+pub(crate) fn text<T>(columns: &[Column<T>], items: &[T], indent: &str) -> String {
     let shown: Vec<_> =
         columns.iter().filter_map(|column| Some((column.heading?, column.value))).collect();
     let headings = shown.iter().map(|(heading, _)| (*heading).to_owned()).collect();

@@ -3,29 +3,37 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::commands::error::Cause;
+
 /// The system refused to do something with a file or a directory.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot {doing} {}: {source}{}", .path.display(), remedy(.source, .option))]
-pub struct FileError {
+pub(crate) struct FileError {
     /// What was tried.
-    pub doing: &'static str,
+    pub(crate) doing: &'static str,
     /// On what.
-    pub path: PathBuf,
+    pub(crate) path: PathBuf,
     /// What names it on the command line, such as `--out`.
-    pub option: &'static str,
+    pub(crate) option: &'static str,
     /// What the system said.
-    pub source: io::Error,
+    pub(crate) source: io::Error,
 }
 
 impl FileError {
     /// Turns what the system says into an error about `path`, which `option` names.
-    pub(super) fn of(
+    pub(crate) fn of(
         doing: &'static str,
         path: &Path,
         option: &'static str,
     ) -> impl Fn(io::Error) -> Self + use<> {
         let path = path.to_owned();
         move |source| Self { doing, path: path.clone(), option, source }
+    }
+}
+
+impl Cause for FileError {
+    fn exit_code(&self) -> u8 {
+        1
     }
 }
 

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 
 use super::atomic_output::STDOUT;
+use crate::commands::error::Cause;
 
 /// How pictures are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum PictureFormat {
+pub(crate) enum PictureFormat {
     /// Numbered pictures and a manifest in a directory
     Png,
     /// One animated PNG
@@ -22,6 +23,9 @@ pub(super) enum PictureFormat {
     /// One picture, time across, lanes down
     Sheet,
 }
+
+/// Players show a GIF's frame for two hundredths of a second at least.
+const MOST_GIF_FPS: u32 = 50;
 
 /// What files with these endings hold, of what a capture writes; other endings promise nothing.
 const ENDINGS: &[(&str, &[PictureFormat])] = &[
@@ -53,18 +57,18 @@ const NO_PICTURES: &[&str] =
     &["csv", "html", "json", "log", "md", "pdf", "sheet", "toml", "txt", "xml", "zip"];
 
 /// What a name ends in, after its last dot, in small letters.
-pub(super) fn ending(path: &Path) -> Option<String> {
+pub(crate) fn ending(path: &Path) -> Option<String> {
     path.extension().and_then(|ending| ending.to_str()).map(str::to_lowercase)
 }
 
 /// Whether files with this ending hold pictures.
-pub(super) fn is_of_pictures(ending: &str) -> bool {
+pub(crate) fn is_of_pictures(ending: &str) -> bool {
     ENDINGS.iter().any(|(known, _)| *known == ending)
 }
 
-/// Why a name and a format do not go together.
+/// Why a capture is not written in a format, or not under this name.
 #[derive(Debug, thiserror::Error)]
-pub enum FormatError {
+pub(crate) enum FormatError {
     /// A single picture's name, where there will be a directory of them.
     #[error(
         "{} is the name of one picture; give --format sheet or --format apng for one, or the name of \
@@ -112,11 +116,26 @@ pub enum FormatError {
         "numbered pictures need a directory; give --format y4m, rgba, apng, gif or sheet with --out -"
     )]
     NoStream,
+    /// Only a directory can be taken up again.
+    #[error("only pictures in a directory can be resumed; leave out --resume, or --format")]
+    NotResumable,
+    /// A GIF would be played slower.
+    #[error("a GIF has at most {MOST_GIF_FPS} frames a second, not {fps}; give a lower --fps")]
+    TooFastForGif {
+        /// Asked for.
+        fps: u32,
+    },
+}
+
+impl Cause for FormatError {
+    fn exit_code(&self) -> u8 {
+        2
+    }
 }
 
 impl PictureFormat {
     /// The format asked for, else the one that the name of `out` asks for, else numbered pictures.
-    pub(super) fn of(out: &Path, asked: Option<Self>) -> Result<Self, FormatError> {
+    pub(crate) fn of(out: &Path, asked: Option<Self>) -> Result<Self, FormatError> {
         let path = out.to_owned();
         if out == Path::new(STDOUT) {
             return asked.filter(|format| *format != Self::Png).ok_or(FormatError::NoStream);
@@ -151,8 +170,18 @@ impl PictureFormat {
         }
     }
 
+    /// Whether a run can be written like this: resumed, or as fast as this.
+    pub(crate) fn check(self, resumes: bool, fps: u32) -> Result<(), FormatError> {
+        match self {
+            PictureFormat::Png => Ok(()),
+            _ if resumes => Err(FormatError::NotResumable),
+            PictureFormat::Gif if fps > MOST_GIF_FPS => Err(FormatError::TooFastForGif { fps }),
+            _ => Ok(()),
+        }
+    }
+
     /// What a sheet wants instead of what all others do.
-    pub(super) fn or_sheet<T>(self, others: T, sheet: T) -> T {
+    pub(crate) fn or_sheet<T>(self, others: T, sheet: T) -> T {
         if self == PictureFormat::Sheet { sheet } else { others }
     }
 }

@@ -1,0 +1,29 @@
+//! What people read on standard error while a command runs.
+
+use std::io::{self, IsTerminal, Write};
+
+use annotate_snippets::Renderer;
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Says something on standard error; where that is closed, nobody wants to know.
+pub fn tell(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// Renders messages for standard error: in colour on a terminal, unless `NO_COLOR` is set.
+pub fn stderr_renderer() -> Renderer {
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    if io::stderr().is_terminal() && !is_set("NO_COLOR") && !is_dumb {
+        Renderer::styled()
+    } else {
+        Renderer::plain()
+    }
+}
+
+/// A bar of so many frames or other things, on a terminal.
+pub(super) fn progress(number: u32, things: &'static str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left")
+        .expect("the template is a constant");
+    ProgressBar::new(u64::from(number)).with_style(style).with_message(things)
+}
