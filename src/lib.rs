@@ -107,8 +107,9 @@
 //! # Out of scope
 //!
 //! Collisions and contacts, which would hide the integrator behind the solver; generic scalars,
-//! because the formulas would drown, but for one experiment on their width, [`lab::round_off`]; and constraints, because a closed body with natural coordinates
-//! needs none.
+//! because the formulas would drown, but for one experiment on their width
+//! (`commands/sweep/round_off.rs`); and constraints, because a closed body with natural coordinates needs
+//! none.
 
 #[cfg(feature = "desktop")]
 pub mod commands;

@@ -20,6 +20,7 @@ mod diagrams;
 mod file_names;
 mod grid;
 mod plot;
+mod round_off;
 
 use file_names::{check_picture_name, row_format};
 use grid::{Grid, Row, Swept};

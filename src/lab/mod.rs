@@ -19,7 +19,6 @@ mod notices;
 pub mod number;
 pub mod picture;
 mod race;
-pub mod round_off;
 mod scene;
 mod script;
 mod truth_curve;

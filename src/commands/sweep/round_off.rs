@@ -9,22 +9,22 @@
 
 use std::ops::{Add, Div, Mul, RangeInclusive, Sub};
 
-use super::scene::Scene;
+use crate::lab::Scene;
 use crate::sim::State;
 use crate::sim::bodies::{Body, Ship};
 use crate::sim::integrators::{Method, method};
 
 /// Moments at which the speed is held against the exact one, in simulated seconds. Several, because
 /// roundings go either way, and by chance the error at one of them may be nothing.
-pub const MOMENTS_S: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
+pub(super) const MOMENTS_S: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
 
 /// The powers of two that are tried for the step in seconds. Powers of two are exact in both widths, so
 /// that nothing is rounded in the step itself. The finest makes two million steps.
-pub const STEPS_LOG2: RangeInclusive<i32> = -18..=1;
+pub(super) const STEPS_LOG2: RangeInclusive<i32> = -18..=1;
 
 /// A width of floating-point numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Width {
+pub(super) enum Width {
     /// `f32`, with 24 bits of significand.
     Single,
     /// `f64`, with 53.
@@ -33,7 +33,7 @@ pub enum Width {
 
 impl Width {
     /// The name of the type.
-    pub fn text(self) -> &'static str {
+    pub(super) fn text(self) -> &'static str {
         match self {
             Width::Single => "f32",
             Width::Double => "f64",
@@ -43,34 +43,34 @@ impl Width {
 
 /// A step, and the error that a ship's speed has with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepError {
+pub(super) struct StepError {
     /// The step in seconds.
-    pub h_s: f64,
+    pub(super) h_s: f64,
     /// The largest error at [`MOMENTS_S`], in metres per second.
-    pub error_m_per_s: f64,
+    pub(super) error_m_per_s: f64,
 }
 
 /// The errors of a method in numbers of one width.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ErrorCurve {
+pub(super) struct ErrorCurve {
     /// The method.
-    pub method: &'static Method,
+    pub(super) method: &'static Method,
     /// The width of its numbers.
-    pub width: Width,
+    pub(super) width: Width,
     /// One for each of [`STEPS_LOG2`], from the finest step to the coarsest.
-    pub errors: Vec<StepError>,
+    pub(super) errors: Vec<StepError>,
 }
 
 impl ErrorCurve {
     /// The step with the least error, the bottom of the V.
-    pub fn best(&self) -> StepError {
+    pub(super) fn best(&self) -> StepError {
         let least = self.errors.iter().min_by(|a, b| a.error_m_per_s.total_cmp(&b.error_m_per_s));
         *least.expect("some steps were tried")
     }
 }
 
 /// Explicit Euler and Runge-Kutta 4 on the ship of the built-in scene, each in both widths.
-pub fn error_curves() -> Vec<ErrorCurve> {
+pub(super) fn error_curves() -> Vec<ErrorCurve> {
     let ship = chapters_ship();
     let curves = FORMULAS.iter().flat_map(|&(id, formula)| {
         let method = method(id).expect("it is in the table");
