@@ -13,7 +13,7 @@ use super::movie::{self, MovieFormat};
 use super::output::picture_format::PictureFormat;
 use super::output::{AtomicOutput, Older, OutputError, Place};
 use super::recording::Recording;
-use super::voyage::{FPS, MOST_FPS, Schedule, frames_in};
+use super::schedule::{FPS, MOST_FPS, Schedule, frames_in};
 use super::{clip, logbook, sheet};
 use crate::view::Panels;
 

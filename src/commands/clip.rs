@@ -13,7 +13,7 @@ use super::settings;
 use super::terminal::{progress, tell};
 use crate::view::png;
 
-/// Draws a run into `folder`, and says on standard error what it wrote.
+/// Draws a run into `folder` and reports on standard error what it wrote.
 pub(super) fn record(
     experiment: &Experiment,
     recording: Recording,
@@ -29,8 +29,8 @@ pub(super) fn record(
     let mut lab = recording.lab(experiment);
     let mut logbook = Logbook::new(recording.mark_every, &lab);
     let mut entries = Vec::new();
-    // The frames that stay are drawn again: for proof that they are of this run, and because a glyph's
-    // place in egui's atlas, and with it the last bit of a few pixels, depends on the frames before.
+    // Frames that are kept are drawn again: to prove that they belong to this run, and because a glyph's
+    // place in egui's atlas, and with it the last bit of a few pixels, depends on the frames before it.
     let run = Run {
         artist: &mut artist,
         lab: &mut lab,

@@ -5,13 +5,13 @@ use annotate_snippets::{Group, Level, Renderer};
 use crate::view::{GpuError, ReadbackError};
 use crate::window::WindowError;
 
-/// A cause that ends a command. Each stands beside what raises it.
+/// An error that ends a command. Each is declared beside what raises it.
 pub trait Cause: std::error::Error + Send + Sync + 'static {
     /// What the process returns: 1 for a run that failed, 2 for what was asked wrongly, 130 for an
     /// interrupt.
     fn exit_code(&self) -> u8;
 
-    /// Whether whoever reads what the command writes has enough.
+    /// Whether the reader of the command's output closed the pipe.
     fn is_closed_pipe(&self) -> bool {
         false
     }
@@ -39,7 +39,7 @@ impl Error {
         self.0.exit_code()
     }
 
-    /// Whether whoever reads what the command writes has enough.
+    /// Whether the reader of the command's output closed the pipe.
     pub(super) fn is_closed_pipe(&self) -> bool {
         self.0.is_closed_pipe()
     }

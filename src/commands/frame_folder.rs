@@ -31,10 +31,9 @@ pub(super) enum Existing {
     Refuse,
     /// Frames make way for the new ones; other entries stay.
     Replace,
-    /// Frames from the first on, without a gap, stay, and so does a manifest; whatever else a capture
-    /// left makes way.
+    /// The frames before the first gap stay, and so does a manifest; other files of a capture make way.
     Continue,
-    /// Frames make way once all the new ones are there, and not before.
+    /// Frames make way once all the new ones are written.
     Bless,
 }
 
@@ -43,26 +42,26 @@ pub(super) enum Existing {
 pub(super) struct FrameFolder {
     path: PathBuf,
     existing: Existing,
-    /// What names it on the command line.
+    /// The command-line option that names the folder.
     option: &'static str,
     entries: Entries,
-    /// Frames of an earlier capture that may stay.
+    /// How many frames of an earlier capture may stay.
     kept: u32,
-    /// Frames added.
+    /// How many frames were added.
     frames: u32,
-    /// Those of them that were there.
+    /// How many of the frames added were there already.
     stayed: u32,
     // What follows is dropped in this order: no frame comes after its directory or its lock is gone.
     queue: FrameQueue,
-    /// Where frames are drawn that are to be swapped in.
+    /// The directory of new frames that will be swapped in.
     blessing: Option<Blessing>,
-    /// None while there is no folder.
+    /// `None` while the folder does not exist.
     lock: Option<DirectoryLock>,
 }
 
 impl FrameFolder {
-    /// Looks at the folder at `path`, which need not exist yet and is called `option` on the command line.
-    /// Changes nothing but that a blessing stopped in the middle of its swap is carried to its end.
+    /// Examines the folder at `path`, which need not exist yet and which the command-line option `option`
+    /// names. Changes nothing, except that a blessing interrupted during its swap is completed.
     pub(super) fn inspect(
         path: &Path,
         existing: Existing,
@@ -109,7 +108,7 @@ impl FrameFolder {
         unreachable!("no file system holds as many directories")
     }
 
-    /// Locks the folder, and finds out what is in it and may stay.
+    /// Locks the folder, reads its entries, and decides which may stay.
     fn look(&mut self) -> Result<(), FrameFolderError> {
         let (path, option) = (&self.path, self.option);
         let lock = DirectoryLock::exclusive(path).map_err(FileError::of("lock", path, option))?;
@@ -132,10 +131,10 @@ impl FrameFolder {
             Existing::Refuse | Existing::Replace => {}
             Existing::Continue => {
                 self.kept = entries.frames();
-                // The manifest of what is there holds until another is whole.
+                // The old manifest describes the frames until the new one is written.
                 entries.ours.remove(OsStr::new(manifest::FILE_NAME));
             }
-            // Frames that come one by one may end before it; those that come at once cannot.
+            // A capture may stop before the frame that a directory blocks; a swap replaces all frames.
             Existing::Bless => entries.foreign = entries.foreign.or(entries.in_the_way.take()),
         }
         if let Some(path) = entries.foreign {
@@ -145,23 +144,23 @@ impl FrameFolder {
         Ok(())
     }
 
-    /// Where it is.
+    /// The path of the folder.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Whether frames are of use before all of them are there.
+    /// Whether an incomplete set of frames is worth keeping.
     pub(super) fn takes_a_part(&self) -> bool {
         self.existing != Existing::Bless
     }
 
-    /// Where files go.
+    /// The directory that files are written to.
     fn place(&self) -> &Path {
         self.blessing.as_ref().map_or(&self.path, Blessing::place)
     }
 
-    /// Makes the folder where there is none, and removes what an earlier capture left but for the
-    /// first `frames` of the frames to be kept, so that it never holds frames of two.
+    /// Creates the folder if necessary and removes the files of an earlier capture, except the first
+    /// `frames` of the frames to keep. The folder never holds frames of two captures.
     pub(super) fn clear(&mut self, frames: u32) -> Result<(), FrameFolderError> {
         if self.lock.is_none() {
             fs::create_dir_all(&self.path).map_err(FileError::of(
@@ -197,8 +196,8 @@ impl FrameFolder {
         Ok(())
     }
 
-    /// Adds the next frame; one that stays has to be the same to the byte. A failure may be that of a frame
-    /// before it.
+    /// Adds the next frame. If the frame is there already, it must be the same to the byte. The error may be
+    /// that of an earlier frame.
     pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), FrameFolderError> {
         let name = frame_name(self.frames);
         let shown = self.path.join(&name);
@@ -222,7 +221,8 @@ impl FrameFolder {
         Ok(())
     }
 
-    /// Waits until every frame has its name, or one cannot have it: then those before it are left.
+    /// Waits until every frame is written under its name. At the first failure only the frames before it
+    /// remain.
     pub(super) fn settle(&mut self) -> Result<(), FrameFolderError> {
         let Some(Settled { frames, failed }) = self.queue.close() else { return Ok(()) };
         self.frames = self.stayed + frames;
@@ -232,7 +232,7 @@ impl FrameFolder {
         }
     }
 
-    /// Writes the manifest, after all frames; frames to be swapped in are.
+    /// Writes the manifest after all frames, and completes a blessing.
     pub(super) fn finish(mut self, manifest: &str) -> Result<(), FrameFolderError> {
         self.settle()?;
         let path = self.place().join(manifest::FILE_NAME);
@@ -244,7 +244,7 @@ impl FrameFolder {
         Ok(swapped.map_err(FileError::of("put the new frames into", &self.path, self.option))?)
     }
 
-    /// The frames written, by the names of the first and the last.
+    /// The names of the first and the last frame written.
     pub(super) fn range(&self) -> String {
         let name = |frame| self.path.join(frame_name(frame)).display().to_string();
         match self.frames {
@@ -254,7 +254,7 @@ impl FrameFolder {
         }
     }
 
-    /// Names of the entries that are none of our frames and have been left alone.
+    /// The names of the entries that no capture made, and that were left alone.
     pub(super) fn others(&self) -> &[OsString] {
         &self.entries.others
     }

@@ -8,13 +8,13 @@ use super::error::Cause;
 /// Somebody pressed Ctrl-C.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Interrupted {
-    /// The result would have been one, and is none.
+    /// The result is written whole or not at all, and was not written.
     #[error("interrupted; nothing was written")]
     NothingWritten,
     /// Part of the work is done.
     #[error("interrupted after {done}")]
     After {
-        /// What is done, of how much, and what is left of it.
+        /// What is done, and of how much.
         done: String,
     },
 }
@@ -25,7 +25,7 @@ impl Cause for Interrupted {
     }
 }
 
-/// Set once Ctrl-C is pressed.
+/// A flag that is set once Ctrl-C is pressed.
 pub(super) fn watch_for_interrupt() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&interrupted);

@@ -1,4 +1,4 @@
-//! Many jobs that share nothing, worked on by a pool of threads until somebody presses Ctrl-C.
+//! Runs many independent jobs on a pool of threads, until they are done or somebody presses Ctrl-C.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -11,9 +11,9 @@ use rayon::prelude::*;
 /// How long an interrupt may go unnoticed.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// What `work` makes of the jobs 0 to `number` - 1, in their order; `None` for a job that was not done when
-/// `interrupted` was set. The jobs under way are then left to themselves: some take minutes, and the process
-/// is about to end.
+/// The results of `work` for the jobs 0 to `number` - 1, in order; `None` for a job that was not done when
+/// `interrupted` was set. The threads are not waited for then: some jobs take minutes, and the process is
+/// about to end.
 pub(super) fn results<R: Send + 'static>(
     pool: &ThreadPool,
     number: usize,
@@ -24,7 +24,7 @@ pub(super) fn results<R: Send + 'static>(
     let (sender, receiver) = mpsc::channel();
     pool.spawn(move || {
         (0..number).into_par_iter().for_each_with(sender, |sender, job| {
-            // After an interrupt nobody listens.
+            // After an interrupt the receiver is gone.
             let _ = sender.send((job, work(job)));
         });
     });

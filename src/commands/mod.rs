@@ -31,9 +31,9 @@ pub mod manifest;
 mod movie;
 mod pipeline;
 mod recording;
+mod schedule;
 mod settings;
 mod sheet;
-mod voyage;
 
 mod error;
 mod interrupt;

@@ -8,8 +8,8 @@ use super::logbook::Logbook;
 use super::output::AtomicOutput;
 use super::pipeline::{Drawn, Run, Stop};
 use super::recording::{Recording, RecordingError, closing_line};
+use super::schedule::Schedule;
 use super::terminal::{progress, tell};
-use super::voyage::Schedule;
 
 /// A format of one stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,11 +24,11 @@ pub(super) enum MovieFormat {
     Rgba,
 }
 
-/// The colours of one pixel in so many are looked at for a GIF's palette: the least care, twice as fast
-/// as middling care, and on flat colours no worse.
+/// One pixel in this many is sampled for a GIF's palette. The coarsest sampling: twice as fast as a
+/// medium one, and on flat colours no worse.
 const GIF_SPEED: i32 = 30;
 
-/// Draws a run into `output`, and says on standard error what it wrote.
+/// Draws a run into `output` and reports on standard error what it wrote.
 pub(super) fn record(
     experiment: &Experiment,
     recording: Recording,
@@ -152,7 +152,8 @@ impl<'a> Movie<'a> {
     }
 }
 
-/// The frame in 256 colours, packed, for a GIF; other formats take it as it is.
+/// The frame quantised to 256 colours and compressed, for a GIF. `None` for other formats, which write the
+/// pixels themselves.
 fn picture(
     format: MovieFormat,
     recording: &Recording,
@@ -165,7 +166,7 @@ fn picture(
     let mut rgba = drawn.rgba.clone();
     let mut picture =
         gif::Frame::from_rgba_speed(small(width), small(height), &mut rgba, GIF_SPEED);
-    // In hundredths of a second, the rest carried on.
+    // In hundredths of a second; the remainder is carried to the next frame.
     let ends = |frame: u32| u64::from(frame) * 100 / u64::from(fps);
     picture.delay = (ends(drawn.frame + 1) - ends(drawn.frame)) as u16;
     picture.make_lzw_pre_encoded();

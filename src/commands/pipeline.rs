@@ -1,9 +1,8 @@
-//! Frames, drawn on this thread, encoded on others and passed on in order on one more: while a frame is
-//! encoded the next is drawn and the one after it is simulated.
+//! Frames are drawn on this thread, encoded on several others, and passed on in order by one more. While a
+//! frame is encoded, the next is drawn and the one after it is simulated.
 //!
-//! Every frame is drawn into a buffer, and the buffers go round: a frame that has been passed on gives its
-//! buffer back to the thread that draws. There are so many of them and no more, and so is the memory of a
-//! run bounded, however long it is and whichever stage is slow.
+//! A frame that has been passed on gives its buffer back to the thread that draws. The number of buffers is
+//! fixed, and bounds the memory of a run of any length, whichever stage is slow.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::num::NonZero;
@@ -15,7 +14,7 @@ use std::thread;
 use rayon::ThreadPoolBuilder;
 
 use super::logbook::Logbook;
-use super::voyage::Schedule;
+use super::schedule::Schedule;
 use crate::lab::Lab;
 use crate::view::{Artist, Panels, ReadbackError};
 
@@ -25,7 +24,7 @@ const MOST_IN_FLIGHT: usize = 2;
 /// Threads that encode: no device draws fast enough to keep more of them busy, and each holds a frame.
 const MOST_ENCODERS: usize = 4;
 
-/// Buffers besides those of the encoders: one frame waits for an encoder, and one is being passed on.
+/// Buffers beyond one per encoder: one frame waits for an encoder, and one is being passed on.
 const SPARE_BUFFERS: usize = 2;
 
 /// A frame as it comes from the device.
@@ -40,31 +39,31 @@ pub(super) struct Drawn {
     pub(super) rgba: Vec<u8>,
 }
 
-/// A frame, and what encoding made of it, be that a panic.
+/// A frame with what its encoder returned, or the panic of its encoder.
 type Encoded<T> = (Drawn, thread::Result<T>);
 
-/// Why there are not all frames.
+/// Why a run ended before its last frame.
 pub(super) enum Stop<E> {
-    /// The device does not give a frame back.
+    /// The device did not return a frame.
     Readback(ReadbackError),
-    /// A frame could not be taken.
+    /// `take` failed on a frame.
     Taken(E),
 }
 
-/// A run on its way.
+/// A run to be drawn.
 pub(super) struct Run<'a> {
     pub(super) artist: &'a mut Artist,
-    /// Stands at the start.
+    /// At tick 0.
     pub(super) lab: &'a mut Lab,
     pub(super) logbook: &'a mut Logbook,
     pub(super) schedule: Schedule,
-    /// Once it is set, the frames in hand are the last.
+    /// Once it is set, no further frame is drawn; those drawn already are still passed on.
     pub(super) interrupted: &'a AtomicBool,
 }
 
 impl Run<'_> {
-    /// Draws the frames in order and passes each to `take` with what `encode` makes of it. Several are
-    /// encoded at once where there are processors for it. Returns how many frames were drawn.
+    /// Draws the frames in order and passes each to `take` with what `encode` returned for it. Several
+    /// frames are encoded at once if there are processors for it. Returns how many frames were drawn.
     pub(super) fn draw_all<T: Send, E: Send>(
         self,
         encode: impl Fn(&Drawn) -> T + Sync,
@@ -75,7 +74,7 @@ impl Run<'_> {
         self.draw_beside((processors - 1).clamp(1, MOST_ENCODERS), encode, take)
     }
 
-    /// Draws the frames on this thread while so many `encoders` work on others.
+    /// [`draw_all`](Self::draw_all) with this number of encoder threads.
     fn draw_beside<T: Send, E: Send>(
         self,
         encoders: usize,
@@ -96,7 +95,7 @@ impl Run<'_> {
                     let (results, encode) = (results.clone(), &encode);
                     jobs.spawn_fifo(move |_| {
                         let made = panic::catch_unwind(AssertUnwindSafe(|| encode(&drawn)));
-                        // Nobody listens once a frame could not be taken.
+                        // The receiver is gone once `take` has failed.
                         let _ = results.send((drawn, made));
                     });
                 })
@@ -110,7 +109,7 @@ impl Run<'_> {
         })
     }
 
-    /// Draws until all is drawn, or no buffer comes back because a frame could not be taken.
+    /// Draws until the last frame, an interrupt, or the end of the thread that returns buffers.
     fn draw(
         self,
         buffers: &Receiver<Vec<u8>>,
@@ -140,8 +139,8 @@ impl Run<'_> {
     }
 }
 
-/// Passes encoded frames to `take` in order, from frame 0, and gives their buffers back; stops at the first
-/// that cannot be taken. A panic of the encoder goes on here.
+/// Passes encoded frames to `take` in order, from frame 0, and returns their buffers. Stops at the first
+/// error of `take`. Resumes the panic of an encoder.
 fn take_in_order<T, E>(
     encoded: &Receiver<Encoded<T>>,
     emptied: &Sender<Vec<u8>>,
@@ -152,14 +151,14 @@ fn take_in_order<T, E>(
         window.insert(drawn.frame, (drawn, made));
         while let Some((drawn, made)) = window.take_next() {
             take(&drawn, made.unwrap_or_else(|bug| panic::resume_unwind(bug)))?;
-            // After the last frame nobody wants it.
+            // After the last frame the receiver is gone.
             let _ = emptied.send(drawn.rgba);
         }
     }
     Ok(())
 }
 
-/// Numbered results that are there before their turn.
+/// Puts numbered results back in order: holds those that arrive before their turn.
 struct ReorderingWindow<T> {
     next: u32,
     early: BTreeMap<u32, T>,
@@ -184,8 +183,8 @@ impl<T> ReorderingWindow<T> {
     }
 }
 
-/// Has the lab find out what the artist's panels will show of it. In a window verdicts come as they are
-/// found; here there is time for all before a frame.
+/// Computes what the artist's panels will show, such as verdicts. A window shows them as they are found; a
+/// recording waits for all of them before each frame, so that its frames are reproducible.
 pub(super) fn know_what_is_shown(lab: &mut Lab, artist: &Artist) {
     if artist.panels() == Panels::Shown {
         lab.think();
@@ -202,7 +201,7 @@ mod tests {
     use crate::lab::{Command, Scene};
     use crate::view::{AdapterPreference, Gpu};
 
-    /// More than there are on the way at once.
+    /// More frames than there are buffers.
     const SCHEDULE: Schedule = Schedule { frames: 30, fps: 10 };
 
     fn artist_or_skip(test: &str) -> Option<Artist> {

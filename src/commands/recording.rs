@@ -1,4 +1,4 @@
-//! What a run is drawn with, and why it may not be drawn whole.
+//! The settings by which a run is drawn, and the errors of drawing it.
 
 use super::error::Cause;
 use super::experiment::Experiment;
@@ -6,7 +6,7 @@ use super::frame_folder::FrameFolderError;
 use super::interrupt::Interrupted;
 use super::manifest::Adapter;
 use super::output::OutputError;
-use super::voyage::Schedule;
+use super::schedule::Schedule;
 use crate::lab::Lab;
 use crate::view::{AdapterPreference, Artist, Gpu, GpuError, Panels, ReadbackError};
 
@@ -14,29 +14,29 @@ use crate::view::{AdapterPreference, Artist, Gpu, GpuError, Panels, ReadbackErro
 /// More is a slip of the fingers.
 const MOST_PIXELS: u64 = 1_000_000_000_000;
 
-/// What is drawn: how often, how large.
+/// How a run is drawn: which frames, how large, with what on them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Recording {
     pub(super) schedule: Schedule,
     pub(super) size_px: [u32; 2],
-    /// Pixels to a point.
+    /// Pixels per point.
     pub(super) scale: f32,
     pub(super) panels: Panels,
     /// Whether trails fade and the camera glides.
     pub(super) motion: bool,
-    /// Ticks from one mark in the manifest to the next.
+    /// Ticks between two marks in the manifest.
     pub(super) mark_every: u64,
 }
 
 impl Recording {
-    /// Where the run begins.
+    /// The lab at the start of the run.
     pub(super) fn lab(&self, experiment: &Experiment) -> Lab {
         let mut lab = experiment.lab();
         lab.set_motion(self.motion);
         lab
     }
 
-    /// Who draws it.
+    /// A renderer for frames of this size.
     pub(super) fn artist(&self) -> Result<Artist, RecordingError> {
         let (frames, size_px) = (self.schedule.frames, self.size_px);
         let pixels = u64::from(frames) * u64::from(size_px[0]) * u64::from(size_px[1]);
@@ -54,10 +54,10 @@ impl Recording {
     }
 }
 
-/// Why there are not all frames.
+/// Why a run was not drawn or written whole.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum RecordingError {
-    /// More pixels than anybody wants.
+    /// The frames have more pixels in all than a capture may have.
     #[error(
         "{frames} frames of {}x{} are {} gigapixels, and a capture has at most {}; \
          give fewer --frames or a smaller --size",
@@ -68,7 +68,7 @@ pub(super) enum RecordingError {
         frames: u32,
         /// Asked for.
         size_px: [u32; 2],
-        /// In all.
+        /// Of all frames together.
         pixels: u64,
         /// The most there may be.
         most: u64,
@@ -81,13 +81,13 @@ pub(super) enum RecordingError {
     Write {
         /// Why.
         source: FrameFolderError,
-        /// The frames written before.
+        /// The names of the frames written before.
         whole: String,
     },
-    /// There is nothing to draw with.
+    /// There is no graphics device that can draw the frames.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// A frame was drawn but did not come back.
+    /// A frame was drawn, but not read back from the device.
     #[error(transparent)]
     Readback(#[from] ReadbackError),
     /// One file, or standard output, could not be written.
@@ -101,7 +101,7 @@ pub(super) enum RecordingError {
 const GIGA: u64 = 1_000_000_000;
 
 impl RecordingError {
-    /// An interrupt after `done` of `frames` frames, with the names of those that are whole.
+    /// An interrupt after `done` of `frames` frames; `whole` names those that are written whole.
     pub(super) fn interrupted(done: u32, frames: u32, whole: &str) -> Self {
         let done = format!("{done} of {frames} frames; whole: {whole}");
         Self::Interrupted(Interrupted::After { done })
@@ -125,7 +125,7 @@ impl Cause for RecordingError {
     }
 }
 
-/// Says what was written, and where.
+/// The message at the end of a recording: what was written, and where.
 pub(super) fn closing_line(recording: &Recording, place: &str) -> String {
     let Schedule { frames, fps } = recording.schedule;
     let [width, height] = recording.size_px;
@@ -133,7 +133,7 @@ pub(super) fn closing_line(recording: &Recording, place: &str) -> String {
     format!("wrote {frames} frame{plural} of {width}x{height}, {fps} a second: {place}")
 }
 
-/// What the manifest says of what draws.
+/// The adapter as the manifest describes it.
 pub(super) fn adapter(artist: &Artist) -> Adapter {
     let info = artist.adapter();
     Adapter {

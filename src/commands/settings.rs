@@ -5,7 +5,7 @@ use super::fingerprint::fingerprint;
 use super::frame_folder::names::{MOST_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::recording::Recording;
-use super::voyage::{MOST_FPS, Schedule};
+use super::schedule::{MOST_FPS, Schedule};
 use crate::lab::{Clock, LaneSpec, MOST_LANES, MOST_SUBSTEPS, Scene, TOLERANCES};
 use crate::sim::integrators::method;
 use crate::view::Panels;

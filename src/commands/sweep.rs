@@ -104,7 +104,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
         check_picture_name(plot, &args.out)?;
     }
     let interrupted = watch_for_interrupt();
-    // Before anything is gone through: a refusal should not come minutes late.
+    // Before the first run: a refusal should not come minutes late.
     let older = if args.force { Older::Replace } else { Older::Keep };
     let out = Place { path: &args.out, option: "--out", older };
     let out = AtomicOutput::open_for_text(out)?;
@@ -114,7 +114,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
     let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
     let written = finish(out, table::rows(format, COLUMNS, &rows).as_bytes(), &what);
-    // Whatever became of the rows: whoever reads them may want the first few only.
+    // Even if the rows could not be written: their reader may have closed the pipe after the first few.
     if let Some(plot) = plot {
         let (output, [width, height], png) = plot.draw(&diagrams::figure(&swept, &rows))?;
         finish(output, &png, &format!("a picture of {width}x{height}"))?;
@@ -122,7 +122,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     Ok(written?)
 }
 
-/// Writes all of it, and says what a file now holds.
+/// Writes the bytes and reports on standard error what a file now holds.
 fn finish(mut output: AtomicOutput, bytes: &[u8], what: &str) -> Result<(), OutputError> {
     let written = output.write_all(bytes).map_err(|error| output.failed(error));
     let (name, is_file) = (output.name(), matches!(output, AtomicOutput::File { .. }));
@@ -133,7 +133,7 @@ fn finish(mut output: AtomicOutput, bytes: &[u8], what: &str) -> Result<(), Outp
     Ok(())
 }
 
-/// As [`experiment::seconds`], and more than none.
+/// A positive number of seconds on the command line.
 fn some_seconds(written: &str) -> Result<f64, String> {
     match experiment::seconds(written)? {
         0.0 => Err("give more than 0 seconds".into()),
@@ -142,7 +142,7 @@ fn some_seconds(written: &str) -> Result<f64, String> {
 }
 
 impl SweepArgs {
-    /// What is asked for, everything once.
+    /// The scenes, methods and rates asked for, without repetitions.
     fn load(&self) -> Result<Swept, SceneFileError> {
         let built_in = || SCENES.iter().map(|scene| PathBuf::from(scene.name)).collect();
         let paths = if self.scenes.is_empty() { built_in() } else { self.scenes.clone() };

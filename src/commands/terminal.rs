@@ -1,11 +1,11 @@
-//! What people read on standard error while a command runs.
+//! Messages and progress on standard error.
 
 use std::io::{self, IsTerminal, Write};
 
 use annotate_snippets::Renderer;
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Says something on standard error; where that is closed, nobody wants to know.
+/// Writes a line to standard error. A closed standard error is ignored.
 pub fn tell(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
@@ -21,7 +21,7 @@ pub fn stderr_renderer() -> Renderer {
     }
 }
 
-/// A bar of so many frames or other things, on a terminal.
+/// A progress bar over `number` frames or other `things`, shown on a terminal only.
 pub(super) fn progress(number: u32, things: &'static str) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left")
         .expect("the template is a constant");

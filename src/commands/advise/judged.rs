@@ -1,4 +1,4 @@
-//! The methods, each judged and timed, and the one to take.
+//! Judges and times the methods, and recommends one for each criterion.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -21,7 +21,7 @@ pub(super) struct Row {
     pub(super) rates: Option<[Option<u32>; CRITERIA.len()]>,
 }
 
-/// How long each measurement goes on: for six dozen of them not long to wait.
+/// How long each measurement takes: short enough that six dozen of them are no long wait.
 const EFFORT: Duration = Duration::from_millis(5);
 
 /// Costs that differ by less than this factor are equal.
@@ -76,7 +76,7 @@ impl Row {
     }
 }
 
-/// Says so if something else kept the machine busy while costs were measured.
+/// Warns if something else kept the machine busy while costs were measured.
 pub(super) fn warn_of_load(rows: &[Row]) {
     let timings = rows.iter().flat_map(|row| row.timings.iter().flatten());
     let mut spreads: Vec<f64> = timings.map(|timing| timing.spread).collect();
@@ -91,7 +91,7 @@ pub(super) fn warn_of_load(rows: &[Row]) {
     }
 }
 
-/// The row to take for each criterion.
+/// The recommended row for a criterion, and how it meets it.
 pub(super) fn best(rows: &[Row], criterion: usize) -> Option<(&Row, &Met)> {
     let advised: Vec<Advised> = rows.iter().map(|row| row.advised.clone()).collect();
     let cost = |advised: &Advised, _: &Met| {

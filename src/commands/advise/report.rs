@@ -1,4 +1,4 @@
-//! What advice says, for people and for programs.
+//! Advice as text, for people, and as JSON, for programs.
 
 use serde_json::{Map, Value, json};
 
@@ -7,7 +7,7 @@ use crate::commands::output::table::{self, Column};
 use crate::lab::number::round;
 use crate::lab::{Adviser, CRITERIA, MOST_ADVISED_SUBSTEPS, Meets, Met, Scene, Verdict};
 
-/// The answer for people: the methods that meet each criterion and their costs, and last what to take.
+/// The answer as text: the methods that meet each criterion with their costs, then the recommendations.
 pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> String {
     let mut text = table::text(VERDICTS, rows, "");
     for (i, criterion) in CRITERIA.iter().enumerate() {
@@ -57,7 +57,7 @@ pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
     text
 }
 
-/// What to take, for a design note.
+/// A recommendation in one line, for a design note.
 fn line(row: &Row, met: &Met) -> String {
     let more = if met.stiffness_factor >= 10_000.0 { "more than " } else { "" };
     format!(
@@ -71,7 +71,7 @@ fn line(row: &Row, met: &Met) -> String {
     )
 }
 
-/// The answer for programs.
+/// The answer as JSON.
 pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> Value {
     let recommended = CRITERIA.iter().enumerate().map(|(i, criterion)| {
         let take = best(rows, i).map(|(row, met)| {

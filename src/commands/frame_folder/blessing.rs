@@ -1,7 +1,7 @@
-//! New frames for a clip that stands: drawn beside it, and swapped in once all of them are there.
+//! New frames for an existing clip: drawn into a directory beside it, and swapped in once all are written.
 //!
-//! Stopped at any moment, by whatever, it leaves the old clip whole, or the new one whole in a directory
-//! called `.regatta-blessed`, from which [`complete`] carries the swap on.
+//! A process killed at any moment leaves the old clip whole, or the new one whole in the directory
+//! `.regatta-blessed`, from which [`complete`] finishes the swap.
 
 use std::fs;
 use std::io;
@@ -13,13 +13,13 @@ use super::names::{frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
 use crate::commands::output::sync_directory;
 
-/// What the names of the directories begin with in which frames are drawn.
+/// The prefix of directories in which frames are drawn.
 const UNDER_WAY: &str = ".regatta-bless-";
 
-/// A directory of frames that are all there. Its name is the word that they are for right.
+/// The directory of a complete set of new frames. Once it has this name, the frames replace the old ones.
 const READY: &str = ".regatta-blessed";
 
-/// Frames being drawn for a clip. Dropped before it is swapped in, it leaves nothing.
+/// New frames for a clip. Dropped before [`swap`](Self::swap), it leaves nothing.
 #[derive(Debug)]
 pub(crate) struct Blessing {
     clip: PathBuf,
@@ -27,38 +27,38 @@ pub(crate) struct Blessing {
 }
 
 impl Blessing {
-    /// Makes a directory for the frames in the clip's own.
+    /// Creates a directory for the new frames inside the clip's.
     pub(crate) fn begin(clip: &Path) -> io::Result<Self> {
         let place = tempfile::Builder::new().prefix(UNDER_WAY).tempdir_in(clip)?;
         Ok(Self { clip: clip.to_owned(), place })
     }
 
-    /// Where frames and manifest are to be written.
+    /// The directory for the new frames and their manifest.
     pub(crate) fn place(&self) -> &Path {
         self.place.path()
     }
 
-    /// Puts frames and manifest, which are synced, into the place of the clip's.
+    /// Replaces the clip's frames and manifest by the new ones, which must be synced.
     pub(crate) fn swap(self) -> io::Result<()> {
         fs::rename(self.place.path(), self.clip.join(READY))?;
-        // It has another name now, and stays.
+        // The directory has another name now and must not be removed.
         let _ = self.place.keep();
         sync_directory(&self.clip)?;
         complete(&self.clip)
     }
 }
 
-/// Whether a swap was stopped before its end.
+/// Whether a swap was interrupted.
 pub(crate) fn is_pending(clip: &Path) -> bool {
     fs::symlink_metadata(clip.join(READY)).is_ok_and(|entry| entry.is_dir())
 }
 
-/// Whether a directory of this name holds frames of a blessing that was stopped before its swap.
+/// Whether this is the name of a directory that an interrupted blessing left.
 pub(crate) fn is_left_over(name: &str) -> bool {
     name.starts_with(UNDER_WAY)
 }
 
-/// Carries a pending swap to its end. Every step of it can be done again, and the manifest comes last.
+/// Finishes an interrupted swap. Every step can be repeated, and the manifest comes last.
 pub(crate) fn complete(clip: &Path) -> io::Result<()> {
     let ready = clip.join(READY);
     for entry in fs::read_dir(&ready)? {

@@ -1,4 +1,4 @@
-//! How frames are called, and which files a capture made: their content says so, and not their names.
+//! The names of frames, and how to tell the files that a capture made: by their content, not their names.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -18,14 +18,14 @@ pub(crate) fn frame_name(frame: u32) -> String {
     format!("frame-{frame:06}.png")
 }
 
-/// The number of the frame with this file name, if it is one that frames have.
+/// The number of the frame with this file name; `None` if it is not the name of a frame.
 pub(crate) fn frame_number(name: &str) -> Option<u32> {
     let digits = name.strip_prefix("frame-")?.strip_suffix(".png")?;
     let is_number = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit());
     is_number.then(|| digits.parse().ok()).flatten()
 }
 
-/// Whether the picture at `path` says that this program made it.
+/// Whether the picture at `path` bears this program's mark.
 pub(crate) fn is_marked(path: &Path) -> bool {
     let mut start = Vec::new();
     let read = File::open(path)
@@ -33,7 +33,7 @@ pub(crate) fn is_marked(path: &Path) -> bool {
     read.is_ok() && png::is_encoded_here(&start)
 }
 
-/// The files that the manifest at `path` lists; `None` if a capture did not write it, whatever its schema.
+/// The files listed in the manifest at `path`, of any schema; `None` if a capture did not write it.
 pub(crate) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
     let manifest: Value = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
     let is_ours = manifest["schema"].is_u64()
@@ -46,8 +46,8 @@ pub(crate) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
     is_ours.then(|| manifest["frames"].as_array().map(files).unwrap_or_default())
 }
 
-/// Whether `path` is where the capture in `clip` has its manifest or a frame, be it there or not, or is a
-/// file that any capture made.
+/// Whether `path` is the place of the manifest or of a frame in `clip`, existing or not, or a file that any
+/// capture made.
 pub(crate) fn is_of_a_capture(path: &Path, clip: &Path) -> bool {
     let resolved = resolved(path);
     let name = resolved.file_name().and_then(|name| name.to_str()).unwrap_or_default();
@@ -57,11 +57,11 @@ pub(crate) fn is_of_a_capture(path: &Path, clip: &Path) -> bool {
     if is_in_clip && (name == manifest::FILE_NAME || frame_number(name).is_some()) {
         return true;
     }
-    // A pipe would be waited for.
+    // Reading from a pipe would block.
     resolved.is_file() && (is_marked(&resolved) || frames_claimed(&resolved).is_some())
 }
 
-/// The path without links, as far as it is there.
+/// The path without links, as far as it exists.
 fn resolved(path: &Path) -> PathBuf {
     let parent = path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."));
     fs::canonicalize(path)

@@ -1,5 +1,5 @@
-//! A file that appears whole under its name or not at all, even where the power goes: it is written under
-//! a name of its own beside its place, synced, and renamed.
+//! A file that appears whole under its name or not at all, even after a loss of power: it is written under a
+//! temporary name beside its place, synced, and renamed.
 
 use std::fs::{File, Metadata};
 use std::io::{self, Write};
@@ -7,33 +7,33 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-/// What the names of files under way end in.
+/// The ending of temporary names.
 const ENDING: &str = ".part";
 
-/// Random characters in the name of a file under way.
+/// Random characters in a temporary name.
 const RANDOM_CHARS: usize = 6;
 
-/// File systems take names of 255 bytes; longer ones than this leave no room for random characters.
+/// File systems take names of 255 bytes; a longer stem leaves no room for the random characters.
 const LONGEST_STEM: usize = 200;
 
-/// A file under way. Dropped before it is committed, it leaves nothing.
+/// A file being written. Dropped before it is committed, it leaves nothing.
 #[derive(Debug)]
 pub(crate) struct AtomicFile {
     part: NamedTempFile,
     path: PathBuf,
 }
 
-/// What may become of a file that has the name already.
+/// What happens to an existing file of the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Older {
-    /// It makes way.
+    /// It is replaced.
     Replace,
-    /// It stays, and the new file is given up.
+    /// It stays, and the new file is discarded.
     Keep,
 }
 
 impl AtomicFile {
-    /// Makes a new file beside `path`, under a name that nothing had.
+    /// Creates a file with a new temporary name beside `path`.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         let name = path.file_name().filter(|name| name.len() <= LONGEST_STEM).unwrap_or_default();
         let mut prefix = name.to_owned();
@@ -46,17 +46,17 @@ impl AtomicFile {
         Ok(Self { part, path: path.to_owned() })
     }
 
-    /// Takes over the permissions of the file that will be replaced.
+    /// Copies the permissions of the file that will be replaced.
     pub(crate) fn set_permissions_of(&self, older: &Metadata) -> io::Result<()> {
         self.part.as_file().set_permissions(older.permissions())
     }
 
-    /// Hands what was written to the disk, so that a commit has only the name left to change.
+    /// Syncs the content to disk, so that only the rename is left to a commit.
     pub(crate) fn sync(&self) -> io::Result<()> {
         self.part.as_file().sync_all()
     }
 
-    /// Gives the file its name. That the name survives a loss of power takes [`sync_directory`].
+    /// Gives the file its final name. Only [`sync_directory`] makes the name survive a loss of power.
     pub(crate) fn rename(self, older: Older) -> io::Result<()> {
         let renamed = match older {
             Older::Replace => self.part.persist(&self.path),
@@ -65,7 +65,7 @@ impl AtomicFile {
         renamed.map(drop).map_err(|failed| failed.error)
     }
 
-    /// Syncs the file, gives it its name, and syncs the directory.
+    /// Syncs the file, renames it, and syncs the directory.
     pub(crate) fn commit(self, older: Older) -> io::Result<()> {
         self.sync()?;
         let directory = directory_of(&self.path).to_owned();
@@ -84,14 +84,14 @@ impl Write for AtomicFile {
     }
 }
 
-/// Writes a file whole, in the place of an older one if there is one.
+/// Writes a file whole, replacing an older one.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = AtomicFile::create(path)?;
     file.write_all(bytes)?;
     file.commit(Older::Replace)
 }
 
-/// The name that the file had in the end, if `name` is one that [`AtomicFile`] gives to a file under way.
+/// The final name of the file with the temporary name `name`; `None` if that is not a temporary name.
 pub(crate) fn final_name(name: &str) -> Option<&str> {
     let (whole, random) = name.strip_suffix(ENDING)?.rsplit_once('.')?;
     let is_random =
@@ -99,7 +99,7 @@ pub(crate) fn final_name(name: &str) -> Option<&str> {
     is_random.then_some(whole)
 }
 
-/// Makes the names in a directory survive a loss of power, where the system has a way to.
+/// Makes the names in a directory survive a loss of power, if the system offers a way.
 pub(crate) fn sync_directory(path: &Path) -> io::Result<()> {
     if !cfg!(unix) {
         return Ok(());

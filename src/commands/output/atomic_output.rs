@@ -12,27 +12,27 @@ use crate::commands::error::{Cause, Error};
 /// The path that means standard output.
 pub(crate) const STDOUT: &str = "-";
 
-/// Names of what the process has open, such as standard error: links, and what they lead to is in use.
+/// Links to what the process has open, such as standard error. Their targets are in use and not replaced.
 const OPEN_ALREADY: [&str; 4] = ["/dev/fd", "/dev/stdout", "/dev/stderr", "/proc/self/fd"];
 
-/// Links that lead to links: more than these are a ring, on every system.
+/// A longer chain of links is a ring, on every system.
 const MOST_LINKS: usize = 40;
 
-/// Where an output may go, and what is said of it if it cannot.
+/// Where an output goes, and the option to name in its errors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<'a> {
     /// A file, a link to one, a device, or [`STDOUT`].
     pub(crate) path: &'a Path,
-    /// The option that names it, such as `--out`.
+    /// The option that names the path, such as `--out`.
     pub(crate) option: &'static str,
-    /// What becomes of a file that is there.
+    /// What happens to an existing file.
     pub(crate) older: Older,
 }
 
 /// A stream being written.
 pub(crate) enum AtomicOutput {
     Stdout(BufWriter<io::Stdout>),
-    /// Nothing that could be replaced: a device, a pipe.
+    /// A device or a pipe, which is written to and not replaced.
     Device {
         device: BufWriter<File>,
         path: PathBuf,
@@ -49,7 +49,7 @@ pub(crate) enum AtomicOutput {
 /// Why a stream could not be written.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum OutputError {
-    /// A file that would be replaced.
+    /// The file exists, and may not be replaced.
     #[error("{} is there already; give another {option}, or --force to replace it", .path.display())]
     Taken {
         /// The path.
@@ -57,7 +57,7 @@ pub(crate) enum OutputError {
         /// The option that names it.
         option: &'static str,
     },
-    /// A directory has the name.
+    /// The path is a directory.
     #[error("{} is a directory; give {option} a file", .path.display())]
     Directory {
         /// The path.
@@ -65,7 +65,7 @@ pub(crate) enum OutputError {
         /// The option that names it.
         option: &'static str,
     },
-    /// Bytes that are no text would go to a terminal.
+    /// Binary data would go to a terminal.
     #[error(
         "pictures do not go to a terminal; give {option} FILE, or send standard output elsewhere"
     )]
@@ -76,7 +76,7 @@ pub(crate) enum OutputError {
     /// The file could not be made or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// Standard output took no more.
+    /// Standard output could not be written.
     #[error("cannot write to standard output: {0}")]
     Stdout(io::Error),
 }
@@ -101,7 +101,7 @@ impl Cause for OutputError {
     }
 }
 
-/// What the system says to a command that writes to standard output.
+/// An error of a command that writes to standard output itself.
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Self {
         OutputError::Stdout(error).into()
@@ -109,7 +109,7 @@ impl From<io::Error> for Error {
 }
 
 impl AtomicOutput {
-    /// Opens a place for bytes that are no text.
+    /// Opens a place for binary data, which may not go to a terminal.
     pub(crate) fn open(place: Place<'_>) -> Result<Self, OutputError> {
         if place.path == Path::new(STDOUT) && io::stdout().is_terminal() {
             return Err(OutputError::Terminal { option: place.option });
@@ -142,7 +142,7 @@ impl AtomicOutput {
         }
     }
 
-    /// What to call it.
+    /// Its name in messages.
     pub(crate) fn name(&self) -> String {
         match self {
             AtomicOutput::Stdout(_) => "standard output".into(),
@@ -152,7 +152,7 @@ impl AtomicOutput {
         }
     }
 
-    /// What a failure to write means.
+    /// The error for a failed write.
     pub(crate) fn failed(&self, error: io::Error) -> OutputError {
         match self {
             AtomicOutput::Stdout(_) => OutputError::Stdout(error),
@@ -162,7 +162,7 @@ impl AtomicOutput {
         }
     }
 
-    /// Writes what is left; the file takes its name.
+    /// Flushes the stream, and gives a file its name.
     pub(crate) fn close(mut self) -> Result<(), OutputError> {
         self.flush().map_err(|error| self.failed(error))?;
         let AtomicOutput::File { part, path, option, older } = self else { return Ok(()) };
@@ -183,14 +183,14 @@ pub(crate) fn print(text: &str) -> Result<(), OutputError> {
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(OutputError::Stdout)
 }
 
-/// Writes text in the place of whatever file is there.
+/// Writes text to a place, as one file or to a stream.
 pub(crate) fn write_text(place: Place<'_>, text: &str) -> Result<(), OutputError> {
     let mut output = AtomicOutput::open_for_text(place)?;
     output.write_all(text.as_bytes()).map_err(|error| output.failed(error))?;
     output.close()
 }
 
-/// Begins a file at `path`; a link stays one, and leads to the file.
+/// Begins a file at `path`. If that is a link, the file it leads to is written and the link stays.
 fn begin(path: &Path, older: Option<&Metadata>) -> io::Result<AtomicFile> {
     let part = AtomicFile::create(&end_of_links(path)?)?;
     if let Some(older) = older {
@@ -199,7 +199,7 @@ fn begin(path: &Path, older: Option<&Metadata>) -> io::Result<AtomicFile> {
     Ok(part)
 }
 
-/// Where the links that begin at `path` lead, whether there is a file or not.
+/// The end of the chain of links at `path`, whether a file exists there or not.
 fn end_of_links(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {

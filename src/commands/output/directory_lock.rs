@@ -1,27 +1,27 @@
 //! One writer to a directory at a time, or any number of readers.
 //!
-//! The lock is the system's and ends with the process, however that ends.
+//! The operating system holds the lock and releases it when the process ends, in whatever way.
 
 use std::fs::{File, TryLockError};
 use std::io;
 use std::path::Path;
 
-/// Where a directory cannot be locked itself, this file in it is.
+/// The file that is locked on systems that cannot lock a directory itself.
 const LOCK_NAME: &str = ".regatta-lock";
 
-/// Held until it is dropped.
+/// A lock on a directory, released when dropped.
 #[derive(Debug)]
 pub(crate) struct DirectoryLock {
     _file: File,
 }
 
 impl DirectoryLock {
-    /// A writer's lock on a directory; `None` where another process has it locked.
+    /// A writer's lock on a directory; `None` if another process holds a lock.
     pub(crate) fn exclusive(directory: &Path) -> io::Result<Option<Self>> {
         Self::lock(directory, File::try_lock)
     }
 
-    /// A reader's lock on a directory; `None` where another process writes.
+    /// A reader's lock on a directory; `None` if another process writes.
     pub(crate) fn shared(directory: &Path) -> io::Result<Option<Self>> {
         Self::lock(directory, File::try_lock_shared)
     }
@@ -43,7 +43,7 @@ impl DirectoryLock {
     }
 }
 
-/// Whether an entry of a directory is there for its lock.
+/// Whether this is the name of the lock file.
 pub(crate) fn is_lock(name: &str) -> bool {
     name == LOCK_NAME
 }

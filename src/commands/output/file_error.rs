@@ -1,26 +1,26 @@
-//! What a failure to use a file or a directory means for whoever named it.
+//! The error of using a file or a directory, with the option that named it and a remedy.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::commands::error::Cause;
 
-/// The system refused to do something with a file or a directory.
+/// The system refused an operation on a file or a directory.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot {doing} {}: {source}{}", .path.display(), remedy(.source, .option))]
 pub(crate) struct FileError {
-    /// What was tried.
+    /// The operation, such as `write`.
     pub(crate) doing: &'static str,
-    /// On what.
+    /// The file or directory.
     pub(crate) path: PathBuf,
-    /// What names it on the command line, such as `--out`.
+    /// The option that names it, such as `--out`.
     pub(crate) option: &'static str,
-    /// What the system said.
+    /// The system's error.
     pub(crate) source: io::Error,
 }
 
 impl FileError {
-    /// Turns what the system says into an error about `path`, which `option` names.
+    /// A conversion of the system's errors about `path`, which `option` names.
     pub(crate) fn of(
         doing: &'static str,
         path: &Path,

@@ -41,7 +41,7 @@ fn object<T>(columns: &[Column<T>], item: &T) -> Value {
     Value::Object(fields.collect::<Map<_, _>>())
 }
 
-/// A tidy table: a line for each of `items`, below the columns' names or with them.
+/// A tidy table with a line for each of `items`: CSV below a header, or JSON objects.
 pub(crate) fn rows<T>(format: RowFormat, columns: &[Column<T>], items: &[T]) -> String {
     match format {
         RowFormat::Csv => {
@@ -57,8 +57,8 @@ pub(crate) fn rows<T>(format: RowFormat, columns: &[Column<T>], items: &[T]) -> 
     }
 }
 
-/// A cell of CSV: text without quotes where it can do without, numbers as JSON writes them, so that they
-/// read back the same, and nothing for what has no value.
+/// A cell of CSV: text quoted only if it must be, numbers as in JSON, so that they read back the same, and
+/// nothing for `Null`.
 fn bare(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
@@ -67,6 +67,7 @@ fn bare(value: &Value) -> String {
     }
 }
 
+/// Text as a cell of CSV, quoted if it must be.
 pub(crate) fn csv_cell(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))

@@ -1,4 +1,4 @@
-//! What the names of a sweep's files promise.
+//! The formats that the names of a sweep's files ask for.
 
 use std::path::{self, Path, PathBuf};
 

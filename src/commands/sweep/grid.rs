@@ -14,7 +14,7 @@ use crate::commands::terminal::progress;
 use crate::lab::{Clock, Judge, LONGEST_HORIZON_S, LaneSpec, Scene, Verdict};
 use crate::sim::integrators::Method;
 
-/// The system has no threads left.
+/// The system cannot start the threads.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot start the threads: {0}; give fewer --threads")]
 struct TooManyThreads(ThreadPoolBuildError);
@@ -25,13 +25,13 @@ impl Cause for TooManyThreads {
     }
 }
 
-/// What is to be gone through.
+/// The scenes, methods and rates to run.
 pub(super) struct Swept {
-    /// Scenes after the names that they were asked for by, no two of one name.
+    /// Each scene with the name it was asked for by. Names are unique.
     pub(super) scenes: Vec<(String, Scene)>,
     /// In the order of the table.
     pub(super) methods: Vec<&'static Method>,
-    /// In Hz, ascending; if empty each scene has octaves about its own.
+    /// In Hz, ascending. If empty, each scene runs at octaves of its own rate.
     pub(super) rates: Vec<u32>,
     /// The length of every run; `None` for each scene's own.
     pub(super) seconds: Option<f64>,
@@ -45,7 +45,7 @@ struct Subject {
     judge: Judge,
 }
 
-/// A run to be made.
+/// A run before it is made.
 struct Cell {
     subject: usize,
     spec: LaneSpec,
@@ -59,7 +59,7 @@ pub(super) struct Grid {
     cells: Vec<Cell>,
 }
 
-/// A run that was made.
+/// A finished run.
 pub(super) struct Row {
     pub(super) scene: String,
     pub(super) body: String,
@@ -76,10 +76,10 @@ impl Row {
         verdict.fate.as_ref().map_or(verdict.seconds, |fate| fate.t)
     }
 
-    /// Evaluations of the body's acceleration in a simulated second.
+    /// Evaluations of the body's acceleration per simulated second.
     pub(super) fn evaluations_per_s(&self) -> f64 {
         let (verdict, hz) = (&self.verdict, f64::from(self.tick_hz));
-        // Whole ticks, so that a method of so many evaluations a step has a whole number of them.
+        // Whole ticks, so that a method with a fixed number of evaluations per step has a whole number.
         verdict.evaluations as f64 * hz / (verdict.seconds * hz).round()
     }
 
@@ -116,7 +116,7 @@ impl Grid {
         grid
     }
 
-    /// Makes the runs on so many `threads`, by default one for each core, and then times each run alone.
+    /// Makes the runs on `threads` threads, by default one per core, and then times each run alone.
     /// The rows come in the order of the grid.
     pub(super) fn run(
         self,
@@ -155,7 +155,7 @@ impl Grid {
     }
 }
 
-/// How long a run is timed: with a thousand or two of them not long to wait.
+/// How long a run is timed: a thousand or two of them take seconds.
 const EFFORT: Duration = Duration::from_millis(1);
 
 /// The verdict on every run, in the order of the grid.
@@ -177,8 +177,8 @@ fn judge_all(
     Ok(whole.ok_or(Interrupted::NothingWritten)?)
 }
 
-/// From a quarter of this rate to eight times, doubled from one to the next, whole, and within what a
-/// clock can do: where the methods of the table part.
+/// Whole rates from a quarter of this rate to eight times, each double the one before, within the clock's
+/// range: the region in which the methods differ.
 fn octaves(tick_hz: u32) -> Vec<u32> {
     let slower = [tick_hz / 4, tick_hz / 2];
     let faster = [1, 2, 4, 8].map(|times| tick_hz.saturating_mul(times));

@@ -1,17 +1,17 @@
-//! The file that a sweep's picture goes to, and what draws it.
+//! Draws the picture of a sweep and opens the file for it.
 
 use crate::commands::error::{Cause, Error};
 use crate::commands::output::{AtomicOutput, Place};
 use crate::view::{AdapterPreference, Artist, Figure, Gpu, GpuError, ReadbackError, png};
 
-/// Pixels of a chart, and pixels to a point: legible where a few of them fill a screen.
+/// Pixels of a chart, and pixels per point: legible when a few charts fill a screen.
 const CHART_PX: [u32; 2] = [920, 660];
 const SCALE: f32 = 1.6;
 
 /// Pixels that title, legend and note take.
 const MARGIN_PX: u32 = 240;
 
-/// More scenes than one picture holds.
+/// The charts do not fit on the largest picture of the adapter.
 #[derive(Debug, thiserror::Error)]
 #[error(
     "a picture of {charts} charts is larger than {limit}x{limit}, what this adapter can make; \
@@ -37,7 +37,7 @@ pub(super) struct Plot {
 }
 
 impl Plot {
-    /// Makes sure that there are a place for a picture of so many charts, and something to draw it with.
+    /// Opens the output and a device that can draw this many charts.
     pub(super) fn open(place: Place<'_>, charts: usize) -> Result<Self, Error> {
         let output = AtomicOutput::open(place)?;
         let columns = columns(charts);
@@ -51,7 +51,7 @@ impl Plot {
         Ok(Self { artist, output })
     }
 
-    /// Draws it: where it goes, its size in pixels, and the file.
+    /// Draws the figure. Returns the output, the size in pixels, and the PNG file.
     pub(super) fn draw(
         mut self,
         figure: &Figure,
@@ -62,7 +62,7 @@ impl Plot {
     }
 }
 
-/// How many charts stand side by side, so that there are about as many rows.
+/// The number of columns that gives about as many rows.
 pub(super) fn columns(charts: usize) -> usize {
     (2..charts).find(|columns| columns * (columns + 1) >= charts).unwrap_or(2)
 }

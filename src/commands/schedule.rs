@@ -1,4 +1,5 @@
-//! From frame to frame of a recording, by a clock that is computed and not read.
+//! When the frames of a recording are, and how a lab gets from one to the next. Time is computed, never read
+//! off a clock.
 
 use super::error::Cause;
 use super::frame_folder::names::MOST_FRAMES;
@@ -7,10 +8,10 @@ use crate::lab::{Clock, Lab};
 /// Smooth enough for every scene, at half the files and half the time of 60.
 pub(super) const FPS: u32 = 30;
 
-/// The most frames in a simulated second: no display shows as many.
+/// The most frames per simulated second: no display shows as many.
 pub(super) const MOST_FPS: u32 = 1000;
 
-/// When frames are: `frames` of them, the first at the start, `fps` in a simulated second.
+/// The moments of `frames` frames, the first at the start, `fps` per simulated second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Schedule {
     pub(super) frames: u32,
@@ -19,7 +20,7 @@ pub(super) struct Schedule {
 
 const SECOND_NS: u64 = 1_000_000_000;
 
-/// More frames than six digits number.
+/// A recording would have more frames than six digits can number.
 #[derive(Debug, thiserror::Error)]
 #[error(
     "{frames} frames are asked for, and a capture has at most {MOST_FRAMES}; \
@@ -35,7 +36,7 @@ impl Cause for TooManyFrames {
     }
 }
 
-/// How many frames cover this many seconds; the start is one of them in any case.
+/// The number of frames in this many seconds, at least one.
 pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, TooManyFrames> {
     let frames = (seconds * f64::from(fps)).round().max(1.0);
     if frames > f64::from(MOST_FRAMES) {
@@ -45,7 +46,7 @@ pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, TooManyFrames> {
 }
 
 impl Schedule {
-    /// When `frame` is, in nanoseconds: rounded up, so that a tick due at that very moment is done.
+    /// The time of `frame` in nanoseconds, rounded up so that a tick due at that moment is done.
     pub(super) fn time_ns(self, frame: u32) -> u64 {
         (u64::from(frame) * SECOND_NS).div_ceil(u64::from(self.fps))
     }
@@ -60,7 +61,7 @@ impl Schedule {
         let Some(before) = frame.checked_sub(1) else { return };
         let longest = u64::from(Clock::LONGEST_FRAME_MS) * 1_000_000;
         let mut left = self.time_ns(frame) - self.time_ns(before);
-        // In stretches that the clock takes whole.
+        // In stretches that the clock accepts without dropping ticks.
         while left > 0 {
             let stretch = left.min(longest).min(until_rate_changes(lab));
             let due = lab.advance_seen(stretch as i64, &mut after_tick);
