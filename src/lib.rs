@@ -21,9 +21,10 @@
 //!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
 //!   and differ only in where time comes from and where the texture goes.
 //! - `window` and `commands` are the drivers: they alone touch files and real time. A capture's frames
-//!   pass from the thread that draws to those that encode (`commands/pipeline.rs`); what it drew is in a
-//!   manifest (`commands::manifest` has the schema), by which `regatta verify` judges. A sweep's runs
-//!   share nothing, so that any number of threads makes the same rows (`commands/sweep/grid.rs`).
+//!   pass from the thread that draws to those that encode, and come back in order
+//!   (`commands/pipeline.rs`); what it drew is in a manifest (`commands::manifest` has the schema), by
+//!   which `regatta verify` judges. A sweep's runs and the methods that `advise` judges share nothing, so
+//!   that any number of threads makes the same rows (`commands/jobs.rs`).
 //!
 //! `view`, `window` and `commands` are there with the default feature `desktop`. Without it the
 //! package is `sim` and `lab`, pulls in no graphics crate, and builds in seconds: what a game's own
@@ -107,8 +108,9 @@
 //! # Out of scope
 //!
 //! Collisions and contacts, which would hide the integrator behind the solver; generic scalars,
-//! because the formulas would drown, but for one experiment on their width, [`lab::round_off`]; and constraints, because a closed body with natural coordinates
-//! needs none.
+//! because the formulas would drown, but for one experiment on their width
+//! (`commands/sweep/round_off.rs`); and constraints, because a closed body with natural coordinates needs
+//! none.
 
 #[cfg(feature = "desktop")]
 pub mod commands;

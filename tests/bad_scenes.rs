@@ -1,6 +1,6 @@
-//! What a scene file can have wrong, one file each, with the reviewed message beside it.
+//! What a scene file can have wrong, with the reviewed messages: `tests/bad_scenes.md` has a case for each.
 //!
-//! `BLESS=1 cargo test --test bad_scenes` writes the messages anew; without it, one that is missing or
+//! `BLESS=1 cargo test --test bad_scenes` writes the messages again; without it, one that is missing or
 //! different fails.
 
 use std::fs;
@@ -8,37 +8,174 @@ use std::path::{Path, PathBuf};
 
 use regatta::lab::{LARGEST_FILE, MOST_BODIES, MOST_SHOWN, SCENES, Scene, SceneErrors};
 
-#[test]
-fn every_bad_scene_gives_its_reviewed_message() {
-    let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes");
-    let is_blessing = std::env::var_os("BLESS").is_some();
-    let mut wrong = Vec::new();
-    let files = files(&directory, "toml");
-    for file in &files {
-        let name = file.file_name().unwrap().to_str().unwrap();
-        let message = match Scene::from_bytes(name, &fs::read(file).unwrap()) {
-            Ok(_) => panic!("{name} is a good scene"),
-            Err(errors) => format!("{errors}\n"),
-        };
-        let golden = file.with_extension("txt");
-        if is_blessing {
-            fs::write(&golden, &message).unwrap();
-        } else if fs::read_to_string(&golden).ok().as_deref() != Some(&message) {
-            wrong.push(message);
-        }
-    }
-    assert!(files.len() >= 30, "only {} bad scenes", files.len());
-    assert_eq!(wrong, [""; 0], "not as in the text files beside them");
-    let scenes: Vec<_> = files.iter().map(|file| file.with_extension("txt")).collect();
-    assert_eq!(self::files(&directory, "txt"), scenes, "a message without a scene, or none");
+/// A bad scene and what is said of it.
+#[derive(Clone, Debug, PartialEq)]
+struct Case {
+    name: String,
+    /// The scene as the file of cases has it.
+    written: String,
+    /// The scene's own bytes.
+    scene: Vec<u8>,
+    /// With a line break at its end.
+    message: String,
 }
 
-fn files(directory: &Path, ending: &str) -> Vec<PathBuf> {
-    let entries = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
-    let mut files: Vec<_> =
-        entries.filter(|path| path.extension().is_some_and(|found| found == ending)).collect();
-    files.sort();
-    files
+fn file() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad_scenes.md")
+}
+
+/// The words before the first case, and the cases; else the one that is malformed.
+fn cases(text: &str) -> Result<(String, Vec<Case>), String> {
+    let mut sections = text.split("\n## ");
+    let preface = sections.next().unwrap_or_default().to_owned();
+    let cases: Vec<Case> = sections
+        .map(|section| {
+            let name = section.lines().next().unwrap_or_default();
+            case(section).ok_or_else(|| format!("the case {name:?} is malformed"))
+        })
+        .collect::<Result<_, _>>()?;
+    match cases.windows(2).find(|pair| pair[0].name >= pair[1].name) {
+        Some(pair) => Err(format!("{} stands before {}", pair[0].name, pair[1].name)),
+        None => Ok((preface, cases)),
+    }
+}
+
+fn case(section: &str) -> Option<Case> {
+    let (name, rest) = section.split_once("\n\n```toml")?;
+    let (kind, rest) = rest.split_once('\n')?;
+    let (written, rest) = rest.split_once("```\n\n```text\n")?;
+    let message = rest.strip_suffix("```\n")?;
+    let is_whole = |lines: &str| lines.is_empty() || lines.ends_with('\n');
+    let is_named = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    if !is_named
+        || ![written, message].iter().all(|lines| is_whole(lines) && !lines.contains("```"))
+    {
+        return None;
+    }
+    let scene = match kind {
+        "" => written.as_bytes().to_owned(),
+        " escaped" => unescaped(written)?,
+        _ => return None,
+    };
+    Some(Case {
+        name: name.to_owned(),
+        written: format!("{kind}\n{written}"),
+        scene,
+        message: message.to_owned(),
+    })
+}
+
+/// The bytes that escapes stand for; line breaks stand for nothing.
+fn unescaped(written: &str) -> Option<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let mut rest = written.bytes().filter(|byte| *byte != b'\n');
+    while let Some(byte) = rest.next() {
+        bytes.push(match byte {
+            b'\\' => match rest.next()? {
+                b'n' => b'\n',
+                b'r' => b'\r',
+                b'0' => 0,
+                b'\\' => b'\\',
+                b'x' => {
+                    let digits = String::from_utf8(vec![rest.next()?, rest.next()?]).ok()?;
+                    u8::from_str_radix(&digits, 16).ok()?
+                }
+                _ => return None,
+            },
+            byte => byte,
+        });
+    }
+    Some(bytes)
+}
+
+/// The file of these cases.
+fn written(preface: &str, cases: &[Case]) -> String {
+    let sections = cases.iter().map(|case| {
+        let Case { name, written, message, .. } = case;
+        format!("\n## {name}\n\n```toml{written}```\n\n```text\n{message}```\n")
+    });
+    preface.to_owned() + &sections.collect::<String>()
+}
+
+fn reviewed() -> (String, Vec<Case>) {
+    let text = fs::read_to_string(file()).unwrap();
+    let (preface, cases) = cases(&text).unwrap_or_else(|malformed| panic!("{malformed}"));
+    assert!(written(&preface, &cases) == text, "a case is read otherwise than it is written");
+    assert!(cases.len() >= 100, "only {} bad scenes", cases.len());
+    (preface, cases)
+}
+
+#[test]
+fn every_bad_scene_gives_its_reviewed_message() {
+    let (preface, reviewed) = reviewed();
+    let now = reviewed.iter().map(|case| {
+        let name = format!("{}.toml", case.name);
+        let errors = Scene::from_bytes(&name, &case.scene).err();
+        let errors = errors.unwrap_or_else(|| panic!("{name} is a good scene"));
+        Case { message: format!("{errors}\n"), ..case.clone() }
+    });
+    let now: Vec<Case> = now.collect();
+    if std::env::var_os("BLESS").is_some() {
+        fs::write(file(), written(&preface, &now)).unwrap();
+        return;
+    }
+    let wrong = now.iter().zip(&reviewed).filter(|(now, reviewed)| now != reviewed);
+    let wrong: Vec<&str> = wrong.map(|(now, _)| &*now.message).collect();
+    assert_eq!(wrong, [""; 0], "not as in tests/bad_scenes.md");
+}
+
+#[test]
+fn malformed_cases_are_seen() {
+    let good = "# Head\n\n## a\n\n```toml\nx\n```\n\n```text\nbad\n```\n\n## b\n\n```toml escaped\n\
+                \\xe9\\r\\n\n\\\\\n```\n\n```text\n```\n";
+    let (preface, found) = cases(good).unwrap();
+    assert_eq!((&*preface, found.len()), ("# Head\n", 2));
+    assert_eq!((&*found[0].scene, &*found[0].message), (&b"x\n"[..], "bad\n"));
+    assert_eq!((&*found[1].scene, &*found[1].message), (&b"\xe9\r\n\\"[..], ""));
+    assert_eq!(written(&preface, &found), good);
+    for (from, to) in [
+        ("## b", "## a"),
+        ("## b", "## B b"),
+        ("## b", "## "),
+        ("## b", "##b"),
+        ("```toml\n", "```\n"),
+        ("escaped", "twice"),
+        ("\\r", "\\q"),
+        ("\\xe9", "\\x"),
+        ("x\n```\n", "x\n"),
+        ("x\n", "x"),
+        ("bad\n```\n", "bad\n"),
+        ("bad\n", "bad"),
+        ("```text\n", "```\n"),
+        ("bad\n```\n", "bad\n```\n\nmore words\n"),
+    ] {
+        assert!(good.contains(from));
+        let bad = good.replacen(from, to, 1);
+        assert!(cases(&bad).is_err(), "{bad}");
+    }
+}
+
+#[cfg(feature = "desktop")]
+#[test]
+fn every_bad_scene_is_reported_with_its_lines() {
+    use annotate_snippets::Renderer;
+    use clap::Parser;
+    use regatta::commands::{self, Cli};
+
+    let folder = tempfile::tempdir().unwrap();
+    for case in reviewed().1 {
+        let path = folder.path().join(format!("{}.toml", case.name));
+        fs::write(&path, &case.scene).unwrap();
+        let cli =
+            Cli::parse_from(["regatta".as_ref(), "trace".as_ref(), "--scene".as_ref(), &*path]);
+        let error = commands::run(cli).expect_err("a good scene");
+        assert_eq!(error.exit_code(), 2);
+        let report = error.report(&Renderer::plain());
+        for line in case.message.lines() {
+            let line = folder.path().join(line).display().to_string();
+            assert!(report.lines().any(|reported| reported == line), "{report}");
+        }
+    }
 }
 
 #[test]

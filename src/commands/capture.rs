@@ -5,18 +5,17 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::Error;
-use super::atomic_file::Older;
-use super::atomic_output::{AtomicOutput, OutputError, Place};
+use super::error::Error;
 use super::experiment::{self, ExperimentArgs, Lineup};
-use super::frame_folder::{Existing, FrameFolder, FrameFolderError};
-use super::frame_names::MOST_FRAMES;
-use super::movie::{self, MOST_GIF_FPS, MovieFormat};
-use super::picture_format::{FormatError, PictureFormat};
-use super::recording::{Recording, record};
-use super::voyage::Schedule;
-use super::{logbook, sheet};
-use crate::view::{GpuError, Panels, ReadbackError};
+use super::frame_folder::names::MOST_FRAMES;
+use super::frame_folder::{Existing, FrameFolder};
+use super::movie::{self, MovieFormat};
+use super::output::picture_format::PictureFormat;
+use super::output::{AtomicOutput, Older, OutputError, Place};
+use super::recording::Recording;
+use super::schedule::{FPS, MOST_FPS, Schedule, frames_in};
+use super::{clip, logbook, sheet};
+use crate::view::Panels;
 
 const EXAMPLES: &str = "\
 Frame i shows the run at i / fps seconds. The same command makes the same bytes. manifest.json,
@@ -97,12 +96,6 @@ enum Shown {
     Off,
 }
 
-/// Smooth enough for every scene, at half the files and half the time of 60.
-pub(super) const FPS: u32 = 30;
-
-/// The most frames in a simulated second: no display shows as many.
-pub(super) const MOST_FPS: u32 = 1000;
-
 /// A moment a second: enough to see a method go astray on every scene.
 const SHEET_FPS: u32 = 1;
 
@@ -112,103 +105,13 @@ const SHEET_COLUMNS: u32 = 6;
 /// The longest side of a frame in pixels: what nearly every adapter can draw on.
 const LONGEST_SIDE_PX: u32 = 8192;
 
-/// Why there are not all frames.
-#[derive(Debug, thiserror::Error)]
-pub enum CaptureError {
-    /// More frames than six digits number.
-    #[error(
-        "{frames} frames are asked for, and a capture has at most {MOST_FRAMES}; \
-         give a lower --fps or fewer --seconds"
-    )]
-    TooManyFrames {
-        /// Asked for.
-        frames: f64,
-    },
-    /// More pixels than anybody wants.
-    #[error(
-        "{frames} frames of {}x{} are {} gigapixels, and a capture has at most {}; \
-         give fewer --frames or a smaller --size",
-        size_px[0], size_px[1], pixels / GIGA, most / GIGA
-    )]
-    TooManyPixels {
-        /// Asked for.
-        frames: u32,
-        /// Asked for.
-        size_px: [u32; 2],
-        /// In all.
-        pixels: u64,
-        /// The most there may be.
-        most: u64,
-    },
-    /// The folder cannot be used.
-    #[error(transparent)]
-    Folder(#[from] FrameFolderError),
-    /// A frame could not be written.
-    #[error("{source}; whole before that: {whole}")]
-    Write {
-        /// Why.
-        source: FrameFolderError,
-        /// The frames written before.
-        whole: String,
-    },
-    /// There is nothing to draw with.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// A frame was drawn but did not come back.
-    #[error(transparent)]
-    Readback(#[from] ReadbackError),
-    /// The name of the file and the format do not go together.
-    #[error(transparent)]
-    Format(#[from] FormatError),
-    /// Only a directory can be taken up again.
-    #[error("only pictures in a directory can be resumed; leave out --resume, or --format")]
-    NotResumable,
-    /// A GIF would be played slower.
-    #[error("a GIF has at most {MOST_GIF_FPS} frames a second, not {fps}; give a lower --fps")]
-    TooFastForGif {
-        /// Asked for.
-        fps: u32,
-    },
-    /// One file, or standard output, could not be written.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// Somebody pressed Ctrl-C.
-    #[error("interrupted after {done} of {frames} frames; whole: {whole}")]
-    Interrupted {
-        /// Frames written.
-        done: u32,
-        /// Frames asked for.
-        frames: u32,
-        /// Their names.
-        whole: String,
-    },
-}
-
-const GIGA: u64 = 1_000_000_000;
-
-impl CaptureError {
-    pub(super) fn exit_code(&self) -> u8 {
-        match self {
-            CaptureError::TooManyFrames { .. }
-            | CaptureError::TooManyPixels { .. }
-            | CaptureError::Format(_)
-            | CaptureError::NotResumable
-            | CaptureError::TooFastForGif { .. }
-            | CaptureError::Gpu(GpuError::TooLarge { .. } | GpuError::Empty { .. }) => 2,
-            CaptureError::Folder(error) => error.exit_code(),
-            CaptureError::Output(error) => error.exit_code(),
-            CaptureError::Interrupted { .. } => 130,
-            CaptureError::Write { .. } | CaptureError::Gpu(_) | CaptureError::Readback(_) => 1,
-        }
-    }
-}
-
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
-    let format = PictureFormat::of(&args.out, args.format).map_err(CaptureError::from)?;
+    let format = PictureFormat::of(&args.out, args.format)?;
     let everyone = args.race || format == PictureFormat::Sheet && args.experiment.names_no_method();
     let lineup = if everyone { Lineup::Everyone } else { Lineup::Solo };
     let experiment = args.experiment.load(lineup)?;
     let fps = args.fps.unwrap_or(format.or_sheet(FPS, SHEET_FPS));
+    format.check(args.resume, fps)?;
     let frames = match (args.frames, args.seconds) {
         (Some(frames), _) => frames,
         (None, Some(seconds)) => frames_in(seconds, fps)?,
@@ -229,9 +132,6 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
             .mark_every
             .unwrap_or_else(|| logbook::usual_stride(schedule.ticks(&experiment.lab()))),
     };
-    if format != PictureFormat::Png && args.resume {
-        return Err(CaptureError::NotResumable.into());
-    }
     let movie = match format {
         PictureFormat::Png => {
             let existing = match (args.force, args.resume) {
@@ -239,16 +139,12 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
                 (_, true) => Existing::Continue,
                 _ => Existing::Refuse,
             };
-            let folder = FrameFolder::inspect(&args.out, existing, "--out");
-            let folder = folder.map_err(CaptureError::from)?;
-            return Ok(record(&experiment, recording, folder)?);
+            let folder = FrameFolder::inspect(&args.out, existing, "--out")?;
+            return Ok(clip::record(&experiment, recording, folder)?);
         }
         PictureFormat::Sheet => {
             let output = open(args)?;
             return Ok(sheet::draw(&experiment, recording, output)?);
-        }
-        PictureFormat::Gif if fps > MOST_GIF_FPS => {
-            return Err(CaptureError::TooFastForGif { fps }.into());
         }
         PictureFormat::Gif => MovieFormat::Gif,
         PictureFormat::Apng => MovieFormat::Apng,
@@ -259,18 +155,9 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     Ok(movie::record(&experiment, recording, movie, output)?)
 }
 
-fn open(args: &CaptureArgs) -> Result<AtomicOutput, CaptureError> {
+fn open(args: &CaptureArgs) -> Result<AtomicOutput, OutputError> {
     let older = if args.force { Older::Replace } else { Older::Keep };
-    Ok(AtomicOutput::open(Place { path: &args.out, option: "--out", older })?)
-}
-
-/// How many frames cover this many seconds; the start is one of them in any case.
-pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, CaptureError> {
-    let frames = (seconds * f64::from(fps)).round().max(1.0);
-    if frames > f64::from(MOST_FRAMES) {
-        return Err(CaptureError::TooManyFrames { frames });
-    }
-    Ok(frames as u32)
+    AtomicOutput::open(Place { path: &args.out, option: "--out", older })
 }
 
 fn size(written: &str) -> Result<[u32; 2], String> {
@@ -304,13 +191,5 @@ mod tests {
         {
             assert!(size(wrong).is_err(), "{wrong}");
         }
-    }
-
-    #[test]
-    fn seconds_make_whole_frames_and_at_least_the_start() {
-        assert_eq!(frames_in(20.0, 30).unwrap(), 600);
-        assert_eq!(frames_in(0.0, 30).unwrap(), 1);
-        assert_eq!(frames_in(0.05, 30).unwrap(), 2);
-        assert!(frames_in(3e7, 1000).is_err());
     }
 }

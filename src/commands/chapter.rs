@@ -3,14 +3,14 @@
 //!
 //! Bourg & Bywalec, *Physics for Game Developers*, 2nd edition, chapter 7.
 
-use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::frame_folder::FrameFolderError;
-use super::{Error, tell};
-use crate::view::{AdapterPreference, Artist, Gpu, GpuError, ReadbackError, png};
+use super::error::Error;
+use super::output::print;
+use super::terminal::tell;
+use crate::view::{AdapterPreference, Artist, Gpu, png};
 
 mod adaptive;
 mod figures;
@@ -20,7 +20,7 @@ mod run;
 mod speeds;
 
 use figures::Diagram;
-use folder::FigureFolder;
+use folder::{FigureFolder, FigureFolderError};
 
 const EXAMPLES: &str = "\
 A tick stands beside each number that equals the printed one to the last digit. Figures 7-5 and 7-8 show
@@ -43,59 +43,23 @@ pub(super) struct ChapterArgs {
     force: bool,
 }
 
-/// Why there are not all figures.
-#[derive(Debug, thiserror::Error)]
-pub enum ChapterError {
-    /// The folder is in use.
-    #[error(
-        "{} is not empty; give another --out, or --force to replace the figures in it",
-        .path.display()
-    )]
-    NotEmpty {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// The folder cannot be used, or no longer.
-    #[error(transparent)]
-    Folder(#[from] FrameFolderError),
-    /// There is nothing to draw with.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// A figure was drawn but did not come back.
-    #[error(transparent)]
-    Readback(#[from] ReadbackError),
-}
-
-impl ChapterError {
-    pub(super) fn exit_code(&self) -> u8 {
-        match self {
-            ChapterError::NotEmpty { .. }
-            | ChapterError::Folder(FrameFolderError::NotADirectory { .. }) => 2,
-            _ => 1,
-        }
-    }
-}
-
 pub(super) fn run(args: &ChapterArgs) -> Result<(), Error> {
     if let Some(out) = &args.out {
         let folder = FigureFolder::inspect(out)?;
         if !folder.is_empty() && !args.force {
-            return Err(ChapterError::NotEmpty { path: out.clone() }.into());
+            return Err(FigureFolderError::NotEmpty { path: out.clone() }.into());
         }
         draw(folder)?;
     }
     let text = [speeds::table_7_1(), speeds::displacements(), adaptive::listings()].join("\n");
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    out.flush()?;
-    Ok(())
+    Ok(print(&text)?)
 }
 
 /// Pixels of a figure, and pixels to a point: legible in a page's width.
 const SIZE_PX: [u32; 2] = [1600, 1000];
 const SCALE: f32 = 1.6;
 
-fn draw(mut folder: FigureFolder) -> Result<(), ChapterError> {
+fn draw(mut folder: FigureFolder) -> Result<(), Error> {
     let gpu = Gpu::headless(AdapterPreference::Any)?;
     let mut artist = Artist::new(gpu, SIZE_PX, SCALE)?;
     folder.clear()?;

@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
-use super::{Cli, Error};
+use super::error::Error;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -21,10 +21,11 @@ pub(super) struct CompletionsArgs {
     shell: Shell,
 }
 
-pub(super) fn run(args: &CompletionsArgs) -> Result<(), Error> {
+/// Prints the script for the command line `cli`.
+pub(super) fn run(args: &CompletionsArgs, cli: &mut Command) -> Result<(), Error> {
     // By way of memory: on a closed pipe the generator itself would panic.
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "regatta", &mut script);
+    clap_complete::generate(args.shell, cli, "regatta", &mut script);
     let mut out = io::stdout().lock();
     out.write_all(&script)?;
     out.flush()?;

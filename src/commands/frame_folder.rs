@@ -7,19 +7,21 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::atomic_file::{AtomicFile, sync_directory, write_whole};
-use super::blessing::{self, Blessing};
-use super::directory_lock::DirectoryLock;
-use super::file_error::FileError;
-use super::frame_names::frame_name;
 use super::manifest;
+use super::output::{AtomicFile, DirectoryLock, FileError, sync_directory, write_whole};
 
+pub(super) mod blessing;
 mod entries;
 mod errors;
+pub(super) mod names;
 mod queue;
+#[cfg(test)]
+mod tests;
 
+use blessing::Blessing;
 use entries::{Entries, is_a_captures};
 pub(super) use errors::FrameFolderError;
+use names::frame_name;
 use queue::{FrameQueue, Settled};
 
 /// What may become of the frames that a folder holds.
@@ -29,10 +31,9 @@ pub(super) enum Existing {
     Refuse,
     /// Frames make way for the new ones; other entries stay.
     Replace,
-    /// Frames from the first on, without a gap, stay, and so does a manifest; whatever else a capture
-    /// left makes way.
+    /// The frames before the first gap stay, and so does a manifest; other files of a capture make way.
     Continue,
-    /// Frames make way once all the new ones are there, and not before.
+    /// Frames make way once all the new ones are written.
     Bless,
 }
 
@@ -41,26 +42,26 @@ pub(super) enum Existing {
 pub(super) struct FrameFolder {
     path: PathBuf,
     existing: Existing,
-    /// What names it on the command line.
+    /// The command-line option that names the folder.
     option: &'static str,
     entries: Entries,
-    /// Frames of an earlier capture that may stay.
+    /// How many frames of an earlier capture may stay.
     kept: u32,
-    /// Frames added.
+    /// How many frames were added.
     frames: u32,
-    /// Those of them that were there.
+    /// How many of the frames added were there already.
     stayed: u32,
     // What follows is dropped in this order: no frame comes after its directory or its lock is gone.
     queue: FrameQueue,
-    /// Where frames are drawn that are to be swapped in.
+    /// The directory of new frames that will be swapped in.
     blessing: Option<Blessing>,
-    /// None while there is no folder.
+    /// `None` while the folder does not exist.
     lock: Option<DirectoryLock>,
 }
 
 impl FrameFolder {
-    /// Looks at the folder at `path`, which need not exist yet and is called `option` on the command line.
-    /// Changes nothing but that a blessing stopped in the middle of its swap is carried to its end.
+    /// Examines the folder at `path`, which need not exist yet and which the command-line option `option`
+    /// names. Changes nothing, except that a blessing interrupted during its swap is completed.
     pub(super) fn inspect(
         path: &Path,
         existing: Existing,
@@ -107,7 +108,7 @@ impl FrameFolder {
         unreachable!("no file system holds as many directories")
     }
 
-    /// Locks the folder, and finds out what is in it and may stay.
+    /// Locks the folder, reads its entries, and decides which may stay.
     fn look(&mut self) -> Result<(), FrameFolderError> {
         let (path, option) = (&self.path, self.option);
         let lock = DirectoryLock::exclusive(path).map_err(FileError::of("lock", path, option))?;
@@ -130,10 +131,10 @@ impl FrameFolder {
             Existing::Refuse | Existing::Replace => {}
             Existing::Continue => {
                 self.kept = entries.frames();
-                // The manifest of what is there holds until another is whole.
+                // The old manifest describes the frames until the new one is written.
                 entries.ours.remove(OsStr::new(manifest::FILE_NAME));
             }
-            // Frames that come one by one may end before it; those that come at once cannot.
+            // A capture may stop before the frame that a directory blocks; a swap replaces all frames.
             Existing::Bless => entries.foreign = entries.foreign.or(entries.in_the_way.take()),
         }
         if let Some(path) = entries.foreign {
@@ -143,23 +144,23 @@ impl FrameFolder {
         Ok(())
     }
 
-    /// Where it is.
+    /// The path of the folder.
     pub(super) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Whether frames are of use before all of them are there.
+    /// Whether an incomplete set of frames is worth keeping.
     pub(super) fn takes_a_part(&self) -> bool {
         self.existing != Existing::Bless
     }
 
-    /// Where files go.
+    /// The directory that files are written to.
     fn place(&self) -> &Path {
         self.blessing.as_ref().map_or(&self.path, Blessing::place)
     }
 
-    /// Makes the folder where there is none, and removes what an earlier capture left but for the
-    /// first `frames` of the frames to be kept, so that it never holds frames of two.
+    /// Creates the folder if necessary and removes the files of an earlier capture, except the first
+    /// `frames` of the frames to keep. The folder never holds frames of two captures.
     pub(super) fn clear(&mut self, frames: u32) -> Result<(), FrameFolderError> {
         if self.lock.is_none() {
             fs::create_dir_all(&self.path).map_err(FileError::of(
@@ -195,8 +196,8 @@ impl FrameFolder {
         Ok(())
     }
 
-    /// Adds the next frame; one that stays has to be the same to the byte. A failure may be that of a frame
-    /// before it.
+    /// Adds the next frame. If the frame is there already, it must be the same to the byte. The error may be
+    /// that of an earlier frame.
     pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), FrameFolderError> {
         let name = frame_name(self.frames);
         let shown = self.path.join(&name);
@@ -220,7 +221,8 @@ impl FrameFolder {
         Ok(())
     }
 
-    /// Waits until every frame has its name, or one cannot have it: then those before it are left.
+    /// Waits until every frame is written under its name. At the first failure only the frames before it
+    /// remain.
     pub(super) fn settle(&mut self) -> Result<(), FrameFolderError> {
         let Some(Settled { frames, failed }) = self.queue.close() else { return Ok(()) };
         self.frames = self.stayed + frames;
@@ -230,7 +232,7 @@ impl FrameFolder {
         }
     }
 
-    /// Writes the manifest, after all frames; frames to be swapped in are.
+    /// Writes the manifest after all frames, and completes a blessing.
     pub(super) fn finish(mut self, manifest: &str) -> Result<(), FrameFolderError> {
         self.settle()?;
         let path = self.place().join(manifest::FILE_NAME);
@@ -242,7 +244,7 @@ impl FrameFolder {
         Ok(swapped.map_err(FileError::of("put the new frames into", &self.path, self.option))?)
     }
 
-    /// The frames written, by the names of the first and the last.
+    /// The names of the first and the last frame written.
     pub(super) fn range(&self) -> String {
         let name = |frame| self.path.join(frame_name(frame)).display().to_string();
         match self.frames {
@@ -252,174 +254,8 @@ impl FrameFolder {
         }
     }
 
-    /// Names of the entries that are none of our frames and have been left alone.
+    /// The names of the entries that no capture made, and that were left alone.
     pub(super) fn others(&self) -> &[OsString] {
         &self.entries.others
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::view::png;
-
-    fn inspect(path: &Path, existing: Existing) -> Result<FrameFolder, FrameFolderError> {
-        FrameFolder::inspect(path, existing, "--out")
-    }
-
-    /// A picture as a capture writes it, one pixel of this grey.
-    fn frame(grey: u8) -> Vec<u8> {
-        png::encode([1, 1], &[grey, grey, grey, 255])
-    }
-
-    fn names(folder: &Path) -> Vec<OsString> {
-        let mut names: Vec<_> =
-            fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-        names.sort();
-        names
-    }
-
-    #[test]
-    fn a_folder_in_use_is_refused_and_left_as_it_is() {
-        let parent = tempfile::tempdir().unwrap();
-        let path = parent.path().join("clip");
-        fs::create_dir(&path).unwrap();
-        assert!(inspect(&path, Existing::Refuse).is_ok());
-        fs::write(path.join("frame-000000.png"), "old").unwrap();
-        let error = inspect(&path, Existing::Refuse).unwrap_err();
-        assert!(matches!(error, FrameFolderError::NotEmpty { .. }), "{error}");
-        assert_eq!(fs::read(path.join("frame-000000.png")).unwrap(), b"old");
-    }
-
-    #[test]
-    fn frames_replace_frames_and_nothing_else() {
-        let folder = tempfile::tempdir().unwrap();
-        let file = |name: &str| folder.path().join(name);
-        for name in ["frame-000000.png", "frame-000001.png", "frame-000001.png.a1B2c3.part"] {
-            fs::write(file(name), frame(0)).unwrap();
-        }
-        for name in ["frame-000001.png.part", "manifest.json.part", "notes.txt"] {
-            fs::write(file(name), "mine").unwrap();
-        }
-        let mut frames = inspect(folder.path(), Existing::Replace).unwrap();
-        frames.clear(9).unwrap();
-        frames.push(&frame(1)).unwrap();
-        frames.settle().unwrap();
-        let others = ["frame-000001.png.part", "manifest.json.part", "notes.txt"];
-        assert_eq!(names(folder.path()), [&["frame-000000.png"], &others[..]].concat());
-        assert_eq!(fs::read(file("frame-000000.png")).unwrap(), frame(1));
-        assert_eq!(frames.others(), others);
-        assert!(frames.range().ends_with("frame-000000.png"), "{}", frames.range());
-        frames.finish("{}").unwrap();
-        for name in others {
-            assert_eq!(fs::read(file(name)).unwrap(), b"mine", "{name}");
-        }
-    }
-
-    #[test]
-    fn what_only_has_the_name_of_ours_is_never_touched() {
-        for existing in [Existing::Replace, Existing::Continue, Existing::Bless] {
-            for (name, bytes) in [
-                ("manifest.json", &br#"{"name":"my web app","version":"1"}"#[..]),
-                ("frame-000003.png", b"a frame of another program"),
-            ] {
-                let folder = tempfile::tempdir().unwrap();
-                fs::write(folder.path().join("frame-000000.png"), frame(0)).unwrap();
-                fs::write(folder.path().join(name), bytes).unwrap();
-                let error = inspect(folder.path(), existing).unwrap_err();
-                assert!(matches!(error, FrameFolderError::NotOurs { .. }), "{error}");
-                assert!(error.to_string().contains(name), "{error}");
-                assert_eq!(fs::read(folder.path().join(name)).unwrap(), bytes);
-            }
-        }
-    }
-
-    #[test]
-    fn frames_up_to_the_first_gap_are_kept_and_have_to_be_the_same() {
-        let folder = tempfile::tempdir().unwrap();
-        let file = |name: &str| folder.path().join(name);
-        for name in [
-            "frame-000000.png",
-            "frame-000001.png",
-            "frame-000002.png.a1B2c3.part",
-            "frame-000003.png",
-        ] {
-            fs::write(file(name), frame(0)).unwrap();
-        }
-        let mut frames = inspect(folder.path(), Existing::Continue).unwrap();
-        frames.clear(9).unwrap();
-        assert_eq!((frames.kept, names(folder.path()).len()), (2, 2));
-        frames.push(&frame(0)).unwrap();
-        let error = frames.push(&frame(1)).unwrap_err();
-        assert!(matches!(error, FrameFolderError::Foreign { .. }), "{error}");
-        frames.push(&frame(0)).unwrap();
-        frames.push(&frame(1)).unwrap();
-        frames.settle().unwrap();
-        assert_eq!(fs::read(file("frame-000002.png")).unwrap(), frame(1));
-    }
-
-    #[test]
-    fn a_folder_has_one_writer_at_a_time() {
-        let parent = tempfile::tempdir().unwrap();
-        let path = parent.path().join("clip");
-        let [mut first, mut second] = [0, 1].map(|_| inspect(&path, Existing::Replace).unwrap());
-        first.clear(9).unwrap();
-        for busy in [second.clear(9).unwrap_err(), inspect(&path, Existing::Refuse).unwrap_err()] {
-            assert!(matches!(busy, FrameFolderError::Busy { .. }), "{busy}");
-        }
-        first.push(&frame(0)).unwrap();
-        drop(first);
-        second.clear(9).unwrap();
-        assert!(names(&path).is_empty(), "the second found what the first had left");
-    }
-
-    #[test]
-    fn a_folder_filled_while_it_was_waited_for_is_refused() {
-        let parent = tempfile::tempdir().unwrap();
-        let path = parent.path().join("clip");
-        let [mut first, mut second] = [0, 1].map(|_| inspect(&path, Existing::Refuse).unwrap());
-        first.clear(9).unwrap();
-        first.push(&frame(0)).unwrap();
-        first.finish("{}").unwrap();
-        let error = second.clear(9).unwrap_err();
-        assert!(matches!(error, FrameFolderError::NotEmpty { .. }), "{error}");
-    }
-
-    #[test]
-    fn a_frame_that_cannot_be_written_leaves_nothing_behind() {
-        let parent = tempfile::tempdir().unwrap();
-        let mut frames = inspect(parent.path(), Existing::Refuse).unwrap();
-        frames.clear(9).unwrap();
-        // A directory of that name cannot be replaced by a file.
-        fs::create_dir_all(parent.path().join("frame-000001.png/in the way")).unwrap();
-        frames.push(&frame(0)).unwrap();
-        let pushed: Vec<_> = (1..9).map(|_| frames.push(&frame(0))).collect();
-        let failed = pushed.into_iter().chain([frames.settle()]).find_map(Result::err);
-        let error = failed.unwrap().to_string();
-        assert!(error.starts_with("cannot write "), "{error}");
-        assert!(error.contains("frame-000001.png: "), "{error}");
-        assert_eq!(names(parent.path()), ["frame-000000.png", "frame-000001.png"]);
-        assert!(frames.range().ends_with("frame-000000.png"), "{}", frames.range());
-    }
-
-    #[test]
-    fn a_file_in_the_way_is_no_folder() {
-        let parent = tempfile::tempdir().unwrap();
-        let path = parent.path().join("clip");
-        fs::write(&path, "mine").unwrap();
-        let error = inspect(&path, Existing::Replace).unwrap_err();
-        assert!(matches!(error, FrameFolderError::NotADirectory { .. }), "{error}");
-    }
-
-    #[test]
-    fn a_free_folder_is_found_beside_those_in_use() {
-        let parent = tempfile::tempdir().unwrap();
-        let name = parent.path().join("frames").display().to_string();
-        assert_eq!(FrameFolder::beside(&name).unwrap().path(), Path::new(&name));
-        fs::create_dir(&name).unwrap();
-        fs::write(Path::new(&name).join("mine"), "").unwrap();
-        fs::write(format!("{name}-2"), "a file").unwrap();
-        let third = format!("{name}-3");
-        assert_eq!(FrameFolder::beside(&name).unwrap().path(), Path::new(&third));
     }
 }

@@ -1,12 +1,11 @@
 //! `regatta list`: the program's own tables, for people and for programs.
 
-use std::io::{self, Write};
-
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::table::{self, Column};
-use super::{Error, TableFormat};
+use super::error::Error;
+use super::output::print;
+use super::output::table::{self, Column, TableFormat};
 use crate::lab::{Binding, KEYS, METRICS, Metric, SCENES, Scale, Scene};
 use crate::sim::bodies::{BODIES, Coordinate, Kind, Parameter};
 use crate::sim::integrators::{METHODS, Method};
@@ -57,10 +56,7 @@ pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
         Listing::Metrics => write(METRIC, METRICS, args.format),
         Listing::Keys => write(KEY, KEYS, args.format),
     };
-    let mut out = io::stdout().lock();
-    out.write_all(listing.as_bytes())?;
-    out.flush()?;
-    Ok(())
+    Ok(print(&listing)?)
 }
 
 fn write<T>(columns: &[Column<T>], items: &[T], format: TableFormat) -> String {

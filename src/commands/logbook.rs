@@ -1,4 +1,4 @@
-//! What is written down of a run's physics: every lane's state at every so many ticks and at the end.
+//! The record of a run's physics in its manifest: every lane's state at regular ticks and at the end.
 
 use serde_json::{Map, Value};
 
@@ -6,11 +6,11 @@ use super::manifest::{LaneEnd, LaneMark, Mark};
 use crate::lab::{Lab, METRICS};
 use crate::sim::Solver;
 
-/// About as many marks are made of a run that asks for no other number: a change is found to a few
-/// ticks, and the manifest of a race stays below a megabyte.
+/// The default number of marks in a run: a change is located to within a few ticks, and the manifest of a
+/// race stays below a megabyte.
 const USUAL_MARKS: u64 = 500;
 
-/// The ticks between two marks of a run of this many ticks.
+/// The default number of ticks between two marks, for a run of this many ticks.
 pub(super) fn usual_stride(ticks: u64) -> u64 {
     ticks.div_ceil(USUAL_MARKS).max(1)
 }
@@ -23,19 +23,19 @@ pub(super) struct Logbook {
 }
 
 impl Logbook {
-    /// A book that begins with `lab` as it stands.
+    /// Starts with a mark of the present state.
     pub(super) fn new(every: u64, lab: &Lab) -> Self {
         Self { every, marks: vec![mark(lab)] }
     }
 
-    /// Looks at the lab after a tick.
+    /// Adds a mark if one is due. To be called after every tick.
     pub(super) fn note(&mut self, lab: &Lab) {
         if lab.race().tick().is_multiple_of(self.every) {
             self.marks.push(mark(lab));
         }
     }
 
-    /// All marks, with `lab` as it stands for the last.
+    /// All marks; the last is the present state.
     pub(super) fn close(mut self, lab: &Lab) -> Vec<Mark> {
         if self.marks.last().is_none_or(|last| last.tick != lab.race().tick()) {
             self.marks.push(mark(lab));
@@ -57,7 +57,7 @@ fn mark(lab: &Lab) -> Mark {
     Mark { tick: race.tick(), lanes: lanes.collect() }
 }
 
-/// How each lane ended, and how far from the truth.
+/// Each lane at the end, with its metrics against the truth.
 pub(super) fn ends(lab: &Lab) -> Vec<LaneEnd> {
     let race = lab.race();
     let end = |(entrant, hash): (&crate::lab::Entrant, u64)| {

@@ -2,14 +2,14 @@
 
 use std::io::{self, Write};
 
-use super::atomic_output::AtomicOutput;
-use super::capture::CaptureError;
 use super::experiment::Experiment;
+use super::interrupt::watch_for_interrupt;
 use super::logbook::Logbook;
+use super::output::AtomicOutput;
 use super::pipeline::{Drawn, Run, Stop};
-use super::recording::{Recording, closing_line, progress, watch_for_interrupt};
-use super::tell;
-use super::voyage::Schedule;
+use super::recording::{Recording, RecordingError, closing_line};
+use super::schedule::Schedule;
+use super::terminal::{progress, tell};
 
 /// A format of one stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,20 +24,17 @@ pub(super) enum MovieFormat {
     Rgba,
 }
 
-/// Players show a GIF's frame for two hundredths of a second at least.
-pub(super) const MOST_GIF_FPS: u32 = 50;
-
-/// The colours of one pixel in so many are looked at for a GIF's palette: the least care, twice as fast
-/// as middling care, and on flat colours no worse.
+/// One pixel in this many is sampled for a GIF's palette. The coarsest sampling: twice as fast as a
+/// medium one, and on flat colours no worse.
 const GIF_SPEED: i32 = 30;
 
-/// Draws a run into `output`, and says on standard error what it wrote.
+/// Draws a run into `output` and reports on standard error what it wrote.
 pub(super) fn record(
     experiment: &Experiment,
     recording: Recording,
     format: MovieFormat,
     mut output: AtomicOutput,
-) -> Result<(), CaptureError> {
+) -> Result<(), RecordingError> {
     let mut artist = recording.artist()?;
     let interrupted = watch_for_interrupt();
     let Schedule { frames, .. } = recording.schedule;
@@ -53,8 +50,8 @@ pub(super) fn record(
     };
     let written =
         Movie::begin(format, &mut output, &recording).map_err(Stop::Taken).and_then(|mut movie| {
-            let make = |drawn: &Drawn| picture(format, &recording, drawn);
-            let done = run.draw_all(make, |drawn, picture| {
+            let encode = |drawn: &Drawn| picture(format, &recording, drawn);
+            let done = run.draw_all(encode, |drawn, picture| {
                 movie.push(&drawn.rgba, picture)?;
                 progress.inc(1);
                 Ok(())
@@ -75,7 +72,7 @@ pub(super) fn record(
                 }
                 AtomicOutput::File { .. } => "none, a stream is whole at its end".into(),
             };
-            Err(CaptureError::Interrupted { done, frames, whole })
+            Err(RecordingError::interrupted(done, frames, &whole))
         }
         Ok(_) => {
             let name = output.name();
@@ -155,7 +152,8 @@ impl<'a> Movie<'a> {
     }
 }
 
-/// The frame in 256 colours, packed, for a GIF; other formats take it as it is.
+/// The frame quantised to 256 colours and compressed, for a GIF. `None` for other formats, which write the
+/// pixels themselves.
 fn picture(
     format: MovieFormat,
     recording: &Recording,
@@ -168,7 +166,7 @@ fn picture(
     let mut rgba = drawn.rgba.clone();
     let mut picture =
         gif::Frame::from_rgba_speed(small(width), small(height), &mut rgba, GIF_SPEED);
-    // In hundredths of a second, the rest carried on.
+    // In hundredths of a second; the remainder is carried to the next frame.
     let ends = |frame: u32| u64::from(frame) * 100 / u64::from(fps);
     picture.delay = (ends(drawn.frame + 1) - ends(drawn.frame)) as u16;
     picture.make_lzw_pre_encoded();

@@ -1,25 +1,31 @@
-//! Frames, drawn on this thread and encoded and taken on others: meanwhile the next is drawn and the one
-//! after it is simulated.
+//! Frames are drawn on this thread, encoded on several others, and passed on in order by one more. While a
+//! frame is encoded, the next is drawn and the one after it is simulated.
 //!
-//! At most two frames are in flight on the device, one waits and each worker has one, whatever the length
-//! of the run; they are taken in order.
+//! A frame that has been passed on gives its buffer back to the thread that draws. The number of buffers is
+//! fixed, and bounds the memory of a run of any length, whichever stage is slow.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::num::NonZero;
+use std::panic::{self, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, mpsc};
-use std::{mem, panic, thread};
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::thread;
+
+use rayon::ThreadPoolBuilder;
 
 use super::logbook::Logbook;
-use super::voyage::Schedule;
+use super::schedule::Schedule;
 use crate::lab::Lab;
 use crate::view::{Artist, Panels, ReadbackError};
 
 /// More gain nothing on a software adapter, and cost memory.
 const MOST_IN_FLIGHT: usize = 2;
 
-/// Threads that work on frames: more than these no device keeps busy, and each holds a frame.
-const MOST_WORKERS: usize = 4;
+/// Threads that encode: no device draws fast enough to keep more of them busy, and each holds a frame.
+const MOST_ENCODERS: usize = 4;
+
+/// Buffers beyond one per encoder: one frame waits for an encoder, and one is being passed on.
+const SPARE_BUFFERS: usize = 2;
 
 /// A frame as it comes from the device.
 pub(super) struct Drawn {
@@ -33,97 +39,81 @@ pub(super) struct Drawn {
     pub(super) rgba: Vec<u8>,
 }
 
-/// Why there are not all frames.
+/// A frame with what its encoder returned, or the panic of its encoder.
+type Encoded<T> = (Drawn, thread::Result<T>);
+
+/// Why a run ended before its last frame.
 pub(super) enum Stop<E> {
-    /// The device does not give a frame back.
+    /// The device did not return a frame.
     Readback(ReadbackError),
-    /// A frame could not be taken.
+    /// `take` failed on a frame.
     Taken(E),
 }
 
-/// A run on its way.
+/// A run to be drawn.
 pub(super) struct Run<'a> {
     pub(super) artist: &'a mut Artist,
-    /// Stands at the start.
+    /// At tick 0.
     pub(super) lab: &'a mut Lab,
     pub(super) logbook: &'a mut Logbook,
     pub(super) schedule: Schedule,
-    /// Once it is set, the frames in hand are the last.
+    /// Once it is set, no further frame is drawn; those drawn already are still passed on.
     pub(super) interrupted: &'a AtomicBool,
 }
 
-/// A frame to be worked on.
-struct Job<F> {
-    drawn: Drawn,
-    /// Brings what takes frames, once the frame before this one is taken.
-    turn: mpsc::Receiver<F>,
-    next_turn: mpsc::SyncSender<F>,
-}
-
 impl Run<'_> {
-    /// Draws every frame and has `take` take it, with what `make` makes of it; where there are processors
-    /// for it several are made at once, and they are taken in order. Returns how many frames were drawn.
-    pub(super) fn draw_all<T, E: Send>(
+    /// Draws the frames in order and passes each to `take` with what `encode` returned for it. Several
+    /// frames are encoded at once if there are processors for it. Returns how many frames were drawn.
+    pub(super) fn draw_all<T: Send, E: Send>(
         self,
-        make: impl Fn(&Drawn) -> T + Sync,
+        encode: impl Fn(&Drawn) -> T + Sync,
         take: impl FnMut(&Drawn, T) -> Result<(), E> + Send,
     ) -> Result<u32, Stop<E>> {
         let processors = thread::available_parallelism().map_or(1, NonZero::get);
         // One is left to drawing.
-        self.draw_beside((processors - 1).clamp(1, MOST_WORKERS), make, take)
+        self.draw_beside((processors - 1).clamp(1, MOST_ENCODERS), encode, take)
     }
 
-    /// Draws every frame on this thread while `workers` threads make and take.
-    fn draw_beside<T, E: Send, F: FnMut(&Drawn, T) -> Result<(), E> + Send>(
+    /// [`draw_all`](Self::draw_all) with this number of encoder threads.
+    fn draw_beside<T: Send, E: Send>(
         self,
-        workers: usize,
-        make: impl Fn(&Drawn) -> T + Sync,
-        take: F,
+        encoders: usize,
+        encode: impl Fn(&Drawn) -> T + Sync,
+        take: impl FnMut(&Drawn, T) -> Result<(), E> + Send,
     ) -> Result<u32, Stop<E>> {
-        let (to_workers, jobs) = mpsc::sync_channel::<Job<F>>(1);
-        let jobs = Arc::new(Mutex::new(jobs));
-        let (give_back, spare) = mpsc::channel();
-        let (first_turn, mut turn) = mpsc::sync_channel(1);
-        first_turn.send(take).map_err(drop).expect("its receiver is here");
-        thread::scope(|scope| {
-            let work = || {
-                let (jobs, give_back, make) = (Arc::clone(&jobs), give_back.clone(), &make);
-                move || loop {
-                    let job = jobs.lock().ok().and_then(|jobs| jobs.recv().ok());
-                    let Some(Job { drawn, turn, next_turn }) = job else { return Ok(()) };
-                    let made = make(&drawn);
-                    // It does not come when a frame before this one could not be taken.
-                    let Ok(mut take) = turn.recv() else { return Ok(()) };
-                    take(&drawn, made)?;
-                    // There may be no next frame, and nobody who wants the room.
-                    let _ = (next_turn.send(take), give_back.send(drawn.rgba));
-                }
-            };
-            let workers: Vec<_> = (0..workers).map(|_| scope.spawn(work())).collect();
-            // When all workers have stopped, so has the channel.
-            drop(jobs);
-            let give = |drawn| {
-                let (next_turn, following) = mpsc::sync_channel(1);
-                let turn = mem::replace(&mut turn, following);
-                to_workers.send(Job { drawn, turn, next_turn }).is_ok()
-            };
-            let result = self.draw(give, &spare);
-            drop(to_workers);
-            for worker in workers {
-                match worker.join() {
-                    Ok(taken) => taken.map_err(Stop::Taken)?,
-                    Err(panic) => panic::resume_unwind(panic),
-                }
+        let pool = ThreadPoolBuilder::new().num_threads(encoders).build();
+        let pool = pool.expect("the system starts a few threads");
+        let (results, encoded) = mpsc::channel();
+        let (emptied, buffers) = mpsc::channel();
+        for _ in 0..encoders + SPARE_BUFFERS {
+            emptied.send(Vec::new()).expect("its receiver is here");
+        }
+        thread::scope(|threads| {
+            let taker = threads.spawn(move || take_in_order(&encoded, &emptied, take));
+            let drawn = pool.in_place_scope_fifo(|jobs| {
+                self.draw(&buffers, |drawn| {
+                    let (results, encode) = (results.clone(), &encode);
+                    jobs.spawn_fifo(move |_| {
+                        let made = panic::catch_unwind(AssertUnwindSafe(|| encode(&drawn)));
+                        // The receiver is gone once `take` has failed.
+                        let _ = results.send((drawn, made));
+                    });
+                })
+            });
+            drop(results);
+            match taker.join() {
+                Ok(taken) => taken.map_err(Stop::Taken)?,
+                Err(bug) => panic::resume_unwind(bug),
             }
-            result.map_err(Stop::Readback)
+            drawn.map_err(Stop::Readback)
         })
     }
 
-    /// Draws until all is drawn, or `give` says that nobody takes frames any more.
+    /// Draws until the last frame, an interrupt, or the end of the thread that returns buffers.
     fn draw(
         self,
-        mut give: impl FnMut(Drawn) -> bool,
-        spare: &mpsc::Receiver<Vec<u8>>,
+        buffers: &Receiver<Vec<u8>>,
+        mut hand_on: impl FnMut(Drawn),
     ) -> Result<u32, ReadbackError> {
         let Self { artist, lab, logbook, schedule, interrupted } = self;
         let mut moments = VecDeque::new();
@@ -140,20 +130,61 @@ impl Run<'_> {
             }
             if moments.len() == MOST_IN_FLIGHT || !more {
                 let Some((tick, alpha)) = moments.pop_front() else { return Ok(drawn) };
-                let mut rgba = spare.try_recv().unwrap_or_default();
+                let Ok(mut rgba) = buffers.recv() else { return Ok(drawn) };
                 artist.collect(&mut rgba)?;
-                let frame = drawn;
+                hand_on(Drawn { frame: drawn, tick, alpha, rgba });
                 drawn += 1;
-                if !give(Drawn { frame, tick, alpha, rgba }) {
-                    return Ok(drawn);
-                }
             }
         }
     }
 }
 
-/// Has the lab find out what the artist's panels will show of it. In a window verdicts come as they are
-/// found; here there is time for all before a frame.
+/// Passes encoded frames to `take` in order, from frame 0, and returns their buffers. Stops at the first
+/// error of `take`. Resumes the panic of an encoder.
+fn take_in_order<T, E>(
+    encoded: &Receiver<Encoded<T>>,
+    emptied: &Sender<Vec<u8>>,
+    mut take: impl FnMut(&Drawn, T) -> Result<(), E>,
+) -> Result<(), E> {
+    let mut window = ReorderingWindow::default();
+    for (drawn, made) in encoded {
+        window.insert(drawn.frame, (drawn, made));
+        while let Some((drawn, made)) = window.take_next() {
+            take(&drawn, made.unwrap_or_else(|bug| panic::resume_unwind(bug)))?;
+            // After the last frame the receiver is gone.
+            let _ = emptied.send(drawn.rgba);
+        }
+    }
+    Ok(())
+}
+
+/// Puts numbered results back in order: holds those that arrive before their turn.
+struct ReorderingWindow<T> {
+    next: u32,
+    early: BTreeMap<u32, T>,
+}
+
+impl<T> Default for ReorderingWindow<T> {
+    fn default() -> Self {
+        Self { next: 0, early: BTreeMap::new() }
+    }
+}
+
+impl<T> ReorderingWindow<T> {
+    fn insert(&mut self, number: u32, result: T) {
+        self.early.insert(number, result);
+    }
+
+    /// The result with the next number, from 0, if it is there.
+    fn take_next(&mut self) -> Option<T> {
+        let result = self.early.remove(&self.next)?;
+        self.next += 1;
+        Some(result)
+    }
+}
+
+/// Computes what the artist's panels will show, such as verdicts. A window shows them as they are found; a
+/// recording waits for all of them before each frame, so that its frames are reproducible.
 pub(super) fn know_what_is_shown(lab: &mut Lab, artist: &Artist) {
     if artist.panels() == Panels::Shown {
         lab.think();
@@ -163,13 +194,14 @@ pub(super) fn know_what_is_shown(lab: &mut Lab, artist: &Artist) {
 #[cfg(test)]
 mod tests {
     use std::io::{self, Write};
+    use std::sync::atomic::AtomicUsize;
     use std::time::Duration;
 
     use super::*;
     use crate::lab::{Command, Scene};
     use crate::view::{AdapterPreference, Gpu};
 
-    /// More than there are on the way at once.
+    /// More frames than there are buffers.
     const SCHEDULE: Schedule = Schedule { frames: 30, fps: 10 };
 
     fn artist_or_skip(test: &str) -> Option<Artist> {
@@ -197,14 +229,74 @@ mod tests {
         let (lab, logbook) = (&mut lab, &mut logbook);
         let run = Run { artist, lab, logbook, schedule: SCHEDULE, interrupted };
         // The first of every two takes longer than the second.
-        let make = |drawn: &Drawn| {
+        let encode = |drawn: &Drawn| {
             thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
             drawn.frame
         };
-        run.draw_beside(3, make, |drawn, made| {
-            assert_eq!(made, drawn.frame);
+        run.draw_beside(3, encode, |drawn, encoded| {
+            assert_eq!(encoded, drawn.frame);
             take(drawn)
         })
+    }
+
+    #[test]
+    fn results_leave_the_window_in_order_whatever_order_they_come_in() {
+        let mut window = ReorderingWindow::default();
+        let mut left = Vec::new();
+        for (number, held_back) in [(2, 1), (0, 1), (3, 2), (1, 0), (4, 0)] {
+            window.insert(number, number);
+            left.extend(std::iter::from_fn(|| window.take_next()));
+            assert_eq!(window.early.len(), held_back, "after {number}");
+        }
+        assert_eq!(left, [0, 1, 2, 3, 4]);
+    }
+
+    #[test]
+    fn an_encoder_that_panics_ends_the_run_with_its_panic() {
+        let test = "an_encoder_that_panics_ends_the_run_with_its_panic";
+        let Some(mut artist) = artist_or_skip(test) else { return };
+        let mut lab = race();
+        let mut logbook = Logbook::new(1, &lab);
+        let run = Run {
+            artist: &mut artist,
+            lab: &mut lab,
+            logbook: &mut logbook,
+            schedule: SCHEDULE,
+            interrupted: &AtomicBool::new(false),
+        };
+        let encode = |drawn: &Drawn| assert_ne!(drawn.frame, 4, "a bug");
+        let run = || run.draw_beside(3, encode, |_, ()| Ok::<_, ()>(()));
+        assert!(panic::catch_unwind(AssertUnwindSafe(run)).is_err());
+    }
+
+    #[test]
+    fn no_more_frames_are_on_their_way_than_there_are_buffers() {
+        let test = "no_more_frames_are_on_their_way_than_there_are_buffers";
+        let Some(mut artist) = artist_or_skip(test) else { return };
+        let mut lab = race();
+        let mut logbook = Logbook::new(1, &lab);
+        let run = Run {
+            artist: &mut artist,
+            lab: &mut lab,
+            logbook: &mut logbook,
+            schedule: SCHEDULE,
+            interrupted: &AtomicBool::new(false),
+        };
+        let [on_their_way, most] = [0, 0].map(AtomicUsize::new);
+        let encode = |drawn: &Drawn| {
+            most.fetch_max(on_their_way.fetch_add(1, Ordering::SeqCst) + 1, Ordering::SeqCst);
+            // The first is held back until all buffers are in use, and a little longer.
+            while drawn.frame == 0 && most.load(Ordering::SeqCst) < 3 + SPARE_BUFFERS {
+                thread::yield_now();
+            }
+            thread::sleep(Duration::from_millis(if drawn.frame == 0 { 100 } else { 0 }));
+        };
+        let done = run.draw_beside(3, encode, |_, ()| {
+            on_their_way.fetch_sub(1, Ordering::SeqCst);
+            Ok::<_, ()>(())
+        });
+        assert!(matches!(done, Ok(30)));
+        assert_eq!(most.into_inner(), 3 + SPARE_BUFFERS);
     }
 
     #[test]

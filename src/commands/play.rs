@@ -2,13 +2,13 @@
 
 use clap::Args;
 
-use super::capture::{self, CaptureError, FPS};
+use super::error::Error;
 use super::experiment::{self, ExperimentArgs, Lineup};
 use super::frame_folder::FrameFolder;
-use super::logbook;
-use super::recording::{self, Recording};
-use super::voyage::Schedule;
-use super::{Error, tell};
+use super::recording::Recording;
+use super::schedule::{FPS, Schedule, frames_in};
+use super::terminal::tell;
+use super::{clip, logbook};
 use crate::view::Panels;
 use crate::window::{self, WindowError};
 
@@ -57,10 +57,10 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     match window::run(lab, args.seconds) {
         Err(WindowError::NoDisplay(reason)) => {
             let frames = match args.seconds {
-                Some(seconds) => capture::frames_in(seconds, FPS)?,
+                Some(seconds) => frames_in(seconds, FPS)?,
                 None => FRAMES,
             };
-            let folder = FrameFolder::beside(FRAMES_DIR).map_err(CaptureError::from)?;
+            let folder = FrameFolder::beside(FRAMES_DIR)?;
             tell(&format!(
                 "no display to open a window on ({reason}); drawing {} s of it into {} instead",
                 f64::from(frames) / f64::from(FPS),
@@ -75,7 +75,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
                 motion: !args.reduced_motion,
                 mark_every: logbook::usual_stride(schedule.ticks(&experiment.lab())),
             };
-            Ok(recording::record(&experiment, recording, folder)?)
+            Ok(clip::record(&experiment, recording, folder)?)
         }
         done => Ok(done?),
     }

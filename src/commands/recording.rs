@@ -1,55 +1,52 @@
-//! A run drawn into a folder of numbered pictures, with a manifest beside them.
+//! The settings by which a run is drawn, and the errors of drawing it.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-use indicatif::{ProgressBar, ProgressStyle};
-
-use super::capture::CaptureError;
+use super::error::Cause;
 use super::experiment::Experiment;
-use super::fingerprint::fingerprint;
-use super::frame_folder::{FrameFolder, FrameFolderError};
-use super::frame_names::frame_name;
-use super::logbook::{self, Logbook};
-use super::manifest::{Adapter, FrameEntry, Manifest, SCHEMA};
-use super::pipeline::{Drawn, Run, Stop};
-use super::voyage::Schedule;
-use super::{settings, tell};
+use super::frame_folder::FrameFolderError;
+use super::interrupt::Interrupted;
+use super::manifest::Adapter;
+use super::output::OutputError;
+use super::schedule::Schedule;
 use crate::lab::Lab;
-use crate::view::{AdapterPreference, Artist, Gpu, Panels, png};
+use crate::view::{AdapterPreference, Artist, Gpu, GpuError, Panels, ReadbackError};
 
 /// The most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files.
 /// More is a slip of the fingers.
 const MOST_PIXELS: u64 = 1_000_000_000_000;
 
-/// What is drawn: how often, how large.
+/// How a run is drawn: which frames, how large, with what on them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Recording {
     pub(super) schedule: Schedule,
     pub(super) size_px: [u32; 2],
-    /// Pixels to a point.
+    /// Pixels per point.
     pub(super) scale: f32,
     pub(super) panels: Panels,
     /// Whether trails fade and the camera glides.
     pub(super) motion: bool,
-    /// Ticks from one mark in the manifest to the next.
+    /// Ticks between two marks in the manifest.
     pub(super) mark_every: u64,
 }
 
 impl Recording {
-    /// Where the run begins.
+    /// The lab at the start of the run.
     pub(super) fn lab(&self, experiment: &Experiment) -> Lab {
         let mut lab = experiment.lab();
         lab.set_motion(self.motion);
         lab
     }
 
-    /// Who draws it.
-    pub(super) fn artist(&self) -> Result<Artist, CaptureError> {
+    /// A renderer for frames of this size.
+    pub(super) fn artist(&self) -> Result<Artist, RecordingError> {
         let (frames, size_px) = (self.schedule.frames, self.size_px);
         let pixels = u64::from(frames) * u64::from(size_px[0]) * u64::from(size_px[1]);
         if pixels > MOST_PIXELS {
-            return Err(CaptureError::TooManyPixels { frames, size_px, pixels, most: MOST_PIXELS });
+            return Err(RecordingError::TooManyPixels {
+                frames,
+                size_px,
+                pixels,
+                most: MOST_PIXELS,
+            });
         }
         let gpu = Gpu::headless(AdapterPreference::Any)?;
         log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
@@ -57,80 +54,78 @@ impl Recording {
     }
 }
 
-/// Draws a run into `folder`, and says on standard error what it wrote.
-pub(super) fn record(
-    experiment: &Experiment,
-    recording: Recording,
-    mut folder: FrameFolder,
-) -> Result<(), CaptureError> {
-    let Recording { schedule, size_px, .. } = recording;
-    let mut artist = recording.artist()?;
-    let adapter = adapter(&artist);
-    folder.clear(schedule.frames)?;
-
-    let interrupted = watch_for_interrupt();
-    let progress = progress(schedule.frames, "frames");
-    let mut lab = recording.lab(experiment);
-    let mut logbook = Logbook::new(recording.mark_every, &lab);
-    let mut entries = Vec::new();
-    // The frames that stay are drawn again: for proof that they are of this run, and because a glyph's
-    // place in egui's atlas, and with it the last bit of a few pixels, depends on the frames before.
-    let run = Run {
-        artist: &mut artist,
-        lab: &mut lab,
-        logbook: &mut logbook,
-        schedule,
-        interrupted: &interrupted,
-    };
-    let make = |drawn: &Drawn| (png::encode(size_px, &drawn.rgba), fingerprint(&drawn.rgba));
-    let drawn = run.draw_all(make, |&Drawn { tick, alpha, .. }, (file, pixels)| {
-        folder.push(&file)?;
-        let file = frame_name(entries.len() as u32);
-        entries.push(FrameEntry { file, tick, alpha: [alpha.0, alpha.1], pixels });
-        progress.inc(1);
-        Ok(())
-    });
-    progress.finish_and_clear();
-    let settled = folder.settle();
-    let whole = folder.range();
-    match drawn {
-        Ok(_) => {}
-        Err(Stop::Readback(error)) => return Err(error.into()),
-        Err(Stop::Taken(source @ FrameFolderError::Foreign { .. })) => return Err(source.into()),
-        Err(Stop::Taken(source)) => return Err(CaptureError::Write { source, whole }),
-    }
-    settled.map_err(|source| CaptureError::Write { source, whole: whole.clone() })?;
-    let (done, frames) = (entries.len() as u32, schedule.frames);
-    if done < frames && !folder.takes_a_part() {
-        return Err(CaptureError::Interrupted { done, frames, whole: "those of before".into() });
-    }
-    let settings = settings::written(experiment, &recording);
-    let manifest = Manifest {
-        schema: SCHEMA,
-        regatta: env!("CARGO_PKG_VERSION").to_owned(),
-        settings_hash: settings.hash(),
-        settings,
-        adapter,
-        complete: done == frames,
-        frames: entries,
-        lanes: logbook::ends(&lab),
-        marks: logbook.close(&lab),
-    };
-    let (path, others) = (folder.path().to_owned(), folder.others().to_vec());
-    let written = folder.finish(&manifest.to_text());
-    written.map_err(|source| CaptureError::Write { source, whole: whole.clone() })?;
-    if done < frames {
-        return Err(CaptureError::Interrupted { done, frames, whole });
-    }
-    tell(&closing_line(&recording, &whole));
-    if !others.is_empty() {
-        let others: Vec<_> = others.iter().map(|name| name.display().to_string()).collect();
-        tell(&format!("left alone in {}: {}", path.display(), others.join(", ")));
-    }
-    Ok(())
+/// Why a run was not drawn or written whole.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum RecordingError {
+    /// The frames have more pixels in all than a capture may have.
+    #[error(
+        "{frames} frames of {}x{} are {} gigapixels, and a capture has at most {}; \
+         give fewer --frames or a smaller --size",
+        size_px[0], size_px[1], pixels / GIGA, most / GIGA
+    )]
+    TooManyPixels {
+        /// Asked for.
+        frames: u32,
+        /// Asked for.
+        size_px: [u32; 2],
+        /// Of all frames together.
+        pixels: u64,
+        /// The most there may be.
+        most: u64,
+    },
+    /// The folder cannot be used.
+    #[error(transparent)]
+    Folder(#[from] FrameFolderError),
+    /// A frame could not be written.
+    #[error("{source}; whole before that: {whole}")]
+    Write {
+        /// Why.
+        source: FrameFolderError,
+        /// The names of the frames written before.
+        whole: String,
+    },
+    /// There is no graphics device that can draw the frames.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A frame was drawn, but not read back from the device.
+    #[error(transparent)]
+    Readback(#[from] ReadbackError),
+    /// One file, or standard output, could not be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// Somebody pressed Ctrl-C.
+    #[error(transparent)]
+    Interrupted(Interrupted),
 }
 
-/// Says what was written, and where.
+const GIGA: u64 = 1_000_000_000;
+
+impl RecordingError {
+    /// An interrupt after `done` of `frames` frames; `whole` names those that are written whole.
+    pub(super) fn interrupted(done: u32, frames: u32, whole: &str) -> Self {
+        let done = format!("{done} of {frames} frames; whole: {whole}");
+        Self::Interrupted(Interrupted::After { done })
+    }
+}
+
+impl Cause for RecordingError {
+    fn exit_code(&self) -> u8 {
+        match self {
+            RecordingError::TooManyPixels { .. } => 2,
+            RecordingError::Folder(error) => error.exit_code(),
+            RecordingError::Gpu(error) => error.exit_code(),
+            RecordingError::Output(error) => error.exit_code(),
+            RecordingError::Interrupted(error) => error.exit_code(),
+            RecordingError::Write { .. } | RecordingError::Readback(_) => 1,
+        }
+    }
+
+    fn is_closed_pipe(&self) -> bool {
+        matches!(self, RecordingError::Output(error) if error.is_closed_pipe())
+    }
+}
+
+/// The message at the end of a recording: what was written, and where.
 pub(super) fn closing_line(recording: &Recording, place: &str) -> String {
     let Schedule { frames, fps } = recording.schedule;
     let [width, height] = recording.size_px;
@@ -138,7 +133,7 @@ pub(super) fn closing_line(recording: &Recording, place: &str) -> String {
     format!("wrote {frames} frame{plural} of {width}x{height}, {fps} a second: {place}")
 }
 
-/// What the manifest says of what draws.
+/// The adapter as the manifest describes it.
 pub(super) fn adapter(artist: &Artist) -> Adapter {
     let info = artist.adapter();
     Adapter {
@@ -148,21 +143,4 @@ pub(super) fn adapter(artist: &Artist) -> Adapter {
         backend: info.backend.to_str().to_owned(),
         kind: format!("{:?}", info.device_type),
     }
-}
-
-/// Set once Ctrl-C is pressed.
-pub(super) fn watch_for_interrupt() -> Arc<AtomicBool> {
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let set = Arc::clone(&interrupted);
-    if let Err(error) = ctrlc::set_handler(move || set.store(true, Ordering::Relaxed)) {
-        log::warn!("Ctrl-C will stop the run at once: {error}");
-    }
-    interrupted
-}
-
-/// A bar of so many frames or other things, on a terminal.
-pub(super) fn progress(number: u32, things: &'static str) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left")
-        .expect("the template is a constant");
-    ProgressBar::new(u64::from(number)).with_style(style).with_message(things)
 }

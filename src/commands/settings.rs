@@ -1,12 +1,11 @@
 //! From an experiment and a recording to the settings in a manifest, and back.
 
-use super::capture::MOST_FPS;
 use super::experiment::{Experiment, Lineup};
 use super::fingerprint::fingerprint;
-use super::frame_names::{MOST_FRAMES, frame_name};
+use super::frame_folder::names::{MOST_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::recording::Recording;
-use super::voyage::Schedule;
+use super::schedule::{MOST_FPS, Schedule};
 use crate::lab::{Clock, LaneSpec, MOST_LANES, MOST_SUBSTEPS, Scene, TOLERANCES};
 use crate::sim::integrators::method;
 use crate::view::Panels;

@@ -3,12 +3,12 @@
 use std::io::Write;
 use std::sync::atomic::Ordering;
 
-use super::atomic_output::AtomicOutput;
-use super::capture::CaptureError;
 use super::experiment::{Experiment, Lineup};
+use super::interrupt::watch_for_interrupt;
+use super::output::AtomicOutput;
 use super::pipeline::know_what_is_shown;
-use super::recording::{Recording, progress, watch_for_interrupt};
-use super::tell;
+use super::recording::{Recording, RecordingError};
+use super::terminal::{progress, tell};
 use crate::lab::LaneSpec;
 use crate::view::png;
 
@@ -20,7 +20,7 @@ pub(super) fn draw(
     experiment: &Experiment,
     recording: Recording,
     mut output: AtomicOutput,
-) -> Result<(), CaptureError> {
+) -> Result<(), RecordingError> {
     let [width, height] = recording.size_px;
     let columns = recording.schedule.frames;
     let lab = experiment.lab();
@@ -32,7 +32,7 @@ pub(super) fn draw(
     let pixels = u64::from(cells) * u64::from(width) * u64::from(height);
     if pixels > MOST_SHEET_PIXELS {
         let (frames, size_px) = (cells, recording.size_px);
-        return Err(CaptureError::TooManyPixels {
+        return Err(RecordingError::TooManyPixels {
             frames,
             size_px,
             pixels,
@@ -55,8 +55,8 @@ pub(super) fn draw(
         for column in 0..columns {
             if interrupted.load(Ordering::Relaxed) {
                 progress.finish_and_clear();
-                let (done, whole) = (row as u32 * columns + column, "none, a sheet is one".into());
-                return Err(CaptureError::Interrupted { done, frames: cells, whole });
+                let done = row as u32 * columns + column;
+                return Err(RecordingError::interrupted(done, cells, "none, a sheet is one"));
             }
             recording.schedule.advance(&mut lab, column, |_| ());
             know_what_is_shown(&mut lab, &artist);

@@ -1,25 +1,25 @@
-//! What a lane costs in real time, here and now. Nothing else should run meanwhile.
+//! Measures what a lane costs in real time. Nothing else should run meanwhile.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use crate::lab::{Lane, LaneSpec, Scene};
 
-/// Ticks that are timed together at least: a reading of the clock takes as long as a few ticks of a
-/// small body, and with so many it is within a hundredth.
+/// The fewest ticks that are timed together: reading the clock takes as long as a few ticks of a small body,
+/// and adds at most a hundredth to this many.
 const TOGETHER: u64 = 256;
 
 /// What a lane costs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Timing {
-    /// Nanoseconds for a simulated second, in the fastest run.
+    /// Nanoseconds per simulated second, in the fastest run.
     pub(super) ns_per_s: f64,
-    /// By how much the middle run took longer, as a part of that.
+    /// How much longer the median run took, relative to the fastest.
     pub(super) spread: f64,
 }
 
-/// Times a lane at this rate, from its start to tick `ticks` or as far as it comes within `effort`, in as many runs as
-/// that allows. `None` for no ticks.
+/// Times a lane at this rate, from its start to tick `ticks` or as far as it comes within `effort`, as often
+/// as `effort` allows. `None` for no ticks.
 ///
 /// The lane must get through these ticks: a halted one costs nothing.
 pub(super) fn time(
@@ -50,7 +50,7 @@ pub(super) fn ns_per_s(
     Some(time(scene, spec, tick_hz, ticks, effort)?.ns_per_s)
 }
 
-/// Nanoseconds for a tick, in one run, or in as many as make [`TOGETHER`] ticks.
+/// Nanoseconds per tick, over as many runs as make [`TOGETHER`] ticks.
 fn ns_per_tick(scene: &Scene, spec: LaneSpec, tick_hz: u32, ticks: u64, effort: Duration) -> f64 {
     let hz = f64::from(tick_hz);
     let runs = TOGETHER.div_ceil(ticks);

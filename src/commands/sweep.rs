@@ -1,27 +1,26 @@
 //! `regatta sweep`: every method at every tick rate on every scene, as a tidy table and as diagrams.
 
 use std::io::Write;
-use std::path::{self, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
-use rayon::ThreadPoolBuildError;
 use serde_json::json;
 
-use super::atomic_file::Older;
-use super::atomic_output::{AtomicOutput, OutputError, Place, STDOUT};
+use super::error::Error;
 use super::experiment::{self, MethodParser, SceneParser, range_of};
-use super::recording::watch_for_interrupt;
+use super::interrupt::watch_for_interrupt;
+use super::output::table::{self, Column, RowFormat};
+use super::output::{AtomicOutput, Older, OutputError, Place, STDOUT};
 use super::scene_file::{self, SceneFileError};
-use super::table::{self, Column};
-use super::{Error, RowFormat, tell};
+use super::terminal::tell;
 use crate::lab::{Clock, SCENES, Scene};
 use crate::sim::integrators::{METHODS, Method};
-use crate::view::{GpuError, ReadbackError};
 
 mod diagrams;
 mod file_names;
 mod grid;
 mod plot;
+mod round_off;
 
 use file_names::{check_picture_name, row_format};
 use grid::{Grid, Row, Swept};
@@ -98,110 +97,43 @@ pub(super) struct SweepArgs {
     force: bool,
 }
 
-/// Why there is no whole table.
-#[derive(Debug, thiserror::Error)]
-pub enum SweepError {
-    /// The system has no threads left.
-    #[error("cannot start the threads: {0}; give fewer --threads")]
-    Threads(#[from] ThreadPoolBuildError),
-    /// Rows or picture could not be written.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// Rows and picture cannot both go there.
-    #[error("rows and picture would go to the same place; give another --out or --plot")]
-    SamePlace,
-    /// The name of the rows' file says that it holds something else.
-    #[error("{} would not hold what its name says; {remedy}", .path.display())]
-    Mislabelled {
-        /// The name.
-        path: PathBuf,
-        /// What to do.
-        remedy: &'static str,
-    },
-    /// The name of the picture's file says that it holds something else than PNG.
-    #[error("{} would hold PNG; give --plot a name that ends in .png", .path.display())]
-    PictureMislabelled {
-        /// The name.
-        path: PathBuf,
-    },
-    /// More scenes than one picture holds.
-    #[error(
-        "a picture of {charts} charts is larger than {limit}x{limit}, what this adapter can make; \
-         give fewer scenes, or no --plot"
-    )]
-    TooManyCharts {
-        /// One for each scene, and one more.
-        charts: usize,
-        /// The longest side in pixels.
-        limit: u32,
-    },
-    /// There is nothing to draw with.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-    /// The picture was drawn but did not come back.
-    #[error(transparent)]
-    Readback(#[from] ReadbackError),
-    /// Somebody pressed Ctrl-C.
-    #[error("interrupted; nothing was written")]
-    Interrupted,
-}
-
-impl SweepError {
-    pub(super) fn exit_code(&self) -> u8 {
-        match self {
-            SweepError::Output(error) => error.exit_code(),
-            SweepError::Interrupted => 130,
-            SweepError::SamePlace
-            | SweepError::Mislabelled { .. }
-            | SweepError::PictureMislabelled { .. }
-            | SweepError::TooManyCharts { .. } => 2,
-            SweepError::Threads(_) | SweepError::Gpu(_) | SweepError::Readback(_) => 1,
-        }
-    }
-}
-
 pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
     let swept = args.load()?;
     let format = row_format(&args.out, args.format)?;
-    args.plot.as_deref().map_or(Ok(()), check_picture_name)?;
-    if args
-        .plot
-        .as_ref()
-        .is_some_and(|plot| path::absolute(plot).ok() == path::absolute(&args.out).ok())
-    {
-        return Err(SweepError::SamePlace.into());
+    if let Some(plot) = &args.plot {
+        check_picture_name(plot, &args.out)?;
     }
     let interrupted = watch_for_interrupt();
-    // Before anything is gone through: a refusal should not come minutes late.
+    // Before the first run: a refusal should not come minutes late.
     let older = if args.force { Older::Replace } else { Older::Keep };
     let out = Place { path: &args.out, option: "--out", older };
-    let out = AtomicOutput::open_for_text(out).map_err(SweepError::from)?;
+    let out = AtomicOutput::open_for_text(out)?;
     let charts = swept.scenes.len() + 1;
     let plot = args.plot.as_deref().map(|path| Place { path, option: "--plot", older });
     let plot = plot.map(|place| Plot::open(place, charts)).transpose()?;
     let rows = Grid::new(&swept).run(args.threads.map(usize::from), &interrupted)?;
     let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
     let written = finish(out, table::rows(format, COLUMNS, &rows).as_bytes(), &what);
-    // Whatever became of the rows: whoever reads them may want the first few only.
+    // Even if the rows could not be written: their reader may have closed the pipe after the first few.
     if let Some(plot) = plot {
         let (output, [width, height], png) = plot.draw(&diagrams::figure(&swept, &rows))?;
         finish(output, &png, &format!("a picture of {width}x{height}"))?;
     }
-    written
+    Ok(written?)
 }
 
-/// Writes all of it, and says what a file now holds.
-fn finish(mut output: AtomicOutput, bytes: &[u8], what: &str) -> Result<(), Error> {
+/// Writes the bytes and reports on standard error what a file now holds.
+fn finish(mut output: AtomicOutput, bytes: &[u8], what: &str) -> Result<(), OutputError> {
     let written = output.write_all(bytes).map_err(|error| output.failed(error));
     let (name, is_file) = (output.name(), matches!(output, AtomicOutput::File { .. }));
-    written.and_then(|()| output.close()).map_err(SweepError::from)?;
+    written.and_then(|()| output.close())?;
     if is_file {
         tell(&format!("wrote {what}: {name}"));
     }
     Ok(())
 }
 
-/// As [`experiment::seconds`], and more than none.
+/// A positive number of seconds on the command line.
 fn some_seconds(written: &str) -> Result<f64, String> {
     match experiment::seconds(written)? {
         0.0 => Err("give more than 0 seconds".into()),
@@ -210,7 +142,7 @@ fn some_seconds(written: &str) -> Result<f64, String> {
 }
 
 impl SweepArgs {
-    /// What is asked for, everything once.
+    /// The scenes, methods and rates asked for, without repetitions.
     fn load(&self) -> Result<Swept, SceneFileError> {
         let built_in = || SCENES.iter().map(|scene| PathBuf::from(scene.name)).collect();
         let paths = if self.scenes.is_empty() { built_in() } else { self.scenes.clone() };

@@ -4,9 +4,10 @@ use std::io::{self, BufWriter, Write};
 
 use clap::Args;
 
+use super::error::Error;
 use super::experiment::{self, ExperimentArgs, Lineup};
-use super::table::csv_cell;
-use super::{Error, RowFormat, tell};
+use super::output::table::{RowFormat, csv_cell};
+use super::terminal::tell;
 use crate::lab::{Lab, Lane, METRICS, SceneBody};
 use crate::sim::Solver;
 use crate::sim::bodies::Kind;

@@ -9,17 +9,17 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::atomic_file::Older;
-use super::atomic_output::{OutputError, Place, write_text};
-use super::capture::CaptureError;
-use super::directory_lock::DirectoryLock;
+use super::clip::record;
+use super::error::{Cause, Error};
 use super::experiment::Experiment;
-use super::file_error::FileError;
+use super::frame_folder::blessing;
+use super::frame_folder::names::is_of_a_capture;
 use super::frame_folder::{Existing, FrameFolder, FrameFolderError};
-use super::frame_names::is_of_a_capture;
 use super::manifest::{Adapter, FILE_NAME, Manifest, SCHEMA};
-use super::recording::{self, Recording, record};
-use super::{Error, blessing, settings, tell};
+use super::output::{DirectoryLock, FileError, Older, OutputError, Place, write_text};
+use super::recording::{self, Recording, RecordingError};
+use super::settings;
+use super::terminal::tell;
 use crate::lab::SCENES;
 
 mod physics;
@@ -83,7 +83,7 @@ enum ReportFormat {
 
 /// Why frames do not pass.
 #[derive(Debug, thiserror::Error)]
-pub enum VerifyError {
+pub(super) enum VerifyError {
     /// It was judged, and is not the same.
     #[error("{what} differ from {}; if that is meant, --bless", .manifest.display())]
     Different {
@@ -138,20 +138,20 @@ pub enum VerifyError {
     Folder(#[from] FrameFolderError),
     /// The frames could not be drawn.
     #[error("the pixels cannot be judged: {0}")]
-    Capture(#[from] CaptureError),
+    Capture(#[from] RecordingError),
     /// The frames could not be drawn anew.
     #[error("not blessed: {0}")]
-    Bless(CaptureError),
+    Bless(RecordingError),
 }
 
-impl VerifyError {
-    pub(super) fn exit_code(&self) -> u8 {
+impl Cause for VerifyError {
+    fn exit_code(&self) -> u8 {
         match self {
             VerifyError::Different { .. } | VerifyError::File(_) => 1,
             VerifyError::Output(error) => error.exit_code(),
             VerifyError::Folder(error) => error.exit_code(),
             VerifyError::Bless(error) => error.exit_code(),
-            VerifyError::Capture(CaptureError::Interrupted { .. }) => 130,
+            VerifyError::Capture(RecordingError::Interrupted(_)) => 130,
             VerifyError::Unjudged { .. }
             | VerifyError::Format(_)
             | VerifyError::SameReport { .. }
@@ -226,7 +226,7 @@ fn bless(dir: &Path, unjudged: impl Fn(String) -> VerifyError) -> Result<(), Ver
     let manifest = read(&path).map_err(&unjudged)?;
     let (experiment, recording) = settings::read(&manifest.settings).map_err(&unjudged)?;
     match record(&experiment, recording, folder) {
-        Err(CaptureError::Write { source, .. } | CaptureError::Folder(source)) => {
+        Err(RecordingError::Write { source, .. } | RecordingError::Folder(source)) => {
             Err(source.into())
         }
         Err(error) => Err(VerifyError::Bless(error)),

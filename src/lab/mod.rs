@@ -23,7 +23,6 @@ pub mod number;
 mod past;
 pub mod picture;
 mod race;
-pub mod round_off;
 mod scene;
 mod session;
 mod start;

@@ -3,6 +3,7 @@
 //! `main → commands, window → view → lab → sim`. Each rule is a function from a file's text to
 //! complaints, and is shown a bad text here too, so that it is known to see one.
 
+mod circles;
 mod paths;
 mod rules;
 mod tables;

@@ -5,10 +5,40 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::ChapterError;
-use crate::commands::atomic_file::{final_name, write_whole};
-use crate::commands::file_error::FileError;
-use crate::commands::frame_folder::FrameFolderError;
+use crate::commands::error::Cause;
+use crate::commands::output::{FileError, final_name, write_whole};
+
+/// Why figures could not be kept in a folder.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum FigureFolderError {
+    /// The path is taken by something else.
+    #[error("{} is not a directory; give another --out", .path.display())]
+    NotADirectory {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The folder is in use.
+    #[error(
+        "{} is not empty; give another --out, or --force to replace the figures in it",
+        .path.display()
+    )]
+    NotEmpty {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The system refused.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl Cause for FigureFolderError {
+    fn exit_code(&self) -> u8 {
+        match self {
+            FigureFolderError::NotADirectory { .. } | FigureFolderError::NotEmpty { .. } => 2,
+            FigureFolderError::File(error) => error.exit_code(),
+        }
+    }
+}
 
 /// A folder for figures.
 pub(super) struct FigureFolder {
@@ -21,21 +51,20 @@ pub(super) struct FigureFolder {
 
 impl FigureFolder {
     /// Looks at the folder at `path`, which need not exist yet, and changes nothing.
-    pub(super) fn inspect(path: &Path) -> Result<Self, ChapterError> {
+    pub(super) fn inspect(path: &Path) -> Result<Self, FigureFolderError> {
         let fail = FileError::of("read", path, "--out");
         let mut folder = Self { path: path.to_owned(), old: Vec::new(), others: Vec::new() };
         let entries = match fs::read_dir(path) {
             Ok(entries) => entries,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(folder),
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => {
-                return Err(FrameFolderError::NotADirectory { path: path.to_owned() }.into());
+                return Err(FigureFolderError::NotADirectory { path: path.to_owned() });
             }
-            Err(error) => return Err(FrameFolderError::from(fail(error)).into()),
+            Err(error) => return Err(fail(error).into()),
         };
         for entry in entries {
-            let entry = entry.map_err(&fail).map_err(FrameFolderError::from)?;
-            let is_file =
-                !entry.file_type().map_err(&fail).map_err(FrameFolderError::from)?.is_dir();
+            let entry = entry.map_err(&fail)?;
+            let is_file = !entry.file_type().map_err(&fail)?.is_dir();
             let name = entry.file_name();
             let is_old = is_file && name.to_str().is_some_and(is_ours);
             let list = if is_old { &mut folder.old } else { &mut folder.others };
@@ -51,24 +80,23 @@ impl FigureFolder {
     }
 
     /// Makes the folder where there is none, and removes the figures of an earlier run.
-    pub(super) fn clear(&mut self) -> Result<(), ChapterError> {
-        fs::create_dir_all(&self.path)
-            .map_err(FileError::of("make the directory", &self.path, "--out"))
-            .map_err(FrameFolderError::from)?;
+    pub(super) fn clear(&mut self) -> Result<(), FigureFolderError> {
+        fs::create_dir_all(&self.path).map_err(FileError::of(
+            "make the directory",
+            &self.path,
+            "--out",
+        ))?;
         for name in self.old.drain(..) {
             let path = self.path.join(name);
-            fs::remove_file(&path)
-                .map_err(FileError::of("replace", &path, "--out"))
-                .map_err(FrameFolderError::from)?;
+            fs::remove_file(&path).map_err(FileError::of("replace", &path, "--out"))?;
         }
         Ok(())
     }
 
     /// Writes a file: under a name of its own until it is whole.
-    pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), ChapterError> {
+    pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), FigureFolderError> {
         let path = self.path.join(name);
-        let written = write_whole(&path, bytes).map_err(FileError::of("write", &path, "--out"));
-        Ok(written.map_err(FrameFolderError::from)?)
+        Ok(write_whole(&path, bytes).map_err(FileError::of("write", &path, "--out"))?)
     }
 
     /// Where it is.

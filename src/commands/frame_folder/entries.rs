@@ -1,4 +1,4 @@
-//! What is in a folder of frames, and whose it is.
+//! The entries of a folder of frames: which of them a capture made.
 
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
@@ -6,31 +6,28 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::commands::atomic_file;
-use crate::commands::blessing;
-use crate::commands::directory_lock::is_lock;
-use crate::commands::frame_names::{
-    MOST_FRAMES, frame_name, frame_number, frames_claimed, is_marked,
-};
+use super::blessing;
+use super::names::{MOST_FRAMES, frame_name, frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
+use crate::commands::output::{final_name, is_lock};
 
 /// The entries of a folder, by name.
 #[derive(Debug, Default)]
 pub(super) struct Entries {
-    /// Files that an earlier capture left, whole or not.
+    /// Files of an earlier capture, whole or partial.
     pub(super) ours: BTreeSet<OsString>,
-    /// Directories that a stopped blessing left.
+    /// Directories that an interrupted blessing left.
     pub(super) our_directories: Vec<OsString>,
-    /// All that is none of ours and not called as a capture calls its files.
+    /// Entries that no capture made and that have no name of a capture's file.
     pub(super) others: Vec<OsString>,
-    /// A file that is called as if it were ours, and is not.
+    /// A file that has the name of a capture's file, but was not made by one.
     pub(super) foreign: Option<PathBuf>,
-    /// A directory that is called so.
+    /// A directory that has the name of a capture's file.
     pub(super) in_the_way: Option<PathBuf>,
 }
 
 impl Entries {
-    /// Looks at every entry of the folder at `path`.
+    /// Sorts the entries of the folder at `path`.
     pub(super) fn read(path: &Path) -> io::Result<Self> {
         let mut entries = Self::default();
         let claimed = frames_claimed(&path.join(manifest::FILE_NAME));
@@ -39,7 +36,7 @@ impl Entries {
             let is_directory = entry.file_type()?.is_dir();
             let name = entry.file_name();
             let text = name.to_str().unwrap_or_default();
-            let is_under_way = atomic_file::final_name(text).is_some_and(is_a_captures);
+            let is_under_way = final_name(text).is_some_and(is_a_captures);
             match (is_a_captures(text), is_directory) {
                 (true, true) => {
                     entries.in_the_way = Some(entry.path());
@@ -73,14 +70,14 @@ impl Entries {
             && self.foreign.is_none()
     }
 
-    /// How many frames of ours there are from the first on, without a gap.
+    /// The number of frames of a capture before the first gap.
     pub(super) fn frames(&self) -> u32 {
         let is_there = |frame: &u32| self.ours.contains(OsStr::new(&frame_name(*frame)));
         (0..MOST_FRAMES).take_while(is_there).count() as u32
     }
 }
 
-/// Whether a capture gives files this name.
+/// Whether this is the name of a frame or a manifest.
 pub(super) fn is_a_captures(name: &str) -> bool {
     name == manifest::FILE_NAME || frame_number(name).is_some()
 }

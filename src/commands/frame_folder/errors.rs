@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use crate::commands::file_error::FileError;
+use crate::commands::error::Cause;
+use crate::commands::output::FileError;
 
 /// Why frames could not be kept in a folder.
 #[derive(Debug, thiserror::Error)]
-pub enum FrameFolderError {
+pub(crate) enum FrameFolderError {
     /// The path is taken by something else.
     #[error("{} is not a directory; give another --out", .path.display())]
     NotADirectory {
@@ -57,8 +58,8 @@ pub enum FrameFolderError {
     File(#[from] FileError),
 }
 
-impl FrameFolderError {
-    pub(in crate::commands) fn exit_code(&self) -> u8 {
+impl Cause for FrameFolderError {
+    fn exit_code(&self) -> u8 {
         match self {
             FrameFolderError::File(_) => 1,
             _ => 2,

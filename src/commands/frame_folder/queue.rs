@@ -1,5 +1,5 @@
-//! Frames on their way to the disk, synced and renamed in order on a thread of their own: a sync takes
-//! about as long as drawing a frame, and is all waiting.
+//! Syncs and renames written frames in order, on a thread of its own: a sync takes about as long as drawing a
+//! frame, and is all waiting.
 
 use std::io;
 use std::panic;
@@ -7,39 +7,39 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, JoinHandle};
 
-use crate::commands::atomic_file::{AtomicFile, Older};
+use crate::commands::output::{AtomicFile, Older};
 
-/// Frames that may wait for the disk. They are written already, and hold no memory of ours; more would
-/// be lost with the power.
+/// Frames that may wait for the disk. They are written already and hold no memory of ours; a loss of power
+/// loses them.
 const MOST_WAITING: usize = 4;
 
-/// A frame that is written, and how it is called.
+/// A written frame, and its path for messages.
 type Frame = (AtomicFile, PathBuf);
 
-/// What became of the frames.
+/// The outcome of a closed queue.
 #[derive(Debug)]
 pub(super) struct Settled {
-    /// Frames that have their names.
+    /// How many frames have their names.
     pub(super) frames: u32,
-    /// The one after them, and why it has not.
+    /// The error and the path of the next frame, if it failed.
     pub(super) failed: Option<(io::Error, PathBuf)>,
 }
 
-/// Dropped, it waits for its frames.
+/// Waits for its frames when dropped.
 #[derive(Debug, Default)]
 pub(super) struct FrameQueue {
-    /// None before it is opened and once it is closed.
+    /// `None` before the queue is opened and after it is closed.
     open: Option<(SyncSender<Frame>, JoinHandle<Settled>)>,
 }
 
 impl FrameQueue {
-    /// A queue that takes frames.
+    /// Starts the thread.
     pub(super) fn open() -> Self {
         let (frames, waiting) = sync_channel(MOST_WAITING);
         Self { open: Some((frames, thread::spawn(move || settle(&waiting)))) }
     }
 
-    /// Adds the next frame; `false` where one before it failed, or the queue is closed.
+    /// Adds the next frame. `false` if an earlier frame failed or the queue is closed.
     pub(super) fn push(&self, file: AtomicFile, path: PathBuf) -> bool {
         self.open.as_ref().is_some_and(|(frames, _)| frames.send((file, path)).is_ok())
     }

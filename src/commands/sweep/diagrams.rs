@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 
 use super::grid::{Row, Swept};
 use super::plot::columns;
+use super::round_off::{self, ErrorCurve, Width};
 use crate::lab::number::round;
 use crate::lab::picture::palette;
-use crate::lab::round_off::{self, ErrorCurve, Width};
 use crate::sim::integrators::Method;
 use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
 

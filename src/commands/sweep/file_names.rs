@@ -1,14 +1,42 @@
-//! What the names of a sweep's files promise.
+//! The formats that the names of a sweep's files ask for.
 
-use std::path::Path;
+use std::path::{self, Path, PathBuf};
 
-use super::SweepError;
-use crate::commands::RowFormat;
-use crate::commands::picture_format::{ending, is_of_pictures};
+use crate::commands::error::Cause;
+use crate::commands::output::picture_format::{ending, is_of_pictures};
+use crate::commands::output::table::RowFormat;
+
+/// Why a sweep's files cannot have these names.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum FileNameError {
+    /// Rows and picture cannot both go there.
+    #[error("rows and picture would go to the same place; give another --out or --plot")]
+    SamePlace,
+    /// The name of the rows' file says that it holds something else.
+    #[error("{} would not hold what its name says; {remedy}", .path.display())]
+    Mislabelled {
+        /// The name.
+        path: PathBuf,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The name of the picture's file says that it holds something else than PNG.
+    #[error("{} would hold PNG; give --plot a name that ends in .png", .path.display())]
+    PictureMislabelled {
+        /// The name.
+        path: PathBuf,
+    },
+}
+
+impl Cause for FileNameError {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
 
 /// The format asked for, else the one that the name of `out` asks for, else CSV.
-pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowFormat, SweepError> {
-    let mislabelled = |remedy| Err(SweepError::Mislabelled { path: out.to_owned(), remedy });
+pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowFormat, FileNameError> {
+    let mislabelled = |remedy| Err(FileNameError::Mislabelled { path: out.to_owned(), remedy });
     let ending = ending(out);
     let named = match ending.as_deref() {
         Some("csv") => Some(RowFormat::Csv),
@@ -29,12 +57,13 @@ pub(super) fn row_format(out: &Path, asked: Option<RowFormat>) -> Result<RowForm
     }
 }
 
-/// Whether a PNG may have this name: one that ends in .png, or in nothing.
-pub(super) fn check_picture_name(plot: &Path) -> Result<(), SweepError> {
+/// Whether a PNG may have this name: one that ends in .png, or in nothing, and is not that of the rows.
+pub(super) fn check_picture_name(plot: &Path, out: &Path) -> Result<(), FileNameError> {
     match plot.extension() {
         Some(ending) if !ending.eq_ignore_ascii_case("png") => {
-            Err(SweepError::PictureMislabelled { path: plot.to_owned() })
+            Err(FileNameError::PictureMislabelled { path: plot.to_owned() })
         }
+        _ if path::absolute(plot).ok() == path::absolute(out).ok() => Err(FileNameError::SamePlace),
         _ => Ok(()),
     }
 }

@@ -1,25 +1,37 @@
 //! Every method at every rate on every body: the runs, made in parallel, and their rows.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
-use rayon::ThreadPoolBuilder;
-use rayon::prelude::*;
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
-use super::SweepError;
-use crate::commands::recording::progress;
+use crate::commands::error::{Cause, Error};
+use crate::commands::interrupt::Interrupted;
+use crate::commands::jobs;
 use crate::commands::stopwatch;
+use crate::commands::terminal::progress;
 use crate::lab::{Clock, Judge, LONGEST_HORIZON_S, LaneSpec, Scene, Verdict};
 use crate::sim::integrators::Method;
 
-/// What is to be gone through.
+/// The system cannot start the threads.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot start the threads: {0}; give fewer --threads")]
+struct TooManyThreads(ThreadPoolBuildError);
+
+impl Cause for TooManyThreads {
+    fn exit_code(&self) -> u8 {
+        1
+    }
+}
+
+/// The scenes, methods and rates to run.
 pub(super) struct Swept {
-    /// Scenes after the names that they were asked for by, no two of one name.
+    /// Each scene with the name it was asked for by. Names are unique.
     pub(super) scenes: Vec<(String, Scene)>,
     /// In the order of the table.
     pub(super) methods: Vec<&'static Method>,
-    /// In Hz, ascending; if empty each scene has octaves about its own.
+    /// In Hz, ascending. If empty, each scene runs at octaves of its own rate.
     pub(super) rates: Vec<u32>,
     /// The length of every run; `None` for each scene's own.
     pub(super) seconds: Option<f64>,
@@ -33,7 +45,7 @@ struct Subject {
     judge: Judge,
 }
 
-/// A run to be made.
+/// A run before it is made.
 struct Cell {
     subject: usize,
     spec: LaneSpec,
@@ -47,7 +59,7 @@ pub(super) struct Grid {
     cells: Vec<Cell>,
 }
 
-/// A run that was made.
+/// A finished run.
 pub(super) struct Row {
     pub(super) scene: String,
     pub(super) body: String,
@@ -64,10 +76,10 @@ impl Row {
         verdict.fate.as_ref().map_or(verdict.seconds, |fate| fate.t)
     }
 
-    /// Evaluations of the body's acceleration in a simulated second.
+    /// Evaluations of the body's acceleration per simulated second.
     pub(super) fn evaluations_per_s(&self) -> f64 {
         let (verdict, hz) = (&self.verdict, f64::from(self.tick_hz));
-        // Whole ticks, so that a method of so many evaluations a step has a whole number of them.
+        // Whole ticks, so that a method with a fixed number of evaluations per step has a whole number.
         verdict.evaluations as f64 * hz / (verdict.seconds * hz).round()
     }
 
@@ -104,19 +116,19 @@ impl Grid {
         grid
     }
 
-    /// Makes every run on so many threads, as many as there are cores where it is not said, and then
-    /// times each alone. The rows come in the order of the grid.
+    /// Makes the runs on `threads` threads, by default one per core, and then times each run alone.
+    /// The rows come in the order of the grid.
     pub(super) fn run(
         self,
         threads: Option<usize>,
         interrupted: &AtomicBool,
-    ) -> Result<Vec<Row>, SweepError> {
+    ) -> Result<Vec<Row>, Error> {
         let grid = Arc::new(self);
         let verdicts = judge_all(&grid, threads, interrupted)?;
         let progress = progress(grid.cells.len() as u32, "runs timed");
         let rows = grid.cells.iter().zip(verdicts).map(|(cell, verdict)| {
             if interrupted.load(Ordering::Relaxed) {
-                return Err(SweepError::Interrupted);
+                return Err(Interrupted::NothingWritten.into());
             }
             progress.inc(1);
             Ok(grid.row(cell, verdict))
@@ -143,52 +155,30 @@ impl Grid {
     }
 }
 
-/// How long a run is timed: with a thousand or two of them not long to wait.
+/// How long a run is timed: a thousand or two of them take seconds.
 const EFFORT: Duration = Duration::from_millis(1);
 
-/// How long an interrupt may go unnoticed.
-const PATIENCE: Duration = Duration::from_millis(50);
-
-/// The verdict on every run, in the order of the grid. After an interrupt the runs under way are left to
-/// themselves: some take minutes, and the process is about to end.
+/// The verdict on every run, in the order of the grid.
 fn judge_all(
     grid: &Arc<Grid>,
     threads: Option<usize>,
     interrupted: &AtomicBool,
-) -> Result<Vec<Verdict>, SweepError> {
-    let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build()?;
-    let (sender, results) = mpsc::channel();
+) -> Result<Vec<Verdict>, Error> {
+    let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or_default()).build();
+    let pool = pool.map_err(TooManyThreads)?;
+    let runs = grid.cells.len();
     let worked_on = Arc::clone(grid);
-    pool.spawn(move || {
-        let cells = worked_on.cells.par_iter().enumerate();
-        cells.for_each_with(sender, |sender, (i, &Cell { subject, spec, tick_hz })| {
-            let verdict = worked_on.subjects[subject].judge.verdict(spec, tick_hz);
-            // After an interrupt nobody listens.
-            let _ = sender.send((i, verdict));
-        });
-    });
-    let progress = progress(grid.cells.len() as u32, "runs");
-    let mut verdicts = vec![None; grid.cells.len()];
-    loop {
-        match results.recv_timeout(PATIENCE) {
-            Ok((i, verdict)) => {
-                verdicts[i] = Some(verdict);
-                progress.inc(1);
-            }
-            Err(mpsc::RecvTimeoutError::Timeout) => {}
-            Err(mpsc::RecvTimeoutError::Disconnected) => break,
-        }
-        if interrupted.load(Ordering::Relaxed) {
-            progress.finish_and_clear();
-            return Err(SweepError::Interrupted);
-        }
-    }
-    progress.finish_and_clear();
-    Ok(verdicts.into_iter().map(|verdict| verdict.expect("every run was made")).collect())
+    let judge = move |cell: usize| {
+        let Cell { subject, spec, tick_hz } = worked_on.cells[cell];
+        worked_on.subjects[subject].judge.verdict(spec, tick_hz)
+    };
+    let verdicts = jobs::results(&pool, runs, &progress(runs as u32, "runs"), interrupted, judge);
+    let whole: Option<Vec<Verdict>> = verdicts.into_iter().collect();
+    Ok(whole.ok_or(Interrupted::NothingWritten)?)
 }
 
-/// From a quarter of this rate to eight times, doubled from one to the next, whole, and within what a
-/// clock can do: where the methods of the table part.
+/// Whole rates from a quarter of this rate to eight times, each double the one before, within the clock's
+/// range: the region in which the methods differ.
 fn octaves(tick_hz: u32) -> Vec<u32> {
     let slower = [tick_hz / 4, tick_hz / 2];
     let faster = [1, 2, 4, 8].map(|times| tick_hz.saturating_mul(times));

@@ -1,15 +1,34 @@
-//! The file that a sweep's picture goes to, and what draws it.
+//! Draws the picture of a sweep and opens the file for it.
 
-use super::SweepError;
-use crate::commands::atomic_output::{AtomicOutput, Place};
-use crate::view::{AdapterPreference, Artist, Figure, Gpu, GpuError, png};
+use crate::commands::error::{Cause, Error};
+use crate::commands::output::{AtomicOutput, Place};
+use crate::view::{AdapterPreference, Artist, Figure, Gpu, GpuError, ReadbackError, png};
 
-/// Pixels of a chart, and pixels to a point: legible where a few of them fill a screen.
+/// Pixels of a chart, and pixels per point: legible when a few charts fill a screen.
 const CHART_PX: [u32; 2] = [920, 660];
 const SCALE: f32 = 1.6;
 
 /// Pixels that title, legend and note take.
 const MARGIN_PX: u32 = 240;
+
+/// The charts do not fit on the largest picture of the adapter.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "a picture of {charts} charts is larger than {limit}x{limit}, what this adapter can make; \
+     give fewer scenes, or no --plot"
+)]
+struct TooManyCharts {
+    /// One for each scene, and one more.
+    charts: usize,
+    /// The longest side in pixels.
+    limit: u32,
+}
+
+impl Cause for TooManyCharts {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
 
 /// A picture to be made.
 pub(super) struct Plot {
@@ -18,32 +37,32 @@ pub(super) struct Plot {
 }
 
 impl Plot {
-    /// Makes sure that there are a place for a picture of so many charts, and something to draw it with.
-    pub(super) fn open(place: Place<'_>, charts: usize) -> Result<Self, SweepError> {
+    /// Opens the output and a device that can draw this many charts.
+    pub(super) fn open(place: Place<'_>, charts: usize) -> Result<Self, Error> {
         let output = AtomicOutput::open(place)?;
         let columns = columns(charts);
         let [across, down] = [columns, charts.div_ceil(columns)].map(|number| number as u32);
         let size_px = [across * CHART_PX[0], down * CHART_PX[1] + MARGIN_PX];
         let gpu = Gpu::headless(AdapterPreference::Any)?;
         let artist = Artist::new(gpu, size_px, SCALE).map_err(|error| match error {
-            GpuError::TooLarge { limit, .. } => SweepError::TooManyCharts { charts, limit },
+            GpuError::TooLarge { limit, .. } => Error::from(TooManyCharts { charts, limit }),
             error => error.into(),
         })?;
         Ok(Self { artist, output })
     }
 
-    /// Draws it: where it goes, its size in pixels, and the file.
+    /// Draws the figure. Returns the output, the size in pixels, and the PNG file.
     pub(super) fn draw(
         mut self,
         figure: &Figure,
-    ) -> Result<(AtomicOutput, [u32; 2], Vec<u8>), SweepError> {
+    ) -> Result<(AtomicOutput, [u32; 2], Vec<u8>), ReadbackError> {
         let (size_px, mut rgba) = (self.artist.size_px(), Vec::new());
         self.artist.draw_figure(figure, &mut rgba)?;
         Ok((self.output, size_px, png::encode(size_px, &rgba)))
     }
 }
 
-/// How many charts stand side by side, so that there are about as many rows.
+/// The number of columns that gives about as many rows.
 pub(super) fn columns(charts: usize) -> usize {
     (2..charts).find(|columns| columns * (columns + 1) >= charts).unwrap_or(2)
 }

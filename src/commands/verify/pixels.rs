@@ -3,18 +3,18 @@
 use std::fs;
 use std::path::Path;
 
-use super::super::atomic_file::write_whole;
-use super::super::capture::CaptureError;
 use super::super::experiment::Experiment;
-use super::super::file_error::FileError;
 use super::super::fingerprint::fingerprint;
 use super::super::frame_folder::FrameFolderError;
-use super::super::frame_names::{frames_claimed, is_marked};
+use super::super::frame_folder::names::{frames_claimed, is_marked};
+use super::super::interrupt::watch_for_interrupt;
 use super::super::logbook::Logbook;
 use super::super::manifest::{FILE_NAME, FrameEntry, Manifest};
+use super::super::output::{FileError, write_whole};
 use super::super::pipeline::{Drawn, Run, Stop};
-use super::super::recording::{Recording, progress, watch_for_interrupt};
-use super::super::voyage::Schedule;
+use super::super::recording::{Recording, RecordingError};
+use super::super::schedule::Schedule;
+use super::super::terminal::progress;
 use super::VerifyError;
 use super::report::{FrameChange, Report};
 use crate::view::{Artist, png};
@@ -117,12 +117,11 @@ pub(super) fn judge(
     progress.finish_and_clear();
     let done = match drawn {
         Ok(done) => done,
-        Err(Stop::Readback(error)) => return Err(CaptureError::from(error).into()),
+        Err(Stop::Readback(error)) => return Err(RecordingError::from(error).into()),
         Err(Stop::Taken(error)) => return Err(error),
     };
     if done < frames {
-        let whole = "nothing is written".into();
-        return Err(CaptureError::Interrupted { done, frames, whole }.into());
+        return Err(RecordingError::interrupted(done, frames, "nothing is written").into());
     }
     report.frames = Some(manifest.frames.iter().map(|entry| entry.file.clone()).collect());
     report.is_exact = limits.max_channel == 0;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::VerifyError;
-use crate::commands::atomic_output::OutputError;
+use crate::commands::output::OutputError;
 
 /// The first mark that is another now.
 #[derive(Clone, Debug, PartialEq, Eq)]

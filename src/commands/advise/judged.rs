@@ -1,0 +1,103 @@
+//! Judges and times the methods, and recommends one for each criterion.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use rayon::ThreadPoolBuilder;
+
+use crate::commands::jobs;
+use crate::commands::stopwatch::{self, Timing};
+use crate::commands::terminal::{progress, tell};
+use crate::lab::number::significant;
+use crate::lab::{Advised, Adviser, CRITERIA, LaneSpec, Met, Scene, recommended};
+
+/// A method judged, and its measured costs.
+pub(super) struct Row {
+    pub(super) advised: Advised,
+    /// For each criterion that is met.
+    pub(super) timings: [Option<Timing>; CRITERIA.len()],
+    /// For each criterion the slowest rate, where rates were asked for.
+    pub(super) rates: Option<[Option<u32>; CRITERIA.len()]>,
+}
+
+/// How long each measurement takes: short enough that six dozen of them are no long wait.
+const EFFORT: Duration = Duration::from_millis(5);
+
+/// Costs that differ by less than this factor are equal.
+const BLUR: f64 = 1.2;
+
+/// The methods judged, in the order given; after an interrupt those judged by then.
+pub(super) fn judge_all(
+    adviser: &Arc<Adviser>,
+    specs: Vec<LaneSpec>,
+    rates: bool,
+    interrupted: &AtomicBool,
+) -> Vec<Row> {
+    let pool = ThreadPoolBuilder::new().build().expect("the system starts a thread for each core");
+    let (methods, adviser) = (specs.len(), Arc::clone(adviser));
+    let judge = move |method: usize| Row::judged(&adviser, specs[method], rates);
+    let progress = progress(methods as u32, "methods judged");
+    let rows = jobs::results(&pool, methods, &progress, interrupted, judge);
+    rows.into_iter().flatten().collect()
+}
+
+impl Row {
+    fn judged(adviser: &Adviser, spec: LaneSpec, rates: bool) -> Self {
+        let met = CRITERIA.map(|criterion| adviser.meets(spec, criterion));
+        let plain = LaneSpec { substeps: 1, ..spec };
+        Self {
+            advised: Advised { spec, verdict: adviser.verdict(spec), met },
+            timings: [None; CRITERIA.len()],
+            rates: rates.then(|| CRITERIA.map(|criterion| adviser.slowest(plain, criterion))),
+        }
+    }
+
+    /// Measures what each criterion costs. Nothing else should run meanwhile.
+    pub(super) fn time(&mut self, scene: &Scene) {
+        let ticks = (scene.seconds.min(10.0) * f64::from(scene.tick_hz)).round() as u64;
+        for (i, met) in self.advised.met.iter().enumerate() {
+            let Some(met) = met.met() else { continue };
+            let known = (0..i).find(|&j| {
+                self.advised.met[j].met().is_some_and(|other| other.substeps == met.substeps)
+            });
+            self.timings[i] = match known {
+                Some(j) => self.timings[j],
+                None => {
+                    let spec = LaneSpec { substeps: met.substeps, ..self.advised.spec };
+                    stopwatch::time(scene, spec, scene.tick_hz, ticks, EFFORT)
+                }
+            };
+        }
+    }
+
+    pub(super) fn ns_per_s(&self, criterion: usize) -> Option<f64> {
+        Some(self.timings[criterion]?.ns_per_s)
+    }
+}
+
+/// Warns if something else kept the machine busy while costs were measured.
+pub(super) fn warn_of_load(rows: &[Row]) {
+    let timings = rows.iter().flat_map(|row| row.timings.iter().flatten());
+    let mut spreads: Vec<f64> = timings.map(|timing| timing.spread).collect();
+    spreads.sort_by(f64::total_cmp);
+    if let Some(&middle) = spreads.get(spreads.len() / 2)
+        && middle > BLUR - 1.0
+    {
+        tell(&format!(
+            "warning: the machine is busy: costs in ns vary by {} % from run to run",
+            significant(100.0 * middle, 2)
+        ));
+    }
+}
+
+/// The recommended row for a criterion, and how it meets it.
+pub(super) fn best(rows: &[Row], criterion: usize) -> Option<(&Row, &Met)> {
+    let advised: Vec<Advised> = rows.iter().map(|row| row.advised.clone()).collect();
+    let cost = |advised: &Advised, _: &Met| {
+        let row = rows.iter().find(|row| row.advised.spec == advised.spec);
+        row.and_then(|row| row.ns_per_s(criterion)).unwrap_or(f64::INFINITY)
+    };
+    let row = &rows[recommended(&advised, criterion, BLUR, cost)?];
+    Some((row, row.advised.met[criterion].met()?))
+}

@@ -1,0 +1,204 @@
+//! Advice as text, for people, and as JSON, for programs.
+
+use serde_json::{Map, Value, json};
+
+use super::judged::{Row, best};
+use crate::commands::output::table::{self, Column};
+use crate::lab::number::round;
+use crate::lab::{Adviser, CRITERIA, MOST_ADVISED_SUBSTEPS, Meets, Met, Scene, Verdict};
+
+/// The answer as text: the methods that meet each criterion with their costs, then the recommendations.
+pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> String {
+    let mut text = table::text(VERDICTS, rows, "");
+    for (i, criterion) in CRITERIA.iter().enumerate() {
+        let met: Vec<MetRow> = rows.iter().filter_map(|row| MetRow::of(row, i)).collect();
+        text += &format!("\n{}: {}\n", criterion.id(), criterion.about());
+        if !met.is_empty() {
+            text += &table::text(METS, &met, "  ");
+        }
+        for (meets, why) in [
+            (Meets::No, format!("not with up to {MOST_ADVISED_SUBSTEPS} substeps")),
+            (Meets::Unknown, "not known: no truth, or too much work".to_owned()),
+        ] {
+            let those = rows.iter().filter(|row| row.advised.met[i] == meets);
+            let ids: Vec<&str> = those.map(|row| row.advised.spec.method.id).collect();
+            if !ids.is_empty() {
+                text += &format!("  {why}: {}\n", ids.join(", "));
+            }
+        }
+    }
+    if rows.iter().any(|row| row.rates.is_some()) {
+        text += "\nslowest tick rates in one step a tick, in Hz\n";
+        text += &table::text(RATES, rows, "  ");
+    }
+    text.push('\n');
+    if rows.len() < wanted {
+        text += &format!("interrupted: of the {} methods judged, of {wanted},\n", rows.len());
+    }
+    for (i, criterion) in CRITERIA.iter().enumerate() {
+        text += &format!("at {} Hz: {}: ", adviser.tick_hz(), criterion.id());
+        text += &match best(rows, i) {
+            Some((row, met)) => line(row, met),
+            None if rows.iter().all(|row| row.advised.met[i] == Meets::No) => format!(
+                "none of these with up to {MOST_ADVISED_SUBSTEPS} substeps; raise the tick rate, soften the \
+                 stiffest of {}, or damp it",
+                match &scene.bodies[..] {
+                    [body] => body.name.clone(),
+                    bodies => format!("the {} bodies", bodies.len()),
+                }
+            ),
+            None => {
+                "not known of any of these that might: there is no truth, or it takes too much work"
+                    .into()
+            }
+        };
+        text.push('\n');
+    }
+    text
+}
+
+/// A recommendation in one line, for a design note.
+fn line(row: &Row, met: &Met) -> String {
+    let more = if met.stiffness_factor >= 10_000.0 { "more than " } else { "" };
+    format!(
+        "{} ×{} ({} evaluations/s; holds down to {} Hz, or {more}{} × {})",
+        row.advised.spec.method.id,
+        met.substeps,
+        met.evaluations_per_s.round(),
+        met.slowest_hz,
+        round(met.stiffness_factor, 3),
+        met.limited_by,
+    )
+}
+
+/// The answer as JSON.
+pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> Value {
+    let recommended = CRITERIA.iter().enumerate().map(|(i, criterion)| {
+        let take = best(rows, i).map(|(row, met)| {
+            json!({
+                "method": row.advised.spec.method.id,
+                "substeps": met.substeps,
+                "tick_hz": adviser.tick_hz(),
+            })
+        });
+        (criterion.id().to_owned(), json!(take))
+    });
+    json!({
+        "scene": scene.name,
+        "tick_hz": adviser.tick_hz(),
+        "horizon_s": adviser.judge().horizon_s(),
+        "bodies": scene.bodies.iter().map(|body| &body.name).collect::<Vec<_>>(),
+        "complete": rows.len() == wanted,
+        "methods": rows.iter().map(|row| method(scene, row)).collect::<Vec<_>>(),
+        "recommended": recommended.collect::<Map<_, _>>(),
+    })
+}
+
+fn method(scene: &Scene, row: &Row) -> Value {
+    let Verdict { word, body, error, doubles_in_s, halves_in_s, frequency_error, .. } =
+        &row.advised.verdict;
+    let criteria = CRITERIA.iter().enumerate().map(|(i, criterion)| {
+        let met = row.advised.met[i].met().map(|met| {
+            json!({
+                "substeps": met.substeps,
+                "evaluations_per_s": met.evaluations_per_s,
+                "ns_per_s": row.ns_per_s(i).map(f64::round),
+                "slowest_hz": met.slowest_hz,
+                "stiffness_factor": met.stiffness_factor,
+                "limited_by": met.limited_by,
+            })
+        });
+        (criterion.id().to_owned(), json!(met))
+    });
+    let mut object = json!({
+        "method": row.advised.spec.method.id,
+        "verdict": {
+            "word": word.id(),
+            "body": scene.bodies[*body].name,
+            "error": Some(*error).filter(|error| error.is_finite()),
+            "doubles_in_s": doubles_in_s,
+            "halves_in_s": halves_in_s,
+            "frequency_error": frequency_error,
+            "text": row.advised.verdict.to_string(),
+        },
+        "criteria": criteria.collect::<Map<_, _>>(),
+    });
+    if let Some(rates) = &row.rates {
+        let rates = CRITERIA.iter().zip(rates).map(|(c, hz)| (c.id().to_owned(), json!(hz)));
+        object["rates"] = Value::Object(rates.collect());
+    }
+    object
+}
+
+const VERDICTS: &[Column<Row>] = &[
+    Column {
+        key: "method",
+        heading: Some("METHOD"),
+        value: |row| json!(row.advised.spec.method.id),
+    },
+    Column {
+        key: "verdict",
+        heading: Some("VERDICT"),
+        value: |row| json!(row.advised.verdict.to_string()),
+    },
+];
+
+const RATES: &[Column<Row>] = &[
+    Column {
+        key: "method",
+        heading: Some("METHOD"),
+        value: |row| json!(row.advised.spec.method.id),
+    },
+    Column { key: "bounded", heading: Some("BOUNDED"), value: |row| rate(row, 0) },
+    Column { key: "looks-right", heading: Some("LOOKS-RIGHT"), value: |row| rate(row, 1) },
+    Column { key: "accurate", heading: Some("ACCURATE"), value: |row| rate(row, 2) },
+];
+
+fn rate(row: &Row, criterion: usize) -> Value {
+    json!(row.rates.and_then(|rates| rates[criterion]))
+}
+
+/// A method that meets a criterion.
+struct MetRow {
+    id: &'static str,
+    met: Met,
+    ns_per_s: Option<f64>,
+}
+
+impl MetRow {
+    fn of(row: &Row, criterion: usize) -> Option<Self> {
+        let met = row.advised.met[criterion].met()?.clone();
+        Some(Self { id: row.advised.spec.method.id, met, ns_per_s: row.ns_per_s(criterion) })
+    }
+}
+
+const METS: &[Column<MetRow>] = &[
+    Column { key: "method", heading: Some("METHOD"), value: |row| json!(row.id) },
+    Column {
+        key: "substeps",
+        heading: Some("SUBSTEPS"),
+        value: |row| json!(format!("×{}", row.met.substeps)),
+    },
+    Column {
+        key: "evaluations_per_s",
+        heading: Some("EVALS/S"),
+        value: |row| json!(row.met.evaluations_per_s.round() as u64),
+    },
+    Column {
+        key: "ns_per_s",
+        heading: Some("NS/S"),
+        value: |row| json!(row.ns_per_s.map(|ns| ns.round() as u64)),
+    },
+    Column {
+        key: "slowest_hz",
+        heading: Some("HOLDS FROM"),
+        value: |row| json!(format!("{} Hz", row.met.slowest_hz)),
+    },
+    Column {
+        key: "stiffness_factor",
+        heading: Some("STIFFER BY"),
+        value: |row| {
+            json!(format!("{} × {}", round(row.met.stiffness_factor, 3), row.met.limited_by))
+        },
+    },
+];

@@ -1,0 +1,87 @@
+//! A run drawn into a folder of numbered pictures, with a manifest beside them.
+
+use super::experiment::Experiment;
+use super::fingerprint::fingerprint;
+use super::frame_folder::names::frame_name;
+use super::frame_folder::{FrameFolder, FrameFolderError};
+use super::interrupt::watch_for_interrupt;
+use super::logbook::{self, Logbook};
+use super::manifest::{FrameEntry, Manifest, SCHEMA};
+use super::pipeline::{Drawn, Run, Stop};
+use super::recording::{Recording, RecordingError, adapter, closing_line};
+use super::settings;
+use super::terminal::{progress, tell};
+use crate::view::png;
+
+/// Draws a run into `folder` and reports on standard error what it wrote.
+pub(super) fn record(
+    experiment: &Experiment,
+    recording: Recording,
+    mut folder: FrameFolder,
+) -> Result<(), RecordingError> {
+    let Recording { schedule, size_px, .. } = recording;
+    let mut artist = recording.artist()?;
+    let adapter = adapter(&artist);
+    folder.clear(schedule.frames)?;
+
+    let interrupted = watch_for_interrupt();
+    let progress = progress(schedule.frames, "frames");
+    let mut lab = recording.lab(experiment);
+    let mut logbook = Logbook::new(recording.mark_every, &lab);
+    let mut entries = Vec::new();
+    // Frames that are kept are drawn again: to prove that they belong to this run, and because a glyph's
+    // place in egui's atlas, and with it the last bit of a few pixels, depends on the frames before it.
+    let run = Run {
+        artist: &mut artist,
+        lab: &mut lab,
+        logbook: &mut logbook,
+        schedule,
+        interrupted: &interrupted,
+    };
+    let encode = |drawn: &Drawn| (png::encode(size_px, &drawn.rgba), fingerprint(&drawn.rgba));
+    let drawn = run.draw_all(encode, |&Drawn { tick, alpha, .. }, (file, pixels)| {
+        folder.push(&file)?;
+        let file = frame_name(entries.len() as u32);
+        entries.push(FrameEntry { file, tick, alpha: [alpha.0, alpha.1], pixels });
+        progress.inc(1);
+        Ok(())
+    });
+    progress.finish_and_clear();
+    let settled = folder.settle();
+    let whole = folder.range();
+    match drawn {
+        Ok(_) => {}
+        Err(Stop::Readback(error)) => return Err(error.into()),
+        Err(Stop::Taken(source @ FrameFolderError::Foreign { .. })) => return Err(source.into()),
+        Err(Stop::Taken(source)) => return Err(RecordingError::Write { source, whole }),
+    }
+    settled.map_err(|source| RecordingError::Write { source, whole: whole.clone() })?;
+    let (done, frames) = (entries.len() as u32, schedule.frames);
+    if done < frames && !folder.takes_a_part() {
+        return Err(RecordingError::interrupted(done, frames, "those of before"));
+    }
+    let settings = settings::written(experiment, &recording);
+    let manifest = Manifest {
+        schema: SCHEMA,
+        regatta: env!("CARGO_PKG_VERSION").to_owned(),
+        settings_hash: settings.hash(),
+        settings,
+        adapter,
+        complete: done == frames,
+        frames: entries,
+        lanes: logbook::ends(&lab),
+        marks: logbook.close(&lab),
+    };
+    let (path, others) = (folder.path().to_owned(), folder.others().to_vec());
+    let written = folder.finish(&manifest.to_text());
+    written.map_err(|source| RecordingError::Write { source, whole: whole.clone() })?;
+    if done < frames {
+        return Err(RecordingError::interrupted(done, frames, &whole));
+    }
+    tell(&closing_line(&recording, &whole));
+    if !others.is_empty() {
+        let others: Vec<_> = others.iter().map(|name| name.display().to_string()).collect();
+        tell(&format!("left alone in {}: {}", path.display(), others.join(", ")));
+    }
+    Ok(())
+}

@@ -1,0 +1,167 @@
+//! New frames for an existing clip: drawn into a directory beside it, and swapped in once all are written.
+//!
+//! A process killed at any moment leaves the old clip whole, or the new one whole in the directory
+//! `.regatta-blessed`, from which [`complete`] finishes the swap.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+
+use super::names::{frame_number, frames_claimed, is_marked};
+use crate::commands::manifest;
+use crate::commands::output::sync_directory;
+
+/// The prefix of directories in which frames are drawn.
+const UNDER_WAY: &str = ".regatta-bless-";
+
+/// The directory of a complete set of new frames. Once it has this name, the frames replace the old ones.
+const READY: &str = ".regatta-blessed";
+
+/// New frames for a clip. Dropped before [`swap`](Self::swap), it leaves nothing.
+#[derive(Debug)]
+pub(crate) struct Blessing {
+    clip: PathBuf,
+    place: TempDir,
+}
+
+impl Blessing {
+    /// Creates a directory for the new frames inside the clip's.
+    pub(crate) fn begin(clip: &Path) -> io::Result<Self> {
+        let place = tempfile::Builder::new().prefix(UNDER_WAY).tempdir_in(clip)?;
+        Ok(Self { clip: clip.to_owned(), place })
+    }
+
+    /// The directory for the new frames and their manifest.
+    pub(crate) fn place(&self) -> &Path {
+        self.place.path()
+    }
+
+    /// Replaces the clip's frames and manifest by the new ones, which must be synced.
+    pub(crate) fn swap(self) -> io::Result<()> {
+        fs::rename(self.place.path(), self.clip.join(READY))?;
+        // The directory has another name now and must not be removed.
+        let _ = self.place.keep();
+        sync_directory(&self.clip)?;
+        complete(&self.clip)
+    }
+}
+
+/// Whether a swap was interrupted.
+pub(crate) fn is_pending(clip: &Path) -> bool {
+    fs::symlink_metadata(clip.join(READY)).is_ok_and(|entry| entry.is_dir())
+}
+
+/// Whether this is the name of a directory that an interrupted blessing left.
+pub(crate) fn is_left_over(name: &str) -> bool {
+    name.starts_with(UNDER_WAY)
+}
+
+/// Finishes an interrupted swap. Every step can be repeated, and the manifest comes last.
+pub(crate) fn complete(clip: &Path) -> io::Result<()> {
+    let ready = clip.join(READY);
+    for entry in fs::read_dir(&ready)? {
+        let name = entry?.file_name();
+        if name != manifest::FILE_NAME {
+            fs::rename(ready.join(&name), clip.join(&name))?;
+        }
+    }
+    let [older, newer] =
+        [clip, &ready].map(|folder| frames_claimed(&folder.join(manifest::FILE_NAME)));
+    if let Some(newer) = newer {
+        let older = older.unwrap_or_default();
+        for entry in fs::read_dir(clip)? {
+            let entry = entry?;
+            let Some(name) = entry.file_name().to_str().map(String::from) else { continue };
+            let is_of_the_old = frame_number(&name).is_some()
+                && !newer.contains(&name)
+                && (older.contains(&name) || is_marked(&entry.path()));
+            if is_of_the_old {
+                fs::remove_file(entry.path())?;
+            }
+        }
+        sync_directory(clip)?;
+        fs::rename(ready.join(manifest::FILE_NAME), clip.join(manifest::FILE_NAME))?;
+    }
+    fs::remove_dir(&ready)?;
+    sync_directory(clip)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAMES: [&str; 3] = ["frame-000000.png", "frame-000001.png", "frame-000002.png"];
+
+    fn manifest_of(frames: &[&str]) -> String {
+        let frames: Vec<_> =
+            frames.iter().map(|file| serde_json::json!({ "file": file })).collect();
+        let ours = serde_json::json!({
+            "schema": 1, "regatta": "0", "settings_hash": "0", "frames": frames
+        });
+        ours.to_string()
+    }
+
+    fn write(folder: &Path, names: &[&str], bytes: &str) {
+        for name in names {
+            fs::write(folder.join(name), bytes).unwrap();
+        }
+        fs::write(folder.join(manifest::FILE_NAME), manifest_of(names)).unwrap();
+    }
+
+    fn content(folder: &Path) -> Vec<(String, String)> {
+        let mut content: Vec<_> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap())
+            .map(|entry| {
+                let name = entry.file_name().into_string().unwrap();
+                (name, fs::read_to_string(entry.path()).unwrap())
+            })
+            .collect();
+        content.sort();
+        content
+    }
+
+    #[test]
+    fn a_blessing_given_up_leaves_the_clip_as_it_was() {
+        let clip = tempfile::tempdir().unwrap();
+        write(clip.path(), &FRAMES, "old");
+        let before = content(clip.path());
+        let blessing = Blessing::begin(clip.path()).unwrap();
+        write(blessing.place(), &FRAMES[..1], "new");
+        drop(blessing);
+        assert_eq!(content(clip.path()), before);
+    }
+
+    #[test]
+    fn a_swap_stopped_after_any_step_is_carried_to_the_same_end() {
+        for moved in 0..=FRAMES.len() + 1 {
+            let clip = tempfile::tempdir().unwrap();
+            write(clip.path(), &FRAMES, "old");
+            fs::write(clip.path().join("frame-000007.png"), "a picture of somebody else's")
+                .unwrap();
+            let ready = clip.path().join(READY);
+            fs::create_dir(&ready).unwrap();
+            write(&ready, &FRAMES[..2], "new");
+            let steps = FRAMES[..2].iter().copied().map(String::from);
+            for name in steps.chain([manifest::FILE_NAME.to_owned()]).take(moved) {
+                if name == manifest::FILE_NAME {
+                    fs::remove_file(clip.path().join(FRAMES[2])).unwrap();
+                }
+                fs::rename(ready.join(&name), clip.path().join(&name)).unwrap();
+            }
+            assert!(is_pending(clip.path()));
+            complete(clip.path()).unwrap();
+            assert!(!is_pending(clip.path()));
+            let expected = [
+                (FRAMES[0], "new".to_owned()),
+                (FRAMES[1], "new".to_owned()),
+                ("frame-000007.png", "a picture of somebody else's".to_owned()),
+                (manifest::FILE_NAME, manifest_of(&FRAMES[..2])),
+            ];
+            let expected = expected.map(|(name, text)| (name.to_owned(), text));
+            assert_eq!(content(clip.path()), expected, "after {moved} steps");
+        }
+    }
+}

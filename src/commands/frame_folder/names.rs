@@ -1,0 +1,106 @@
+//! The names of frames, and how to tell the files that a capture made: by their content, not their names.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::commands::manifest;
+use crate::view::png;
+
+/// The most frames in a folder: as many as six digits number.
+pub(crate) const MOST_FRAMES: u32 = 1_000_000;
+
+/// The file name of the frame with this number, from 0.
+pub(crate) fn frame_name(frame: u32) -> String {
+    format!("frame-{frame:06}.png")
+}
+
+/// The number of the frame with this file name; `None` if it is not the name of a frame.
+pub(crate) fn frame_number(name: &str) -> Option<u32> {
+    let digits = name.strip_prefix("frame-")?.strip_suffix(".png")?;
+    let is_number = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_digit());
+    is_number.then(|| digits.parse().ok()).flatten()
+}
+
+/// Whether the picture at `path` bears this program's mark.
+pub(crate) fn is_marked(path: &Path) -> bool {
+    let mut start = Vec::new();
+    let read = File::open(path)
+        .and_then(|file| file.take(png::NOTED_WITHIN as u64).read_to_end(&mut start));
+    read.is_ok() && png::is_encoded_here(&start)
+}
+
+/// The files listed in the manifest at `path`, of any schema; `None` if a capture did not write it.
+pub(crate) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
+    let manifest: Value = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
+    let is_ours = manifest["schema"].is_u64()
+        && manifest["regatta"].is_string()
+        && manifest["settings_hash"].is_string();
+    let files = |frames: &Vec<Value>| {
+        let files = frames.iter().filter_map(|frame| frame["file"].as_str());
+        files.map(String::from).collect()
+    };
+    is_ours.then(|| manifest["frames"].as_array().map(files).unwrap_or_default())
+}
+
+/// Whether `path` is the place of the manifest or of a frame in `clip`, existing or not, or a file that any
+/// capture made.
+pub(crate) fn is_of_a_capture(path: &Path, clip: &Path) -> bool {
+    let resolved = resolved(path);
+    let name = resolved.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    let is_in_clip = resolved
+        .parent()
+        .is_some_and(|parent| fs::canonicalize(clip).is_ok_and(|clip| clip == parent));
+    if is_in_clip && (name == manifest::FILE_NAME || frame_number(name).is_some()) {
+        return true;
+    }
+    // Reading from a pipe would block.
+    resolved.is_file() && (is_marked(&resolved) || frames_claimed(&resolved).is_some())
+}
+
+/// The path without links, as far as it exists.
+fn resolved(path: &Path) -> PathBuf {
+    let parent = path.parent().filter(|parent| *parent != Path::new("")).unwrap_or(Path::new("."));
+    fs::canonicalize(path)
+        .or_else(|_| {
+            Ok::<_, io::Error>(fs::canonicalize(parent)?.join(path.file_name().unwrap_or_default()))
+        })
+        .unwrap_or_else(|_| path.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_have_six_digits() {
+        for frame in [0, 12, 999_999] {
+            assert_eq!(frame_number(&frame_name(frame)), Some(frame));
+        }
+        for name in ["frame-00000.png", "frame-0000000.png", "frame-+00001.png", "frame-000001.gif"]
+        {
+            assert_eq!(frame_number(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_file_is_ours_by_what_is_in_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str, bytes: &[u8]| {
+            let path = folder.path().join(name);
+            fs::write(&path, bytes).unwrap();
+            path
+        };
+        assert!(is_marked(&file("frame-000000.png", &png::encode([1, 1], &[0; 4]))));
+        assert!(!is_marked(&file("frame-000000.png", b"my own")));
+        let text = r#"{"schema":9,"regatta":"0.1.0","settings_hash":"x","frames":[{"file":"a"}]}"#;
+        let ours = file("manifest.json", text.as_bytes());
+        assert_eq!(frames_claimed(&ours), Some(BTreeSet::from(["a".to_owned()])));
+        for other in ["", "{}", r#"{"name":"web app","schema":1}"#, "[1]"] {
+            assert_eq!(frames_claimed(&file("manifest.json", other.as_bytes())), None, "{other}");
+        }
+    }
+}

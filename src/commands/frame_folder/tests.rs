@@ -1,0 +1,161 @@
+//! What becomes of a folder of frames, whatever is in it already.
+
+use super::*;
+use crate::view::png;
+
+fn inspect(path: &Path, existing: Existing) -> Result<FrameFolder, FrameFolderError> {
+    FrameFolder::inspect(path, existing, "--out")
+}
+
+/// A picture as a capture writes it, one pixel of this grey.
+fn frame(grey: u8) -> Vec<u8> {
+    png::encode([1, 1], &[grey, grey, grey, 255])
+}
+
+fn names(folder: &Path) -> Vec<OsString> {
+    let mut names: Vec<_> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_folder_in_use_is_refused_and_left_as_it_is() {
+    let parent = tempfile::tempdir().unwrap();
+    let path = parent.path().join("clip");
+    fs::create_dir(&path).unwrap();
+    assert!(inspect(&path, Existing::Refuse).is_ok());
+    fs::write(path.join("frame-000000.png"), "old").unwrap();
+    let error = inspect(&path, Existing::Refuse).unwrap_err();
+    assert!(matches!(error, FrameFolderError::NotEmpty { .. }), "{error}");
+    assert_eq!(fs::read(path.join("frame-000000.png")).unwrap(), b"old");
+}
+
+#[test]
+fn frames_replace_frames_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name);
+    for name in ["frame-000000.png", "frame-000001.png", "frame-000001.png.a1B2c3.part"] {
+        fs::write(file(name), frame(0)).unwrap();
+    }
+    for name in ["frame-000001.png.part", "manifest.json.part", "notes.txt"] {
+        fs::write(file(name), "mine").unwrap();
+    }
+    let mut frames = inspect(folder.path(), Existing::Replace).unwrap();
+    frames.clear(9).unwrap();
+    frames.push(&frame(1)).unwrap();
+    frames.settle().unwrap();
+    let others = ["frame-000001.png.part", "manifest.json.part", "notes.txt"];
+    assert_eq!(names(folder.path()), [&["frame-000000.png"], &others[..]].concat());
+    assert_eq!(fs::read(file("frame-000000.png")).unwrap(), frame(1));
+    assert_eq!(frames.others(), others);
+    assert!(frames.range().ends_with("frame-000000.png"), "{}", frames.range());
+    frames.finish("{}").unwrap();
+    for name in others {
+        assert_eq!(fs::read(file(name)).unwrap(), b"mine", "{name}");
+    }
+}
+
+#[test]
+fn what_only_has_the_name_of_ours_is_never_touched() {
+    for existing in [Existing::Replace, Existing::Continue, Existing::Bless] {
+        for (name, bytes) in [
+            ("manifest.json", &br#"{"name":"my web app","version":"1"}"#[..]),
+            ("frame-000003.png", b"a frame of another program"),
+        ] {
+            let folder = tempfile::tempdir().unwrap();
+            fs::write(folder.path().join("frame-000000.png"), frame(0)).unwrap();
+            fs::write(folder.path().join(name), bytes).unwrap();
+            let error = inspect(folder.path(), existing).unwrap_err();
+            assert!(matches!(error, FrameFolderError::NotOurs { .. }), "{error}");
+            assert!(error.to_string().contains(name), "{error}");
+            assert_eq!(fs::read(folder.path().join(name)).unwrap(), bytes);
+        }
+    }
+}
+
+#[test]
+fn frames_up_to_the_first_gap_are_kept_and_have_to_be_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str| folder.path().join(name);
+    for name in
+        ["frame-000000.png", "frame-000001.png", "frame-000002.png.a1B2c3.part", "frame-000003.png"]
+    {
+        fs::write(file(name), frame(0)).unwrap();
+    }
+    let mut frames = inspect(folder.path(), Existing::Continue).unwrap();
+    frames.clear(9).unwrap();
+    assert_eq!((frames.kept, names(folder.path()).len()), (2, 2));
+    frames.push(&frame(0)).unwrap();
+    let error = frames.push(&frame(1)).unwrap_err();
+    assert!(matches!(error, FrameFolderError::Foreign { .. }), "{error}");
+    frames.push(&frame(0)).unwrap();
+    frames.push(&frame(1)).unwrap();
+    frames.settle().unwrap();
+    assert_eq!(fs::read(file("frame-000002.png")).unwrap(), frame(1));
+}
+
+#[test]
+fn a_folder_has_one_writer_at_a_time() {
+    let parent = tempfile::tempdir().unwrap();
+    let path = parent.path().join("clip");
+    let [mut first, mut second] = [0, 1].map(|_| inspect(&path, Existing::Replace).unwrap());
+    first.clear(9).unwrap();
+    for busy in [second.clear(9).unwrap_err(), inspect(&path, Existing::Refuse).unwrap_err()] {
+        assert!(matches!(busy, FrameFolderError::Busy { .. }), "{busy}");
+    }
+    first.push(&frame(0)).unwrap();
+    drop(first);
+    second.clear(9).unwrap();
+    assert!(names(&path).is_empty(), "the second found what the first had left");
+}
+
+#[test]
+fn a_folder_filled_while_it_was_waited_for_is_refused() {
+    let parent = tempfile::tempdir().unwrap();
+    let path = parent.path().join("clip");
+    let [mut first, mut second] = [0, 1].map(|_| inspect(&path, Existing::Refuse).unwrap());
+    first.clear(9).unwrap();
+    first.push(&frame(0)).unwrap();
+    first.finish("{}").unwrap();
+    let error = second.clear(9).unwrap_err();
+    assert!(matches!(error, FrameFolderError::NotEmpty { .. }), "{error}");
+}
+
+#[test]
+fn a_frame_that_cannot_be_written_leaves_nothing_behind() {
+    let parent = tempfile::tempdir().unwrap();
+    let mut frames = inspect(parent.path(), Existing::Refuse).unwrap();
+    frames.clear(9).unwrap();
+    // A directory of that name cannot be replaced by a file.
+    fs::create_dir_all(parent.path().join("frame-000001.png/in the way")).unwrap();
+    frames.push(&frame(0)).unwrap();
+    let pushed: Vec<_> = (1..9).map(|_| frames.push(&frame(0))).collect();
+    let failed = pushed.into_iter().chain([frames.settle()]).find_map(Result::err);
+    let error = failed.unwrap().to_string();
+    assert!(error.starts_with("cannot write "), "{error}");
+    assert!(error.contains("frame-000001.png: "), "{error}");
+    assert_eq!(names(parent.path()), ["frame-000000.png", "frame-000001.png"]);
+    assert!(frames.range().ends_with("frame-000000.png"), "{}", frames.range());
+}
+
+#[test]
+fn a_file_in_the_way_is_no_folder() {
+    let parent = tempfile::tempdir().unwrap();
+    let path = parent.path().join("clip");
+    fs::write(&path, "mine").unwrap();
+    let error = inspect(&path, Existing::Replace).unwrap_err();
+    assert!(matches!(error, FrameFolderError::NotADirectory { .. }), "{error}");
+}
+
+#[test]
+fn a_free_folder_is_found_beside_those_in_use() {
+    let parent = tempfile::tempdir().unwrap();
+    let name = parent.path().join("frames").display().to_string();
+    assert_eq!(FrameFolder::beside(&name).unwrap().path(), Path::new(&name));
+    fs::create_dir(&name).unwrap();
+    fs::write(Path::new(&name).join("mine"), "").unwrap();
+    fs::write(format!("{name}-2"), "a file").unwrap();
+    let third = format!("{name}-3");
+    assert_eq!(FrameFolder::beside(&name).unwrap().path(), Path::new(&third));
+}

@@ -1,0 +1,84 @@
+//! Runs many independent jobs on a pool of threads, until they are done or somebody presses Ctrl-C.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::Duration;
+
+use indicatif::ProgressBar;
+use rayon::ThreadPool;
+use rayon::prelude::*;
+
+/// How long an interrupt may go unnoticed.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// The results of `work` for the jobs 0 to `number` - 1, in order; `None` for a job that was not done when
+/// `interrupted` was set. The threads are not waited for then: some jobs take minutes, and the process is
+/// about to end.
+pub(super) fn results<R: Send + 'static>(
+    pool: &ThreadPool,
+    number: usize,
+    progress: &ProgressBar,
+    interrupted: &AtomicBool,
+    work: impl Fn(usize) -> R + Send + Sync + 'static,
+) -> Vec<Option<R>> {
+    let (sender, receiver) = mpsc::channel();
+    pool.spawn(move || {
+        (0..number).into_par_iter().for_each_with(sender, |sender, job| {
+            // After an interrupt the receiver is gone.
+            let _ = sender.send((job, work(job)));
+        });
+    });
+    let mut results: Vec<Option<R>> = (0..number).map(|_| None).collect();
+    while !interrupted.load(Ordering::Relaxed) {
+        match receiver.recv_timeout(PATIENCE) {
+            Ok((job, result)) => {
+                results[job] = Some(result);
+                progress.inc(1);
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => break,
+        }
+    }
+    progress.finish_and_clear();
+    results
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+    use std::thread;
+
+    use rayon::ThreadPoolBuilder;
+
+    use super::*;
+
+    #[test]
+    fn results_stand_in_the_order_of_their_jobs() {
+        let pool = ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+        let square = |job| {
+            thread::sleep(Duration::from_millis(if job % 2 == 0 { 2 } else { 0 }));
+            job * job
+        };
+        let results = results(&pool, 20, &ProgressBar::hidden(), &AtomicBool::new(false), square);
+        assert_eq!(results, (0..20).map(|job| Some(job * job)).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn an_interrupt_leaves_the_results_that_are_there() {
+        let pool = ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let interrupted = Arc::new(AtomicBool::new(false));
+        let set = Arc::clone(&interrupted);
+        let work = move |job| {
+            if job == 3 {
+                // The jobs before it were sent on by this thread, and have time to be noticed.
+                thread::sleep(Duration::from_millis(100));
+                set.store(true, Ordering::Relaxed);
+                thread::sleep(Duration::from_secs(1));
+            }
+            job
+        };
+        let results = results(&pool, 8, &ProgressBar::hidden(), &interrupted, work);
+        assert_eq!(results[3], None);
+        assert!(results[..3].iter().enumerate().all(|(job, result)| *result == Some(job)));
+    }
+}

@@ -1,0 +1,212 @@
+//! A file that appears whole under its name or not at all, even after a loss of power: it is written under a
+//! temporary name beside its place, synced, and renamed.
+
+use std::fs::{File, Metadata};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+/// The ending of temporary names.
+const ENDING: &str = ".part";
+
+/// Random characters in a temporary name.
+const RANDOM_CHARS: usize = 6;
+
+/// File systems take names of 255 bytes; a longer stem leaves no room for the random characters.
+const LONGEST_STEM: usize = 200;
+
+/// A file being written. Dropped before it is committed, it leaves nothing.
+#[derive(Debug)]
+pub(crate) struct AtomicFile {
+    part: NamedTempFile,
+    path: PathBuf,
+}
+
+/// What happens to an existing file of the same name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Older {
+    /// It is replaced.
+    Replace,
+    /// It stays, and the new file is discarded.
+    Keep,
+}
+
+impl AtomicFile {
+    /// Creates a file with a new temporary name beside `path`.
+    pub(crate) fn create(path: &Path) -> io::Result<Self> {
+        let name = path.file_name().filter(|name| name.len() <= LONGEST_STEM).unwrap_or_default();
+        let mut prefix = name.to_owned();
+        prefix.push(".");
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(&prefix).suffix(ENDING).rand_bytes(RANDOM_CHARS);
+        // Made as any new file is: the crate's own are for nobody but their owner.
+        let create = |part: &Path| File::options().write(true).create_new(true).open(part);
+        let part = builder.make_in(directory_of(path), create)?;
+        Ok(Self { part, path: path.to_owned() })
+    }
+
+    /// Copies the permissions of the file that will be replaced.
+    pub(crate) fn set_permissions_of(&self, older: &Metadata) -> io::Result<()> {
+        self.part.as_file().set_permissions(older.permissions())
+    }
+
+    /// Syncs the content to disk, so that only the rename is left to a commit.
+    pub(crate) fn sync(&self) -> io::Result<()> {
+        self.part.as_file().sync_all()
+    }
+
+    /// Gives the file its final name. Only [`sync_directory`] makes the name survive a loss of power.
+    pub(crate) fn rename(self, older: Older) -> io::Result<()> {
+        let renamed = match older {
+            Older::Replace => self.part.persist(&self.path),
+            Older::Keep => self.part.persist_noclobber(&self.path),
+        };
+        renamed.map(drop).map_err(|failed| failed.error)
+    }
+
+    /// Syncs the file, renames it, and syncs the directory.
+    pub(crate) fn commit(self, older: Older) -> io::Result<()> {
+        self.sync()?;
+        let directory = directory_of(&self.path).to_owned();
+        self.rename(older)?;
+        sync_directory(&directory)
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.part.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.part.flush()
+    }
+}
+
+/// Writes a file whole, replacing an older one.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = AtomicFile::create(path)?;
+    file.write_all(bytes)?;
+    file.commit(Older::Replace)
+}
+
+/// The final name of the file with the temporary name `name`; `None` if that is not a temporary name.
+pub(crate) fn final_name(name: &str) -> Option<&str> {
+    let (whole, random) = name.strip_suffix(ENDING)?.rsplit_once('.')?;
+    let is_random =
+        random.len() == RANDOM_CHARS && random.bytes().all(|b| b.is_ascii_alphanumeric());
+    is_random.then_some(whole)
+}
+
+/// Makes the names in a directory survive a loss of power, if the system offers a way.
+pub(crate) fn sync_directory(path: &Path) -> io::Result<()> {
+    if !cfg!(unix) {
+        return Ok(());
+    }
+    match File::open(path)?.sync_all() {
+        // Some file systems sync directories by themselves and offer nothing to ask them.
+        Err(error)
+            if matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) =>
+        {
+            Ok(())
+        }
+        synced => synced,
+    }
+}
+
+fn directory_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_has_its_name_once_it_is_whole_and_not_before() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("run.gif");
+        let mut file = AtomicFile::create(&path).unwrap();
+        file.write_all(b"new").unwrap();
+        let [under_way] = &names(folder.path())[..] else { panic!("one file") };
+        assert_eq!(final_name(under_way), Some("run.gif"));
+        file.commit(Older::Replace).unwrap();
+        assert_eq!(names(folder.path()), ["run.gif"]);
+        assert_eq!(fs::read(path).unwrap(), b"new");
+    }
+
+    #[test]
+    fn a_file_given_up_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut file = AtomicFile::create(&folder.path().join("run.gif")).unwrap();
+        file.write_all(b"half").unwrap();
+        drop(file);
+        assert!(names(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn two_writers_of_one_name_do_not_meet() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x");
+        let [mut a, mut b] = [0, 1].map(|_| AtomicFile::create(&path).unwrap());
+        a.write_all(b"a whole").unwrap();
+        b.write_all(b"b whole").unwrap();
+        a.commit(Older::Keep).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"a whole");
+        let error = b.commit(Older::Keep).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::AlreadyExists);
+        assert_eq!(names(folder.path()), ["x"]);
+        assert_eq!(fs::read(&path).unwrap(), b"a whole");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_new_file_has_the_permissions_that_any_new_file_has() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let [ours, plain] = ["ours", "plain"].map(|name| folder.path().join(name));
+        write_whole(&ours, b"").unwrap();
+        fs::write(&plain, b"").unwrap();
+        let [ours, plain] = [ours, plain].map(|p| fs::metadata(p).unwrap().permissions().mode());
+        assert_eq!(ours, plain);
+    }
+
+    #[test]
+    fn a_name_under_way_is_told_from_others() {
+        assert_eq!(final_name("frame-000001.png.aB3dE6.part"), Some("frame-000001.png"));
+        for other in ["frame-000001.png.part", "x.part", "x.aB3dE6", "x.aB3d_6.part", "x.aB3.part"]
+        {
+            assert_eq!(final_name(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn a_directory_that_is_not_there_is_the_systems_own_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = AtomicFile::create(&folder.path().join("no/x")).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::NotFound);
+        assert!(!error.to_string().contains(ENDING), "{error}");
+    }
+
+    #[test]
+    fn the_longest_name_that_a_file_system_takes_can_be_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("x".repeat(255));
+        write_whole(&path, b"new").unwrap();
+        assert_eq!(fs::read(path).unwrap(), b"new");
+    }
+}

@@ -1,0 +1,79 @@
+//! One writer to a directory at a time, or any number of readers.
+//!
+//! The operating system holds the lock and releases it when the process ends, in whatever way.
+
+use std::fs::{File, TryLockError};
+use std::io;
+use std::path::Path;
+
+/// The file that is locked on systems that cannot lock a directory itself.
+const LOCK_NAME: &str = ".regatta-lock";
+
+/// A lock on a directory, released when dropped.
+#[derive(Debug)]
+pub(crate) struct DirectoryLock {
+    _file: File,
+}
+
+impl DirectoryLock {
+    /// A writer's lock on a directory; `None` if another process holds a lock.
+    pub(crate) fn exclusive(directory: &Path) -> io::Result<Option<Self>> {
+        Self::lock(directory, File::try_lock)
+    }
+
+    /// A reader's lock on a directory; `None` if another process writes.
+    pub(crate) fn shared(directory: &Path) -> io::Result<Option<Self>> {
+        Self::lock(directory, File::try_lock_shared)
+    }
+
+    fn lock(
+        directory: &Path,
+        lock: impl Fn(&File) -> Result<(), TryLockError>,
+    ) -> io::Result<Option<Self>> {
+        let file = open(directory)?;
+        match lock(&file) {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Ok(None),
+            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+                log::warn!("{}: the file system has no locks", directory.display());
+            }
+            Err(TryLockError::Error(error)) => return Err(error),
+        }
+        Ok(Some(Self { _file: file }))
+    }
+}
+
+/// Whether this is the name of the lock file.
+pub(crate) fn is_lock(name: &str) -> bool {
+    name == LOCK_NAME
+}
+
+#[cfg(unix)]
+fn open(directory: &Path) -> io::Result<File> {
+    File::open(directory)
+}
+
+#[cfg(not(unix))]
+fn open(directory: &Path) -> io::Result<File> {
+    let mut options = File::options();
+    options.write(true).create(true).truncate(false).open(directory.join(LOCK_NAME))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn readers_keep_writers_out_and_a_writer_keeps_everybody_out() {
+        let folder = tempfile::tempdir().unwrap();
+        let exclusive = || DirectoryLock::exclusive(folder.path()).unwrap();
+        let shared = || DirectoryLock::shared(folder.path()).unwrap();
+        let reader = shared();
+        assert!(reader.is_some() && shared().is_some() && exclusive().is_none());
+        drop(reader);
+        let writer = exclusive();
+        assert!(writer.is_some() && shared().is_none() && exclusive().is_none());
+        drop(writer);
+        assert!(exclusive().is_some());
+    }
+}

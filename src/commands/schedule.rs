@@ -1,0 +1,136 @@
+//! When the frames of a recording are, and how a lab gets from one to the next. Time is computed, never read
+//! off a clock.
+
+use super::error::Cause;
+use super::frame_folder::names::MOST_FRAMES;
+use crate::lab::{Clock, Lab};
+
+/// Smooth enough for every scene, at half the files and half the time of 60.
+pub(super) const FPS: u32 = 30;
+
+/// The most frames per simulated second: no display shows as many.
+pub(super) const MOST_FPS: u32 = 1000;
+
+/// The moments of `frames` frames, the first at the start, `fps` per simulated second.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Schedule {
+    pub(super) frames: u32,
+    pub(super) fps: u32,
+}
+
+const SECOND_NS: u64 = 1_000_000_000;
+
+/// A recording would have more frames than six digits can number.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "{frames} frames are asked for, and a capture has at most {MOST_FRAMES}; \
+     give a lower --fps or fewer --seconds"
+)]
+pub(super) struct TooManyFrames {
+    frames: f64,
+}
+
+impl Cause for TooManyFrames {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
+
+/// The number of frames in this many seconds, at least one.
+pub(super) fn frames_in(seconds: f64, fps: u32) -> Result<u32, TooManyFrames> {
+    let frames = (seconds * f64::from(fps)).round().max(1.0);
+    if frames > f64::from(MOST_FRAMES) {
+        return Err(TooManyFrames { frames });
+    }
+    Ok(frames as u32)
+}
+
+impl Schedule {
+    /// The time of `frame` in nanoseconds, rounded up so that a tick due at that moment is done.
+    pub(super) fn time_ns(self, frame: u32) -> u64 {
+        (u64::from(frame) * SECOND_NS).div_ceil(u64::from(self.fps))
+    }
+
+    /// The tick nearest to the last frame, for a lab that stands at the start.
+    pub(super) fn ticks(self, lab: &Lab) -> u64 {
+        lab.nearest_tick(f64::from(self.frames.saturating_sub(1)) / f64::from(self.fps))
+    }
+
+    /// Advances a lab that stands at the frame before `frame`, or at the start, to `frame`.
+    pub(super) fn advance(self, lab: &mut Lab, frame: u32, mut after_tick: impl FnMut(&Lab)) {
+        let Some(before) = frame.checked_sub(1) else { return };
+        let longest = u64::from(Clock::LONGEST_FRAME_MS) * 1_000_000;
+        let mut left = self.time_ns(frame) - self.time_ns(before);
+        // In stretches that the clock accepts without dropping ticks.
+        while left > 0 {
+            let stretch = left.min(longest).min(until_rate_changes(lab));
+            let due = lab.advance_seen(stretch as i64, &mut after_tick);
+            assert_eq!(due.dropped, 0, "a stretch is no longer than the clock's longest frame");
+            left -= stretch;
+        }
+    }
+}
+
+/// Nanoseconds, rounded up, until the tick is reached at which the script sets the next tick rate.
+fn until_rate_changes(lab: &Lab) -> u64 {
+    let (tick, clock) = (lab.race().tick(), lab.clock());
+    let Some((next, _)) = lab.scene().rates_from(tick + 1).next() else { return u64::MAX };
+    // The clock counts in nanoseconds × hertz × percent.
+    let (owed, whole) = clock.alpha_fraction();
+    let due = u128::from(next - tick) * u128::from(whole) - u128::from(owed);
+    let pace = u64::from(clock.tick_hz()) * u64::from(clock.speed_percent());
+    u64::try_from(due.div_ceil(pace.into())).unwrap_or(u64::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Scene;
+
+    #[test]
+    fn a_frame_shows_its_moment_whatever_tick_rates_a_script_sets() {
+        let text = "title = 'x'\ntick_hz = 1\nseconds = 9\n[[spring]]\nmass_kg = 1\n\
+                    stiffness_n_per_m = 1\n[[command]]\ntick = 5\ntick_hz = 1000\n\
+                    [[command]]\ntick = 1505\ntick_hz = 8\n";
+        let mut lab = Lab::new(Scene::parse("x.toml", text).unwrap());
+        let schedule = Schedule { frames: 301, fps: 30 };
+        for frame in 0..schedule.frames {
+            schedule.advance(&mut lab, frame, |_| ());
+            let present = lab.race().t();
+            let next_hz = lab.scene().rates_from(lab.race().tick()).next();
+            let next_hz = next_hz.filter(|(tick, _)| *tick == lab.race().tick());
+            let hz = next_hz.map_or(lab.clock().tick_hz(), |(_, hz)| hz);
+            let shown = present + lab.clock().alpha() / f64::from(hz);
+            let moment = f64::from(frame) / f64::from(schedule.fps);
+            assert!((shown - moment).abs() < 1e-6, "frame {frame} shows {shown} s, not {moment} s");
+        }
+        assert_eq!(schedule.ticks(&Lab::new(lab.scene().clone())), lab.race().tick());
+    }
+
+    #[test]
+    fn seconds_make_whole_frames_and_at_least_the_start() {
+        assert_eq!(frames_in(20.0, 30).unwrap(), 600);
+        assert_eq!(frames_in(0.0, 30).unwrap(), 1);
+        assert_eq!(frames_in(0.05, 30).unwrap(), 2);
+        assert!(frames_in(3e7, 1000).is_err());
+    }
+
+    #[test]
+    fn each_frame_has_just_the_ticks_that_are_due() {
+        for (tick_hz, fps) in
+            [(60, 30), (60, 60), (49, 30), (60, 24), (7, 1), (10_000, 3), (1, 1000)]
+        {
+            let mut scene = Scene::built_in("spring").unwrap();
+            scene.tick_hz = tick_hz;
+            let mut lab = Lab::new(scene);
+            let schedule = Schedule { frames: 2 * fps, fps };
+            let mut seen = 0;
+            for frame in 0..=schedule.frames {
+                schedule.advance(&mut lab, frame, |_| seen += 1);
+                let due = u64::from(frame) * u64::from(tick_hz) / u64::from(fps);
+                assert_eq!(lab.race().tick(), due, "frame {frame}, {tick_hz} Hz, {fps} fps");
+                assert_eq!(seen, due);
+            }
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! What the width of its numbers does to a method: the chapter's ship under explicit Euler and
+//! Runge-Kutta 4, stepped in `f32` and in `f64` at finer and finer steps. This experiment alone is
+//! generic over its numbers; the rest of the program is `f64`.
+//!
+//! A finer step makes a method's own error smaller, as the p-th power of the step, and the roundings
+//! more numerous: on logarithmic axes the error falls to a least and rises again, a V (Henrici,
+//! *Discrete Variable Methods in Ordinary Differential Equations*, 1962; Higham, *Accuracy and Stability
+//! of Numerical Algorithms*, 2nd edition, section 4.3, for Euler's method).
+
+use std::ops::{Add, Div, Mul, RangeInclusive, Sub};
+
+use crate::lab::Scene;
+use crate::sim::State;
+use crate::sim::bodies::{Body, Ship};
+use crate::sim::integrators::{Method, method};
+
+/// Moments at which the speed is held against the exact one, in simulated seconds. Several, because
+/// roundings go either way, and by chance the error at one of them may be nothing.
+pub(super) const MOMENTS_S: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
+
+/// The powers of two that are tried for the step in seconds. Powers of two are exact in both widths, so
+/// that nothing is rounded in the step itself. The finest makes two million steps.
+pub(super) const STEPS_LOG2: RangeInclusive<i32> = -18..=1;
+
+/// A width of floating-point numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Width {
+    /// `f32`, with 24 bits of significand.
+    Single,
+    /// `f64`, with 53.
+    Double,
+}
+
+impl Width {
+    /// The name of the type.
+    pub(super) fn text(self) -> &'static str {
+        match self {
+            Width::Single => "f32",
+            Width::Double => "f64",
+        }
+    }
+}
+
+/// A step, and the error that a ship's speed has with it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct StepError {
+    /// The step in seconds.
+    pub(super) h_s: f64,
+    /// The largest error at [`MOMENTS_S`], in metres per second.
+    pub(super) error_m_per_s: f64,
+}
+
+/// The errors of a method in numbers of one width.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ErrorCurve {
+    /// The method.
+    pub(super) method: &'static Method,
+    /// The width of its numbers.
+    pub(super) width: Width,
+    /// One for each of [`STEPS_LOG2`], from the finest step to the coarsest.
+    pub(super) errors: Vec<StepError>,
+}
+
+impl ErrorCurve {
+    /// The step with the least error, the bottom of the V.
+    pub(super) fn best(&self) -> StepError {
+        let least = self.errors.iter().min_by(|a, b| a.error_m_per_s.total_cmp(&b.error_m_per_s));
+        *least.expect("some steps were tried")
+    }
+}
+
+/// Explicit Euler and Runge-Kutta 4 on the ship of the built-in scene, each in both widths.
+pub(super) fn error_curves() -> Vec<ErrorCurve> {
+    let ship = chapters_ship();
+    let curves = FORMULAS.iter().flat_map(|&(id, formula)| {
+        let method = method(id).expect("it is in the table");
+        [Width::Single, Width::Double].map(|width| {
+            let errors = STEPS_LOG2.map(|log2| step_error(&ship, formula, width, log2)).collect();
+            ErrorCurve { method, width, errors }
+        })
+    });
+    curves.collect()
+}
+
+fn chapters_ship() -> Ship {
+    let scene = Scene::built_in("ship").expect("it is built in");
+    Ship::BLANK.with_parameters(&scene.bodies[0].values)
+}
+
+fn step_error(ship: &Ship, formula: Formula, width: Width, h_log2: i32) -> StepError {
+    let h_s = libm::exp2(f64::from(h_log2));
+    let speeds = match width {
+        Width::Single => speeds::<f32>(ship, formula, h_s),
+        Width::Double => speeds::<f64>(ship, formula, h_s),
+    };
+    let errors = MOMENTS_S.iter().zip(speeds).map(|(&t, v)| {
+        let State { v: exact, .. } = ship.exact(t, &ship.start()).expect("it has a closed form");
+        (v - exact).abs()
+    });
+    StepError { h_s, error_m_per_s: errors.fold(0.0, f64::max) }
+}
+
+/// What is stepped: `v′ = T/m - C/m v` alone, as a ship's speed does not depend on where it is.
+#[derive(Clone, Copy, Debug)]
+enum Formula {
+    ExplicitEuler,
+    RungeKutta4,
+}
+
+const FORMULAS: [(&str, Formula); 2] =
+    [("explicit-euler", Formula::ExplicitEuler), ("rk4", Formula::RungeKutta4)];
+
+/// The speeds at [`MOMENTS_S`] by steps of `h_s`, all arithmetic on the way in `R`.
+fn speeds<R: Real>(ship: &Ship, formula: Formula, h_s: f64) -> [f64; MOMENTS_S.len()] {
+    let mass = R::rounded(ship.mass);
+    let push = R::rounded(ship.thrust * ship.throttle) / mass;
+    let rate = R::rounded(ship.drag) / mass;
+    let a = |v: R| push - rate * v;
+    let h = R::rounded(h_s);
+    let [two, three, six] = [2.0, 3.0, 6.0].map(R::rounded);
+    let step = |v: R| match formula {
+        Formula::ExplicitEuler => v + h * a(v),
+        Formula::RungeKutta4 => {
+            let k1 = a(v);
+            let k2 = a(v + h / two * k1);
+            let k3 = a(v + h / two * k2);
+            let k4 = a(v + h * k3);
+            v + h / six * k1 + h / three * k2 + h / three * k3 + h / six * k4
+        }
+    };
+    let (mut v, mut n) = (R::rounded(ship.v0), 0);
+    MOMENTS_S.map(|t| {
+        let steps = (t / h_s).round() as u64;
+        while n < steps {
+            v = step(v);
+            n += 1;
+        }
+        v.into()
+    })
+}
+
+/// A floating-point number.
+trait Real:
+    Copy + Into<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// The nearest to `x`.
+    fn rounded(x: f64) -> Self;
+}
+
+impl Real for f32 {
+    fn rounded(x: f64) -> Self {
+        x as f32
+    }
+}
+
+impl Real for f64 {
+    fn rounded(x: f64) -> Self {
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::{Solver, stepper};
+
+    fn curve(id: &str, width: Width) -> ErrorCurve {
+        let mut curves = error_curves().into_iter();
+        let curve = curves.find(|curve| curve.method.id == id && curve.width == width).unwrap();
+        let errors = curve.errors.iter();
+        assert!(errors.clone().all(|e| e.error_m_per_s.is_finite() && e.error_m_per_s > 0.0));
+        assert_eq!(errors.count(), 20);
+        curve
+    }
+
+    fn at(curve: &ErrorCurve, h_log2: i32) -> f64 {
+        curve.errors[(h_log2 - STEPS_LOG2.start()) as usize].error_m_per_s
+    }
+
+    /// How often the error doubles while the step does, from one power of two to another.
+    fn slope(curve: &ErrorCurve, from: i32, to: i32) -> f64 {
+        libm::log2(at(curve, to) / at(curve, from)) / f64::from(to - from)
+    }
+
+    #[test]
+    fn in_f64_these_are_the_methods_themselves_to_the_bit() {
+        let ship = chapters_ship();
+        for (id, formula) in FORMULAS {
+            for h_log2 in [1, -1, -6] {
+                let h = libm::exp2(f64::from(h_log2));
+                let mut body = stepper(ship.clone(), Solver::Method(method(id).unwrap()));
+                let mut tick = 0_u32;
+                let stepped = MOMENTS_S.map(|t| {
+                    while f64::from(tick) * h < t {
+                        body.advance(f64::from(tick) * h, h, 1).unwrap();
+                        tick += 1;
+                    }
+                    body.v()[0]
+                });
+                assert_eq!(speeds::<f64>(&ship, formula, h), stepped, "{id} at 2^{h_log2} s");
+            }
+        }
+    }
+
+    #[test]
+    fn the_truncation_branch_has_the_methods_order() {
+        for (id, width, coarse, fine, order) in [
+            ("explicit-euler", Width::Double, -3, -18, 1.0),
+            ("explicit-euler", Width::Single, -3, -11, 1.0),
+            ("rk4", Width::Double, 0, -6, 4.0),
+            ("rk4", Width::Single, 1, 0, 4.0),
+        ] {
+            let slope = slope(&curve(id, width), fine, coarse);
+            assert!((slope - order).abs() < 0.2, "{id} in {}: {slope}", width.text());
+        }
+    }
+
+    /// As if every addition to the speed were rounded by chance: in n steps of m additions the error
+    /// grows to √(n m) times that of one, which is the spacing of the numbers about v over √12. It adds
+    /// to a truncation error of C h^p. Returns the step at which the sum is least, and that sum.
+    fn bottom(id: &str, width: Width) -> (f64, f64) {
+        let ship = chapters_ship();
+        let (t, v) = (8.0_f64, ship.exact(8.0, &ship.start()).unwrap().v);
+        let bits = if width == Width::Single { 24 } else { 53 };
+        let spacing = libm::exp2(libm::floor(libm::log2(v)) + 1.0 - f64::from(bits));
+        // Runge-Kutta's factor for a step is e^-z (1 + z⁵/120 + …), Euler's e^-z (1 - z²/2 + …), and the
+        // way to go is 20 e^(-t/10).
+        let rest = 20.0 * (-0.1 * t).exp();
+        let (c, p, m) = match id {
+            "rk4" => (rest * t * 0.1_f64.powi(5) / 120.0, 4.0, 4.0),
+            _ => (rest * t * 0.1_f64.powi(2) / 2.0, 1.0, 1.0),
+        };
+        let rounding = (t * m).sqrt() * spacing / 12.0_f64.sqrt();
+        let h = (rounding / (2.0 * p * c)).powf(1.0 / (p + 0.5));
+        (h, c * h.powf(p) + rounding / h.sqrt())
+    }
+
+    #[test]
+    fn the_least_error_is_where_theory_says() {
+        for (id, width) in
+            [("explicit-euler", Width::Single), ("rk4", Width::Single), ("rk4", Width::Double)]
+        {
+            let StepError { h_s, error_m_per_s } = curve(id, width).best();
+            let (h, error) = bottom(id, width);
+            // Within an octave; a V is flat at its bottom.
+            let octaves = libm::log2(h_s / h);
+            assert!(octaves.abs() < 1.0, "{id} in {}: {h_s} s, not {h}", width.text());
+            let ratio = error_m_per_s / error;
+            assert!((0.2..2.0).contains(&ratio), "{id}: {error_m_per_s} m/s, not {error}");
+        }
+    }
+
+    #[test]
+    fn in_f32_finer_steps_are_worse_beyond_the_bottom_and_in_f64_euler_has_none() {
+        for id in ["explicit-euler", "rk4"] {
+            let single = curve(id, Width::Single);
+            // Between roundings by chance, h^-½, and roundings that all go one way in ever longer runs
+            // while an increment is a few units in the last place, h^-2.
+            let slope = slope(&single, -18, -13);
+            assert!((-2.2..-1.2).contains(&slope), "{id}: {slope}");
+            assert!(at(&single, -18) > 100.0 * single.best().error_m_per_s);
+        }
+        let double = curve("explicit-euler", Width::Double);
+        assert_eq!(double.best().h_s, libm::exp2(f64::from(*STEPS_LOG2.start())));
+    }
+}

@@ -1,0 +1,29 @@
+//! Messages and progress on standard error.
+
+use std::io::{self, IsTerminal, Write};
+
+use annotate_snippets::Renderer;
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Writes a line to standard error. A closed standard error is ignored.
+pub fn tell(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// Renders messages for standard error: in colour on a terminal, unless `NO_COLOR` is set.
+pub fn stderr_renderer() -> Renderer {
+    let is_set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    if io::stderr().is_terminal() && !is_set("NO_COLOR") && !is_dumb {
+        Renderer::styled()
+    } else {
+        Renderer::plain()
+    }
+}
+
+/// A progress bar over `number` frames or other `things`, shown on a terminal only.
+pub(super) fn progress(number: u32, things: &'static str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left")
+        .expect("the template is a constant");
+    ProgressBar::new(u64::from(number)).with_style(style).with_message(things)
+}

@@ -1,0 +1,142 @@
+//! No file of a layer depends on one that depends on it.
+//!
+//! A file depends on the files whose items it names. A name that a module hands on from the files below it is
+//! followed to the file that has it. Tests at a file's end may look wherever they like.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::slice;
+
+use super::paths::named;
+use super::rules::LAYERS;
+use super::{Source, none, sources};
+
+/// Layers, and files with what is below them, that have circles still. One that has none any more is to be
+/// struck off.
+const NOT_YET: [&str; 4] = ["sim", "lab", "view", "commands/verify"];
+
+/// A module's path from the crate's root, such as `["commands", "sweep", "grid"]`.
+type Module = Vec<String>;
+
+/// The module that is in the file at this path.
+fn module_of(path: &str) -> Module {
+    let inside = path.trim_start_matches("src/").trim_end_matches(".rs").trim_end_matches("/mod");
+    inside.split('/').map(String::from).collect()
+}
+
+/// A file's modules and what they name, as paths from the crate's root, not yet followed.
+fn names(sources: &[Source]) -> BTreeMap<Module, Vec<Module>> {
+    let modules: BTreeSet<Module> = sources.iter().map(|source| module_of(&source.path)).collect();
+    let names_in = |source: &Source| {
+        let module = module_of(&source.path);
+        let (code, _) = source.text.split_once("#[cfg(test)]\nmod ").unwrap_or((&source.text, ""));
+        let names = named(code).into_iter();
+        let names = names.filter_map(|path| from_the_root(&module, &path, &modules)).collect();
+        (module, names)
+    };
+    sources.iter().map(names_in).collect()
+}
+
+/// A path that stands in `module`, from the crate's root; `None` where it leads to another crate.
+fn from_the_root(module: &Module, path: &[String], modules: &BTreeSet<Module>) -> Option<Module> {
+    let ups = path.iter().take_while(|part| *part == "super").count();
+    match &*path[0] {
+        "crate" => Some(path[1..].to_vec()),
+        "self" => Some([module, &path[1..]].concat()),
+        "super" => Some([&module[..module.len().checked_sub(ups)?], &path[ups..]].concat()),
+        _ => {
+            let child = [module, &path[..1]].concat();
+            modules.contains(&child).then(|| [module, path].concat())
+        }
+    }
+}
+
+/// The file that has what `path` names.
+fn owner(path: &[String], names: &BTreeMap<Module, Vec<Module>>) -> Option<Module> {
+    let module = (1..=path.len()).rev().find(|&n| names.contains_key(&path[..n]))?;
+    let (module, rest) = path.split_at(module);
+    let is_in_a_child =
+        |name: &&Module| name.starts_with(module) && names.contains_key(&name[..module.len() + 1]);
+    let is_item = |name: &&Module| !rest.is_empty() && name.last() == rest.first();
+    match names[module].iter().find(|name| is_in_a_child(name) && is_item(name)) {
+        Some(handed_on) => owner(handed_on, names),
+        None => Some(module.to_vec()),
+    }
+}
+
+/// The files that each file depends on.
+fn dependencies(sources: &[Source]) -> BTreeMap<Module, BTreeSet<Module>> {
+    let names = names(sources);
+    let of = |(module, named): (&Module, &Vec<Module>)| {
+        // A file above alone, as in `pub(in crate::commands)`, is no dependency.
+        let items = named.iter().filter(|path| !module.starts_with(path));
+        let owners = items.filter_map(|path| owner(path, &names));
+        (module.clone(), owners.filter(|owner| owner != module).collect())
+    };
+    names.iter().map(of).collect()
+}
+
+/// Every file that depends on itself by way of others, with a shortest way.
+fn circles(sources: &[Source]) -> Vec<Vec<Module>> {
+    let dependencies = dependencies(sources);
+    let circle = |start: &Module| {
+        let (mut ways, mut seen) = (VecDeque::from([vec![start.clone()]]), BTreeSet::new());
+        while let Some(way) = ways.pop_front() {
+            for next in dependencies.get(way.last()?).into_iter().flatten() {
+                let longer = [&way[..], slice::from_ref(next)].concat();
+                if next == start {
+                    return Some(longer);
+                }
+                if seen.insert(next) {
+                    ways.push_back(longer);
+                }
+            }
+        }
+        None
+    };
+    dependencies.keys().filter_map(circle).collect()
+}
+
+fn shown(circle: &[Module]) -> String {
+    circle.iter().map(|module| module.join("::")).collect::<Vec<_>>().join(" → ")
+}
+
+/// Whether the circle stays within the layer or the files that begin like this.
+fn is_within(circle: &[Module], place: &str) -> bool {
+    let place: Vec<&str> = place.split('/').collect();
+    circle
+        .iter()
+        .all(|module| module.iter().zip(&place).filter(|(a, b)| a == b).count() == place.len())
+}
+
+#[test]
+fn no_file_depends_on_itself() {
+    let circles: Vec<_> = LAYERS
+        .iter()
+        .flat_map(|layer| circles(&sources(&format!("src/{}", layer.name), &["rs"])))
+        .collect();
+    let new = circles.iter().filter(|circle| !NOT_YET.iter().any(|place| is_within(circle, place)));
+    none(new.map(|circle| shown(circle)).collect());
+    for place in NOT_YET {
+        let has_one = circles.iter().any(|circle| is_within(circle, place));
+        assert!(has_one, "{place} has no circle any more: strike it off NOT_YET");
+    }
+}
+
+#[test]
+fn circles_are_seen_through_names_that_are_handed_on() {
+    let file = |path: &str, text: &str| Source { path: path.into(), text: text.into() };
+    let root = file("src/a/mod.rs", "mod b;\nmod c;\nuse b::go;\npub use c::{C, D};");
+    let b = file("src/a/b.rs", "use super::C; fn go() {}");
+    let c = |text: &str| file("src/a/c/mod.rs", text);
+    let d =
+        file("src/a/c/d.rs", "pub struct D;\n#[cfg(test)]\nmod tests {\nuse super::super::C;\n}");
+    let found = |text: &str| -> Vec<String> {
+        let files = [&root, &b, &c(text), &d].map(|f| file(&f.path, &f.text));
+        circles(&files).iter().map(|circle| shown(circle)).collect()
+    };
+    none(found("mod d; pub use d::D; pub struct C(D); use crate::elsewhere::X;"));
+    assert_eq!(found("use crate::a::b;"), ["a::b → a::c → a::b", "a::c → a::b → a::c"]);
+    assert_eq!(found("fn f() { super::b::go() }").len(), 2);
+    assert!(found("use super::tell;").contains(&"a → a::c → a".to_owned()));
+    none(found("pub(in crate::a) struct C;"));
+}
