@@ -4,7 +4,7 @@
 //! A frame is drawn when something changed: always while time runs, and after an event while it is
 //! paused. A window that is hidden draws nothing and keeps simulating.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use egui_winit::accesskit_winit;
@@ -18,7 +18,9 @@ use crate::view::GpuError;
 
 mod canvas;
 mod keys;
+mod new_file;
 mod pace;
+mod recording;
 mod screenshot;
 mod thinking;
 
@@ -50,16 +52,31 @@ pub enum WindowError {
     Gpu(#[from] GpuError),
 }
 
-/// Opens a window on `lab` and runs it until it is closed, or until the tick nearest to
-/// `seconds` of simulated time.
+/// Opens a window on `lab` and runs it until it is closed, until the tick nearest to `seconds` of simulated time, or,
+/// if it `heeds_interrupts`, until Ctrl-C is pressed in the terminal. Returns the lab as it then is, and whether it was
+/// interrupted.
 ///
 /// # Errors
 /// [`WindowError::NoDisplay`] before anything else is tried; the others at any time.
-pub fn run(lab: Lab, seconds: Option<f64>) -> Result<(), WindowError> {
+pub fn run(
+    lab: Lab,
+    seconds: Option<f64>,
+    heeds_interrupts: bool,
+) -> Result<(Lab, bool), WindowError> {
     let event_loop = EventLoop::<Event>::with_user_event()
         .build()
         .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
     let proxy = event_loop.create_proxy();
+    if heeds_interrupts {
+        let interrupts = Mutex::new(event_loop.create_proxy());
+        let tell = move || {
+            // A window that is closed already needs no telling.
+            let _ = interrupts.lock().map(|proxy| proxy.send_event(Event::Interrupted));
+        };
+        if let Err(error) = ctrlc::set_handler(tell) {
+            log::warn!("Ctrl-C will stop the window at once: {error}");
+        }
+    }
     let mut app = App {
         thinking: ThinkingThread::new(lab.question(), proxy.clone()),
         lab,
@@ -76,10 +93,11 @@ pub fn run(lab: Lab, seconds: Option<f64>) -> Result<(), WindowError> {
         title: String::new(),
         screenshot: false,
         started: Instant::now(),
+        interrupted: false,
         outcome: Ok(()),
     };
     event_loop.run_app(&mut app).map_err(|error| WindowError::Refused(reason(&error)))?;
-    app.outcome
+    app.outcome.map(|()| (app.lab, app.interrupted))
 }
 
 /// What the window system said, without the place in winit's source that winit puts before it.
@@ -96,6 +114,7 @@ fn reason(error: &dyn std::error::Error) -> String {
 enum Event {
     Accessibility(accesskit_winit::Event),
     Learnt(Findings),
+    Interrupted,
 }
 
 impl From<accesskit_winit::Event> for Event {
@@ -124,6 +143,7 @@ struct App {
     title: String,
     screenshot: bool,
     started: Instant,
+    interrupted: bool,
     outcome: Result<(), WindowError>,
 }
 
@@ -175,6 +195,11 @@ impl App {
             match self.lab.apply(command) {
                 Some(Ask::Quit) => self.end(event_loop, Ok(())),
                 Some(Ask::Screenshot) => self.screenshot = true,
+                Some(Ask::Record) => {
+                    let notice = recording::save(&self.lab);
+                    self.lab.set_notice(notice);
+                    self.stand_still();
+                }
                 Some(Ask::ToggleFullScreen) => self.toggle_full_screen(),
                 None => {}
             }
@@ -300,13 +325,17 @@ impl ApplicationHandler<Event> for App {
         self.wait(event_loop);
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, event: Event) {
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Event) {
         match event {
             Event::Accessibility(event) => {
                 if let Some(canvas) = &mut self.canvas {
                     canvas.accessibility(event);
                     self.request_redraw();
                 }
+            }
+            Event::Interrupted => {
+                self.interrupted = true;
+                self.end(event_loop, Ok(()));
             }
             Event::Learnt(findings) => {
                 self.lab.learn(findings);

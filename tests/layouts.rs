@@ -68,7 +68,9 @@ fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_other
 #[test]
 fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_after_a_restart() {
     let mut lab = Lab::new(scene("helm"));
-    assert!(lab.takes("rudder") && lab.takes("throttle") && !lab.takes("anchor"));
+    assert!(
+        lab.race().takes("rudder") && lab.race().takes("throttle") && !lab.race().takes("anchor")
+    );
     assert_eq!((lab.race().rudder(), lab.race().throttle()), (0.0, 1.0));
     for (command, times, rudder) in [
         (Command::RudderLeft, 3, 0.3),

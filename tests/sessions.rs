@@ -170,6 +170,25 @@ fn journals(from: usize) {
             again.run(tick - again.lanes().tick());
             assert_eq!(&hashes(&again), hashes_then, "journal {n} again, to {tick}");
         }
+        written_and_read(n, &whole);
+    }
+}
+
+/// Runs what is read from the text of a run, past all its checks.
+fn written_and_read(n: usize, whole: &Session) {
+    let text = whole.recording(TICKS).to_toml();
+    let read = Scene::parse("recording.toml", &text);
+    let read = read.unwrap_or_else(|errors| panic!("journal {n}: {errors}"));
+    assert_eq!(read.to_toml(), text, "journal {n}");
+    let last = read.checks.last().expect("a check at the end");
+    assert_eq!((last.tick, hashes(whole).last()), (TICKS, Some(&last.hash)), "journal {n}");
+    let mut session = Session::race(read.clone().into());
+    for check in &read.checks {
+        session.run(check.tick - session.lanes().tick());
+        let entrants = session.lanes().entrants().iter();
+        let mut lanes = entrants.zip(session.lanes().lane_hashes());
+        let lane = lanes.find(|(entrant, _)| entrant.lane_number == check.lane);
+        assert_eq!(lane.map(|(_, hash)| hash), Some(check.hash), "journal {n}: {check:?}");
     }
 }
 

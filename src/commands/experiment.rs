@@ -7,7 +7,9 @@ use clap::Args;
 use clap::builder::{PossibleValue, TypedValueParser};
 
 use super::scene_file::{self, SceneFileError};
-use crate::lab::{Clock, Command, Lab, LaneSpec, MOST_SECONDS, SCENES, Scene, nearest};
+use crate::lab::{
+    Clock, Command, Lab, LaneSpec, MOST_SECONDS, SCENES, Scene, lanes_that_race, nearest,
+};
 use crate::sim::integrators::{METHODS, Method, method};
 
 /// What is run.
@@ -61,6 +63,8 @@ impl ExperimentArgs {
             scene.lanes = lanes_of(&scene, &self.methods);
             lineup = Lineup::Everyone;
         }
+        scene.lanes = lanes_that_race(&scene);
+        scene.equal_cost = false;
         Ok(Experiment { scene, text, selected: self.methods.first().copied(), lineup })
     }
 

@@ -1,14 +1,20 @@
 //! `regatta play`: the window; where there is no display, its first seconds as pictures.
 
+use std::io::Write;
+use std::path::PathBuf;
+
 use clap::Args;
 
 use super::error::Error;
-use super::experiment::{self, ExperimentArgs, Lineup};
+use super::experiment::{self, Experiment, ExperimentArgs, Lineup};
 use super::frame_folder::FrameFolder;
+use super::interrupt::Interrupted;
+use super::output::{AtomicOutput, Older, Place};
 use super::recording::Recording;
 use super::schedule::{FPS, Schedule, frames_in};
 use super::terminal::tell;
 use super::{clip, logbook};
+use crate::lab::Lab;
 use crate::view::Panels;
 use crate::window::{self, WindowError};
 
@@ -17,6 +23,7 @@ Examples:
   regatta play --scene spring --method explicit-euler
   regatta play --scene stiff --race --tick-hz 49
   regatta play --scene my.toml
+  regatta play --scene spring --record run.toml
 
 In the window, H shows the keys. Without a display the first seconds are drawn into
 ./regatta-frames instead.";
@@ -37,6 +44,14 @@ pub(super) struct PlayArgs {
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
+    /// Write the run into FILE as a scene, when the window is closed or Ctrl-C is pressed
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+
+    /// Replace the --record FILE if it is there
+    #[arg(long, requires = "record")]
+    force: bool,
+
     /// Trails do not fade, and the camera does not glide
     #[arg(long)]
     reduced_motion: bool,
@@ -54,29 +69,54 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(lineup)?;
     let mut lab = experiment.lab();
     lab.set_motion(!args.reduced_motion);
-    match window::run(lab, args.seconds) {
+    // Before anything is flown that could then not be kept.
+    let record = args.record.as_deref().map(|path| {
+        let older = if args.force { Older::Replace } else { Older::Keep };
+        Place { path, option: "--record", older }
+    });
+    let record = record.map(AtomicOutput::open_for_text).transpose()?;
+    let (lab, interrupted) = match window::run(lab, args.seconds, record.is_some()) {
         Err(WindowError::NoDisplay(reason)) => {
-            let frames = match args.seconds {
-                Some(seconds) => frames_in(seconds, FPS)?,
-                None => FRAMES,
-            };
-            let folder = FrameFolder::beside(FRAMES_DIR)?;
-            tell(&format!(
-                "no display to open a window on ({reason}); drawing {} s of it into {} instead",
-                f64::from(frames) / f64::from(FPS),
-                folder.path().display(),
-            ));
-            let schedule = Schedule { frames, fps: FPS };
-            let recording = Recording {
-                schedule,
-                size_px: SIZE_PX,
-                scale: 1.0,
-                panels: Panels::Shown,
-                motion: !args.reduced_motion,
-                mark_every: logbook::usual_stride(schedule.ticks(&experiment.lab())),
-            };
-            Ok(clip::record(&experiment, recording, folder)?)
+            (without_display(args, &experiment, &reason)?, false)
         }
-        done => Ok(done?),
+        done => done?,
+    };
+    if let Some(mut record) = record {
+        let name = record.name();
+        let text = lab.recording().to_toml();
+        record.write_all(text.as_bytes()).map_err(|error| record.failed(error))?;
+        record.close()?;
+        tell(&format!("recorded {} ticks in {name}", lab.timeline().end()));
     }
+    match interrupted {
+        true => Err(Interrupted::After { done: format!("{} ticks", lab.timeline().end()) }.into()),
+        false => Ok(()),
+    }
+}
+
+/// Draws the first seconds into a folder, and returns the lab as it then is.
+fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Result<Lab, Error> {
+    let frames = match args.seconds {
+        Some(seconds) => frames_in(seconds, FPS)?,
+        None => FRAMES,
+    };
+    let folder = FrameFolder::beside(FRAMES_DIR)?;
+    tell(&format!(
+        "no display to open a window on ({reason}); drawing {} s of it into {} instead",
+        f64::from(frames) / f64::from(FPS),
+        folder.path().display(),
+    ));
+    let schedule = Schedule { frames, fps: FPS };
+    let recording = Recording {
+        schedule,
+        size_px: SIZE_PX,
+        scale: 1.0,
+        panels: Panels::Shown,
+        motion: !args.reduced_motion,
+        mark_every: logbook::usual_stride(schedule.ticks(&experiment.lab())),
+    };
+    clip::record(experiment, recording, folder)?;
+    let mut lab = experiment.lab();
+    (0..frames).for_each(|frame| schedule.advance(&mut lab, frame, |_| ()));
+    Ok(lab)
 }

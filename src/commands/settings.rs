@@ -71,6 +71,8 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         }
         Ok(LaneSpec { method, substeps: lane.substeps, tolerance: lane.tolerance })
     };
+    // It is in the substeps of the lanes already.
+    scene.equal_cost = false;
     scene.lanes = settings.lanes.iter().map(lane).collect::<Result<_, String>>()?;
     let experiment = Experiment {
         scene,

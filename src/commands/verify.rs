@@ -1,4 +1,4 @@
-//! `regatta verify`: does this program still do what it did when the frames were captured?
+//! `regatta verify`: does this program still do what it did when the frames were captured, or the run recorded?
 //!
 //! The physics is judged first, bit by bit and without a GPU; then the pixels, which may move when the
 //! physics has not.
@@ -22,6 +22,7 @@ use super::settings;
 use super::terminal::tell;
 use crate::lab::SCENES;
 
+mod checks;
 mod physics;
 mod pixels;
 mod report;
@@ -30,6 +31,9 @@ use pixels::Limits;
 use report::Report;
 
 const EXAMPLES: &str = "\
+A recording, FILE.toml, is a scene with checks: its race is run again, without graphics, and each
+lane is the same to the bit or differs from some check on.
+
 The manifest in DIR says what was drawn. It is run again: first the physics, to the bit, then the
 frames. On the adapter and driver that drew the frames, every pixel has to be the same; on others a
 channel may differ by 2, and one pixel in ten thousand by more than 1.
@@ -40,14 +44,15 @@ Examples:
   regatta verify clip
   regatta verify clip --physics-only
   regatta verify clip --report junit verify.xml --diff differences
-  regatta verify clip --bless";
+  regatta verify clip --bless
+  regatta verify recording.toml";
 
-/// Run a capture again and say whether physics or pixels have changed
+/// Run a capture or a recording again and say whether physics or pixels have changed
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct VerifyArgs {
-    /// The directory that `regatta capture` filled
-    #[arg(value_name = "DIR")]
+    /// The directory that `regatta capture` filled, or a scene file with checks
+    #[arg(value_name = "DIR|FILE.toml")]
     dir: PathBuf,
 
     /// Judge the physics alone; needs no graphics
@@ -164,7 +169,40 @@ impl Cause for VerifyError {
 }
 
 pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
+    if is_scene_file(&args.dir) {
+        return judge_checks(args);
+    }
     Ok(judge(args)?)
+}
+
+/// Whether a path is that of a file, or of one that is not there but for its ending.
+fn is_scene_file(path: &Path) -> bool {
+    path.is_file() || !path.is_dir() && path.extension().is_some_and(|ending| ending == "toml")
+}
+
+fn judge_checks(args: &VerifyArgs) -> Result<(), Error> {
+    let of_captures = [
+        ("--diff", args.diff.is_some()),
+        ("--max-channel", args.max_channel.is_some()),
+        ("--max-pixels", args.max_pixels.is_some()),
+    ];
+    if let Some((option, _)) = of_captures.into_iter().find(|(_, is_given)| *is_given) {
+        return Err(checks::CheckError::OfCaptures { option }.into());
+    }
+    if args.bless {
+        return checks::bless(&args.dir);
+    }
+    let reports = reports(args.report.as_deref().unwrap_or_default(), &args.dir)?;
+    checks::judge(&args.dir, |checked| {
+        for (format, path) in reports {
+            let text = match format {
+                ReportFormat::Junit => checked.to_junit(),
+                ReportFormat::Json => checked.to_json(),
+            };
+            write_text(Place { path, option: "--report", older: Older::Replace }, &text)?;
+        }
+        Ok(())
+    })
 }
 
 fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
@@ -280,7 +318,7 @@ fn judge_pixels(
     }
     let folder = pixels::Folder { frames: &args.dir, differences: args.diff.as_deref() };
     pixels::judge(manifest, experiment, recording, &mut artist, limits, folder, report)?;
-    report.say_pixels()
+    Ok(report.say_pixels()?)
 }
 
 /// The manifest at `path`, if it is whole and as a capture wrote it; else why it cannot be used.

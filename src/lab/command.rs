@@ -90,6 +90,10 @@ pub enum Command {
     ToggleHelp,
     /// Saves what the window shows to a file.
     Screenshot,
+    /// Saves the run to a file, as a scene.
+    Record,
+    /// Gives each lane as many substeps as bring its cost nearest to the dearest lane's, or takes that back.
+    ToggleEqualCost,
     /// Enters or leaves full screen.
     ToggleFullScreen,
     /// Closes the overlay, else quits.
@@ -270,6 +274,18 @@ pub static KEYS: &[Binding] = &[
         shown: "P, F12",
         about: "screenshot; the file's name is shown",
         keys: &[(Key::Sign('p'), Command::Screenshot), (Key::Function(12), Command::Screenshot)],
+        repeats: false,
+    },
+    Binding {
+        shown: "F5, Ctrl S",
+        about: "save the run as a scene file; its name is shown",
+        keys: &[(Key::Function(5), Command::Record), (Key::ControlSign('s'), Command::Record)],
+        repeats: false,
+    },
+    Binding {
+        shown: "X",
+        about: "lanes of equal cost: substeps for those that are cheap; again: as before",
+        keys: &[(Key::Sign('x'), Command::ToggleEqualCost)],
         repeats: false,
     },
     Binding {

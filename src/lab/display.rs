@@ -87,6 +87,8 @@ pub enum Pace {
 pub enum Ask {
     /// Save what is shown to a file.
     Screenshot,
+    /// Save the run to a file.
+    Record,
     /// Enter or leave full screen.
     ToggleFullScreen,
     /// End the program.

@@ -18,7 +18,7 @@ pub fn equal_cost(scene: &Scene, lanes: &[LaneSpec], tick_hz: u32) -> Vec<LaneSp
 }
 
 /// The lanes that race: those of the scene, of equal cost if it asks for that.
-pub(super) fn lanes(scene: &Scene) -> Vec<LaneSpec> {
+pub fn lanes_that_race(scene: &Scene) -> Vec<LaneSpec> {
     match scene.equal_cost {
         true => equal_cost(scene, &scene.lanes, scene.tick_hz),
         false => scene.lanes.clone(),

@@ -98,10 +98,6 @@ impl Lab {
     pub fn display(&self) -> &Display {
         &self.viewer.display
     }
-    /// Whether any body takes an input, by its name on the body's [card](crate::sim::bodies::Kind).
-    pub fn takes(&self, input: &str) -> bool {
-        self.scene().bodies.iter().any(|body| body.kind.inputs.contains(&input))
-    }
     /// The history of the displayed body in each lane, with the lane's place on the list.
     pub fn plotted(&self) -> impl Iterator<Item = (usize, &History)> {
         let body = self.display().body;
@@ -133,6 +129,11 @@ impl Lab {
             self.entries()[self.active()].method.name,
             self.clock.tick_hz(),
         )
+    }
+
+    /// The run to the last tick that it reached, as a scene; see [`Session::recording`](super::Session::recording).
+    pub fn recording(&self) -> Scene {
+        self.timeline.session().recording(self.timeline.end())
     }
 
     /// What there is to be found out: a verdict on each method of the list at the present tick rate and

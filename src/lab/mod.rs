@@ -38,7 +38,7 @@ pub use analysis::{
 pub use clock::{Clock, Due};
 pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};
 pub use display::{Ask, Display, Instrument, Interpolation, Pace};
-pub use equal_cost::equal_cost;
+pub use equal_cost::{equal_cost, lanes_that_race};
 pub use journal::{Journal, JournalRow, Source};
 pub use lab::Lab;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Origin, TakenUp};

@@ -85,7 +85,7 @@ impl Race {
     /// }
     /// ```
     pub fn of(scene: &Scene) -> Self {
-        let lanes = equal_cost::lanes(scene);
+        let lanes = equal_cost::lanes_that_race(scene);
         Self::new(scene, lanes.into_iter().enumerate()).with_script(&scene.script)
     }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::action::Action;
+use super::equal_cost;
 use super::lane_spec::LaneSpec;
 use super::race::{Mode, Race};
 use super::scene::Scene;
@@ -24,6 +25,8 @@ pub(super) struct Start {
 impl Start {
     /// Of a scene as it is written, solo, under the method that it opens with.
     pub(super) fn of(scene: Scene) -> Self {
+        let scene =
+            Scene { lanes: equal_cost::lanes_that_race(&scene), equal_cost: false, ..scene };
         let opens_with = |spec: &LaneSpec| Some(spec.method) == scene.opening_method;
         let entry = scene.lanes.iter().position(opens_with).unwrap_or(0);
         Self {

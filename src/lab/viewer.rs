@@ -2,6 +2,7 @@
 
 use super::analysis::{Advice, Findings, Verdict};
 use super::display::{Display, Instrument, Interpolation, Pace};
+use super::lane_spec::LaneSpec;
 
 /// How a run is looked at, and what there is to read beside it.
 #[derive(Clone, Debug)]
@@ -15,6 +16,8 @@ pub struct Viewer {
     /// The latest thing worth telling, such as a screenshot's file name.
     pub notice: Option<String>,
     pub(super) findings: Option<Findings>,
+    /// What lanes were under before they were given equal cost, while they have it.
+    pub(super) before_equal_cost: Option<Vec<LaneSpec>>,
 }
 
 impl Viewer {
@@ -33,6 +36,7 @@ impl Viewer {
             pace: None,
             notice: None,
             findings: None,
+            before_equal_cost: None,
         }
     }
 

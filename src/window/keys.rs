@@ -74,6 +74,7 @@ fn from_parts(physical: PhysicalKey, logical: &Logical, held: Held) -> Option<Ke
             NamedKey::Home => Key::Home,
             NamedKey::Escape => Key::Escape,
             NamedKey::F1 => Key::Function(1),
+            NamedKey::F5 => Key::Function(5),
             NamedKey::F11 => Key::Function(11),
             NamedKey::F12 => Key::Function(12),
             _ => return None,

@@ -1,10 +1,9 @@
 //! A picture of the lab in the size of the window, drawn to a texture of our own: a surface need not
 //! let itself be read.
 
-use std::fs::OpenOptions;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use super::new_file::write_new;
 use crate::lab::{Lab, Mode};
 use crate::view::{Artist, Gpu, png};
 
@@ -22,7 +21,7 @@ fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> Result<PathB
         .map_err(|error| error.to_string())?
         .draw(lab, &mut rgba)
         .map_err(|error| error.to_string())?;
-    write_new(Path::new(""), &name(lab), &png::encode(size_px, &rgba))
+    write_new(Path::new(""), &name(lab), "png", &png::encode(size_px, &rgba))
         .map_err(|error| format!("cannot write {}.png here: {error}", name(lab)))
 }
 
@@ -33,45 +32,4 @@ fn name(lab: &Lab) -> String {
         Mode::Race => "race",
     };
     format!("regatta-{}-{method}-tick-{}", lab.scene().name, lab.race().tick())
-}
-
-/// Writes to `name.png`, or to the first of `name-2.png`, `name-3.png` … that does not exist.
-fn write_new(folder: &Path, name: &str, bytes: &[u8]) -> io::Result<PathBuf> {
-    let siblings = (2..).map(|n: u32| format!("{name}-{n}.png"));
-    for sibling in std::iter::once(format!("{name}.png")).chain(siblings) {
-        let path = folder.join(sibling);
-        match OpenOptions::new().write(true).create_new(true).open(&path) {
-            Ok(mut file) => {
-                return match file.write_all(bytes) {
-                    Ok(()) => Ok(path),
-                    Err(error) => {
-                        // Half a picture is none.
-                        let _ = std::fs::remove_file(&path);
-                        Err(error)
-                    }
-                };
-            }
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(error),
-        }
-    }
-    unreachable!("no folder holds as many files")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_screenshot_never_replaces_another() {
-        let folder = tempfile::tempdir().unwrap();
-        let names = ["shot.png", "shot-2.png", "shot-3.png"];
-        for (i, name) in names.iter().enumerate() {
-            let path = write_new(folder.path(), "shot", &[i as u8]).unwrap();
-            assert_eq!(path, folder.path().join(name));
-        }
-        for (i, name) in names.iter().enumerate() {
-            assert_eq!(std::fs::read(folder.path().join(name)).unwrap(), [i as u8]);
-        }
-    }
 }

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::VerifyError;
 use crate::commands::output::OutputError;
 
 /// The first mark that is another now.
@@ -88,12 +87,12 @@ impl Report {
     }
 
     /// Says what became of the physics.
-    pub(super) fn say_physics(&self) -> Result<(), VerifyError> {
+    pub(super) fn say_physics(&self) -> Result<(), OutputError> {
         say(&format!("physics: {}", self.physics_line()))
     }
 
     /// Says what became of the pixels.
-    pub(super) fn say_pixels(&self) -> Result<(), VerifyError> {
+    pub(super) fn say_pixels(&self) -> Result<(), OutputError> {
         for FrameChange { file, what } in &self.pixels {
             say(&format!("pixels: {file}: {what}"))?;
         }
@@ -132,41 +131,51 @@ impl Report {
     pub(super) fn to_junit(&self) -> String {
         let frames = self.frames.iter().flatten();
         let change = |file: &String| self.pixels.iter().find(|change| change.file == *file);
-        let cases = frames.map(|file| (file.as_str(), change(file).map(|c| c.what.clone())));
-        let physics = self.physics.is_some().then(|| self.physics_line());
-        let cases: Vec<_> = std::iter::once(("physics", physics)).chain(cases).collect();
-        let failures = cases.iter().filter(|(_, failure)| failure.is_some()).count();
-        let suite = escaped(&format!("regatta verify {}", self.dir.display()));
-        let mut text = format!(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-             <testsuite name=\"{suite}\" tests=\"{}\" failures=\"{failures}\" errors=\"0\">\n",
-            cases.len()
-        );
-        for (name, failure) in cases {
-            let name = escaped(name);
-            match failure {
-                None => {
-                    text.push_str(&format!("  <testcase classname=\"regatta\" name=\"{name}\"/>\n"))
-                }
-                Some(failure) => text.push_str(&format!(
-                    "  <testcase classname=\"regatta\" name=\"{name}\">\
-                     <failure message=\"{}\"/></testcase>\n",
-                    escaped(&failure)
-                )),
-            }
-        }
-        text.push_str("</testsuite>\n");
-        text
+        let cases = frames.map(|file| JunitCase {
+            name: file.clone(),
+            failure: change(file).map(|change| change.what.clone()),
+        });
+        let failure = self.physics.is_some().then(|| self.physics_line());
+        let physics = JunitCase { name: "physics".into(), failure };
+        let cases: Vec<_> = std::iter::once(physics).chain(cases).collect();
+        junit(&format!("regatta verify {}", self.dir.display()), &cases)
     }
 }
 
+/// A test in a CI's list.
+pub(super) struct JunitCase {
+    pub(super) name: String,
+    pub(super) failure: Option<String>,
+}
+
+/// These tests as JUnit's XML.
+pub(super) fn junit(suite: &str, cases: &[JunitCase]) -> String {
+    let failures = cases.iter().filter(|case| case.failure.is_some()).count();
+    let mut text = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <testsuite name=\"{}\" tests=\"{}\" failures=\"{failures}\" errors=\"0\">\n",
+        escaped(suite),
+        cases.len()
+    );
+    for JunitCase { name, failure } in cases {
+        let name = escaped(name);
+        text += &match failure {
+            None => format!("  <testcase classname=\"regatta\" name=\"{name}\"/>\n"),
+            Some(failure) => format!(
+                "  <testcase classname=\"regatta\" name=\"{name}\">\
+                 <failure message=\"{}\"/></testcase>\n",
+                escaped(failure)
+            ),
+        };
+    }
+    text + "</testsuite>\n"
+}
+
 /// One line of data.
-fn say(line: &str) -> Result<(), VerifyError> {
+pub(super) fn say(line: &str) -> Result<(), OutputError> {
     match writeln!(io::stdout(), "{line}") {
         // Whoever listens no more still gets the exit code.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(OutputError::Stdout(error).into())
-        }
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(OutputError::Stdout(error)),
         _ => Ok(()),
     }
 }

@@ -4,6 +4,7 @@ use super::Lab;
 use crate::lab::action::Action;
 use crate::lab::command::{Command, SPEED_LADDER, TICK_LADDER};
 use crate::lab::display::{Ask, Display};
+use crate::lab::equal_cost::equal_cost;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::{Acted, Mode};
 use crate::lab::scene::{SCENES, Scene};
@@ -88,6 +89,8 @@ impl Lab {
             Command::Escape if self.viewer.display.help => self.viewer.display.help = false,
             Command::Escape => return Some(Ask::Quit),
             Command::Screenshot => return Some(Ask::Screenshot),
+            Command::Record => return Some(Ask::Record),
+            Command::ToggleEqualCost => self.toggle_equal_cost(),
             Command::ToggleFullScreen => return Some(Ask::ToggleFullScreen),
         }
         None
@@ -164,6 +167,38 @@ impl Lab {
         if let Some(entry) = around.find(|&entry| self.can_pick(entry)) {
             self.pick(entry);
         }
+    }
+
+    /// Gives each lane as many substeps as the dearest can pay for, or takes that back.
+    fn toggle_equal_cost(&mut self) {
+        if self.mode() == Mode::Solo {
+            return self.set_notice("lanes have equal cost in a race: C");
+        }
+        let lanes: Vec<(usize, LaneSpec)> = self
+            .race()
+            .entrants()
+            .iter()
+            .map(|entrant| (entrant.lane_number, self.entries()[entrant.entry]))
+            .collect();
+        let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
+        let (wanted, notice) = match self.viewer.before_equal_cost.take() {
+            Some(before) => {
+                let of = |spec: &LaneSpec| {
+                    let before = before.iter().find(|known| known.method == spec.method);
+                    LaneSpec { substeps: before.map_or(1, |known| known.substeps), ..*spec }
+                };
+                (specs.iter().map(of).collect(), "lanes have the substeps of before")
+            }
+            None => {
+                let equal = equal_cost(self.scene(), &specs, self.race().tick_hz());
+                self.viewer.before_equal_cost = Some(specs);
+                (equal, "each lane has as many substeps as cost what the dearest costs")
+            }
+        };
+        for ((lane, _), spec) in lanes.into_iter().zip(wanted) {
+            self.act(Action::Lane { lane, spec });
+        }
+        self.set_notice(notice);
     }
 
     /// Pauses, and goes so many ticks on or back.

@@ -48,9 +48,11 @@ impl Race {
     /// Whether an action would change anything.
     pub fn changes(&self, action: &Action) -> bool {
         match action {
-            Action::Throttle(part) => self.throttle != part.clamp(-1.0, 1.0),
-            Action::Rudder(part) => self.rudder != part.clamp(-1.0, 1.0),
-            Action::Kick(times) => *times != 0.0,
+            Action::Throttle(part) => {
+                self.takes("throttle") && self.throttle != part.clamp(-1.0, 1.0)
+            }
+            Action::Rudder(part) => self.takes("rudder") && self.rudder != part.clamp(-1.0, 1.0),
+            Action::Kick(times) => self.takes("kick") && *times != 0.0,
             Action::TickHz(tick_hz) => self.tick_hz != *tick_hz,
             Action::Set { body, parameter, value } => {
                 let present = &self.values[*body];
@@ -82,6 +84,11 @@ impl Race {
                 (lane.solver(), lane.substeps()) != (spec.solver(), spec.substeps)
             }),
         }
+    }
+
+    /// Whether any body takes an input, by its name on the body's [card](crate::sim::bodies::Kind).
+    pub fn takes(&self, input: &str) -> bool {
+        self.truth.bodies().iter().any(|body| body.kind.inputs.contains(&input))
     }
 
     /// The place of the lane that an action puts under a method, with substeps and a tolerance.

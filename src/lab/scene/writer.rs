@@ -2,12 +2,29 @@
 
 use std::fmt::Write;
 
+use toml::de::DeTable;
+
 use super::{Check, Scene, SceneBody, Scripted};
 use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
 
 impl Scene {
+    /// The `text` of a scene file with other hashes in its checks, in the order of the file, and all else as it is.
+    /// Where there are fewer hashes than checks, the last checks keep theirs.
+    pub fn with_hashes(text: &str, hashes: &[u64]) -> String {
+        let Ok(document) = DeTable::parse(text) else { return text.into() };
+        let rows = document.get_ref().get("check").and_then(|checks| checks.get_ref().as_array());
+        let rows = rows.into_iter().flatten().filter_map(|row| row.get_ref().as_table());
+        let spans: Vec<_> = rows.filter_map(|row| Some(row.get("hash")?.span())).collect();
+        let mut text = text.to_owned();
+        // From the end, so that the places before stay where they are.
+        for (span, hash) in spans.into_iter().zip(hashes).rev() {
+            text.replace_range(span, &format!("\"{hash:016x}\""));
+        }
+        text
+    }
+
     /// The text of a scene file that [reads](Scene::parse) as this scene.
     ///
     /// ```

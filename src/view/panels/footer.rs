@@ -22,7 +22,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) {
         } else if width >= ROOM_FOR_KEYS {
             let part = |input, keys: &str, part: f64| {
                 let text = format!("{keys} {input} {} %  ", round(part * 100.0, 3));
-                if lab.takes(input) { text } else { String::new() }
+                if lab.race().takes(input) { text } else { String::new() }
             };
             let keys = format!(
                 "{}{}K kick  Space pause  H all keys",
