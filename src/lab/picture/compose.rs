@@ -213,7 +213,7 @@ impl Shown<'_> {
         }
         picture.strokes.extend(strokes(&pen.marks, &camera, own));
 
-        captions::arrow(picture, &camera, pen.at, colour);
+        captions::arrow(picture, &camera, pen.at, body.stepper.place(), colour);
         let race = self.lab.race().entrants();
         if self.lab.mode() == Mode::Solo || entrant.entry == race[race.len() - 1].entry {
             captions::scale_bar(picture, &camera);
