@@ -274,6 +274,18 @@ fn a_frequency_error_is_told_where_it_stays_the_same() {
 }
 
 #[test]
+fn a_frequency_error_is_that_of_a_step_however_often_the_body_turns_in_a_tick() {
+    // 100 rad/s: a turn and a half in a tick, a fortieth of one in a step.
+    let scene = scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 10000");
+    let spec = LaneSpec { substeps: 64, ..spec("velocity-verlet") };
+    let found = Judge::new(&scene, 1.0).verdict(spec, 10);
+    let z: f64 = 100.0 / 640.0;
+    let wanted = 2.0 * libm::asin(z / 2.0) / z - 1.0;
+    let error = found.frequency_error.unwrap();
+    assert!((error / wanted - 1.0).abs() < 1e-6, "{error}, not {wanted}: {found}");
+}
+
+#[test]
 fn advice_counts_the_evaluations_of_all_bodies_in_a_second() {
     let both = "[[ship]]\nthrust_n = 2000\ndrag_n_s_per_m = 100\nmass_kg = 1000\n\
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 39.47841760435743";

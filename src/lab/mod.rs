@@ -24,7 +24,6 @@ mod scene;
 mod script;
 mod truth_curve;
 
-pub use crate::sim::stability::Stability;
 pub use analysis::{
     Advice, Advised, Adviser, CRITERIA, Criterion, Fate, Findings, Judge, LONG_RUN,
     LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK, Meets, Met, NoTruth, Question,
