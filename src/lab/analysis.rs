@@ -2,6 +2,7 @@
 //! on the run.
 
 mod advice;
+mod change;
 mod course;
 mod judge;
 mod modes;

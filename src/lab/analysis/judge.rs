@@ -4,11 +4,12 @@
 //! A linear body under a method of equal steps has one map from tick to tick, whose modes say what becomes of its motion
 //! ever after. Any other is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and what is not seen by then is not said.
 
+use super::change::{Change, bounded, tell_of_run};
 use super::modes::{Modes, TooMuch};
-use super::pitch::{Pitch, pitch};
+use super::pitch::pitch;
 use super::run::{MOST_WORK, Run, Until, follow};
 use super::survey::TimedInput;
-use super::truth::{BodyTruth, Swing};
+use super::truth::BodyTruth;
 use super::verdict::{NoTruth, Verdict, Word};
 use crate::lab::command::Command;
 use crate::lab::scene::{LaneSpec, Scene};
@@ -31,12 +32,6 @@ pub const LONGEST_HORIZON_S: f64 = 60.0;
 
 /// An error of this part of the amplitude is rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// The growth of the swing over the second half of a long run that is growth and not the last of what comes and goes.
-const GROWTH_SEEN: f64 = 2e-3;
-
-/// A change of the amplitude this large is one, however it came about: a factor.
-const LEAP: f64 = 1.5;
 
 /// The truth over a scene, to hold lanes against.
 pub struct Judge {
@@ -303,65 +298,4 @@ fn without_truth(truth: &BodyTruth, run: &Run, gap: f64) -> Option<NoTruth> {
 fn require_truth(truth: &BodyTruth, run: &Run, tick_hz: u32) -> Result<(), Missed> {
     let gap = truth.gap(run.seconds, tick_hz);
     without_truth(truth, run, gap).map_or(Ok(()), |_| Err(Missed::Unknown))
-}
-
-/// What becomes of the amplitude within the horizon.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Change {
-    None,
-    Grows,
-    Dies,
-}
-
-impl Change {
-    /// Of a swing whose amplitude has become this part of what it was.
-    pub(super) fn of(amplitude: f64) -> Self {
-        match amplitude {
-            a if a >= 1.0 + VISIBLE => Change::Grows,
-            a if a <= 1.0 - VISIBLE => Change::Dies,
-            _ => Change::None,
-        }
-    }
-}
-
-/// What the run itself shows.
-fn tell_of_run(verdict: &mut Verdict, truth: &BodyTruth, run: &Run, horizon_s: f64) -> Change {
-    verdict.is_bounded = bounded(truth, run);
-    verdict.doubles_in_s = run.doubled_at;
-    let period = truth.swing.as_ref().map_or(horizon_s, Swing::period);
-    let end = run.followed_s;
-    // A swing that stays small for some turns, after more turns than would blur the moment.
-    let died = |t: f64| end - t >= 4.0 * period && t >= 10.0 * period;
-    verdict.halves_in_s = run.halved_at.filter(|&t| died(t));
-    verdict.frequency_error = pitch(truth, run).filter(Pitch::is_steady).map(|pitch| pitch.error);
-    let within = |at: Option<f64>| at.is_some_and(|t| t <= horizon_s);
-    if truth.energy_scale.is_none() {
-        let grows = within(run.doubled_at) || within(run.rushed_at);
-        return if grows { Change::Grows } else { Change::None };
-    }
-    let amplitude = |quarter: f64| (1.0 + quarter).max(0.0).sqrt();
-    let (first, last) = (amplitude(run.quarters[0]), amplitude(run.quarters[3]));
-    verdict.energy_change = Some(run.quarters[3]).filter(|change| change.is_finite());
-    let trend = Change::of(last / first);
-    match Change::of(last) {
-        _ if within(run.doubled_at) => Change::Grows,
-        Change::Grows if trend == Change::Grows || last >= LEAP => Change::Grows,
-        Change::Dies if trend == Change::Dies || last * LEAP <= 1.0 => Change::Dies,
-        _ => Change::None,
-    }
-}
-
-/// Whether a followed body stays as small as it is in truth; `None` where it was not followed to the end.
-fn bounded(truth: &BodyTruth, run: &Run) -> Option<bool> {
-    let failed = run.fate.is_some() || run.later.is_some();
-    if failed || run.doubled_at.is_some() || run.rushed_at.is_some() {
-        return Some(false);
-    }
-    if run.is_too_much || truth.failure.is_some() || run.is_losing && !run.has_come_to_rest {
-        return None;
-    }
-    let amplitude = |quarter: f64| (1.0 + quarter).max(0.0).sqrt();
-    let [_, early, _, late] = run.long_quarters.map(amplitude);
-    let grows = truth.energy_scale.is_some() && late / early > 1.0 + GROWTH_SEEN;
-    Some(!grows)
 }

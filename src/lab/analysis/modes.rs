@@ -1,6 +1,6 @@
 //! What becomes of the motion of a linear body under a method of equal steps, by its normal modes.
 
-use super::judge::Change;
+use super::change::Change;
 use super::run::{MOST_WORK, work_of};
 use super::truth::BodyTruth;
 use super::verdict::Verdict;
