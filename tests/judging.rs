@@ -1,7 +1,8 @@
 //! Verdicts and advice against plain runs: energies, amplitudes and errors counted out here once more.
 
 use regatta::lab::{
-    Adviser, CRITERIA, Judge, LONGEST_HORIZON_S, LaneSpec, NoTruth, Scene, TOLERANCE, Verdict, Word,
+    Adviser, CRITERIA, Judge, LONGEST_HORIZON_S, LaneSpec, Meets, NoTruth, NotJudged, Scene,
+    TOLERANCE, Verdict, Word,
 };
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
@@ -183,6 +184,24 @@ fn what_nobody_can_know_is_not_judged() {
         assert!(part > least && part < most, "{found}");
         assert_eq!(found.word, Word::NoTruth);
     }
+}
+
+#[test]
+fn nothing_is_held_against_its_truth_beyond_the_end_of_its_scene() {
+    // 1.6 ticks: the second one ends after the scene.
+    let scene = scene(0.8, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 36");
+    let found = verdict(&scene, "explicit-euler", 2);
+    assert_eq!(found.seconds, 0.5, "{found:?}");
+    // 0.8 ticks.
+    for id in ["explicit-euler", "rk4", "dormand-prince-54"] {
+        let found = verdict(&scene, id, 1);
+        assert_eq!(found.word, Word::NotJudged, "{found}");
+        assert_eq!(found.not_judged, Some(NotJudged::ShorterThanATick));
+        assert_eq!((found.is_bounded, found.no_truth, found.frequency_error), (None, None, None));
+        let adviser = Adviser::new(&scene, 1.0, 1);
+        assert!(CRITERIA.iter().all(|&of| adviser.meets(spec(id), of) == Meets::Unknown), "{id}");
+    }
+    assert!(verdict(&scene, "rk4", 100).not_judged.is_none());
 }
 
 #[test]

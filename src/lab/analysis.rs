@@ -21,4 +21,4 @@ pub use run::MOST_WORK;
 pub(super) use thinking::entries;
 pub use thinking::{Advice, Findings, Question, Thinker};
 pub use truth::LONG_RUN;
-pub use verdict::{Fate, NoTruth, Severity, Verdict, Word, duration};
+pub use verdict::{Fate, NoTruth, NotJudged, Severity, Verdict, Word, duration};

@@ -5,12 +5,13 @@
 //! ever after. Any other is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and what is not seen by then is not said.
 
 use super::change::{Change, bounded, tell_of_run};
+use super::course::ticks;
 use super::modes::{Modes, TooMuch};
 use super::pitch::pitch;
 use super::run::{MOST_WORK, Run, Until, follow};
 use super::survey::TimedInput;
 use super::truth::BodyTruth;
-use super::verdict::{NoTruth, Verdict, Word};
+use super::verdict::{NoTruth, NotJudged, Verdict, Word};
 use crate::lab::command::Command;
 use crate::lab::scene::{LaneSpec, Scene};
 use crate::sim::integrators::StepFailure;
@@ -63,7 +64,7 @@ pub(super) enum Finding {
     Holds { evaluations_per_s: f64 },
     /// The body on this place of the scene does not.
     Fails { body: usize },
-    /// It would take too much work, or there is no truth, to tell.
+    /// It would take too much work, or there is no truth or no tick, to tell.
     Unknown,
 }
 
@@ -157,6 +158,7 @@ impl Judge {
             energy_drift: run.energy_drift,
             fate: run.fate.clone(),
             no_truth: None,
+            not_judged: None,
             evaluations: run.evaluations,
             seconds: run.seconds,
             horizon_s: self.horizon_s,
@@ -168,8 +170,14 @@ impl Judge {
         if run.fate.is_some() {
             verdict.is_bounded = Some(false);
         }
+        verdict.not_judged = match ticks(self.horizon_s, tick_hz) {
+            0 => Some(NotJudged::ShorterThanATick),
+            _ => run.is_cut_short().then_some(NotJudged::TooMuchWork),
+        };
         let gap = truth.gap(run.seconds, tick_hz);
-        verdict.no_truth = without_truth(truth, &run, gap);
+        if verdict.not_judged.is_none() {
+            verdict.no_truth = without_truth(truth, &run, gap);
+        }
         verdict.word = word(&verdict, &run, change, gap);
         if matches!(verdict.word, Word::NotJudged | Word::NoTruth | Word::BlewUp | Word::GaveUp) {
             verdict.frequency_error = None;
@@ -183,7 +191,7 @@ impl Judge {
 
     /// Whether nothing grows that should not, over the horizon and in the long run.
     pub(super) fn is_bounded(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
-        self.each(|truth| {
+        self.each(tick_hz, |truth| {
             if let Some(modes) = Modes::of(truth, spec, tick_hz)? {
                 if !modes.are_bounded() {
                     return Err(Missed::Fails);
@@ -201,7 +209,7 @@ impl Judge {
 
     /// Whether every body stays within [`TOLERANCE`] of its truth.
     pub(super) fn is_accurate(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
-        self.each(|truth| {
+        self.each(tick_hz, |truth| {
             let run = follow(truth, spec, tick_hz, Until::Error(TOLERANCE), self.most_work);
             require_truth(truth, &run, tick_hz)?;
             cost_if(run.error <= TOLERANCE, &run)
@@ -212,7 +220,7 @@ impl Judge {
     /// does not swing, or of which too few turns are seen, whether it stays within [`VISIBLE`] of its range. What is
     /// accurate looks right.
     pub(super) fn looks_right(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
-        self.each(|truth| {
+        self.each(tick_hz, |truth| {
             let run = follow(truth, spec, tick_hz, Until::Horizon, self.most_work);
             require_truth(truth, &run, tick_hz)?;
             if run.fate.is_some() || run.error <= TOLERANCE {
@@ -239,7 +247,10 @@ impl Judge {
     }
 
     /// What `of` finds of all bodies together; of one that meets the criterion it returns the evaluations per second.
-    fn each(&self, of: impl Fn(&BodyTruth) -> Result<f64, Missed>) -> Finding {
+    fn each(&self, tick_hz: u32, of: impl Fn(&BodyTruth) -> Result<f64, Missed>) -> Finding {
+        if ticks(self.horizon_s, tick_hz) == 0 {
+            return Finding::Unknown;
+        }
         let mut evaluations_per_s = 0.0;
         let mut is_unknown = false;
         for (body, truth) in self.truths.iter().enumerate() {
@@ -261,7 +272,7 @@ fn word(verdict: &Verdict, run: &Run, change: Change, gap: f64) -> Word {
             _ => Word::GaveUp,
         };
     }
-    if run.is_cut_short() {
+    if verdict.not_judged.is_some() {
         return Word::NotJudged;
     }
     if verdict.no_truth.is_some() {
