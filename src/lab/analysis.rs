@@ -8,6 +8,7 @@ mod judge;
 mod modes;
 mod pitch;
 mod run;
+mod searches;
 mod survey;
 mod thinking;
 mod truth;
