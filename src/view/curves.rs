@@ -143,6 +143,22 @@ mod tests {
     }
 
     #[test]
+    fn a_swing_beats_with_few_samples_or_few_pixels_to_a_turn() {
+        let beats = |samples: usize, points_wide: f32| {
+            let at = |i: usize| {
+                let turns = (i as f32 + 0.2) / samples as f32;
+                Pos2::new(points_wide * turns, (std::f32::consts::TAU * turns).sin())
+            };
+            beats(&(0..40 * samples).map(at).collect::<Vec<_>>())
+        };
+        assert!(!beats(20, 12.0));
+        assert!(beats(5, 12.0), "the peaks fall between the samples");
+        assert!(beats(20, 3.0), "a turn is three points wide");
+        assert!(!beats(20, 5.0));
+        assert!(!super::beats(&[]));
+    }
+
+    #[test]
     fn an_arrow_is_where_the_curve_leaves_and_shows_the_way() {
         let frame = Rect::from_min_max(Pos2::ZERO, Pos2::new(200.0, 100.0));
         let inside = Pos2::new(60.0, 50.0);
