@@ -285,5 +285,10 @@ mod tests {
         let wanted = 0.005_f64.powi(4) / 4.0 / h;
         assert!((found.loss_per_s / wanted - 1.0).abs() < 0.01, "{found:?}, not {wanted}");
         assert!((found.growth_per_s / wanted + 1.0).abs() < 0.01, "{found:?}, not {wanted}");
+        // What Adams-Bashforth gains, by as much, is no loss.
+        let solver = Solver::Method(method("adams-bashforth-2").unwrap());
+        let found = mode(25.0, 0.0).stability(&*spring, solver, tick).unwrap();
+        assert!((found.growth_per_s / wanted - 1.0).abs() < 0.01, "{found:?}, not {wanted}");
+        assert_eq!(found.loss_per_s, 0.0);
     }
 }
