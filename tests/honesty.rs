@@ -161,7 +161,7 @@ fn plain(scene: &Scene, spec: LaneSpec, tick_hz: u32, amplitudes: &[f64], scenes
     let mut lane = stepper(scene, spec.solver());
     let mut truth = stepper(scene, Solver::Truth);
     let hz = f64::from(tick_hz);
-    let horizon = ((scene.seconds * hz).round() as u64).max(1);
+    let horizon = (scene.seconds * hz + 1e-6).floor() as u64;
     let n = lane.q().len();
     let mut middles = vec![0.0; n];
     let mut plain = Plain { error: 0.0, failed_at: None, q: vec![], reach: vec![], energy: vec![] };

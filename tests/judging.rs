@@ -1,7 +1,8 @@
 //! Verdicts and advice against plain runs: energies, amplitudes and errors counted out here once more.
 
 use regatta::lab::{
-    Adviser, CRITERIA, Judge, LONGEST_HORIZON_S, LaneSpec, NoTruth, Scene, TOLERANCE, Verdict, Word,
+    Adviser, CRITERIA, Judge, LONGEST_HORIZON_S, LaneSpec, Meets, NoTruth, NotJudged, Scene,
+    TOLERANCE, Verdict, Word,
 };
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
@@ -186,6 +187,24 @@ fn what_nobody_can_know_is_not_judged() {
 }
 
 #[test]
+fn nothing_is_held_against_its_truth_beyond_the_end_of_its_scene() {
+    // 1.6 ticks: the second one ends after the scene.
+    let scene = scene(0.8, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 36");
+    let found = verdict(&scene, "explicit-euler", 2);
+    assert_eq!(found.seconds, 0.5, "{found:?}");
+    // 0.8 ticks.
+    for id in ["explicit-euler", "rk4", "dormand-prince-54"] {
+        let found = verdict(&scene, id, 1);
+        assert_eq!(found.word, Word::NotJudged, "{found}");
+        assert_eq!(found.not_judged, Some(NotJudged::ShorterThanATick));
+        assert_eq!((found.is_bounded, found.no_truth, found.frequency_error), (None, None, None));
+        let adviser = Adviser::new(&scene, 1.0, 1);
+        assert!(CRITERIA.iter().all(|&of| adviser.meets(spec(id), of) == Meets::Unknown), "{id}");
+    }
+    assert!(verdict(&scene, "rk4", 100).not_judged.is_none());
+}
+
+#[test]
 fn what_looks_right_is_as_wide_and_as_fast_as_the_truth() {
     let slowest = |scene: &Scene, id: &str| {
         Adviser::new(scene, 1.0, 60).slowest(spec(id), CRITERIA[LOOKS_RIGHT]).unwrap()
@@ -271,6 +290,18 @@ fn a_frequency_error_is_told_where_it_stays_the_same() {
     for id in ["explicit-euler", "improved-euler", "implicit-euler", "bdf2"] {
         assert_eq!(verdict(&scene, id, 60).frequency_error, None, "{id}");
     }
+}
+
+#[test]
+fn a_frequency_error_is_that_of_a_step_however_often_the_body_turns_in_a_tick() {
+    // 100 rad/s: a turn and a half in a tick, a fortieth of one in a step.
+    let scene = scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 10000");
+    let spec = LaneSpec { substeps: 64, ..spec("velocity-verlet") };
+    let found = Judge::new(&scene, 1.0).verdict(spec, 10);
+    let z: f64 = 100.0 / 640.0;
+    let wanted = 2.0 * libm::asin(z / 2.0) / z - 1.0;
+    let error = found.frequency_error.unwrap();
+    assert!((error / wanted - 1.0).abs() < 1e-6, "{error}, not {wanted}: {found}");
 }
 
 #[test]

@@ -91,7 +91,7 @@ fn throttle_and_rudder_go_in_tenths_stop_at_their_ends_and_are_back_amidships_af
     assert!(heading(&lab) > 0.1, "left is counter-clockwise");
     lab.apply(Command::Restart);
     assert_eq!((lab.race().rudder(), heading(&lab)), (0.0, 0.0));
-    assert!(!Lab::new(scene("ship")).takes("rudder"));
+    assert!(!Lab::new(scene("ship")).race().takes("rudder"));
 }
 
 #[test]

@@ -227,3 +227,28 @@ fn a_body_alone_has_its_numbers_of_the_tick_however_it_is_drawn_between_ticks() 
         lab.apply(Command::NextInterpolation);
     }
 }
+
+#[test]
+fn a_body_off_the_stage_is_told_of_by_its_place_at_the_tick_however_it_is_drawn() {
+    let text = "title = 't'\ntick_hz = 2\nseconds = 20\nmethods = ['explicit-euler']\n\
+         [[orbit]]\nmu_m3_per_s2 = 1000\nx0_m = 10\nvy0_m_per_s = 10\n";
+    let mut lab = Lab::new(Scene::parse("t.toml", text).unwrap());
+    let told = |lab: &Lab| {
+        let labels = compose(lab, [300.0, 300.0]).labels.into_iter();
+        let metres = labels
+            .filter_map(|label| label.text.strip_suffix(" m")?.replace('−', "-").parse().ok());
+        // The scale bar is the last of them.
+        metres.collect::<Vec<f64>>()[0]
+    };
+    for _ in 0..20 {
+        lab.advance(250_000_000);
+    }
+    for _ in 0..3 {
+        let place = lab.race().entrants()[0].lane.bodies()[0].stepper.place();
+        let said = told(&lab);
+        let is_of_tick = [place.x, place.y].iter().any(|at| (at / said - 1.0).abs() < 5e-3);
+        assert!(is_of_tick, "{said} m, at {place} m");
+        lab.advance(100_000_000);
+        lab.apply(Command::NextInterpolation);
+    }
+}

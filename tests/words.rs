@@ -1,6 +1,6 @@
 //! What verdicts say, word by word.
 
-use regatta::lab::{Fate, NoTruth, Severity, TOLERANCE, Verdict, Word};
+use regatta::lab::{Fate, NoTruth, NotJudged, Severity, TOLERANCE, Verdict, Word};
 use regatta::sim::integrators::StepFailure;
 
 /// A verdict with nothing in it but this word.
@@ -22,6 +22,7 @@ fn plain(word: Word) -> Verdict {
         energy_drift: None,
         fate: None,
         no_truth: None,
+        not_judged: None,
         evaluations: 1,
         seconds: 20.0,
         horizon_s: 20.0,
@@ -94,7 +95,12 @@ fn a_verdict_says_the_number_that_its_word_is_about() {
         without(NoTruth::Failed(failure.clone())),
         &format!("no truth: the true motion is not known: it {failure}"),
     );
-    is(plain(Word::NotJudged), "not judged: too much work");
+    for (why, shown) in [
+        (NotJudged::TooMuchWork, "not judged: too much work"),
+        (NotJudged::ShorterThanATick, "not judged: the scene is shorter than a tick"),
+    ] {
+        is(Verdict { not_judged: Some(why), ..plain(Word::NotJudged) }, shown);
+    }
 }
 
 #[test]

@@ -2,11 +2,13 @@
 //! on the run.
 
 mod advice;
+mod change;
 mod course;
 mod judge;
 mod modes;
 mod pitch;
 mod run;
+mod searches;
 mod survey;
 mod thinking;
 mod truth;
@@ -19,4 +21,4 @@ pub use judge::{Judge, LONGEST_HORIZON_S, RIGHT_PITCH, TOLERANCE, VISIBLE};
 pub use run::MOST_WORK;
 pub use thinking::{Advice, Findings, Question, Thinker};
 pub use truth::LONG_RUN;
-pub use verdict::{Fate, NoTruth, Severity, Verdict, Word, duration};
+pub use verdict::{Fate, NoTruth, NotJudged, Severity, Verdict, Word, duration};

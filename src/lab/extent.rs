@@ -1,7 +1,11 @@
 //! What a motion has covered so far: the scales that errors of speed and energy are held against.
 
+use crate::sim::Stepper;
+
 /// An exchange of energy this small against the largest kinetic energy is rounding.
 const ROUNDING: f64 = 1e-9;
+/// Kinetic energy below this part of the largest is none: between ticks it may have been 0.
+const AT_REST: f64 = 0.01;
 
 /// What the true motion of a body has covered since its start.
 #[derive(Clone, Debug, Default)]
@@ -13,11 +17,14 @@ pub(super) struct Extent {
 /// The kinetic energy so far, in joules.
 #[derive(Clone, Copy, Debug)]
 struct Kinetic {
-    start: f64,
     least: f64,
     most: f64,
-    /// Whether it went a good way from the start and half of that way back.
-    has_turned: bool,
+    /// The same since the last turn.
+    recent: (f64, f64),
+    /// Whether it was rising last; `None` before it has moved.
+    rises: Option<bool>,
+    /// How often it went half its range back.
+    turns: u32,
 }
 
 impl Extent {
@@ -25,8 +32,7 @@ impl Extent {
     pub(super) fn cover(&mut self, speed: f64, kinetic_j: Option<f64>) {
         self.largest_speed = self.largest_speed.max(speed);
         if let Some(now) = kinetic_j {
-            let start = Kinetic { start: now, least: now, most: now, has_turned: false };
-            self.kinetic.get_or_insert(start).cover(now);
+            self.kinetic.get_or_insert_with(|| Kinetic::from(now)).cover(now);
         }
     }
 
@@ -35,25 +41,54 @@ impl Extent {
         self.largest_speed
     }
 
-    /// The energy that the motion exchanges, in joules: the range of its kinetic energy. `None` where none is
-    /// conserved or exchanged, and before the kinetic energy has turned for the first time, as the range is
-    /// still a small part of itself then.
-    pub(super) fn exchanged_j(&self) -> Option<f64> {
-        self.kinetic.filter(|kinetic| kinetic.has_turned).map(|kinetic| kinetic.range())
+    /// The energy that the motion of `truth` exchanges, in joules: the range of its kinetic energy, and on a linear body
+    /// no less than its energy, all of which its modes exchange now or later. `None` where none is conserved or
+    /// exchanged, and before both ends of the range were seen: a part of it would make much of a small drift.
+    pub(super) fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
+        let whole = truth.energy().filter(|_| truth.is_linear());
+        Some(self.range_j()?.max(whole.unwrap_or(0.0)))
+    }
+
+    fn range_j(&self) -> Option<f64> {
+        self.kinetic.filter(|kinetic| kinetic.has_seen_both_ends()).map(|kinetic| kinetic.range())
     }
 }
 
 impl Kinetic {
+    fn from(now: f64) -> Self {
+        Self { least: now, most: now, recent: (now, now), rises: None, turns: 0 }
+    }
+
     fn range(self) -> f64 {
         self.most - self.least
+    }
+
+    /// Where it turned twice, it turned at either end; what came to rest has no less.
+    fn has_seen_both_ends(self) -> bool {
+        self.turns >= 2 || self.turns == 1 && self.least <= AT_REST * self.most
     }
 
     fn cover(&mut self, now: f64) {
         (self.least, self.most) = (self.least.min(now), self.most.max(now));
         let range = self.range();
-        let fell = self.most - self.start >= range / 4.0 && self.most - now >= range / 2.0;
-        let rose = self.start - self.least >= range / 4.0 && now - self.least >= range / 2.0;
-        self.has_turned |= range > ROUNDING * self.most && (fell || rose);
+        if range <= ROUNDING * self.most {
+            return;
+        }
+        let (low, high) = (self.recent.0.min(now), self.recent.1.max(now));
+        self.recent = (low, high);
+        let (rose, fell) = (now - low >= range / 2.0, high - now >= range / 2.0);
+        let turns = match self.rises {
+            Some(true) => fell,
+            Some(false) => rose,
+            None => {
+                self.rises = Some(rose);
+                false
+            }
+        };
+        if turns {
+            self.turns += 1;
+            (self.rises, self.recent) = (self.rises.map(|rises| !rises), (now, now));
+        }
     }
 }
 
@@ -72,21 +107,36 @@ mod tests {
         let swing = |from: usize, to: usize| {
             (from..=to).map(|i| libm::sin(i as f64 * std::f64::consts::PI / 100.0).powi(2))
         };
-        assert_eq!(covered(swing(0, 50)).exchanged_j(), None, "it has only risen");
-        assert_eq!(covered(swing(0, 80)).exchanged_j(), Some(1.0));
-        assert_eq!(covered(swing(50, 100)).exchanged_j(), None, "it has only fallen");
-        assert!((covered(swing(50, 140)).exchanged_j().unwrap() - 1.0).abs() < 1e-12);
-        assert!((covered(swing(25, 150)).exchanged_j().unwrap() - 1.0).abs() < 1e-12);
+        assert_eq!(covered(swing(0, 50)).range_j(), None, "it has only risen");
+        assert_eq!(covered(swing(0, 80)).range_j(), Some(1.0));
+        assert_eq!(covered(swing(50, 100)).range_j(), None, "it has only fallen");
+        assert!((covered(swing(50, 140)).range_j().unwrap() - 1.0).abs() < 1e-12);
+        // From the middle it goes half of its range to the top, and all of it to the bottom.
+        assert_eq!(covered(swing(25, 90)).range_j(), None, "it has turned at the top only");
+        assert!((covered(swing(25, 130)).range_j().unwrap() - 1.0).abs() < 1e-12);
+        assert_eq!(covered(swing(75, 110)).range_j(), None, "it has hardly turned");
+        assert!((covered(swing(75, 190)).range_j().unwrap() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_never_rests_exchanges_its_energy_once_both_ends_were_seen() {
+        let swing = |from: usize, to: usize| {
+            (from..=to).map(|i| 3.0 + libm::sin(i as f64 * std::f64::consts::PI / 100.0).powi(2))
+        };
+        assert_eq!(covered(swing(0, 90)).range_j(), None, "the bottom may be lower");
+        assert_eq!(covered(swing(25, 120)).range_j(), None, "it has turned at the top only");
+        assert!((covered(swing(25, 150)).range_j().unwrap() - 1.0).abs() < 1e-12);
+        assert!((covered(swing(50, 180)).range_j().unwrap() - 1.0).abs() < 1e-12);
     }
 
     #[test]
     fn where_nothing_is_exchanged_there_is_no_energy_to_hold_a_drift_against() {
-        assert_eq!(Extent::default().exchanged_j(), None);
-        assert_eq!(covered([0.0; 9]).exchanged_j(), None);
+        assert_eq!(Extent::default().range_j(), None);
+        assert_eq!(covered([0.0; 9]).range_j(), None);
         let rounding = [3.0, 3.0 + 4e-16, 3.0 - 9e-16, 3.0, 3.0 - 4e-16];
-        assert_eq!(covered(rounding).exchanged_j(), None, "a circular orbit");
+        assert_eq!(covered(rounding).range_j(), None, "a circular orbit");
         let thrust = rounding.into_iter().chain((0..100).map(f64::from).map(|i| 3.0 + i * i));
-        assert_eq!(covered(thrust).exchanged_j(), None, "a ship that only gathers way");
+        assert_eq!(covered(thrust).range_j(), None, "a ship that only gathers way");
     }
 
     #[test]

@@ -28,11 +28,10 @@ mod session;
 mod start;
 mod viewer;
 
-pub use crate::sim::stability::Stability;
 pub use action::Action;
 pub use analysis::{
     Advice, Advised, Adviser, CRITERIA, Criterion, Fate, Findings, Judge, LONG_RUN,
-    LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK, Meets, Met, NoTruth, Question,
+    LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK, Meets, Met, NoTruth, NotJudged, Question,
     RIGHT_PITCH, Severity, TOLERANCE, Thinker, VISIBLE, Verdict, Word, duration, recommended,
 };
 pub use clock::{Clock, Due};

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use egui::epaint::{PaintCallback, PathStroke};
 use egui::{Color32, Painter, Pos2, Rect, Shape, Vec2, vec2};
 
+use super::bands;
 use super::lines::{Joint, LineMesh, shown};
 use super::plot::Curve;
 
@@ -19,25 +20,38 @@ const BEGINNING: f32 = 8.0;
 const ARROW: f32 = 5.0;
 const ARROW_INSET: f32 = 9.0;
 
-/// A crowded curve with more turns than this part of its points is not drawn as a line.
+/// A crowded curve with more turns than this part of its points, or than these in a point of the screen, is not drawn as
+/// a line: it would beat against the samples or the pixels.
 const MOST_TURNS: f32 = 0.25;
+const MOST_TURNS_PER_POINT: f32 = 0.5;
 
-/// Draws a curve's line through `points` on the screen, as far as the painter's clip shows it. What the
-/// painter gets is a [`LineMesh`] for [`MeshRenderer`](super::meshes::MeshRenderer). Returns whether there
-/// is a line: where a swing has too few points for its shape to be seen, and the lines between them would
-/// cover the plot and beat, there is none.
+/// Draws a curve through `points` on the screen, as far as the painter's clip shows it: its line, or where that is
+/// crowded with swings too narrow to be told apart, their [band](bands). What the painter gets for a line is a
+/// [`LineMesh`] for [`MeshRenderer`](super::meshes::MeshRenderer). Returns whether something is drawn: a crowded curve
+/// that goes back and forth has no band.
 pub(super) fn paint(painter: &Painter, points: &[Pos2], curve: &Curve) -> bool {
     let &Curve { colour, width, dash: [drawn, gap], .. } = curve;
     let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
     let runs = shown(joints, painter.clip_rect().expand(width));
     let is_crowded = is_crowded(&runs, width);
-    if is_crowded && turns(points) > MOST_TURNS {
-        return false;
+    if is_crowded && beats(points) {
+        let goes_on = points.is_sorted_by(|a, b| a.x <= b.x);
+        if goes_on {
+            bands::paint(painter, points, curve);
+        }
+        return goes_on;
     }
     let mut mesh = LineMesh::new([drawn, if is_crowded { 0.0 } else { gap }]);
     runs.iter().for_each(|run| mesh.add(run, painter.pixels_per_point()));
     painter.add(PaintCallback { rect: painter.clip_rect(), callback: Arc::new(mesh) });
     true
+}
+
+/// Whether swings are too narrow for their samples, or for the screen.
+fn beats(points: &[Pos2]) -> bool {
+    let turns = turns(points);
+    let wide = points.first().zip(points.last()).map_or(0.0, |(from, to)| (to.x - from.x).abs());
+    turns > MOST_TURNS || turns * points.len() as f32 > MOST_TURNS_PER_POINT * wide.max(BEGINNING)
 }
 
 /// The part of the points at which a curve turns up or down.
@@ -126,6 +140,22 @@ mod tests {
         assert!((turns(&swings(8)) - 0.25).abs() < 0.02);
         assert!(turns(&swings(9)) < MOST_TURNS && turns(&swings(7)) > MOST_TURNS);
         assert_eq!(turns(&[]), 0.0);
+    }
+
+    #[test]
+    fn a_swing_beats_with_few_samples_or_few_pixels_to_a_turn() {
+        let beats = |samples: usize, points_wide: f32| {
+            let at = |i: usize| {
+                let turns = (i as f32 + 0.2) / samples as f32;
+                Pos2::new(points_wide * turns, (std::f32::consts::TAU * turns).sin())
+            };
+            beats(&(0..40 * samples).map(at).collect::<Vec<_>>())
+        };
+        assert!(!beats(20, 12.0));
+        assert!(beats(5, 12.0), "the peaks fall between the samples");
+        assert!(beats(20, 3.0), "a turn is three points wide");
+        assert!(!beats(20, 5.0));
+        assert!(!super::beats(&[]));
     }
 
     #[test]

@@ -6,6 +6,7 @@
 //! as they are stored, in gamma space, so all targets have a format without `Srgb` in its name.
 
 mod artist;
+mod bands;
 mod curves;
 mod figure;
 mod frame;

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
 use super::judge::{Finding, Judge};
+use super::searches::{furthest, rung, slowest_down};
 use super::verdict::Verdict;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::{Scene, edited_values};
@@ -199,47 +200,25 @@ impl Adviser {
     /// The slowest rate down from the one asked about, where the lane meets the criterion, at which it still does; one
     /// hertz slower it does not.
     fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> u32 {
-        let holds = |hz: u32| holds(find(&self.judge, criterion, spec, hz));
-        let (mut held, mut failed) = (self.tick_hz, 0);
         // A linear body's rates have few gaps, and only wide ones; others are tried at nearly every rate.
         let strides = if self.judge.is_linear() { 6 } else { 60 };
-        while held > 1 {
-            let next = held - (held / strides).max(1);
-            if !holds(next) {
-                failed = next;
-                break;
-            }
-            held = next;
-        }
-        while held - failed > 1 {
-            let middle = failed.midpoint(held);
-            if holds(middle) { held = middle } else { failed = middle }
-        }
-        held
+        slowest_down(self.tick_hz, strides, |hz| holds(find(&self.judge, criterion, spec, hz)))
     }
 
     /// The largest factor of all that are tried by which every body may be stiffer, and what fails beyond it.
     fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> (f64, String) {
-        let last = DECADE.len() * DECADES;
-        let tried = |place: usize| {
-            let judge = self.stiffer(place)?;
-            Some(find(&judge, criterion, spec, self.tick_hz))
-        };
-        let (mut held, mut failed, mut culprit) = (0, last + 1, None);
-        let mut stride = 1;
-        while failed - held > 1 {
-            let climbing = failed == last + 1;
-            let place = if climbing { (held + stride).min(last) } else { held.midpoint(failed) };
-            match tried(place) {
-                Some(Finding::Holds { .. }) => held = place,
-                Some(Finding::Fails { body }) => (failed, culprit) = (place, Some(body)),
-                Some(Finding::Unknown) | None => failed = place,
+        let mut culprit = None;
+        let place = furthest(DECADE.len() * DECADES, |place| {
+            let Some(judge) = self.stiffer(place) else { return false };
+            let finding = find(&judge, criterion, spec, self.tick_hz);
+            if let Finding::Fails { body } = finding {
+                culprit = Some(body);
             }
-            stride *= 2;
-        }
+            holds(finding)
+        });
         let body =
             culprit.or_else(|| self.stiff_bodies().next().map(|(body, _)| body)).unwrap_or(0);
-        (factor(held), self.stiffness_name(body))
+        (factor(place), self.stiffness_name(body))
     }
 
     /// Each body with the place of its leading parameter.
@@ -298,15 +277,6 @@ fn holds(finding: Finding) -> bool {
     matches!(finding, Finding::Holds { .. })
 }
 
-/// The substeps that are tried on the way up: 1, 2, 3, 4, 6, 8, 12 … 64.
-fn rung(rung: u32) -> u32 {
-    match rung {
-        0 => 1,
-        odd if odd % 2 == 1 => 2 << (odd / 2),
-        even => 3 << (even / 2 - 1),
-    }
-}
-
 /// The method to take for a criterion: of those that meet it the one with the least `cost`, the listings as printed left
 /// out. Costs that differ by less than `blur`, as a factor, count as equal, and evaluations decide.
 pub fn recommended(
@@ -328,11 +298,53 @@ pub fn recommended(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::integrators::method;
 
     #[test]
-    fn substeps_are_tried_twice_an_octave_up_to_the_most_that_are_advised() {
-        let tried: Vec<u32> = (0..).map(rung).take_while(|&n| n <= MOST_ADVISED_SUBSTEPS).collect();
-        assert_eq!(tried, [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64]);
+    fn of_costs_that_are_alike_evaluations_decide_and_listings_as_printed_are_left_out() {
+        let judge = Judge::new(&Scene::built_in("spring").unwrap(), 1.0);
+        let advised = |id: &str, evaluations_per_s: f64| {
+            let spec = LaneSpec::plain(method(id).unwrap());
+            let limited_by = "stiffness".into();
+            let met = Met {
+                substeps: 1,
+                evaluations_per_s,
+                slowest_hz: 60,
+                stiffness_factor: 1.0,
+                limited_by,
+            };
+            let met = [Meets::With(met), Meets::No, Meets::Unknown];
+            Advised { spec, verdict: judge.verdict(spec, 60), met }
+        };
+        let all = [
+            advised("rk4", 240.0),
+            advised("velocity-verlet", 60.0),
+            advised("midpoint", 120.0),
+            advised("rk4-as-printed", 30.0),
+        ];
+        let with = |costs: [f64; 4], blur: f64| {
+            recommended(&all, 0, blur, |advised, _| {
+                costs[all.iter().position(|one| one.spec == advised.spec).unwrap()]
+            })
+        };
+        assert_eq!(with([10.0, 20.0, 30.0, 1.0], 1.2), Some(0));
+        assert_eq!(with([10.0, 11.9, 11.9, 1.0], 1.2), Some(1));
+        assert_eq!(with([10.0, 12.1, 11.9, 1.0], 1.2), Some(2));
+        assert!((1..3).all(|criterion| recommended(&all, criterion, 1.2, |_, _| 1.0).is_none()));
+    }
+
+    #[test]
+    fn a_scene_is_made_no_stiffer_than_a_scene_may_be() {
+        let text = |stiffness: f64| {
+            let head = "title = 't'\ntick_hz = 60\nseconds = 1\n[[spring]]\nmass_kg = 1";
+            format!("{head}\nstiffness_n_per_m = {stiffness}\n")
+        };
+        let spring = |stiffness: f64| Scene::parse("t", &text(stiffness));
+        let most = (0..40).map(|i| libm::exp10(f64::from(i))).rfind(|&most| spring(most).is_ok());
+        let most = most.unwrap();
+        let adviser = Adviser::new(&spring(most / 2.0).unwrap(), 1.0, 60);
+        assert!(adviser.stiffen(1.9).is_some());
+        assert!(adviser.stiffen(2.1).is_none());
     }
 
     #[test]

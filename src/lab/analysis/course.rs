@@ -55,7 +55,7 @@ impl BodyTruth {
 
     /// The most by which the truth may be off up to this moment, in amplitudes, as seen at the ticks of this rate.
     pub(super) fn gap(&self, seconds: f64, tick_hz: u32) -> f64 {
-        self.course(tick_hz).gap(ticks(seconds, tick_hz))
+        self.course(tick_hz).gap(ticks(seconds, tick_hz).max(1))
     }
 
     /// The truth at the ticks of this rate, up to the horizon.
@@ -112,7 +112,7 @@ impl BodyTruth {
 /// An input that comes less than this part of a tick after it is on time: the rounding of its moment.
 const ON_TIME: f64 = 1e-6;
 
-/// Ticks of this rate in a stretch, at least one.
+/// Whole ticks of this rate in a stretch: none ends beyond it.
 pub(super) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
-    ((seconds * f64::from(tick_hz)).round() as u64).max(1)
+    (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
 }

@@ -4,12 +4,14 @@
 //! A linear body under a method of equal steps has one map from tick to tick, whose modes say what becomes of its motion
 //! ever after. Any other is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and what is not seen by then is not said.
 
+use super::change::{Change, bounded, tell_of_run};
+use super::course::ticks;
 use super::modes::{Modes, TooMuch};
-use super::pitch::{Pitch, pitch};
+use super::pitch::pitch;
 use super::run::{MOST_WORK, Run, Until, follow};
 use super::survey::TimedInput;
-use super::truth::{BodyTruth, Swing};
-use super::verdict::{NoTruth, Verdict, Word};
+use super::truth::BodyTruth;
+use super::verdict::{NoTruth, NotJudged, Verdict, Word};
 use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
@@ -32,12 +34,6 @@ pub const LONGEST_HORIZON_S: f64 = 60.0;
 
 /// An error of this part of the amplitude is rounding.
 const ROUNDING: f64 = 1e-9;
-
-/// The growth of the swing over the second half of a long run that is growth and not the last of what comes and goes.
-const GROWTH_SEEN: f64 = 2e-3;
-
-/// A change of the amplitude this large is one, however it came about: a factor.
-const LEAP: f64 = 1.5;
 
 /// The truth over a scene, to hold lanes against.
 pub struct Judge {
@@ -69,7 +65,7 @@ pub(super) enum Finding {
     Holds { evaluations_per_s: f64 },
     /// The body on this place of the scene does not.
     Fails { body: usize },
-    /// It would take too much work, or there is no truth, to tell.
+    /// It would take too much work, or there is no truth or no tick, to tell.
     Unknown,
 }
 
@@ -163,6 +159,7 @@ impl Judge {
             energy_drift: run.energy_drift,
             fate: run.fate.clone(),
             no_truth: None,
+            not_judged: None,
             evaluations: run.evaluations,
             seconds: run.seconds,
             horizon_s: self.horizon_s,
@@ -174,8 +171,14 @@ impl Judge {
         if run.fate.is_some() {
             verdict.is_bounded = Some(false);
         }
+        verdict.not_judged = match ticks(self.horizon_s, tick_hz) {
+            0 => Some(NotJudged::ShorterThanATick),
+            _ => run.is_cut_short().then_some(NotJudged::TooMuchWork),
+        };
         let gap = truth.gap(run.seconds, tick_hz);
-        verdict.no_truth = without_truth(truth, &run, gap);
+        if verdict.not_judged.is_none() {
+            verdict.no_truth = without_truth(truth, &run, gap);
+        }
         verdict.word = word(&verdict, &run, change, gap);
         if matches!(verdict.word, Word::NotJudged | Word::NoTruth | Word::BlewUp | Word::GaveUp) {
             verdict.frequency_error = None;
@@ -189,7 +192,7 @@ impl Judge {
 
     /// Whether nothing grows that should not, over the horizon and in the long run.
     pub(super) fn is_bounded(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
-        self.each(|truth| {
+        self.each(tick_hz, |truth| {
             if let Some(modes) = Modes::of(truth, spec, tick_hz)? {
                 if !modes.are_bounded() {
                     return Err(Missed::Fails);
@@ -207,7 +210,7 @@ impl Judge {
 
     /// Whether every body stays within [`TOLERANCE`] of its truth.
     pub(super) fn is_accurate(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
-        self.each(|truth| {
+        self.each(tick_hz, |truth| {
             let run = follow(truth, spec, tick_hz, Until::Error(TOLERANCE), self.most_work);
             require_truth(truth, &run, tick_hz)?;
             cost_if(run.error <= TOLERANCE, &run)
@@ -218,7 +221,7 @@ impl Judge {
     /// does not swing, or of which too few turns are seen, whether it stays within [`VISIBLE`] of its range. What is
     /// accurate looks right.
     pub(super) fn looks_right(&self, spec: LaneSpec, tick_hz: u32) -> Finding {
-        self.each(|truth| {
+        self.each(tick_hz, |truth| {
             let run = follow(truth, spec, tick_hz, Until::Horizon, self.most_work);
             require_truth(truth, &run, tick_hz)?;
             if run.fate.is_some() || run.error <= TOLERANCE {
@@ -245,7 +248,10 @@ impl Judge {
     }
 
     /// What `of` finds of all bodies together; of one that meets the criterion it returns the evaluations per second.
-    fn each(&self, of: impl Fn(&BodyTruth) -> Result<f64, Missed>) -> Finding {
+    fn each(&self, tick_hz: u32, of: impl Fn(&BodyTruth) -> Result<f64, Missed>) -> Finding {
+        if ticks(self.horizon_s, tick_hz) == 0 {
+            return Finding::Unknown;
+        }
         let mut evaluations_per_s = 0.0;
         let mut is_unknown = false;
         for (body, truth) in self.truths.iter().enumerate() {
@@ -267,7 +273,7 @@ fn word(verdict: &Verdict, run: &Run, change: Change, gap: f64) -> Word {
             _ => Word::GaveUp,
         };
     }
-    if run.is_cut_short() {
+    if verdict.not_judged.is_some() {
         return Word::NotJudged;
     }
     if verdict.no_truth.is_some() {
@@ -304,65 +310,4 @@ fn without_truth(truth: &BodyTruth, run: &Run, gap: f64) -> Option<NoTruth> {
 fn require_truth(truth: &BodyTruth, run: &Run, tick_hz: u32) -> Result<(), Missed> {
     let gap = truth.gap(run.seconds, tick_hz);
     without_truth(truth, run, gap).map_or(Ok(()), |_| Err(Missed::Unknown))
-}
-
-/// What becomes of the amplitude within the horizon.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Change {
-    None,
-    Grows,
-    Dies,
-}
-
-impl Change {
-    /// Of a swing whose amplitude has become this part of what it was.
-    pub(super) fn of(amplitude: f64) -> Self {
-        match amplitude {
-            a if a >= 1.0 + VISIBLE => Change::Grows,
-            a if a <= 1.0 - VISIBLE => Change::Dies,
-            _ => Change::None,
-        }
-    }
-}
-
-/// What the run itself shows.
-fn tell_of_run(verdict: &mut Verdict, truth: &BodyTruth, run: &Run, horizon_s: f64) -> Change {
-    verdict.is_bounded = bounded(truth, run);
-    verdict.doubles_in_s = run.doubled_at;
-    let period = truth.swing.as_ref().map_or(horizon_s, Swing::period);
-    let end = run.followed_s;
-    // A swing that stays small for some turns, after more turns than would blur the moment.
-    let died = |t: f64| end - t >= 4.0 * period && t >= 10.0 * period;
-    verdict.halves_in_s = run.halved_at.filter(|&t| died(t));
-    verdict.frequency_error = pitch(truth, run).filter(Pitch::is_steady).map(|pitch| pitch.error);
-    let within = |at: Option<f64>| at.is_some_and(|t| t <= horizon_s);
-    if truth.energy_scale.is_none() {
-        let grows = within(run.doubled_at) || within(run.rushed_at);
-        return if grows { Change::Grows } else { Change::None };
-    }
-    let amplitude = |quarter: f64| (1.0 + quarter).max(0.0).sqrt();
-    let (first, last) = (amplitude(run.quarters[0]), amplitude(run.quarters[3]));
-    verdict.energy_change = Some(run.quarters[3]).filter(|change| change.is_finite());
-    let trend = Change::of(last / first);
-    match Change::of(last) {
-        _ if within(run.doubled_at) => Change::Grows,
-        Change::Grows if trend == Change::Grows || last >= LEAP => Change::Grows,
-        Change::Dies if trend == Change::Dies || last * LEAP <= 1.0 => Change::Dies,
-        _ => Change::None,
-    }
-}
-
-/// Whether a followed body stays as small as it is in truth; `None` where it was not followed to the end.
-fn bounded(truth: &BodyTruth, run: &Run) -> Option<bool> {
-    let failed = run.fate.is_some() || run.later.is_some();
-    if failed || run.doubled_at.is_some() || run.rushed_at.is_some() {
-        return Some(false);
-    }
-    if run.is_too_much || truth.failure.is_some() || run.is_losing && !run.has_come_to_rest {
-        return None;
-    }
-    let amplitude = |quarter: f64| (1.0 + quarter).max(0.0).sqrt();
-    let [_, early, _, late] = run.long_quarters.map(amplitude);
-    let grows = truth.energy_scale.is_some() && late / early > 1.0 + GROWTH_SEEN;
-    Some(!grows)
 }

@@ -1,6 +1,6 @@
 //! What becomes of the motion of a linear body under a method of equal steps, by its normal modes.
 
-use super::judge::Change;
+use super::change::Change;
 use super::run::{MOST_WORK, work_of};
 use super::truth::BodyTruth;
 use super::verdict::Verdict;
@@ -11,8 +11,8 @@ use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, undriven};
 /// To find the modes takes more work than a run may.
 pub(super) struct TooMuch;
 
-/// Ticks that a mode's map is found from: three from each of two states.
-const TICKS_PER_MODE: u64 = 6;
+/// Steps that a mode's map is found from: three from each of two states.
+const STEPS_PER_MODE: u64 = 6;
 
 /// What a method of equal steps makes of the modes of a linear body.
 pub(super) struct Modes<'a> {
@@ -35,7 +35,7 @@ impl<'a> Modes<'a> {
         let n = modes.len() as u64;
         // An implicit step differences the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
-        let steps = TICKS_PER_MODE * n * u64::from(spec.substeps);
+        let steps = STEPS_PER_MODE * n;
         if work_of(steps * evaluations, n, spec) > MOST_WORK {
             return Err(TooMuch);
         }

@@ -146,7 +146,7 @@ impl BodyTruth {
                 extent.cover(0.0, now);
             }
         });
-        self.exchanged_j = extent.exchanged_j();
+        self.exchanged_j = extent.exchanged_j(&*self.start(Solver::Truth));
         self.failure = walked.err();
         self.amplitudes = amplitudes(&ranges.0, self.coordinates());
         self.energy_scale =

@@ -13,7 +13,7 @@ pub enum Word {
     Rounding,
     /// The error stays within [`TOLERANCE`](super::TOLERANCE) of the amplitude.
     Accurate,
-    /// To judge it takes too much work.
+    /// It takes too much work to judge, or the scene has no tick to judge.
     NotJudged,
     /// There is no truth to hold it against, or none that is precise enough.
     NoTruth,
@@ -127,6 +127,24 @@ impl fmt::Display for NoTruth {
     }
 }
 
+/// Why a lane is not judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotJudged {
+    /// It takes more than [`MOST_WORK`](super::MOST_WORK).
+    TooMuchWork,
+    /// The scene is over before its first tick.
+    ShorterThanATick,
+}
+
+impl fmt::Display for NotJudged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            NotJudged::TooMuchWork => "too much work",
+            NotJudged::ShorterThanATick => "the scene is shorter than a tick",
+        })
+    }
+}
+
 /// What is to be said of a lane over a stretch of a scene. Shows as one line. Amplitudes and times to double or
 /// halve are those of the swing; its energy doubles and halves twice as fast.
 #[derive(Clone, Debug, PartialEq)]
@@ -166,6 +184,8 @@ pub struct Verdict {
     pub fate: Option<Fate>,
     /// Why there is no truth, where there is none.
     pub no_truth: Option<NoTruth>,
+    /// Why the lane is not judged, where it is not.
+    pub not_judged: Option<NotJudged>,
     /// Evaluations of all bodies' accelerations over the stretch.
     pub evaluations: u64,
     /// How far the body came, in simulated seconds.
@@ -257,8 +277,10 @@ impl fmt::Display for Verdict {
                 write!(f, "gave up after {}: {}", duration(fate.t), fate.failure)?;
             }
             (Word::NoTruth, _, Some(why)) => write!(f, "no truth: {why}")?,
-            (Word::NotJudged, ..) => f.write_str("not judged: too much work")?,
             (word, ..) => f.write_str(word.text())?,
+        }
+        if let Some(why) = self.not_judged.filter(|_| self.word == Word::NotJudged) {
+            write!(f, ": {why}")?;
         }
         f.write_str(&self.in_brackets())?;
         let is_told = matches!(self.word, Word::GainsEnergy | Word::BlewUp | Word::GaveUp);

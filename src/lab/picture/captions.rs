@@ -118,8 +118,9 @@ fn caption_place(rect: Rect) -> Option<[f32; 2]> {
     fits.then_some([rect.min[0] + 9.0, rect.min[1] + 11.0])
 }
 
-/// An arrow at the edge of the cell for a body beyond it, with its place as a number.
-pub(super) fn arrow(picture: &mut Picture, camera: &Camera, at: DVec2, colour: Rgba) {
+/// An arrow at the edge of the cell for a body drawn `at` a place beyond it, with its place at the present tick, `told`,
+/// as a number.
+pub(super) fn arrow(picture: &mut Picture, camera: &Camera, at: DVec2, told: DVec2, colour: Rgba) {
     let Rect { min, max } = camera.rect;
     let place = camera.points(at);
     // Left and right before up and down: a ship's lane is low.
@@ -140,7 +141,7 @@ pub(super) fn arrow(picture: &mut Picture, camera: &Camera, at: DVec2, colour: R
         (0, false) => ([point(28.0)[0], along - 12.0], Align::Right),
         _ => ([along + 12.0, point(12.0)[1]], Align::Left),
     };
-    let text = format!("{} m", significant(at[axis], 3));
+    let text = format!("{} m", significant(told[axis], 3));
     picture.labels.push(Label { at: at_text, align, size: 12.0, colour, text });
 }
 

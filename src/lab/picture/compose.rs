@@ -211,7 +211,7 @@ impl Shown<'_> {
         }
         picture.strokes.extend(strokes(&outline.marks, &camera, own));
 
-        captions::arrow(picture, &camera, outline.at, colour);
+        captions::arrow(picture, &camera, outline.at, body.stepper.place(), colour);
         if self.lab.mode() == Mode::Solo || entrant.entry == race[race.len() - 1].entry {
             captions::scale_bar(picture, &camera);
         }

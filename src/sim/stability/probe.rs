@@ -119,9 +119,7 @@ impl Probe {
         j: usize,
         ticks: usize,
     ) -> Result<Vec<Vec<f64>>, StepFailure> {
-        let mut best: Option<(f64, Vec<Vec<f64>>)> = None;
-        let mut failed = None;
-        for distance in DISTANCES {
+        straightest(DISTANCES.iter().map(|distance| {
             let moved: Vec<Vec<f64>> = COPIES
                 .iter()
                 .map(|copies| {
@@ -130,14 +128,7 @@ impl Probe {
                     moved
                 })
                 .collect();
-            // A copy that fails, as in the middle of an orbit, was put too far out.
-            let states = match self.run(&moved, ticks) {
-                Ok(states) => states,
-                Err(failure) => {
-                    failed = Some(failure);
-                    continue;
-                }
-            };
+            let states = self.run(&moved, ticks)?;
             let (near, far) = (moved[0][j] - moved[1][j], moved[2][j] - moved[3][j]);
             let mut bend: f64 = 0.0;
             let columns = states.iter().map(|after| {
@@ -152,19 +143,35 @@ impl Probe {
             });
             let columns: Vec<Vec<f64>> = columns.collect();
             let size = columns.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-            let bend = bend / size.max(1.0);
-            if best.as_ref().is_none_or(|(least, _)| bend < *least) {
-                best = Some((bend, columns));
+            Ok((bend / size.max(1.0), columns))
+        }))
+    }
+}
+
+/// The first of the tries, each with its bend, that is [straight](STRAIGHT), or else the one that is straightest. A try
+/// that fails is passed over: its copies, as in the middle of an orbit, were put too far out.
+///
+/// # Errors
+/// The last failure, where all tries fail.
+fn straightest<T>(
+    tries: impl IntoIterator<Item = Result<(f64, T), StepFailure>>,
+) -> Result<T, StepFailure> {
+    let mut best: Option<(f64, T)> = None;
+    let mut failed = None;
+    for tried in tries {
+        match tried {
+            Ok((bend, found)) if bend <= STRAIGHT => return Ok(found),
+            Ok((bend, found)) => {
+                if best.as_ref().is_none_or(|(least, _)| bend < *least) {
+                    best = Some((bend, found));
+                }
             }
-            if bend <= STRAIGHT {
-                break;
-            }
+            Err(failure) => failed = Some(failure),
         }
-        match (best, failed) {
-            (Some((_, columns)), _) => Ok(columns),
-            (None, Some(failure)) => Err(failure),
-            (None, None) => unreachable!("there is a distance, and it was tried"),
-        }
+    }
+    match best {
+        Some((_, found)) => Ok(found),
+        None => Err(failed.expect("a try that does not succeed fails")),
     }
 }
 
@@ -191,3 +198,61 @@ pub(super) fn rates(body: &dyn Stepper, here: &[f64], scale: &[f64], t: f64) -> 
 /// How far forces are differenced, in units of the state's scale: where the bend of the force and the
 /// rounding of the difference are alike small.
 const NEAR: f64 = 1e-5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::bodies::kind;
+    use crate::sim::integrators::method;
+
+    fn failure(value: f64) -> StepFailure {
+        StepFailure::NotFinite { coordinate: "x", value }
+    }
+
+    #[test]
+    fn the_first_straight_try_is_taken_and_of_bent_ones_the_straightest() {
+        let of = |bends: &[f64]| {
+            let mut tried = 0;
+            let tries = bends.iter().enumerate().map(|(place, &bend)| {
+                tried += 1;
+                if bend < 0.0 { Err(failure(bend)) } else { Ok((bend, place)) }
+            });
+            (straightest(tries), tried)
+        };
+        assert_eq!(of(&[0.1, 1e-8, 0.0]), (Ok(1), 2));
+        assert_eq!(of(&[0.1, 2e-7, 1e-3]), (Ok(1), 3));
+        assert_eq!(of(&[0.1, 0.2, 0.3]), (Ok(0), 3));
+        assert_eq!(of(&[0.3, 0.2, 0.1]), (Ok(2), 3));
+        assert_eq!(of(&[-1.0, 0.2, -2.0]), (Ok(1), 3));
+        assert_eq!(of(&[-1.0, -2.0]), (Err(failure(-2.0)), 2));
+    }
+
+    #[test]
+    fn a_bent_map_is_differenced_as_near_as_it_takes() {
+        // Semi-implicit Euler: ω' = ω - h g/l sin θ, θ' = θ + h ω'.
+        let values = [1.0, 2.0, 9.81, 0.0, 1.2, 0.5, 1.0];
+        let pendulum = (kind("pendulum").unwrap().build)(&values, Solver::Truth);
+        let here = state_of(&*pendulum);
+        let rate = 9.81 * libm::cos(here[0]);
+        for h in [0.01, 0.2, 3.0] {
+            let solver = Solver::Method(method("semi-implicit-euler").unwrap());
+            let mut probe = Probe::new(&*pendulum, solver, Tick { t: 0.0, h, substeps: 1 });
+            let [found] = probe.derivatives(&here, &[1.0; 2]).unwrap();
+            let wanted = [[1.0 - h * h * rate, h], [-h * rate, 1.0]];
+            for (i, row) in wanted.iter().enumerate() {
+                for (j, wanted) in row.iter().enumerate() {
+                    let off = (found[(i, j)] - wanted).abs();
+                    assert!(off < 1e-9 * (1.0 + h * h), "{h} s: ({i}, {j}) is off by {off:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_scale_is_the_largest_of_its_half_and_of_nothing_what_a_tick_makes_of_the_other() {
+        assert_eq!(scale(&[1.0, -3.0, 0.5, 0.0], &[2.0, 0.0, 7.0, 0.0], 0.1), [3.0, 3.0, 7.0, 7.0]);
+        assert_eq!(scale(&[0.0, 4.0], &[1e-300, 5.0], 0.1), [0.5, 5.0]);
+        assert_eq!(scale(&[2.0, 0.0], &[2.0, 0.0], 0.1), [2.0, 1.0]);
+        assert_eq!(scale(&[0.0, 0.0], &[0.0, f64::NAN], 0.1), [1.0, 1.0]);
+    }
+}

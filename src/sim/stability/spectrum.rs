@@ -214,6 +214,37 @@ mod tests {
     }
 
     #[test]
+    fn what_rounding_alone_fills_is_no_memory() {
+        // One of two coordinates remembers, x' = 1.2 x + 0.3 x_before; the other one, x' = 0.8 x, does not. Both are
+        // seen at an angle, and blurred.
+        for size in [1.0, 30.0] {
+            let one = [1.5, 2.1, 2.97].map(|x| x * size);
+            let other = [0.8, 0.64, 0.512].map(|x| x * size);
+            let (cos, sin) = (libm::cos(0.7), libm::sin(0.7));
+            let turn = DMatrix::from_row_slice(2, 2, &[cos, -sin, sin, cos]);
+            let mut blur = 0.0;
+            let mut seen = |k: usize, power: i32| {
+                let own = DMatrix::from_row_slice(2, 2, &[one[k], 0.0, 0.0, other[k]]);
+                let map: DMatrix<f64> = &turn * own * turn.transpose() * size.powi(power);
+                map.map(|x| {
+                    blur += 1.0;
+                    x * (1.0 + 1e-12 * libm::sin(blur))
+                })
+            };
+            let now = [seen(0, 0), seen(1, 1), seen(2, 2)];
+            let later = [seen(0, 0), seen(1, 1)];
+            let mut found = eigenvalues(&Derivatives { now, later }).unwrap();
+            found.sort_by(|a, b| a.modulus.total_cmp(&b.modulus));
+            let root = 0.66_f64.sqrt();
+            let wanted = [root - 0.6, 0.8, root + 0.6].map(|x| x * size);
+            assert_eq!(found.len(), wanted.len(), "{size}: {found:?}");
+            for (found, wanted) in found.iter().zip(wanted) {
+                assert!((found.modulus / wanted - 1.0).abs() < 1e-9, "{size}: {found:?}, {wanted}");
+            }
+        }
+    }
+
+    #[test]
     fn what_only_stretches_or_flips_does_not_turn() {
         for (re, im, turns) in
             [(0.9, 0.0, false), (-0.9, 0.0, false), (0.5, 0.1, true), (-0.5, -0.1, true)]

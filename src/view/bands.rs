@@ -1,0 +1,219 @@
+//! Curves too crowded for a line: the band between their least and greatest value in each column of pixels, as
+//! oscilloscopes draw them. A line through few points of a fast swing would beat against pixels and samples.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use egui::epaint::{Mesh, PaintCallback};
+use egui::{Painter, Pos2, Shape, pos2};
+
+use super::lines::{Joint, LineMesh, shown};
+use super::plot::Curve;
+
+/// How much of its colour a band has between its edges.
+const FILL: f32 = 0.35;
+/// The width of the edges, in points.
+const EDGE: f32 = 1.0;
+
+/// A column spans what this many points on either side of it do: some among twice as many are near the peaks of a swing,
+/// wherever the samples fall on it.
+const NEIGHBOURS: f32 = 8.0;
+
+/// The least and the greatest height of a curve in a column, if it passes there.
+type Span = Option<(f32, f32)>;
+
+/// Draws a curve through `points`, which do not go back, as a band.
+pub(super) fn paint(painter: &Painter, points: &[Pos2], curve: &Curve) {
+    let (frame, step) = (painter.clip_rect(), 1.0 / painter.pixels_per_point());
+    let columns = Columns { left: frame.left(), step, count: (frame.width() / step) as usize + 1 };
+    let spans = widened(&columns.spans(points), columns.apart(points));
+    let half = curve.width / 2.0;
+    for stretch in stretches(&spans) {
+        let mut fill = Mesh::default();
+        let mut edges = [const { Vec::new() }; 2];
+        for column in stretch {
+            let Some((low, high)) = spans[column] else { continue };
+            let (x, heights) = (columns.left + step * column as f32, [low - half, high + half]);
+            let first = fill.vertices.len() as u32;
+            for at in [pos2(x, heights[0]), pos2(x + step, heights[0])] {
+                fill.colored_vertex(at, curve.colour.gamma_multiply(FILL));
+            }
+            for at in [pos2(x, heights[1]), pos2(x + step, heights[1])] {
+                fill.colored_vertex(at, curve.colour.gamma_multiply(FILL));
+            }
+            fill.add_triangle(first, first + 1, first + 2);
+            fill.add_triangle(first + 1, first + 2, first + 3);
+            for (edge, y) in edges.iter_mut().zip(heights) {
+                let at = pos2(x + step / 2.0, y);
+                edge.push(Joint { at, radius: EDGE / 2.0, colour: curve.colour });
+            }
+        }
+        painter.add(Shape::mesh(fill));
+        let mut lines = LineMesh::new([1.0, 0.0]);
+        for run in edges.iter().flat_map(|edge| shown(edge.iter().copied(), frame.expand(EDGE))) {
+            lines.add(&run, painter.pixels_per_point());
+        }
+        painter.add(PaintCallback { rect: frame, callback: Arc::new(lines) });
+    }
+}
+
+/// Columns of equal width next to each other.
+struct Columns {
+    left: f32,
+    step: f32,
+    count: usize,
+}
+
+impl Columns {
+    /// What the line through `points` covers in each column; it breaks off at a point that is not finite.
+    fn spans(&self, points: &[Pos2]) -> Vec<Span> {
+        let mut spans = vec![None; self.count];
+        for (i, &to) in points.iter().enumerate() {
+            let from = i.checked_sub(1).map(|before| points[before]);
+            let from = from.filter(|from| from.is_finite()).unwrap_or(to);
+            if to.is_finite() {
+                self.take_in([from, to], &mut spans);
+            }
+        }
+        spans
+    }
+
+    fn take_in(&self, [from, to]: [Pos2; 2], spans: &mut [Span]) {
+        let (first, last) = (from.x.min(to.x), from.x.max(to.x));
+        let place = |x: f32| ((x - self.left) / self.step).floor();
+        if last < self.left || place(first) >= self.count as f32 {
+            return;
+        }
+        let end = (place(last) as usize).min(self.count - 1);
+        for (column, span) in spans.iter_mut().enumerate().take(end + 1).skip(place(first) as usize)
+        {
+            let left = self.left + self.step * column as f32;
+            let height = |x: f32| {
+                let part = (x.clamp(first, last) - from.x) / (to.x - from.x);
+                if part.is_finite() { from.y + part * (to.y - from.y) } else { to.y }
+            };
+            let ends = match first == last {
+                true => [from.y, to.y],
+                false => [height(left), height(left + self.step)],
+            };
+            for y in ends {
+                let (low, high) = span.unwrap_or((y, y));
+                *span = Some((low.min(y), high.max(y)));
+            }
+        }
+    }
+
+    /// Columns that the curve goes on by from one point to the next, on average.
+    fn apart(&self, points: &[Pos2]) -> f32 {
+        let mut finite = points.iter().filter(|point| point.is_finite());
+        let Some((first, last)) = finite.next().zip(finite.next_back()) else { return 0.0 };
+        (last.x - first.x) / self.step / points.len() as f32
+    }
+}
+
+/// Each span with what those beside it cover, as far as [`NEIGHBOURS`] points that are so many columns `apart`. A gap
+/// stays a gap, and nothing reaches across it.
+fn widened(spans: &[Span], apart: f32) -> Vec<Span> {
+    let reach = (NEIGHBOURS * apart).ceil() as usize;
+    let mut widened = spans.to_vec();
+    for stretch in stretches(spans) {
+        for column in stretch.clone() {
+            let beside = column.saturating_sub(reach).max(stretch.start)
+                ..(column + reach + 1).min(stretch.end);
+            widened[column] = spans[beside]
+                .iter()
+                .flatten()
+                .copied()
+                .reduce(|(low, high), (l, h)| (low.min(l), high.max(h)));
+        }
+    }
+    widened
+}
+
+/// The columns without a gap.
+fn stretches(spans: &[Span]) -> Vec<Range<usize>> {
+    let mut stretches: Vec<Range<usize>> = Vec::new();
+    for (column, _) in spans.iter().enumerate().filter(|(_, span)| span.is_some()) {
+        match stretches.last_mut() {
+            Some(last) if last.end == column => last.end += 1,
+            _ => stretches.push(column..column + 1),
+        }
+    }
+    stretches
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const COLUMNS: Columns = Columns { left: 10.0, step: 0.5, count: 8 };
+
+    fn spans(points: &[[f32; 2]]) -> Vec<Span> {
+        COLUMNS.spans(&points.iter().map(|&at| at.into()).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn a_column_spans_what_the_line_covers_in_it() {
+        // Up and down within a column, and a slope over two more.
+        let found = spans(&[[10.1, 0.0], [10.2, 4.0], [10.3, -2.0], [10.5, 0.0], [11.5, 2.0]]);
+        assert_eq!(found[0], Some((-2.0, 4.0)));
+        assert_eq!(found[1], Some((0.0, 1.0)));
+        assert_eq!(found[2], Some((1.0, 2.0)));
+        assert_eq!(found[3], Some((2.0, 2.0)));
+        assert_eq!(found[4..], [None; 4]);
+        let upright = spans(&[[10.1, 3.0], [10.1, -3.0]]);
+        assert_eq!(upright[0], Some((-3.0, 3.0)));
+    }
+
+    #[test]
+    fn what_is_outside_the_columns_is_cut_off() {
+        let through = spans(&[[8.0, 0.0], [16.0, 8.0]]);
+        assert_eq!((through[0], through[7]), (Some((2.0, 2.5)), Some((5.5, 6.0))));
+        assert_eq!(spans(&[[2.0, 1.0], [9.9, 1.0]]), [None; 8]);
+        assert_eq!(spans(&[[14.1, 1.0], [1e9, 1.0]]), [None; 8]);
+    }
+
+    #[test]
+    fn a_single_sample_is_a_span_of_no_height_and_none_is_nothing() {
+        assert_eq!(spans(&[]), [None; 8]);
+        let one = spans(&[[11.2, 5.0]]);
+        assert_eq!(one[2], Some((5.0, 5.0)));
+        assert_eq!(one.iter().flatten().count(), 1);
+        assert_eq!(COLUMNS.apart(&[pos2(11.2, 5.0)]), 0.0);
+        assert_eq!(widened(&one, 0.0), one);
+    }
+
+    #[test]
+    fn a_line_breaks_off_at_what_is_not_finite() {
+        let found = spans(&[[10.2, 1.0], [11.2, f32::NAN], [12.2, 3.0], [12.7, f32::INFINITY]]);
+        assert_eq!(found[0], Some((1.0, 1.0)));
+        assert_eq!(found[1..4], [None; 3]);
+        assert_eq!(found[4], Some((3.0, 3.0)));
+        assert_eq!(found[5..], [None; 3]);
+        assert_eq!(stretches(&found), [0..1, 4..5]);
+    }
+
+    #[test]
+    fn a_band_is_widened_by_its_neighbours_up_to_its_gaps() {
+        let at = |y: f32| Some((y, y));
+        let row = [at(1.0), at(5.0), at(2.0), None, at(9.0), at(3.0)];
+        // An eighth of a column apart: one column on either side.
+        let first = [Some((1.0, 5.0)), Some((1.0, 5.0)), Some((2.0, 5.0))];
+        let second = [Some((3.0, 9.0)); 2];
+        assert_eq!(widened(&row, 0.125), [&first[..], &[None], &second].concat());
+        assert_eq!(widened(&row, 0.0), row);
+    }
+
+    #[test]
+    fn the_band_of_a_swing_is_as_wide_as_the_swing_wherever_its_samples_fall() {
+        for turns_per_sample in [0.32, 0.41, 0.618, 4.77] {
+            let swing = |i: usize| libm::sinf(std::f32::consts::TAU * turns_per_sample * i as f32);
+            let points: Vec<Pos2> = (0..2000).map(|i| pos2(0.2 * i as f32, swing(i))).collect();
+            let columns = Columns { left: 0.0, step: 1.0, count: 400 };
+            let band = widened(&columns.spans(&points), columns.apart(&points));
+            for (low, high) in band.into_iter().map(|span| span.unwrap()) {
+                assert!(low < -0.95 && high > 0.95, "{turns_per_sample}: {low} to {high}");
+            }
+        }
+    }
+}
