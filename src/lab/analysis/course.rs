@@ -48,8 +48,8 @@ impl BodyTruth {
     pub(super) fn give_inputs(&self, stepper: &mut dyn Stepper, tick: u64, tick_hz: u32) {
         let hz = f64::from(tick_hz);
         let due = |input: &&TimedInput| (input.t * hz - ON_TIME).ceil().max(0.0) as u64 == tick;
-        for TimedInput { input, .. } in self.inputs.iter().filter(due) {
-            stepper.input(tick as f64 / hz, *input);
+        for TimedInput { given, .. } in self.inputs.iter().filter(due) {
+            given.to(stepper, tick as f64 / hz);
         }
     }
 

@@ -9,7 +9,7 @@ use super::course::ticks;
 use super::modes::{Modes, TooMuch};
 use super::pitch::pitch;
 use super::run::{MOST_WORK, Run, Until, follow};
-use super::survey::TimedInput;
+use super::survey::{Given, TimedInput};
 use super::truth::BodyTruth;
 use super::verdict::{NoTruth, NotJudged, Verdict, Word};
 use crate::lab::action::Action;
@@ -43,8 +43,8 @@ pub struct Judge {
     truths: Vec<BodyTruth>,
 }
 
-/// What the script does to the bodies, by the clock of the scene's own tick rates.
-fn inputs_of(scene: &Scene) -> Vec<TimedInput> {
+/// What the script does to the body on this place of the scene, by the clock of the scene's own tick rates.
+fn inputs_of(scene: &Scene, body: usize) -> Vec<TimedInput> {
     let (mut tick, mut t, mut hz) = (0, 0.0, f64::from(scene.tick_hz));
     let mut inputs = Vec::new();
     for scripted in &scene.script {
@@ -53,7 +53,7 @@ fn inputs_of(scene: &Scene) -> Vec<TimedInput> {
         if let Action::TickHz(tick_hz) = scripted.action {
             hz = f64::from(tick_hz);
         }
-        inputs.extend(scripted.action.input().map(|input| TimedInput { t, input }));
+        inputs.extend(Given::by(&scripted.action, body).map(|given| TimedInput { t, given }));
     }
     inputs
 }
@@ -92,9 +92,9 @@ impl Judge {
 
     /// The same over `horizon_s` simulated seconds, more than 0, however long the scene is.
     pub fn over(scene: &Scene, throttle: f64, horizon_s: f64) -> Self {
-        let inputs = inputs_of(scene);
-        let of = |body| BodyTruth::new(body, &inputs, throttle, horizon_s);
-        let truths = scene.bodies.iter().map(of);
+        let of =
+            |(place, body)| BodyTruth::new(body, &inputs_of(scene, place), throttle, horizon_s);
+        let truths = scene.bodies.iter().enumerate().map(of);
         Self { horizon_s, throttle, most_work: MOST_WORK, truths: truths.collect() }
     }
 

@@ -1,5 +1,6 @@
 //! A walk along the true motion of one body: how far it reaches, how often it swings, how much energy it moves.
 
+use crate::lab::action::Action;
 use crate::sim::Stepper;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::StepFailure;
@@ -77,10 +78,42 @@ impl Ranges {
 }
 
 /// What is done to a body, and when, in seconds.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct TimedInput {
     pub(super) t: f64,
-    pub(super) input: Input,
+    pub(super) given: Given,
+}
+
+/// What is done to a body.
+#[derive(Clone, Debug)]
+pub(super) enum Given {
+    Input(Input),
+    Parameter { place: usize, value: f64 },
+    State { q: Box<[f64]>, v: Box<[f64]> },
+}
+
+impl Given {
+    /// What an action does to the body on this place of the scene.
+    pub(super) fn by(action: &Action, to: usize) -> Option<Self> {
+        match action {
+            Action::Set { body, parameter: place, value } if *body == to => {
+                Some(Given::Parameter { place: *place, value: *value })
+            }
+            Action::Place { body, q, v } if *body == to => {
+                Some(Given::State { q: q.clone(), v: v.clone() })
+            }
+            other => other.input().map(Given::Input),
+        }
+    }
+
+    /// Does it to `body` at time `t` (s).
+    pub(super) fn to(&self, body: &mut dyn Stepper, t: f64) {
+        match self {
+            Given::Input(input) => _ = body.input(t, *input),
+            Given::Parameter { place, value } => _ = body.set_parameter(t, *place, *value),
+            Given::State { q, v } => body.set(t, q, v),
+        }
+    }
 }
 
 /// Walks from the start of `body` over `seconds`, its inputs given on the way, in order, and shows each piece to `see`. The steps follow the
@@ -105,7 +138,7 @@ pub(super) fn walk(
         if let Some((next, rest)) = inputs.split_first()
             && next.t <= here.t
         {
-            body.input(here.t, next.input);
+            next.given.to(body, here.t);
             (here, inputs) = (Moment::of(body, here.t), rest);
             step = FIRST_STEP * seconds;
             continue;
@@ -136,7 +169,7 @@ pub(super) fn walk(
                 && next.t <= t
             {
                 here = Moment::of_advanced(body, here.t, next.t.max(here.t))?;
-                body.input(here.t, next.input);
+                next.given.to(body, here.t);
                 inputs = rest;
             }
             let there = Moment::of_advanced(body, here.t, t)?;

@@ -76,7 +76,7 @@ impl BodyTruth {
         let mut truth = Self {
             body: body.clone(),
             throttle,
-            inputs: inputs.iter().filter(|input| input.t < horizon_s).copied().collect(),
+            inputs: inputs.iter().filter(|input| input.t < horizon_s).cloned().collect(),
             horizon_s,
             amplitudes: Vec::new(),
             centres: Vec::new(),
@@ -113,7 +113,7 @@ impl BodyTruth {
                 break;
             }
             t = input.t;
-            body.input(t, input.input);
+            input.given.to(&mut *body, t);
         }
         body
     }

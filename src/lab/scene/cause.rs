@@ -48,6 +48,8 @@ pub(super) enum Cause {
     OutOfRange { key: &'static str, value: String, wanted: Wanted },
     #[error("`{key}` has {found} point{}", if *found == 1 { "" } else { "s" })]
     PointCount { key: &'static str, found: usize, wanted: Wanted },
+    #[error("`{key}` has {found} number{}", if *found == 1 { "" } else { "s" })]
+    NumberCount { key: &'static str, found: usize, wanted: Wanted },
     #[error("`{key}` goes from {before} to {value}")]
     NotRising { key: &'static str, value: f64, before: f64 },
     #[error("{}", .0.what)]
@@ -130,6 +132,8 @@ pub(super) enum Wanted {
     Truth,
     /// So many numbers.
     Numbers(usize),
+    /// The state of a lane, as 16 hexadecimal digits.
+    Hash,
 }
 
 impl Cause {
@@ -159,6 +163,7 @@ impl Cause {
             Cause::WrongType { wanted, .. }
             | Cause::OutOfRange { wanted, .. }
             | Cause::PointCount { wanted, .. }
+            | Cause::NumberCount { wanted, .. }
             | Cause::EmptyText { wanted, .. }
             | Cause::LongText { wanted, .. } => format!("write {wanted}"),
             Cause::NotRising { .. } => {
@@ -201,9 +206,7 @@ impl Cause {
                 format!("write one of {}", list(&known, '"', ", "))
             }
             Cause::UnknownParameter { nearest, known, .. } => offer(*nearest, known, '"'),
-            Cause::NoHash { .. } => {
-                "write 16 digits from 0 to 9 and a to f, as a recording has them".into()
-            }
+            Cause::NoHash { .. } => format!("write {}", Wanted::Hash),
             Cause::NoTaker { input } => {
                 let takers = BODIES.iter().filter(|kind| kind.inputs.contains(input));
                 let takers: Vec<_> = takers.map(|kind| kind.id).collect();
@@ -235,11 +238,11 @@ impl Wanted {
 
     fn noun(&self) -> &'static str {
         match self {
-            Wanted::Text(_) | Wanted::Method => "a string",
+            Wanted::Text(_) | Wanted::Method | Wanted::Hash => "a string",
             Wanted::Number(_) => "a number",
             Wanted::Whole(_) => "an integer",
             Wanted::Methods | Wanted::Curve(_) => "a list",
-            Wanted::Numbers(_) => "a list of as many numbers",
+            Wanted::Numbers(_) => "a list of numbers",
             Wanted::Truth => "a boolean",
             Wanted::Table(_) => "a table",
             Wanted::Point => "a pair of numbers",
@@ -260,6 +263,10 @@ impl fmt::Display for Wanted {
             Wanted::Point => write!(f, "two numbers in brackets, such as [0.0, 1.0]"),
             Wanted::Method => write!(f, "a method's name in double quotes, such as \"rk4\""),
             Wanted::Methods => write!(f, "a list of methods' names, such as [\"rk4\"]"),
+            Wanted::Hash => write!(
+                f,
+                "16 digits from 0 to 9 and a to f in double quotes, as a recording has them"
+            ),
             Wanted::Truth => write!(f, "true or false"),
             Wanted::Numbers(1) => write!(f, "one number in brackets, such as [0.5]"),
             Wanted::Numbers(count) => write!(f, "{count} numbers in brackets, with commas between"),

@@ -211,21 +211,11 @@ pub(super) fn read_checks(cast: &Cast<'_>, top: &mut Table<'_>) -> Vec<Check> {
     for mut row in top.rows("check") {
         let tick = row.whole(CHECKED_TICK, 0..=LAST_TICK);
         let lane = row.whole(CHECKED_LANE, 1..=cast.lanes.max(1) as u32);
-        let hash = read_hash(&mut row);
+        let hash = row.hash(HASH);
         if let (Some(tick), Some(lane), Some(hash)) = (tick, lane, hash) {
             checks.push(Check { tick, lane: lane as usize, hash });
         }
         top.adopt(row, &TOP);
     }
     checks
-}
-
-fn read_hash(row: &mut Table<'_>) -> Option<u64> {
-    let text = row.text(HASH, MOST_NAME_CHARS)?;
-    let is_hex = text.len() == 16 && text.bytes().all(|digit| digit.is_ascii_hexdigit());
-    let hash = is_hex.then(|| u64::from_str_radix(&text, 16).ok()).flatten();
-    if hash.is_none() {
-        row.complain(row.span(HASH.key), Cause::NoHash { key: HASH.key, text });
-    }
-    hash
 }

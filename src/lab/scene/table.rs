@@ -220,15 +220,36 @@ impl<'t> Table<'t> {
         truth.or_else(|| self.wrong_type(format!("`{}`", field.key), value, Wanted::Truth))
     }
 
+    /// A hash and how it is written.
+    pub(super) fn hash(&mut self, field: Field) -> Option<u64> {
+        let value = self.value(field, &Wanted::Hash)?;
+        let (span, key) = (value.span(), field.key);
+        let Some(text) = value.get_ref().as_str() else {
+            return self.wrong_type(format!("`{key}`"), value, Wanted::Hash);
+        };
+        let is_hex = text.len() == 16 && text.bytes().all(|digit| digit.is_ascii_hexdigit());
+        let hash = is_hex.then(|| u64::from_str_radix(text, 16).ok()).flatten();
+        if hash.is_none() {
+            self.complain(span, Cause::NoHash { key, text: clip(text) });
+        }
+        hash
+    }
+
     /// So many numbers.
     pub(super) fn numbers(&mut self, field: Field, count: usize) -> Option<Vec<f64>> {
         let wanted = Wanted::Numbers(count);
         let value = self.value(field, &wanted)?;
-        let numbers = value.get_ref().as_array().filter(|array| array.len() == count);
-        let numbers = numbers.and_then(|array| array.iter().map(number).collect());
-        let Some(numbers): Option<Vec<f64>> = numbers else {
+        let array = value.get_ref().as_array();
+        let Some(numbers): Option<Vec<f64>> =
+            array.and_then(|array| array.iter().map(number).collect())
+        else {
             return self.wrong_type(format!("`{}`", field.key), value, wanted);
         };
+        if numbers.len() != count {
+            let cause = Cause::NumberCount { key: field.key, found: numbers.len(), wanted };
+            self.complain(value.span(), cause);
+            return None;
+        }
         let are_in_range = numbers.iter().all(|number| number.abs() <= ESCAPE);
         self.within(field, value, are_in_range.then_some(numbers), wanted)
     }

@@ -9,6 +9,9 @@ use crate::lab::scene::{Check, LEAST_SECONDS, Scene, Scripted};
 /// every second.
 const MOST_CHECKS: usize = 8_000;
 
+/// A second that has passed but for this part of it has passed, in seconds: times may be off by their last bits.
+const ON_TIME_S: f64 = 1e-6;
+
 impl Session {
     /// A scene whose race is this run from its start to tick `end`, done again to the bit: with the parameters, lanes
     /// and rate of its start, all that was done as its script, and a [`Check`] of every lane in every second and at the
@@ -33,24 +36,19 @@ impl Session {
         run.race.set_journal(self.journal().clone());
 
         let mut writer = Writer { lanes, script: Vec::new() };
-        let mut seconds = 0;
-        let mut next_check = u64::from(run.race.tick_hz());
-        let mut checks = Vec::new();
+        let (mut next_s, mut checks) = (1.0, Vec::new());
         while run.race.tick() < end {
             run.race.step_seen(&mut writer);
-            let tick = run.race.tick();
-            if tick >= next_check && tick < end {
-                checks.push((seconds, tick, writer.hashes(&run.race)));
-                seconds += 1;
-            }
-            if tick >= next_check {
-                next_check = tick + u64::from(run.race.tick_hz());
+            let (tick, t) = (run.race.tick(), run.race.t() + ON_TIME_S);
+            if t >= next_s && tick < end {
+                checks.push((tick, writer.hashes(&run.race)));
+                next_s = libm::floor(t) + 1.0;
             }
         }
         let every = (checks.len() * writer.lanes.len()).div_ceil(MOST_CHECKS).max(1);
-        let seconds_kept = checks.into_iter().filter(|(second, ..)| (second + 1) % every == 0);
-        let at_end = (0, end, writer.hashes(&run.race));
-        for (_, tick, hashes) in seconds_kept.chain([at_end]) {
+        let kept = checks.into_iter().skip(every - 1).step_by(every);
+        let at_end = (end, writer.hashes(&run.race));
+        for (tick, hashes) in kept.chain([at_end]) {
             let check = |(lane, hash)| Check { tick, lane, hash };
             scene.checks.extend(hashes.into_iter().map(check));
         }

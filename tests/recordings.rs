@@ -1,0 +1,235 @@
+//! A run as a scene file: what is written is read back, can be run again to the bit, and says what was done.
+
+use regatta::lab::{
+    Action, Command, Lab, LaneSpec, SCENES, Scene, Session, equal_cost, lanes_that_race,
+};
+use regatta::sim::integrators::{METHODS, method};
+
+fn built_in(name: &str) -> Scene {
+    Scene::built_in(name).expect("a built-in scene")
+}
+
+fn parsed(text: &str) -> Scene {
+    Scene::parse("recording.toml", text).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
+}
+
+/// The lanes at the end of a recording that are not what its checks say, run as `regatta verify` does.
+fn wrong_lanes(scene: &Scene) -> Vec<usize> {
+    let mut session = Session::race(scene.clone().into());
+    let mut wrong = Vec::new();
+    for check in &scene.checks {
+        session.run(check.tick - session.lanes().tick());
+        let mut entrants = session.lanes().entrants().iter().zip(session.lanes().lane_hashes());
+        let found = entrants.find(|(entrant, _)| entrant.lane_number == check.lane);
+        if found.map(|(_, hash)| hash) != Some(check.hash) {
+            wrong.push(check.lane);
+        }
+    }
+    wrong
+}
+
+#[test]
+fn every_built_in_scene_is_written_and_read_back_as_it_is() {
+    for built_in in SCENES {
+        let scene = Scene::built_in(built_in.name).unwrap();
+        let mut again = parsed(&scene.to_toml());
+        again.name = scene.name.clone();
+        assert_eq!(format!("{again:?}"), format!("{scene:?}"));
+    }
+}
+
+#[test]
+fn texts_and_numbers_that_need_care_are_written_and_read_back() {
+    let mut scene = built_in("helm");
+    scene.title = r#"a "quoted" \ title"#.into();
+    scene.bodies[0].name = r"c:\helm".into();
+    scene.bodies[0].values[0] = 1.0 / 3.0;
+    scene.bodies[0].values[6] = -1e-300;
+    scene.bodies[0].values[7] = 1e15;
+    scene.lanes = METHODS.iter().map(LaneSpec::plain).collect();
+    scene.lanes[2].substeps = 7;
+    let adaptive = scene.lanes.iter().position(|spec| spec.method.tolerance.is_some()).unwrap();
+    scene.lanes[adaptive].tolerance = Some(1e-14);
+    let again = parsed(&scene.to_toml());
+    assert_eq!((&again.title, &again.bodies[0].name), (&scene.title, &scene.bodies[0].name));
+    let bits = |scene: &Scene| -> Vec<u64> {
+        scene.bodies[0].values.iter().map(|value| value.to_bits()).collect()
+    };
+    assert_eq!((bits(&again), again.lanes), (bits(&scene), scene.lanes));
+}
+
+/// The harbour in solo, with everything done to it that can be.
+fn flown() -> Lab {
+    let mut lab = Lab::new(built_in("harbour"));
+    let rk4 = LaneSpec { substeps: 3, ..LaneSpec::plain(method("rk4").unwrap()) };
+    let actions = [
+        Action::Set { body: 0, parameter: 1, value: 90.0 },
+        Action::Kick(0.5),
+        Action::Lane { lane: 1, spec: rk4 },
+        Action::TickHz(50),
+        Action::Place { body: 1, q: [0.25].into(), v: [-1.5].into() },
+        Action::Throttle(-0.5),
+        Action::Substeps { lane: 1, substeps: 2 },
+        Action::Lane { lane: 1, spec: LaneSpec::plain(method("dormand-prince-54").unwrap()) },
+        Action::Tolerance { lane: 1, tolerance: 1e-7 },
+    ];
+    for action in actions {
+        (0..25).for_each(|_| lab.tick());
+        lab.apply(Command::Act(action));
+    }
+    (0..25).for_each(|_| lab.tick());
+    lab
+}
+
+#[test]
+fn a_recording_has_what_was_done_and_is_run_again_to_the_bit() {
+    let lab = flown();
+    let scene = parsed(&lab.recording().to_toml());
+    let ticks: Vec<u64> = scene.script.iter().map(|row| row.tick).collect();
+    assert_eq!(ticks, (1..=9).map(|n| 25 * n).collect::<Vec<_>>());
+    assert_eq!(scene.bodies[0].values, built_in("harbour").bodies[0].values, "as at the start");
+    assert_eq!((scene.lanes.len(), scene.tick_hz), (1, 60));
+    assert!((scene.seconds - lab.race().t()).abs() < 1e-12);
+    let last = scene.checks.last().unwrap();
+    assert_eq!((last.tick, last.lane), (250, 1));
+    assert_eq!(Some(last.hash), lab.race().lane_hashes().next());
+    // In every second at its rate, and at the end.
+    let checked: Vec<u64> = scene.checks.iter().map(|check| check.tick).collect();
+    assert_eq!(checked, [60, 117, 167, 217, 250]);
+    assert_eq!(wrong_lanes(&scene), []);
+
+    let mut other = scene.clone();
+    other.bodies[0].values[0] *= 1.0 + f64::EPSILON;
+    assert_eq!(wrong_lanes(&other).len(), scene.checks.len(), "the last bit of a mass shows");
+}
+
+#[test]
+fn a_recording_opens_in_the_window_as_the_run_that_it_is_of() {
+    let lab = flown();
+    let mut again = Lab::new(parsed(&lab.recording().to_toml()));
+    (0..250).for_each(|_| again.tick());
+    assert_eq!(again.race().state_hash(), lab.race().state_hash());
+    assert_eq!(again.recording().to_toml(), lab.recording().to_toml(), "and is recorded alike");
+}
+
+#[test]
+fn a_recording_of_a_race_with_a_script_and_a_lane_that_is_left_alone_is_the_same_to_the_bit() {
+    let mut lab = Lab::new(built_in("helm"));
+    lab.apply(Command::ToggleRace);
+    (0..200).for_each(|_| lab.tick());
+    lab.apply(Command::Rudder(0.4));
+    (0..200).for_each(|_| lab.tick());
+    let recorded = parsed(&lab.recording().to_toml());
+    assert!(recorded.checks.iter().any(|check| check.lane == recorded.lanes.len()));
+    assert_eq!(wrong_lanes(&recorded), []);
+
+    lab.apply(Command::Pick(2));
+    lab.apply(Command::ToggleRace);
+    (0..50).for_each(|_| lab.tick());
+    let recorded = parsed(&lab.recording().to_toml());
+    let last = recorded.checks.last().unwrap();
+    assert_eq!((last.tick, last.lane), (450, 3), "its number is that of before");
+    assert!(recorded.script.iter().any(|row| row.action == Action::Solo { lane: 3 }));
+    assert_eq!(wrong_lanes(&recorded), []);
+}
+
+#[test]
+fn what_a_person_set_holds_after_a_restart_and_what_a_script_set_does_not() {
+    let text = format!(
+        "{}\n[[command]]\ntick = 5\nset = {{ body = \"ship\", key = \"mass_kg\", value = 5.0 }}\n",
+        built_in("ship").to_toml()
+    );
+    let mut lab = Lab::new(parsed(&text));
+    let mass = lab.race().values(0)[2];
+    (0..10).for_each(|_| lab.tick());
+    assert_eq!(lab.race().values(0)[2], 5.0);
+    lab.apply(Command::Act(Action::Set { body: 0, parameter: 0, value: 123.0 }));
+    lab.apply(Command::Restart);
+    assert_eq!((lab.race().values(0)[2], lab.race().values(0)[0]), (mass, 123.0));
+    assert_eq!(lab.scene().bodies[0].values[0], 123.0);
+    // A person who has set what the script sets keeps it.
+    lab.apply(Command::Act(Action::Set { body: 0, parameter: 2, value: 7.0 }));
+    (0..10).for_each(|_| lab.tick());
+    assert_eq!(lab.race().values(0)[2], 7.0);
+}
+
+#[test]
+fn what_is_out_of_range_or_does_not_fit_is_not_done() {
+    let mut session = Session::race(built_in("spring").into());
+    for action in [
+        Action::Set { body: 0, parameter: 0, value: -1.0 },
+        Action::Set { body: 0, parameter: 0, value: f64::NAN },
+        Action::Set { body: 0, parameter: 99, value: 1.0 },
+        Action::Place { body: 0, q: [1.0, 2.0].into(), v: [0.0].into() },
+        Action::Place { body: 0, q: [f64::INFINITY].into(), v: [0.0].into() },
+        Action::Substeps { lane: 99, substeps: 2 },
+        Action::Tolerance { lane: 1, tolerance: 1e-3 },
+        Action::Rudder(1.0),
+        Action::Throttle(0.5),
+        Action::Kick(0.0),
+        Action::Solo { lane: 99 },
+    ] {
+        assert!(!session.act(action.clone()), "{action:?}");
+    }
+    assert!(session.journal().rows().is_empty());
+}
+
+#[test]
+fn at_equal_cost_no_lane_could_come_nearer_to_the_dearest_one() {
+    let scene = built_in("harbour");
+    let cost = |spec: &LaneSpec| {
+        let mut lane = regatta::lab::Lane::new(&scene, spec.solver(), spec.substeps);
+        (0..60).for_each(|tick| lane.tick(tick, tick as f64 / 60.0, 1.0 / 60.0));
+        lane.evaluations() as f64
+    };
+    let all: Vec<LaneSpec> = METHODS.iter().map(LaneSpec::plain).collect();
+    let dearest = all.iter().map(cost).fold(0.0, f64::max);
+    for (plain, equal) in all.iter().zip(equal_cost(&scene, &all, 60)) {
+        assert_eq!((equal.method, equal.tolerance), (plain.method, plain.tolerance));
+        let off = |substeps: u32| (cost(&LaneSpec { substeps, ..equal }) - dearest).abs();
+        let here = off(equal.substeps);
+        assert!(here <= off(equal.substeps + 1), "{}: {}", equal.method.id, equal.substeps);
+        assert!(equal.substeps == 1 || here <= off(equal.substeps - 1), "{}", equal.method.id);
+    }
+    let euler = equal_cost(&scene, &[all[0], LaneSpec::plain(method("rk4").unwrap())], 60);
+    assert_eq!((euler[0].substeps, euler[1].substeps), (4, 1));
+}
+
+#[test]
+fn x_gives_equal_cost_and_takes_it_back_and_a_scene_can_ask_for_it() {
+    let mut lab = Lab::new(built_in("spring"));
+    lab.apply(Command::ToggleRace);
+    let substeps = |lab: &Lab| -> Vec<u32> {
+        lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
+    };
+    let before = substeps(&lab);
+    (0..10).for_each(|_| lab.tick());
+    lab.apply(Command::ToggleEqualCost);
+    let equal = substeps(&lab);
+    assert!(equal.iter().any(|n| *n > 1), "{equal:?}");
+    assert_eq!(lab.race().tick(), 10, "the race goes on");
+    lab.apply(Command::ToggleEqualCost);
+    assert_eq!(substeps(&lab), before);
+
+    let text = built_in("spring").to_toml();
+    let (top, tables) = text.split_once("\n[[").expect("a body");
+    let asked = parsed(&format!("{top}\n[race]\nequal_cost = true\n\n[[{tables}"));
+    let lanes: Vec<u32> = lanes_that_race(&asked).iter().map(|spec| spec.substeps).collect();
+    assert_eq!(lanes, equal);
+    let race = Session::race(asked.clone().into());
+    let raced: Vec<u32> =
+        race.lanes().entrants().iter().map(|entrant| entrant.lane.substeps()).collect();
+    assert_eq!(raced, equal);
+    assert!(parsed(&asked.to_toml()).equal_cost);
+}
+
+#[test]
+fn new_hashes_are_written_into_a_file_and_all_else_stays() {
+    let text = "# mine\ntitle = 'x'\n[[check]] # one\ntick=1\nlane = 1\nhash = '0000000000000000' # a\n\n\
+                [[check]]\nhash = \"00000000000000ff\"\ntick = 2\nlane = 1\n";
+    let blessed = Scene::with_hashes(text, &[0x12, 0xabc]);
+    let wanted = text
+        .replace("'0000000000000000'", "\"0000000000000012\"")
+        .replace("00000000000000ff", "0000000000000abc");
+    assert_eq!(blessed, wanted);
+}
