@@ -18,7 +18,7 @@ pub struct Session {
     scene: Arc<Scene>,
     race: Race,
     /// The race at its start, without a journal: what a recording begins with.
-    start: Arc<Race>,
+    start: Box<Race>,
 }
 
 impl Session {
@@ -46,7 +46,7 @@ impl Session {
     pub(super) fn new(scene: Arc<Scene>, race: Race) -> Self {
         let mut start = race.clone();
         start.set_journal(Journal::default());
-        Self { scene, race, start: Arc::new(start) }
+        Self { scene, race, start: Box::new(start) }
     }
 
     /// The scene at its start with one lane, that of the method on place `entry` of the scene's
@@ -59,7 +59,7 @@ impl Session {
     /// The same run at its start, with nothing to do.
     fn at_start(&self) -> Self {
         let race = (*self.start).clone();
-        Self { scene: Arc::clone(&self.scene), race, start: Arc::clone(&self.start) }
+        Self { scene: Arc::clone(&self.scene), race, start: self.start.clone() }
     }
 
     /// The scene, as it was opened.
