@@ -14,6 +14,7 @@ mod list;
 mod manifest;
 mod mishaps;
 mod mistakes;
+mod recordings;
 mod sweep;
 mod trace;
 mod verify;

@@ -1,0 +1,159 @@
+//! `regatta verify FILE.toml`: a recording against its own checks; and `regatta play --record` without a display.
+
+use std::fs;
+
+use regatta::lab::{Scene, Session};
+use tempfile::TempDir;
+
+use super::{run_in, stderr};
+
+/// A folder with `run.toml`, the recording of two seconds of the harbour's race.
+fn recorded() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let harbour = Scene::built_in("harbour").unwrap();
+    let mut session = Session::race(harbour.into());
+    session.run(130);
+    let text = session.recording(130).to_toml();
+    fs::write(folder.path().join("run.toml"), format!("# by hand\n{text}")).unwrap();
+    folder
+}
+
+/// What `regatta verify run.toml` and more words make of it: code, data and messages.
+fn verify(folder: &TempDir, arguments: &str) -> (Option<i32>, String, String) {
+    let output = run_in(folder.path(), &format!("verify run.toml {arguments}"));
+    let (data, messages) = (String::from_utf8(output.stdout.clone()).unwrap(), stderr(&output));
+    (output.status.code(), data, messages)
+}
+
+fn edit(folder: &TempDir, change: impl FnOnce(String) -> String) {
+    let path = folder.path().join("run.toml");
+    let text = fs::read_to_string(&path).unwrap();
+    fs::write(path, change(text)).unwrap();
+}
+
+#[test]
+fn a_recording_is_the_same_to_the_bit_lane_by_lane() {
+    let folder = recorded();
+    let (code, data, messages) = verify(&folder, "");
+    assert_eq!((code, &*messages), (Some(0), ""));
+    let lines: Vec<&str> = data.lines().collect();
+    assert_eq!(lines.len(), 5);
+    assert_eq!(lines[3], "lane 4, rk4: same to the bit: 3 checks to tick 130");
+}
+
+#[test]
+fn the_first_check_that_fails_is_named_with_the_last_that_holds() {
+    let folder = recorded();
+    edit(&folder, |text| {
+        let (before, after) = text.split_once("tick = 120\nlane = 4\nhash = \"").unwrap();
+        format!("{before}tick = 120\nlane = 4\nhash = \"{}{}", "0".repeat(16), &after[16..])
+    });
+    let (code, data, messages) = verify(&folder, "");
+    assert_eq!(code, Some(1));
+    let line = data.lines().nth(3).unwrap();
+    let expected = "lane 4, rk4: differs first at tick 120 (2 s): 0000000000000000 in the file, ";
+    assert!(line.starts_with(expected), "{line}");
+    assert!(line.ends_with("; the first difference lies after tick 60, the last that is the same"));
+    assert!(
+        messages.contains("1 lane of run.toml differs; if that is meant, --bless"),
+        "{messages}"
+    );
+    assert_eq!(data.lines().filter(|line| line.contains("same to the bit")).count(), 4);
+}
+
+#[test]
+fn another_parameter_shows_in_every_lane_and_is_blessed_with_all_else_left_as_it_is() {
+    let folder = recorded();
+    edit(&folder, |text| text.replacen("mass_kg = 1.0", "mass_kg = 1.25", 1));
+    let (code, data, _) = verify(&folder, "");
+    assert_eq!(
+        (code, data.lines().filter(|line| line.contains("differs first at tick 60")).count()),
+        (Some(1), 5)
+    );
+    let before = fs::read_to_string(folder.path().join("run.toml")).unwrap();
+    let (code, _, messages) = verify(&folder, "--bless");
+    assert_eq!((code, &*messages), (Some(0), "blessed: run.toml\n"));
+    assert_eq!(verify(&folder, "").0, Some(0));
+    let after = fs::read_to_string(folder.path().join("run.toml")).unwrap();
+    let others = |text: &str| -> Vec<String> {
+        text.lines().filter(|line| !line.starts_with("hash")).map(str::to_owned).collect()
+    };
+    assert_eq!(others(&after), others(&before));
+    assert_ne!(after, before);
+}
+
+#[test]
+fn a_scene_without_checks_is_not_judged_and_gets_them_by_bless() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "# mine\ntitle = 'x'\ntick_hz = 30\nseconds = 2.5\nmethods = ['rk4', 'midpoint']\n\
+                [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
+    fs::write(folder.path().join("run.toml"), text).unwrap();
+    let (code, data, messages) = verify(&folder, "");
+    assert_eq!((code, &*data), (Some(2), ""));
+    assert!(messages.contains("run.toml has no [[check]] to be judged by; --bless writes one"));
+    assert_eq!(verify(&folder, "--bless").0, Some(0));
+    let blessed = fs::read_to_string(folder.path().join("run.toml")).unwrap();
+    assert!(blessed.starts_with(text), "{blessed}");
+    assert_eq!(blessed.matches("[[check]]").count(), 2 * 3);
+    let (code, data, _) = verify(&folder, "");
+    assert_eq!(code, Some(0));
+    assert_eq!(data.lines().next(), Some("lane 1, rk4: same to the bit: 3 checks to tick 75"));
+}
+
+#[test]
+fn reports_of_a_recording_are_written_for_programs() {
+    let folder = recorded();
+    edit(&folder, |text| text.replacen("hash = \"", "hash = \"0000000000000000\" # \"", 1));
+    let (code, ..) = verify(&folder, "--report json r.json --report junit r.xml");
+    assert_eq!(code, Some(1));
+    let json = fs::read_to_string(folder.path().join("r.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!((&json["file"], &json["same"]), (&"run.toml".into(), &false.into()));
+    let [first, second] = [0, 1].map(|lane| &json["lanes"][lane]);
+    assert_eq!((&first["lane"], &first["method"]), (&1.into(), &"explicit-euler".into()));
+    assert_eq!(first["first_difference"]["tick"], 60);
+    assert_eq!(first["first_difference"]["was"], "0000000000000000");
+    assert_eq!((&second["same"], &second["first_difference"]), (&true.into(), &().into()));
+    let xml = fs::read_to_string(folder.path().join("r.xml")).unwrap();
+    assert!(xml.contains("tests=\"5\" failures=\"1\""), "{xml}");
+    assert!(xml.contains("name=\"lane 2, semi-implicit-euler\"/>"), "{xml}");
+}
+
+#[test]
+fn what_is_for_frames_is_refused_for_a_recording_and_a_file_that_is_not_there_is_named() {
+    let folder = recorded();
+    for option in ["--diff d", "--max-channel 3", "--max-pixels 1"] {
+        let (code, _, messages) = verify(&folder, option);
+        assert_eq!(code, Some(2), "{option}");
+        assert!(messages.contains("is for the frames of a capture"), "{messages}");
+    }
+    let output = run_in(folder.path(), "verify gone.toml");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("\"gone.toml\""), "{}", stderr(&output));
+    edit(&folder, |text| text.replacen("hash = \"", "hash = \"x", 1));
+    let (code, _, messages) = verify(&folder, "");
+    assert_eq!(code, Some(2));
+    assert!(messages.contains("not a hash"), "{messages}");
+}
+
+#[test]
+fn what_is_played_is_recorded_and_a_file_that_is_there_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let play = "play --scene spring --method rk4 --seconds 1 --record run.toml";
+    let output = run_in(folder.path(), play);
+    if stderr(&output).contains("graphics") {
+        return eprintln!("what_is_played_is_recorded: skipped, no graphics to draw with");
+    }
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(stderr(&output).contains("recorded 58 ticks in run.toml"), "{}", stderr(&output));
+    let (code, data, _) = verify(&folder, "");
+    assert_eq!((code, &*data), (Some(0), "lane 1, rk4: same to the bit: 1 check to tick 58\n"));
+
+    let again = run_in(folder.path(), play);
+    assert_eq!(again.status.code(), Some(2));
+    let message = "run.toml is there already; give another --record, or --force to replace it";
+    assert!(stderr(&again).contains(message), "{}", stderr(&again));
+    fs::remove_dir_all(folder.path().join("regatta-frames")).unwrap();
+    let forced = run_in(folder.path(), &format!("{play} --force"));
+    assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
+}
