@@ -9,9 +9,14 @@
 //!   and ways to step it ([`Integrator`](sim::integrators::Integrator)). It knows no files, clocks or
 //!   pixels. RK4's formula is in `sim/integrators/rk4.rs`. [`sim::stability`] finds what a method makes of
 //!   a body, or of a linear body's [normal modes](sim::stability::NormalMode), in one tick.
-//! - [`lab`] is the experiment: a [`Scene`](lab::Scene) is read from text, a [`Clock`](lab::Clock)
-//!   turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the truth, and a
-//!   [`Picture`](lab::picture::Picture) says what to draw. A lane is one method on its own copy of the
+//! - [`lab`] is the experiment: a [`Scene`](lab::Scene) is read from text and written as text, a
+//!   [`Clock`](lab::Clock) turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the
+//!   truth, and a [`Picture`](lab::picture::Picture) says what to draw. A run is a value, a
+//!   [`Session`](lab::Session): it changes by [`Action`](lab::Action)s and ticks only, which its
+//!   [`Journal`](lab::Journal) has all of, whoever did them: script, person, recording or test. A
+//!   [`Timeline`](lab::Timeline) keeps snapshots of it and goes to any tick. What is drawn of earlier ticks is in a
+//!   [`Past`](lab::Past), which watches the race as an [`Observer`](lab::Observer), and what a person looks at in a
+//!   [`Viewer`](lab::Viewer): neither is part of a run. A lane is one method on its own copy of the
 //!   scene's bodies; a [`Judge`](lab::Judge) measures how far one strays, an
 //!   [`Adviser`](lab::Adviser) searches for the substeps that meet a [`Criterion`](lab::Criterion), and a
 //!   [`Thinker`](lab::Thinker) has both done beside the race. The truth is a lane whose solver is the exact flow, or where a body has none
@@ -32,8 +37,8 @@
 //!
 //! # A frame
 //!
-//! events → [`Command`](lab::Command)s → [`Lab::apply`](lab::Lab::apply) →
-//! [`Lab::advance`](lab::Lab::advance) → as many [`Race::step`](lab::Race::step)s as are due →
+//! events → [`Command`](lab::Command)s → [`Action`](lab::Action)s → [`Session::act`](lab::Session::act) →
+//! [`Clock::advance`](lab::Clock::advance) → as many [`Session::tick`](lab::Session::tick)s as are due →
 //! [`picture::compose`](lab::picture::compose) → `FrameRenderer::draw` → submit → present or read back.
 //!
 //! # What holds
@@ -43,6 +48,8 @@
 //!   `tests/determinism.rs` compares [`Race::lane_hashes`](lab::Race::lane_hashes) with committed values.
 //! - **Claims are measured.** Every field of a [`Method`](sim::integrators::Method) card is tested
 //!   both ways by `tests/conformance`, with drag and without.
+//! - **A run can be gone back in.** Copied, recorded, written, read and run again, or gone to from anywhere, a tick
+//!   is to the bit what it was, with its plots (`tests/sessions.rs`, `tests/recordings.rs`).
 //! - **The step allocates nothing**, takes no lock and touches no file (`tests/allocation.rs`).
 //! - **A body that blows up is data.** It halts, keeps its last good state and says why; other bodies
 //!   and lanes go on, unchanged to the bit. Under another method it is taken up again from the truth.
