@@ -253,3 +253,21 @@ fn where_no_script_is_to_come_there_is_nothing_to_tell() {
     lab.apply(Command::Rudder(0.5));
     assert_eq!(lab.viewer().notice.as_deref(), None, "the script is over");
 }
+
+#[test]
+fn a_throttle_of_the_script_is_part_of_the_scene_that_is_judged_and_one_by_hand_asks_anew() {
+    let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
+    let script = "[[command]]\ntick = 3\nthrottle = 0.5\n";
+    let mut lab = Lab::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap());
+    let asked = lab.question();
+    (0..10).for_each(|_| lab.tick());
+    assert_eq!(lab.race().throttle(), 0.5);
+    assert!(lab.question() == asked, "nothing is asked that was not asked at the start");
+    lab.apply(Command::Throttle(0.2));
+    let by_hand = lab.question();
+    assert!(by_hand != asked);
+    (0..10).for_each(|_| lab.tick());
+    assert!(lab.question() == by_hand);
+    lab.apply(Command::Restart);
+    assert!(lab.question() == asked);
+}

@@ -6,6 +6,7 @@ use super::action::Action;
 use super::analysis::{Findings, Question, Thinker};
 use super::clock::{Clock, Due};
 use super::display::{Display, Pace};
+use super::journal::{JournalRow, Source};
 use super::lane_spec::LaneSpec;
 use super::notices::Notices;
 use super::past::{History, Past};
@@ -143,9 +144,22 @@ impl Lab {
             scene: Arc::clone(&self.start.scene),
             entries: self.entries().to_vec(),
             tick_hz: self.clock.tick_hz(),
-            throttle: self.race().throttle(),
+            throttle: self.throttle_by_hand(),
             advice: self.display().instrument == super::Instrument::Advice,
         }
+    }
+
+    /// The throttle that a person has set since the start, or else that of the start: what the script sets is in the
+    /// scene that is judged.
+    fn throttle_by_hand(&self) -> f64 {
+        let race = self.race();
+        let done = race.journal().rows()[..race.done()].iter();
+        let set = done.filter(|row| row.source == Source::Hand).rev();
+        let throttle = |row: &JournalRow| match row.action {
+            Action::Throttle(part) => Some(part.clamp(-1.0, 1.0)),
+            _ => None,
+        };
+        set.into_iter().find_map(throttle).unwrap_or(1.0)
     }
 
     /// Takes in what was found out, unless it is of another scene.
