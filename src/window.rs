@@ -207,9 +207,10 @@ impl App {
         self.thinking.ask(self.lab.question());
         let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
         self.last_frame = self.lab.running().then_some(now);
-        self.lab.advance(i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX));
+        let last = self.seconds.map_or(u64::MAX, |s| self.lab.nearest_tick(s));
+        self.lab.advance_to(last, i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX));
         self.lab.set_pace(self.meter.pace());
-        if self.seconds.is_some_and(|s| self.lab.race().tick() >= self.lab.nearest_tick(s)) {
+        if self.lab.race().tick() >= last {
             self.end(event_loop, Ok(()));
         }
         let title = self.lab.title();

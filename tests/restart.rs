@@ -54,3 +54,14 @@ fn a_restart_owes_no_part_of_a_tick_and_keeps_the_speed() {
     lab.advance(4_000_000);
     assert_eq!(lab.race().tick(), 1);
 }
+
+#[test]
+fn a_frame_goes_no_further_than_it_may() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.advance_to(7, 100_000_000);
+    assert_eq!(lab.race().tick(), 6);
+    lab.advance_to(7, 100_000_000);
+    assert_eq!((lab.race().tick(), lab.timeline().end()), (7, 7));
+    lab.advance_to(7, 100_000_000);
+    assert_eq!(lab.race().tick(), 7);
+}

@@ -183,8 +183,17 @@ impl Lab {
         self.advance_seen(frame_ns, |_| ())
     }
 
+    /// As [`Lab::advance`], and stops at tick `last`.
+    pub fn advance_to(&mut self, last: u64, frame_ns: i64) -> Due {
+        self.advance_by(frame_ns, last, |_| ())
+    }
+
     /// As [`Lab::advance`], and shows itself to `after_tick` after every tick.
-    pub fn advance_seen(&mut self, frame_ns: i64, mut after_tick: impl FnMut(&Lab)) -> Due {
+    pub fn advance_seen(&mut self, frame_ns: i64, after_tick: impl FnMut(&Lab)) -> Due {
+        self.advance_by(frame_ns, u64::MAX, after_tick)
+    }
+
+    fn advance_by(&mut self, frame_ns: i64, last: u64, mut after_tick: impl FnMut(&Lab)) -> Due {
         if !self.running {
             return Due::default();
         }
@@ -193,6 +202,9 @@ impl Lab {
         self.tell(told);
         let due = self.clock.advance(frame_ns);
         for _ in 0..due.ticks {
+            if self.race().tick() >= last {
+                break;
+            }
             self.tick();
             after_tick(self);
         }
