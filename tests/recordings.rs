@@ -84,7 +84,7 @@ fn flown() -> Lab {
 #[test]
 fn a_recording_has_what_was_done_and_is_run_again_to_the_bit() {
     let lab = flown();
-    let scene = parsed(&lab.recording().to_toml());
+    let scene = parsed(&lab.recording().unwrap());
     let ticks: Vec<u64> = scene.script.iter().map(|row| row.tick).collect();
     assert_eq!(ticks, (1..=9).map(|n| 25 * n).collect::<Vec<_>>());
     assert_eq!(scene.bodies[0].values, built_in("harbour").bodies[0].values, "as at the start");
@@ -96,7 +96,7 @@ fn a_recording_has_what_was_done_and_is_run_again_to_the_bit() {
     // In every second at its rate, and at the end.
     let checked: Vec<u64> = scene.checks.iter().map(|check| check.tick).collect();
     assert_eq!(checked, [60, 117, 167, 217, 250]);
-    assert_eq!(wrong_lanes(&scene), []);
+    assert!(wrong_lanes(&scene).is_empty());
 
     let mut other = scene.clone();
     other.bodies[0].values[0] *= 1.0 + f64::EPSILON;
@@ -106,10 +106,10 @@ fn a_recording_has_what_was_done_and_is_run_again_to_the_bit() {
 #[test]
 fn a_recording_opens_in_the_window_as_the_run_that_it_is_of() {
     let lab = flown();
-    let mut again = Lab::new(parsed(&lab.recording().to_toml()));
+    let mut again = Lab::new(parsed(&lab.recording().unwrap()));
     (0..250).for_each(|_| again.tick());
     assert_eq!(again.race().state_hash(), lab.race().state_hash());
-    assert_eq!(again.recording().to_toml(), lab.recording().to_toml(), "and is recorded alike");
+    assert_eq!(again.recording().unwrap(), lab.recording().unwrap(), "and is recorded alike");
 }
 
 #[test]
@@ -119,18 +119,18 @@ fn a_recording_of_a_race_with_a_script_and_a_lane_that_is_left_alone_is_the_same
     (0..200).for_each(|_| lab.tick());
     lab.apply(Command::Rudder(0.4));
     (0..200).for_each(|_| lab.tick());
-    let recorded = parsed(&lab.recording().to_toml());
+    let recorded = parsed(&lab.recording().unwrap());
     assert!(recorded.checks.iter().any(|check| check.lane == recorded.lanes.len()));
-    assert_eq!(wrong_lanes(&recorded), []);
+    assert!(wrong_lanes(&recorded).is_empty());
 
     lab.apply(Command::Pick(2));
     lab.apply(Command::ToggleRace);
     (0..50).for_each(|_| lab.tick());
-    let recorded = parsed(&lab.recording().to_toml());
+    let recorded = parsed(&lab.recording().unwrap());
     let last = recorded.checks.last().unwrap();
     assert_eq!((last.tick, last.lane), (450, 3), "its number is that of before");
     assert!(recorded.script.iter().any(|row| row.action == Action::Solo { lane: 3 }));
-    assert_eq!(wrong_lanes(&recorded), []);
+    assert!(wrong_lanes(&recorded).is_empty());
 }
 
 #[test]
@@ -221,6 +221,21 @@ fn x_gives_equal_cost_and_takes_it_back_and_a_scene_can_ask_for_it() {
         race.lanes().entrants().iter().map(|entrant| entrant.lane.substeps()).collect();
     assert_eq!(raced, equal);
     assert!(parsed(&asked.to_toml()).equal_cost);
+}
+
+#[test]
+fn a_run_in_which_too_much_was_done_for_a_file_says_so_and_one_that_is_only_long_does_not() {
+    let mut session = Session::race(built_in("spring").into());
+    (0..40_000).for_each(|n| _ = session.act(Action::Kick(1e-9 * f64::from(n + 1))));
+    let error = session.recording_text(10).unwrap_err();
+    assert!(error.bytes > 1 << 20 && error.to_string().contains("record a shorter run"));
+
+    let mut long = Session::race(built_in("spring").into());
+    long.run(3 * 3600 * 60);
+    let text = long.recording_text(3 * 3600 * 60).expect("fewer checks than seconds");
+    let lanes = long.lanes().entrants().len();
+    let checks = parsed(&text).checks.len();
+    assert!((4_000..=8_000 + lanes).contains(&checks), "{checks}");
 }
 
 #[test]

@@ -4,7 +4,8 @@
 use std::sync::Arc;
 
 use regatta::lab::{
-    Action, Command, Lab, LaneSpec, Past, SNAPSHOT_BYTES, Scene, Session, Timeline, TruthSample,
+    Action, Command, Event, EventKind, Lab, LaneSpec, Past, SNAPSHOT_BYTES, Scene, Session,
+    Timeline, TruthSample,
 };
 use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::METHODS;
@@ -344,4 +345,37 @@ fn every_kind_of_body_is_among_the_random_scenes() {
             kind.id
         );
     }
+}
+
+#[test]
+fn what_happened_is_told_by_tick_goes_with_its_future_and_comes_back_with_it() {
+    let scene = Scene::built_in("stiff").unwrap();
+    let mut timeline = Timeline::new(Session::race(scene.into()));
+    (0..50).for_each(|_| timeline.tick());
+    assert!(timeline.act(Action::Kick(1.0)));
+    (0..250).for_each(|_| timeline.tick());
+    let events = timeline.events();
+    let done = |event: &Event| matches!(event.kind, EventKind::Done(..));
+    assert_eq!(events.iter().filter(|event| done(event)).map(|e| e.tick).collect::<Vec<_>>(), [50]);
+    let race = timeline.session().lanes();
+    let halts = race.entrants().iter().filter_map(|e| Some((e.lane_number, e.lane.halted()?)));
+    let halts: Vec<(u64, usize)> = halts.map(|(lane, halt)| (halt.tick, lane)).collect();
+    assert!(halts.len() >= 2, "explicit and improved Euler are lost: {halts:?}");
+    let mut told: Vec<(u64, usize)> = Vec::new();
+    for event in &events {
+        if let EventKind::Halted { lane, body: 0, is_blow_up: true } = event.kind {
+            told.push((event.tick, lane));
+        }
+    }
+    told.sort_unstable_by_key(|&(_, lane)| lane);
+    assert_eq!(told, halts);
+    assert!(events.is_sorted_by_key(|event| event.tick));
+
+    timeline.seek(100);
+    assert_eq!(timeline.events(), events, "to look at the past changes none of it");
+    timeline.act(Action::Kick(0.1));
+    let ticks: Vec<u64> = timeline.events().iter().map(|event| event.tick).collect();
+    assert_eq!(ticks, [50, 100]);
+    assert!(timeline.undo());
+    assert_eq!((timeline.events(), timeline.end()), (events, 300));
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::error::Error;
+use super::error::{Cause, Error};
 use super::experiment::{self, Experiment, ExperimentArgs, Lineup};
 use super::frame_folder::FrameFolder;
 use super::interrupt::Interrupted;
@@ -14,7 +14,7 @@ use super::recording::Recording;
 use super::schedule::{FPS, Schedule, frames_in};
 use super::terminal::tell;
 use super::{clip, logbook};
-use crate::lab::Lab;
+use crate::lab::{Lab, RecordingTooLong};
 use crate::view::Panels;
 use crate::window::{self, WindowError};
 
@@ -57,6 +57,12 @@ pub(super) struct PlayArgs {
     reduced_motion: bool,
 }
 
+impl Cause for RecordingTooLong {
+    fn exit_code(&self) -> u8 {
+        1
+    }
+}
+
 /// Where pictures go that nobody named a directory for.
 const FRAMES_DIR: &str = "regatta-frames";
 /// Enough to see what each method does, and drawn in seconds even by software.
@@ -83,7 +89,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     };
     if let Some(mut record) = record {
         let name = record.name();
-        let text = lab.recording().to_toml();
+        let text = lab.recording()?;
         record.write_all(text.as_bytes()).map_err(|error| record.failed(error))?;
         record.close()?;
         tell(&format!("recorded {} ticks in {name}", lab.timeline().end()));

@@ -12,7 +12,7 @@ use super::notices::Notices;
 use super::past::{History, Past};
 use super::race::{Mode, Race};
 use super::scene::Scene;
-use super::session::Timeline;
+use super::session::{RecordingTooLong, Timeline};
 use super::start::Start;
 use super::viewer::Viewer;
 
@@ -132,9 +132,12 @@ impl Lab {
         )
     }
 
-    /// The run to the last tick that it reached, as a scene; see [`Session::recording`](super::Session::recording).
-    pub fn recording(&self) -> Scene {
-        self.timeline.session().recording(self.timeline.end())
+    /// The run to the last tick that it reached, as the text of a scene file.
+    ///
+    /// # Errors
+    /// As [`Session::recording_text`](super::Session::recording_text).
+    pub fn recording(&self) -> Result<String, RecordingTooLong> {
+        self.timeline.session().recording_text(self.timeline.end())
     }
 
     /// What there is to be found out: a verdict on each method of the list at the present tick rate and

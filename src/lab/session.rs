@@ -10,6 +10,7 @@ use super::scene::Scene;
 mod recording;
 mod timeline;
 
+pub use recording::RecordingTooLong;
 pub use timeline::{Event, EventKind, SNAPSHOT_BYTES, Timeline};
 
 /// A scene being run. It knows no clock, no picture and nobody who looks at it.

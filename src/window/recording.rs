@@ -1,15 +1,21 @@
 //! The run as a scene file, for `regatta play`, `capture`, `advise` and `verify`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::new_file::write_new;
 use crate::lab::Lab;
 
 /// Saves the run so far beside nothing that exists, and says in a line for people what became of it.
 pub(super) fn save(lab: &Lab) -> String {
-    let name = format!("regatta-{}-recording", lab.scene().name);
-    match write_new(Path::new(""), &name, "toml", lab.recording().to_toml().as_bytes()) {
+    match try_save(lab) {
         Ok(path) => format!("recorded in {0}: regatta verify {0}", path.display()),
-        Err(error) => format!("no recording: cannot write {name}.toml here: {error}"),
+        Err(reason) => format!("no recording: {reason}"),
     }
+}
+
+fn try_save(lab: &Lab) -> Result<PathBuf, String> {
+    let name = format!("regatta-{}-recording", lab.scene().name);
+    let text = lab.recording().map_err(|error| error.to_string())?;
+    write_new(Path::new(""), &name, "toml", text.as_bytes())
+        .map_err(|error| format!("cannot write {name}.toml here: {error}"))
 }

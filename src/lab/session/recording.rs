@@ -3,7 +3,7 @@
 use super::Session;
 use crate::lab::action::Action;
 use crate::lab::race::{Observer, Race};
-use crate::lab::scene::{Check, LEAST_SECONDS, Scene, Scripted};
+use crate::lab::scene::{Check, LARGEST_FILE, LEAST_SECONDS, Scene, Scripted};
 
 /// The most checks of a recording: with more, its file would be too large to read. They are then made more rarely than
 /// every second.
@@ -12,7 +12,27 @@ const MOST_CHECKS: usize = 8_000;
 /// A second that has passed but for this part of it has passed, in seconds: times may be off by their last bits.
 const ON_TIME_S: f64 = 1e-6;
 
+/// A recording that no program would read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "so much was done in this run that its file would hold {bytes} bytes, and a scene file may hold {LARGEST_FILE}; record a shorter run"
+)]
+pub struct RecordingTooLong {
+    /// What its file would hold.
+    pub bytes: usize,
+}
+
 impl Session {
+    /// The text of the [recording](Session::recording) to tick `end`.
+    ///
+    /// # Errors
+    /// If it is too long for a scene file.
+    pub fn recording_text(&self, end: u64) -> Result<String, RecordingTooLong> {
+        let text = self.recording(end).to_toml();
+        let bytes = text.len();
+        if bytes > LARGEST_FILE { Err(RecordingTooLong { bytes }) } else { Ok(text) }
+    }
+
     /// A scene whose race is this run from its start to tick `end`, done again to the bit: with the parameters, lanes
     /// and rate of its start, all that was done as its script, and a [`Check`] of every lane in every second and at the
     /// end. Runs all of it again.
