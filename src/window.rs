@@ -71,7 +71,9 @@ pub fn run(
         let interrupts = Mutex::new(event_loop.create_proxy());
         let tell = move || {
             // A window that is closed already needs no telling.
-            let _ = interrupts.lock().map(|proxy| proxy.send_event(Event::Interrupted));
+            if let Ok(proxy) = interrupts.lock() {
+                let _ = proxy.send_event(Event::Interrupted);
+            }
         };
         if let Err(error) = ctrlc::set_handler(tell) {
             log::warn!("Ctrl-C will stop the window at once: {error}");
