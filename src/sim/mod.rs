@@ -6,6 +6,7 @@
 
 pub mod bodies;
 mod double_double;
+mod drive;
 mod exact_flow;
 pub mod integrators;
 mod reference;

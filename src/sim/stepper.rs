@@ -5,6 +5,7 @@ use std::any::Any;
 use glam::DVec2;
 
 use super::bodies::{Body, Input, ParameterOf};
+use super::drive::{ByMethod, Drive, Jump};
 use super::exact_flow::ExactFlow;
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
 use super::reference::Reference;
@@ -45,10 +46,8 @@ pub trait Stepper: Send {
     fn q(&self) -> &[f64];
     /// Their velocities.
     fn v(&self) -> &[f64];
-    /// Puts the body into a state at time `t` (s) and makes the solver forget what it carried.
+    /// Puts the body into a state at time `t` (s). The solver begins again there.
     fn set(&mut self, t: f64, q: &[f64], v: &[f64]);
-    /// Makes the solver forget what it carried from step to step, the state left as it is.
-    fn reset(&mut self);
 
     /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
     fn input(&mut self, t: f64, input: Input) -> bool;
@@ -151,46 +150,6 @@ impl<B: Body> Construct<Counted<B>> for Launch<B> {
     }
 }
 
-/// What carries a body of one type forward.
-pub(super) trait Drive<B: Body>: Clone + Send + 'static {
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure>;
-
-    /// Takes notice that at time `t` (s) the body was put into this state.
-    fn placed(&mut self, t: f64, state: &State<B::Vector>);
-
-    /// Takes notice that at time `t` (s) an input or an edit changed the forces on `body`, or its state to this
-    /// one.
-    fn pushed(&mut self, body: &Counted<B>, t: f64, state: &State<B::Vector>);
-
-    /// Takes notice that an input or an edit may be about to change `body`, which is in this state.
-    fn about_to_be_pushed(&mut self, _body: &Counted<B>, _state: &State<B::Vector>) {}
-
-    /// Forgets what is carried from step to step.
-    fn reset(&mut self);
-
-    /// As [`Stepper::truth_error`], in the present `state`.
-    fn truth_error(&self, _body: &Counted<B>, _state: &State<B::Vector>) -> Option<[f64; 2]> {
-        None
-    }
-
-    /// The seconds that it was asked to advance and did not.
-    fn lost_time(&self) -> f64 {
-        0.0
-    }
-
-    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
-
 /// A body under what drives it; monomorphic, so that force law and method become one loop.
 #[derive(Clone)]
 struct Driven<B: Body, D> {
@@ -199,6 +158,17 @@ struct Driven<B: Body, D> {
     state: State<B::Vector>,
     /// The time lost under earlier solvers, in seconds.
     behind: f64,
+}
+
+impl<B: Body, D: Drive<B>> Driven<B, D> {
+    fn jump(
+        &mut self,
+        jump: Jump,
+        t: f64,
+        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
+    ) -> bool {
+        self.drive.jump(jump, t, &mut self.body.system, &mut self.state, change)
+    }
 }
 
 impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
@@ -213,33 +183,27 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
         self.state.v.components()
     }
     fn set(&mut self, t: f64, q: &[f64], v: &[f64]) {
-        write(&mut self.state, q, v);
-        self.drive.placed(t, &self.state);
-    }
-    fn reset(&mut self) {
-        self.drive.reset();
+        self.jump(Jump::Placed, t, |_, state| {
+            write(state, q, v);
+            true
+        });
     }
 
     fn input(&mut self, t: f64, input: Input) -> bool {
-        self.drive.about_to_be_pushed(&self.body, &self.state);
-        let taken = self.body.system.input(input, &mut self.state);
-        if taken {
-            self.drive.pushed(&self.body, t, &self.state);
-        }
-        taken
+        self.jump(Jump::Pushed, t, |body, state| body.input(input, state))
     }
 
     fn set_parameter(&mut self, t: f64, place: usize, value: f64) -> bool {
         let parameter = B::PARAMETERS.get(place);
         let Some(field) = parameter.and_then(ParameterOf::acting_at_once) else { return false };
-        if *field(&mut self.body.system) == value {
-            return false;
-        }
-        self.drive.about_to_be_pushed(&self.body, &self.state);
-        *field(&mut self.body.system) = value;
-        self.body.system.prepare();
-        self.drive.pushed(&self.body, t, &self.state);
-        true
+        self.jump(Jump::Pushed, t, |body, _| {
+            let is_new = *field(body) != value;
+            if is_new {
+                *field(body) = value;
+                body.prepare();
+            }
+            is_new
+        })
     }
 
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
@@ -290,77 +254,6 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
         let vectors = size_of::<Self>() / size_of::<B::Vector>();
         let vectors = vectors * self.state.q.heap_bytes();
         size_of::<Self>() + vectors + self.body.system.heap_bytes() + self.drive.heap_bytes()
-    }
-}
-
-/// A method from the table.
-#[derive(Clone)]
-struct ByMethod<I>(I);
-
-impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Drive<B> for ByMethod<I> {
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure> {
-        self.0.steps(body, t, h, substeps, state)
-    }
-
-    fn placed(&mut self, _t: f64, _state: &State<B::Vector>) {
-        self.0.reset();
-    }
-
-    fn pushed(&mut self, _body: &Counted<B>, _t: f64, _state: &State<B::Vector>) {
-        self.0.reset();
-    }
-
-    fn reset(&mut self) {
-        self.0.reset();
-    }
-
-    fn lost_time(&self) -> f64 {
-        self.0.lost_time()
-    }
-
-    fn heap_bytes(&self) -> usize {
-        self.0.heap_bytes()
-    }
-}
-
-impl<B: Body> Drive<B> for Reference<B::Vector> {
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        _substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure> {
-        // Not through `body`, which counts: the truth is no contender.
-        self.solve(&body.system, t, h, state)
-    }
-
-    fn placed(&mut self, _t: f64, _state: &State<B::Vector>) {
-        self.place();
-    }
-
-    fn pushed(&mut self, body: &Counted<B>, _t: f64, state: &State<B::Vector>) {
-        self.push(&body.system, state);
-    }
-
-    fn reset(&mut self) {
-        self.reset();
-    }
-
-    fn truth_error(&self, _body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
-        Some(self.error(state))
-    }
-
-    fn heap_bytes(&self) -> usize {
-        self.heap_bytes()
     }
 }
 

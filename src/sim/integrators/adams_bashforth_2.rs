@@ -1,6 +1,6 @@
 //! Adams-Bashforth 2: the slope here and the slope one step ago, drawn on to the step's middle.
 
-use super::shared::seam::Seam;
+use super::shared::last_step::LastStep;
 use super::{Family, Integrator, Method, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
@@ -28,14 +28,13 @@ pub struct AdamsBashforth2<V> {
     g: State<V>,
     /// The predicted end of the first step.
     end: State<V>,
-    /// Where `g` belongs.
-    seam: Seam,
+    last_step: LastStep,
 }
 
 impl<S: System> Integrator<S> for AdamsBashforth2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
-        Self { f: zero.clone(), g: zero.clone(), end: zero, seam: Seam::new() }
+        Self { f: zero.clone(), g: zero.clone(), end: zero, last_step: LastStep::NONE }
     }
 
     #[inline]
@@ -46,9 +45,9 @@ impl<S: System> Integrator<S> for AdamsBashforth2<S::Vector> {
         h: f64,
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { f, g, end, seam } = self;
+        let Self { f, g, end, last_step } = self;
         system.derivative(t, y, f);
-        if seam.joins(h) {
+        if last_step.is_continued_by(h) {
             y.add_terms([(h * 1.5, f), (h * -0.5, g)]);
         } else {
             end.assign_sum(y, h, f);
@@ -56,11 +55,11 @@ impl<S: System> Integrator<S> for AdamsBashforth2<S::Vector> {
             y.add_terms([(h / 2.0, f), (h / 2.0, g)]);
         }
         std::mem::swap(f, g);
-        seam.end(h);
+        last_step.end(h);
         Ok(())
     }
 
     fn reset(&mut self) {
-        self.seam.cut();
+        self.last_step = LastStep::NONE;
     }
 }

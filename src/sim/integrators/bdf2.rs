@@ -1,7 +1,7 @@
 //! BDF2: the slope at the end from a parabola through the last two states and the new one.
 
+use super::shared::last_step::LastStep;
 use super::shared::newton::Newton;
-use super::shared::seam::Seam;
 use super::{Family, Integrator, Method, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
@@ -34,8 +34,7 @@ pub struct Bdf2<V> {
     start: State<V>,
     /// The first stage of the first step.
     stage: State<V>,
-    /// Where `before` belongs.
-    seam: Seam,
+    last_step: LastStep,
 }
 
 /// The diagonal of the starting method, with which it damps like this one: `1 - 1/√2`.
@@ -45,7 +44,7 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
         let [before, start, stage] = [zero.clone(), zero.clone(), zero];
-        Self { newton: Newton::new(like), before, start, stage, seam: Seam::new() }
+        Self { newton: Newton::new(like), before, start, stage, last_step: LastStep::NONE }
     }
 
     fn step(
@@ -55,9 +54,9 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
         h: f64,
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { newton, before, start, stage, seam } = self;
+        let Self { newton, before, start, stage, last_step } = self;
         start.assign(y);
-        if seam.joins(h) {
+        if last_step.is_continued_by(h) {
             y.add_scaled(1.0 / 3.0, start);
             y.add_scaled(-1.0 / 3.0, before);
             newton.backward(system, t + h, h * 2.0 / 3.0, y)?;
@@ -70,12 +69,12 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
             newton.backward(system, t + h, h * GAMMA, y)?;
         }
         std::mem::swap(before, start);
-        seam.end(h);
+        last_step.end(h);
         Ok(())
     }
 
     fn reset(&mut self) {
-        self.seam.cut();
+        self.last_step = LastStep::NONE;
     }
 
     fn heap_bytes(&self) -> usize {

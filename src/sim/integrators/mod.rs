@@ -4,7 +4,7 @@
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
 //! of each card, both ways. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
 
-use shared::watched::Watched;
+use watched::Watched;
 
 use super::system::{State, System, Vector};
 
@@ -31,6 +31,7 @@ mod shared;
 mod ssp_rk3;
 mod stormer_verlet;
 mod velocity_verlet;
+mod watched;
 mod yoshida4;
 
 pub use adams_bashforth_2::AdamsBashforth2;
@@ -102,8 +103,8 @@ pub trait Integrator<S: System>: Send {
         Ok(())
     }
 
-    /// Forgets whatever is carried between steps. To be called when the state or the forces jump; a jump
-    /// of the step's length a method notices by itself.
+    /// Forgets whatever is carried between steps. Call it when the state or the forces jump. A jump of the
+    /// step's length every method notices by itself.
     fn reset(&mut self) {}
 
     /// Sets the error that an adaptive method allows in a substep; the others take no notice.

@@ -1,6 +1,6 @@
 //! Störmer-Verlet: the next position from the last two and the force; the velocity is read off them.
 
-use super::shared::seam::Seam;
+use super::shared::last_step::LastStep;
 use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
@@ -31,14 +31,13 @@ pub struct StormerVerlet<V> {
     a: V,
     /// The position at the end of the step.
     q_end: V,
-    /// Where `p` and `a` belong.
-    seam: Seam,
+    last_step: LastStep,
 }
 
 impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let [p, a, q_end] = [like.clone(), like.clone(), like.clone()];
-        Self { p, a, q_end, seam: Seam::new() }
+        Self { p, a, q_end, last_step: LastStep::NONE }
     }
 
     #[inline]
@@ -49,9 +48,9 @@ impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
         h: f64,
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { p, a, q_end, seam } = self;
+        let Self { p, a, q_end, last_step } = self;
         let State { q, v } = y;
-        if !seam.joins(h) {
+        if !last_step.is_continued_by(h) {
             system.acceleration(t, q, v, a);
             p.assign_sum(q, -h, v);
             p.add_scaled(h * h / 2.0, a);
@@ -68,11 +67,11 @@ impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
         v.add_terms([(-1.0 / h, q), (h / 2.0, a)]);
         std::mem::swap(p, q);
         std::mem::swap(q, q_end);
-        seam.end(h);
+        last_step.end(h);
         Ok(())
     }
 
     fn reset(&mut self) {
-        self.seam.cut();
+        self.last_step = LastStep::NONE;
     }
 }

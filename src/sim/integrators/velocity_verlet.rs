@@ -1,6 +1,6 @@
 //! Velocity Verlet: half a kick, a drift, half a kick by the force at the end.
 
-use super::shared::seam::Seam;
+use super::shared::last_step::LastStep;
 use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
@@ -32,14 +32,13 @@ pub struct VelocityVerlet<V> {
     a_end: V,
     /// The velocity predicted for the end.
     v_end: V,
-    /// Where `a` belongs.
-    seam: Seam,
+    last_step: LastStep,
 }
 
 impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let [a, a_end, v_end] = [like.clone(), like.clone(), like.clone()];
-        Self { a, a_end, v_end, seam: Seam::new() }
+        Self { a, a_end, v_end, last_step: LastStep::NONE }
     }
 
     #[inline]
@@ -50,8 +49,8 @@ impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
         h: f64,
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { a, a_end, v_end, seam } = self;
-        if !seam.joins(h) {
+        let Self { a, a_end, v_end, last_step } = self;
+        if !last_step.is_continued_by(h) {
             system.acceleration(t, &y.q, &y.v, a);
         }
         let State { q, v } = y;
@@ -61,11 +60,11 @@ impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
         system.acceleration(t + h, q, v_end, a_end);
         v.add_scaled(h / 2.0, a_end);
         std::mem::swap(a, a_end);
-        seam.end(h);
+        last_step.end(h);
         Ok(())
     }
 
     fn reset(&mut self) {
-        self.seam.cut();
+        self.last_step = LastStep::NONE;
     }
 }
