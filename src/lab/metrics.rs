@@ -134,7 +134,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Of("s"),
         scale: Scale::Linear,
         about: "time by which this body is behind, under a method that does not keep it",
-        measure: |lane, _| Some(lane.stepper.lost_time()).filter(|&lost| lost > 0.0),
+        measure: |lane, _| Some(lane.stepper.counts().lost_time).filter(|&lost| lost > 0.0),
     },
 ];
 

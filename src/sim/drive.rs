@@ -47,11 +47,6 @@ pub(super) trait Drive<B: Body>: Clone + Send + 'static {
         None
     }
 
-    /// The seconds that it was asked to advance and did not.
-    fn lost_time(&self) -> f64 {
-        0.0
-    }
-
     /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
     fn heap_bytes(&self) -> usize {
         0
@@ -96,10 +91,6 @@ impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Drive<B> for ByMethod
             self.0.reset();
         }
         is_changed
-    }
-
-    fn lost_time(&self) -> f64 {
-        self.0.lost_time()
     }
 
     fn heap_bytes(&self) -> usize {

@@ -9,7 +9,7 @@ use super::drive::{ByMethod, Drive, Jump};
 use super::exact_flow::ExactFlow;
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
 use super::reference::Reference;
-use super::system::{Counted, State, Vector};
+use super::system::{Counted, Counts, State, Vector};
 
 /// What carries a body forward.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,11 +61,12 @@ pub trait Stepper: Send {
     /// Overwrites `a` with the acceleration in the given state under the present input; not counted.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
 
-    /// Evaluations of the acceleration since the start, under whatever methods.
-    fn evaluations(&self) -> u64;
-    /// Seconds by which the body is behind, because methods it was under
-    /// [did not keep time](Method::keeps_time).
-    fn lost_time(&self) -> f64;
+    /// What methods did with the body since the start, whichever it was under. The truth counts nothing.
+    fn counts(&self) -> Counts;
+    /// Evaluations of the acceleration since the start.
+    fn evaluations(&self) -> u64 {
+        self.counts().evaluations
+    }
     /// Whether the body's equation of motion is linear, but for a constant.
     fn is_linear(&self) -> bool;
     /// How far the truth may be off by now: the largest error expected of a coordinate and of a velocity, in
@@ -101,15 +102,13 @@ impl Clone for Box<dyn Stepper> {
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    Launch { body: Counted::new(body), state, behind: 0.0, tolerance: None }.under(solver, 0.0)
+    Launch { body: Counted::new(body), state, tolerance: None }.under(solver, 0.0)
 }
 
 /// A body about to come under a solver.
 struct Launch<B: Body> {
     body: Counted<B>,
     state: State<B::Vector>,
-    /// The time lost so far, in seconds.
-    behind: f64,
     /// For an adaptive method's own.
     tolerance: Option<Tolerance>,
 }
@@ -133,8 +132,8 @@ impl<B: Body> Launch<B> {
     }
 
     fn driven<D: Drive<B>>(self, drive: D) -> Box<dyn Stepper> {
-        let Self { body, state, behind, .. } = self;
-        Box::new(Driven { body, drive, state, behind })
+        let Self { body, state, .. } = self;
+        Box::new(Driven { body, drive, state })
     }
 }
 
@@ -156,8 +155,6 @@ struct Driven<B: Body, D> {
     body: Counted<B>,
     drive: D,
     state: State<B::Vector>,
-    /// The time lost under earlier solvers, in seconds.
-    behind: f64,
 }
 
 impl<B: Body, D: Drive<B>> Driven<B, D> {
@@ -214,11 +211,8 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
         a.copy_from_slice(acceleration.components());
     }
 
-    fn evaluations(&self) -> u64 {
-        self.body.evaluations()
-    }
-    fn lost_time(&self) -> f64 {
-        self.behind + self.drive.lost_time()
+    fn counts(&self) -> Counts {
+        self.body.counts()
     }
     fn is_linear(&self) -> bool {
         self.body.system.is_linear()
@@ -241,8 +235,8 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        let (body, state, behind) = (self.body.clone(), self.state.clone(), self.lost_time());
-        Launch { body, state, behind, tolerance: None }.under(solver, t)
+        let (body, state) = (self.body.clone(), self.state.clone());
+        Launch { body, state, tolerance: None }.under(solver, t)
     }
 
     fn boxed_clone(&self) -> Box<dyn Stepper> {

@@ -30,8 +30,6 @@ const TOLERANCE: Tolerance =
 #[derive(Clone)]
 pub struct AdaptiveEulerAsPrinted<V> {
     tolerance: Tolerance,
-    /// What was cut off, in all, in seconds.
-    lost: f64,
     a: V,
     v1: V,
     v2: V,
@@ -40,7 +38,7 @@ pub struct AdaptiveEulerAsPrinted<V> {
 impl<V: Vector> AdaptiveEulerAsPrinted<V> {
     /// The method with a tolerance other than its card's, of which only `absolute_v` counts.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
-        Self { tolerance, lost: 0.0, a: like.clone(), v1: like.clone(), v2: like.clone() }
+        Self { tolerance, a: like.clone(), v1: like.clone(), v2: like.clone() }
     }
 }
 
@@ -57,7 +55,7 @@ impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
         h: f64,
         State { q, v }: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { tolerance, lost, a, v1, v2 } = self;
+        let Self { tolerance, a, v1, v2 } = self;
         system.acceleration(t, q, v, a);
         v1.assign_sum(v, h, a);
 
@@ -73,7 +71,7 @@ impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
             system.acceleration(t, q, v, a);
             v.add_scaled(h_new, a);
             q.add_scaled(h_new, v);
-            *lost += h - h_new;
+            system.skipped(h - h_new);
         } else {
             v.assign(v1);
             q.add_scaled(h, v);
@@ -83,10 +81,6 @@ impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
 
     fn set_tolerance(&mut self, tolerance: Tolerance) {
         self.tolerance = tolerance;
-    }
-
-    fn lost_time(&self) -> f64 {
-        self.lost
     }
 }
 

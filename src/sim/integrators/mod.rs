@@ -110,12 +110,6 @@ pub trait Integrator<S: System>: Send {
     /// Sets the error that an adaptive method allows in a substep; the others take no notice.
     fn set_tolerance(&mut self, _tolerance: Tolerance) {}
 
-    /// The seconds that this integrator, since it was made, was asked to advance and did not; a reset
-    /// changes nothing about it. 0 for every method that [keeps time](Method::keeps_time).
-    fn lost_time(&self) -> f64 {
-        0.0
-    }
-
     /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
     fn heap_bytes(&self) -> usize {
         0
@@ -225,7 +219,7 @@ pub struct Method {
     /// switch or a change of the step, and whenever it is given a state other than it left. `None` where
     /// it carries nothing.
     pub restart: Option<&'static str>,
-    /// Whether a step of `h` always advances by `h`; else [`Integrator::lost_time`] says what is missing.
+    /// Whether a step of `h` always advances by `h`. Of one that does not, [`System::skipped`] hears what is missing.
     pub keeps_time: bool,
     /// Whether this is the chapter's listing with its faults.
     pub as_printed: bool,

@@ -62,10 +62,6 @@ impl<S: System, I: Integrator<S>> Integrator<S> for Watched<I, S::Vector> {
         self.method.set_tolerance(tolerance);
     }
 
-    fn lost_time(&self) -> f64 {
-        self.method.lost_time()
-    }
-
     fn heap_bytes(&self) -> usize {
         self.method.heap_bytes()
     }
