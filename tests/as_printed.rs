@@ -31,7 +31,7 @@ fn sail(id: &str, h: f64, n: u32) -> Vec<State<f64>> {
 
 /// The three listings, and what the chapter calls Euler.
 fn printed() -> impl Iterator<Item = &'static Method> {
-    METHODS.iter().filter(|method| method.as_printed || method.id == "semi-implicit-euler")
+    METHODS.iter().filter(|method| method.is_as_printed() || method.id == "semi-implicit-euler")
 }
 
 #[test]

@@ -1,24 +1,19 @@
 //! Adams-Bashforth 2: the slope here and the slope one step ago, drawn on to the step's middle.
 
+use super::card::{EXPLICIT, Method};
 use super::shared::last_step::LastStep;
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "adams-bashforth-2",
     name: "Adams-Bashforth 2",
     about: "second order for one evaluation a step; an undamped spring gains energy, twice as fast as under improved Euler",
-    family: Family::Explicit,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(1),
-    symplectic: false,
-    reversible: false,
-    stability_limit: Some(0.0),
-    tolerance: None,
     restart: Some("by a step of improved Euler"),
-    keeps_time: true,
-    as_printed: false,
     source: "Bashforth & Adams, An Attempt to Test the Theories of Capillary Action (1883)",
+    ..EXPLICIT
 };
 
 /// `y' = y + h (3 f - g) / 2`, with `f` the slope here and `g` the slope one step ago.

@@ -1,23 +1,18 @@
 //! Adaptive Euler as the chapter prints it: a step that is cut short ends the tick all the same.
 
-use super::{Family, Integrator, Method, State, StepFailure, System, Tolerance, Vector};
+use super::card::{AS_PRINTED, Method};
+use super::{Integrator, State, StepFailure, System, Tolerance, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler-as-printed",
     name: "Adaptive Euler (as printed)",
     about: "the chapter's listing: under drag it runs in slow motion, for it never makes up what it cuts off a step; without drag it is semi-implicit Euler",
-    family: Family::AsPrinted,
     order: 1,
     order_with_drag: 1,
-    evaluations: None,
-    symplectic: true,
-    reversible: false,
-    stability_limit: Some(2.0),
     tolerance: Some(TOLERANCE),
-    restart: None,
     keeps_time: false,
-    as_printed: true,
     source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the adaptive step size",
+    ..AS_PRINTED
 };
 
 /// The listing looks at the velocity only, and absolutely. It prints no value; this one is ours, at which

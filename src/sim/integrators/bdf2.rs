@@ -1,27 +1,21 @@
 //! BDF2: the slope at the end from a parabola through the last two states and the new one.
 
+use super::card::{IMPLICIT, Method};
 use super::shared::last_step::LastStep;
 use super::shared::newton::Newton;
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "bdf2",
     name: "BDF2",
     about: "stable at any step, and takes less energy than implicit Euler for the same work",
-    family: Family::Implicit,
     order: 2,
     order_with_drag: 2,
-    evaluations: None,
-    symplectic: false,
-    reversible: false,
-    stability_limit: None,
-    tolerance: None,
     restart: Some(
         "by a step of Alexander's two-stage SDIRK, which damps as much and has the same order",
     ),
-    keeps_time: true,
-    as_printed: false,
     source: "Curtiss & Hirschfelder, Integration of stiff equations (1952); started by Alexander, Diagonally implicit Runge-Kutta methods for stiff ODEs (1977), the SDIRK of two stages",
+    ..IMPLICIT
 };
 
 /// `y' = y + (y - y") / 3 + 2/3 h f(t + h, y')`, with `y"` the state one step before `y`.

@@ -1,24 +1,19 @@
 //! Störmer-Verlet: the next position from the last two and the force; the velocity is read off them.
 
+use super::card::{Method, SYMPLECTIC};
 use super::shared::last_step::LastStep;
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "stormer-verlet",
     name: "Störmer-Verlet",
     about: "the form of games that keep positions only: velocity Verlet's path, its velocities from differences of positions",
-    family: Family::Symplectic,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(1),
-    symplectic: true,
-    reversible: true,
-    stability_limit: Some(2.0),
-    tolerance: None,
     restart: Some("by placing the position of one step ago on the parabola through q, v and a"),
-    keeps_time: true,
-    as_printed: false,
     source: "Störmer, Sur les trajectoires des corpuscules électrisés (1907); Verlet, Computer \"Experiments\" on Classical Fluids (1967); Jakobsen, Advanced Character Physics (2001)",
+    ..SYMPLECTIC
 };
 
 /// `q' = 2 q - p + h² a`, with `p` the position one step ago, and `v' = (q' - q) / h + h a' / 2`.

@@ -1,24 +1,19 @@
 //! Velocity Verlet: half a kick, a drift, half a kick by the force at the end.
 
+use super::card::{Method, SYMPLECTIC};
 use super::shared::last_step::LastStep;
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "velocity-verlet",
     name: "Velocity Verlet",
     about: "second order for one evaluation a step, and bounded on a spring up to h ω = 2; drag lowers that limit",
-    family: Family::Symplectic,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(1),
-    symplectic: true,
-    reversible: true,
-    stability_limit: Some(2.0),
-    tolerance: None,
     restart: Some("by evaluating the force at the start, which else is the last step's end"),
-    keeps_time: true,
-    as_printed: false,
     source: "Swope, Andersen, Berens & Wilson, A computer simulation method for the calculation of equilibrium constants for the formation of physical clusters of molecules (1982)",
+    ..SYMPLECTIC
 };
 
 /// `v½ = v + h a / 2`, `q' = q + h v½`, `a' = a(t + h, q', v½ + h a / 2)`, `v' = v½ + h a' / 2`.
