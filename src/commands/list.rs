@@ -124,7 +124,7 @@ const METHOD: &[Column<Method>] = &[
     },
     Column { key: "restart", heading: None, value: |method| json!(method.restart) },
     Column { key: "keeps_time", heading: None, value: |method| json!(method.keeps_time) },
-    Column { key: "as_printed", heading: Some("AS PRINTED"), value: |m| json!(m.as_printed) },
+    Column { key: "as_printed", heading: Some("AS PRINTED"), value: |m| json!(m.is_as_printed()) },
     Column { key: "about", heading: Some("ABOUT"), value: |method| json!(method.about) },
     Column { key: "source", heading: None, value: |method| json!(method.source) },
 ];

@@ -312,13 +312,6 @@ impl Lane {
         self.bodies.iter().map(LaneBody::bytes).sum()
     }
 
-    /// Makes the solver begin anew from the state as it is: the steps to come are of another length.
-    pub fn reset(&mut self) {
-        for body in &mut self.bodies {
-            body.stepper.reset();
-        }
-    }
-
     /// Puts the bodies under another solver at time `t` (s), their state carried exactly. Those that had halted
     /// go on from the present state of `truth`, the same scene's, and are returned. To switch to what the lane
     /// is under already changes nothing.

@@ -1,8 +1,8 @@
 //! The truth where there is a closed form.
 
 use super::bodies::Body;
+use super::drive::{Drive, Jump};
 use super::integrators::StepFailure;
-use super::stepper::Drive;
 use super::system::{Counted, State, Vector};
 
 /// The exact flow, always computed in one stride from the anchor, so that nothing accumulates.
@@ -12,8 +12,6 @@ pub(super) struct ExactFlow<V> {
     /// The time that the state is at.
     t: f64,
     scratch: State<V>,
-    /// The errors of the state before the last input.
-    before_input: [f64; 2],
 }
 
 /// Where the flow comes from.
@@ -32,7 +30,7 @@ impl<V: Vector> ExactFlow<V> {
     pub(super) fn new(state: &State<V>, t: f64) -> Self {
         let [displaced, scratch] = [state.clone(), state.clone()];
         let anchor = Anchor { state: state.clone(), t, displaced, error: [0.0; 2] };
-        Self { anchor, t, scratch, before_input: [0.0; 2] }
+        Self { anchor, t, scratch }
     }
 }
 
@@ -88,22 +86,26 @@ impl<B: Body> Drive<B> for ExactFlow<B::Vector> {
         Ok(())
     }
 
-    fn placed(&mut self, t: f64, state: &State<B::Vector>) {
-        self.anchor.lay(state, t, [0.0; 2]);
-        self.t = t;
+    fn jump(
+        &mut self,
+        jump: Jump,
+        t: f64,
+        body: &mut B,
+        state: &mut State<B::Vector>,
+        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
+    ) -> bool {
+        let Self { anchor, t: now, scratch } = self;
+        let error = match jump {
+            Jump::Placed => [0.0; 2],
+            Jump::Pushed => anchor.error(body, *now, state, scratch),
+        };
+        let is_changed = change(body, state);
+        if is_changed {
+            anchor.lay(state, t, error);
+            *now = t;
+        }
+        is_changed
     }
-
-    fn about_to_be_pushed(&mut self, body: &Counted<B>, state: &State<B::Vector>) {
-        let Self { anchor, t, scratch, before_input } = self;
-        *before_input = anchor.error(&body.system, *t, state, scratch);
-    }
-
-    fn pushed(&mut self, _body: &Counted<B>, t: f64, state: &State<B::Vector>) {
-        self.anchor.lay(state, t, self.before_input);
-        self.t = t;
-    }
-
-    fn reset(&mut self) {}
 
     fn truth_error(&self, body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
         let mut scratch = state.clone();

@@ -6,6 +6,7 @@
 
 pub mod bodies;
 mod double_double;
+mod drive;
 mod exact_flow;
 pub mod integrators;
 mod reference;
@@ -15,4 +16,4 @@ mod system;
 
 pub use reference::REFERENCE_ACCURACY;
 pub use stepper::{Solver, Stepper, stepper};
-pub use system::{Counted, State, System, Vector};
+pub use system::{Counted, Counts, State, System, Vector};

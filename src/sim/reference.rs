@@ -4,8 +4,9 @@
 //! It is no method of the table: it takes what substeps it wants, and its evaluations are not counted.
 
 use super::bodies::Body;
+use super::drive::{Drive, Jump};
 use super::integrators::StepFailure;
-use super::system::{State, Vector};
+use super::system::{Counted, State, Vector};
 
 use extrapolation::Extrapolation;
 use track::{Pace, Track};
@@ -71,7 +72,7 @@ impl<V: Vector> Reference<V> {
     }
 
     /// Begins anew: the body was given its state.
-    pub(super) fn place(&mut self) {
+    fn place(&mut self) {
         self.is_placed = false;
         self.saved = SAVED;
         self.failed = None;
@@ -81,7 +82,7 @@ impl<V: Vector> Reference<V> {
 
     /// Takes notice that a force changed or an impulse was given, and that `state` is now that of the
     /// body: what the solution may be off stays.
-    pub(super) fn push<B: Body<Vector = V>>(&mut self, body: &B, state: &State<V>) {
+    fn push<B: Body<Vector = V>>(&mut self, body: &B, state: &State<V>) {
         self.failed = None;
         if self.is_placed {
             self.check.apart(&self.solution, &mut self.apart);
@@ -90,16 +91,10 @@ impl<V: Vector> Reference<V> {
         }
     }
 
-    /// Forgets the steps' lengths.
-    pub(super) fn reset(&mut self) {
-        self.solution.reset();
-        self.check.reset();
-    }
-
     /// Advances `y` from `t` to exactly `t + h` (s).
     ///
     /// After a failure it fails at once, until it is placed or pushed.
-    pub(super) fn solve<B: Body<Vector = V>>(
+    fn solve<B: Body<Vector = V>>(
         &mut self,
         body: &B,
         t: f64,
@@ -137,13 +132,8 @@ impl<V: Vector> Reference<V> {
         Ok(())
     }
 
-    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
-    pub(super) fn heap_bytes(&self) -> usize {
-        self.work.heap_bytes()
-    }
-
     /// How far `y`, where it has come to, may be off: in a coordinate and in a velocity. An estimate.
-    pub(super) fn error(&self, y: &State<V>) -> [f64; 2] {
+    fn error(&self, y: &State<V>) -> [f64; 2] {
         if self.failed.is_some() {
             return [f64::INFINITY; 2];
         }
@@ -153,6 +143,45 @@ impl<V: Vector> Reference<V> {
         let size = [largest(&y.q), largest(&y.v)];
         let fastest = [self.fastest[0].max(size[1]), self.fastest[1]];
         [0, 1].map(|i| MARGIN * self.farthest[i] + late * fastest[i] + f64::EPSILON * size[i])
+    }
+}
+
+impl<B: Body> Drive<B> for Reference<B::Vector> {
+    fn advance(
+        &mut self,
+        body: &Counted<B>,
+        t: f64,
+        h: f64,
+        _substeps: u32,
+        state: &mut State<B::Vector>,
+    ) -> Result<(), StepFailure> {
+        // Not through `body`, which counts: the truth is no contender.
+        self.solve(&body.system, t, h, state)
+    }
+
+    fn jump(
+        &mut self,
+        jump: Jump,
+        _t: f64,
+        body: &mut B,
+        state: &mut State<B::Vector>,
+        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
+    ) -> bool {
+        let is_changed = change(body, state);
+        match jump {
+            _ if !is_changed => {}
+            Jump::Placed => self.place(),
+            Jump::Pushed => self.push(body, state),
+        }
+        is_changed
+    }
+
+    fn truth_error(&self, _body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
+        Some(self.error(state))
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.work.heap_bytes()
     }
 }
 

@@ -5,10 +5,11 @@ use std::any::Any;
 use glam::DVec2;
 
 use super::bodies::{Body, Input, ParameterOf};
+use super::drive::{ByMethod, Drive, Jump};
 use super::exact_flow::ExactFlow;
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
 use super::reference::Reference;
-use super::system::{Counted, State, Vector};
+use super::system::{Counted, Counts, State, Vector};
 
 /// What carries a body forward.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,10 +46,8 @@ pub trait Stepper: Send {
     fn q(&self) -> &[f64];
     /// Their velocities.
     fn v(&self) -> &[f64];
-    /// Puts the body into a state at time `t` (s) and makes the solver forget what it carried.
+    /// Puts the body into a state at time `t` (s). The solver begins again there.
     fn set(&mut self, t: f64, q: &[f64], v: &[f64]);
-    /// Makes the solver forget what it carried from step to step, the state left as it is.
-    fn reset(&mut self);
 
     /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
     fn input(&mut self, t: f64, input: Input) -> bool;
@@ -62,11 +61,12 @@ pub trait Stepper: Send {
     /// Overwrites `a` with the acceleration in the given state under the present input; not counted.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
 
-    /// Evaluations of the acceleration since the start, under whatever methods.
-    fn evaluations(&self) -> u64;
-    /// Seconds by which the body is behind, because methods it was under
-    /// [did not keep time](Method::keeps_time).
-    fn lost_time(&self) -> f64;
+    /// What methods did with the body since the start, whichever it was under. The truth counts nothing.
+    fn counts(&self) -> Counts;
+    /// Evaluations of the acceleration since the start.
+    fn evaluations(&self) -> u64 {
+        self.counts().evaluations
+    }
     /// Whether the body's equation of motion is linear, but for a constant.
     fn is_linear(&self) -> bool;
     /// How far the truth may be off by now: the largest error expected of a coordinate and of a velocity, in
@@ -102,15 +102,13 @@ impl Clone for Box<dyn Stepper> {
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    Launch { body: Counted::new(body), state, behind: 0.0, tolerance: None }.under(solver, 0.0)
+    Launch { body: Counted::new(body), state, tolerance: None }.under(solver, 0.0)
 }
 
 /// A body about to come under a solver.
 struct Launch<B: Body> {
     body: Counted<B>,
     state: State<B::Vector>,
-    /// The time lost so far, in seconds.
-    behind: f64,
     /// For an adaptive method's own.
     tolerance: Option<Tolerance>,
 }
@@ -134,8 +132,8 @@ impl<B: Body> Launch<B> {
     }
 
     fn driven<D: Drive<B>>(self, drive: D) -> Box<dyn Stepper> {
-        let Self { body, state, behind, .. } = self;
-        Box::new(Driven { body, drive, state, behind })
+        let Self { body, state, .. } = self;
+        Box::new(Driven { body, drive, state })
     }
 }
 
@@ -151,54 +149,23 @@ impl<B: Body> Construct<Counted<B>> for Launch<B> {
     }
 }
 
-/// What carries a body of one type forward.
-pub(super) trait Drive<B: Body>: Clone + Send + 'static {
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure>;
-
-    /// Takes notice that at time `t` (s) the body was put into this state.
-    fn placed(&mut self, t: f64, state: &State<B::Vector>);
-
-    /// Takes notice that at time `t` (s) an input or an edit changed the forces on `body`, or its state to this
-    /// one.
-    fn pushed(&mut self, body: &Counted<B>, t: f64, state: &State<B::Vector>);
-
-    /// Takes notice that an input or an edit may be about to change `body`, which is in this state.
-    fn about_to_be_pushed(&mut self, _body: &Counted<B>, _state: &State<B::Vector>) {}
-
-    /// Forgets what is carried from step to step.
-    fn reset(&mut self);
-
-    /// As [`Stepper::truth_error`], in the present `state`.
-    fn truth_error(&self, _body: &Counted<B>, _state: &State<B::Vector>) -> Option<[f64; 2]> {
-        None
-    }
-
-    /// The seconds that it was asked to advance and did not.
-    fn lost_time(&self) -> f64 {
-        0.0
-    }
-
-    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
-
 /// A body under what drives it; monomorphic, so that force law and method become one loop.
 #[derive(Clone)]
 struct Driven<B: Body, D> {
     body: Counted<B>,
     drive: D,
     state: State<B::Vector>,
-    /// The time lost under earlier solvers, in seconds.
-    behind: f64,
+}
+
+impl<B: Body, D: Drive<B>> Driven<B, D> {
+    fn jump(
+        &mut self,
+        jump: Jump,
+        t: f64,
+        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
+    ) -> bool {
+        self.drive.jump(jump, t, &mut self.body.system, &mut self.state, change)
+    }
 }
 
 impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
@@ -213,33 +180,27 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
         self.state.v.components()
     }
     fn set(&mut self, t: f64, q: &[f64], v: &[f64]) {
-        write(&mut self.state, q, v);
-        self.drive.placed(t, &self.state);
-    }
-    fn reset(&mut self) {
-        self.drive.reset();
+        self.jump(Jump::Placed, t, |_, state| {
+            write(state, q, v);
+            true
+        });
     }
 
     fn input(&mut self, t: f64, input: Input) -> bool {
-        self.drive.about_to_be_pushed(&self.body, &self.state);
-        let taken = self.body.system.input(input, &mut self.state);
-        if taken {
-            self.drive.pushed(&self.body, t, &self.state);
-        }
-        taken
+        self.jump(Jump::Pushed, t, |body, state| body.input(input, state))
     }
 
     fn set_parameter(&mut self, t: f64, place: usize, value: f64) -> bool {
         let parameter = B::PARAMETERS.get(place);
         let Some(field) = parameter.and_then(ParameterOf::acting_at_once) else { return false };
-        if *field(&mut self.body.system) == value {
-            return false;
-        }
-        self.drive.about_to_be_pushed(&self.body, &self.state);
-        *field(&mut self.body.system) = value;
-        self.body.system.prepare();
-        self.drive.pushed(&self.body, t, &self.state);
-        true
+        self.jump(Jump::Pushed, t, |body, _| {
+            let is_new = *field(body) != value;
+            if is_new {
+                *field(body) = value;
+                body.prepare();
+            }
+            is_new
+        })
     }
 
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
@@ -250,11 +211,8 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
         a.copy_from_slice(acceleration.components());
     }
 
-    fn evaluations(&self) -> u64 {
-        self.body.evaluations()
-    }
-    fn lost_time(&self) -> f64 {
-        self.behind + self.drive.lost_time()
+    fn counts(&self) -> Counts {
+        self.body.counts()
     }
     fn is_linear(&self) -> bool {
         self.body.system.is_linear()
@@ -277,8 +235,8 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
     }
 
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        let (body, state, behind) = (self.body.clone(), self.state.clone(), self.lost_time());
-        Launch { body, state, behind, tolerance: None }.under(solver, t)
+        let (body, state) = (self.body.clone(), self.state.clone());
+        Launch { body, state, tolerance: None }.under(solver, t)
     }
 
     fn boxed_clone(&self) -> Box<dyn Stepper> {
@@ -290,77 +248,6 @@ impl<B: Body, D: Drive<B>> Stepper for Driven<B, D> {
         let vectors = size_of::<Self>() / size_of::<B::Vector>();
         let vectors = vectors * self.state.q.heap_bytes();
         size_of::<Self>() + vectors + self.body.system.heap_bytes() + self.drive.heap_bytes()
-    }
-}
-
-/// A method from the table.
-#[derive(Clone)]
-struct ByMethod<I>(I);
-
-impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Drive<B> for ByMethod<I> {
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure> {
-        self.0.steps(body, t, h, substeps, state)
-    }
-
-    fn placed(&mut self, _t: f64, _state: &State<B::Vector>) {
-        self.0.reset();
-    }
-
-    fn pushed(&mut self, _body: &Counted<B>, _t: f64, _state: &State<B::Vector>) {
-        self.0.reset();
-    }
-
-    fn reset(&mut self) {
-        self.0.reset();
-    }
-
-    fn lost_time(&self) -> f64 {
-        self.0.lost_time()
-    }
-
-    fn heap_bytes(&self) -> usize {
-        self.0.heap_bytes()
-    }
-}
-
-impl<B: Body> Drive<B> for Reference<B::Vector> {
-    fn advance(
-        &mut self,
-        body: &Counted<B>,
-        t: f64,
-        h: f64,
-        _substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure> {
-        // Not through `body`, which counts: the truth is no contender.
-        self.solve(&body.system, t, h, state)
-    }
-
-    fn placed(&mut self, _t: f64, _state: &State<B::Vector>) {
-        self.place();
-    }
-
-    fn pushed(&mut self, body: &Counted<B>, _t: f64, state: &State<B::Vector>) {
-        self.push(&body.system, state);
-    }
-
-    fn reset(&mut self) {
-        self.reset();
-    }
-
-    fn truth_error(&self, _body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
-        Some(self.error(state))
-    }
-
-    fn heap_bytes(&self) -> usize {
-        self.heap_bytes()
     }
 }
 

@@ -190,21 +190,40 @@ pub trait System {
         d.q.assign(&state.v);
         self.acceleration(t, &state.q, &state.v, &mut d.v);
     }
+
+    /// Takes notice that a method leaves out `h` (s) of the time that it was asked to advance, as only one does
+    /// that does not [keep time](super::integrators::Method::keeps_time). It changes no motion: [`Counted`] adds
+    /// it up.
+    fn skipped(&self, _h: f64) {}
 }
 
-/// Counts the evaluations of a system's acceleration, so that a method's cost is measured and not
-/// taken on the method's word.
+/// Counts what methods do with a system, whichever they are: a copy goes on from the same counts.
 #[derive(Clone, Debug)]
 pub struct Counted<S> {
     /// The system counted.
     pub system: S,
     evaluations: Cell<u64>,
+    lost_time: Cell<f64>,
+}
+
+/// What methods did with a system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Counts {
+    /// Evaluations of the acceleration: the cost, measured and not taken on the method's word.
+    pub evaluations: u64,
+    /// Seconds that methods were asked to advance and left out.
+    pub lost_time: f64,
 }
 
 impl<S> Counted<S> {
-    /// Wraps `system`, with a count of zero.
+    /// Wraps `system`, with all counts at zero.
     pub fn new(system: S) -> Self {
-        Self { system, evaluations: Cell::new(0) }
+        Self { system, evaluations: Cell::new(0), lost_time: Cell::new(0.0) }
+    }
+
+    /// The counts so far.
+    pub fn counts(&self) -> Counts {
+        Counts { evaluations: self.evaluations.get(), lost_time: self.lost_time.get() }
     }
 
     /// Evaluations so far.
@@ -220,5 +239,9 @@ impl<S: System> System for Counted<S> {
     fn acceleration(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector) {
         self.evaluations.set(self.evaluations.get() + 1);
         self.system.acceleration(t, q, v, a);
+    }
+
+    fn skipped(&self, h: f64) {
+        self.lost_time.set(self.lost_time.get() + h);
     }
 }

@@ -6,7 +6,7 @@ use super::run::{exactly, scene};
 use crate::lab::number::significant;
 use crate::sim::bodies::{Body, Ship};
 use crate::sim::integrators::{AdaptiveEuler, AdaptiveEulerAsPrinted, Integrator, Tolerance};
-use crate::sim::{Counted, State};
+use crate::sim::{Counted, Counts, State};
 
 /// The chapter's tolerances of the speed, in m/s.
 const TOLERANCES: [f64; 3] = [1e-2, 1e-3, 1e-4];
@@ -38,10 +38,10 @@ pub(super) fn listings() -> String {
     for tolerance in TOLERANCES {
         let allowed = Tolerance { absolute_q: f64::INFINITY, absolute_v: tolerance, relative: 0.0 };
         let mut printed = AdaptiveEulerAsPrinted::with_tolerance(&0.0, allowed);
-        let (slow, _) = sail(&mut printed, &ship, h);
-        let simulated = asked - Integrator::<Counted<Ship>>::lost_time(&printed);
+        let (slow, counts) = sail(&mut printed, &ship, h);
+        let simulated = asked - counts.lost_time;
         let mut corrected = AdaptiveEuler::with_tolerance(&0.0, allowed);
-        let (right, evaluations) = sail(&mut corrected, &ship, h);
+        let (right, Counts { evaluations, .. }) = sail(&mut corrected, &ship, h);
         let percent = |v: f64| format!("{} %", significant(100.0 * (v - truth) / truth, 3));
         let _ = writeln!(
             text,
@@ -58,8 +58,12 @@ pub(super) fn listings() -> String {
         + "\n  As printed a step that is cut short is never made up for: the ship sails in slow motion.\n"
 }
 
-/// The ship's state after all ticks, and what it cost.
-fn sail(integrator: &mut dyn Integrator<Counted<Ship>>, ship: &Ship, h: f64) -> (State<f64>, u64) {
+/// The ship's state after all ticks, and what the method did for it.
+fn sail(
+    integrator: &mut dyn Integrator<Counted<Ship>>,
+    ship: &Ship,
+    h: f64,
+) -> (State<f64>, Counts) {
     let system = Counted::new(ship.clone());
     let mut state = ship.start();
     for tick in 0..TICKS {
@@ -67,5 +71,5 @@ fn sail(integrator: &mut dyn Integrator<Counted<Ship>>, ship: &Ship, h: f64) -> 
             .step(&system, h * f64::from(tick), h, &mut state)
             .expect("the ship is gentle enough for every tolerance of the table");
     }
-    (state, system.evaluations())
+    (state, system.counts())
 }

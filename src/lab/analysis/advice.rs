@@ -286,7 +286,7 @@ pub fn recommended(
     cost: impl Fn(&Advised, &Met) -> f64,
 ) -> Option<usize> {
     let met = |(i, advised): (usize, &Advised)| {
-        let met = advised.met[criterion].met().filter(|_| !advised.spec.method.as_printed)?;
+        let met = advised.met[criterion].met().filter(|_| !advised.spec.method.is_as_printed())?;
         Some((i, cost(advised, met), met.evaluations_per_s))
     };
     let all: Vec<(usize, f64, f64)> = advised.iter().enumerate().filter_map(met).collect();

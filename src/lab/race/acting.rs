@@ -171,9 +171,6 @@ impl Race {
     fn set_rate(&mut self, tick_hz: u32) {
         self.origin = (self.tick, self.t());
         self.tick_hz = tick_hz;
-        for entrant in &mut self.entrants {
-            entrant.lane.reset();
-        }
     }
 
     /// Puts the lane at this place under another method, its state carried exactly, but of a body that had halted:

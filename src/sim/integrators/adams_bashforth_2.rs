@@ -1,24 +1,19 @@
 //! Adams-Bashforth 2: the slope here and the slope one step ago, drawn on to the step's middle.
 
-use super::shared::seam::Seam;
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::card::{EXPLICIT, Method};
+use super::shared::last_step::LastStep;
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "adams-bashforth-2",
     name: "Adams-Bashforth 2",
     about: "second order for one evaluation a step; an undamped spring gains energy, twice as fast as under improved Euler",
-    family: Family::Explicit,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(1),
-    symplectic: false,
-    reversible: false,
-    stability_limit: Some(0.0),
-    tolerance: None,
     restart: Some("by a step of improved Euler"),
-    keeps_time: true,
-    as_printed: false,
     source: "Bashforth & Adams, An Attempt to Test the Theories of Capillary Action (1883)",
+    ..EXPLICIT
 };
 
 /// `y' = y + h (3 f - g) / 2`, with `f` the slope here and `g` the slope one step ago.
@@ -28,14 +23,13 @@ pub struct AdamsBashforth2<V> {
     g: State<V>,
     /// The predicted end of the first step.
     end: State<V>,
-    /// Where `g` belongs.
-    seam: Seam,
+    last_step: LastStep,
 }
 
 impl<S: System> Integrator<S> for AdamsBashforth2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
-        Self { f: zero.clone(), g: zero.clone(), end: zero, seam: Seam::new() }
+        Self { f: zero.clone(), g: zero.clone(), end: zero, last_step: LastStep::NONE }
     }
 
     #[inline]
@@ -46,9 +40,9 @@ impl<S: System> Integrator<S> for AdamsBashforth2<S::Vector> {
         h: f64,
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { f, g, end, seam } = self;
+        let Self { f, g, end, last_step } = self;
         system.derivative(t, y, f);
-        if seam.joins(h) {
+        if last_step.is_continued_by(h) {
             y.add_terms([(h * 1.5, f), (h * -0.5, g)]);
         } else {
             end.assign_sum(y, h, f);
@@ -56,11 +50,11 @@ impl<S: System> Integrator<S> for AdamsBashforth2<S::Vector> {
             y.add_terms([(h / 2.0, f), (h / 2.0, g)]);
         }
         std::mem::swap(f, g);
-        seam.end(h);
+        last_step.end(h);
         Ok(())
     }
 
     fn reset(&mut self) {
-        self.seam.cut();
+        self.last_step = LastStep::NONE;
     }
 }

@@ -1,24 +1,18 @@
 //! Adaptive Euler: one whole step against two half steps gives the error, which sets the step.
 
+use super::card::{ADAPTIVE, Method};
 use super::shared::step_size::{StepSize, factor};
-use super::{Family, Integrator, Method, State, StepFailure, System, Tolerance, Vector};
+use super::{Integrator, State, StepFailure, System, Tolerance, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler",
     name: "Adaptive Euler",
     about: "the chapter's step doubling, corrected: covers each tick in as many substeps as its tolerance asks",
-    family: Family::Adaptive,
     order: 2,
     order_with_drag: 2,
-    evaluations: None,
-    symplectic: false,
-    reversible: false,
-    stability_limit: None,
     tolerance: Some(TOLERANCE),
-    restart: Some("by trying the whole tick as one step"),
-    keeps_time: true,
-    as_printed: false,
     source: "Bourg & Bywalec, Physics for Game Developers 2e, ch. 7, corrected; step control after Hairer, Nørsett & Wanner, Solving ODEs I, II.4",
+    ..ADAPTIVE
 };
 
 /// A millimetre and a millimetre per second, or a thousandth of the value: what can be seen.

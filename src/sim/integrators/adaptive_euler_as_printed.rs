@@ -1,23 +1,18 @@
 //! Adaptive Euler as the chapter prints it: a step that is cut short ends the tick all the same.
 
-use super::{Family, Integrator, Method, State, StepFailure, System, Tolerance, Vector};
+use super::card::{AS_PRINTED, Method};
+use super::{Integrator, State, StepFailure, System, Tolerance, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler-as-printed",
     name: "Adaptive Euler (as printed)",
     about: "the chapter's listing: under drag it runs in slow motion, for it never makes up what it cuts off a step; without drag it is semi-implicit Euler",
-    family: Family::AsPrinted,
     order: 1,
     order_with_drag: 1,
-    evaluations: None,
-    symplectic: true,
-    reversible: false,
-    stability_limit: Some(2.0),
     tolerance: Some(TOLERANCE),
-    restart: None,
     keeps_time: false,
-    as_printed: true,
     source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the adaptive step size",
+    ..AS_PRINTED
 };
 
 /// The listing looks at the velocity only, and absolutely. It prints no value; this one is ours, at which
@@ -30,8 +25,6 @@ const TOLERANCE: Tolerance =
 #[derive(Clone)]
 pub struct AdaptiveEulerAsPrinted<V> {
     tolerance: Tolerance,
-    /// What was cut off, in all, in seconds.
-    lost: f64,
     a: V,
     v1: V,
     v2: V,
@@ -40,7 +33,7 @@ pub struct AdaptiveEulerAsPrinted<V> {
 impl<V: Vector> AdaptiveEulerAsPrinted<V> {
     /// The method with a tolerance other than its card's, of which only `absolute_v` counts.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
-        Self { tolerance, lost: 0.0, a: like.clone(), v1: like.clone(), v2: like.clone() }
+        Self { tolerance, a: like.clone(), v1: like.clone(), v2: like.clone() }
     }
 }
 
@@ -57,7 +50,7 @@ impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
         h: f64,
         State { q, v }: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { tolerance, lost, a, v1, v2 } = self;
+        let Self { tolerance, a, v1, v2 } = self;
         system.acceleration(t, q, v, a);
         v1.assign_sum(v, h, a);
 
@@ -73,7 +66,7 @@ impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
             system.acceleration(t, q, v, a);
             v.add_scaled(h_new, a);
             q.add_scaled(h_new, v);
-            *lost += h - h_new;
+            system.skipped(h - h_new);
         } else {
             v.assign(v1);
             q.add_scaled(h, v);
@@ -83,10 +76,6 @@ impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
 
     fn set_tolerance(&mut self, tolerance: Tolerance) {
         self.tolerance = tolerance;
-    }
-
-    fn lost_time(&self) -> f64 {
-        self.lost
     }
 }
 

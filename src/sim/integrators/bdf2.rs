@@ -1,27 +1,21 @@
 //! BDF2: the slope at the end from a parabola through the last two states and the new one.
 
+use super::card::{IMPLICIT, Method};
+use super::shared::last_step::LastStep;
 use super::shared::newton::Newton;
-use super::shared::seam::Seam;
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "bdf2",
     name: "BDF2",
     about: "stable at any step, and takes less energy than implicit Euler for the same work",
-    family: Family::Implicit,
     order: 2,
     order_with_drag: 2,
-    evaluations: None,
-    symplectic: false,
-    reversible: false,
-    stability_limit: None,
-    tolerance: None,
     restart: Some(
         "by a step of Alexander's two-stage SDIRK, which damps as much and has the same order",
     ),
-    keeps_time: true,
-    as_printed: false,
     source: "Curtiss & Hirschfelder, Integration of stiff equations (1952); started by Alexander, Diagonally implicit Runge-Kutta methods for stiff ODEs (1977), the SDIRK of two stages",
+    ..IMPLICIT
 };
 
 /// `y' = y + (y - y") / 3 + 2/3 h f(t + h, y')`, with `y"` the state one step before `y`.
@@ -34,8 +28,7 @@ pub struct Bdf2<V> {
     start: State<V>,
     /// The first stage of the first step.
     stage: State<V>,
-    /// Where `before` belongs.
-    seam: Seam,
+    last_step: LastStep,
 }
 
 /// The diagonal of the starting method, with which it damps like this one: `1 - 1/√2`.
@@ -45,7 +38,7 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
         let [before, start, stage] = [zero.clone(), zero.clone(), zero];
-        Self { newton: Newton::new(like), before, start, stage, seam: Seam::new() }
+        Self { newton: Newton::new(like), before, start, stage, last_step: LastStep::NONE }
     }
 
     fn step(
@@ -55,9 +48,9 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
         h: f64,
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { newton, before, start, stage, seam } = self;
+        let Self { newton, before, start, stage, last_step } = self;
         start.assign(y);
-        if seam.joins(h) {
+        if last_step.is_continued_by(h) {
             y.add_scaled(1.0 / 3.0, start);
             y.add_scaled(-1.0 / 3.0, before);
             newton.backward(system, t + h, h * 2.0 / 3.0, y)?;
@@ -70,12 +63,12 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
             newton.backward(system, t + h, h * GAMMA, y)?;
         }
         std::mem::swap(before, start);
-        seam.end(h);
+        last_step.end(h);
         Ok(())
     }
 
     fn reset(&mut self) {
-        self.seam.cut();
+        self.last_step = LastStep::NONE;
     }
 
     fn heap_bytes(&self) -> usize {

@@ -1,24 +1,18 @@
 //! Bogacki-Shampine 3(2): order 3 kept, order 2 beside it for the error, four slopes of which three are new.
 
+use super::Tolerance;
+use super::card::{ADAPTIVE, Method};
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
-use super::{Family, Method, Tolerance};
 
 pub(super) const CARD: Method = Method {
     id: "bogacki-shampine-32",
     name: "Bogacki-Shampine 3(2)",
     about: "adaptive: covers each tick in as many substeps of three evaluations as its tolerance asks",
-    family: Family::Adaptive,
     order: 3,
     order_with_drag: 3,
-    evaluations: None,
-    symplectic: false,
-    reversible: false,
-    stability_limit: None,
     tolerance: Some(Tableau::TOLERANCE),
-    restart: Some("by trying the whole tick as one step"),
-    keeps_time: true,
-    as_printed: false,
     source: "Bogacki & Shampine, A 3(2) pair of Runge-Kutta formulas (1989)",
+    ..ADAPTIVE
 };
 
 /// `y' = y + h Σ a4j kj`, with the error `h Σ ei ki`.

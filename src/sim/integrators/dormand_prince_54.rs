@@ -1,24 +1,18 @@
 //! Dormand-Prince 5(4): order 5 kept, order 4 beside it for the error, seven slopes of which six are new.
 
+use super::Tolerance;
+use super::card::{ADAPTIVE, Method};
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
-use super::{Family, Method, Tolerance};
 
 pub(super) const CARD: Method = Method {
     id: "dormand-prince-54",
     name: "Dormand-Prince 5(4)",
     about: "adaptive and accurate: covers each tick in as many substeps of six evaluations as its tolerance asks",
-    family: Family::Adaptive,
     order: 5,
     order_with_drag: 5,
-    evaluations: None,
-    symplectic: false,
-    reversible: false,
-    stability_limit: None,
     tolerance: Some(Tableau::TOLERANCE),
-    restart: Some("by trying the whole tick as one step"),
-    keeps_time: true,
-    as_printed: false,
     source: "Dormand & Prince, A family of embedded Runge-Kutta formulae (1980), RK5(4)7M",
+    ..ADAPTIVE
 };
 
 /// `y' = y + h Σ a7j kj`, with the error `h Σ ei ki`.

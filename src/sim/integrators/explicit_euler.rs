@@ -1,23 +1,17 @@
 //! Explicit Euler: the tangent at the start, followed for the whole step.
 
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::card::{EXPLICIT, Method};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "explicit-euler",
     name: "Explicit Euler",
     about: "gains energy: a spring's amplitude grows at every step size",
-    family: Family::Explicit,
     order: 1,
     order_with_drag: 1,
     evaluations: Some(1),
-    symplectic: false,
-    reversible: false,
-    stability_limit: Some(0.0),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Euler, Institutionum calculi integralis I (1768); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7, Figure 7-5",
+    ..EXPLICIT
 };
 
 /// `y' = y + h f(t, y)` on the whole state `y = (q, v)`.

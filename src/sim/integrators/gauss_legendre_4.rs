@@ -1,24 +1,19 @@
 //! Gauss-Legendre of two stages: collocation at the two points of Gauss's quadrature.
 
+use super::card::{IMPLICIT, Method};
 use super::shared::newton::{Newton, Stages};
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "gauss-legendre-4",
     name: "Gauss-Legendre 4",
     about: "stable at any step, accurate, and keeps the energy of springs; the dearest of the implicit ones",
-    family: Family::Implicit,
     order: 4,
     order_with_drag: 4,
-    evaluations: None,
     symplectic: true,
     reversible: true,
-    stability_limit: None,
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Butcher, Implicit Runge-Kutta processes (1964); Hairer, Lubich & Wanner, Geometric Numerical Integration, II.1.3",
+    ..IMPLICIT
 };
 
 /// `√3 / 6`

@@ -1,24 +1,17 @@
 //! Implicit Euler: the tangent at the end, followed back to the start.
 
+use super::card::{IMPLICIT, Method};
 use super::shared::newton::Newton;
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "implicit-euler",
     name: "Implicit Euler",
     about: "stable at any step, and takes energy: a spring dies away, the faster the coarser the tick",
-    family: Family::Implicit,
     order: 1,
     order_with_drag: 1,
-    evaluations: None,
-    symplectic: false,
-    reversible: false,
-    stability_limit: None,
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Curtiss & Hirschfelder, Integration of stiff equations (1952)",
+    ..IMPLICIT
 };
 
 /// `y' = y + h f(t + h, y')` on the whole state `y = (q, v)`.

@@ -1,24 +1,19 @@
 //! Implicit midpoint: the slope half-way along the chord, followed for the whole step.
 
+use super::card::{IMPLICIT, Method};
 use super::shared::newton::Newton;
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "implicit-midpoint",
     name: "Implicit midpoint",
     about: "stable at any step and keeps the energy of springs; at a coarse tick they swing too slowly",
-    family: Family::Implicit,
     order: 2,
     order_with_drag: 2,
-    evaluations: None,
     symplectic: true,
     reversible: true,
-    stability_limit: None,
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Feng Kang, On difference schemes and symplectic geometry (1985); Hairer, Lubich & Wanner, Geometric Numerical Integration, VI.4",
+    ..IMPLICIT
 };
 
 /// `m = y + h/2 f(t + h/2, m)`, then `y' = 2 m - y`, on the whole state `y = (q, v)`.

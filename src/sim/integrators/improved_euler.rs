@@ -1,23 +1,17 @@
 //! Improved Euler (Heun): the mean of the slopes at both ends of the step.
 
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::card::{EXPLICIT, Method};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler",
     name: "Improved Euler",
     about: "accurate for its cost; an undamped spring gains energy, slowly at a fine tick",
-    family: Family::Explicit,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(2),
-    symplectic: false,
-    reversible: false,
-    stability_limit: Some(0.0),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Heun, Neue Methoden zur approximativen Integration (1900); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
+    ..EXPLICIT
 };
 
 /// `k1 = f(t, y)`, `k2 = f(t + h, y + h k1)`, `y' = y + h (k1 + k2) / 2`.

@@ -1,23 +1,17 @@
 //! Improved Euler as the chapter prints it: the velocity alone is improved, and moves the position.
 
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::card::{AS_PRINTED, Method};
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler-as-printed",
     name: "Improved Euler (as printed)",
     about: "the chapter's listing: the position stays first order; without drag it is semi-implicit Euler at twice the cost",
-    family: Family::AsPrinted,
     order: 1,
     order_with_drag: 1,
     evaluations: Some(2),
-    symplectic: true,
-    reversible: false,
-    stability_limit: Some(2.0),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: true,
     source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the improved Euler method",
+    ..AS_PRINTED
 };
 
 /// `k1 = a(t, q, v)`, `k2 = a(t + h, q, v + h k1)`, `v' = v + h (k1 + k2) / 2`, then `q' = q + h v'`.

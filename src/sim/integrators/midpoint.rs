@@ -1,23 +1,17 @@
 //! Midpoint: the slope halfway, followed for the whole step.
 
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::card::{EXPLICIT, Method};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "midpoint",
     name: "Midpoint",
     about: "as accurate as improved Euler at the same cost; an undamped spring gains energy as slowly",
-    family: Family::Explicit,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(2),
-    symplectic: false,
-    reversible: false,
-    stability_limit: Some(0.0),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Runge, Über die numerische Auflösung von Differentialgleichungen (1895)",
+    ..EXPLICIT
 };
 
 /// `k1 = f(t, y)`, `k2 = f(t + h/2, y + h k1 / 2)`, `y' = y + h k2`.

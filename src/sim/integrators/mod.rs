@@ -4,7 +4,7 @@
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
 //! of each card, both ways. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
 
-use shared::watched::Watched;
+use watched::Watched;
 
 use super::system::{State, System, Vector};
 
@@ -13,6 +13,7 @@ mod adaptive_euler;
 mod adaptive_euler_as_printed;
 mod bdf2;
 mod bogacki_shampine_32;
+mod card;
 mod dormand_prince_54;
 mod explicit_euler;
 mod gauss_legendre_4;
@@ -31,6 +32,7 @@ mod shared;
 mod ssp_rk3;
 mod stormer_verlet;
 mod velocity_verlet;
+mod watched;
 mod yoshida4;
 
 pub use adams_bashforth_2::AdamsBashforth2;
@@ -38,6 +40,7 @@ pub use adaptive_euler::AdaptiveEuler;
 pub use adaptive_euler_as_printed::AdaptiveEulerAsPrinted;
 pub use bdf2::Bdf2;
 pub use bogacki_shampine_32::BogackiShampine32;
+pub use card::{Family, Method};
 pub use dormand_prince_54::DormandPrince54;
 pub use explicit_euler::ExplicitEuler;
 pub use gauss_legendre_4::GaussLegendre4;
@@ -102,18 +105,12 @@ pub trait Integrator<S: System>: Send {
         Ok(())
     }
 
-    /// Forgets whatever is carried between steps. To be called when the state or the forces jump; a jump
-    /// of the step's length a method notices by itself.
+    /// Forgets whatever is carried between steps. Call it when the state or the forces jump. A jump of the
+    /// step's length every method notices by itself.
     fn reset(&mut self) {}
 
     /// Sets the error that an adaptive method allows in a substep; the others take no notice.
     fn set_tolerance(&mut self, _tolerance: Tolerance) {}
-
-    /// The seconds that this integrator, since it was made, was asked to advance and did not; a reset
-    /// changes nothing about it. 0 for every method that [keeps time](Method::keeps_time).
-    fn lost_time(&self) -> f64 {
-        0.0
-    }
 
     /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
     fn heap_bytes(&self) -> usize {
@@ -162,80 +159,6 @@ pub enum StepFailure {
         /// The value that was too large.
         value: f64,
     },
-}
-
-/// How a method works, for menus and tables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
-    /// Each stage from values already known.
-    Explicit,
-    /// Conserves phase-space area on systems without drag.
-    Symplectic,
-    /// Chooses its own substeps to meet a tolerance.
-    Adaptive,
-    /// Solves an equation for the end of the step.
-    Implicit,
-    /// The chapter's listing, faults and all.
-    AsPrinted,
-}
-
-impl Family {
-    /// The family in one lower-case word.
-    pub fn id(self) -> &'static str {
-        match self {
-            Family::Explicit => "explicit",
-            Family::Symplectic => "symplectic",
-            Family::Adaptive => "adaptive",
-            Family::Implicit => "implicit",
-            Family::AsPrinted => "as-printed",
-        }
-    }
-}
-
-/// A method's card: what it claims. Every field is measured by `tests/conformance`.
-#[derive(Debug)]
-pub struct Method {
-    /// Kebab-case name in scenes, on the command line and in output.
-    pub id: &'static str,
-    /// Name for people.
-    pub name: &'static str,
-    /// What to expect of it, in one line.
-    pub about: &'static str,
-    /// How it works.
-    pub family: Family,
-    /// Global order of the error of the whole state, where forces depend on position only. As printed,
-    /// `v` may do better than `q`; else both have it.
-    pub order: u32,
-    /// Global order where forces depend on velocity too.
-    pub order_with_drag: u32,
-    /// Evaluations of the acceleration in one step, in the long run; `None` where the method decides. A
-    /// method with a [restart](Method::restart) owes one more at its first step.
-    pub evaluations: Option<u32>,
-    /// Whether the one-step map conserves phase-space area on a system without drag.
-    pub symplectic: bool,
-    /// Whether a step of `-h` undoes a step of `h`, up to round-off.
-    pub reversible: bool,
-    /// The largest `h ω` at which the undamped oscillator stays bounded; `None` where there is none: for
-    /// implicit methods, and for those that choose their own substeps.
-    pub stability_limit: Option<f64>,
-    /// The error that an adaptive method allows in a substep.
-    pub tolerance: Option<Tolerance>,
-    /// How the method begins, where it carries something from step to step: at the start, after a kick, a
-    /// switch or a change of the step, and whenever it is given a state other than it left. `None` where
-    /// it carries nothing.
-    pub restart: Option<&'static str>,
-    /// Whether a step of `h` always advances by `h`; else [`Integrator::lost_time`] says what is missing.
-    pub keeps_time: bool,
-    /// Whether this is the chapter's listing with its faults.
-    pub as_printed: bool,
-    /// Where the method comes from.
-    pub source: &'static str,
-}
-
-impl PartialEq for Method {
-    fn eq(&self, other: &Self) -> bool {
-        self.id == other.id
-    }
 }
 
 /// Something to be made of an integrator whose type is chosen at run time; see [`construct`].

@@ -1,24 +1,18 @@
 //! Newmark's method with β = 1/4 and γ = 1/2: the mean of the accelerations at both ends of the step.
 
+use super::card::{IMPLICIT, Method};
 use super::shared::newton::{Newton, Stages};
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "newmark",
     name: "Newmark",
     about: "stable at any step and keeps the energy of springs, though not phase-space area where forces are curved",
-    family: Family::Implicit,
     order: 2,
     order_with_drag: 2,
-    evaluations: None,
-    symplectic: false,
     reversible: true,
-    stability_limit: None,
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Newmark, A method of computation for structural dynamics (1959)",
+    ..IMPLICIT
 };
 
 /// `q' = q + h v + h² ((1/2 - β) a + β a')` and `v' = v + h ((1 - γ) a + γ a')`, with

@@ -1,24 +1,19 @@
 //! PEFRL, position-extended Forest-Ruth-like: one kick more than Yoshida 4 buys a far smaller error.
 
+use super::card::{Method, SYMPLECTIC};
 use super::shared::composition::compose;
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "pefrl",
     name: "PEFRL",
     about: "fourth order and symplectic for four evaluations, more accurate than Yoshida 4; drag leaves it first order",
-    family: Family::Symplectic,
     order: 4,
     order_with_drag: 1,
     evaluations: Some(4),
-    symplectic: true,
-    reversible: true,
     stability_limit: Some(2.989),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Omelyan, Mryglod & Folk, Optimized Forest-Ruth- and Suzuki-like algorithms for integration of motion in many-body systems (2002)",
+    ..SYMPLECTIC
 };
 
 const XI: f64 = 0.178_617_895_844_809_1;

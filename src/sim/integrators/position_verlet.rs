@@ -1,23 +1,17 @@
 //! Position Verlet: half a drift, a whole kick, half a drift.
 
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::card::{Method, SYMPLECTIC};
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "position-verlet",
     name: "Position Verlet",
     about: "second order for one evaluation a step and nothing carried; drag leaves it first order",
-    family: Family::Symplectic,
     order: 2,
     order_with_drag: 1,
     evaluations: Some(1),
-    symplectic: true,
-    reversible: true,
-    stability_limit: Some(2.0),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Tuckerman, Berne & Martyna, Reversible multiple time scale molecular dynamics (1992)",
+    ..SYMPLECTIC
 };
 
 /// `q½ = q + h v / 2`, `v' = v + h a(t + h/2, q½, v)`, `q' = q½ + h v' / 2`.

@@ -1,23 +1,18 @@
 //! The classical Runge-Kutta method: four slopes, weighted 1 2 2 1.
 
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::card::{EXPLICIT, Method};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "rk4",
     name: "Runge-Kutta 4",
     about: "the general-purpose choice: accurate at a fine tick; at a coarse one a spring dies away",
-    family: Family::Explicit,
     order: 4,
     order_with_drag: 4,
     evaluations: Some(4),
-    symplectic: false,
-    reversible: false,
     stability_limit: Some(2.0 * std::f64::consts::SQRT_2),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Kutta, Beitrag zur näherungsweisen Integration totaler Differentialgleichungen (1901); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
+    ..EXPLICIT
 };
 
 /// `y' = y + h (k1 + 2 k2 + 2 k3 + k4) / 6` on the whole state `y = (q, v)`.

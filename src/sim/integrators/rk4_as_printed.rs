@@ -1,23 +1,17 @@
 //! Runge-Kutta 4 as the chapter prints it: four slopes of the velocity alone, which moves the position.
 
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::card::{AS_PRINTED, Method};
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "rk4-as-printed",
     name: "Runge-Kutta 4 (as printed)",
     about: "the chapter's listing: the position stays first order; without drag it is semi-implicit Euler at four times the cost",
-    family: Family::AsPrinted,
     order: 1,
     order_with_drag: 1,
     evaluations: Some(4),
-    symplectic: true,
-    reversible: false,
-    stability_limit: Some(2.0),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: true,
     source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the Runge-Kutta method",
+    ..AS_PRINTED
 };
 
 /// `v' = v + h (k1 + 2 k2 + 2 k3 + k4) / 6`, all four at the position `q`, then `q' = q + h v'`.

@@ -1,23 +1,18 @@
 //! Semi-implicit Euler: kick the velocity, then drift with the new velocity.
 
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::card::{Method, SYMPLECTIC};
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "semi-implicit-euler",
     name: "Semi-implicit Euler",
     about: "bounded on a spring up to h ω = 2; the usual choice of game physics",
-    family: Family::Symplectic,
     order: 1,
     order_with_drag: 1,
     evaluations: Some(1),
-    symplectic: true,
     reversible: false,
-    stability_limit: Some(2.0),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "de Vogelaere, Methods of integration which preserve the contact transformation property of the Hamilton equations (1956)",
+    ..SYMPLECTIC
 };
 
 /// `v' = v + h a(t, q, v)`, then `q' = q + h v'`.

@@ -1,24 +1,19 @@
 //! Strong-stability-preserving Runge-Kutta 3: three Euler steps, averaged.
 
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::card::{EXPLICIT, Method};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "ssp-rk3",
     name: "SSP Runge-Kutta 3",
     about: "the cheapest explicit method here whose undamped spring stays bounded: it dies away",
-    family: Family::Explicit,
     order: 3,
     order_with_drag: 3,
     evaluations: Some(3),
-    symplectic: false,
-    reversible: false,
     // √3, where z⁴ (z² - 3) / 36, by which the squared amplitude grows in a step, changes sign.
     stability_limit: Some(1.732_050_807_568_877_2),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Shu & Osher, Efficient implementation of essentially non-oscillatory shock-capturing schemes (1988)",
+    ..EXPLICIT
 };
 
 /// `y1 = y + h f(t, y)`, `y2 = (3 y + y1 + h f(t + h, y1)) / 4`,

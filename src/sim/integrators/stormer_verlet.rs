@@ -1,24 +1,19 @@
 //! Störmer-Verlet: the next position from the last two and the force; the velocity is read off them.
 
-use super::shared::seam::Seam;
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::card::{Method, SYMPLECTIC};
+use super::shared::last_step::LastStep;
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "stormer-verlet",
     name: "Störmer-Verlet",
     about: "the form of games that keep positions only: velocity Verlet's path, its velocities from differences of positions",
-    family: Family::Symplectic,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(1),
-    symplectic: true,
-    reversible: true,
-    stability_limit: Some(2.0),
-    tolerance: None,
     restart: Some("by placing the position of one step ago on the parabola through q, v and a"),
-    keeps_time: true,
-    as_printed: false,
     source: "Störmer, Sur les trajectoires des corpuscules électrisés (1907); Verlet, Computer \"Experiments\" on Classical Fluids (1967); Jakobsen, Advanced Character Physics (2001)",
+    ..SYMPLECTIC
 };
 
 /// `q' = 2 q - p + h² a`, with `p` the position one step ago, and `v' = (q' - q) / h + h a' / 2`.
@@ -31,14 +26,13 @@ pub struct StormerVerlet<V> {
     a: V,
     /// The position at the end of the step.
     q_end: V,
-    /// Where `p` and `a` belong.
-    seam: Seam,
+    last_step: LastStep,
 }
 
 impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let [p, a, q_end] = [like.clone(), like.clone(), like.clone()];
-        Self { p, a, q_end, seam: Seam::new() }
+        Self { p, a, q_end, last_step: LastStep::NONE }
     }
 
     #[inline]
@@ -49,9 +43,9 @@ impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
         h: f64,
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { p, a, q_end, seam } = self;
+        let Self { p, a, q_end, last_step } = self;
         let State { q, v } = y;
-        if !seam.joins(h) {
+        if !last_step.is_continued_by(h) {
             system.acceleration(t, q, v, a);
             p.assign_sum(q, -h, v);
             p.add_scaled(h * h / 2.0, a);
@@ -68,11 +62,11 @@ impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
         v.add_terms([(-1.0 / h, q), (h / 2.0, a)]);
         std::mem::swap(p, q);
         std::mem::swap(q, q_end);
-        seam.end(h);
+        last_step.end(h);
         Ok(())
     }
 
     fn reset(&mut self) {
-        self.seam.cut();
+        self.last_step = LastStep::NONE;
     }
 }

@@ -1,24 +1,19 @@
 //! Velocity Verlet: half a kick, a drift, half a kick by the force at the end.
 
-use super::shared::seam::Seam;
-use super::{Family, Integrator, Method, State, StepFailure, System, Vector};
+use super::card::{Method, SYMPLECTIC};
+use super::shared::last_step::LastStep;
+use super::{Integrator, State, StepFailure, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "velocity-verlet",
     name: "Velocity Verlet",
     about: "second order for one evaluation a step, and bounded on a spring up to h ω = 2; drag lowers that limit",
-    family: Family::Symplectic,
     order: 2,
     order_with_drag: 2,
     evaluations: Some(1),
-    symplectic: true,
-    reversible: true,
-    stability_limit: Some(2.0),
-    tolerance: None,
     restart: Some("by evaluating the force at the start, which else is the last step's end"),
-    keeps_time: true,
-    as_printed: false,
     source: "Swope, Andersen, Berens & Wilson, A computer simulation method for the calculation of equilibrium constants for the formation of physical clusters of molecules (1982)",
+    ..SYMPLECTIC
 };
 
 /// `v½ = v + h a / 2`, `q' = q + h v½`, `a' = a(t + h, q', v½ + h a / 2)`, `v' = v½ + h a' / 2`.
@@ -32,14 +27,13 @@ pub struct VelocityVerlet<V> {
     a_end: V,
     /// The velocity predicted for the end.
     v_end: V,
-    /// Where `a` belongs.
-    seam: Seam,
+    last_step: LastStep,
 }
 
 impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let [a, a_end, v_end] = [like.clone(), like.clone(), like.clone()];
-        Self { a, a_end, v_end, seam: Seam::new() }
+        Self { a, a_end, v_end, last_step: LastStep::NONE }
     }
 
     #[inline]
@@ -50,8 +44,8 @@ impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
         h: f64,
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { a, a_end, v_end, seam } = self;
-        if !seam.joins(h) {
+        let Self { a, a_end, v_end, last_step } = self;
+        if !last_step.is_continued_by(h) {
             system.acceleration(t, &y.q, &y.v, a);
         }
         let State { q, v } = y;
@@ -61,11 +55,11 @@ impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
         system.acceleration(t + h, q, v_end, a_end);
         v.add_scaled(h / 2.0, a_end);
         std::mem::swap(a, a_end);
-        seam.end(h);
+        last_step.end(h);
         Ok(())
     }
 
     fn reset(&mut self) {
-        self.seam.cut();
+        self.last_step = LastStep::NONE;
     }
 }

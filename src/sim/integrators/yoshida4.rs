@@ -1,24 +1,19 @@
 //! Yoshida 4: three position Verlet steps, the middle one backwards, whose errors cancel.
 
+use super::card::{Method, SYMPLECTIC};
 use super::shared::composition::compose;
-use super::{Family, Integrator, Method, State, StepFailure, System};
+use super::{Integrator, State, StepFailure, System};
 
 pub(super) const CARD: Method = Method {
     id: "yoshida4",
     name: "Yoshida 4",
     about: "fourth order and symplectic for three evaluations; drag leaves it first order",
-    family: Family::Symplectic,
     order: 4,
     order_with_drag: 1,
     evaluations: Some(3),
-    symplectic: true,
-    reversible: true,
     stability_limit: Some(1.573),
-    tolerance: None,
-    restart: None,
-    keeps_time: true,
-    as_printed: false,
     source: "Forest & Ruth, Fourth-order symplectic integration (1990); Yoshida, Construction of higher order symplectic integrators (1990)",
+    ..SYMPLECTIC
 };
 
 /// θ = 1 / (2 - ∛2): the part of the step that the outer two take; the middle one takes 1 - 2θ < 0.

@@ -103,11 +103,6 @@ impl<V: Vector> Track<V> {
         self.piece = body.piece(&self.at);
     }
 
-    /// Forgets the step's length.
-    pub(super) fn reset(&mut self) {
-        self.step = None;
-    }
-
     /// Writes the place, rounded once.
     pub(super) fn write(&self, to: &mut State<V>) {
         to.assign(&self.at);

@@ -4,7 +4,6 @@
 use std::marker::PhantomData;
 
 use super::super::{Integrator, State, StepFailure, System, Tolerance, Vector};
-use super::seam::Seam;
 use super::step_size::{StepSize, steady_factor};
 
 /// The tableau of a pair of `N` stages whose last stage is the kept solution, so that its slope is the
@@ -26,10 +25,8 @@ pub trait Pair<const N: usize>: Send + 'static {
 #[derive(Clone)]
 pub struct EmbeddedPair<V, P, const N: usize> {
     step_size: StepSize,
-    /// The slopes at the stages; the first outlives the tick.
+    /// The slopes at the stages; the first is carried to the next tick.
     k: [State<V>; N],
-    /// Where the first slope belongs.
-    seam: Seam,
     /// The state at which a stage is evaluated.
     stage: State<V>,
     error: State<V>,
@@ -46,7 +43,6 @@ impl<V: Vector, P: Pair<N>, const N: usize> EmbeddedPair<V, P, N> {
         Self {
             step_size: StepSize::new(tolerance),
             k: std::array::from_fn(|_| zero.clone()),
-            seam: Seam::new(),
             stage: zero.clone(),
             error: zero.clone(),
             zero,
@@ -77,11 +73,11 @@ impl<S: System, P: Pair<N>, const N: usize> Integrator<S> for EmbeddedPair<S::Ve
         h: f64,
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { step_size, k, seam, stage, error, zero, .. } = self;
-        if !seam.joins(h) {
+        let Self { step_size, k, stage, error, zero, .. } = self;
+        let mut cover = step_size.cover(h);
+        if !cover.continues_the_last() {
             system.derivative(t, y, &mut k[0]);
         }
-        let mut cover = step_size.cover(h);
         while !cover.is_over() {
             let (t, h) = (t + cover.gone(), cover.trial()?);
             for i in 1..N {
@@ -96,13 +92,11 @@ impl<S: System, P: Pair<N>, const N: usize> Integrator<S> for EmbeddedPair<S::Ve
                 k.swap(0, N - 1);
             }
         }
-        seam.end(h);
         Ok(())
     }
 
     fn reset(&mut self) {
         self.step_size.reset();
-        self.seam.cut();
     }
 
     fn set_tolerance(&mut self, tolerance: Tolerance) {

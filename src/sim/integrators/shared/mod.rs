@@ -2,8 +2,7 @@
 
 pub(super) mod composition;
 pub(super) mod embedded_pair;
+pub(super) mod last_step;
 mod lu;
 pub(super) mod newton;
-pub(super) mod seam;
 pub(super) mod step_size;
-pub(super) mod watched;

@@ -6,6 +6,7 @@
 //! tolerance, and a method of order p takes `tolerance^(-1/p)` substeps.
 
 use super::super::{State, StepFailure, Vector};
+use super::last_step::LastStep;
 
 /// Aims below the tolerance, so that the next attempt is rarely rejected.
 const SAFETY: f64 = 0.9;
@@ -86,15 +87,17 @@ pub(in crate::sim::integrators) fn steady_factor(error: f64, order: u32) -> f64 
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct StepSize {
     pub(in crate::sim::integrators) tolerance: Tolerance,
-    /// The step to try next, carried from tick to tick; `None` tries the whole tick.
-    next: Option<f64>,
+    /// The last tick.
+    last_step: LastStep,
+    /// The substep to try first in a tick that continues the last.
+    next: f64,
     accepted: u64,
     rejected: u64,
 }
 
 impl StepSize {
     pub(in crate::sim::integrators) fn new(tolerance: Tolerance) -> Self {
-        Self { tolerance, next: None, accepted: 0, rejected: 0 }
+        Self { tolerance, last_step: LastStep::NONE, next: 0.0, accepted: 0, rejected: 0 }
     }
 
     /// Substeps accepted since construction or reset.
@@ -111,17 +114,20 @@ impl StepSize {
         *self = Self::new(self.tolerance);
     }
 
-    /// Sets out to cover a tick of `h`.
+    /// Sets out to cover a tick of `h`: first by the substep carried from the last tick, or, where that was of
+    /// another length, in one substep.
     #[inline]
     pub(in crate::sim::integrators) fn cover(&mut self, h: f64) -> Cover<'_> {
-        let carried = self.next.map_or(h, |next| next.copysign(h));
-        Cover { size: self, h, left: h, carried, trial: h, attempts: 0 }
+        let continues = self.last_step.is_continued_by(h);
+        let carried = if continues { self.next } else { h };
+        Cover { size: self, continues, h, left: h, carried, trial: h, attempts: 0 }
     }
 }
 
 /// A tick on the way to its end.
 pub(in crate::sim::integrators) struct Cover<'a> {
     size: &'a mut StepSize,
+    continues: bool,
     h: f64,
     left: f64,
     carried: f64,
@@ -130,6 +136,12 @@ pub(in crate::sim::integrators) struct Cover<'a> {
 }
 
 impl Cover<'_> {
+    /// Whether what was carried from the last tick fits this one.
+    #[inline]
+    pub(in crate::sim::integrators) fn continues_the_last(&self) -> bool {
+        self.continues
+    }
+
     /// The substep to try next; the last one ends exactly where the tick does.
     #[inline]
     pub(in crate::sim::integrators) fn trial(&mut self) -> Result<f64, StepFailure> {
@@ -180,7 +192,8 @@ impl Cover<'_> {
             }
             self.left -= self.trial;
             if self.is_over() {
-                self.size.next = Some(self.carried);
+                self.size.next = self.carried;
+                self.size.last_step.end(self.h);
             }
         } else {
             self.size.rejected += 1;

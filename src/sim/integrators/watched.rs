@@ -1,15 +1,20 @@
 //! A method that nobody has to tell that its state was changed.
 
-use super::super::{Integrator, State, StepFailure, System, Tolerance, Vector};
+use super::{Integrator, State, StepFailure, System, Tolerance, Vector};
 
 /// A method, [reset](Integrator::reset) whenever it is given a state other than the one it left.
-pub(in crate::sim::integrators) struct Watched<I, V> {
+pub(super) struct Watched<I, V> {
     method: I,
     left: State<V>,
 }
 
 impl<I, V: Vector> Watched<I, V> {
-    fn reset_if_moved<S: System<Vector = V>>(&mut self, state: &State<V>)
+    #[inline]
+    fn watch<S: System<Vector = V>>(
+        &mut self,
+        state: &mut State<V>,
+        advance: impl FnOnce(&mut I, &mut State<V>) -> Result<(), StepFailure>,
+    ) -> Result<(), StepFailure>
     where
         I: Integrator<S>,
     {
@@ -17,6 +22,9 @@ impl<I, V: Vector> Watched<I, V> {
         if !(same(&state.q, &self.left.q) && same(&state.v, &self.left.v)) {
             self.method.reset();
         }
+        let done = advance(&mut self.method, state);
+        self.left.assign(state);
+        done
     }
 }
 
@@ -32,10 +40,7 @@ impl<S: System, I: Integrator<S>> Integrator<S> for Watched<I, S::Vector> {
         h: f64,
         state: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        self.reset_if_moved::<S>(state);
-        let done = self.method.step(system, t, h, state);
-        self.left.assign(state);
-        done
+        self.watch::<S>(state, |method, state| method.step(system, t, h, state))
     }
 
     fn steps(
@@ -46,10 +51,7 @@ impl<S: System, I: Integrator<S>> Integrator<S> for Watched<I, S::Vector> {
         n: u32,
         state: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        self.reset_if_moved::<S>(state);
-        let done = self.method.steps(system, t, h, n, state);
-        self.left.assign(state);
-        done
+        self.watch::<S>(state, |method, state| method.steps(system, t, h, n, state))
     }
 
     fn reset(&mut self) {
@@ -60,7 +62,7 @@ impl<S: System, I: Integrator<S>> Integrator<S> for Watched<I, S::Vector> {
         self.method.set_tolerance(tolerance);
     }
 
-    fn lost_time(&self) -> f64 {
-        self.method.lost_time()
+    fn heap_bytes(&self) -> usize {
+        self.method.heap_bytes()
     }
 }
