@@ -25,19 +25,25 @@ const ARROW_INSET: f32 = 9.0;
 const MOST_TURNS: f32 = 0.25;
 const MOST_TURNS_PER_POINT: f32 = 0.5;
 
-/// Draws a curve through `points` on the screen, as far as the painter's clip shows it: its line, or where that is
-/// crowded with swings too narrow to be told apart, their [band](bands). What the painter gets for a line is a
+/// A curve that goes further than this beyond the line through its points, in points of the screen, on more than this
+/// part of the ways between them, is not drawn as a line either: that would show a swing that nothing made.
+const HIDDEN: f32 = 2.0;
+const MOST_HIDDEN: f32 = 1.0 / 16.0;
+
+/// Draws a curve through `points` on the screen, as far as the painter's clip shows it: its line, or where swings are
+/// too narrow to be told apart, their [band](bands). `swept` has the heights that the curve comes to on the way to each
+/// point, where they are known. What the painter gets for a line is a
 /// [`LineMesh`] for [`MeshRenderer`](super::meshes::MeshRenderer). Returns whether something is drawn: a crowded curve
 /// that goes back and forth has no band.
-pub(super) fn paint(painter: &Painter, points: &[Pos2], curve: &Curve) -> bool {
+pub(super) fn paint(painter: &Painter, points: &[Pos2], swept: &[[f32; 2]], curve: &Curve) -> bool {
     let &Curve { colour, width, dash: [drawn, gap], .. } = curve;
     let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
     let runs = shown(joints, painter.clip_rect().expand(width));
     let is_crowded = is_crowded(&runs, width);
-    if is_crowded && beats(points) {
+    if hides(points, swept) || is_crowded && beats(points) {
         let goes_on = points.is_sorted_by(|a, b| a.x <= b.x);
         if goes_on {
-            bands::paint(painter, points, curve);
+            bands::paint(painter, points, swept, curve);
         }
         return goes_on;
     }
@@ -52,6 +58,16 @@ fn beats(points: &[Pos2]) -> bool {
     let turns = turns(points);
     let wide = points.first().zip(points.last()).map_or(0.0, |(from, to)| (to.x - from.x).abs());
     turns > MOST_TURNS || turns * points.len() as f32 > MOST_TURNS_PER_POINT * wide.max(BEGINNING)
+}
+
+/// Whether the line through `points` would leave out much of what the curve sweeps over between them.
+fn hides(points: &[Pos2], swept: &[[f32; 2]]) -> bool {
+    let hides = |(ends, swept): &(&[Pos2], &[f32; 2])| {
+        let (high, low) = (ends[0].y.min(ends[1].y), ends[0].y.max(ends[1].y));
+        swept.iter().any(|&y| y < high - HIDDEN || y > low + HIDDEN)
+    };
+    let hidden = points.windows(2).zip(swept.iter().skip(1)).filter(hides).count();
+    hidden as f32 > MOST_HIDDEN * points.len() as f32
 }
 
 /// The part of the points at which a curve turns up or down.
@@ -156,6 +172,19 @@ mod tests {
         assert!(beats(20, 3.0), "a turn is three points wide");
         assert!(!beats(20, 5.0));
         assert!(!super::beats(&[]));
+    }
+
+    #[test]
+    fn a_line_hides_a_swing_that_is_as_fast_as_its_points() {
+        let points: Vec<Pos2> = (0..100).map(|i| Pos2::new(i as f32, 50.0)).collect();
+        let swept = |wide: f32, every: usize| -> Vec<[f32; 2]> {
+            let reach = |i: usize| if i.is_multiple_of(every) { wide } else { 0.0 };
+            (0..100).map(|i| [50.0 + reach(i), 50.0 - reach(i)]).collect()
+        };
+        assert!(hides(&points, &swept(40.0, 1)) && hides(&points, &swept(40.0, 10)));
+        assert!(!hides(&points, &swept(40.0, 50)), "a rare peak");
+        assert!(!hides(&points, &swept(1.0, 1)), "peaks between points that are close enough");
+        assert!(!hides(&points, &[]) && !hides(&[], &[]));
     }
 
     #[test]

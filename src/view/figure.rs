@@ -196,6 +196,7 @@ fn laid_out(curve: &FigureCurve, chart: &Chart) -> Curve {
         dash: curve.dash,
         dots: if curve.dots > 0.0 { Dots::Each(curve.dots) } else { Dots::None },
         points: points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect(),
+        swept: Vec::new(),
     }
 }
 

@@ -336,6 +336,7 @@ mod tests {
             dash,
             dots: Dots::None,
             points: Vec::new(),
+            swept: Vec::new(),
         };
         let input = egui::RawInput::default();
         let output = renderer.draw_with(&gpu, &target.view, [128, 64], 1.0, input, |ui| {
@@ -343,7 +344,7 @@ mod tests {
             let painter = ui.painter().with_clip_rect(clip);
             for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
                 let ends = [egui::pos2(10.0, y), egui::pos2(120.0, y)];
-                assert!(curves::paint(&painter, &ends, &curve(dash)));
+                assert!(curves::paint(&painter, &ends, &[], &curve(dash)));
             }
             None
         });

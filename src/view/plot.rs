@@ -16,6 +16,9 @@ pub(super) struct Curve {
     pub(super) dash: [f32; 2],
     pub(super) dots: Dots,
     pub(super) points: Vec<[f64; 2]>,
+    /// For each point the least and the greatest height since the point before; empty where the points are all that is
+    /// known.
+    pub(super) swept: Vec<[f64; 2]>,
 }
 
 /// Which points of a curve have a dot.
@@ -133,7 +136,10 @@ pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, drawing: &Dr
         let mut with_dots = Vec::new();
         for curve in curves {
             let points: Vec<Pos2> = curve.points.iter().map(on_screen).collect();
-            let is_line = curves::paint(&painter, &points, curve);
+            let heights = curve.points.iter().zip(&curve.swept);
+            let heights = heights.map(|([x, _], ends)| ends.map(|y| on_screen(&[*x, y]).y));
+            let swept: Vec<[f32; 2]> = heights.collect();
+            let is_line = curves::paint(&painter, &points, &swept, curve);
             let dots = if is_line { curve.dots } else { Dots::Each(SCATTERED) };
             with_dots.push((curve.colour, dots, points));
         }

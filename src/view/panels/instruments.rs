@@ -134,16 +134,19 @@ fn white(lab: &Lab, since_s: f64, place: impl Fn(&TruthSample) -> [f64; 2]) -> C
         dash: [1.0, 0.0],
         dots: Dots::None,
         points: samples.map(place).collect(),
+        swept: Vec::new(),
     }
 }
 
 fn value(ui: &mut Ui, lab: &Lab, room: Vec2) {
-    let lanes = Track::of(lab, |s| [s.t, s.q]);
-    let y = ranges::around_truth(truth(lab).samples().map(|s| s.q), &lanes, 1, healthy(lab));
+    let lanes = Track::of_coordinate(lab);
+    let swept = || truth(lab).samples().map(|sample| sample.swept.ends());
+    let y = ranges::around_truth(swept().flatten(), &lanes, 1, healthy(lab));
     let bounds = over_time(lab, y);
     let look = Look { width: UNDER_TRUTH, dots: Dots::SparseAlongX, bounded: [false, true] };
     let mut drawing = tracks::drawing(lab, &lanes, &bounds, look);
-    drawing.truth = Some(white(lab, f64::NEG_INFINITY, |s| [s.t, s.q]));
+    let exact = white(lab, f64::NEG_INFINITY, |s| [s.t, s.q]);
+    drawing.truth = Some(Curve { swept: swept().collect(), ..exact });
     let unit = body(lab).coordinates[0].unit;
     draw(ui, axes("value", room, units(["s", unit])), bounds, &drawing);
 }
