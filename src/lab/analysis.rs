@@ -4,8 +4,10 @@
 mod advice;
 mod change;
 mod course;
+mod energy;
 mod judge;
 mod modes;
+mod peaks;
 mod pitch;
 mod run;
 mod searches;
