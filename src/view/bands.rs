@@ -5,10 +5,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use egui::epaint::{Mesh, PaintCallback};
-use egui::{Painter, Pos2, Shape, pos2};
+use egui::{Color32, Painter, Pos2, Shape, pos2};
 
 use super::lines::{Joint, LineMesh, shown};
-use super::plot::Curve;
 
 /// How much of its colour a band has between its edges.
 const FILL: f32 = 0.35;
@@ -22,13 +21,18 @@ const NEIGHBOURS: f32 = 8.0;
 /// The least and the greatest height of a curve in a column, if it passes there.
 type Span = Option<(f32, f32)>;
 
-/// Draws a curve through `points`, which do not go back, as a band; `swept` has the heights that it comes to on the way
-/// to each point, where they are known.
-pub(super) fn paint(painter: &Painter, points: &[Pos2], swept: &[[f32; 2]], curve: &Curve) {
+/// Draws a curve of this colour and width through `points`, which do not go back, as a band; `swept` has the heights
+/// that it comes to on the way to each point, where they are known.
+pub(super) fn paint(
+    painter: &Painter,
+    points: &[Pos2],
+    swept: &[[f32; 2]],
+    (colour, width): (Color32, f32),
+) {
     let (frame, step) = (painter.clip_rect(), 1.0 / painter.pixels_per_point());
     let columns = Columns { left: frame.left(), step, count: (frame.width() / step) as usize + 1 };
     let spans = widened(&columns.spans(points, swept), columns.apart(points));
-    let half = curve.width / 2.0;
+    let half = width / 2.0;
     for stretch in stretches(&spans) {
         let mut fill = Mesh::default();
         let mut edges = [const { Vec::new() }; 2];
@@ -37,16 +41,16 @@ pub(super) fn paint(painter: &Painter, points: &[Pos2], swept: &[[f32; 2]], curv
             let (x, heights) = (columns.left + step * column as f32, [low - half, high + half]);
             let first = fill.vertices.len() as u32;
             for at in [pos2(x, heights[0]), pos2(x + step, heights[0])] {
-                fill.colored_vertex(at, curve.colour.gamma_multiply(FILL));
+                fill.colored_vertex(at, colour.gamma_multiply(FILL));
             }
             for at in [pos2(x, heights[1]), pos2(x + step, heights[1])] {
-                fill.colored_vertex(at, curve.colour.gamma_multiply(FILL));
+                fill.colored_vertex(at, colour.gamma_multiply(FILL));
             }
             fill.add_triangle(first, first + 1, first + 2);
             fill.add_triangle(first + 1, first + 2, first + 3);
             for (edge, y) in edges.iter_mut().zip(heights) {
                 let at = pos2(x + step / 2.0, y);
-                edge.push(Joint { at, radius: EDGE / 2.0, colour: curve.colour });
+                edge.push(Joint { at, radius: EDGE / 2.0, colour });
             }
         }
         painter.add(Shape::mesh(fill));

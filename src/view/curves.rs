@@ -10,7 +10,40 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Vec2, vec2};
 
 use super::bands;
 use super::lines::{Joint, LineMesh, shown};
-use super::plot::Curve;
+
+/// A curve to be drawn.
+pub(super) struct Curve {
+    pub(super) colour: Color32,
+    /// In points.
+    pub(super) width: f32,
+    /// Drawn length and gap in points; a gap of 0 is solid.
+    pub(super) dash: [f32; 2],
+    pub(super) dots: Dots,
+    pub(super) points: Vec<[f64; 2]>,
+    /// For each point the least and the greatest height since the point before; empty where the points are all that is
+    /// known.
+    pub(super) swept: Vec<[f64; 2]>,
+}
+
+/// Which points of a curve have a dot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Dots {
+    None,
+    /// Each, of this radius in points.
+    Each(f32),
+    /// Those further than [`SPARSE`] from the next one along the x axis: the straight line between them is
+    /// not to be taken for motion.
+    SparseAlongX,
+    /// Those further than that from the next one.
+    Sparse,
+}
+
+/// The least distance between points, in points of the screen, at which each can be told from the next.
+const SPARSE: f32 = 3.0;
+/// The radius of their dots, in points of the screen.
+const SAMPLE: f32 = 1.5;
+/// And where the dots are all that is drawn.
+pub(super) const SCATTERED: f32 = 1.0;
 
 /// A curve that covers more than this part of the room it takes is drawn solid: no pattern could be told.
 const CROWDED: f32 = 0.5;
@@ -43,7 +76,7 @@ pub(super) fn paint(painter: &Painter, points: &[Pos2], swept: &[[f32; 2]], curv
     if hides(points, swept) || is_crowded && beats(points) {
         let goes_on = points.is_sorted_by(|a, b| a.x <= b.x);
         if goes_on {
-            bands::paint(painter, points, swept, curve);
+            bands::paint(painter, points, swept, (colour, width));
         }
         return goes_on;
     }
@@ -81,6 +114,24 @@ fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {
     let length: f32 = pieces.map(|ends| ends[0].at.distance(ends[1].at)).sum();
     let points: Vec<Pos2> = runs.iter().flatten().map(|joint| joint.at).collect();
     length * width > CROWDED * Rect::from_points(&points).expand(BEGINNING).area()
+}
+
+/// The dots of a curve through these points of the screen, each with its radius.
+pub(super) fn dots(points: &[Pos2], dots: Dots) -> impl Iterator<Item = (Pos2, f32)> {
+    let are_apart = move |a: Pos2, b: Pos2| match dots {
+        Dots::SparseAlongX => (a.x - b.x).abs() >= SPARSE,
+        _ => a.distance(b) >= SPARSE,
+    };
+    let has_dot = move |i: usize| {
+        let before = i.checked_sub(1).map(|before| points[before]);
+        let mut beside = before.into_iter().chain(points.get(i + 1).copied());
+        beside.any(|other| are_apart(points[i], other))
+    };
+    (0..points.len()).filter_map(move |i| match dots {
+        Dots::None => None,
+        Dots::Each(radius) => Some((points[i], radius)),
+        Dots::SparseAlongX | Dots::Sparse => has_dot(i).then_some((points[i], SAMPLE)),
+    })
 }
 
 /// Arrows where curves leave the plot, none on another.

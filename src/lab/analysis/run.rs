@@ -1,9 +1,8 @@
 //! One body under one method, followed tick by tick and held against its truth.
 
-use super::course::{Course, ticks};
 use super::energy::Energy;
 use super::peaks::Peaks;
-use super::truth::{BodyTruth, LONG_RUN};
+use super::truth::{BodyTruth, Course, LONG_RUN, ticks};
 use super::verdict::Fate;
 use crate::lab::lane::check;
 use crate::lab::lane_spec::LaneSpec;

@@ -13,7 +13,8 @@ use crate::lab::picture::palette;
 use crate::lab::{
     Command, Instrument, Lab, LaneBody, METRICS, Mode, Scale, TruthCurve, TruthSample,
 };
-use crate::view::plot::{CURVE, Curve, Dots, SwitchMark, draw};
+use crate::view::curves::{Curve, Dots};
+use crate::view::plot::{CURVE, SwitchMark, draw};
 use crate::view::ticks;
 
 /// A lane this many times further out than the truth no longer stretches the axes; and where it is alone,

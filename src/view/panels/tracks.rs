@@ -8,7 +8,8 @@ use egui_plot::PlotBounds;
 use super::colour;
 use crate::lab::picture::palette;
 use crate::lab::{Lab, Sample};
-use crate::view::plot::{Arrow, Curve, Dots, Drawing, Switch};
+use crate::view::curves::{Curve, Dots};
+use crate::view::plot::{Arrow, Drawing, Switch};
 
 /// A sample of a lane in a plot.
 #[derive(Clone, Copy, Debug)]
