@@ -26,7 +26,7 @@ fn a_spring_at_5_hz_reaches_both_ends_of_its_swing() {
         .map(|sample| sample.q)
         .fold([0.0, 0.0], |[low, high]: [f64; 2], q| [low.min(q), high.max(q)]);
     assert!((ends[0] + 1.0).abs() < 1e-3 && (ends[1] - 1.0).abs() < 1e-3, "{ends:?}");
-    for TruthSample { t, q, v, at } in samples {
+    for TruthSample { t, q, v, at, .. } in samples {
         assert!((q - libm::cos(TAU * t)).abs() < 1e-11, "{q} at {t} s");
         assert!((v + TAU * libm::sin(TAU * t)).abs() < 1e-10, "{v} at {t} s");
         assert_eq!(at.x, q);

@@ -32,6 +32,22 @@ fn the_newest_sample_is_the_present_after_every_frame_however_rare_samples_are()
 }
 
 #[test]
+fn a_swing_as_fast_as_the_samples_shows_in_what_they_swept_over() {
+    // 158 swings per second, and a sample at every 30th tick: at nearly the same place of every fifth swing.
+    let text = "title = 'fast'\ntick_hz = 1000\nseconds = 60\nmethods = ['velocity-verlet']\n\
+                [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e6\nx0_m = 1\n";
+    let mut lab = Lab::new(Scene::parse("fast.toml", text).unwrap());
+    (0..3000).for_each(|_| lab.tick());
+    let least = |q: f64| move |least: f64, sample: &regatta::lab::Sample| least.min(q * sample.q);
+    assert!(history(&lab).samples().fold(0.0, least(1.0)) > -1.0, "no sample is at the far end");
+    let samples: Vec<[f64; 2]> = history(&lab).samples().map(|s| s.swept.ends()).collect();
+    assert!(samples[1..].iter().all(|&[low, high]| low < -0.8 && high > 0.8), "{samples:?}");
+    let truth = lab.past().truth_curves()[0].samples();
+    let truth: Vec<[f64; 2]> = truth.map(|sample| sample.swept.ends()).collect();
+    assert!(truth[1..].iter().all(|&[low, high]| low < -0.8 && high > 0.8), "{truth:?}");
+}
+
+#[test]
 fn a_switch_in_flight_keeps_the_method_of_the_past_and_marks_its_moment() {
     for (tick_hz, seconds) in [(60, 20.0), (1000, 100.0)] {
         let mut lab = lab(seconds, tick_hz);

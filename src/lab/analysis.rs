@@ -3,9 +3,11 @@
 
 mod advice;
 mod change;
-mod course;
+mod energy;
 mod judge;
+mod limits;
 mod modes;
+mod peaks;
 mod pitch;
 mod run;
 mod searches;
@@ -17,7 +19,8 @@ mod verdict;
 pub use advice::{
     Advised, Adviser, CRITERIA, Criterion, MOST_ADVISED_SUBSTEPS, Meets, Met, recommended,
 };
-pub use judge::{Judge, LONGEST_HORIZON_S, RIGHT_PITCH, TOLERANCE, VISIBLE};
+pub use judge::{Judge, LONGEST_HORIZON_S};
+pub use limits::{RIGHT_PITCH, TOLERANCE, VISIBLE};
 pub use run::MOST_WORK;
 pub use thinking::{Advice, Findings, Question, Thinker};
 pub use truth::LONG_RUN;

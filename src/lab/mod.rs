@@ -43,7 +43,7 @@ pub use lab::Lab;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Origin, TakenUp};
 pub use lane_spec::LaneSpec;
 pub use metrics::{METRICS, Metric, Scale, Unit};
-pub use past::{CAPACITY, History, Past, Run, Sample, Samples, TruthCurve, TruthSample};
+pub use past::{CAPACITY, History, Past, Run, Sample, Samples, Swept, TruthCurve, TruthSample};
 pub use race::{Entrant, Mode, Observer, Race};
 pub use scene::{
     BuiltIn, Check, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES,

@@ -6,12 +6,16 @@
 use super::action::Action;
 use super::lane::{Origin, TakenUp};
 use super::race::{Entrant, Observer, Race};
+use history::HistoryMark;
 
 mod history;
 mod log;
+mod swept;
 mod truth_curve;
 
 pub use history::{CAPACITY, History, Run, Sample, Samples};
+pub use swept::Swept;
+use truth_curve::TruthMark;
 pub use truth_curve::{TruthCurve, TruthSample};
 
 /// The recent past of a race.
@@ -30,14 +34,14 @@ pub struct Past {
 #[derive(Clone, Debug)]
 pub(super) struct PastMark {
     /// By lane number and body.
-    histories: Box<[(usize, Box<[u64]>)]>,
-    truth_curves: Box<[u64]>,
+    histories: Box<[(usize, Box<[HistoryMark]>)]>,
+    truth_curves: Box<[TruthMark]>,
 }
 
 impl PastMark {
     /// The memory that it takes beyond its own size, in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
-        let row = |(_, marks): &(usize, Box<[u64]>)| size_of_val(&marks[..]);
+        let row = |(_, marks): &(usize, Box<[HistoryMark]>)| size_of_val(&marks[..]);
         size_of_val(&self.histories[..])
             + self.histories.iter().map(row).sum::<usize>()
             + size_of_val(&self.truth_curves[..])
@@ -87,10 +91,16 @@ impl Past {
         ((samples / CAPACITY as f64).ceil() as u64).max(1)
     }
 
-    /// Adds the present to the histories if it is time for a sample.
+    /// Adds the present to the histories if it is time for a sample; what is passed over until then shows in it.
     fn sample(&mut self, race: &Race) {
         if race.tick().is_multiple_of(self.stride(race)) {
-            self.each(race, History::record);
+            return self.each(race, History::record);
+        }
+        for (entrant, histories) in race.entrants().iter().zip(&mut self.histories) {
+            let bodies = entrant.lane.bodies().iter().zip(histories);
+            for (body, history) in bodies.filter(|(body, _)| body.halted().is_none()) {
+                history.pass(body.stepper.q()[0]);
+            }
         }
     }
 

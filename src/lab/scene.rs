@@ -12,9 +12,12 @@ use crate::sim::bodies::Kind;
 use crate::sim::integrators::{METHODS, Method};
 
 mod cause;
+mod clip;
+mod described;
 mod document;
 mod edit;
 mod errors;
+mod fields;
 mod nearest;
 mod script;
 mod syntax;

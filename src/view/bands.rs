@@ -5,10 +5,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use egui::epaint::{Mesh, PaintCallback};
-use egui::{Painter, Pos2, Shape, pos2};
+use egui::{Color32, Painter, Pos2, Shape, pos2};
 
 use super::lines::{Joint, LineMesh, shown};
-use super::plot::Curve;
 
 /// How much of its colour a band has between its edges.
 const FILL: f32 = 0.35;
@@ -22,12 +21,18 @@ const NEIGHBOURS: f32 = 8.0;
 /// The least and the greatest height of a curve in a column, if it passes there.
 type Span = Option<(f32, f32)>;
 
-/// Draws a curve through `points`, which do not go back, as a band.
-pub(super) fn paint(painter: &Painter, points: &[Pos2], curve: &Curve) {
+/// Draws a curve of this colour and width through `points`, which do not go back, as a band; `swept` has the heights
+/// that it comes to on the way to each point, where they are known.
+pub(super) fn paint(
+    painter: &Painter,
+    points: &[Pos2],
+    swept: &[[f32; 2]],
+    (colour, width): (Color32, f32),
+) {
     let (frame, step) = (painter.clip_rect(), 1.0 / painter.pixels_per_point());
     let columns = Columns { left: frame.left(), step, count: (frame.width() / step) as usize + 1 };
-    let spans = widened(&columns.spans(points), columns.apart(points));
-    let half = curve.width / 2.0;
+    let spans = widened(&columns.spans(points, swept), columns.apart(points));
+    let half = width / 2.0;
     for stretch in stretches(&spans) {
         let mut fill = Mesh::default();
         let mut edges = [const { Vec::new() }; 2];
@@ -36,16 +41,16 @@ pub(super) fn paint(painter: &Painter, points: &[Pos2], curve: &Curve) {
             let (x, heights) = (columns.left + step * column as f32, [low - half, high + half]);
             let first = fill.vertices.len() as u32;
             for at in [pos2(x, heights[0]), pos2(x + step, heights[0])] {
-                fill.colored_vertex(at, curve.colour.gamma_multiply(FILL));
+                fill.colored_vertex(at, colour.gamma_multiply(FILL));
             }
             for at in [pos2(x, heights[1]), pos2(x + step, heights[1])] {
-                fill.colored_vertex(at, curve.colour.gamma_multiply(FILL));
+                fill.colored_vertex(at, colour.gamma_multiply(FILL));
             }
             fill.add_triangle(first, first + 1, first + 2);
             fill.add_triangle(first + 1, first + 2, first + 3);
             for (edge, y) in edges.iter_mut().zip(heights) {
                 let at = pos2(x + step / 2.0, y);
-                edge.push(Joint { at, radius: EDGE / 2.0, colour: curve.colour });
+                edge.push(Joint { at, radius: EDGE / 2.0, colour });
             }
         }
         painter.add(Shape::mesh(fill));
@@ -65,14 +70,20 @@ struct Columns {
 }
 
 impl Columns {
-    /// What the line through `points` covers in each column; it breaks off at a point that is not finite.
-    fn spans(&self, points: &[Pos2]) -> Vec<Span> {
+    /// What the line through `points` covers in each column, and what is `swept` between them; it breaks off at a point
+    /// that is not finite.
+    fn spans(&self, points: &[Pos2], swept: &[[f32; 2]]) -> Vec<Span> {
         let mut spans = vec![None; self.count];
         for (i, &to) in points.iter().enumerate() {
             let from = i.checked_sub(1).map(|before| points[before]);
             let from = from.filter(|from| from.is_finite()).unwrap_or(to);
             if to.is_finite() {
                 self.take_in([from, to], &mut spans);
+                let between = from.y.min(to.y)..=from.y.max(to.y);
+                let beyond = swept.get(i).into_iter().flatten().filter(|y| !between.contains(y));
+                for &y in beyond {
+                    self.take_in([pos2(from.x, y), pos2(to.x, y)], &mut spans);
+                }
             }
         }
         spans
@@ -149,7 +160,7 @@ mod tests {
     const COLUMNS: Columns = Columns { left: 10.0, step: 0.5, count: 8 };
 
     fn spans(points: &[[f32; 2]]) -> Vec<Span> {
-        COLUMNS.spans(&points.iter().map(|&at| at.into()).collect::<Vec<_>>())
+        COLUMNS.spans(&points.iter().map(|&at| at.into()).collect::<Vec<_>>(), &[])
     }
 
     #[test]
@@ -163,6 +174,14 @@ mod tests {
         assert_eq!(found[4..], [None; 4]);
         let upright = spans(&[[10.1, 3.0], [10.1, -3.0]]);
         assert_eq!(upright[0], Some((-3.0, 3.0)));
+    }
+
+    #[test]
+    fn a_column_spans_what_was_swept_on_the_way_to_a_point() {
+        let points = [pos2(10.2, 1.0), pos2(11.2, 1.0), pos2(12.2, 1.0)];
+        let found = COLUMNS.spans(&points, &[[1.0; 2], [-5.0, 7.0], [1.0; 2]]);
+        assert_eq!(found[..3], [Some((-5.0, 7.0)); 3]);
+        assert_eq!(found[3..5], [Some((1.0, 1.0)); 2]);
     }
 
     #[test]
@@ -210,7 +229,7 @@ mod tests {
             let swing = |i: usize| libm::sinf(std::f32::consts::TAU * turns_per_sample * i as f32);
             let points: Vec<Pos2> = (0..2000).map(|i| pos2(0.2 * i as f32, swing(i))).collect();
             let columns = Columns { left: 0.0, step: 1.0, count: 400 };
-            let band = widened(&columns.spans(&points), columns.apart(&points));
+            let band = widened(&columns.spans(&points, &[]), columns.apart(&points));
             for (low, high) in band.into_iter().map(|span| span.unwrap()) {
                 assert!(low < -0.95 && high > 0.95, "{turns_per_sample}: {low} to {high}");
             }

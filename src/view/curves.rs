@@ -10,7 +10,40 @@ use egui::{Color32, Painter, Pos2, Rect, Shape, Vec2, vec2};
 
 use super::bands;
 use super::lines::{Joint, LineMesh, shown};
-use super::plot::Curve;
+
+/// A curve to be drawn.
+pub(super) struct Curve {
+    pub(super) colour: Color32,
+    /// In points.
+    pub(super) width: f32,
+    /// Drawn length and gap in points; a gap of 0 is solid.
+    pub(super) dash: [f32; 2],
+    pub(super) dots: Dots,
+    pub(super) points: Vec<[f64; 2]>,
+    /// For each point the least and the greatest height since the point before; empty where the points are all that is
+    /// known.
+    pub(super) swept: Vec<[f64; 2]>,
+}
+
+/// Which points of a curve have a dot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Dots {
+    None,
+    /// Each, of this radius in points.
+    Each(f32),
+    /// Those further than [`SPARSE`] from the next one along the x axis: the straight line between them is
+    /// not to be taken for motion.
+    SparseAlongX,
+    /// Those further than that from the next one.
+    Sparse,
+}
+
+/// The least distance between points, in points of the screen, at which each can be told from the next.
+const SPARSE: f32 = 3.0;
+/// The radius of their dots, in points of the screen.
+const SAMPLE: f32 = 1.5;
+/// And where the dots are all that is drawn.
+pub(super) const SCATTERED: f32 = 1.0;
 
 /// A curve that covers more than this part of the room it takes is drawn solid: no pattern could be told.
 const CROWDED: f32 = 0.5;
@@ -25,19 +58,25 @@ const ARROW_INSET: f32 = 9.0;
 const MOST_TURNS: f32 = 0.25;
 const MOST_TURNS_PER_POINT: f32 = 0.5;
 
-/// Draws a curve through `points` on the screen, as far as the painter's clip shows it: its line, or where that is
-/// crowded with swings too narrow to be told apart, their [band](bands). What the painter gets for a line is a
+/// A curve that goes further than this beyond the line through its points, in points of the screen, on more than this
+/// part of the ways between them, is not drawn as a line either: that would show a swing that nothing made.
+const HIDDEN: f32 = 2.0;
+const MOST_HIDDEN: f32 = 1.0 / 16.0;
+
+/// Draws a curve through `points` on the screen, as far as the painter's clip shows it: its line, or where swings are
+/// too narrow to be told apart, their [band](bands). `swept` has the heights that the curve comes to on the way to each
+/// point, where they are known. What the painter gets for a line is a
 /// [`LineMesh`] for [`MeshRenderer`](super::meshes::MeshRenderer). Returns whether something is drawn: a crowded curve
 /// that goes back and forth has no band.
-pub(super) fn paint(painter: &Painter, points: &[Pos2], curve: &Curve) -> bool {
+pub(super) fn paint(painter: &Painter, points: &[Pos2], swept: &[[f32; 2]], curve: &Curve) -> bool {
     let &Curve { colour, width, dash: [drawn, gap], .. } = curve;
     let joints = points.iter().map(|&at| Joint { at, radius: width / 2.0, colour });
     let runs = shown(joints, painter.clip_rect().expand(width));
     let is_crowded = is_crowded(&runs, width);
-    if is_crowded && beats(points) {
+    if hides(points, swept) || is_crowded && beats(points) {
         let goes_on = points.is_sorted_by(|a, b| a.x <= b.x);
         if goes_on {
-            bands::paint(painter, points, curve);
+            bands::paint(painter, points, swept, (colour, width));
         }
         return goes_on;
     }
@@ -54,6 +93,16 @@ fn beats(points: &[Pos2]) -> bool {
     turns > MOST_TURNS || turns * points.len() as f32 > MOST_TURNS_PER_POINT * wide.max(BEGINNING)
 }
 
+/// Whether the line through `points` would leave out much of what the curve sweeps over between them.
+fn hides(points: &[Pos2], swept: &[[f32; 2]]) -> bool {
+    let hides = |(ends, swept): &(&[Pos2], &[f32; 2])| {
+        let (high, low) = (ends[0].y.min(ends[1].y), ends[0].y.max(ends[1].y));
+        swept.iter().any(|&y| y < high - HIDDEN || y > low + HIDDEN)
+    };
+    let hidden = points.windows(2).zip(swept.iter().skip(1)).filter(hides).count();
+    hidden as f32 > MOST_HIDDEN * points.len() as f32
+}
+
 /// The part of the points at which a curve turns up or down.
 fn turns(points: &[Pos2]) -> f32 {
     let is_turn = |at: &&[Pos2]| (at[1].y - at[0].y) * (at[2].y - at[1].y) < 0.0;
@@ -65,6 +114,24 @@ fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {
     let length: f32 = pieces.map(|ends| ends[0].at.distance(ends[1].at)).sum();
     let points: Vec<Pos2> = runs.iter().flatten().map(|joint| joint.at).collect();
     length * width > CROWDED * Rect::from_points(&points).expand(BEGINNING).area()
+}
+
+/// The dots of a curve through these points of the screen, each with its radius.
+pub(super) fn dots(points: &[Pos2], dots: Dots) -> impl Iterator<Item = (Pos2, f32)> {
+    let are_apart = move |a: Pos2, b: Pos2| match dots {
+        Dots::SparseAlongX => (a.x - b.x).abs() >= SPARSE,
+        _ => a.distance(b) >= SPARSE,
+    };
+    let has_dot = move |i: usize| {
+        let before = i.checked_sub(1).map(|before| points[before]);
+        let mut beside = before.into_iter().chain(points.get(i + 1).copied());
+        beside.any(|other| are_apart(points[i], other))
+    };
+    (0..points.len()).filter_map(move |i| match dots {
+        Dots::None => None,
+        Dots::Each(radius) => Some((points[i], radius)),
+        Dots::SparseAlongX | Dots::Sparse => has_dot(i).then_some((points[i], SAMPLE)),
+    })
 }
 
 /// Arrows where curves leave the plot, none on another.
@@ -156,6 +223,19 @@ mod tests {
         assert!(beats(20, 3.0), "a turn is three points wide");
         assert!(!beats(20, 5.0));
         assert!(!super::beats(&[]));
+    }
+
+    #[test]
+    fn a_line_hides_a_swing_that_is_as_fast_as_its_points() {
+        let points: Vec<Pos2> = (0..100).map(|i| Pos2::new(i as f32, 50.0)).collect();
+        let swept = |wide: f32, every: usize| -> Vec<[f32; 2]> {
+            let reach = |i: usize| if i.is_multiple_of(every) { wide } else { 0.0 };
+            (0..100).map(|i| [50.0 + reach(i), 50.0 - reach(i)]).collect()
+        };
+        assert!(hides(&points, &swept(40.0, 1)) && hides(&points, &swept(40.0, 10)));
+        assert!(!hides(&points, &swept(40.0, 50)), "a rare peak");
+        assert!(!hides(&points, &swept(1.0, 1)), "peaks between points that are close enough");
+        assert!(!hides(&points, &[]) && !hides(&[], &[]));
     }
 
     #[test]

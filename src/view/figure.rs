@@ -8,10 +8,9 @@ use egui::{
 };
 use egui_plot::{AxisHints, GridInput, GridMark, PlotBounds};
 
+use super::curves::{Curve, Dots};
 use super::panels::{BACKDROP, QUIET, TEXT};
-use super::plot::{
-    Arrow, CURVE, Curve, Dots, Drawing, X_AXIS, colour, draw, plot, swatch, tick_text,
-};
+use super::plot::{Arrow, CURVE, Drawing, X_AXIS, colour, draw, plot, swatch, tick_text};
 use crate::lab::number::superscript;
 use crate::lab::picture::Rgba;
 
@@ -196,6 +195,7 @@ fn laid_out(curve: &FigureCurve, chart: &Chart) -> Curve {
         dash: curve.dash,
         dots: if curve.dots > 0.0 { Dots::Each(curve.dots) } else { Dots::None },
         points: points.filter(|[x, y]| x.is_finite() && y.is_finite()).collect(),
+        swept: Vec::new(),
     }
 }
 

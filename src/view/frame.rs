@@ -8,8 +8,8 @@ use super::figure::{self, Figure};
 use super::gpu::Gpu;
 use super::meshes::MeshRenderer;
 use super::panels::{self, Panels};
-use super::stage::StageRenderer;
-use crate::lab::picture::{self, Align, Label, Picture};
+use super::stage::{Stage, StageRenderer};
+use crate::lab::picture::{self, Align, Label};
 use crate::lab::{Command, Lab};
 
 /// Shows where neither stage nor panel is: between the cells of the stage.
@@ -17,15 +17,6 @@ const BACKGROUND: wgpu::Color = wgpu::Color { r: 0.018, g: 0.030, b: 0.051, a: 1
 
 /// How black the shadow under a white label is, of 255: it can be read on any trail.
 const SHADOW_ALPHA: u32 = 180;
-
-/// The part of the frame that panels leave free, and what to show there.
-#[derive(Clone, Debug)]
-pub(super) struct Stage {
-    /// Where, in points of the frame.
-    pub(super) rect: egui::Rect,
-    /// What, in points of the stage.
-    pub(super) picture: Picture,
-}
 
 /// What whoever shows the frame has to do for it.
 #[must_use]
@@ -246,9 +237,10 @@ fn write(painter: &egui::Painter, stage: egui::Rect, label: &Label) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::picture::Picture;
     use crate::lab::picture::{Cap, Stroke};
     use crate::view::curves;
-    use crate::view::plot::{Curve, Dots};
+    use crate::view::curves::{Curve, Dots};
     use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
     use crate::view::{AdapterPreference, Offscreen};
 
@@ -336,6 +328,7 @@ mod tests {
             dash,
             dots: Dots::None,
             points: Vec::new(),
+            swept: Vec::new(),
         };
         let input = egui::RawInput::default();
         let output = renderer.draw_with(&gpu, &target.view, [128, 64], 1.0, input, |ui| {
@@ -343,7 +336,7 @@ mod tests {
             let painter = ui.painter().with_clip_rect(clip);
             for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
                 let ends = [egui::pos2(10.0, y), egui::pos2(120.0, y)];
-                assert!(curves::paint(&painter, &ends, &curve(dash)));
+                assert!(curves::paint(&painter, &ends, &[], &curve(dash)));
             }
             None
         });

@@ -3,40 +3,10 @@
 use egui::{Color32, Painter, Pos2, Stroke, Ui, pos2, vec2};
 use egui_plot::{AxisHints, Plot, PlotBounds, PlotPoint};
 
-use super::curves;
+use super::curves::{self, Curve, Dots, SCATTERED, dots};
 use crate::lab::number::round;
 use crate::lab::picture::Rgba;
 
-/// A curve to be drawn.
-pub(super) struct Curve {
-    pub(super) colour: Color32,
-    /// In points.
-    pub(super) width: f32,
-    /// Drawn length and gap in points; a gap of 0 is solid.
-    pub(super) dash: [f32; 2],
-    pub(super) dots: Dots,
-    pub(super) points: Vec<[f64; 2]>,
-}
-
-/// Which points of a curve have a dot.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Dots {
-    None,
-    /// Each, of this radius in points.
-    Each(f32),
-    /// Those further than [`SPARSE`] from the next one along the x axis: the straight line between them is
-    /// not to be taken for motion.
-    SparseAlongX,
-    /// Those further than that from the next one.
-    Sparse,
-}
-
-/// The least distance between points, in points of the screen, at which each can be told from the next.
-const SPARSE: f32 = 3.0;
-/// The radius of their dots, in points of the screen.
-const SAMPLE: f32 = 1.5;
-/// And where the dots are all that is drawn.
-const SCATTERED: f32 = 1.0;
 /// The radius of the ring round a switch, in points of the screen.
 const RING: f32 = 4.0;
 
@@ -133,7 +103,10 @@ pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, drawing: &Dr
         let mut with_dots = Vec::new();
         for curve in curves {
             let points: Vec<Pos2> = curve.points.iter().map(on_screen).collect();
-            let is_line = curves::paint(&painter, &points, curve);
+            let heights = curve.points.iter().zip(&curve.swept);
+            let heights = heights.map(|([x, _], ends)| ends.map(|y| on_screen(&[*x, y]).y));
+            let swept: Vec<[f32; 2]> = heights.collect();
+            let is_line = curves::paint(&painter, &points, &swept, curve);
             let dots = if is_line { curve.dots } else { Dots::Each(SCATTERED) };
             with_dots.push((curve.colour, dots, points));
         }
@@ -149,24 +122,6 @@ pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, drawing: &Dr
     for Arrow { from, to, colour } in &drawing.arrows {
         arrows.paint([on_screen(from), on_screen(to)], *colour);
     }
-}
-
-/// The dots of a curve through these points of the screen, each with its radius.
-fn dots(points: &[Pos2], dots: Dots) -> impl Iterator<Item = (Pos2, f32)> {
-    let are_apart = move |a: Pos2, b: Pos2| match dots {
-        Dots::SparseAlongX => (a.x - b.x).abs() >= SPARSE,
-        _ => a.distance(b) >= SPARSE,
-    };
-    let has_dot = move |i: usize| {
-        let before = i.checked_sub(1).map(|before| points[before]);
-        let mut beside = before.into_iter().chain(points.get(i + 1).copied());
-        beside.any(|other| are_apart(points[i], other))
-    };
-    (0..points.len()).filter_map(move |i| match dots {
-        Dots::None => None,
-        Dots::Each(radius) => Some((points[i], radius)),
-        Dots::SparseAlongX | Dots::Sparse => has_dot(i).then_some((points[i], SAMPLE)),
-    })
 }
 
 /// A piece of a curve's line, from `from` to the right, as the plots draw it.

@@ -1,15 +1,23 @@
 //! The stage: a picture's seas, then its ribbons and its strokes, in their place on the target.
 
-use super::frame::Stage;
 use super::gpu::Gpu;
 use super::place::{Place, PlaceGroup};
 use super::ribbons::RibbonPipeline;
 use super::sea::SeaPipeline;
 use super::strokes::StrokePipeline;
-use crate::lab::picture::{FAR, Rect};
+use crate::lab::picture::{FAR, Picture, Rect};
 
 /// What clips nothing.
 const EVERYWHERE: Rect = Rect { min: [-FAR; 2], max: [FAR; 2] };
+
+/// The part of the frame that panels leave free, and what to show there.
+#[derive(Clone, Debug)]
+pub(super) struct Stage {
+    /// Where, in points of the frame.
+    pub(super) rect: egui::Rect,
+    /// What, in points of the stage.
+    pub(super) picture: Picture,
+}
 
 /// Draws the part of a picture that is not text.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::frame::Stage;
+use super::stage::Stage;
 use super::{AdapterPreference, Gpu, Offscreen, Readback};
 use crate::lab::picture::{Picture, Rect};
 use crate::view::stage::StageRenderer;

@@ -9,8 +9,6 @@ use super::{Source, none, root, sources};
 const MOST_LINES: usize = 400;
 /// The most lines of a file elsewhere, where tests of one thing stand together.
 const MOST_LINES_ELSEWHERE: usize = 500;
-/// Source files that are longer still. One that is not any more is to be struck off.
-const LONGER_STILL: [&str; 2] = ["src/lab/analysis/run.rs", "src/view/panels/instruments.rs"];
 /// Names for "did not think".
 const NO_NAMES: [&str; 6] = ["utils", "util", "common", "helpers", "helper", "misc"];
 
@@ -127,10 +125,8 @@ fn shapes(source: &Source) -> Vec<String> {
     let mut complaints = Vec::new();
     let lines = source.text.lines().count();
     let most = if source.path.starts_with("src/") { MOST_LINES } else { MOST_LINES_ELSEWHERE };
-    match (lines > most, LONGER_STILL.contains(&&*source.path)) {
-        (true, false) => complaints.push(format!("{}: {lines} lines, at most {most}", source.path)),
-        (false, true) => complaints.push(format!("{}: strike it off LONGER_STILL", source.path)),
-        _ => {}
+    if lines > most {
+        complaints.push(format!("{}: {lines} lines, at most {most}", source.path));
     }
     let of_path = source.path.split(['/', '.']).map(String::from);
     let code = code(&source.text);
@@ -163,9 +159,6 @@ fn files_are_short_and_named_for_what_they_hold() {
     let sources: Vec<Source> =
         folders.iter().flat_map(|folder| sources(folder, &["rs", "wgsl"])).collect();
     assert!(sources.iter().any(|source| source.path == "tests/tidy/rules.rs"));
-    for longer in LONGER_STILL {
-        assert!(sources.iter().any(|source| source.path == longer), "{longer} is gone");
-    }
     none(sources.iter().flat_map(shapes).collect());
 }
 
@@ -230,16 +223,12 @@ fn bad_shapes_are_seen() {
         ("src/lab/clock.rs", "pub(crate) mod helpers;".into()),
         ("src/lab/clock.rs", lines(MOST_LINES + 1)),
         ("tests/words.rs", lines(MOST_LINES_ELSEWHERE + 1)),
-        (LONGER_STILL[0], lines(MOST_LINES)),
     ];
     for (path, text) in bad {
         assert_eq!(shapes(&source(path, &text)).len(), 1, "{path}");
     }
-    let good = [
-        ("src/lab/clock.rs", lines(MOST_LINES)),
-        ("tests/words.rs", lines(MOST_LINES_ELSEWHERE)),
-        (LONGER_STILL[0], lines(MOST_LINES + 1)),
-    ];
+    let good =
+        [("src/lab/clock.rs", lines(MOST_LINES)), ("tests/words.rs", lines(MOST_LINES_ELSEWHERE))];
     for (path, text) in good {
         none(shapes(&source(path, &text)));
     }

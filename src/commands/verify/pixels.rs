@@ -15,7 +15,7 @@ use super::super::pipeline::{Drawn, Run, Stop};
 use super::super::recording::{Recording, RecordingError};
 use super::super::schedule::Schedule;
 use super::super::terminal::progress;
-use super::VerifyError;
+use super::errors::VerifyError;
 use super::report::{FrameChange, Report};
 use crate::view::{Artist, png};
 

@@ -1,6 +1,6 @@
 //! What becomes of the amplitude of a body that was followed, within the horizon and in the long run.
 
-use super::judge::VISIBLE;
+use super::limits::VISIBLE;
 use super::pitch::{Pitch, pitch};
 use super::run::Run;
 use super::truth::{BodyTruth, Swing};

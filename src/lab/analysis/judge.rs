@@ -5,26 +5,17 @@
 //! ever after. Any other is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and what is not seen by then is not said.
 
 use super::change::{Change, bounded, tell_of_run};
-use super::course::ticks;
+use super::limits::{RIGHT_PITCH, TOLERANCE, VISIBLE};
 use super::modes::{Modes, TooMuch};
 use super::pitch::pitch;
 use super::run::{MOST_WORK, Run, Until, follow};
 use super::survey::{Given, TimedInput};
-use super::truth::BodyTruth;
+use super::truth::{BodyTruth, ticks};
 use super::verdict::{NoTruth, NotJudged, Verdict, Word};
 use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 use crate::sim::integrators::StepFailure;
-
-/// The error that still counts as accurate: a hundredth of the amplitude, about what can be seen.
-pub const TOLERANCE: f64 = 0.01;
-
-/// The change of a swing's amplitude that is seen: a twentieth.
-pub const VISIBLE: f64 = 0.05;
-
-/// The frequency error that still looks right.
-pub const RIGHT_PITCH: f64 = 0.01;
 
 /// Ticks in a turn that show its peak.
 const FEW_TICKS: f64 = 8.0;

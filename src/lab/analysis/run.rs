@@ -1,7 +1,8 @@
 //! One body under one method, followed tick by tick and held against its truth.
 
-use super::course::{Course, ticks};
-use super::truth::{BodyTruth, LONG_RUN, window};
+use super::energy::Energy;
+use super::peaks::Peaks;
+use super::truth::{BodyTruth, Course, LONG_RUN, ticks};
 use super::verdict::Fate;
 use crate::lab::lane::check;
 use crate::lab::lane_spec::LaneSpec;
@@ -21,9 +22,8 @@ const TICKS_PER_LOOK: u64 = 64;
 /// away.
 const TWICE: f64 = 2.0;
 
-/// A swing that loses more than this part of its amplitude over the second half of a long run is followed on, this many
-/// times as far, until it is known what becomes of it: an orbit that shrinks may yet be flung out.
-const LOSING: f64 = 0.01;
+/// A swing that is [losing](Energy::is_losing) by the end of a long run is followed on, this many times as far, until it
+/// is known what becomes of it: an orbit that shrinks may yet be flung out.
 const FOLLOWED_ON: u64 = 100;
 
 /// A swing that has come down to this part of the truth's has come to rest.
@@ -291,117 +291,4 @@ impl Run {
         self.has_come_to_rest = parts.all(|part| part <= AT_REST);
         self.has_come_to_rest
     }
-}
-
-/// The energy of a body as it goes along, in units of the energy in motion, less that at the start.
-struct Energy {
-    start: f64,
-    scale: Option<f64>,
-    /// The unit in percent of the energy that the motion exchanges.
-    percent: Option<f64>,
-    horizon: Means,
-    long: Means,
-}
-
-impl Energy {
-    fn of(stepper: &dyn Stepper, truth: &BodyTruth, horizon: u64, end: u64) -> Self {
-        let start = stepper.energy().unwrap_or(0.0);
-        Self {
-            start,
-            scale: truth.energy_scale,
-            percent: truth.energy_scale.zip(truth.exchanged_j).map(|(a, b)| 100.0 * a / b),
-            horizon: Means::over(horizon),
-            long: Means::over(end),
-        }
-    }
-
-    /// Whether the amplitude goes down in the long run.
-    fn is_losing(&self) -> bool {
-        let [_, early, _, late] = self.long.means().map(|drift| (1.0 + drift).max(0.0).sqrt());
-        self.scale.is_some() && late < (1.0 - LOSING) * early
-    }
-
-    fn take_in(&mut self, stepper: &dyn Stepper, tick: u64) -> Option<f64> {
-        let drift = (stepper.energy()? - self.start) / self.scale?;
-        if !drift.is_finite() {
-            return None;
-        }
-        self.horizon.take_in(tick, drift);
-        self.long.take_in(tick, drift);
-        Some(drift)
-    }
-}
-
-/// Means over the quarters of a stretch, weighted so that what swings inside a quarter does not count.
-struct Means {
-    end: u64,
-    sums: [(f64, f64); 4],
-}
-
-impl Means {
-    fn over(end: u64) -> Self {
-        Self { end, sums: [(0.0, 0.0); 4] }
-    }
-
-    fn take_in(&mut self, tick: u64, value: f64) {
-        if tick > self.end {
-            return;
-        }
-        let place = 4.0 * (tick as f64 - 0.5) / self.end as f64;
-        let quarter = (place as usize).min(3);
-        let part = place - quarter as f64;
-        let weight = (part * (1.0 - part)).powi(2);
-        let (sum, weights) = &mut self.sums[quarter];
-        *sum += weight * value;
-        *weights += weight;
-    }
-
-    fn means(&self) -> [f64; 4] {
-        self.sums.map(|(sum, weights)| if weights > 0.0 { sum / weights } else { f64::NAN })
-    }
-}
-
-/// How far the coordinates swing, seen between ticks as if they swung harmonically.
-struct Peaks {
-    /// The last two values of each coordinate from its middle, the older one first.
-    last: Vec<[f64; 2]>,
-}
-
-impl Peaks {
-    fn new(truth: &BodyTruth, stepper: &dyn Stepper) -> Self {
-        let from = stepper.q().iter().zip(&truth.centres);
-        Self { last: from.map(|(q, middle)| [f64::NAN, q - middle]).collect() }
-    }
-
-    /// Takes in where the swing begins.
-    fn start(&self, truth: &BodyTruth, windows: &mut [f64]) {
-        if let Some(first) = windows.first_mut() {
-            let parts = self.last.iter().zip(&truth.amplitudes).map(|(last, a)| last[1].abs() / a);
-            *first = parts.fold(0.0, f64::max);
-        }
-    }
-
-    fn take_in(&mut self, stepper: &dyn Stepper, truth: &BodyTruth, t: f64, windows: &mut [f64]) {
-        let window = window(t / truth.horizon_s, windows.len());
-        for (i, last) in self.last.iter_mut().enumerate() {
-            let (before, here, next) = (last[0], last[1], stepper.q()[i] - truth.centres[i]);
-            *last = [here, next];
-            let mut peak = next.abs();
-            if here.abs() >= before.abs() && here.abs() >= next.abs() {
-                peak = peak.max(harmonic_peak(before, here, next));
-            }
-            windows[window] = windows[window].max(peak / truth.amplitudes[i]);
-        }
-    }
-}
-
-/// The amplitude of the harmonic swing through three values at equal distances, of which the middle one is the
-/// largest.
-fn harmonic_peak(before: f64, here: f64, next: f64) -> f64 {
-    let cos = (before + next) / (2.0 * here);
-    let sin_squared = 1.0 - cos * cos;
-    let side = (next - before) / 2.0;
-    let peak = libm::hypot(here, side / sin_squared.sqrt());
-    // Values further apart than a third of a turn say nothing of what is between them.
-    if sin_squared > 0.0 && peak <= 2.0 * here.abs() { peak } else { here.abs() }
 }

@@ -1,6 +1,5 @@
 //! What is known of the true motion of one body before any method is held against it.
 
-use super::course::Courses;
 use super::survey::{Moment, Ranges, TimedInput, walk};
 use crate::lab::extent::Extent;
 use crate::lab::scene::SceneBody;
@@ -8,6 +7,12 @@ use crate::sim::bodies::{Coordinate, Input, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::stability::{NormalMode, normal_modes};
 use crate::sim::{Solver, Stepper};
+
+use course::Courses;
+
+mod course;
+
+pub(super) use course::{Course, ticks};
 
 /// A nonlinear body is followed for this many times the horizon, to see what becomes of it in the long run.
 pub const LONG_RUN: f64 = 20.0;
@@ -51,7 +56,7 @@ pub(super) struct BodyTruth {
     pub(super) swing: Option<Swing>,
     /// Why the truth is not known over the whole horizon, if it is not.
     pub(super) failure: Option<StepFailure>,
-    pub(super) courses: Courses,
+    courses: Courses,
 }
 
 /// How a body swings in truth.

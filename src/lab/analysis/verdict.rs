@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::judge::TOLERANCE;
+use super::limits::TOLERANCE;
 use crate::lab::number::{round, significant, superscript};
 use crate::sim::integrators::StepFailure;
 

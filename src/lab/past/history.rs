@@ -10,6 +10,7 @@ use std::{iter, option};
 use glam::DVec2;
 
 use super::log::Log;
+use super::swept::Swept;
 use crate::lab::lane::LaneBody;
 use crate::lab::metrics::METRICS;
 
@@ -26,6 +27,8 @@ pub struct Sample {
     pub t: f64,
     /// The first coordinate.
     pub q: f64,
+    /// What the first coordinate passed over since the sample before.
+    pub swept: Swept,
     /// Its velocity.
     pub v: f64,
     /// Where the body was, in metres.
@@ -45,7 +48,7 @@ impl PartialEq for Sample {
         let metrics = |s: &Self| s.metrics.map(f64::to_bits);
         numbers(self) == numbers(other)
             && metrics(self) == metrics(other)
-            && (self.entry, self.jumped) == (other.entry, other.jumped)
+            && (self.entry, self.jumped, self.swept) == (other.entry, other.jumped, other.swept)
     }
 }
 
@@ -55,7 +58,8 @@ impl Sample {
         let (q, v) = (body.stepper.q()[0], body.stepper.v()[0]);
         let metrics =
             std::array::from_fn(|i| (METRICS[i].measure)(body, truth).unwrap_or(f64::NAN));
-        Self { t, q, v, at: body.stepper.place(), entry, metrics, jumped: false }
+        let (swept, at) = (Swept::at(q), body.stepper.place());
+        Self { t, q, swept, v, at, entry, metrics, jumped: false }
     }
 }
 
@@ -65,6 +69,16 @@ pub struct History {
     samples: Log<Sample>,
     /// The present, where it is no sample that stays.
     present: Option<Sample>,
+    /// What the first coordinate passed over since the newest sample.
+    since: Swept,
+}
+
+/// Where a [`History`] was at some tick.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HistoryMark {
+    /// How much was recorded since the start.
+    samples: u64,
+    since: Swept,
 }
 
 /// Samples of a [`History`], oldest first.
@@ -82,7 +96,7 @@ pub struct Run<'h> {
 impl History {
     /// An empty history with room for [`CAPACITY`] samples.
     pub fn new() -> Self {
-        Self { samples: Log::new(CAPACITY, SPARE), present: None }
+        Self { samples: Log::new(CAPACITY, SPARE), present: None, since: Swept::NOTHING }
     }
 
     /// The samples, oldest first. The newest is the present, but for a body that has halted.
@@ -116,16 +130,29 @@ impl History {
         jump.map_or(f64::NEG_INFINITY, |sample| sample.t)
     }
 
+    /// Takes in a tick at which no sample is due.
+    pub(super) fn pass(&mut self, q: f64) {
+        self.since = self.since.and(q);
+    }
+
     /// Adds the present, and forgets the oldest sample if full.
     pub(super) fn record(&mut self, now: Sample) {
+        let swept = self.since.and(now.q);
+        self.begin_at(Sample { swept, ..now });
+    }
+
+    /// Adds a sample to which nothing leads from the one before.
+    fn begin_at(&mut self, now: Sample) {
         self.present = None;
+        self.since = Swept::NOTHING;
         self.samples.push(now);
     }
 
     /// Shows the present until the next sample comes.
     pub(super) fn record_passing(&mut self, now: Sample) {
         let is_there = self.samples.newest().is_some_and(|newest| newest.t == now.t);
-        self.present = (!is_there).then_some(now);
+        let swept = self.since.and(now.q);
+        self.present = (!is_there).then_some(Sample { swept, ..now });
     }
 
     /// Ends the run of the present method now.
@@ -152,29 +179,30 @@ impl History {
             newest.t != now.t || newest.entry != now.entry || now.jumped && !newest.jumped
         };
         if newest.is_none_or(is_new) {
-            self.record(now);
+            self.begin_at(now);
         }
     }
 
     /// Goes on from `now`, where the body was put.
     pub(super) fn jump(&mut self, now: Sample) {
-        self.record(Sample { jumped: true, ..now });
+        self.begin_at(Sample { jumped: true, ..now });
     }
 
-    /// How much was recorded since the start.
-    pub(super) fn mark(&self) -> u64 {
-        self.samples.mark()
+    /// Where it is now.
+    pub(super) fn mark(&self) -> HistoryMark {
+        HistoryMark { samples: self.samples.mark(), since: self.since }
     }
 
     /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
-    pub(super) fn fills(&self, from: u64, mark: u64) -> bool {
-        self.samples.fills(from, mark)
+    pub(super) fn fills(&self, from: HistoryMark, mark: HistoryMark) -> bool {
+        self.samples.fills(from.samples, mark.samples)
     }
 
     /// Goes back to a mark, or forward to one of the future that is kept.
-    pub(super) fn rewind(&mut self, mark: u64) {
+    pub(super) fn rewind(&mut self, mark: HistoryMark) {
         self.present = None;
-        self.samples.rewind(mark);
+        self.since = mark.since;
+        self.samples.rewind(mark.samples);
     }
 
     /// Forgets the future: another one begins.
@@ -197,6 +225,7 @@ mod tests {
         Sample {
             t,
             q: 0.0,
+            swept: Swept::at(0.0),
             v: 0.0,
             at: DVec2::ZERO,
             entry,
@@ -262,6 +291,29 @@ mod tests {
         switch(&mut history, 3.5, 0, 1);
         history.record(sample(4.0, 1));
         assert_eq!(runs(&history), [(0, vec![0.0, 1.0, 2.0, 3.0, 3.5]), (1, vec![3.5, 4.0])]);
+    }
+
+    #[test]
+    fn a_sample_has_what_was_passed_over_since_the_one_before() {
+        let swept = |history: &History| -> Vec<[f64; 2]> {
+            history.samples().map(|sample| sample.swept.ends()).collect()
+        };
+        let mut history = flown(0);
+        history.pass(-2.0);
+        history.pass(1.0);
+        let mark = history.mark();
+        history.record_passing(sample(2.5, 0));
+        assert_eq!(swept(&history), [[0.0; 2], [0.0; 2], [0.0; 2], [-2.0, 1.0]]);
+        history.pass(3.0);
+        history.record(sample(3.0, 0));
+        history.record(sample(4.0, 0));
+        assert_eq!(swept(&history)[3..], [[-2.0, 3.0], [0.0; 2]]);
+        history.rewind(mark);
+        switch(&mut history, 2.5, 0, 1);
+        assert_eq!(swept(&history)[2..], [[0.0; 2], [-2.0, 1.0], [0.0; 2]]);
+        history.pass(9.0);
+        history.jump(sample(3.0, 1));
+        assert_eq!(swept(&history)[5], [0.0; 2], "nothing leads to where it was put");
     }
 
     #[test]

@@ -7,6 +7,7 @@ use std::mem::discriminant;
 use glam::DVec2;
 
 use super::log::Log;
+use super::swept::Swept;
 use crate::lab::lane::LaneBody;
 use crate::lab::race::LastTick;
 use crate::sim::bodies::Input;
@@ -31,6 +32,8 @@ pub struct TruthSample {
     pub t: f64,
     /// The first coordinate.
     pub q: f64,
+    /// What the first coordinate passed over since the sample before, as far as ticks show it.
+    pub swept: Swept,
     /// Its velocity.
     pub v: f64,
     /// Where the body was, in metres.
@@ -39,7 +42,8 @@ pub struct TruthSample {
 
 impl TruthSample {
     fn of(t: f64, stepper: &dyn Stepper) -> Self {
-        Self { t, q: stepper.q()[0], v: stepper.v()[0], at: stepper.place() }
+        let q = stepper.q()[0];
+        Self { t, q, swept: Swept::at(q), v: stepper.v()[0], at: stepper.place() }
     }
 
     fn is_finite(&self) -> bool {
@@ -58,6 +62,16 @@ pub struct TruthCurve {
     is_stale: bool,
     spacing_s: f64,
     samples: Log<TruthSample>,
+    /// What ticks showed of the first coordinate since the newest sample.
+    since: Swept,
+}
+
+/// Where a [`TruthCurve`] was at some tick.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TruthMark {
+    /// How much was recorded since the start.
+    samples: u64,
+    since: Swept,
 }
 
 impl TruthCurve {
@@ -69,6 +83,7 @@ impl TruthCurve {
             is_stale: false,
             spacing_s: span_s / GRID as f64,
             samples: Log::new(GRID + OFF_GRID, SPARE),
+            since: Swept::NOTHING,
         };
         curve.keep(0.0, truth);
         curve
@@ -108,6 +123,7 @@ impl TruthCurve {
         let first = libm::floor(from_s / spacing_s);
         let count = (libm::floor(to_s / spacing_s) - first) as u64;
         if count == 0 {
+            self.since = self.since.and(truth.stepper.q()[0]);
             return;
         }
         self.between.set(from_s, &truth.previous_q, &truth.previous_v);
@@ -119,6 +135,10 @@ impl TruthCurve {
             }
             t = next;
             self.push(TruthSample::of(t, &*self.between));
+        }
+        // Where the grid is finer than the ticks, its own points are all there is to see.
+        if t < to_s && to_s - from_s < spacing_s {
+            self.since = self.since.and(truth.stepper.q()[0]);
         }
     }
 
@@ -148,26 +168,31 @@ impl TruthCurve {
     }
 
     fn push(&mut self, sample: TruthSample) {
+        let is_another =
+            |last: &TruthSample| sample != TruthSample { swept: sample.swept, ..*last };
         let newest = self.samples.newest();
-        let follows = newest.is_none_or(|&last| last != sample && last.t <= sample.t);
+        let follows = newest.is_none_or(|last| is_another(last) && last.t <= sample.t);
         if follows && sample.is_finite() {
-            self.samples.push(sample);
+            let swept = self.since.and(sample.q);
+            self.since = Swept::NOTHING;
+            self.samples.push(TruthSample { swept, ..sample });
         }
     }
 
-    /// How much was recorded since the start.
-    pub(super) fn mark(&self) -> u64 {
-        self.samples.mark()
+    /// Where it is now.
+    pub(super) fn mark(&self) -> TruthMark {
+        TruthMark { samples: self.samples.mark(), since: self.since }
     }
 
     /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
-    pub(super) fn fills(&self, from: u64, mark: u64) -> bool {
-        self.samples.fills(from, mark)
+    pub(super) fn fills(&self, from: TruthMark, mark: TruthMark) -> bool {
+        self.samples.fills(from.samples, mark.samples)
     }
 
     /// Goes back to a mark, or forward to one of the future that is kept.
-    pub(super) fn rewind(&mut self, mark: u64) {
-        self.samples.rewind(mark);
+    pub(super) fn rewind(&mut self, mark: TruthMark) {
+        self.samples.rewind(mark.samples);
+        self.since = mark.since;
         self.pending.clear();
         self.is_stale = true;
     }

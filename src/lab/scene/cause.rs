@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use super::LARGEST_FILE;
-use super::errors::clip;
+use super::clip::clip;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{self, BODIES, Fault};
 use crate::sim::integrators::METHODS;

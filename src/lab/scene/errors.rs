@@ -8,9 +8,6 @@ use super::cause::Cause;
 /// How many errors of one file are shown: as many as a person mends before trying again.
 pub const MOST_SHOWN: usize = 10;
 
-/// The most characters of a file's text in one message, so that it stays a line.
-const MOST_QUOTED_CHARS: usize = 40;
-
 /// Everything that is wrong with one scene file. Its display has one line for each error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneErrors {
@@ -86,21 +83,6 @@ impl fmt::Display for SceneErrors {
 }
 
 impl std::error::Error for SceneErrors {}
-
-/// Text of a file as part of a message: not too much of it, and no control characters.
-pub(super) fn clip(text: &str) -> String {
-    let mut shown = String::new();
-    for character in text.chars().take(MOST_QUOTED_CHARS) {
-        match character {
-            '"' | '\'' | '\\' => shown.push(character),
-            _ => shown.extend(character.escape_debug()),
-        }
-    }
-    if text.chars().nth(MOST_QUOTED_CHARS).is_some() {
-        shown.push('…');
-    }
-    shown
-}
 
 pub(super) fn position(text: &str, byte: usize) -> (usize, usize) {
     let before = &text[..text.floor_char_boundary(byte)];

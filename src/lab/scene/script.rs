@@ -1,9 +1,8 @@
 //! What is done in a scene, and what it is known to come to: `[[command]]` and `[[check]]`.
 
 use super::cause::Cause;
-use super::document::{
-    Cast, Described, SUBSTEPS, TOLERANCE, TOP, optional, read_tolerance, required,
-};
+use super::described::Described;
+use super::fields::{SUBSTEPS, TOLERANCE, TOP, optional, read_tolerance, required};
 use super::nearest::nearest;
 use super::table::{Field, Table};
 use super::{Check, LAST_TICK, MOST_NAME_CHARS, MOST_SUBSTEPS, MOST_TICK_HZ, Scripted};
@@ -26,6 +25,13 @@ const V: Field = required("v", "the velocities");
 const CHECKED_LANE: Field = required("lane", "the lane's number");
 const CHECKED_TICK: Field = required("tick", "the tick at which it is known");
 const HASH: Field = required("hash", "the lane's state then");
+
+/// What a script is about.
+pub(super) struct Cast<'d> {
+    /// By now each has a name.
+    pub(super) bodies: &'d [Described],
+    pub(super) lanes: usize,
+}
 
 /// Something that a `[[command]]` may do, by its key.
 struct Doable {

@@ -5,7 +5,8 @@ use std::ops::Range;
 use toml::de::Error;
 
 use super::cause::Cause;
-use super::errors::{SceneError, clip};
+use super::clip::clip;
+use super::errors::SceneError;
 
 const MISSING_COMMA: &str = "missing comma between array elements";
 

@@ -7,7 +7,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::LARGEST_COORDINATE as ESCAPE;
 use super::cause::{Cause, Place, Wanted};
-use super::errors::{SceneError, clip};
+use super::clip::clip;
+use super::errors::SceneError;
 use super::nearest::nearest;
 use crate::sim::bodies::{self, LARGEST, MOST_POINTS};
 use crate::sim::integrators::{METHODS, Method};

@@ -4,30 +4,25 @@
 //! arrow in its colour says so.
 
 use egui::{ComboBox, FontId, Label, RichText, Sense, Ui, Vec2, vec2};
-use egui_plot::{AxisHints, Plot, PlotBounds};
+use egui_plot::PlotBounds;
 
+use super::axes::{AxisText, MARKS_APART, axes, units};
 use super::tracks::{self, Look, Track};
 use super::{QUIET, advice, colour, ranges};
 use crate::lab::picture::palette;
 use crate::lab::{
     Command, Instrument, Lab, LaneBody, METRICS, Mode, Scale, TruthCurve, TruthSample,
 };
-use crate::view::plot::{CURVE, Curve, Dots, SwitchMark, X_AXIS, draw, plot};
-use crate::view::ticks::{self, NEVER_FADED};
+use crate::view::curves::{Curve, Dots};
+use crate::view::plot::{CURVE, SwitchMark, draw};
+use crate::view::ticks;
 
 /// A lane this many times further out than the truth no longer stretches the axes; and where it is alone,
 /// squeezes nothing but the truth, and is looked at for how it grows.
 const HEALTHY: f64 = 1.6;
 const HEALTHY_ALONE: f64 = 4.0;
-/// Room for the numbers of a vertical axis, in points: a plot that had to learn it would be laid out anew
-/// in its second frame, and the first would not match.
-const Y_AXIS: f32 = 58.0;
-/// Room for the name of a horizontal axis, in points.
-const AXIS_NAME: f32 = 17.0;
 /// Room for the half of a number under the right end of an axis, in points.
 const RIGHT: f32 = 14.0;
-/// The least distance between marks along and up, in points, as long as three fit.
-const MARKS_APART: [f64; 2] = [64.0, 28.0];
 /// Said where every error is zero, which has no logarithm.
 const NO_ERROR: &str = "No error: every method shown is on the exact curve to the last bit.";
 /// From this width on, in points, bodies and instruments are tabs.
@@ -134,16 +129,19 @@ fn white(lab: &Lab, since_s: f64, place: impl Fn(&TruthSample) -> [f64; 2]) -> C
         dash: [1.0, 0.0],
         dots: Dots::None,
         points: samples.map(place).collect(),
+        swept: Vec::new(),
     }
 }
 
 fn value(ui: &mut Ui, lab: &Lab, room: Vec2) {
-    let lanes = Track::of(lab, |s| [s.t, s.q]);
-    let y = ranges::around_truth(truth(lab).samples().map(|s| s.q), &lanes, 1, healthy(lab));
+    let lanes = Track::of_coordinate(lab);
+    let swept = || truth(lab).samples().map(|sample| sample.swept.ends());
+    let y = ranges::around_truth(swept().flatten(), &lanes, 1, healthy(lab));
     let bounds = over_time(lab, y);
     let look = Look { width: UNDER_TRUTH, dots: Dots::SparseAlongX, bounded: [false, true] };
     let mut drawing = tracks::drawing(lab, &lanes, &bounds, look);
-    drawing.truth = Some(white(lab, f64::NEG_INFINITY, |s| [s.t, s.q]));
+    let exact = white(lab, f64::NEG_INFINITY, |s| [s.t, s.q]);
+    drawing.truth = Some(Curve { swept: swept().collect(), ..exact });
     let unit = body(lab).coordinates[0].unit;
     draw(ui, axes("value", room, units(["s", unit])), bounds, &drawing);
 }
@@ -234,40 +232,6 @@ fn over_time(lab: &Lab, (low, high): (f64, f64)) -> PlotBounds {
     let span = lab.scene().seconds;
     let now = lab.race().t();
     PlotBounds::from_min_max([(now - span).max(0.0), low], [now.max(span), high])
-}
-
-/// What is written along an axis.
-struct AxisText<'a> {
-    /// Empty where the plot's title says it.
-    name: String,
-    /// After each number.
-    unit: &'a str,
-}
-
-fn units(units: [&str; 2]) -> [AxisText<'_>; 2] {
-    units.map(|unit| AxisText { name: String::new(), unit })
-}
-
-/// An empty plot with marked axes.
-fn axes<'a>(id: &'static str, room: Vec2, [along, up]: [AxisText<'a>; 2]) -> Plot<'a> {
-    let hints = |hints: AxisHints<'a>, name: String| {
-        let hints = hints.label_spacing(NEVER_FADED).label(quiet(name));
-        hints.tick_label_font(FontId::proportional(TAB_TEXT))
-    };
-    let below = if along.name.is_empty() { X_AXIS } else { X_AXIS + AXIS_NAME };
-    plot(id, room.y)
-        .width(room.x)
-        .custom_x_axes(vec![hints(AxisHints::new_x(), along.name).min_thickness(below)])
-        .custom_y_axes(vec![hints(AxisHints::new_y(), up.name).min_thickness(Y_AXIS)])
-        .x_grid_spacer(|input| ticks::linear(input, MARKS_APART[0]))
-        .y_grid_spacer(|mut input| {
-            // No number so low that it stands on the first one of the other axis.
-            let (low, high) = input.bounds;
-            input.bounds.0 = low + 0.04 * (high - low);
-            ticks::linear(input, MARKS_APART[1])
-        })
-        .x_axis_formatter(move |mark, view| ticks::linear_label(mark, view, along.unit))
-        .y_axis_formatter(move |mark, view| ticks::linear_label(mark, view, up.unit))
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use crate::lab::picture::palette;
 use crate::lab::{Command, Lab, Severity, Word};
 
 mod advice;
+mod axes;
 mod footer;
 mod help;
 mod instruments;

@@ -8,7 +8,8 @@ use egui_plot::PlotBounds;
 use super::colour;
 use crate::lab::picture::palette;
 use crate::lab::{Lab, Sample};
-use crate::view::plot::{Arrow, Curve, Dots, Drawing, Switch};
+use crate::view::curves::{Curve, Dots};
+use crate::view::plot::{Arrow, Drawing, Switch};
 
 /// A sample of a lane in a plot.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +18,8 @@ struct Point {
     /// The method that flew the lane there, by its place on the list.
     entry: usize,
     at: [f64; 2],
+    /// The least and the greatest height on the way there.
+    swept: [f64; 2],
 }
 
 /// The samples of one lane, oldest first.
@@ -30,8 +33,25 @@ const RETURNED: f64 = 0.1;
 impl Track {
     /// A track for each lane, of `place` of its samples; those that are not finite are left out.
     pub(super) fn of(lab: &Lab, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Self> {
+        Self::of_points(lab, |s| {
+            let at = place(s);
+            Point { t: s.t, entry: s.entry, at, swept: [at[1]; 2] }
+        })
+    }
+
+    /// A track for each lane, of its first coordinate over time, with all that it comes to between samples.
+    pub(super) fn of_coordinate(lab: &Lab) -> Vec<Self> {
+        Self::of_points(lab, |s| Point {
+            t: s.t,
+            entry: s.entry,
+            at: [s.t, s.q],
+            swept: s.swept.ends(),
+        })
+    }
+
+    fn of_points(lab: &Lab, point: impl Fn(&Sample) -> Point) -> Vec<Self> {
         let tracks = lab.plotted().map(|(_, history)| {
-            let points = history.samples().map(|s| Point { t: s.t, entry: s.entry, at: place(s) });
+            let points = history.samples().map(&point);
             Self(points.filter(|point| point.at.iter().all(|x| x.is_finite())).collect())
         });
         tracks.collect()
@@ -42,9 +62,10 @@ impl Track {
         self.0.drain(..self.0.len().saturating_sub(count));
     }
 
-    /// The values along an axis.
+    /// The values along an axis, with those between samples.
     pub(super) fn along(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
-        self.0.iter().map(move |point| point.at[axis])
+        let ends = move |point: &Point| if axis == 1 { point.swept } else { [point.at[axis]; 2] };
+        self.0.iter().flat_map(ends)
     }
 
     /// The times of the first and the last sample, in seconds.
@@ -84,7 +105,9 @@ fn add(drawing: &mut Drawing, lab: &Lab, points: &[Point], bounds: &PlotBounds, 
     }
     let within = |point: &Point| {
         let [low, high] = [bounds.min(), bounds.max()];
-        (0..2).all(|i| !look.bounded[i] || (low[i]..=high[i]).contains(&point.at[i]))
+        let values = [[point.at[0]; 2], point.swept];
+        let is_within = |i: usize| values[i].iter().all(|value| (low[i]..=high[i]).contains(value));
+        (0..2).all(|i| !look.bounded[i] || is_within(i))
     };
     let is_in_view = |point: &Point| look.bounded[0] || point.at[0] >= bounds.min()[0];
     let mut is_drawn = vec![false; points.len()];
@@ -103,6 +126,7 @@ fn add(drawing: &mut Drawing, lab: &Lab, points: &[Point], bounds: &PlotBounds, 
                 dash: palette::style(lab.entries()[newest.entry].method).1,
                 dots: look.dots,
                 points: run.iter().map(|point| point.at).collect(),
+                swept: run.iter().map(|point| point.swept).collect(),
             }
         }));
         if leaves && is_in_view(&points[last + 1]) {
@@ -234,7 +258,7 @@ mod tests {
         let points: Vec<Point> = (0..100)
             .map(|i| {
                 let y = if (20..30).contains(&i) || i == 35 { 9.0 } else { 0.0 };
-                Point { t: f64::from(i), entry: 0, at: [f64::from(i), y] }
+                Point { t: f64::from(i), entry: 0, at: [f64::from(i), y], swept: [y; 2] }
             })
             .collect();
         let found = stays(&points, |point| point.at[1] < 1.0, 10.0);

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
-use super::survey::TimedInput;
-use super::truth::BodyTruth;
+use super::BodyTruth;
+use crate::lab::analysis::survey::TimedInput;
 use crate::lab::lane::check;
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
@@ -16,36 +16,41 @@ const MOST_COURSE_PRODUCTS: u64 = 500_000_000;
 const MOST_KEPT: usize = 1 << 20;
 
 /// The courses that are kept, by their tick rate in Hz.
-pub(super) type Courses = Mutex<HashMap<u32, Arc<Course>>>;
+pub(in crate::lab::analysis) type Courses = Mutex<HashMap<u32, Arc<Course>>>;
 
 /// The truth at the ticks of one rate.
-pub(super) struct Course {
+pub(in crate::lab::analysis) struct Course {
     /// The components after each tick, tick after tick.
     values: Vec<f64>,
     components: usize,
     /// The most by which the truth may be off up to each tick, in amplitudes.
     gaps: Vec<f64>,
-    pub(super) failure: Option<StepFailure>,
+    pub(in crate::lab::analysis) failure: Option<StepFailure>,
     /// Whether it was not followed for the work that it would take.
-    pub(super) is_too_much: bool,
+    pub(in crate::lab::analysis) is_too_much: bool,
 }
 
 impl Course {
     /// The components after `tick` ticks, from 1; `None` where the truth is not known any more.
-    pub(super) fn at(&self, tick: u64) -> Option<&[f64]> {
+    pub(in crate::lab::analysis) fn at(&self, tick: u64) -> Option<&[f64]> {
         let from = (tick as usize - 1) * self.components;
         self.values.get(from..from + self.components)
     }
 
     /// The most by which the truth may be off up to `tick` ticks, in amplitudes.
-    pub(super) fn gap(&self, tick: u64) -> f64 {
+    pub(in crate::lab::analysis) fn gap(&self, tick: u64) -> f64 {
         self.gaps.get(tick as usize - 1).copied().unwrap_or(f64::INFINITY)
     }
 }
 
 impl BodyTruth {
     /// Gives `stepper`, which stands after `tick` ticks of this rate, the inputs that come then.
-    pub(super) fn give_inputs(&self, stepper: &mut dyn Stepper, tick: u64, tick_hz: u32) {
+    pub(in crate::lab::analysis) fn give_inputs(
+        &self,
+        stepper: &mut dyn Stepper,
+        tick: u64,
+        tick_hz: u32,
+    ) {
         let hz = f64::from(tick_hz);
         let due = |input: &&TimedInput| (input.t * hz - ON_TIME).ceil().max(0.0) as u64 == tick;
         for TimedInput { given, .. } in self.inputs.iter().filter(due) {
@@ -54,12 +59,12 @@ impl BodyTruth {
     }
 
     /// The most by which the truth may be off up to this moment, in amplitudes, as seen at the ticks of this rate.
-    pub(super) fn gap(&self, seconds: f64, tick_hz: u32) -> f64 {
+    pub(in crate::lab::analysis) fn gap(&self, seconds: f64, tick_hz: u32) -> f64 {
         self.course(tick_hz).gap(ticks(seconds, tick_hz).max(1))
     }
 
     /// The truth at the ticks of this rate, up to the horizon.
-    pub(super) fn course(&self, tick_hz: u32) -> Arc<Course> {
+    pub(in crate::lab::analysis) fn course(&self, tick_hz: u32) -> Arc<Course> {
         let kept = |courses: &HashMap<u32, Arc<Course>>| courses.get(&tick_hz).map(Arc::clone);
         if let Some(course) = kept(&self.courses.lock().expect("no thread panics with it")) {
             return course;
@@ -113,6 +118,6 @@ impl BodyTruth {
 const ON_TIME: f64 = 1e-6;
 
 /// Whole ticks of this rate in a stretch: none ends beyond it.
-pub(super) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
+pub(in crate::lab::analysis) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
     (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
 }

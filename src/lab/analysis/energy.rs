@@ -1,0 +1,79 @@
+//! The energy of a body that is followed: how far it drifts, and what its mean becomes.
+
+use super::truth::BodyTruth;
+use crate::sim::Stepper;
+
+/// A swing that loses more than this part of its amplitude over the second half of a long run is losing.
+const LOSING: f64 = 0.01;
+
+/// The energy of a body as it goes along, in units of the energy in motion, less that at the start.
+pub(super) struct Energy {
+    start: f64,
+    scale: Option<f64>,
+    /// The unit in percent of the energy that the motion exchanges.
+    pub(super) percent: Option<f64>,
+    /// Means over the quarters of the horizon.
+    pub(super) horizon: Means,
+    /// And of the long run.
+    pub(super) long: Means,
+}
+
+impl Energy {
+    /// That of `stepper` at its start, for a horizon and a long run that end at these ticks.
+    pub(super) fn of(stepper: &dyn Stepper, truth: &BodyTruth, horizon: u64, end: u64) -> Self {
+        let start = stepper.energy().unwrap_or(0.0);
+        Self {
+            start,
+            scale: truth.energy_scale,
+            percent: truth.energy_scale.zip(truth.exchanged_j).map(|(a, b)| 100.0 * a / b),
+            horizon: Means::over(horizon),
+            long: Means::over(end),
+        }
+    }
+
+    /// Whether the amplitude goes down in the long run.
+    pub(super) fn is_losing(&self) -> bool {
+        let [_, early, _, late] = self.long.means().map(|drift| (1.0 + drift).max(0.0).sqrt());
+        self.scale.is_some() && late < (1.0 - LOSING) * early
+    }
+
+    /// Takes in the state after `tick` ticks and returns its drift.
+    pub(super) fn take_in(&mut self, stepper: &dyn Stepper, tick: u64) -> Option<f64> {
+        let drift = (stepper.energy()? - self.start) / self.scale?;
+        if !drift.is_finite() {
+            return None;
+        }
+        self.horizon.take_in(tick, drift);
+        self.long.take_in(tick, drift);
+        Some(drift)
+    }
+}
+
+/// Means over the quarters of a stretch, weighted so that what swings inside a quarter does not count.
+pub(super) struct Means {
+    end: u64,
+    sums: [(f64, f64); 4],
+}
+
+impl Means {
+    fn over(end: u64) -> Self {
+        Self { end, sums: [(0.0, 0.0); 4] }
+    }
+
+    fn take_in(&mut self, tick: u64, value: f64) {
+        if tick > self.end {
+            return;
+        }
+        let place = 4.0 * (tick as f64 - 0.5) / self.end as f64;
+        let quarter = (place as usize).min(3);
+        let part = place - quarter as f64;
+        let weight = (part * (1.0 - part)).powi(2);
+        let (sum, weights) = &mut self.sums[quarter];
+        *sum += weight * value;
+        *weights += weight;
+    }
+
+    pub(super) fn means(&self) -> [f64; 4] {
+        self.sums.map(|(sum, weights)| if weights > 0.0 { sum / weights } else { f64::NAN })
+    }
+}

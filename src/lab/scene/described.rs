@@ -1,0 +1,97 @@
+//! The bodies of a scene file.
+
+use std::ops::Range as Span;
+
+use super::cause::Cause;
+use super::errors::position;
+use super::fields::{TOP, optional, required};
+use super::table::{Field, Table};
+use super::{MOST_BODIES, MOST_NAME_CHARS, SceneBody};
+use crate::sim::bodies::{BODIES, Kind, Parameter, Range};
+
+const NAME: Field = optional("name");
+
+/// A body as the file describes it, faults included.
+pub(super) struct Described {
+    pub(super) kind: &'static Kind,
+    pub(super) name: Option<String>,
+    /// The bytes of the name, or of the table's header where it has none.
+    name_at: Span<usize>,
+    pub(super) values: Option<Vec<f64>>,
+}
+
+/// The bodies in the order of the file.
+pub(super) fn read_bodies(top: &mut Table<'_>) -> Vec<Described> {
+    let of_kind = |kind: &'static Kind| top.rows(kind.id).into_iter().map(move |row| (kind, row));
+    let mut rows: Vec<_> = BODIES.iter().flat_map(of_kind).collect();
+    rows.sort_by_key(|(_, row)| row.header.start);
+    if let Some((_, row)) = rows.get(MOST_BODIES) {
+        let cause = Cause::TooManyBodies { found: rows.len(), most: MOST_BODIES };
+        top.complain(row.header.clone(), cause);
+    }
+    let mut bodies = Vec::new();
+    for (kind, mut row) in rows.into_iter().take(MOST_BODIES) {
+        let name = row.text(NAME, MOST_NAME_CHARS);
+        let name_at = row.span(NAME.key);
+        let values = read_values(kind, &mut row);
+        bodies.push(Described { kind, name, name_at, values });
+        top.adopt(row, &TOP);
+    }
+    bodies
+}
+
+fn read_values(kind: &Kind, row: &mut Table<'_>) -> Option<Vec<f64>> {
+    let read = |parameter: &Parameter| {
+        let Parameter { key, about, default, range, .. } = *parameter;
+        let field = if default.is_some() { optional(key) } else { required(key, about) };
+        let given = match range {
+            Range::Curve { .. } => row.curve(field, range).map(|points| points.concat()),
+            Range::Count(most) => row.whole(field, 1..=most).map(|count| vec![f64::from(count)]),
+            _ => row.number(field, range).map(|number| vec![number]),
+        };
+        given.or(default.map(|number| vec![number]))
+    };
+    // All are read before any is missed, so that every fault is found.
+    let values: Vec<_> = kind.parameters.iter().map(read).collect();
+    let values = values.into_iter().collect::<Option<Vec<_>>>()?.concat();
+    if let Err(fault) = (kind.check)(&values) {
+        row.complain(row.span(fault.key), Cause::Fault(fault));
+    }
+    Some(values)
+}
+
+/// Complains of names that several bodies have.
+pub(super) fn check_names(text: &str, bodies: &[Described], top: &mut Table<'_>) {
+    for (n, body) in bodies.iter().enumerate() {
+        let Some(name) = &body.name else { continue };
+        if let Some(first) = bodies[..n].iter().find(|earlier| earlier.name == body.name) {
+            let (line, _) = position(text, first.name_at.start);
+            let cause = Cause::DuplicateName { name: name.clone(), line };
+            top.complain(body.name_at.clone(), cause);
+        }
+    }
+}
+
+/// Names the nameless after their kind, numbered where the kind has several bodies.
+pub(super) fn name_the_nameless(bodies: &mut [Described]) {
+    let mut taken: Vec<String> = bodies.iter().filter_map(|body| body.name.clone()).collect();
+    let kinds: Vec<_> = bodies.iter().map(|body| body.kind.id).collect();
+    for Described { kind, name, .. } in bodies {
+        let is_alone = kinds.iter().filter(|id| **id == kind.id).count() == 1;
+        let name = name.get_or_insert_with(|| {
+            let plain = is_alone.then(|| kind.id.to_owned());
+            let numbered = (1..).map(|number| format!("{}-{number}", kind.id));
+            let free = plain.into_iter().chain(numbered).find(|name| !taken.contains(name));
+            free.expect("there is always a next number")
+        });
+        taken.push(name.clone());
+    }
+}
+
+/// The bodies that have all their parameters.
+pub(super) fn finish_bodies(bodies: Vec<Described>) -> Vec<SceneBody> {
+    let finish = |Described { kind, name, values, .. }| {
+        Some(SceneBody { name: name.expect("each has one by now"), kind, values: values? })
+    };
+    bodies.into_iter().filter_map(finish).collect()
+}
