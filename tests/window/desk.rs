@@ -104,13 +104,33 @@ impl Desk {
         self.xdotool("getwindowname WINDOW").trim_end().to_owned()
     }
 
-    /// Waits for the title to be this.
+    /// Waits for the title to be this, but for the tick that a paused window names: no test can know it.
     #[track_caller]
     pub(crate) fn titled(&self, expected: &str) {
+        let expected = without_tick(expected);
         let mut title = String::new();
         let start = Instant::now();
         while title != expected {
             assert!(start.elapsed() < PATIENCE, "\"{title}\" did not become \"{expected}\"");
+            std::thread::sleep(POLL);
+            title = without_tick(&self.title());
+        }
+    }
+
+    /// Waits for this title of a paused window, as [`Desk::titled`] does, and returns the tick that it names.
+    #[track_caller]
+    pub(crate) fn tick_of(&self, expected: &str) -> u64 {
+        self.titled(expected);
+        tick(&self.title()).expect("a paused window names its tick")
+    }
+
+    /// Waits for a paused window to show this tick.
+    #[track_caller]
+    pub(crate) fn at_tick(&self, expected: u64) {
+        let mut title = String::new();
+        let start = Instant::now();
+        while tick(&title) != Some(expected) {
+            assert!(start.elapsed() < PATIENCE, "\"{title}\" did not come to tick {expected}");
             std::thread::sleep(POLL);
             title = self.title();
         }
@@ -240,6 +260,19 @@ impl Desk {
     pub(crate) fn ends(mut self) {
         let status = until("the end", || self.program.ended());
         assert_eq!((status.code(), self.program.said().as_str()), (Some(0), ""));
+    }
+}
+
+/// The tick that the title of a paused window names.
+fn tick(title: &str) -> Option<u64> {
+    let (_, rest) = title.split_once(" (paused, tick ")?;
+    rest.strip_suffix(')')?.parse().ok()
+}
+
+fn without_tick(title: &str) -> String {
+    match title.split_once(" (paused, tick ") {
+        Some((before, _)) => format!("{before} (paused)"),
+        None => title.to_owned(),
     }
 }
 

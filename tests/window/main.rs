@@ -8,4 +8,5 @@ mod life;
 mod mouse;
 mod program;
 mod shape;
+mod time_travel;
 mod wayland;
