@@ -51,5 +51,5 @@ pub use scene::{
     SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, edited_values, nearest,
     parameter_named,
 };
-pub use session::{Event, EventKind, SNAPSHOT_BYTES, Session, Timeline};
+pub use session::{Event, EventKind, SNAPSHOT_BYTES, Session, TimeScale, Timeline};
 pub use viewer::Viewer;

@@ -7,8 +7,10 @@ use super::journal::Journal;
 use super::race::{Acted, Mode, Observer, Race};
 use super::scene::Scene;
 
+mod time_scale;
 mod timeline;
 
+pub use time_scale::TimeScale;
 pub use timeline::{Event, EventKind, SNAPSHOT_BYTES, Timeline};
 
 /// A scene being run. It knows no clock, no picture and nobody who looks at it.

@@ -1,6 +1,7 @@
 //! A display, the program on it, and a person at keyboard and mouse.
 
 use std::io::{self, BufRead, BufReader, Write};
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -127,13 +128,14 @@ impl Desk {
     /// Waits for a paused window to show this tick.
     #[track_caller]
     pub(crate) fn at_tick(&self, expected: u64) {
-        let mut title = String::new();
-        let start = Instant::now();
-        while tick(&title) != Some(expected) {
-            assert!(start.elapsed() < PATIENCE, "\"{title}\" did not come to tick {expected}");
-            std::thread::sleep(POLL);
-            title = self.title();
-        }
+        self.tick_within(expected..=expected);
+    }
+
+    /// Waits for a paused window to show one of these ticks, and returns it.
+    #[track_caller]
+    pub(crate) fn tick_within(&self, expected: RangeInclusive<u64>) -> u64 {
+        let what = format!("one of the ticks {expected:?}");
+        until(&what, || tick(&self.title()).filter(|tick| expected.contains(tick)))
     }
 
     /// Has the program take a screenshot. Returns the tick it shows, and what it shows.

@@ -52,3 +52,22 @@ fn control_z_brings_back_the_future_that_an_action_in_the_past_discarded() {
     desk.at_tick(tick);
     desk.quit();
 }
+
+#[test]
+fn a_drag_along_the_timeline_goes_to_the_tick_under_the_mouse() {
+    let test = "a_drag_along_the_timeline_goes_to_the_tick_under_the_mouse";
+    let Some((desk, tick)) = paused(test) else { return };
+    // Under the stage of a window of 1280 × 720 with five rows of lanes.
+    desk.xdotool("mousemove --window WINDOW 90 545 mousedown 1");
+    let near_the_start = desk.tick_within(0..=30);
+    desk.xdotool("mousemove --window WINDOW 140 545");
+    let later = desk.tick_within(near_the_start + 30..=119);
+    desk.xdotool("mousemove --window WINDOW 115 545");
+    desk.tick_within(near_the_start + 1..=later - 1);
+    desk.xdotool("mousemove --window WINDOW 1200 545");
+    desk.at_tick(tick);
+    desk.xdotool("mouseup 1");
+    desk.press("comma");
+    desk.at_tick(tick - 1);
+    desk.quit();
+}

@@ -12,6 +12,7 @@ mod help;
 mod instruments;
 mod lanes;
 mod ranges;
+mod timeline;
 mod top_bar;
 mod tracks;
 
@@ -30,6 +31,8 @@ const WIDTH_FOR_INSTRUMENTS: f32 = 420.0;
 const HEIGHT_FOR_TOP_BAR: f32 = 120.0;
 const HEIGHT_FOR_LANES: f32 = 260.0;
 const HEIGHT_FOR_FOOTER: f32 = 200.0;
+const HEIGHT_FOR_TIMELINE: f32 = 420.0;
+const HEIGHT_FOR_TIMES: f32 = 560.0;
 
 /// The part of the width that the instruments take.
 const INSTRUMENTS: f32 = 0.38;
@@ -50,6 +53,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
         let height = lanes::height(lab).min(size.y * 0.4);
         let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame(PANEL));
         panel.show(ui, |ui| lanes::show(ui, lab, &mut commands));
+    }
+    if size.y >= HEIGHT_FOR_TIMELINE {
+        let height = match size.y >= HEIGHT_FOR_TIMES {
+            true => timeline::HEIGHT,
+            false => timeline::HEIGHT_OF_TRACK,
+        };
+        let frame = frame(PANEL).inner_margin(Margin::symmetric(8, 1));
+        let panel = egui::Panel::bottom("timeline").exact_size(height).frame(frame);
+        panel.show(ui, |ui| timeline::show(ui, lab, &mut commands));
     }
     if size.x >= WIDTH_FOR_INSTRUMENTS {
         let width = size.x * INSTRUMENTS;
