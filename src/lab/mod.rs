@@ -28,6 +28,7 @@ mod session;
 mod start;
 mod viewer;
 
+pub use crate::sim::bodies::{Acts, Parameter, Range};
 pub use crate::sim::stability::Stability;
 pub use action::Action;
 pub use analysis::{
