@@ -51,8 +51,9 @@ fn every_key_of_the_table_does_what_the_table_says() {
         }
     }
     // Three keys opened, closed and opened the help.
-    assert!(lab.display().help);
+    assert!(lab.display().help && lab.display().inspector);
     assert!(!lab.running());
+    desk.press_and_see("Escape");
     desk.press_and_see("Escape");
     desk.press("space");
     lab.apply(Command::TogglePause);

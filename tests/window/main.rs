@@ -3,6 +3,7 @@
 #![cfg(all(feature = "desktop", target_os = "linux"))]
 
 mod desk;
+mod inspector;
 mod keys;
 mod life;
 mod mouse;
