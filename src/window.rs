@@ -25,7 +25,7 @@ mod screenshot;
 mod thinking;
 
 use canvas::{Canvas, Drawn};
-use keys::Held;
+use keys::{Focus, Held};
 use pace::Meter;
 use thinking::ThinkingThread;
 
@@ -272,13 +272,13 @@ impl App {
         event_loop.exit();
     }
 
-    fn key(&mut self, event: &KeyEvent, widget_has_focus: bool, menu_is_open: bool) {
+    fn key(&mut self, event: &KeyEvent, focus: Focus, menu_is_open: bool) {
         if event.state != ElementState::Pressed {
             return;
         }
         let Some(key) = keys::key(event, self.held) else { return };
-        // A widget with the focus is worked by these, and Escape closes a menu; all other keys stay ours.
-        if widget_has_focus && keys::works_widgets(key) || menu_is_open && key == Key::Escape {
+        // Escape closes a menu.
+        if focus.takes(key) || menu_is_open && key == Key::Escape {
             return;
         }
         if let Some((command, binding)) = command_for(key)
@@ -360,8 +360,10 @@ impl ApplicationHandler<Event> for App {
                 return self.end(event_loop, Ok(()));
             }
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => {
-                let menu_is_open = egui::Popup::is_any_open(canvas.egui.egui_ctx());
-                self.key(event, response.consumed, menu_is_open);
+                let context = canvas.egui.egui_ctx();
+                let menu_is_open = egui::Popup::is_any_open(context);
+                let focus = Focus::of(response.consumed, context.text_edit_focused());
+                self.key(event, focus, menu_is_open);
             }
             WindowEvent::ModifiersChanged(modifiers) => {
                 self.held = modifiers.state().into();

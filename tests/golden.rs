@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
-use regatta::lab::{Command, Lab, SCENES, Scene};
+use regatta::lab::{Action, Command, Lab, SCENES, Scene};
 use regatta::view::{AdapterPreference, Artist, Gpu, Panels};
 
 const SIZE_PX: [u32; 2] = [480, 270];
@@ -82,45 +82,66 @@ fn the_comparison_sees_one_pixel_and_one_level() {
     assert_eq!(difference(&black, &other), (200, 2));
 }
 
+/// What an artist for pictures of `size_px` makes of a lab.
+fn drawn(artist: &mut Artist, size_px: [u32; 2], lab: &Lab) -> RgbaImage {
+    let mut rgba = Vec::new();
+    artist.draw(lab, &mut rgba).unwrap();
+    RgbaImage::from_raw(size_px[0], size_px[1], rgba).unwrap()
+}
+
+/// What is wrong with a picture beside the golden one of this name, or of that one; with `BLESS=1` it becomes that one.
+fn wrong(name: &str, drawn: &RgbaImage) -> Option<String> {
+    let path = PathBuf::from("tests/golden").join(name);
+    if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
+        write_small(drawn, &path);
+    }
+    let golden = match image::open(&path) {
+        Ok(golden) => golden.into_rgba8(),
+        Err(error) => return Some(format!("{name}: {error}; BLESS=1 writes it")),
+    };
+    let bytes = std::fs::metadata(&path).unwrap().len() as usize;
+    let (most, off) = difference(&golden, drawn);
+    let allowed = (PIXELS_OFF * f64::from(drawn.width() * drawn.height())) as usize;
+    if most <= LARGEST_DIFFERENCE && off <= allowed && bytes <= LARGEST_FILE {
+        return None;
+    }
+    let kept = std::env::temp_dir().join(format!("regatta-{name}"));
+    write_small(drawn, &kept);
+    Some(format!(
+        "{name}: {off} pixels off by more than 1, the worst by {most}, {bytes} bytes; drawn now: {}",
+        kept.display()
+    ))
+}
+
 #[test]
 fn every_scene_looks_as_it_did_solo_and_racing() {
     let Some(gpu) = gpu_or_skip("every_scene_looks_as_it_did_solo_and_racing") else { return };
     let mut artist = Artist::new(gpu, SIZE_PX, SCALE).unwrap();
-    let bless = std::env::var_os("BLESS").is_some_and(|value| value == "1");
-    let mut wrong = Vec::new();
+    let mut all_wrong = Vec::new();
     for scene in SCENES {
         for (mode, race) in [("solo", false), ("race", true)] {
             let name = format!("{}-{mode}.png", scene.name);
-            let path = PathBuf::from("tests/golden").join(&name);
-            let mut rgba = Vec::new();
-            artist.draw(&sailed(scene.name, race, |_| ()), &mut rgba).unwrap();
-            let drawn = RgbaImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgba).unwrap();
-            if bless {
-                write_small(&drawn, &path);
-                continue;
-            }
-            let golden = match image::open(&path) {
-                Ok(golden) => golden.into_rgba8(),
-                Err(error) => {
-                    wrong.push(format!("{name}: {error}; BLESS=1 writes it"));
-                    continue;
-                }
-            };
-            let bytes = std::fs::metadata(&path).unwrap().len() as usize;
-            let (most, off) = difference(&golden, &drawn);
-            let allowed = (PIXELS_OFF * f64::from(SIZE_PX[0] * SIZE_PX[1])) as usize;
-            if most > LARGEST_DIFFERENCE || off > allowed || bytes > LARGEST_FILE {
-                let kept = std::env::temp_dir().join(format!("regatta-{name}"));
-                write_small(&drawn, &kept);
-                wrong.push(format!(
-                    "{name}: {off} pixels off by more than 1, the worst by {most}, {bytes} bytes; \
-                     drawn now: {}",
-                    kept.display()
-                ));
-            }
+            let drawn = drawn(&mut artist, SIZE_PX, &sailed(scene.name, race, |_| ()));
+            all_wrong.extend(wrong(&name, &drawn));
         }
     }
-    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+    assert!(all_wrong.is_empty(), "\n{}", all_wrong.join("\n"));
+}
+
+#[test]
+fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
+    let test = "the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did";
+    let Some(gpu) = gpu_or_skip(test) else { return };
+    // 1280 × 720 points.
+    let size_px = [640, 360];
+    let mut lab = sailed("spring", false, |_| ());
+    lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
+    lab.apply(Command::SecondForward);
+    lab.apply(Command::Seek(FRAMES - 20));
+    lab.apply(Command::ToggleInspector);
+    lab.think();
+    let drawn = drawn(&mut Artist::new(gpu, size_px, 0.5).unwrap(), size_px, &lab);
+    assert_eq!(wrong("spring-inspector.png", &drawn), None);
 }
 
 #[test]

@@ -88,6 +88,11 @@ pub enum Command {
     Body(usize),
     /// Opens or closes the help overlay.
     ToggleHelp,
+    /// Opens or closes the inspector.
+    ToggleInspector,
+    /// Sets how long the scene is, in seconds, within
+    /// [`LEAST_SECONDS`](super::LEAST_SECONDS) and [`MOST_SECONDS`](super::MOST_SECONDS): plots and verdicts cover it.
+    Seconds(f64),
     /// Saves what the window shows to a file.
     Screenshot,
     /// Saves the run to a file, as a scene.
@@ -96,7 +101,7 @@ pub enum Command {
     ToggleEqualCost,
     /// Enters or leaves full screen.
     ToggleFullScreen,
-    /// Closes the overlay, else quits.
+    /// Closes the overlay, else the inspector, else quits.
     Escape,
 }
 
@@ -271,6 +276,12 @@ pub static KEYS: &[Binding] = &[
         repeats: false,
     },
     Binding {
+        shown: "E",
+        about: "inspector: parameters, methods and rates, edited while it runs",
+        keys: &[(Key::Sign('e'), Command::ToggleInspector)],
+        repeats: false,
+    },
+    Binding {
         shown: "P, F12",
         about: "screenshot; the file's name is shown",
         keys: &[(Key::Sign('p'), Command::Screenshot), (Key::Function(12), Command::Screenshot)],
@@ -306,7 +317,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Esc",
-        about: "close the overlay, else quit",
+        about: "close the overlay, else the inspector, else quit",
         keys: &[(Key::Escape, Command::Escape)],
         repeats: false,
     },

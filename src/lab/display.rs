@@ -64,6 +64,8 @@ pub struct Display {
     pub body: usize,
     /// Whether the help overlay is open.
     pub help: bool,
+    /// Whether the inspector is open.
+    pub inspector: bool,
     /// Whether trails fade and the camera follows smoothly.
     pub motion: bool,
 }

@@ -47,14 +47,24 @@ impl Journal {
         &self.rows
     }
 
-    /// Adds what a person does at `tick`, where `done` rows are done. What the person did later is taken back, and so
-    /// is what the script has to come for the same control, which is returned.
-    pub(super) fn insert(&mut self, done: usize, tick: u64, action: Action) -> Option<Control> {
+    /// Adds what a person does at `tick`, where `done` rows are done, and returns how many are done with it. What the
+    /// person did later is taken back, and so is what the script has to come for the same control, which is returned.
+    pub(super) fn insert(
+        &mut self,
+        done: usize,
+        tick: u64,
+        action: Action,
+    ) -> (usize, Option<Control>) {
         let control = action.control();
         let rows = Arc::make_mut(&mut self.rows);
         let mut released = None;
         let later = rows.split_off(done);
-        rows.push(JournalRow { tick, action, source: Source::Hand });
+        let row = JournalRow { tick, action, source: Source::Hand };
+        if is_passed_over(rows, &row) {
+            rows.pop();
+        }
+        rows.push(row);
+        let done = rows.len();
         for row in later {
             let of_script = row.source == Source::Script;
             let is_taken = control.is_some() && row.action.control() == control;
@@ -64,7 +74,7 @@ impl Journal {
                 (false, _) => {}
             }
         }
-        released
+        (done, released)
     }
 
     /// Whether the script works this control after the first `done` rows.
@@ -73,5 +83,24 @@ impl Journal {
             row.source == Source::Script && control.is_some() && row.action.control() == control
         };
         self.rows[done..].iter().any(works)
+    }
+}
+
+/// Whether the last of `done` is one of the many values that a parameter has while a person drags it at one tick, so
+/// that `next` can take its place. A change to the value that is there already would make no method begin again, so
+/// that one real change has to stay before it.
+fn is_passed_over(done: &[JournalRow], next: &JournalRow) -> bool {
+    let control = next.action.control();
+    let is_alike = |row: &&JournalRow| {
+        row.tick == next.tick && row.source == next.source && row.action.control() == control
+    };
+    if !matches!(control, Some(Control::Parameter { .. })) {
+        return false;
+    }
+    let alike: Vec<&JournalRow> = done.iter().rev().take(3).take_while(is_alike).collect();
+    match alike[..] {
+        [_, before] => before.action != next.action,
+        [_, before, first] => first.action != before.action || before.action != next.action,
+        _ => false,
     }
 }

@@ -10,7 +10,7 @@ use super::journal::{JournalRow, Source};
 use super::lane_spec::LaneSpec;
 use super::notices::Notices;
 use super::past::{History, Past};
-use super::race::{Mode, Race};
+use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
 use super::session::{RecordingTooLong, Timeline};
 use super::start::Start;
@@ -33,19 +33,24 @@ impl Lab {
     /// under the first of its lanes.
     pub fn new(scene: Scene) -> Self {
         let start = Start::of(scene);
+        let timeline = Timeline::new(start.session());
         Self {
-            timeline: Timeline::new(start.session()),
             clock: Clock::new(start.tick_hz),
             running: true,
             dropped: 0,
-            viewer: Viewer::new(start.entry),
+            viewer: Viewer::new(timeline.session().lanes().entrants()[0].lane_number),
+            timeline,
             start,
         }
     }
 
-    /// The scene that is open, with the parameters that a person has set.
+    /// The scene that is open, with the parameters and the length that a person has set.
     pub fn scene(&self) -> &Scene {
         &self.start.scene
+    }
+    /// The scene as it was opened.
+    pub fn scene_as_opened(&self) -> &Scene {
+        &self.start.opened
     }
     /// The run, its past and its future.
     pub fn timeline(&self) -> &Timeline {
@@ -69,10 +74,12 @@ impl Lab {
     }
     /// The method flown in solo, the lane selected in a race, by its place on the list.
     pub fn active(&self) -> usize {
-        match self.mode() {
-            Mode::Solo => self.race().entrants()[0].entry,
-            Mode::Race => self.viewer.selected,
-        }
+        self.selected().entry
+    }
+    /// The lane flown in solo, the lane selected in a race.
+    pub fn selected(&self) -> &Entrant {
+        let lanes = self.race().entrants();
+        lanes.iter().find(|lane| lane.lane_number == self.viewer.selected).unwrap_or(&lanes[0])
     }
     /// The clock.
     pub fn clock(&self) -> &Clock {
@@ -255,7 +262,7 @@ impl Lab {
             let Action::Method(method) = row.action else { continue };
             let lane = race.entrants().iter().find(|e| race.list()[e.entry].method == method);
             if let Some(lane) = lane {
-                self.viewer.selected = lane.entry;
+                self.viewer.selected = lane.lane_number;
             }
         }
     }

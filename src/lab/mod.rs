@@ -28,6 +28,7 @@ mod session;
 mod start;
 mod viewer;
 
+pub use crate::sim::bodies::{Acts, Parameter, Range};
 pub use action::Action;
 pub use analysis::{
     Advice, Advised, Adviser, CRITERIA, Criterion, Fate, Findings, Judge, LONG_RUN,
@@ -51,5 +52,7 @@ pub use scene::{
     SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, edited_values, nearest,
     parameter_named,
 };
-pub use session::{Event, EventKind, RecordingTooLong, SNAPSHOT_BYTES, Session, Timeline};
+pub use session::{
+    Event, EventKind, RecordingTooLong, SNAPSHOT_BYTES, Session, TimeScale, Timeline,
+};
 pub use viewer::Viewer;

@@ -8,9 +8,11 @@ use super::race::{Acted, Mode, Observer, Race};
 use super::scene::Scene;
 
 mod recording;
+mod time_scale;
 mod timeline;
 
 pub use recording::RecordingTooLong;
+pub use time_scale::TimeScale;
 pub use timeline::{Event, EventKind, SNAPSHOT_BYTES, Timeline};
 
 /// A scene being run. It knows no clock, no picture and nobody who looks at it.

@@ -6,13 +6,15 @@ use super::action::Action;
 use super::equal_cost;
 use super::lane_spec::LaneSpec;
 use super::race::{Mode, Race};
-use super::scene::Scene;
+use super::scene::{LEAST_SECONDS, MOST_SECONDS, Scene};
 use super::session::Session;
 
 /// What a restart begins with: what a person chose stays, what a script did is not in it.
 #[derive(Clone, Debug)]
 pub(super) struct Start {
-    /// With the parameters that the person has set.
+    /// The scene as it was opened.
+    pub(super) opened: Arc<Scene>,
+    /// The same with the parameters and the length that the person has set.
     pub(super) scene: Arc<Scene>,
     /// The methods, with the substeps and tolerances that the person has given them.
     pub(super) list: Vec<LaneSpec>,
@@ -29,12 +31,14 @@ impl Start {
             Scene { lanes: equal_cost::lanes_that_race(&scene), equal_cost: false, ..scene };
         let opens_with = |spec: &LaneSpec| Some(spec.method) == scene.opening_method;
         let entry = scene.lanes.iter().position(opens_with).unwrap_or(0);
+        let scene = Arc::new(scene);
         Self {
+            opened: Arc::clone(&scene),
             list: scene.method_list(),
             mode: Mode::Solo,
             entry,
             tick_hz: scene.tick_hz,
-            scene: Arc::new(scene),
+            scene,
         }
     }
 
@@ -49,6 +53,13 @@ impl Start {
             }
         };
         Session::new(Arc::clone(&self.scene), race.at_rate(self.tick_hz))
+    }
+
+    /// Makes the scene this long, in seconds, if a scene can be.
+    pub(super) fn set_seconds(&mut self, seconds: f64) {
+        if (LEAST_SECONDS..=MOST_SECONDS).contains(&seconds) && seconds != self.scene.seconds {
+            Arc::make_mut(&mut self.scene).seconds = seconds;
+        }
     }
 
     /// Takes notice of what a person did in `race`: it holds after a restart too.

@@ -9,7 +9,7 @@ use super::lane_spec::LaneSpec;
 pub struct Viewer {
     /// What is shown, and how.
     pub display: Display,
-    /// The lane selected in a race, by its method's place on the list.
+    /// The number of the lane selected in a race: it stays selected, whatever method it is put under.
     pub(super) selected: usize,
     /// How fast the driver goes while time runs; `None` where there is no real time, as in a capture.
     pub pace: Option<Pace>,
@@ -21,7 +21,7 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// A viewer who has selected this lane.
+    /// A viewer who has selected the lane of this number.
     pub(super) fn new(selected: usize) -> Self {
         Self {
             display: Display {
@@ -30,6 +30,7 @@ impl Viewer {
                 instrument: Instrument::Metric(0),
                 body: 0,
                 help: false,
+                inspector: false,
                 motion: true,
             },
             selected,

@@ -10,7 +10,7 @@ use crate::lab::number::superscript;
 
 /// What `egui_plot` takes for the least distance between two grid lines, in points: a [`GridInput`] is
 /// counted in it.
-const FINEST: f64 = 8.0;
+pub(super) const FINEST: f64 = 8.0;
 /// The fewest marks of an axis: with two, nothing says whether it is linear.
 const FEWEST: i64 = 3;
 /// Marks are placed so that their numbers fit: `egui_plot` is not to fade them.

@@ -30,8 +30,38 @@ pub(super) fn key(event: &KeyEvent, held: Held) -> Option<Key> {
     from_parts(event.physical_key, &event.logical_key, held)
 }
 
+/// What has the keyboard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Focus {
+    /// No widget: every key is ours.
+    Nothing,
+    /// A widget that is worked by some keys.
+    Widget,
+    /// A field that is typed in.
+    Text,
+}
+
+impl Focus {
+    pub(super) fn of(widget_has_focus: bool, text_is_typed: bool) -> Self {
+        match (widget_has_focus, text_is_typed) {
+            (_, true) => Focus::Text,
+            (true, false) => Focus::Widget,
+            (false, false) => Focus::Nothing,
+        }
+    }
+
+    /// Whether a key is for what has the keyboard, and not for us.
+    pub(super) fn takes(self, key: Key) -> bool {
+        match self {
+            Focus::Nothing => false,
+            Focus::Widget => works_widgets(key),
+            Focus::Text => !matches!(key, Key::Function(_)),
+        }
+    }
+}
+
 /// Whether a widget with the focus is worked by this key.
-pub(super) fn works_widgets(key: Key) -> bool {
+fn works_widgets(key: Key) -> bool {
     matches!(
         key,
         Key::Space | Key::Up | Key::Down | Key::Left | Key::Right | Key::Home | Key::Escape

@@ -1,6 +1,7 @@
 //! A display, the program on it, and a person at keyboard and mouse.
 
 use std::io::{self, BufRead, BufReader, Write};
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -104,16 +105,37 @@ impl Desk {
         self.xdotool("getwindowname WINDOW").trim_end().to_owned()
     }
 
-    /// Waits for the title to be this.
+    /// Waits for the title to be this, but for the tick that a paused window names: no test can know it.
     #[track_caller]
     pub(crate) fn titled(&self, expected: &str) {
+        let expected = without_tick(expected);
         let mut title = String::new();
         let start = Instant::now();
         while title != expected {
             assert!(start.elapsed() < PATIENCE, "\"{title}\" did not become \"{expected}\"");
             std::thread::sleep(POLL);
-            title = self.title();
+            title = without_tick(&self.title());
         }
+    }
+
+    /// Waits for this title of a paused window, as [`Desk::titled`] does, and returns the tick that it names.
+    #[track_caller]
+    pub(crate) fn tick_of(&self, expected: &str) -> u64 {
+        self.titled(expected);
+        tick(&self.title()).expect("a paused window names its tick")
+    }
+
+    /// Waits for a paused window to show this tick.
+    #[track_caller]
+    pub(crate) fn at_tick(&self, expected: u64) {
+        self.tick_within(expected..=expected);
+    }
+
+    /// Waits for a paused window to show one of these ticks, and returns it.
+    #[track_caller]
+    pub(crate) fn tick_within(&self, expected: RangeInclusive<u64>) -> u64 {
+        let what = format!("one of the ticks {expected:?}");
+        until(&what, || tick(&self.title()).filter(|tick| expected.contains(tick)))
     }
 
     /// Has the program take a screenshot. Returns the tick it shows, and what it shows.
@@ -240,6 +262,19 @@ impl Desk {
     pub(crate) fn ends(mut self) {
         let status = until("the end", || self.program.ended());
         assert_eq!((status.code(), self.program.said().as_str()), (Some(0), ""));
+    }
+}
+
+/// The tick that the title of a paused window names.
+fn tick(title: &str) -> Option<u64> {
+    let (_, rest) = title.split_once(" (paused, tick ")?;
+    rest.strip_suffix(')')?.parse().ok()
+}
+
+fn without_tick(title: &str) -> String {
+    match title.split_once(" (paused, tick ") {
+        Some((before, _)) => format!("{before} (paused)"),
+        None => title.to_owned(),
     }
 }
 

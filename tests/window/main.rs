@@ -3,9 +3,11 @@
 #![cfg(all(feature = "desktop", target_os = "linux"))]
 
 mod desk;
+mod inspector;
 mod keys;
 mod life;
 mod mouse;
 mod program;
 mod shape;
+mod time_travel;
 mod wayland;

@@ -55,9 +55,7 @@ impl Lab {
                     self.restart();
                 }
                 Mode::Race => {
-                    let selected = self.viewer.selected;
-                    let lane = race.entrants().iter().find(|e| e.entry == selected);
-                    let lane = lane.expect("the selected lane is in the race").lane_number;
+                    let lane = self.selected().lane_number;
                     self.start.mode = Mode::Solo;
                     self.act(Action::Solo { lane });
                     // It may be of a lane that is no more.
@@ -86,7 +84,14 @@ impl Lab {
                 self.viewer.display.body = body.min(self.scene().bodies.len() - 1);
             }
             Command::ToggleHelp => self.viewer.display.help = !self.viewer.display.help,
+            Command::ToggleInspector => {
+                self.viewer.display.inspector = !self.viewer.display.inspector;
+            }
+            Command::Seconds(seconds) => self.start.set_seconds(seconds),
             Command::Escape if self.viewer.display.help => self.viewer.display.help = false,
+            Command::Escape if self.viewer.display.inspector => {
+                self.viewer.display.inspector = false;
+            }
             Command::Escape => return Some(Ask::Quit),
             Command::Screenshot => return Some(Ask::Screenshot),
             Command::Record => return Some(Ask::Record),
@@ -114,22 +119,22 @@ impl Lab {
         self.tell((!told.is_empty()).then(|| told.join("; ")));
     }
 
-    /// Whether there is something to pick at this place of the list: in a race, a lane.
-    fn can_pick(&self, entry: usize) -> bool {
-        match self.mode() {
-            Mode::Solo => entry < self.entries().len(),
-            Mode::Race => self.race().entrants().iter().any(|entrant| entrant.entry == entry),
-        }
+    /// The number of the lane that is picked at this place of the list: in solo, of the only one.
+    fn picked(&self, entry: usize) -> Option<usize> {
+        let lanes = self.race().entrants();
+        let picked = match self.mode() {
+            Mode::Solo => lanes.first().filter(|_| entry < self.entries().len()),
+            Mode::Race => lanes.iter().find(|lane| lane.entry == entry),
+        };
+        picked.map(|lane| lane.lane_number)
     }
 
     fn pick(&mut self, entry: usize) {
-        if !self.can_pick(entry) {
-            return;
-        }
-        self.viewer.selected = entry;
+        let Some(lane) = self.picked(entry) else { return };
+        self.viewer.selected = lane;
         self.start.entry = entry;
         if self.mode() == Mode::Solo {
-            let (lane, spec) = (self.race().entrants()[0].lane_number, self.entries()[entry]);
+            let spec = self.entries()[entry];
             self.act(Action::Lane { lane, spec });
         }
     }
@@ -164,7 +169,7 @@ impl Lab {
     fn pick_beside(&mut self, step: isize) {
         let (active, count) = (self.active() as isize, self.entries().len() as isize);
         let mut around = (1..=count).map(|i| (active + i * step).rem_euclid(count) as usize);
-        if let Some(entry) = around.find(|&entry| self.can_pick(entry)) {
+        if let Some(entry) = around.find(|&entry| self.picked(entry).is_some()) {
             self.pick(entry);
         }
     }
@@ -228,7 +233,7 @@ impl Lab {
 
     pub(super) fn restart(&mut self) {
         self.timeline = Timeline::new(self.start.session());
-        self.viewer.selected = self.start.entry;
+        self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
         self.viewer.notice = None;
         self.clock.set_tick_hz(self.start.tick_hz);
         self.clock.restart();

@@ -39,8 +39,8 @@ impl Race {
         if !self.changes(&action) && !self.journal.script_works(control, self.done) {
             return Acted::Nothing;
         }
-        let released = self.journal.insert(self.done, self.tick, action.clone());
-        self.done += 1;
+        let (done, released) = self.journal.insert(self.done, self.tick, action.clone());
+        self.done = done;
         self.perform(&action, observer);
         Acted::Done { released }
     }

@@ -1,6 +1,6 @@
 //! A session with its past and its future: any tick that it reached can be gone to, and is to the bit what it was.
 
-use super::Session;
+use super::{Session, TimeScale};
 use crate::lab::action::Action;
 use crate::lab::journal::{Journal, Source};
 use crate::lab::past::{Past, PastMark};
@@ -99,6 +99,14 @@ impl Timeline {
     /// The session at the present tick.
     pub fn session(&self) -> &Session {
         &self.session
+    }
+    /// The race as it stood at tick 0, before anything was done; without its journal.
+    pub fn start(&self) -> &Race {
+        &self.snapshots[0].race
+    }
+    /// The time of every tick, by what was done and what the script has to come.
+    pub fn times(&self) -> TimeScale {
+        TimeScale::new(self.start().tick_hz(), self.session.journal().rows())
     }
     /// What is remembered of it.
     pub fn past(&self) -> &Past {

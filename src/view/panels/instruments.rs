@@ -304,14 +304,15 @@ mod tests {
             |wanted: &str| texts.iter().find(|(_, text)| text == wanted).map(|(rect, _)| *rect);
         let tabs = place(Instrument::Advice.name()).expect("the last tab");
         let title = texts.iter().find(|(_, text)| text.contains(" in white")).expect("a title").0;
-        let lanes = place("key").expect("the head of the lane list");
+        let timeline = place("Timeline").expect("the timeline's name");
         let left = (1.0 - panels::INSTRUMENTS) * SIZE.x;
         let room = |top: Rect, bottom: Rect| {
             Rect::from_min_max(pos2(left, top.max.y), pos2(SIZE.x, bottom.min.y))
         };
         let coordinate = &body(lab).coordinates[0];
         assert_marked(&texts, room(title, tabs), ["s", coordinate.unit], what);
-        let lower = room(tabs, lanes);
+        // The name stands beside the track, and the panel begins above both.
+        let lower = room(tabs, timeline.translate(vec2(0.0, -8.0)));
         let within = |text: &str| {
             let mut here = texts.iter().filter(|(rect, _)| lower.contains(rect.center()));
             here.any(|(_, shown)| shown == text)

@@ -10,9 +10,11 @@ mod advice;
 mod axes;
 mod footer;
 mod help;
+mod inspector;
 mod instruments;
 mod lanes;
 mod ranges;
+mod timeline;
 mod top_bar;
 mod tracks;
 
@@ -31,9 +33,15 @@ const WIDTH_FOR_INSTRUMENTS: f32 = 420.0;
 const HEIGHT_FOR_TOP_BAR: f32 = 120.0;
 const HEIGHT_FOR_LANES: f32 = 260.0;
 const HEIGHT_FOR_FOOTER: f32 = 200.0;
+const HEIGHT_FOR_TIMELINE: f32 = 420.0;
+const HEIGHT_FOR_TIMES: f32 = 560.0;
 
 /// The part of the width that the instruments take.
 const INSTRUMENTS: f32 = 0.38;
+
+/// The part of their height that the inspector takes, and the height in points from which on it leaves them some.
+const INSPECTOR: f32 = 0.62;
+const HEIGHT_FOR_INSPECTOR_BELOW: f32 = 330.0;
 
 /// Shows all panels. Returns what was asked for and the rectangle left for the stage, in points.
 pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
@@ -52,10 +60,19 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
         let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame(PANEL));
         panel.show(ui, |ui| lanes::show(ui, lab, &mut commands));
     }
+    if size.y >= HEIGHT_FOR_TIMELINE {
+        let height = match size.y >= HEIGHT_FOR_TIMES {
+            true => timeline::HEIGHT,
+            false => timeline::HEIGHT_OF_TRACK,
+        };
+        let frame = frame(PANEL).inner_margin(Margin::symmetric(8, 1));
+        let panel = egui::Panel::bottom("timeline").exact_size(height).frame(frame);
+        panel.show(ui, |ui| timeline::show(ui, lab, &mut commands));
+    }
     if size.x >= WIDTH_FOR_INSTRUMENTS {
         let width = size.x * INSTRUMENTS;
         let panel = egui::Panel::right("instruments").exact_size(width).frame(frame(BACKDROP));
-        panel.show(ui, |ui| instruments::show(ui, lab, &mut commands));
+        panel.show(ui, |ui| beside_the_stage(ui, lab, &mut commands));
     }
     let stage = ui.available_rect_before_wrap();
     if lab.display().help {
@@ -64,9 +81,26 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
     (commands, stage)
 }
 
+/// The instruments; with the inspector open they keep the upper part, where there is room for both.
+fn beside_the_stage(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let height = ui.available_height();
+    if !lab.display().inspector {
+        instruments::show(ui, lab, commands);
+    } else if height < HEIGHT_FOR_INSPECTOR_BELOW {
+        inspector::show(ui, lab, commands);
+    } else {
+        let panel = egui::Panel::bottom("inspector").exact_size(height * INSPECTOR);
+        let frame = Frame::new().inner_margin(Margin { top: 6, ..Margin::ZERO });
+        panel.frame(frame).show(ui, |ui| inspector::show(ui, lab, commands));
+        instruments::show(ui, lab, commands);
+    }
+}
+
 pub(super) const BACKDROP: Color32 = Color32::from_rgb(8, 14, 23);
 const PANEL: Color32 = Color32::from_rgb(16, 26, 40);
 const RAISED: Color32 = Color32::from_rgb(29, 44, 65);
+const HOVERED: Color32 = Color32::from_rgb(38, 58, 85);
+const PRESSED: Color32 = Color32::from_rgb(46, 74, 108);
 pub(super) const TEXT: Color32 = Color32::from_rgb(206, 218, 232);
 pub(super) const QUIET: Color32 = Color32::from_rgb(138, 156, 180);
 const WELL: Color32 = Color32::from_rgb(122, 204, 164);
@@ -111,6 +145,15 @@ pub(super) fn dress(ctx: &egui::Context) {
         visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, RAISED);
         visuals.widgets.inactive.weak_bg_fill = RAISED;
         visuals.widgets.inactive.bg_fill = RAISED;
+        for (widget, fill) in [
+            (&mut visuals.widgets.hovered, HOVERED),
+            (&mut visuals.widgets.active, PRESSED),
+            (&mut visuals.widgets.open, RAISED),
+        ] {
+            widget.weak_bg_fill = fill;
+            widget.bg_fill = fill;
+            widget.bg_stroke = Stroke::new(1.0, ACCENT.gamma_multiply(0.6));
+        }
         for widget in [
             &mut visuals.widgets.inactive,
             &mut visuals.widgets.hovered,

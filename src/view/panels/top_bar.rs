@@ -38,6 +38,9 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             button(ui, "?", "help (H)", Command::ToggleHelp, commands);
+            if width >= ROOM_FOR_MENUS {
+                inspector_button(ui, lab, commands);
+            }
             if width >= ROOM_FOR_PACE {
                 pace(ui, lab);
                 ui.separator();
@@ -123,6 +126,15 @@ fn pace(ui: &mut Ui, lab: &Lab) {
     };
     ui.label(RichText::new(text).monospace().color(QUIET))
         .on_hover_text("frames drawn per second · simulated seconds per second");
+}
+
+fn inspector_button(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let (is_open, about) = (lab.display().inspector, "inspector (E)");
+    let response = ui.add(Button::new("Edit").selected(is_open)).on_hover_text(about);
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_open, about));
+    if response.clicked() {
+        commands.push(Command::ToggleInspector);
+    }
 }
 
 fn button(ui: &mut Ui, text: &str, hover: &str, command: Command, commands: &mut Vec<Command>) {

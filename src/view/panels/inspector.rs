@@ -1,0 +1,279 @@
+//! The inspector: everything that can be edited while a run goes on, made from the tables of parameters and methods.
+
+use egui::{
+    Align, Button, CollapsingHeader, Label, Layout, Response, RichText, ScrollArea, Slider, Ui,
+    Vec2, vec2,
+};
+
+use self::number::Field;
+use self::rows::{Reach, Row, Spacing, Values, rows};
+use super::{ACCENT, QUIET, TEXT};
+use crate::lab::{Action, Acts, Command, Lab, edited_values};
+
+mod number;
+mod rows;
+mod run;
+
+/// The height of a line, in points.
+const LINE: f32 = 20.0;
+/// The widths of a line's parts, in points: a name and a typed number as parts of the line, at most so much, and the
+/// button that restores.
+const NUMBER_PART: f32 = 0.3;
+const NUMBER_MOST: f32 = 108.0;
+const RESTORE: f32 = 20.0;
+const NAME_PART: f32 = 0.32;
+const NAME_MOST: f32 = 150.0;
+/// Scenes of more bodies than this open with one of them unfolded, the displayed one.
+const FEW_BODIES: usize = 3;
+
+pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Inspector").size(14.0).strong());
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if named(ui, Button::new("×").frame(false), "close the inspector (E)").clicked() {
+                commands.push(Command::ToggleInspector);
+            }
+            let restoring = restoring(lab);
+            let all = ui.add_enabled_ui(!restoring.is_empty(), |ui| {
+                named(ui, Button::new("↺ Restore all"), "everything as the scene has it")
+            });
+            if all.inner.clicked() {
+                commands.extend(restoring);
+            }
+        });
+    });
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        // Room for the bar at the right, which lies over what is under it.
+        ui.set_max_width(ui.available_width() - 8.0);
+        let bodies = &lab.scene().bodies;
+        for (index, body) in bodies.iter().enumerate() {
+            let is_open = bodies.len() <= FEW_BODIES || index == lab.display().body;
+            let title = RichText::new(&body.name).color(TEXT);
+            let header = CollapsingHeader::new(title).id_salt(("body", &body.name));
+            header.default_open(is_open).show_unindented(ui, |ui| {
+                show_body(ui, lab, index, commands);
+            });
+        }
+        let lanes = if lab.race().entrants().len() > 1 { "Lanes" } else { "Method" };
+        section(ui, lanes, |ui| run::show_lanes(ui, lab, commands));
+        section(ui, "Time", |ui| run::show_time(ui, lab, commands));
+    });
+}
+
+fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
+    let header = CollapsingHeader::new(RichText::new(title).color(TEXT)).default_open(true);
+    header.show_unindented(ui, contents);
+}
+
+fn show_body(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
+    let mut acts = Acts::AtOnce;
+    for row in rows(lab, body) {
+        if row.parameter.acts != acts {
+            acts = row.parameter.acts;
+            ui.label(RichText::new("from the next start").size(11.0).color(QUIET));
+        }
+        show_row(ui, lab, &row, commands);
+    }
+}
+
+fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
+    let Row { body, place, parameter, values } = row;
+    let kind = lab.scene().bodies[*body].kind;
+    let set = |value| Command::Act(Action::Set { body: *body, parameter: *place, value });
+    let about = format!("{}\n{}, {}", parameter.about, parameter.key, parameter.range);
+    let Some(values) = *values else {
+        line(ui, &parameter.quantity(), &about, |ui, _| {
+            let points = (lab.race().values(*body).len() - place) / 2;
+            let text = format!("{points} points, as the scene has them");
+            ui.add(Label::new(RichText::new(text).color(QUIET)).truncate());
+        });
+        return;
+    };
+    let name = format!("{} of {}", parameter.quantity(), lab.scene().bodies[*body].name);
+    let field = Field {
+        id: ui.scope_id().with((body, place)),
+        value: values.present,
+        unit: parameter.unit,
+        name: &name,
+        is_whole: matches!(
+            Reach::of(parameter.range, values),
+            Some(Reach { spacing: Spacing::Whole, .. })
+        ),
+    };
+    let check = |value| {
+        let checked = edited_values(kind, lab.race().values(*body), *place, value);
+        checked.map(drop).map_err(|error| error.to_string())
+    };
+    line(ui, &parameter.quantity(), &about, |ui, [room, number]| {
+        let slider = vec2(room - number - RESTORE - 2.0 * ui.spacing().item_spacing.x, LINE);
+        let slid = show_slider(ui, row, values, &name, slider);
+        commands.extend(slid.filter(|value| check(*value).is_ok()).map(set));
+        let (_, entered) = field.show(ui, vec2(number, LINE), check);
+        commands.extend(entered.map(set));
+        let about = format!("{} {} again", values.opened, parameter.unit);
+        restore(ui, values.differ(), &about, &name, || commands.push(set(values.opened)));
+    });
+    Field::show_fault(field.id, ui);
+}
+
+/// A slider that reaches round the value that the scene has. Returns what it was moved to.
+fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -> Option<f64> {
+    let id = ui.scope_id().with((row.body, row.place, "reach"));
+    let fresh = Reach::of(row.parameter.range, values)?;
+    // Under the mouse it stays, though the value that it sets brings its end nearer.
+    let held = ui.data(|data| data.get_temp::<Reach>(id));
+    let Reach { low, high, spacing } = held.unwrap_or(fresh);
+    let mut value = values.present;
+    let slider = Slider::new(&mut value, low..=high).show_value(false);
+    let slider = match spacing {
+        Spacing::Linear => slider,
+        Spacing::Logarithmic(least) => slider.logarithmic(true).smallest_positive(least),
+        Spacing::Whole => slider.step_by(1.0),
+    };
+    ui.spacing_mut().slider_width = size.x.max(1.0);
+    let response = ui.add_sized(size, slider);
+    response.widget_info(|| egui::WidgetInfo::slider(true, values.present, name));
+    if response.dragged() {
+        ui.data_mut(|data| data.insert_temp(id, held.unwrap_or(fresh)));
+    } else {
+        ui.data_mut(|data| data.remove::<Reach>(id));
+    }
+    (value != values.present).then_some(value)
+}
+
+/// A line with a name at its left, and the rest, which is told its width and that of a typed number.
+fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2])) {
+    let width = ui.available_width();
+    let name_width = (NAME_PART * width).min(NAME_MOST);
+    ui.horizontal(|ui| {
+        let layout = Layout::left_to_right(Align::Center);
+        ui.allocate_ui_with_layout(vec2(name_width, LINE), layout, |ui| {
+            ui.set_min_size(vec2(name_width, LINE));
+            let label = Label::new(RichText::new(name).color(TEXT)).truncate();
+            ui.add(label).on_hover_text(about);
+        });
+        let room = width - name_width - ui.spacing().item_spacing.x;
+        rest(ui, [room, (NUMBER_PART * width).min(NUMBER_MOST)]);
+    });
+}
+
+/// The button that restores what was changed; its place is kept where nothing was.
+fn restore(ui: &mut Ui, is_changed: bool, about: &str, name: &str, then: impl FnOnce()) {
+    if !is_changed {
+        ui.allocate_exact_size(vec2(RESTORE, LINE), egui::Sense::hover());
+        return;
+    }
+    let text = RichText::new("↺").color(ACCENT);
+    let button = ui.add_sized([RESTORE, LINE], Button::new(text).frame(false));
+    let name = format!("restore {name}");
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+    if button.on_hover_text(about).clicked() {
+        then();
+    }
+}
+
+fn named(ui: &mut Ui, button: Button<'_>, about: &str) -> Response {
+    let response = ui.add(button).on_hover_text(about);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, about));
+    response
+}
+
+/// What makes everything as the scene has it: nothing, where it is so.
+fn restoring(lab: &Lab) -> Vec<Command> {
+    let changed = (0..lab.scene().bodies.len()).flat_map(|body| {
+        let changed = move |row: Row| {
+            let opened = row.values.filter(|values| values.differ())?.opened;
+            Some(Command::Act(Action::Set { body, parameter: row.place, value: opened }))
+        };
+        rows(lab, body).into_iter().filter_map(changed)
+    });
+    let sets: Vec<Command> = changed.collect();
+    // Again for those that do not go with others before these are restored.
+    let twice = sets.iter().chain(&sets).cloned();
+    twice.chain(run::restoring(lab)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Rect, Shape};
+
+    use super::*;
+    use crate::lab::{SCENES, Scene};
+    use crate::view::panels;
+
+    /// Every text that is seen in a frame that is high enough for all of the inspector.
+    fn texts(lab: &Lab) -> Vec<String> {
+        let context = egui::Context::default();
+        panels::dress(&context);
+        let mut texts = Vec::new();
+        let screen_rect = Some(Rect::from_min_size(egui::Pos2::ZERO, vec2(1280.0, 3000.0)));
+        // A header learns in the first frame how high it is.
+        for _ in 0..2 {
+            let input = egui::RawInput { screen_rect, ..Default::default() };
+            let mut output = context.run_ui(input, |ui| drop(panels::show(ui, lab)));
+            output.textures_delta.clear();
+            texts = output
+                .shapes
+                .into_iter()
+                .filter_map(|clipped| match clipped.shape {
+                    Shape::Text(text) => Some(text.galley.text().to_owned()),
+                    _ => None,
+                })
+                .collect();
+        }
+        texts
+    }
+
+    #[test]
+    fn every_parameter_and_every_lane_of_every_scene_is_shown() {
+        for scene in SCENES {
+            let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
+            lab.apply(Command::ToggleRace);
+            lab.apply(Command::ToggleInspector);
+            let texts = texts(&lab);
+            let count = |wanted: &str| texts.iter().filter(|text| *text == wanted).count();
+            let bodies = &lab.scene().bodies;
+            for parameter in bodies.iter().flat_map(|body| body.kind.parameters) {
+                let quantity = parameter.quantity();
+                let of_all = bodies.iter().flat_map(|body| body.kind.parameters);
+                let alike = of_all.filter(|other| other.quantity() == quantity).count();
+                assert!(count(&quantity) >= alike, "{}: {quantity}: {texts:?}", scene.name);
+            }
+            for entrant in lab.race().entrants() {
+                let name = lab.entries()[entrant.entry].method.name;
+                // In the list of lanes too.
+                assert!(count(name) >= 2, "{}: {name}", scene.name);
+            }
+            for text in ["tick rate", "length", "from the next start"] {
+                assert!(count(text) >= 1, "{}: {text}", scene.name);
+            }
+        }
+    }
+
+    #[test]
+    fn restoring_all_makes_a_scene_what_it_was() {
+        let mut lab = Lab::new(Scene::built_in("chain").unwrap());
+        lab.apply(Command::ToggleRace);
+        assert_eq!(restoring(&lab), []);
+        let place = |key| lab.scene().bodies[0].kind.parameter(key).unwrap().0;
+        let (masses, plucked) = (place("masses"), place("plucked_mass"));
+        let most = lab.scene().bodies[0].values[masses];
+        assert!(lab.scene().bodies[0].values[plucked] > 1.0);
+        for (parameter, value) in [(plucked, 1.0), (masses, 2.0), (0, 3.0), (plucked, 2.0)] {
+            lab.apply(Command::Act(Action::Set { body: 0, parameter, value }));
+        }
+        lab.apply(Command::Act(Action::Substeps { lane: 1, substeps: 7 }));
+        lab.apply(Command::TickHz(20));
+        lab.apply(Command::Seconds(3.0));
+        lab.tick();
+        assert_ne!(lab.race().values(0)[masses], most);
+        for command in restoring(&lab) {
+            lab.apply(command);
+        }
+        assert_eq!(restoring(&lab), []);
+        assert_eq!(lab.race().values(0), lab.scene_as_opened().bodies[0].values);
+        assert_eq!(lab.scene().seconds, lab.scene_as_opened().seconds);
+        assert_eq!(lab.race().tick_hz(), lab.scene_as_opened().tick_hz);
+        assert_eq!(lab.race().list()[0], lab.scene_as_opened().lanes[0]);
+    }
+}

@@ -1,0 +1,176 @@
+//! What the inspector shows of a body: a row for each of its parameters, each with how far its slider reaches.
+
+use crate::lab::{Acts, Lab, Parameter, Range};
+
+/// A slider reaches this many times below and above the value that the scene has.
+const REACH: f64 = 100.0;
+/// A slider that is not logarithmic reaches this many times above that value.
+const LINEAR_REACH: f64 = 4.0;
+/// How far the slider of a value reaches that the scene has at 0, which says nothing of its size.
+const FROM_NOTHING: f64 = 10.0;
+/// The fewest counts that a slider reaches.
+const FEWEST: f64 = 16.0;
+
+/// A parameter of a body.
+pub(super) struct Row {
+    /// The body's place in the scene.
+    pub(super) body: usize,
+    /// The parameter's place among those of its kind.
+    pub(super) place: usize,
+    pub(super) parameter: &'static Parameter,
+    /// Its value now, and in the scene as it was opened; `None` of a curve, which is no number.
+    pub(super) values: Option<Values>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Values {
+    pub(super) present: f64,
+    pub(super) opened: f64,
+}
+
+impl Values {
+    pub(super) fn differ(self) -> bool {
+        self.present != self.opened
+    }
+}
+
+/// The parameters of a body: those that act at once, then those that act from the next start.
+pub(super) fn rows(lab: &Lab, body: usize) -> Vec<Row> {
+    let opened = &lab.scene_as_opened().bodies[body];
+    let present = lab.race().values(body);
+    let row = |(place, parameter): (usize, &'static Parameter)| {
+        let is_number = !matches!(parameter.range, Range::Curve { .. });
+        let values =
+            is_number.then(|| Values { present: present[place], opened: opened.values[place] });
+        Row { body, place, parameter, values }
+    };
+    let mut rows: Vec<Row> = opened.kind.parameters.iter().enumerate().map(row).collect();
+    rows.sort_by_key(|row| row.parameter.acts == Acts::AtStart);
+    rows
+}
+
+/// How far a slider reaches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reach {
+    pub(super) low: f64,
+    pub(super) high: f64,
+    pub(super) spacing: Spacing,
+}
+
+/// How values lie along a slider.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Spacing {
+    Linear,
+    /// From this value up; 0 is at the end, if the slider reaches it.
+    Logarithmic(f64),
+    Whole,
+}
+
+impl Reach {
+    /// How far the slider of a value in this range reaches: round the value that the scene has, so that it does not move
+    /// with the value that it sets, and to the present one where that is further out. `None` of a curve.
+    pub(super) fn of(range: Range, Values { present, opened }: Values) -> Option<Self> {
+        let size = if opened != 0.0 { opened.abs() } else { present.abs() };
+        let (low, high, spacing) = match range {
+            Range::Positive(most) => {
+                let low = size / REACH;
+                (low, most.min(size * REACH), Spacing::Logarithmic(low))
+            }
+            Range::NonNegative(most) if size > 0.0 => {
+                (0.0, most.min(size * REACH), Spacing::Logarithmic(size / REACH))
+            }
+            Range::NonNegative(most) => {
+                let least = FROM_NOTHING / (REACH * REACH);
+                (0.0, most.min(FROM_NOTHING), Spacing::Logarithmic(least))
+            }
+            Range::Within(most) => {
+                let reach = if size > 0.0 { LINEAR_REACH * size } else { FROM_NOTHING };
+                let reach = most.min(reach);
+                (-reach, reach, Spacing::Linear)
+            }
+            Range::Count(most) => {
+                (1.0, f64::from(most).min(FEWEST.max(LINEAR_REACH * size)), Spacing::Whole)
+            }
+            Range::Between(least, most) => (least, most, Spacing::Linear),
+            Range::Curve { .. } => return None,
+        };
+        Some(Self { low: low.min(present), high: high.max(present), spacing })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{SCENES, Scene};
+
+    #[test]
+    fn every_parameter_of_every_kind_of_body_has_one_row() {
+        let mut kinds = Vec::new();
+        for scene in SCENES {
+            let lab = Lab::new(Scene::built_in(scene.name).unwrap());
+            for (index, body) in lab.scene().bodies.iter().enumerate() {
+                let rows = rows(&lab, index);
+                let mut places: Vec<usize> = rows.iter().map(|row| row.place).collect();
+                places.sort_unstable();
+                assert_eq!(places, (0..body.kind.parameters.len()).collect::<Vec<_>>());
+                for row in &rows {
+                    assert_eq!(row.parameter, &body.kind.parameters[row.place]);
+                    let is_curve = matches!(row.parameter.range, Range::Curve { .. });
+                    assert_eq!(row.values.is_none(), is_curve, "{}", row.parameter.key);
+                    let Some(values) = row.values else { continue };
+                    assert!(!values.differ() && values.present == body.values[row.place]);
+                }
+                let at_start = |row: &Row| row.parameter.acts == Acts::AtStart;
+                assert!(rows.is_sorted_by_key(at_start));
+                kinds.push(body.kind.id);
+            }
+        }
+        kinds.sort_unstable();
+        kinds.dedup();
+        assert_eq!(kinds, ["chain", "helm", "orbit", "pendulum", "ship", "spring"]);
+    }
+
+    #[test]
+    fn a_slider_reaches_its_value_and_no_value_that_is_impossible() {
+        let mut seen = 0;
+        let positive = [1e-300, 1e-3, 1.0, 39.5, 255.0, 1e15];
+        for scene in SCENES {
+            for parameter in
+                Scene::built_in(scene.name).unwrap().bodies.iter().flat_map(|b| b.kind.parameters)
+            {
+                let range = parameter.range;
+                let signed = positive.iter().flat_map(|value| [*value, -value]).chain([0.0]);
+                let possible: Vec<f64> =
+                    signed.map(f64::trunc).chain(positive).filter(|v| range.contains(*v)).collect();
+                for &present in &possible {
+                    for &opened in &possible {
+                        let Some(reach) = Reach::of(range, Values { present, opened }) else {
+                            continue;
+                        };
+                        let Reach { low, high, .. } = reach;
+                        let what = format!("{} at {present}, {opened}: {reach:?}", parameter.key);
+                        assert!(low < high && low <= present && present <= high, "{what}");
+                        assert!(range.contains(low) && range.contains(high), "{what}");
+                        seen += 1;
+                    }
+                }
+            }
+        }
+        assert!(seen > 1000, "{seen}");
+    }
+
+    #[test]
+    fn a_slider_of_a_positive_value_is_logarithmic_and_stays_while_it_is_dragged() {
+        let reach = |present| {
+            Reach::of(Range::POSITIVE, Values { present, opened: 40.0 }).expect("it is no curve")
+        };
+        let Reach { low, high, spacing } = reach(40.0);
+        assert_eq!((low, high, spacing), (0.4, 4000.0, Spacing::Logarithmic(0.4)));
+        for present in [0.4, 1.0, 4000.0] {
+            assert_eq!(reach(present), reach(40.0));
+        }
+        assert_eq!(reach(9000.0).high, 9000.0);
+        let reach = Reach::of(Range::ANY, Values { present: 0.0, opened: 0.0 });
+        assert_eq!(reach, Some(Reach { low: -10.0, high: 10.0, spacing: Spacing::Linear }));
+    }
+}

@@ -1,0 +1,198 @@
+//! What the inspector shows of lanes and time: methods, substeps, tolerances, the tick rate, the scene's length.
+
+use egui::{ComboBox, Id, RichText, Ui, vec2};
+
+use super::number::Field;
+use super::{LINE, RESTORE, line, restore};
+use crate::lab::picture::palette;
+use crate::lab::{
+    Action, Command, Entrant, LEAST_SECONDS, Lab, LaneSpec, MOST_SECONDS, MOST_SUBSTEPS,
+    MOST_TICK_HZ, Mode, TOLERANCES,
+};
+use crate::view::panels::{TEXT, colour};
+
+/// The widths of the fields of a lane, in points.
+const SUBSTEPS: f32 = 44.0;
+const TOLERANCE: f32 = 64.0;
+const LANE: f32 = 16.0;
+
+pub(super) fn show_lanes(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    for entrant in lab.race().entrants() {
+        let fields = ui.horizontal(|ui| show_lane(ui, lab, entrant, commands)).inner;
+        fields.iter().for_each(|id| Field::show_fault(*id, ui));
+    }
+}
+
+/// A lane's line. Returns its fields.
+fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Command>) -> [Id; 2] {
+    let lane = entrant.lane_number;
+    let spec = lab.entries()[entrant.entry];
+    let ids = ["substeps", "tolerance"].map(|field| ui.scope_id().with((lane, field)));
+    let number = RichText::new(lane.to_string()).color(colour(palette::style(spec.method).0));
+    ui.add_sized([LANE, LINE], egui::Label::new(number.strong()));
+    let gap = ui.spacing().item_spacing.x;
+    let width = ui.available_width() - SUBSTEPS - TOLERANCE - RESTORE - 4.0 * gap;
+    show_methods(ui, lab, entrant, width.max(60.0), commands);
+    let substeps = Field {
+        id: ids[0],
+        value: f64::from(spec.substeps),
+        unit: "×",
+        name: &format!("substeps of lane {lane}"),
+        is_whole: true,
+    };
+    let (response, entered) =
+        substeps.show(ui, vec2(SUBSTEPS, LINE), |value| whole("substeps", value, MOST_SUBSTEPS));
+    response.on_hover_text("equal steps in a tick");
+    let act = |action| Command::Act(action);
+    commands.extend(entered.map(|value| act(Action::Substeps { lane, substeps: value as u32 })));
+    match spec.method.tolerance {
+        Some(card) => {
+            let tolerance = Field {
+                id: ids[1],
+                value: spec.tolerance.unwrap_or(card.absolute_v),
+                unit: "",
+                name: &format!("tolerance of lane {lane}"),
+                is_whole: false,
+            };
+            let (response, entered) = tolerance.show(ui, vec2(TOLERANCE, LINE), |value| {
+                within("tolerance", value, TOLERANCES, "")
+            });
+            response.on_hover_text("tolerance: the error that a substep may have");
+            commands.extend(entered.map(|tolerance| act(Action::Tolerance { lane, tolerance })));
+        }
+        None => drop(ui.allocate_exact_size(vec2(TOLERANCE, LINE), egui::Sense::hover())),
+    }
+    let opened = opened(lab, entrant);
+    let about = format!("{} again, as the scene has it", opened.method.name);
+    restore(ui, spec != opened, &about, &format!("lane {lane}"), || {
+        commands.push(act(Action::Lane { lane, spec: opened }));
+    });
+    ids
+}
+
+fn show_methods(
+    ui: &mut Ui,
+    lab: &Lab,
+    entrant: &Entrant,
+    width: f32,
+    commands: &mut Vec<Command>,
+) {
+    let present = lab.entries()[entrant.entry];
+    let menu = ComboBox::from_id_salt(("method", entrant.lane_number)).width(width).truncate();
+    let menu = menu.selected_text(RichText::new(present.method.name).color(TEXT));
+    menu.show_ui(ui, |ui| {
+        for (entry, spec) in lab.entries().iter().enumerate() {
+            let is_present = entry == entrant.entry;
+            let label = ui.selectable_label(is_present, spec.method.name);
+            if label.on_hover_text(spec.method.about).clicked() && !is_present {
+                commands.push(match lab.mode() {
+                    Mode::Solo => Command::Pick(entry),
+                    Mode::Race => {
+                        Command::Act(Action::Lane { lane: entrant.lane_number, spec: *spec })
+                    }
+                });
+            }
+        }
+    });
+}
+
+/// What a lane is under in the scene as it was opened; in solo, the method that it is under now as the scene has it.
+fn opened(lab: &Lab, entrant: &Entrant) -> LaneSpec {
+    let present = lab.entries()[entrant.entry];
+    let list = lab.scene_as_opened().method_list();
+    let lane = list.get(entrant.lane_number - 1).filter(|_| {
+        lab.mode() == Mode::Race && entrant.lane_number <= lab.scene_as_opened().lanes.len()
+    });
+    let listed = || list.iter().find(|spec| spec.method == present.method);
+    *lane.or_else(listed).unwrap_or(&present)
+}
+
+pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let opened = lab.scene_as_opened();
+    let tick_hz = lab.race().tick_hz();
+    let rate = Field {
+        id: ui.scope_id().with("tick rate"),
+        value: f64::from(tick_hz),
+        unit: "Hz",
+        name: "tick rate",
+        is_whole: true,
+    };
+    let about = "ticks per second; every method begins again from its state";
+    line(ui, "tick rate", about, |ui, [room, number]| {
+        ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
+        let size = vec2(number, LINE);
+        let (_, entered) = rate.show(ui, size, |value| whole("tick rate", value, MOST_TICK_HZ));
+        commands.extend(entered.map(|value| Command::TickHz(value as u32)));
+        let about = format!("{} Hz again", opened.tick_hz);
+        restore(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
+            commands.push(Command::TickHz(opened.tick_hz));
+        });
+    });
+    Field::show_fault(rate.id, ui);
+    let seconds = lab.scene().seconds;
+    let length = Field {
+        id: ui.scope_id().with("length"),
+        value: seconds,
+        unit: "s",
+        name: "length of the scene",
+        is_whole: false,
+    };
+    line(
+        ui,
+        "length",
+        "how long the scene is: plots and verdicts cover it",
+        |ui, [room, number]| {
+            ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
+            let size = vec2(number, LINE);
+            let check = |value| within("length", value, (LEAST_SECONDS, MOST_SECONDS), " s");
+            let (_, entered) = length.show(ui, size, check);
+            commands.extend(entered.map(Command::Seconds));
+            let about = format!("{} s again", opened.seconds);
+            restore(ui, seconds != opened.seconds, &about, "length", || {
+                commands.push(Command::Seconds(opened.seconds));
+            });
+        },
+    );
+    Field::show_fault(length.id, ui);
+}
+
+/// What makes lanes and time as the scene has them: nothing, where they are so.
+pub(super) fn restoring(lab: &Lab) -> impl Iterator<Item = Command> {
+    let lanes = lab.race().entrants().iter().filter_map(|entrant| {
+        let (lane, spec) = (entrant.lane_number, opened(lab, entrant));
+        let is_changed = lab.entries()[entrant.entry] != spec;
+        is_changed.then_some(Command::Act(Action::Lane { lane, spec }))
+    });
+    let opened = lab.scene_as_opened();
+    let rate = (lab.race().tick_hz() != opened.tick_hz).then_some(Command::TickHz(opened.tick_hz));
+    let length =
+        (lab.scene().seconds != opened.seconds).then_some(Command::Seconds(opened.seconds));
+    lanes.chain(rate).chain(length)
+}
+
+fn whole(name: &str, value: f64, most: u32) -> Result<(), String> {
+    let is_possible = value.fract() == 0.0 && (1.0..=f64::from(most)).contains(&value);
+    let wrong = || format!("{name} {value}: write a whole number from 1 to {most}");
+    is_possible.then_some(()).ok_or_else(wrong)
+}
+
+fn within(name: &str, value: f64, (least, most): (f64, f64), unit: &str) -> Result<(), String> {
+    let wrong = || format!("{name} {value}{unit}: write a number from {least:e} to {most:e}");
+    (least..=most).contains(&value).then_some(()).ok_or_else(wrong)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_is_refused_with_what_can() {
+        assert_eq!(whole("substeps", 4.0, 1000), Ok(()));
+        let refused = whole("substeps", 2.5, 1000).unwrap_err();
+        assert_eq!(refused, "substeps 2.5: write a whole number from 1 to 1000");
+        assert!(whole("substeps", f64::NAN, 1000).is_err());
+        assert_eq!(within("length", 20.0, (1e-4, 3e7), " s"), Ok(()));
+        let refused = within("length", -1.0, (1e-4, 3e7), " s").unwrap_err();
+        assert_eq!(refused, "length -1 s: write a number from 1e-4 to 3e7");
+    }
+}

@@ -1,0 +1,370 @@
+//! The timeline: the run from its start to its end, with what happened on the way. The present is its handle.
+//!
+//! Click or drag to go to a tick, turn the wheel to zoom about the pointer, scroll sideways to move, double click to
+//! see all.
+
+use egui::{
+    Align2, Color32, EventFilter, FontId, Key, Painter, Pos2, Rangef, Rect, Response, Sense, Shape,
+    Stroke, Ui, Vec2, pos2, vec2,
+};
+use egui_plot::GridInput;
+
+use self::marks::{Context, Group, Sign, grouped};
+use self::span::Span;
+use super::{ACCENT, BACKDROP, QUIET, RAISED, TEXT};
+use crate::lab::{Command, Event, Lab, Mode, TimeScale};
+use crate::view::ticks;
+
+mod marks;
+mod span;
+
+/// The panel's height, in points, with the times of the ticks written under the track and without.
+pub(super) const HEIGHT: f32 = 38.0;
+pub(super) const HEIGHT_OF_TRACK: f32 = 19.0;
+
+/// The track's thickness and how far its middle is from the panel's top, in points.
+const THICKNESS: f32 = 6.0;
+const TRACK_Y: f32 = 16.0;
+const TRACK_Y_ALONE: f32 = 12.0;
+/// From this width on, in points, there is room for a name at the left and for the memory at the right.
+const ROOM_FOR_WORDS: f32 = 700.0;
+const NAME: f32 = 72.0;
+const MEMORY: f32 = 104.0;
+/// What the ends of the track keep free for half a number, and for the *undo* button where nothing else is there.
+const MARGIN: f32 = 14.0;
+const UNDO: f32 = 52.0;
+/// The least distances in points between the numbers along the track, and between two marks.
+const NUMBERS_APART: f64 = 64.0;
+const MARKS_APART: f32 = 15.0;
+/// The closest view shows so many ticks.
+const LEAST_TICKS: f64 = 12.0;
+/// Turning the wheel by so many points zooms by *e*.
+const WHEEL: f64 = 240.0;
+/// The most marks that a tooltip tells of.
+const MOST_TOLD: usize = 8;
+
+pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let room = ui.available_rect_before_wrap();
+    let is_tall = room.height() > 0.5 * (HEIGHT + HEIGHT_OF_TRACK);
+    let y = room.top() + if is_tall { TRACK_Y } else { TRACK_Y_ALONE };
+    let [left, right] = margins(lab, room.width());
+    let along = Rangef::new(room.left() + left, room.right() - right);
+    if along.span() < 40.0 {
+        return;
+    }
+    let events = lab.timeline().events();
+    let times = lab.timeline().times();
+    let id = ui.scope_id().with("track");
+    let grab = Rect::from_x_y_ranges(along.expand(MARGIN / 2.0), room.y_range());
+    let response = ui.interact(grab, id, Sense::click_and_drag());
+    let span = viewed(ui, lab, &times, &response, along);
+    let track = Track { y, along, span, times: &times };
+
+    seek(ui, lab, &response, &track, commands);
+    let context = Context { scene: lab.scene(), start: lab.timeline().start(), times: &times };
+    let in_view = |x: f32| along.expand(1.0).contains(x);
+    let mut groups = grouped(context.marks(&events), |mark| track.x(mark.tick), MARKS_APART);
+    groups.retain(|group| in_view(group.x));
+
+    let painter = ui.painter().clone();
+    if is_tall {
+        numbers(&painter, &track, room.bottom());
+    }
+    fill(&painter, lab, &events, &track);
+    groups.iter().for_each(|group| draw_group(&painter, &track, group));
+    handle(&painter, &track, lab.race().tick(), response.has_focus());
+    if room.width() >= ROOM_FOR_WORDS {
+        let at = pos2(room.left(), y);
+        painter.text(at, Align2::LEFT_CENTER, "Timeline", FontId::proportional(11.5), QUIET);
+    }
+    beside(ui, lab, Rect::from_min_max(pos2(along.max + MARGIN, room.top()), room.max), commands);
+    tooltip(ui, response, &track, &groups);
+}
+
+/// What the track leaves free at its left and its right.
+fn margins(lab: &Lab, width: f32) -> [f32; 2] {
+    match width >= ROOM_FOR_WORDS {
+        true => [NAME, MEMORY + MARGIN],
+        false if lab.timeline().can_undo() => [MARGIN, UNDO + MARGIN],
+        false => [MARGIN; 2],
+    }
+}
+
+/// The track as it lies on the panel.
+struct Track<'a> {
+    /// The height of its middle.
+    y: f32,
+    along: Rangef,
+    span: Span,
+    times: &'a TimeScale,
+}
+
+impl Track<'_> {
+    fn x(&self, tick: u64) -> f32 {
+        self.span.x(self.times.t(tick), self.along)
+    }
+
+    fn tick(&self, x: f32) -> u64 {
+        self.times.nearest_tick(self.span.t(x, self.along))
+    }
+
+    /// The part of the track between two places, as far as it is in view.
+    fn piece(&self, from: f32, to: f32) -> Rect {
+        let [from, to] = [from, to].map(|x| self.along.clamp(x));
+        let half = 0.5 * THICKNESS;
+        Rect::from_min_max(pos2(from, self.y - half), pos2(to, self.y + half))
+    }
+}
+
+/// The part of the run that is in view, after what the wheel and the clicks of this frame make of it.
+fn viewed(ui: &Ui, lab: &Lab, times: &TimeScale, response: &Response, along: Rangef) -> Span {
+    let id = response.id;
+    let whole = Span::whole(lab.scene().seconds, times.t(lab.timeline().end()));
+    if response.double_clicked() {
+        ui.data_mut(|data| data.remove::<Span>(id));
+    }
+    let kept = ui.data(|data| data.get_temp::<Span>(id));
+    let mut span = kept.map_or(whole, |span| span.moved(0.0, whole));
+    if lab.running() && kept.is_some() {
+        span = span.following(lab.race().t(), whole);
+    }
+    if let Some(pointer) = response.hover_pos() {
+        let (scroll, pinch) = ui.input(|i| (i.smooth_scroll_delta(), i.zoom_delta()));
+        let factor = f64::from(pinch) * libm::exp(f64::from(scroll.y) / WHEEL);
+        let least_s = LEAST_TICKS / f64::from(lab.race().tick_hz());
+        if factor != 1.0 {
+            span = span.zoomed(span.t(pointer.x, along), factor, least_s, whole);
+        }
+        let by_s = -f64::from(scroll.x / along.span()) * span.length_s();
+        span = span.moved(by_s, whole);
+    }
+    if span.length_s() < whole.length_s() {
+        ui.data_mut(|data| data.insert_temp(id, span));
+    } else {
+        ui.data_mut(|data| data.remove::<Span>(id));
+    }
+    span
+}
+
+/// Goes to where the mouse is pressed; with the focus, the arrows go by ticks.
+fn seek(ui: &Ui, lab: &Lab, response: &Response, track: &Track<'_>, commands: &mut Vec<Command>) {
+    let present = lab.race().tick();
+    let name = format!("timeline, at tick {present}");
+    response.widget_info(|| egui::WidgetInfo::slider(true, lab.race().t(), &name));
+    let is_pressed = response.is_pointer_button_down_on();
+    // A press that is over before the next frame is only seen by its end.
+    if (is_pressed || response.clicked() || response.drag_stopped())
+        && let Some(pointer) = response.interact_pointer_pos()
+    {
+        let tick = track.tick(track.along.clamp(pointer.x)).min(lab.timeline().end());
+        if lab.running() || tick != present {
+            commands.push(Command::Seek(tick));
+        }
+    }
+    if response.has_focus() {
+        let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+        let pressed = |key| ui.input(|input| input.num_presses(key));
+        commands.extend((0..pressed(Key::ArrowLeft)).map(|_| Command::TickBack));
+        commands.extend((0..pressed(Key::ArrowRight)).map(|_| Command::TickForward));
+    }
+}
+
+/// Times at round steps under the track.
+fn numbers(painter: &Painter, track: &Track<'_>, bottom: f32) {
+    let Span { from_s, to_s } = track.span;
+    let base_step_size = ticks::FINEST * track.span.length_s() / f64::from(track.along.span());
+    let marks = ticks::linear(GridInput { bounds: (from_s, to_s), base_step_size }, NUMBERS_APART);
+    let last = marks.iter().map(|mark| mark.value).fold(f64::NEG_INFINITY, f64::max);
+    for mark in marks {
+        let x = track.span.x(mark.value, track.along);
+        let top = track.y + 0.5 * THICKNESS;
+        painter.vline(x, Rangef::new(top + 1.0, top + 4.0), Stroke::new(1.0, QUIET));
+        let unit = if mark.value == last { "s" } else { "" };
+        let text = ticks::linear_label(mark, &(from_s..=to_s), unit);
+        let at = pos2(x, bottom);
+        painter.text(at, Align2::CENTER_BOTTOM, text, FontId::proportional(10.5), QUIET);
+    }
+}
+
+/// The track: what was run up to the present in the colours of the methods, what was run beyond it in grey.
+fn fill(painter: &Painter, lab: &Lab, events: &[Event], track: &Track<'_>) {
+    let round = 0.5 * THICKNESS;
+    painter.rect_filled(track.piece(track.along.min, track.along.max), round, RAISED);
+    let [present, end] = [lab.race().tick(), lab.timeline().end()].map(|tick| track.x(tick));
+    painter.rect_filled(track.piece(track.along.min, end), round, QUIET.gamma_multiply(0.45));
+    let shown = lab.race().entrants().iter().find(|entrant| entrant.entry == lab.active());
+    let lane = shown.map_or(1, |entrant| entrant.lane_number);
+    let colours = marks::colours(lane, events, lab.timeline().start());
+    for (i, (from, colour)) in colours.iter().enumerate() {
+        let to = colours.get(i + 1).map_or(present, |(tick, _)| track.x(*tick)).min(present);
+        let piece = track.piece(track.x(*from), to);
+        if piece.width() > 0.0 {
+            let corners = if i == 0 { round } else { 0.0 };
+            painter.rect_filled(piece, corners, strength(*colour, lab.mode()));
+        }
+    }
+    if lab.timeline().is_in_past() && track.along.contains(end) {
+        let reach = THICKNESS / 2.0 + 2.5;
+        painter.vline(end, Rangef::point(track.y).expand(reach), Stroke::new(1.5, TEXT));
+    }
+}
+
+/// A race is of many colours: that of the selected lane is kept back.
+fn strength(colour: Color32, mode: Mode) -> Color32 {
+    match mode {
+        Mode::Solo => colour,
+        Mode::Race => BACKDROP.lerp_to_gamma(colour, 0.8),
+    }
+}
+
+/// A sign above the track, with the number of marks that it stands for.
+fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
+    let (x, foot) = (group.x, track.y - 0.5 * THICKNESS);
+    let mark = group.shown();
+    let colour = mark.colour;
+    let centre = pos2(x, foot - 6.0);
+    let rim = Stroke::new(1.0, BACKDROP);
+    let polygon = |points: &[[f32; 2]]| {
+        let points = points.iter().map(|&[dx, dy]| centre + vec2(dx, dy)).collect();
+        painter.add(Shape::convex_polygon(points, colour, rim));
+    };
+    let top = if mark.sign == Sign::Halt { foot - 12.0 } else { foot - 4.0 };
+    painter.vline(x, Rangef::new(top, track.y + 0.5 * THICKNESS), Stroke::new(1.5, colour));
+    match mark.sign {
+        Sign::Input => {
+            painter.vline(x, Rangef::new(foot - 8.0, foot), Stroke::new(2.0, colour));
+        }
+        Sign::Edit => {
+            let square = Rect::from_center_size(centre, Vec2::splat(7.0));
+            painter.rect(square, 1.5, colour, rim, egui::StrokeKind::Outside);
+        }
+        Sign::Rate => polygon(&[[-4.5, 3.5], [0.0, -4.5], [4.5, 3.5]]),
+        Sign::Place => {
+            painter.circle(centre, 3.6, BACKDROP, Stroke::new(1.8, colour));
+        }
+        Sign::Kick => polygon(&[[0.0, -5.2], [4.4, 0.0], [0.0, 5.2], [-4.4, 0.0]]),
+        Sign::Switch => {
+            painter.circle(centre, 4.2, colour, rim);
+        }
+        Sign::Halt => polygon(&[[-0.7, -6.0], [8.0, -2.5], [-0.7, 1.0]]),
+    }
+    if group.marks.len() > 1 {
+        let at = centre + vec2(if mark.sign == Sign::Halt { 8.5 } else { 5.5 }, -1.0);
+        let count = group.marks.len().to_string();
+        painter.text(at, Align2::LEFT_CENTER, count, FontId::proportional(9.0), TEXT);
+    }
+}
+
+/// The present.
+fn handle(painter: &Painter, track: &Track<'_>, present: u64, has_focus: bool) {
+    let x = track.x(present);
+    if !track.along.expand(1.0).contains(x) {
+        return;
+    }
+    let centre = pos2(x, track.y);
+    let rim = if has_focus { Stroke::new(2.5, ACCENT) } else { Stroke::new(2.0, BACKDROP) };
+    painter.circle(centre, 6.0, Color32::WHITE, rim);
+}
+
+/// The *undo* button, and the memory that the past takes.
+fn beside(ui: &mut Ui, lab: &Lab, room: Rect, commands: &mut Vec<Command>) {
+    let timeline = lab.timeline();
+    // A recording of the picture says nothing of the machine that it is made on.
+    let is_told = lab.viewer().pace.is_some() && room.width() >= MEMORY - 1.0;
+    if is_told && room.height() > HEIGHT_OF_TRACK {
+        let text = memory(timeline.bytes(), timeline.limit());
+        let at = room.right_bottom();
+        ui.painter().text(at, Align2::RIGHT_BOTTOM, text, FontId::proportional(10.5), QUIET);
+    }
+    if timeline.can_undo() {
+        let size = vec2(UNDO - 6.0, 18.0).min(room.size());
+        let rect = Rect::from_min_size(pos2(room.right() - size.x, room.top() + 1.0), size);
+        let button = ui.put(rect, egui::Button::new(egui::RichText::new("Undo").size(11.0)));
+        let about = "bring back the future that an action in the past discarded (Ctrl Z)";
+        button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, about));
+        if button.on_hover_text(about).clicked() {
+            commands.push(Command::Undo);
+        }
+    }
+}
+
+/// So much memory of so much.
+fn memory(bytes: usize, limit: usize) -> String {
+    let megabytes = |bytes: usize| bytes as f64 / f64::from(1 << 20);
+    format!("{:.1} of {:.0} MB", megabytes(bytes), megabytes(limit))
+}
+
+/// What happened under the pointer; where nothing did, the moment.
+fn tooltip(ui: &Ui, response: Response, track: &Track<'_>, groups: &[Group]) {
+    let Some(Pos2 { x, .. }) = response.hover_pos() else { return };
+    let x = track.along.clamp(x);
+    let line = Stroke::new(1.0, TEXT.gamma_multiply(0.5));
+    ui.painter().vline(x, Rangef::new(track.y - 12.0, track.y + 4.0), line);
+    response.on_hover_ui_at_pointer(|ui| {
+        let near = |group: &&Group| (-6.0..=MARKS_APART - 6.0).contains(&(x - group.x));
+        let Some(group) = groups.iter().rfind(near) else {
+            ui.label(marks::moment(track.tick(x), track.times));
+            return;
+        };
+        group.marks.iter().take(MOST_TOLD).for_each(|mark| drop(ui.label(&mark.text)));
+        if group.marks.len() > MOST_TOLD {
+            ui.label(format!("and {} more", group.marks.len() - MOST_TOLD));
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Context, Event as Input, Modifiers, PointerButton, RawInput};
+
+    use super::*;
+    use crate::lab::Scene;
+    use crate::view::panels;
+
+    const SIZE: Vec2 = vec2(1280.0, 720.0);
+
+    /// What a frame of [`SIZE`] with these events asks for.
+    fn frame(context: &Context, lab: &Lab, events: Vec<Input>) -> Vec<Command> {
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, SIZE));
+        let input = RawInput { screen_rect, events, ..RawInput::default() };
+        let mut commands = Vec::new();
+        let mut output = context.run_ui(input, |ui| commands.extend(panels::show(ui, lab).0));
+        output.textures_delta.clear();
+        commands
+    }
+
+    fn press(pos: Pos2, pressed: bool) -> Input {
+        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+        Input::PointerButton { pos, button, pressed, modifiers }
+    }
+
+    #[test]
+    fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        (0..600).for_each(|_| lab.tick());
+        let context = Context::default();
+        panels::dress(&context);
+        let height =
+            SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&lab) - HEIGHT + TRACK_Y;
+        let along = Rangef::new(8.0 + NAME, SIZE.x - 8.0 - MEMORY - MARGIN);
+        let whole = Span::whole(lab.scene().seconds, 10.0);
+        let at = |seconds: f64| pos2(whole.x(seconds, along), height);
+        frame(&context, &lab, vec![Input::PointerMoved(at(2.5))]);
+        let pressed = frame(&context, &lab, vec![press(at(2.5), true)]);
+        assert_eq!(pressed, [Command::Seek(150)]);
+        let dragged = frame(&context, &lab, vec![Input::PointerMoved(at(4.0))]);
+        assert_eq!(dragged, [Command::Seek(240)]);
+        // Nothing was run beyond its end.
+        let dragged = frame(&context, &lab, vec![Input::PointerMoved(at(19.0))]);
+        assert_eq!(dragged, [Command::Seek(600)]);
+        lab.apply(Command::Seek(600));
+        assert_eq!(frame(&context, &lab, vec![press(at(19.0), false)]), []);
+    }
+
+    #[test]
+    fn memory_is_told_in_megabytes() {
+        assert_eq!(memory(13_002_342, 64 << 20), "12.4 of 64 MB");
+        assert_eq!(memory(0, 1 << 20), "0.0 of 1 MB");
+    }
+}

@@ -1,0 +1,119 @@
+//! The part of a run's time that the timeline shows: where a time is drawn, and how zooming changes it.
+
+use egui::Rangef;
+
+/// The room ahead of a run that has outlasted its scene, as a part of what was run.
+const AHEAD: f64 = 0.1;
+/// Where the present stands when the view has to follow it, as a part of the view.
+const FOLLOWED_AT: f64 = 0.8;
+
+/// From one time to a later one, in seconds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Span {
+    pub(super) from_s: f64,
+    pub(super) to_s: f64,
+}
+
+impl Span {
+    /// All of a run that was run to `end_s`, and room ahead: at least to the end of the scene.
+    pub(super) fn whole(scene_s: f64, end_s: f64) -> Self {
+        Self { from_s: 0.0, to_s: scene_s.max(end_s * (1.0 + AHEAD)) }
+    }
+
+    pub(super) fn length_s(self) -> f64 {
+        self.to_s - self.from_s
+    }
+
+    /// Where `t` is drawn on a track.
+    pub(super) fn x(self, t: f64, track: Rangef) -> f32 {
+        track.min + ((t - self.from_s) / self.length_s()) as f32 * track.span()
+    }
+
+    /// The time that is drawn at `x`.
+    pub(super) fn t(self, x: f32, track: Rangef) -> f64 {
+        self.from_s + f64::from((x - track.min) / track.span()) * self.length_s()
+    }
+
+    /// `factor` times closer, with `about_s` staying where it is; no less than `least_s`, and nothing outside `whole`.
+    pub(super) fn zoomed(self, about_s: f64, factor: f64, least_s: f64, whole: Self) -> Self {
+        let length_s = (self.length_s() / factor).max(least_s).min(whole.length_s());
+        let part = (about_s - self.from_s) / self.length_s();
+        let from_s = about_s - part * length_s;
+        Self { from_s, to_s: from_s + length_s }.within(whole)
+    }
+
+    /// The same length `by_s` later, as far as that is in `whole`.
+    pub(super) fn moved(self, by_s: f64, whole: Self) -> Self {
+        Self { from_s: self.from_s + by_s, to_s: self.to_s + by_s }.within(whole)
+    }
+
+    /// The same length moved to show `now_s`, if it does not.
+    pub(super) fn following(self, now_s: f64, whole: Self) -> Self {
+        if (self.from_s..=self.to_s).contains(&now_s) {
+            return self;
+        }
+        self.moved(now_s - self.from_s - FOLLOWED_AT * self.length_s(), whole)
+    }
+
+    fn within(self, whole: Self) -> Self {
+        let length_s = self.length_s().min(whole.length_s());
+        let from_s = self.from_s.clamp(whole.from_s, whole.to_s - length_s);
+        Self { from_s, to_s: from_s + length_s }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRACK: Rangef = Rangef { min: 100.0, max: 900.0 };
+    const WHOLE: Span = Span { from_s: 0.0, to_s: 20.0 };
+
+    fn assert_near(span: Span, from_s: f64, to_s: f64) {
+        let off = (span.from_s - from_s).abs().max((span.to_s - to_s).abs());
+        assert!(off < 1e-9, "{span:?}, not {from_s} to {to_s}");
+    }
+
+    #[test]
+    fn the_whole_has_the_scene_in_it_and_room_ahead_of_a_longer_run() {
+        assert_eq!(Span::whole(20.0, 3.0), WHOLE);
+        assert_near(Span::whole(20.0, 100.0), 0.0, 110.0);
+    }
+
+    #[test]
+    fn a_place_on_the_track_and_its_time_belong_together() {
+        let span = Span { from_s: 4.0, to_s: 8.0 };
+        assert_eq!((span.x(4.0, TRACK), span.x(7.0, TRACK)), (100.0, 700.0));
+        for x in [100.0, 333.0, 900.0] {
+            assert!((span.x(span.t(x, TRACK), TRACK) - x).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn zooming_keeps_the_time_under_the_pointer_in_its_place() {
+        let mut span = WHOLE;
+        for _ in 0..5 {
+            span = span.zoomed(7.0, 1.3, 0.01, WHOLE);
+            assert!((span.x(7.0, TRACK) - WHOLE.x(7.0, TRACK)).abs() < 1e-2, "{span:?}");
+        }
+        assert!(span.length_s() < 20.0 / 3.0);
+    }
+
+    #[test]
+    fn zooming_ends_at_the_whole_and_at_the_least() {
+        assert_near(WHOLE.zoomed(20.0, 1e9, 0.5, WHOLE), 19.5, 20.0);
+        assert_near(Span { from_s: 3.0, to_s: 5.0 }.zoomed(5.0, 1e-9, 0.5, WHOLE), 0.0, 20.0);
+        assert_near(Span { from_s: 0.0, to_s: 4.0 }.zoomed(4.0, 0.5, 0.5, WHOLE), 0.0, 8.0);
+    }
+
+    #[test]
+    fn a_view_moves_no_further_than_the_run_and_follows_the_present() {
+        let span = Span { from_s: 4.0, to_s: 8.0 };
+        assert_near(span.moved(1.0, WHOLE), 5.0, 9.0);
+        assert_near(span.moved(-9.0, WHOLE), 0.0, 4.0);
+        assert_near(span.moved(99.0, WHOLE), 16.0, 20.0);
+        assert_eq!(span.following(7.9, WHOLE), span);
+        assert_near(span.following(10.0, WHOLE), 6.8, 10.8);
+        assert_near(span.following(1.0, WHOLE), 0.0, 4.0);
+    }
+}

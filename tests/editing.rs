@@ -1,0 +1,74 @@
+//! What a person edits while a run goes on: it is in the journal, and a restart keeps it.
+
+use regatta::lab::{Action, Command, Lab, LaneSpec, Mode, Scene, Session};
+use regatta::sim::integrators::{METHODS, method};
+
+fn stiffness(value: f64) -> Action {
+    Action::Set { body: 0, parameter: 1, value }
+}
+
+#[test]
+fn a_parameter_dragged_at_one_tick_is_few_rows_and_replays_to_the_bit() {
+    for ways in [&[50.0, 60.0, 70.0, 80.0][..], &[50.0, 60.0, 50.0, 60.0, 50.0], &[50.0, 0.0]] {
+        for method in METHODS {
+            let mut scene = Scene::built_in("spring").unwrap();
+            scene.lanes = vec![LaneSpec::plain(method)];
+            let scene = std::sync::Arc::new(scene);
+            let mut session = Session::race(scene.clone());
+            session.run(20);
+            let before = scene.bodies[0].values[1];
+            for &value in ways {
+                session.act(stiffness(if value == 0.0 { before } else { value }));
+            }
+            assert!(session.journal().rows().len() <= 3, "{:?}", session.journal());
+            session.run(20);
+            let mut again = Session::race(scene);
+            again.follow(session.journal().clone());
+            again.run(40);
+            let [hash, again] = [&session, &again].map(|session| session.lanes().state_hash());
+            assert_eq!(hash, again, "{} by {ways:?}", method.id);
+        }
+    }
+}
+
+#[test]
+fn a_selected_lane_stays_selected_whatever_method_it_is_put_under() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.apply(Command::ToggleRace);
+    lab.apply(Command::Pick(0));
+    lab.tick();
+    let spec = LaneSpec::plain(method("pefrl").unwrap());
+    lab.apply(Command::Act(Action::Lane { lane: 1, spec }));
+    assert_eq!((lab.selected().lane_number, lab.entries()[lab.active()]), (1, spec));
+    assert!(lab.title().contains("race: PEFRL"), "{}", lab.title());
+    lab.apply(Command::Seek(0));
+    lab.apply(Command::Seek(1));
+    lab.apply(Command::ToggleRace);
+    assert_eq!((lab.mode(), lab.selected().lane_number), (Mode::Solo, 1));
+    lab.apply(Command::Restart);
+    lab.tick();
+}
+
+#[test]
+fn a_scene_is_made_longer_for_plots_and_verdicts_and_stays_so() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let seconds = lab.scene().seconds;
+    for nonsense in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e12] {
+        lab.apply(Command::Seconds(nonsense));
+        assert_eq!(lab.scene().seconds, seconds);
+    }
+    lab.apply(Command::Seconds(2.0 * seconds));
+    lab.apply(Command::Restart);
+    assert_eq!(lab.scene().seconds, 2.0 * seconds);
+    assert_eq!(lab.scene_as_opened().seconds, seconds);
+}
+
+#[test]
+fn escape_closes_the_inspector_before_it_quits() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.apply(Command::ToggleInspector);
+    assert!(lab.display().inspector);
+    assert_eq!(lab.apply(Command::Escape), None);
+    assert!(!lab.display().inspector);
+    assert!(lab.apply(Command::Escape).is_some());
+}

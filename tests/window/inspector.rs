@@ -1,0 +1,31 @@
+//! Editing in the inspector, as the title tells.
+
+use crate::desk::Desk;
+
+#[test]
+fn what_is_typed_into_the_inspector_is_an_edit_and_works_no_other_key() {
+    let test = "what_is_typed_into_the_inspector_is_an_edit_and_works_no_other_key";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.press("space");
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
+    desk.press_and_see("e");
+    let type_in_the_tick_rate = |keys| {
+        // The last line but one, in a window of 1280 × 720.
+        desk.click(1185, 509);
+        desk.still();
+        desk.press(keys);
+        desk.still();
+    };
+    type_in_the_tick_rate("9 0 Return");
+    desk.titled("Regatta - spring - Explicit Euler - 90 Hz (paused)");
+    // None of these is a number, and each is a key elsewhere.
+    type_in_the_tick_rate("n space c 2 Return");
+    desk.titled("Regatta - spring - Explicit Euler - 90 Hz (paused)");
+    // Escape leaves the field, then closes the inspector.
+    type_in_the_tick_rate("2 0 Escape");
+    desk.titled("Regatta - spring - Explicit Euler - 90 Hz (paused)");
+    desk.press_and_see("Escape");
+    desk.press("ctrl+z space");
+    desk.titled("Regatta - spring - Explicit Euler - 90 Hz");
+    desk.quit();
+}
