@@ -11,11 +11,13 @@ mod command;
 mod display;
 mod duration;
 mod extent;
+mod held;
 mod journal;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
 mod lab;
 mod lane;
 mod lane_spec;
+mod lens;
 mod metrics;
 mod notices;
 pub mod number;
@@ -38,10 +40,12 @@ pub use analysis::{
 pub use clock::{Clock, Due};
 pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};
 pub use display::{Ask, Display, Instrument, Interpolation, Pace};
+pub use held::Held;
 pub use journal::{Journal, JournalRow, Source};
 pub use lab::Lab;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Origin, TakenUp};
 pub use lane_spec::LaneSpec;
+pub use lens::{Lens, ZOOMS};
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use past::{CAPACITY, History, Past, Run, Sample, Samples, TruthCurve, TruthSample};
 pub use race::{Entrant, Mode, Observer, Race};

@@ -2,6 +2,7 @@
 
 use super::analysis::{Advice, Findings, Verdict};
 use super::display::{Display, Instrument, Interpolation, Pace};
+use super::held::Held;
 
 /// How a run is looked at, and what there is to read beside it.
 #[derive(Clone, Debug)]
@@ -15,6 +16,8 @@ pub struct Viewer {
     /// The latest thing worth telling, such as a screenshot's file name.
     pub notice: Option<String>,
     pub(super) findings: Option<Findings>,
+    /// The body in hand.
+    pub(super) held: Option<Held>,
 }
 
 impl Viewer {
@@ -28,12 +31,19 @@ impl Viewer {
                 body: 0,
                 help: false,
                 motion: true,
+                lenses: Vec::new(),
             },
             selected,
             pace: None,
             notice: None,
             findings: None,
+            held: None,
         }
+    }
+
+    /// The body in hand, if one is.
+    pub fn held(&self) -> Option<&Held> {
+        self.held.as_ref()
     }
 
     /// What is to be said of the method on this place of the list, over the scene from its start at the
