@@ -63,8 +63,8 @@
 //! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
 //!   `methods!`. If its card claims too much or too little, `tests/conformance` fails.
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
-//!   [`BODIES`](sim::bodies::BODIES); say how it looks in a file beside `lab/picture/look/spring.rs`, and add
-//!   that to `LOOKS`. `tests/exact_flows.rs` and `tests/bodies` hold its exact flow, or what stands in for one,
+//!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a hand takes hold of it, in a file beside
+//!   `lab/picture/look/spring.rs`, and add that to `LOOKS`. `tests/exact_flows.rs` and `tests/bodies` hold its exact flow, or what stands in for one,
 //!   against its equation.
 //! - **A scene**: add a file to `assets/scenes` and its line to [`SCENES`](lab::SCENES).
 //! - **A metric**: one entry of [`METRICS`](lab::METRICS). **A key**: one entry of [`KEYS`](lab::KEYS).

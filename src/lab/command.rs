@@ -5,7 +5,9 @@
 
 use super::action::Action;
 use super::display::Instrument;
+use super::held::Held;
 use super::lane_spec::LaneSpec;
+use super::lens::Lens;
 use crate::sim::integrators::Method;
 
 /// Something that a person asks for. What touches the run becomes an [`Action`], which says what is to be, and not
@@ -86,6 +88,17 @@ pub enum Command {
     NextInstrument,
     /// The plots and the lane list speak of the body on this place of the scene, from 0.
     Body(usize),
+    /// Holds a body; time stands still until it is let go. To put it where it is held is an [`Action`].
+    Hold(Held),
+    /// Lets the body in hand go on from where it was taken.
+    LetGo,
+    /// Zooms and pans a body's part of the stage.
+    Lens {
+        /// The body's place in the scene.
+        body: usize,
+        /// The zoom and the pan.
+        lens: Lens,
+    },
     /// Opens or closes the help overlay.
     ToggleHelp,
     /// Opens or closes the inspector.
@@ -101,7 +114,7 @@ pub enum Command {
     ToggleEqualCost,
     /// Enters or leaves full screen.
     ToggleFullScreen,
-    /// Closes the overlay, else the inspector, else quits.
+    /// Lets the body in hand go on, else closes the overlay, else the inspector, else quits.
     Escape,
 }
 
@@ -317,7 +330,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Esc",
-        about: "close the overlay, else the inspector, else quit",
+        about: "let go of a body, close the overlay, else the inspector, else quit",
         keys: &[(Key::Escape, Command::Escape)],
         repeats: false,
     },

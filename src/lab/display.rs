@@ -1,5 +1,6 @@
 //! How a lab is looked at, and what it asks of its driver.
 
+use super::lens::Lens;
 use super::metrics::METRICS;
 
 /// How a body is drawn between two ticks.
@@ -68,6 +69,22 @@ pub struct Display {
     pub inspector: bool,
     /// Whether trails fade and the camera follows smoothly.
     pub motion: bool,
+    /// How each body is zoomed and panned, by its place in the scene; a body beyond the end is fitted.
+    pub lenses: Vec<Lens>,
+}
+
+impl Display {
+    /// How the body at this place of the scene is zoomed and panned.
+    pub fn lens(&self, body: usize) -> Lens {
+        self.lenses.get(body).copied().unwrap_or_default()
+    }
+
+    pub(super) fn set_lens(&mut self, body: usize, lens: Lens) {
+        if self.lenses.len() <= body {
+            self.lenses.resize(body + 1, Lens::default());
+        }
+        self.lenses[body] = lens;
+    }
 }
 
 /// How fast the driver of a lab in real time goes; only it can know.

@@ -85,9 +85,13 @@ impl Lab {
     pub fn clock(&self) -> &Clock {
         &self.clock
     }
-    /// Whether time runs.
+    /// Whether it is not paused.
     pub fn running(&self) -> bool {
         self.running
+    }
+    /// Whether time runs: it is not paused, and no body is in hand.
+    pub fn time_runs(&self) -> bool {
+        self.running && self.viewer.held.is_none()
     }
     /// The simulated time in seconds with the part of a tick that is owed: it goes evenly with real time, while
     /// the race goes on tick by tick.
@@ -204,7 +208,7 @@ impl Lab {
     }
 
     fn advance_by(&mut self, frame_ns: i64, last: u64, mut after_tick: impl FnMut(&Lab)) -> Due {
-        if !self.running {
+        if !self.time_runs() {
             return Due::default();
         }
         // A tick rate that the script sets at this tick is that of the time from here on.

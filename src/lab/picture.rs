@@ -6,6 +6,8 @@
 mod captions;
 mod compose;
 mod ghost;
+mod grasp;
+mod layout;
 mod look;
 mod outline;
 pub mod palette;
@@ -13,7 +15,8 @@ mod sketch;
 mod trails;
 
 pub use compose::compose;
-pub use look::{Framing, Look};
+pub use grasp::{Cell, Grasp, Grip, Whose};
+pub use look::{Framing, Handle, Look, Pull};
 pub use outline::{Mark, Outline};
 
 /// The largest coordinate in a picture, in points: far outside any stage, and exact in an f32.
@@ -31,6 +34,26 @@ pub struct Rect {
     pub max: [f32; 2],
 }
 
+impl Rect {
+    /// Whether a point is in it.
+    pub fn contains(&self, at: [f32; 2]) -> bool {
+        (0..2).all(|axis| (self.min[axis]..=self.max[axis]).contains(&at[axis]))
+    }
+
+    /// Where a point is in it: across and down from its middle, in its widths and heights.
+    fn part(&self, at: [f32; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| {
+            let middle = f64::from(self.min[axis] + self.max[axis]) / 2.0;
+            (f64::from(at[axis]) - middle) / self.size()[axis]
+        })
+    }
+
+    /// Width and height, at least a point.
+    fn size(&self) -> [f64; 2] {
+        [0, 1].map(|axis| f64::from(self.max[axis] - self.min[axis]).max(1.0))
+    }
+}
+
 /// Everything on the stage, in painting order: seas, then ribbons, then strokes, then labels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
@@ -42,6 +65,8 @@ pub struct Picture {
     pub strokes: Vec<Stroke>,
     /// Text over it.
     pub labels: Vec<Label>,
+    /// What a pointer is over, one for each body of each lane.
+    pub cells: Vec<Cell>,
 }
 
 /// The background of one body's cell: water or chart paper, with a grid in the body's world.

@@ -2,6 +2,7 @@
 
 use super::analysis::{Advice, Findings, Verdict};
 use super::display::{Display, Instrument, Interpolation, Pace};
+use super::held::Held;
 use super::lane_spec::LaneSpec;
 
 /// How a run is looked at, and what there is to read beside it.
@@ -18,6 +19,8 @@ pub struct Viewer {
     pub(super) findings: Option<Findings>,
     /// What lanes were under before they were given equal cost, while they have it.
     pub(super) before_equal_cost: Option<Vec<LaneSpec>>,
+    /// The body in hand.
+    pub(super) held: Option<Held>,
 }
 
 impl Viewer {
@@ -32,13 +35,20 @@ impl Viewer {
                 help: false,
                 inspector: false,
                 motion: true,
+                lenses: Vec::new(),
             },
             selected,
             pace: None,
             notice: None,
             findings: None,
             before_equal_cost: None,
+            held: None,
         }
+    }
+
+    /// The body in hand, if one is.
+    pub fn held(&self) -> Option<&Held> {
+        self.held.as_ref()
     }
 
     /// What is to be said of the method on this place of the list, over the scene from its start at the

@@ -1,4 +1,4 @@
-//! One frame: panels are laid out, the stage they leave is drawn, the panels are drawn over it.
+//! One frame: panels are laid out, the stage they leave is composed and touched, and drawn with the panels over it.
 //!
 //! The panels go first because the picture is made for the room that they leave.
 
@@ -9,6 +9,7 @@ use super::gpu::Gpu;
 use super::meshes::MeshRenderer;
 use super::panels::{self, Panels};
 use super::stage::{Stage, StageRenderer};
+use super::touch::Touch;
 use crate::lab::picture::{self, Align, Label};
 use crate::lab::{Command, Lab};
 
@@ -35,6 +36,7 @@ pub struct FrameRenderer {
     shown: Panels,
     panels: MeshRenderer,
     stage: StageRenderer,
+    touch: Touch,
 }
 
 impl FrameRenderer {
@@ -49,6 +51,7 @@ impl FrameRenderer {
             shown: Panels::Shown,
             panels: MeshRenderer::new(gpu, format),
             stage: StageRenderer::new(gpu, format),
+            touch: Touch::default(),
         }
     }
 
@@ -81,6 +84,7 @@ impl FrameRenderer {
     ) -> (Vec<Command>, FrameOutput) {
         let mut commands = Vec::new();
         let shown = self.shown;
+        let mut touch = std::mem::take(&mut self.touch);
         let output = self.draw_with(gpu, target, size_px, scale, input, |ui| {
             let rect = match shown {
                 Panels::Shown => {
@@ -91,8 +95,11 @@ impl FrameRenderer {
                 Panels::Off => ui.max_rect(),
             };
             let size = rect.size().max(egui::Vec2::ZERO);
-            Some(Stage { rect, picture: picture::compose(lab, size.into()) })
+            let picture = picture::compose(lab, size.into());
+            touch.show(ui, rect, &picture, lab, &mut commands);
+            Some(Stage { rect, picture })
         });
+        self.touch = touch;
         (commands, output)
     }
 

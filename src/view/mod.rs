@@ -29,6 +29,7 @@ mod strokes;
 #[cfg(test)]
 mod testing;
 mod ticks;
+mod touch;
 mod triangles;
 
 pub use artist::Artist;

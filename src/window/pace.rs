@@ -31,11 +31,11 @@ impl Meter {
         let under = (lab.clock().tick_hz(), lab.clock().speed_percent());
         let t = lab.time_with_owed_s();
         let went_back = self.frames.back().is_some_and(|&(_, last)| t < last);
-        if !lab.running() || went_back || under != self.under {
+        if !lab.time_runs() || went_back || under != self.under {
             self.frames.clear();
             self.under = under;
         }
-        if !lab.running() {
+        if !lab.time_runs() {
             return;
         }
         self.frames.push_back((now, t));

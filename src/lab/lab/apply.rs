@@ -88,6 +88,10 @@ impl Lab {
                 self.viewer.display.inspector = !self.viewer.display.inspector;
             }
             Command::Seconds(seconds) => self.start.set_seconds(seconds),
+            Command::Hold(held) => self.viewer.held = Some(held),
+            Command::LetGo => self.viewer.held = None,
+            Command::Lens { body, lens } => self.viewer.display.set_lens(body, lens),
+            Command::Escape if self.viewer.held.is_some() => self.viewer.held = None,
             Command::Escape if self.viewer.display.help => self.viewer.display.help = false,
             Command::Escape if self.viewer.display.inspector => {
                 self.viewer.display.inspector = false;
@@ -235,6 +239,7 @@ impl Lab {
         self.timeline = Timeline::new(self.start.session());
         self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
         self.viewer.notice = None;
+        self.viewer.held = None;
         self.clock.set_tick_hz(self.start.tick_hz);
         self.clock.restart();
         self.dropped = 0;
@@ -250,7 +255,7 @@ impl Lab {
         let scene = Scene::built_in(SCENES[index].name).expect("every name in SCENES is built in");
         let mut lab = Lab::new(scene);
         lab.start.mode = self.mode();
-        lab.viewer.display = Display { body: 0, ..self.viewer.display.clone() };
+        lab.viewer.display = Display { body: 0, lenses: Vec::new(), ..self.viewer.display.clone() };
         lab.viewer.pace = self.viewer.pace;
         lab.clock.set_speed_percent(self.clock.speed_percent());
         lab.running = self.running;

@@ -99,13 +99,18 @@ pub(super) fn solo(picture: &mut Picture, rect: Rect, lab: &Lab, index: usize, f
         let (colour, text) = (palette::ALARM, format!("halted at tick {}", halt.tick));
         picture.labels.push(Label { at, align: Align::Right, size, colour, text });
     } else if width > ROOM_FOR_NUMBERS {
+        let held = lab.viewer().held().filter(|held| held.body == index);
+        let (q, v) = match held {
+            Some(held) => (&*held.q, &*held.v),
+            None => (flown.stepper.q(), flown.stepper.v()),
+        };
         let coordinate = &flown.coordinates[0];
         let text = format!(
             "{} = {} {unit}   {} = {} {unit}/s",
             coordinate.name,
-            significant(flown.stepper.q()[0], 4),
+            significant(q[0], 4),
             coordinate.velocity,
-            significant(flown.stepper.v()[0], 4),
+            significant(v[0], 4),
             unit = coordinate.unit,
         );
         let colour = palette::TEXT;

@@ -3,9 +3,10 @@
 use glam::DVec2;
 
 use super::ghost::Ghost;
+use super::layout::{grid, mosaic};
 use super::palette::{self, faded, style};
 use super::sketch::{Camera, Paint, demote, line, strokes};
-use super::{Framing, Look, Picture, Rect, Sea, captions};
+use super::{Cell, Framing, Look, Picture, Rect, Sea, Whose, captions};
 use crate::lab::race::Entrant;
 use crate::lab::{Interpolation, Lab, LaneBody, Mode};
 
@@ -13,13 +14,13 @@ use crate::lab::{Interpolation, Lab, LaneBody, Mode};
 const CAPTION: f32 = 32.0;
 /// The head of a cell that a body with a fixed camera leaves to the caption, in points.
 const HEAD: f64 = 20.0;
-/// Space round the stage and between its cells, in points.
-const MARGIN: f32 = 6.0;
 /// The column of lane names at the left of a race, in points: on a stage wide enough for names, and on
 /// others, where only the number fits.
 const GUTTERS: (f32, f32) = (120.0, 18.0);
 /// From this width of the stage on, in points, lane names fit.
 const ROOM_FOR_NAMES: f32 = 520.0;
+/// How much is seen of a body where it was taken from, while it is held.
+const LEFT_BEHIND: f32 = 0.35;
 /// The part of a scene's duration that a chart recorder's paper holds: three swings of the harbour's
 /// 1 Hz spring, and no more of a faster one than can be told apart.
 const PAPER: f64 = 0.15;
@@ -85,35 +86,6 @@ pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
     picture
 }
 
-/// The cells of a grid, row by row.
-fn grid(stage: Rect, rows: usize, columns: usize) -> Vec<Rect> {
-    let side = |axis: usize, count: usize| {
-        let room = stage.max[axis] - stage.min[axis];
-        ((room - MARGIN * (count as f32 + 1.0)) / count as f32).max(0.0)
-    };
-    let (width, height) = (side(0, columns), side(1, rows));
-    let cell = |row: usize, column: usize| {
-        let min = [
-            stage.min[0] + MARGIN + column as f32 * (width + MARGIN),
-            stage.min[1] + MARGIN + row as f32 * (height + MARGIN),
-        ];
-        Rect { min, max: [min[0] + width, min[1] + height] }
-    };
-    (0..rows).flat_map(|row| (0..columns).map(move |column| cell(row, column))).collect()
-}
-
-/// So many cells in rows, cut so that a picture of this `shape` is as large as may be in each.
-fn mosaic(stage: Rect, count: usize, shape: DVec2) -> Vec<Rect> {
-    let scale = |cells: &Vec<Rect>| {
-        let Rect { min, max } = cells[0];
-        (f64::from(max[0] - min[0]) / shape.x).min(f64::from(max[1] - min[1]) / shape.y)
-    };
-    let grids = (1..=count).map(|columns| grid(stage, count.div_ceil(columns), columns));
-    let mut cells = grids.max_by(|a, b| scale(a).total_cmp(&scale(b))).unwrap_or_default();
-    cells.truncate(count);
-    cells
-}
-
 /// The moment that is drawn.
 pub(super) struct Shown<'a> {
     pub(super) lab: &'a Lab,
@@ -170,10 +142,11 @@ impl Shown<'_> {
         let place = race.iter().position(|other| other.lane_number == entrant.lane_number);
         let place = place.expect("it is in the race");
         let history = &self.lab.past().histories(place)[index];
-        let outline = Look::of(body.kind).outline(&*body.stepper, &self.coordinates(body));
+        let (look, coordinates) = (Look::of(body.kind), self.coordinates(body));
+        let outline = look.outline(&*body.stepper, &coordinates);
 
         let framing = ghost.framing;
-        let camera = self.camera(rect, turns(body), ghost);
+        let camera = self.camera(rect, index, ghost);
         let (colour, _) = style(self.lab.entries()[entrant.entry].method);
         let own = Paint { colour, line_width: 2.0, grow: 0.0 };
         let exact = Paint { colour: faded(palette::TRUTH, 0.75), line_width: 1.0, grow: 1.6 };
@@ -209,7 +182,19 @@ impl Shown<'_> {
         if shows_ghost {
             picture.strokes.extend(strokes(&ghost.outline.marks, &camera, exact));
         }
-        picture.strokes.extend(strokes(&outline.marks, &camera, own));
+        match self.lab.viewer().held().filter(|held| held.body == index) {
+            None => picture.strokes.extend(strokes(&outline.marks, &camera, own)),
+            Some(held) => {
+                let left = Paint { colour: faded(colour, LEFT_BEHIND), ..own };
+                picture.strokes.extend(strokes(&outline.marks, &camera, left));
+                let held_outline = look.outline(&*body.stepper, &held.q);
+                picture.strokes.extend(strokes(&held_outline.marks, &camera, own));
+                if held.lane == entrant.lane_number {
+                    let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
+                    picture.strokes.push(line(handle, hand, 1.0, palette::TEXT, rect));
+                }
+            }
+        }
 
         captions::arrow(picture, &camera, outline.at, body.stepper.place(), colour);
         if self.lab.mode() == Mode::Solo || entrant.entry == race[race.len() - 1].entry {
@@ -218,6 +203,19 @@ impl Shown<'_> {
         if let (Framing::Follow { .. }, false) = (framing, turns(body)) {
             captions::distance_marks(picture, &camera);
         }
+        let mut cell = Cell {
+            rect,
+            lane: entrant.lane_number,
+            entry: entrant.entry,
+            body: index,
+            grips: Vec::new(),
+            camera,
+        };
+        cell.add_grips(body, &coordinates, Whose::Lane);
+        if shows_ghost {
+            cell.add_grips(truth, &ghost.q, Whose::Truth);
+        }
+        picture.cells.push(cell);
         match self.lab.mode() {
             Mode::Solo => {
                 captions::solo(picture, rect, self.lab, index, body);
@@ -231,8 +229,14 @@ impl Shown<'_> {
         }
     }
 
-    pub(super) fn camera(&self, rect: Rect, turns: bool, ghost: &Ghost) -> Camera {
-        let [width, height] = [0, 1].map(|i| f64::from(rect.max[i] - rect.min[i]).max(1.0));
+    /// The camera of a cell of the body at this place of the scene.
+    pub(super) fn camera(&self, rect: Rect, index: usize, ghost: &Ghost) -> Camera {
+        let turns = turns(&self.lab.race().truth().bodies()[index]);
+        self.fitted(rect, turns, ghost).through(self.lab.display().lens(index))
+    }
+
+    fn fitted(&self, rect: Rect, turns: bool, ghost: &Ghost) -> Camera {
+        let [width, height] = rect.size();
         let middle = [0, 1].map(|i| (rect.min[i] + rect.max[i]) / 2.0);
         match ghost.framing {
             Framing::Follow { width_m, height_m, .. } => {
@@ -249,28 +253,31 @@ impl Shown<'_> {
                 let ahead = if turns { 0.0 } else { 0.1 };
                 let at = [middle[0] + ahead * width as f32, middle[1] + 0.06 * height as f32];
                 let points_per_metre = (width / width_m).min(height / height_m);
-                Camera { rect, centre_m, at, points_per_metre }
+                Camera { rect, centre_m, at, points_per_metre, paper: 0.0 }
             }
             Framing::Recorder { half_width_m } => {
                 let half_width_m = half_width_m.max(1.15 * ghost.reach_m.x);
                 let at = [middle[0] + 0.05 * width as f32, rect.min[1] + 0.46 * height as f32];
                 let points_per_metre = (width / 2.1).min(height * 1.1) / half_width_m;
-                Camera { rect, centre_m: DVec2::ZERO, at, points_per_metre }
+                let paper = f64::from(rect.max[1] - at[1]);
+                Camera { rect, centre_m: DVec2::ZERO, at, points_per_metre, paper }
             }
             Framing::Fixed { centre_m, half_m, .. } => {
                 let half_m = half_m.max(1.05 * ghost.reach_m);
                 let head = HEAD.min(height / 4.0);
                 let at = [middle[0], middle[1] + head as f32 / 2.0];
                 let points_per_metre = (width / half_m.x).min((height - head) / half_m.y) / 2.0;
-                Camera { rect, centre_m, at, points_per_metre }
+                Camera { rect, centre_m, at, points_per_metre, paper: 0.0 }
             }
         }
     }
 
     fn sea(&self, camera: &Camera, framing: Framing) -> Sea {
         let step_m = camera.round_length_m(48.0);
-        // The nearest grid line to the camera, so that no large number reaches an f32.
-        let line = (camera.centre_m / step_m).round() * step_m;
+        // The nearest grid line to the middle, so that no large number reaches an f32.
+        let Rect { min, max } = camera.rect;
+        let middle = camera.metres([0, 1].map(|axis| (min[axis] + max[axis]) / 2.0));
+        let line = (middle / step_m).round() * step_m;
         Sea {
             rect: camera.rect,
             grid_origin: camera.points(line),

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::compose::{Shown, turns};
+use super::compose::Shown;
 use super::palette::{self, faded};
 use super::trails::Moment;
 use super::{Framing, Look, Outline, Rect};
@@ -12,6 +12,8 @@ use crate::lab::TruthCurve;
 pub(super) struct Ghost {
     /// What part of the body's world is shown.
     pub(super) framing: Framing,
+    /// Its coordinates there.
+    pub(super) q: Vec<f64>,
     /// What it looks like there.
     pub(super) outline: Outline,
     /// Where it has been, newest first, as far back as its trail shows.
@@ -42,11 +44,12 @@ impl Ghost {
         };
         let mut ghost = Self {
             framing,
+            q,
             outline,
             past: Vec::new(),
             reach_m: curve.samples().map(|s| (s.at - centre_m).abs()).fold(DVec2::ZERO, DVec2::max),
         };
-        let camera = shown.camera(cell, turns(body), &ghost);
+        let camera = shown.camera(cell, index, &ghost);
         let tolerance_m = TOLERANCE / camera.points_per_metre;
         ghost.past = thinned(past(curve, ghost.outline.at, shown.t, trail_s), tolerance_m);
         ghost

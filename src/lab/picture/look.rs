@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::outline::Outline;
 use crate::sim::bodies::{Body, Chain, Helm, Kind, Orbit, Pendulum, Ship, Spring};
-use crate::sim::{Stepper, Vector};
+use crate::sim::{State, Stepper, Vector};
 
 mod chain;
 mod helm;
@@ -48,6 +48,26 @@ pub enum Framing {
     },
 }
 
+/// A part of a body that a hand can take hold of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Handle {
+    /// Its middle, in metres.
+    pub at: DVec2,
+    /// How far it reaches from there, in metres.
+    pub radius: f64,
+}
+
+/// Where a hand has brought a handle, and how it moves there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pull {
+    /// The handle's place among the body's [handles](Look::handles).
+    pub handle: usize,
+    /// Where it is to be, in metres.
+    pub to: DVec2,
+    /// How fast it is to move, in metres per second.
+    pub velocity: DVec2,
+}
+
 /// How bodies of one type look.
 trait Drawn: Body {
     /// Draws a body with these coordinates, in metres, x right and y up; [`Outline::at`] is where it is.
@@ -55,6 +75,13 @@ trait Drawn: Body {
 
     /// What part of its world the stage shows.
     fn framing(&self) -> Framing;
+
+    /// Where a hand can take hold of a body with these coordinates.
+    fn handles(&self, q: &Self::Vector) -> Vec<Handle>;
+
+    /// Brings a handle as near to where it is pulled as the body lets it, moving as it is pulled as far as the body
+    /// lets it. What the handle does not move keeps its state.
+    fn pull(&self, state: &mut State<Self::Vector>, pull: Pull);
 }
 
 /// How bodies of one kind look.
@@ -64,6 +91,8 @@ pub struct Look {
     kind: &'static str,
     outline: fn(&dyn Any, &[f64]) -> Outline,
     framing: fn(&dyn Any) -> Framing,
+    handles: fn(&dyn Any, &[f64]) -> Vec<Handle>,
+    pull: fn(&dyn Any, &mut [f64], &mut [f64], Pull),
 }
 
 /// Every kind's look, in the order of [`BODIES`](crate::sim::bodies::BODIES).
@@ -80,13 +109,23 @@ impl Look {
     const fn of_type<B: Drawn>(kind: &'static str) -> Self {
         let outline = |body: &dyn Any, q: &[f64]| {
             let body = typed::<B>(body);
-            let mut shown = body.start().q;
-            shown.components_mut().copy_from_slice(q);
+            let shown = vector::<B>(body, q);
             let mut outline = Outline { at: body.place(&shown), marks: Vec::new() };
             body.draw(&shown, &mut outline);
             outline
         };
-        Self { kind, outline, framing: |body| typed::<B>(body).framing() }
+        let handles = |body: &dyn Any, q: &[f64]| {
+            let body = typed::<B>(body);
+            body.handles(&vector::<B>(body, q))
+        };
+        let pull = |body: &dyn Any, q: &mut [f64], v: &mut [f64], pull: Pull| {
+            let body = typed::<B>(body);
+            let mut state = State { q: vector::<B>(body, q), v: vector::<B>(body, v) };
+            body.pull(&mut state, pull);
+            q.copy_from_slice(state.q.components());
+            v.copy_from_slice(state.v.components());
+        };
+        Self { kind, outline, framing: |body| typed::<B>(body).framing(), handles, pull }
     }
 
     /// The look of bodies of this kind.
@@ -104,6 +143,23 @@ impl Look {
     pub fn framing(&self, body: &dyn Stepper) -> Framing {
         (self.framing)(body.body())
     }
+
+    /// Where a hand can take hold of `body`, which is of this kind, at the coordinates `q`.
+    pub fn handles(&self, body: &dyn Stepper, q: &[f64]) -> Vec<Handle> {
+        (self.handles)(body.body(), q)
+    }
+
+    /// Changes the coordinates and velocities of `body`, which is of this kind, as a hand pulls it.
+    pub fn pull(&self, body: &dyn Stepper, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        (self.pull)(body.body(), q, v, pull);
+    }
+}
+
+/// Coordinates or velocities as the body has them.
+fn vector<B: Body>(body: &B, components: &[f64]) -> B::Vector {
+    let mut vector = body.start().q;
+    vector.components_mut().copy_from_slice(components);
+    vector
 }
 
 fn typed<B: Body>(body: &dyn Any) -> &B {

@@ -3,9 +3,10 @@
 use glam::DVec2;
 
 use super::{Cap, FAR, Mark, Rect, Rgba, Stroke};
+use crate::lab::Lens;
 
 /// Looks at one body's world through one cell of the stage.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Camera {
     /// The cell.
     pub(super) rect: Rect,
@@ -15,9 +16,32 @@ pub(super) struct Camera {
     pub(super) at: [f32; 2],
     /// Points for one metre.
     pub(super) points_per_metre: f64,
+    /// How long a chart recorder's paper is from the body down, in points.
+    pub(super) paper: f64,
 }
 
 impl Camera {
+    /// The camera through a lens.
+    pub(super) fn through(self, lens: Lens) -> Self {
+        let (seen, size) = (lens.seen(self.rect.part(self.at)), self.rect.size());
+        let point = |axis: usize| {
+            let middle = f64::from(self.rect.min[axis] + self.rect.max[axis]) / 2.0;
+            demote(middle + seen[axis] * size[axis])
+        };
+        Self {
+            at: [point(0), point(1)],
+            points_per_metre: self.points_per_metre * lens.zoom(),
+            paper: self.paper * lens.zoom(),
+            ..self
+        }
+    }
+
+    /// The place in the world that a point shows.
+    pub(super) fn metres(&self, at: [f32; 2]) -> DVec2 {
+        let [x, y] = [0, 1].map(|axis| f64::from(at[axis] - self.at[axis]));
+        self.centre_m + DVec2::new(x, -y) / self.points_per_metre
+    }
+
     /// The point that shows a place in the world.
     pub(super) fn points(&self, place_m: DVec2) -> [f32; 2] {
         let offset = (place_m - self.centre_m) * self.points_per_metre;

@@ -74,7 +74,7 @@ impl Shown<'_> {
 
     /// Where a moment lies on a chart recorder's paper: older is further down.
     pub(super) fn on_paper(&self, camera: &Camera, moment: &Moment) -> [f32; 2] {
-        let drop = f64::from(camera.rect.max[1] - camera.at[1]) / self.paper_s;
+        let drop = camera.paper / self.paper_s;
         let [x, y] = camera.points(moment.at);
         [x, demote(f64::from(y) + moment.age * drop)]
     }

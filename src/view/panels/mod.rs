@@ -105,7 +105,7 @@ pub(super) const TEXT: Color32 = Color32::from_rgb(206, 218, 232);
 pub(super) const QUIET: Color32 = Color32::from_rgb(138, 156, 180);
 const WELL: Color32 = Color32::from_rgb(122, 204, 164);
 const DOUBTFUL: Color32 = Color32::from_rgb(230, 190, 110);
-const ACCENT: Color32 = Color32::from_rgb(86, 180, 233);
+pub(super) const ACCENT: Color32 = Color32::from_rgb(86, 180, 233);
 
 /// The look of every widget: a night chart. Set once for each context.
 pub(super) fn dress(ctx: &egui::Context) {

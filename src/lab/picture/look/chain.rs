@@ -2,8 +2,16 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Outline};
+use super::{Drawn, Framing, Handle, Outline, Pull};
+use crate::sim::State;
 use crate::sim::bodies::Chain;
+
+/// The radius of each of so many beads, in metres.
+fn bead(chain: &Chain, beads: usize) -> f64 {
+    let unit = chain.amplitude();
+    let room = 2.0 * Chain::HALF_LENGTH * unit / (beads + 1) as f64;
+    (0.28 * room).min(0.11 * unit)
+}
 
 impl Drawn for Chain {
     fn draw(&self, q: &Vec<f64>, outline: &mut Outline) {
@@ -18,8 +26,7 @@ impl Drawn for Chain {
         for end in [self.place_of(0, 0.0), last] {
             outline.line(end - half_wall, end + half_wall, 2.0);
         }
-        let room = 2.0 * Chain::HALF_LENGTH * unit / (q.len() + 1) as f64;
-        let radius = (0.28 * room).min(0.11 * unit);
+        let radius = bead(self, q.len());
         for (j, &x) in (1..).zip(q) {
             let at = self.place_of(j, x);
             outline.taper(at, radius, at, radius);
@@ -32,5 +39,16 @@ impl Drawn for Chain {
             half_m: DVec2::new(1.08 * Chain::HALF_LENGTH, 1.15) * self.amplitude(),
             trail_s: 0.0,
         }
+    }
+
+    fn handles(&self, q: &Vec<f64>) -> Vec<Handle> {
+        let radius = bead(self, q.len());
+        (1..).zip(q).map(|(j, &x)| Handle { at: self.place_of(j, x), radius }).collect()
+    }
+
+    /// The other beads keep their places and their velocities.
+    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
+        state.q[pull.handle] = pull.to.y;
+        state.v[pull.handle] = pull.velocity.y;
     }
 }

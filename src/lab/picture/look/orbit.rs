@@ -2,15 +2,24 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Outline};
+use super::{Drawn, Framing, Handle, Outline, Pull};
+use crate::sim::State;
 use crate::sim::bodies::{Ellipse, Orbit};
+
+/// The radius of the satellite, in units.
+const SATELLITE: f64 = 0.045;
+
+/// Half the longer side of the rectangle round the orbit, in metres; of one that is not closed, its first distance.
+fn unit(orbit: &Orbit) -> f64 {
+    orbit.ellipse().map_or(orbit.q0.length(), |ellipse| ellipse.half.max_element())
+}
 
 impl Drawn for Orbit {
     fn draw(&self, _q: &DVec2, outline: &mut Outline) {
-        let unit = self.ellipse().map_or(self.q0.length(), |ellipse| ellipse.half.max_element());
+        let unit = unit(self);
         let (centre, at) = (DVec2::ZERO, outline.at);
         outline.taper(centre, 0.075 * unit, centre, 0.075 * unit);
-        outline.taper(at, 0.045 * unit, at, 0.045 * unit);
+        outline.taper(at, SATELLITE * unit, at, SATELLITE * unit);
     }
 
     fn framing(&self) -> Framing {
@@ -24,5 +33,13 @@ impl Drawn for Orbit {
                 Framing::Fixed { centre_m: DVec2::ZERO, half_m, trail_s }
             }
         }
+    }
+
+    fn handles(&self, q: &DVec2) -> Vec<Handle> {
+        vec![Handle { at: *q, radius: SATELLITE * unit(self) }]
+    }
+
+    fn pull(&self, state: &mut State<DVec2>, pull: Pull) {
+        *state = State { q: pull.to, v: pull.velocity };
     }
 }

@@ -1,20 +1,40 @@
 //! A bob on a rod.
 
+use std::f64::consts::TAU;
+
 use glam::DVec2;
 
-use super::{Drawn, Framing, Outline};
-use crate::sim::bodies::Pendulum;
+use super::{Drawn, Framing, Handle, Outline, Pull};
+use crate::sim::State;
+use crate::sim::bodies::{Body, Pendulum};
+
+/// The radius of the bob, in lengths of the rod.
+const BOB: f64 = 0.12;
 
 impl Drawn for Pendulum {
     fn draw(&self, _theta: &f64, outline: &mut Outline) {
         let (pivot, bob, unit) = (DVec2::ZERO, outline.at, self.length);
         outline.line(pivot, bob, 1.4);
         outline.taper(pivot, 0.035 * unit, pivot, 0.035 * unit);
-        outline.taper(bob, 0.12 * unit, bob, 0.12 * unit);
+        outline.taper(bob, BOB * unit, bob, BOB * unit);
     }
 
     fn framing(&self) -> Framing {
         let half_m = DVec2::splat(1.2 * self.length);
         Framing::Fixed { centre_m: DVec2::ZERO, half_m, trail_s: 1.0 }
+    }
+
+    fn handles(&self, theta: &f64) -> Vec<Handle> {
+        vec![Handle { at: self.place(theta), radius: BOB * self.length }]
+    }
+
+    /// To the nearest turn, so that a bob that is led round and round counts its turns.
+    fn pull(&self, state: &mut State<f64>, pull: Pull) {
+        if pull.to != DVec2::ZERO {
+            let angle = libm::atan2(pull.to.x, -pull.to.y);
+            state.q = angle + TAU * libm::round((state.q - angle) / TAU);
+        }
+        let tangent = DVec2::new(libm::cos(state.q), libm::sin(state.q));
+        state.v = pull.velocity.dot(tangent) / self.length;
     }
 }

@@ -2,15 +2,27 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Outline};
+use super::{Drawn, Framing, Handle, Outline, Pull};
+use crate::sim::State;
 use crate::sim::bodies::Ship;
+
+/// The length of the hull, in metres.
+const LENGTH_M: f64 = 9.0;
 
 impl Drawn for Ship {
     fn draw(&self, _s: &f64, outline: &mut Outline) {
-        outline.hull(DVec2::X, 9.0);
+        outline.hull(DVec2::X, LENGTH_M);
     }
 
     fn framing(&self) -> Framing {
         Framing::Follow { width_m: 60.0, height_m: 9.0, wake_s: 3.0 }
+    }
+
+    fn handles(&self, s: &f64) -> Vec<Handle> {
+        vec![Handle { at: DVec2::new(*s, 0.0), radius: LENGTH_M / 2.0 }]
+    }
+
+    fn pull(&self, state: &mut State<f64>, pull: Pull) {
+        *state = State { q: pull.to.x, v: pull.velocity.x };
     }
 }

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Outline};
+use super::{Drawn, Framing, Handle, Outline, Pull};
+use crate::sim::State;
 use crate::sim::bodies::Spring;
 
 /// The amplitude that the undamped spring would swing with from its start, in metres; of one that would not
@@ -12,11 +13,14 @@ fn amplitude(spring: &Spring) -> f64 {
     if amplitude > 0.0 { amplitude } else { 1.0 }
 }
 
+/// Half the side of the block, in amplitudes.
+const HALF_BLOCK: f64 = 0.16;
+
 impl Drawn for Spring {
     fn draw(&self, _x: &f64, outline: &mut Outline) {
         let unit = amplitude(self);
         let wall = DVec2::new(-1.9 * unit, 0.0);
-        let half = 0.16 * unit;
+        let half = HALF_BLOCK * unit;
         outline.line(wall - DVec2::Y * 0.45 * unit, wall + DVec2::Y * 0.45 * unit, 2.0);
         outline.coil(wall, outline.at - DVec2::X * half, 9, 0.14 * unit);
         outline.block(outline.at, DVec2::X, half);
@@ -24,6 +28,14 @@ impl Drawn for Spring {
 
     fn framing(&self) -> Framing {
         Framing::Recorder { half_width_m: 2.0 * amplitude(self) }
+    }
+
+    fn handles(&self, x: &f64) -> Vec<Handle> {
+        vec![Handle { at: DVec2::new(*x, 0.0), radius: HALF_BLOCK * amplitude(self) }]
+    }
+
+    fn pull(&self, state: &mut State<f64>, pull: Pull) {
+        *state = State { q: pull.to.x, v: pull.velocity.x };
     }
 }
 

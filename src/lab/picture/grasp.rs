@@ -1,0 +1,142 @@
+//! The cells of a picture, for a pointer over them: what can be taken hold of, and where in its world a hand is.
+
+use glam::DVec2;
+
+use super::sketch::Camera;
+use super::{Look, Pull, Rect};
+use crate::lab::{Held, Lab, LaneBody};
+
+/// How close to the middle of a small handle a hand can take hold of it, in points: as close as people aim.
+const LEAST_RADIUS: f32 = 14.0;
+
+/// One body's cell of one lane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// Where it is.
+    pub rect: Rect,
+    /// The lane's number.
+    pub lane: usize,
+    /// The place of the lane's method on the list.
+    pub entry: usize,
+    /// The body's place in the scene.
+    pub body: usize,
+    /// Where the body can be taken hold of.
+    pub grips: Vec<Grip>,
+    pub(super) camera: Camera,
+}
+
+/// Where a body can be taken hold of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grip {
+    /// The middle of what is taken hold of, in points.
+    pub at: [f32; 2],
+    /// How far from there a hand takes hold of it, in points.
+    pub radius: f32,
+    /// Its place among the body's handles.
+    pub handle: usize,
+    /// Whose body it is.
+    pub whose: Whose,
+}
+
+/// Whose body is seen in a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Whose {
+    /// The cell's lane's.
+    Lane,
+    /// The truth's: a ghost.
+    Truth,
+}
+
+impl Cell {
+    /// What a hand at this point of the stage takes hold of: of what it touches the nearest, a ghost only where the
+    /// lane's own body is out of reach.
+    pub fn grip_at(&self, at: [f32; 2]) -> Option<&Grip> {
+        let away = |grip: &Grip| (grip.at[0] - at[0]).hypot(grip.at[1] - at[1]);
+        let nearest = |whose: Whose| {
+            let touched = self.grips.iter().filter(|grip| grip.whose == whose);
+            let touched = touched.filter(|grip| away(grip) <= grip.radius);
+            touched.min_by(|a, b| away(a).total_cmp(&away(b)))
+        };
+        if !self.rect.contains(at) {
+            return None;
+        }
+        nearest(Whose::Lane).or_else(|| nearest(Whose::Truth))
+    }
+
+    /// Where a point of the stage is in the body's world, in metres.
+    pub fn metres(&self, at: [f32; 2]) -> DVec2 {
+        self.camera.metres(at)
+    }
+
+    /// Where a point of the stage is in the cell: across and down from its middle, in its widths and heights.
+    pub fn part(&self, at: [f32; 2]) -> [f64; 2] {
+        self.rect.part(at)
+    }
+
+    pub(super) fn add_grips(&mut self, body: &LaneBody, q: &[f64], whose: Whose) {
+        let handles = Look::of(body.kind).handles(&*body.stepper, q);
+        self.grips.extend(handles.into_iter().enumerate().map(|(handle, part)| {
+            let radius = self.camera.length(part.radius).max(LEAST_RADIUS);
+            Grip { at: self.camera.points(part.at), radius, handle, whose }
+        }));
+    }
+}
+
+/// A hand on a body.
+#[derive(Clone, Debug)]
+pub struct Grasp {
+    cell: Cell,
+    handle: usize,
+    /// From the handle to the hand, in metres.
+    offset_m: DVec2,
+    held: Held,
+}
+
+impl Grasp {
+    /// Takes hold of the body in `cell` by `grip`, with the hand at this point of the stage.
+    pub fn new(lab: &Lab, cell: &Cell, grip: &Grip, hand: [f32; 2]) -> Option<Self> {
+        let race = lab.race();
+        let lane = match grip.whose {
+            Whose::Lane => &race.entrants().iter().find(|e| e.lane_number == cell.lane)?.lane,
+            Whose::Truth => race.truth(),
+        };
+        let stepper = &lane.bodies()[cell.body].stepper;
+        let (place, hand_m) = (cell.metres(grip.at), cell.metres(hand));
+        let mut grasp = Self {
+            handle: grip.handle,
+            offset_m: hand_m - place,
+            held: Held {
+                lane: cell.lane,
+                body: cell.body,
+                q: stepper.q().into(),
+                v: stepper.v().into(),
+                hand: hand_m,
+                handle: place,
+            },
+            cell: cell.clone(),
+        };
+        grasp.pull(lab, hand, [0.0; 2]);
+        Some(grasp)
+    }
+
+    /// Brings the hand to a point of the stage, where it moves with this velocity in points per second of simulated
+    /// time, y down.
+    pub fn pull(&mut self, lab: &Lab, hand: [f32; 2], velocity: [f64; 2]) {
+        let Self { cell, handle, offset_m, held } = self;
+        let body = &lab.race().truth().bodies()[cell.body];
+        let look = Look::of(body.kind);
+        held.hand = cell.metres(hand);
+        let velocity = DVec2::new(velocity[0], -velocity[1]) / cell.camera.points_per_metre;
+        let pull = Pull { handle: *handle, to: held.hand - *offset_m, velocity };
+        look.pull(&*body.stepper, &mut held.q, &mut held.v, pull);
+        held.handle = look.handles(&*body.stepper, &held.q)[*handle].at;
+    }
+
+    /// The body as it is held.
+    pub fn held(&self) -> &Held {
+        &self.held
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,37 @@
+//! How the stage is cut into cells.
+
+use glam::DVec2;
+
+use super::Rect;
+
+/// Space round the stage and between its cells, in points.
+const MARGIN: f32 = 6.0;
+
+/// The cells of a grid, row by row.
+pub(super) fn grid(stage: Rect, rows: usize, columns: usize) -> Vec<Rect> {
+    let side = |axis: usize, count: usize| {
+        let room = stage.max[axis] - stage.min[axis];
+        ((room - MARGIN * (count as f32 + 1.0)) / count as f32).max(0.0)
+    };
+    let (width, height) = (side(0, columns), side(1, rows));
+    let cell = |row: usize, column: usize| {
+        let min = [
+            stage.min[0] + MARGIN + column as f32 * (width + MARGIN),
+            stage.min[1] + MARGIN + row as f32 * (height + MARGIN),
+        ];
+        Rect { min, max: [min[0] + width, min[1] + height] }
+    };
+    (0..rows).flat_map(|row| (0..columns).map(move |column| cell(row, column))).collect()
+}
+
+/// So many cells in rows, cut so that a picture of this `shape` is as large as may be in each.
+pub(super) fn mosaic(stage: Rect, count: usize, shape: DVec2) -> Vec<Rect> {
+    let scale = |cells: &Vec<Rect>| {
+        let Rect { min, max } = cells[0];
+        (f64::from(max[0] - min[0]) / shape.x).min(f64::from(max[1] - min[1]) / shape.y)
+    };
+    let grids = (1..=count).map(|columns| grid(stage, count.div_ceil(columns), columns));
+    let mut cells = grids.max_by(|a, b| scale(a).total_cmp(&scale(b))).unwrap_or_default();
+    cells.truncate(count);
+    cells
+}

@@ -1,0 +1,260 @@
+//! The pointer over the stage: it takes hold of bodies, and zooms and pans what is seen of them. As panels do, it reads
+//! the lab and returns commands.
+
+use std::collections::VecDeque;
+
+use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2};
+
+use super::panels::ACCENT;
+use crate::lab::picture::{Cell, Grasp, Picture};
+use crate::lab::{Action, Command, Lab, Lens, Mode};
+
+/// From this distance on, in points, a press is a drag: less is a hand that trembles.
+const DRAG: f32 = 3.0;
+/// The time over which a drag's velocity is measured, in seconds: long enough for several frames, short enough for a
+/// hand that stopped to be at rest.
+const MEMORY_S: f64 = 0.1;
+/// How far a wheel turns for the picture to grow by the factor e, in points; a notch is some 40.
+const WHEEL: f32 = 200.0;
+/// From a body's edge to the ring that says that it can be grabbed, in points.
+const RING: f32 = 3.0;
+
+/// What a pointer does to a stage, from frame to frame.
+#[derive(Debug, Default)]
+pub(super) struct Touch {
+    press: Option<Press>,
+    track: Track,
+}
+
+/// A button held down.
+#[derive(Debug)]
+struct Press {
+    /// Where it was pressed, in points of the frame.
+    from: Pos2,
+    is_drag: bool,
+    on: Pressed,
+}
+
+/// What the button was pressed on.
+#[derive(Debug)]
+enum Pressed {
+    Body {
+        grasp: Grasp,
+        entry: usize,
+    },
+    /// A cell without a body there, as it was zoomed then.
+    Sea {
+        cell: Cell,
+        lens: Lens,
+    },
+}
+
+/// The stage of a frame.
+struct Stage<'a> {
+    lab: &'a Lab,
+    picture: &'a Picture,
+    /// Where it is, in points of the frame.
+    rect: Rect,
+}
+
+impl Stage<'_> {
+    fn point(&self, at: Pos2) -> [f32; 2] {
+        (at - self.rect.min).into()
+    }
+
+    fn cell(&self, at: Pos2) -> Option<&Cell> {
+        let at = self.point(at);
+        self.picture.cells.iter().find(|cell| cell.rect.contains(at))
+    }
+}
+
+impl Touch {
+    /// Takes in what the pointer did since the last frame over the stage, which fills `rect` with `picture`.
+    pub(super) fn show(
+        &mut self,
+        ui: &Ui,
+        rect: Rect,
+        picture: &Picture,
+        lab: &Lab,
+        commands: &mut Vec<Command>,
+    ) {
+        let stage = Stage { lab, picture, rect };
+        let (events, time, hover) =
+            ui.input(|input| (input.events.clone(), input.time, input.pointer.latest_pos()));
+        let over_stage = |at: Pos2| {
+            rect.contains(at) && ui.ctx().layer_id_at(at).is_none_or(|layer| layer == ui.layer_id())
+        };
+        self.agree_with(lab, commands);
+        for event in events {
+            match event {
+                Event::PointerButton {
+                    pos,
+                    button: PointerButton::Primary,
+                    pressed,
+                    modifiers,
+                } => {
+                    if !pressed {
+                        self.release(&stage, time, pos, modifiers.shift, commands);
+                    } else if over_stage(pos) {
+                        self.press(&stage, time, pos, commands);
+                    }
+                }
+                Event::PointerMoved(at) => self.drag(&stage, time, at, commands),
+                _ => {}
+            }
+        }
+        let hover = hover.filter(|at| over_stage(*at));
+        if self.press.is_none()
+            && let Some(at) = hover
+        {
+            zoom(ui, &stage, at, commands);
+        }
+        self.point_out(ui, &stage, hover);
+    }
+
+    /// A body may have left the hand otherwise than by the pointer, or the pointer have been forgotten.
+    fn agree_with(&mut self, lab: &Lab, commands: &mut Vec<Command>) {
+        let holds = matches!(self.press, Some(Press { on: Pressed::Body { .. }, .. }));
+        match lab.viewer().held() {
+            None if holds => self.press = None,
+            Some(_) if !holds => commands.push(Command::LetGo),
+            _ => {}
+        }
+    }
+
+    fn press(&mut self, stage: &Stage<'_>, time: f64, at: Pos2, commands: &mut Vec<Command>) {
+        let Some(cell) = stage.cell(at) else { return };
+        let point = stage.point(at);
+        let grip = cell.grip_at(point);
+        let on = match grip.and_then(|grip| Grasp::new(stage.lab, cell, grip, point)) {
+            Some(grasp) => {
+                commands.push(Command::Hold(grasp.held().clone()));
+                Pressed::Body { grasp, entry: cell.entry }
+            }
+            None => {
+                let lens = stage.lab.display().lens(cell.body);
+                Pressed::Sea { cell: cell.clone(), lens }
+            }
+        };
+        self.press = Some(Press { from: at, is_drag: false, on });
+        self.track = Track::default();
+        self.track.add(time, at);
+    }
+
+    fn drag(&mut self, stage: &Stage<'_>, time: f64, at: Pos2, commands: &mut Vec<Command>) {
+        let Some(press) = &mut self.press else { return };
+        self.track.add(time, at);
+        press.is_drag |= press.from.distance(at) >= DRAG;
+        if !press.is_drag {
+            return;
+        }
+        match &mut press.on {
+            Pressed::Body { grasp, .. } => {
+                grasp.pull(stage.lab, stage.point(at), [0.0; 2]);
+                commands.push(Command::Hold(grasp.held().clone()));
+            }
+            Pressed::Sea { cell, lens } => {
+                let [from, to] = [press.from, at].map(|at| cell.part(stage.point(at)));
+                let lens = lens.panned([to[0] - from[0], to[1] - from[1]]);
+                commands.push(Command::Lens { body: cell.body, lens });
+            }
+        }
+    }
+
+    /// A body that was dragged goes on from where it is let go: at rest, or flung with the drag's velocity. A click
+    /// changes nothing of the run; in a race it selects the lane.
+    fn release(
+        &mut self,
+        stage: &Stage<'_>,
+        time: f64,
+        at: Pos2,
+        flung: bool,
+        commands: &mut Vec<Command>,
+    ) {
+        self.drag(stage, time, at, commands);
+        let Some(Press { is_drag, on, .. }) = self.press.take() else { return };
+        let entry = match on {
+            Pressed::Body { mut grasp, entry } => {
+                if is_drag {
+                    let speed = f64::from(stage.lab.clock().speed_percent()) / 100.0;
+                    let velocity = if flung { self.track.velocity() } else { Vec2::ZERO };
+                    let velocity = [velocity.x, velocity.y].map(|points| f64::from(points) / speed);
+                    grasp.pull(stage.lab, stage.point(at), velocity);
+                    let held = grasp.held();
+                    let (body, q, v) = (held.body, held.q.clone(), held.v.clone());
+                    commands.push(Command::Act(Action::Place { body, q, v }));
+                }
+                commands.push(Command::LetGo);
+                entry
+            }
+            Pressed::Sea { cell, .. } => cell.entry,
+        };
+        if !is_drag && stage.lab.mode() == Mode::Race {
+            commands.push(Command::Pick(entry));
+        }
+    }
+
+    /// Shows by the pointer's shape, and by a ring, what it can take hold of.
+    fn point_out(&self, ui: &Ui, stage: &Stage<'_>, hover: Option<Pos2>) {
+        let cursor = match &self.press {
+            Some(Press { on: Pressed::Body { .. }, .. }) => CursorIcon::Grabbing,
+            Some(Press { is_drag: true, .. }) => CursorIcon::Move,
+            Some(_) => return,
+            None => {
+                let Some(at) = hover else { return };
+                let Some(cell) = stage.cell(at) else { return };
+                let Some(grip) = cell.grip_at(stage.point(at)) else { return };
+                let origin = stage.rect.min.to_vec2();
+                let [low, high] = [cell.rect.min, cell.rect.max].map(|at| Pos2::from(at) + origin);
+                let painter = ui.painter().with_clip_rect(Rect::from_min_max(low, high));
+                let middle = Pos2::from(grip.at) + origin;
+                painter.circle_stroke(middle, grip.radius + RING, Stroke::new(1.5, ACCENT));
+                CursorIcon::Grab
+            }
+        };
+        ui.ctx().set_cursor_icon(cursor);
+    }
+}
+
+/// Zooms about the pointer by the wheel, or a pinch, and fits after a double click.
+fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
+    let Some(cell) = stage.cell(at) else { return };
+    let (scrolled, pinched, fits) = ui.input(|input| {
+        let fits = input.pointer.button_double_clicked(PointerButton::Primary);
+        (input.smooth_scroll_delta().y, input.zoom_delta(), fits)
+    });
+    let body = cell.body;
+    let times = (scrolled / WHEEL).exp() * pinched;
+    if fits {
+        commands.push(Command::Lens { body, lens: Lens::default() });
+    } else if times != 1.0 {
+        let about = cell.part(stage.point(at));
+        let lens = stage.lab.display().lens(body).zoomed(f64::from(times), about);
+        commands.push(Command::Lens { body, lens });
+    }
+}
+
+/// Where the pointer was of late, and when, in seconds.
+#[derive(Debug, Default)]
+struct Track(VecDeque<(f64, Pos2)>);
+
+impl Track {
+    fn add(&mut self, time: f64, at: Pos2) {
+        self.0.push_back((time, at));
+        while self.0.get(1).is_some_and(|(second, _)| time - second >= MEMORY_S) {
+            self.0.pop_front();
+        }
+    }
+
+    /// In points per second.
+    fn velocity(&self) -> Vec2 {
+        let (Some((first, from)), Some((last, to))) = (self.0.front(), self.0.back()) else {
+            return Vec2::ZERO;
+        };
+        let span = (last - first) as f32;
+        if span > 0.0 { (*to - *from) / span } else { vec2(0.0, 0.0) }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,242 @@
+use egui::{Modifiers, pos2};
+
+use super::*;
+use crate::lab::picture::{Whose, compose};
+use crate::lab::{Held, Scene};
+
+/// A lab with a stage, and the pointer over it.
+struct Table {
+    lab: Lab,
+    touch: Touch,
+    context: egui::Context,
+    time: f64,
+}
+
+const STAGE: Rect = Rect { min: pos2(40.0, 30.0), max: pos2(840.0, 530.0) };
+
+impl Table {
+    fn new(scene: &str) -> Self {
+        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+        (0..9).for_each(|_| lab.tick());
+        let mut table =
+            Self { lab, touch: Touch::default(), context: egui::Context::default(), time: 0.0 };
+        // A layer can be pointed at from the second frame on.
+        table.frame(Vec::new());
+        table
+    }
+
+    fn picture(&self) -> Picture {
+        compose(&self.lab, STAGE.size().into())
+    }
+
+    /// Where the body of the first cell is, in points of the frame.
+    fn body(&self) -> Pos2 {
+        let picture = self.picture();
+        let grip = picture.cells[0].grips.iter().find(|grip| grip.whose == Whose::Lane);
+        Pos2::from(grip.unwrap().at) + STAGE.min.to_vec2()
+    }
+
+    /// A frame 50 ms after the last; what it asks for is done, as the window does it.
+    fn frame(&mut self, events: Vec<Event>) -> Vec<Command> {
+        self.time += 0.05;
+        let input = egui::RawInput {
+            screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(900.0, 600.0))),
+            time: Some(self.time),
+            events,
+            ..Default::default()
+        };
+        let (picture, mut commands) = (self.picture(), Vec::new());
+        let Self { lab, touch, context, .. } = self;
+        let mut output =
+            context.run_ui(input, |ui| touch.show(ui, STAGE, &picture, lab, &mut commands));
+        output.textures_delta.clear();
+        for command in &commands {
+            self.lab.apply(command.clone());
+        }
+        commands
+    }
+
+    fn press(&mut self, at: Pos2) -> Vec<Command> {
+        self.frame(vec![Event::PointerMoved(at), button(at, true, false)])
+    }
+
+    fn move_to(&mut self, at: Pos2) -> Vec<Command> {
+        self.frame(vec![Event::PointerMoved(at)])
+    }
+
+    fn release(&mut self, at: Pos2, shift: bool) -> Vec<Command> {
+        self.frame(vec![button(at, false, shift)])
+    }
+
+    fn held(&self) -> Option<&Held> {
+        self.lab.viewer().held()
+    }
+}
+
+fn button(pos: Pos2, pressed: bool, shift: bool) -> Event {
+    let modifiers = if shift { Modifiers::SHIFT } else { Modifiers::NONE };
+    Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers }
+}
+
+/// The one action among some commands.
+fn placed(commands: &[Command]) -> Option<&Action> {
+    let mut actions = commands.iter().filter_map(|command| match command {
+        Command::Act(action) => Some(action),
+        _ => None,
+    });
+    let action = actions.next();
+    assert_eq!(actions.next(), None);
+    action
+}
+
+#[test]
+fn a_drag_places_the_body_once_and_at_rest() {
+    let mut table = Table::new("spring");
+    let (tick, at) = (table.lab.race().tick(), table.body());
+    assert_eq!(placed(&table.press(at)), None);
+    assert!(table.held().is_some() && !table.lab.time_runs() && table.lab.running());
+    for step in 1..=6 {
+        assert_eq!(placed(&table.move_to(at + vec2(-15.0 * step as f32, 4.0))), None);
+        assert_eq!(table.lab.advance(50_000_000).ticks, 0);
+    }
+    let to = at + vec2(-90.0, 4.0);
+    let x = table.held().unwrap().q[0];
+    let commands = table.release(to, false);
+    let action = Action::Place { body: 0, q: [x].into(), v: [0.0].into() };
+    assert_eq!(placed(&commands), Some(&action));
+    assert!(table.held().is_none() && table.lab.time_runs());
+    let row = table.lab.timeline().session().journal().rows().last().unwrap();
+    assert_eq!((row.tick, &row.action), (tick, &action));
+    assert!((table.body().x - to.x).abs() < 0.1, "{}", table.body().x);
+    for lane in
+        table.lab.race().entrants().iter().map(|e| &e.lane).chain([table.lab.race().truth()])
+    {
+        assert_eq!(lane.bodies()[0].stepper.q(), [x]);
+    }
+}
+
+#[test]
+fn with_shift_a_body_is_flung_with_the_pointers_velocity_in_simulated_time() {
+    let thrown = |speed_percent| {
+        let mut table = Table::new("spring");
+        table.lab.apply(Command::SpeedPercent(speed_percent));
+        let at = table.body();
+        table.press(at);
+        for step in 1..=8 {
+            table.move_to(at + vec2(10.0 * step as f32, 0.0));
+        }
+        let commands = table.release(at + vec2(90.0, 0.0), true);
+        let Some(Action::Place { v, .. }) = placed(&commands) else { panic!() };
+        let picture = table.picture();
+        let metre = picture.cells[0].metres([1.0, 0.0]).x - picture.cells[0].metres([0.0; 2]).x;
+        v[0] / metre
+    };
+    // 10 points in each frame of 50 ms.
+    assert!((thrown(100) - 200.0).abs() < 0.1, "{}", thrown(100));
+    assert!((thrown(25) - 800.0).abs() < 0.4, "{}", thrown(25));
+}
+
+#[test]
+fn a_pointer_that_stopped_flings_nothing() {
+    let mut table = Table::new("spring");
+    let at = table.body();
+    let to = at + vec2(60.0, 0.0);
+    table.press(at);
+    table.move_to(to);
+    (0..3).for_each(|_| _ = table.frame(Vec::new()));
+    let commands = table.release(to, true);
+    let Some(Action::Place { v, .. }) = placed(&commands) else { panic!() };
+    assert_eq!(v[0], 0.0);
+}
+
+#[test]
+fn escape_lets_a_body_go_on_as_if_it_had_not_been_touched() {
+    let mut table = Table::new("spring");
+    let (hash, at) = (table.lab.race().state_hash(), table.body());
+    table.press(at);
+    table.move_to(at + vec2(50.0, 0.0));
+    assert_eq!(table.lab.apply(Command::Escape), None);
+    assert!(table.held().is_none());
+    table.move_to(at + vec2(70.0, 0.0));
+    assert_eq!(placed(&table.release(at + vec2(70.0, 0.0), false)), None);
+    assert!(table.held().is_none());
+    assert_eq!(table.lab.race().state_hash(), hash);
+    assert!(table.lab.timeline().session().journal().rows().is_empty());
+}
+
+#[test]
+fn a_click_changes_nothing_but_the_lane_that_is_selected() {
+    let mut table = Table::new("spring");
+    let (hash, at) = (table.lab.race().state_hash(), table.body());
+    table.press(at);
+    table.move_to(at + vec2(1.0, 1.0));
+    table.release(at + vec2(1.0, 1.0), false);
+    assert_eq!(table.lab.race().state_hash(), hash);
+    assert!(table.held().is_none());
+    table.lab.apply(Command::ToggleRace);
+    let third = table.picture().cells[2].clone();
+    let at = Pos2::from(third.rect.min) + STAGE.min.to_vec2() + vec2(5.0, 5.0);
+    table.press(at);
+    table.release(at, false);
+    assert_eq!(table.lab.active(), third.entry);
+}
+
+#[test]
+fn in_a_race_any_lanes_body_can_be_thrown_and_all_go_on_from_there() {
+    let mut table = Table::new("orbit");
+    table.lab.apply(Command::ToggleRace);
+    (0..40).for_each(|_| table.lab.tick());
+    let last = table.picture().cells.last().unwrap().clone();
+    let at = Pos2::from(last.grips[0].at) + STAGE.min.to_vec2();
+    table.press(at);
+    table.move_to(at + vec2(12.0, 9.0));
+    assert_eq!(table.held().unwrap().lane, last.lane);
+    table.release(at + vec2(12.0, 9.0), false);
+    let race = table.lab.race();
+    let place = race.truth().bodies()[0].stepper.q();
+    assert!(race.entrants().iter().all(|e| e.lane.bodies()[0].stepper.q() == place));
+    let row = table.lab.timeline().session().journal().rows().last().unwrap();
+    assert!(matches!(&row.action, Action::Place { q, .. } if q[..] == *place));
+}
+
+#[test]
+fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_fits() {
+    let mut table = Table::new("pendulum");
+    table.lab.apply(Command::TogglePause);
+    let at = STAGE.min + vec2(30.0, 400.0);
+    let under = |table: &Table, at: Pos2| table.picture().cells[0].metres((at - STAGE.min).into());
+    let before = under(&table, at);
+    table.frame(vec![
+        Event::PointerMoved(at),
+        Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Point,
+            delta: vec2(0.0, 60.0),
+            phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Unknown,
+            modifiers: Modifiers::NONE,
+        },
+    ]);
+    // It turns smoothly, over some frames.
+    (0..40).for_each(|_| _ = table.frame(Vec::new()));
+    let zoom = table.lab.display().lens(0).zoom();
+    assert!((1.1..2.0).contains(&zoom), "{zoom}");
+    assert!(under(&table, at).distance(before) < 1e-4);
+
+    let to = at + vec2(40.0, -25.0);
+    table.press(at);
+    table.move_to(to);
+    table.release(to, false);
+    assert!(under(&table, to).distance(before) < 1e-4);
+    assert!(table.lab.timeline().session().journal().rows().is_empty());
+
+    for _ in 0..2 {
+        table.press(to);
+        table.release(to, false);
+    }
+    assert_eq!(table.lab.display().lens(0), Lens::default());
+    table.lab.apply(Command::Lens { body: 0, lens: Lens::default().zoomed(2.0, [0.0; 2]) });
+    table.lab.apply(Command::Restart);
+    assert_eq!(table.lab.display().lens(0).zoom(), 2.0);
+    table.lab.apply(Command::NextScene);
+    assert_eq!(table.lab.display().lens(0), Lens::default());
+}
