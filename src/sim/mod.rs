@@ -7,13 +7,17 @@
 pub mod bodies;
 mod double_double;
 mod drive;
+mod driven;
 mod exact_flow;
 pub mod integrators;
 mod reference;
+mod solver;
 pub mod stability;
 mod stepper;
 mod system;
 
+pub use driven::stepper;
 pub use reference::REFERENCE_ACCURACY;
-pub use stepper::{Solver, Stepper, stepper};
+pub use solver::Solver;
+pub use stepper::Stepper;
 pub use system::{Counted, Counts, State, System, Vector};

@@ -106,27 +106,39 @@ fn ratios(id: &str) -> Vec<f64> {
         }
     }
     ratios.sort_by(f64::total_cmp);
-    let at = |part: f64| ratios[((ratios.len() - 1) as f64 * part) as usize];
     let below = ratios.iter().filter(|&&ratio| ratio < 1.0).count();
     println!(
         "{id}: {below} of {} below 1, {:.1} {:.1} {:.1} {:.1}",
         ratios.len(),
-        at(0.0),
-        at(0.5),
-        at(0.9),
-        at(1.0)
+        at(&ratios, 0.0),
+        at(&ratios, 0.5),
+        at(&ratios, 0.9),
+        at(&ratios, 1.0)
     );
     ratios
 }
 
+/// The ratio that this part of the others does not exceed.
+fn at(ratios: &[f64], part: f64) -> f64 {
+    ratios[((ratios.len() - 1) as f64 * part).round() as usize]
+}
+
 #[test]
 fn a_closed_form_is_never_further_off_than_it_says_and_says_no_more_than_it_must() {
-    for (id, typically) in [("ship", 300.0), ("spring", 100.0), ("chain", 300.0), ("orbit", 1e9)] {
+    // Three times what it is at the median and at nine tenths. Beyond are errors that happen to be 0.
+    for (id, median, most) in [
+        ("ship", 12.0, 200.0),
+        ("spring", 70.0, 600.0),
+        ("chain", 90.0, 600.0),
+        ("orbit", 12.0, 2e3),
+    ] {
         let ratios = ratios(id);
         assert!(ratios.len() >= 20, "{id}");
         assert!(ratios[0] >= 1.0, "{id}: {}", ratios[0]);
-        let median = ratios[ratios.len() / 2];
-        assert!(median < typically, "{id}: {median}");
+        for (part, allowed) in [(0.5, median), (0.9, most)] {
+            let found = at(&ratios, part);
+            assert!(found < allowed, "{id}: {found} at {part}");
+        }
     }
 }
 
@@ -135,9 +147,10 @@ fn a_reference_says_how_far_it_is_off_on_this_run() {
     for id in ["pendulum", "helm"] {
         let ratios = ratios(id);
         assert!(ratios.len() >= 90, "{id}");
-        let hundredth = ratios[ratios.len() / 100];
+        let hundredth = at(&ratios, 0.01);
         assert!(hundredth >= 1.0, "{id}: {hundredth}");
-        let median = ratios[ratios.len() / 2];
-        assert!(median < 1000.0, "{id}: {median}");
+        // Three times what it is: the margin, and what the two solutions happen to share.
+        let median = at(&ratios, 0.5);
+        assert!(median < 50.0, "{id}: {median}");
     }
 }

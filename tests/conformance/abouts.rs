@@ -72,7 +72,7 @@ fn stormer_verlet_takes_velocity_verlets_path_under_drag_too() {
             .map(|id| course(id, &spring(3.0, ratio), 0.1, 1000));
         for (step, (stormer, velocity)) in paths[0].iter().zip(&paths[1]).enumerate() {
             let off = (stormer.q - velocity.q).abs().max((stormer.v - velocity.v).abs());
-            assert!(off < 1e-10, "ζ = {ratio}, step {step}: {off:e}");
+            assert!(off < 1e-12, "ζ = {ratio}, step {step}: {off:e}");
         }
     }
 }

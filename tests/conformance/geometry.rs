@@ -40,9 +40,10 @@ fn keeps_area(method: &Method) -> bool {
     let off = [area(method, &spring(1.0, 0.0)), area(method, &Pendulum)].map(|a| (a - 1.0).abs());
     println!("{:26} {:.1e} {:.1e}", method.id, off[0], off[1]);
     assert!(off.iter().all(|off| off.is_finite()), "{}", method.id);
-    let kept = off.map(|off| off < 1e-10);
+    // Differences round to 3e-13; the nearest to keeping area, Dormand-Prince, is 5e-5 off.
+    let kept = off.map(|off| off < 1e-12);
     for (kept, off) in kept.into_iter().zip(off) {
-        assert!(kept || off > 1e-6, "{}: {off:e}, undecided", method.id);
+        assert!(kept || off > 1e-5, "{}: {off:e}, undecided", method.id);
     }
     // On a straight force Newmark's is the implicit midpoint rule, on a curved one it is not.
     let only_where_straight = method.id == "newmark";
@@ -73,9 +74,9 @@ fn reversible_methods_and_no_others_find_back() {
             println!("{:22} {off:.1e}", method.id);
             assert!(off.is_finite(), "{}", method.id);
             if method.reversible {
-                assert!(off < 1e-14, "{}: {off:e}", method.id);
+                assert!(off < 4.0 * f64::EPSILON, "{}: {off:e}", method.id);
             } else {
-                assert!(off > 1e-6, "{}: {off:e}", method.id);
+                assert!(off > 1e-5, "{}: {off:e}", method.id);
             }
         }
     }

@@ -65,9 +65,10 @@ fn quadratic_energy_is_kept_by_midpoint_gauss_legendre_and_newmark_and_by_no_oth
             let strays = strays(method, n, h, steps);
             println!("{:22} {n}: {strays:.1e}", method.id);
             if keeps {
-                assert!(strays < 1e-10, "{} of {n}: {strays:e}", method.id);
+                // Rounding alone, which a walk of 100 000 steps brings to 7e-13.
+                assert!(strays < 3e-12, "{} of {n}: {strays:e}", method.id);
             } else {
-                assert!(strays > 1e-2, "{} of {n}: {strays:e}", method.id);
+                assert!(strays > 0.5, "{} of {n}: {strays:e}", method.id);
             }
         }
     }
@@ -374,7 +375,7 @@ fn a_coordinate_far_away_does_not_blur_the_others() {
             [state.q.y, state.v.y, state.v.x]
         };
         for (near, far) in run(0.0).into_iter().zip(run(1e6)) {
-            assert!((near / far - 1.0).abs() < 1e-11, "{}: {near}, {far}", method.id);
+            assert!((near / far - 1.0).abs() < 1e-13, "{}: {near}, {far}", method.id);
         }
     }
 }

@@ -1,35 +1,35 @@
 //! The largest stable steps on damped oscillators, measured on the real stepper.
 
 use regatta::sim::State;
-use regatta::sim::integrators::{Method, method};
+use regatta::sim::integrators::{METHODS, Method, method};
 
 use super::systems::{fresh, spring};
 
-/// The damping ratios of the tables.
-const RATIOS: [f64; 4] = [0.0, 0.05, 0.2, 1.0];
+/// The damping ratios of the tables. What holds without damping is on the cards.
+const RATIOS: [f64; 3] = [0.05, 0.2, 1.0];
 
 /// The largest `h ω` at each of those, below which the one-step map of a method that begins there has no
 /// eigenvalue beyond the unit circle.
-const ONE_STEP: [(&str, [f64; 4]); 14] = [
-    ("explicit-euler", [0.0, 0.100, 0.400, 2.000]),
-    ("semi-implicit-euler", [2.0, 1.902, 1.640, 0.828]),
-    ("velocity-verlet", [2.0, 1.912, 1.757, 1.000]),
-    ("stormer-verlet", [2.0, 1.912, 1.757, 1.000]),
-    ("position-verlet", [2.0, 1.902, 1.640, 0.828]),
-    ("improved-euler", [0.0, 0.800, 1.394, 2.000]),
-    ("midpoint", [0.0, 0.800, 1.394, 2.000]),
-    ("rk4", [2.828, 2.910, 2.940, 2.785]),
-    ("yoshida4", [1.573, 2.046, 1.111, 0.584]),
-    ("pefrl", [2.989, 2.670, 2.947, 1.078]),
-    ("ssp-rk3", [1.732, 1.988, 2.369, 2.513]),
-    ("improved-euler-as-printed", [2.0, 2.011, 2.405, 1.000]),
-    ("rk4-as-printed", [2.0, 2.003, 2.062, 1.393]),
+const ONE_STEP: [(&str, [f64; 3]); 14] = [
+    ("explicit-euler", [0.100, 0.400, 2.000]),
+    ("semi-implicit-euler", [1.902, 1.640, 0.828]),
+    ("velocity-verlet", [1.912, 1.757, 1.000]),
+    ("stormer-verlet", [1.912, 1.757, 1.000]),
+    ("position-verlet", [1.902, 1.640, 0.828]),
+    ("improved-euler", [0.800, 1.394, 2.000]),
+    ("midpoint", [0.800, 1.394, 2.000]),
+    ("rk4", [2.910, 2.940, 2.785]),
+    ("yoshida4", [2.046, 1.111, 0.584]),
+    ("pefrl", [2.670, 2.947, 1.078]),
+    ("ssp-rk3", [1.988, 2.369, 2.513]),
+    ("improved-euler-as-printed", [2.011, 2.405, 1.000]),
+    ("rk4-as-printed", [2.003, 2.062, 1.393]),
     // What it is only at its first step.
-    ("adams-bashforth-2", [0.0, 0.800, 1.394, 2.000]),
+    ("adams-bashforth-2", [0.800, 1.394, 2.000]),
 ];
 
-/// The same, but for the undamped one, of what a method that carries something does in the long run: the
-/// Verlets go on with a force that was taken at a predicted velocity.
+/// The largest `h ω` at which a method that carries something stays stable in the long run: the Verlets go
+/// on with a force that was taken at a predicted velocity.
 const LONG_RUN: [(&str, [f64; 3]); 3] = [
     ("velocity-verlet", [1.810, 1.354, 0.472]),
     ("stormer-verlet", [1.810, 1.354, 0.472]),
@@ -86,9 +86,12 @@ fn limit(stable: impl Fn(f64) -> bool) -> f64 {
 
 #[test]
 fn the_one_step_map_of_each_form_leaves_the_unit_circle_at_the_tabled_step() {
-    for (id, limits) in ONE_STEP {
-        let method = method(id).expect("a method");
-        for (ratio, listed) in RATIOS.into_iter().zip(limits) {
+    // Under drag the adaptive listing cuts its steps as it likes.
+    for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+        let (id, Some(undamped)) = (method.id, method.stability_limit) else { continue };
+        let (_, damped) = ONE_STEP.iter().find(|(tabled, _)| *tabled == id).expect("a row");
+        let damped = RATIOS.into_iter().zip(*damped);
+        for (ratio, listed) in [(0.0, undamped)].into_iter().chain(damped) {
             // Without drag some are unstable at every step, but by z⁴/8: too little to see at first.
             let lowest = if ratio == 0.0 { 0.06 } else { 0.0 };
             let found = limit(|h| h < lowest || radius(method, ratio, h) < 1.0 + 1e-9);
@@ -106,10 +109,10 @@ fn in_the_long_run_each_form_is_stable_to_its_maps_limit_or_to_the_lower_one_of_
         let method = method(id).expect("a method");
         let carried = LONG_RUN.iter().find(|(carrying, _)| *carrying == id);
         assert_eq!(carried.is_some(), method.restart.is_some(), "{id}");
-        let limits = carried.map_or(&one_step[1..], |(_, limits)| limits);
-        for (ratio, limit) in RATIOS[1..].iter().zip(limits) {
+        let limits = carried.map_or(one_step, |(_, limits)| *limits);
+        for (ratio, limit) in RATIOS.into_iter().zip(limits) {
             let (within, beyond) = (limit - RESOLUTION, limit + RESOLUTION);
-            let [within, beyond] = [within, beyond].map(|h| growth(method, *ratio, h));
+            let [within, beyond] = [within, beyond].map(|h| growth(method, ratio, h));
             println!("{id:26} {ratio:4} {limit:.3} {within:.1e} {beyond:.1e}");
             assert!(within < 0.5, "{id} at ζ = {ratio} grows below {limit}: {within}");
             assert!(beyond > 5.0, "{id} at ζ = {ratio} does not grow beyond {limit}: {beyond}");

@@ -51,8 +51,11 @@ fn over_a_million_steps_symplectic_methods_keep_energy_bounded_without_a_trend_a
         let amplitude = drift.map_or(f64::INFINITY, |drift| drift.amplitude);
         println!("{:26} energy error {amplitude:.1e}, trend {trend:.1e} of it", method.id);
         if method.symplectic {
-            assert!(amplitude < 0.3 && amplitude > 1e-9, "{}: {amplitude:e}", method.id);
-            assert!(trend < 1e-3, "{}: {trend:e}", method.id);
+            // As a power of the step, whose base is what the worst of each order has, and a half more. The
+            // best, Gauss-Legendre, still has an error of 8e-6.
+            let allowed = 1.5 * f64::powi(0.13, method.order as i32);
+            assert!((1e-6..allowed).contains(&amplitude), "{}: {amplitude:e}", method.id);
+            assert!(trend < 1e-4, "{}: {trend:e}", method.id);
         } else if [Family::Explicit, Family::Adaptive].contains(&method.family) {
             // Others may be symplectic in coordinates of their own, and show no trend in these.
             assert!(trend > 1e-3, "{}: {trend:e}", method.id);
@@ -82,12 +85,15 @@ fn out_and_back<S: System<Vector = f64> + 'static>(method: &Method, system: &S) 
 fn reversible_methods_and_no_others_find_back_after_a_hundred_thousand_steps() {
     // Backwards by steps of -h: on forces without drag the same as turning the velocity round.
     for method in METHODS {
-        for off in [out_and_back(method, &spring(1.0, 0.0)), out_and_back(method, &Pendulum)] {
+        // What is rounded on a spring adds up; on a pendulum, whose frequency it changes, it also grows.
+        let on_spring = (out_and_back(method, &spring(1.0, 0.0)), 1e-12);
+        let on_pendulum = (out_and_back(method, &Pendulum), 1e-9);
+        for (off, rounded) in [on_spring, on_pendulum] {
             println!("{:26} {off:.1e}", method.id);
             if method.reversible {
-                assert!(off < 1e-9, "{}: {off:e}", method.id);
+                assert!(off < rounded, "{}: {off:e}", method.id);
             } else {
-                assert!(off > 1e-6, "{}: {off:e}", method.id);
+                assert!(off > 1e-5, "{}: {off:e}", method.id);
             }
         }
     }

@@ -41,8 +41,12 @@ pub(crate) fn named(text: &str) -> Vec<Vec<String>> {
         }
     }
     let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
-    for path in code.split(|c| !is_part(c)).filter(|path| path.contains("::")) {
-        named.push(parts(path));
+    for piece in code.split_inclusive(|c| !is_part(c)) {
+        let path = piece.trim_end_matches(|c| !is_part(c));
+        // What stands before a brace is spread out above and names nothing alone.
+        if path.contains("::") && !piece.ends_with("::{") {
+            named.push(parts(path));
+        }
     }
     named
 }

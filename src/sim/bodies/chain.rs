@@ -10,10 +10,12 @@ use std::sync::LazyLock;
 
 use glam::DVec2;
 
-use super::{
-    Body, Coordinate, Fault, Input, Kind, ParameterOf, Range, Truth, oscillator, parameter,
-};
-use crate::sim::{State, System, stepper};
+use super::body::{Body, Input};
+use super::kind::{Coordinate, Kind, Truth};
+use super::oscillator;
+use super::parameter::{self, Fault, ParameterOf, Range};
+use crate::sim::driven::stepper;
+use crate::sim::system::{State, System};
 
 /// The most masses in a chain: as many as can be told apart on a wide stage. The closed form takes the
 /// square of this many multiplications for a tick.

@@ -2,8 +2,12 @@
 
 use glam::DVec2;
 
-use super::{Body, Coordinate, Fault, Input, Kind, ParameterOf, Range, Truth, kepler, parameter};
-use crate::sim::{State, System, stepper};
+use super::body::{Body, Input};
+use super::kepler;
+use super::kind::{Coordinate, Kind, Truth};
+use super::parameter::{self, Fault, ParameterOf, Range};
+use crate::sim::driven::stepper;
+use crate::sim::system::{State, System};
 
 pub(super) const KIND: Kind = Kind {
     id: "orbit",

@@ -2,8 +2,12 @@
 
 use glam::DVec2;
 
-use super::{Body, Coordinate, Input, Kind, ParameterOf, Range, Truth, oscillator, parameter};
-use crate::sim::{State, System, stepper};
+use super::body::{Body, Input};
+use super::kind::{Coordinate, Kind, Truth};
+use super::oscillator;
+use super::parameter::{self, ParameterOf, Range};
+use crate::sim::driven::stepper;
+use crate::sim::system::{State, System};
 
 pub(super) const KIND: Kind = Kind {
     id: "spring",

@@ -1,8 +1,10 @@
 //! Adams-Bashforth 2: the slope here and the slope one step ago, drawn on to the step's middle.
 
 use super::card::{EXPLICIT, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
-use super::{Integrator, State, StepFailure, System};
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "adams-bashforth-2",

@@ -1,8 +1,11 @@
 //! Adaptive Euler: one whole step against two half steps gives the error, which sets the step.
 
 use super::card::{ADAPTIVE, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::step_size::{StepSize, factor};
-use super::{Integrator, State, StepFailure, System, Tolerance, Vector};
+use super::tolerance::Tolerance;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler",

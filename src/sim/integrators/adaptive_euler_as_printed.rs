@@ -1,7 +1,10 @@
 //! Adaptive Euler as the chapter prints it: a step that is cut short ends the tick all the same.
 
 use super::card::{AS_PRINTED, Method};
-use super::{Integrator, State, StepFailure, System, Tolerance, Vector};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use super::tolerance::Tolerance;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler-as-printed",

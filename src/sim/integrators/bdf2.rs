@@ -1,9 +1,11 @@
 //! BDF2: the slope at the end from a parabola through the last two states and the new one.
 
 use super::card::{IMPLICIT, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
 use super::shared::newton::Newton;
-use super::{Integrator, State, StepFailure, System};
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "bdf2",

@@ -1,8 +1,8 @@
 //! Bogacki-Shampine 3(2): order 3 kept, order 2 beside it for the error, four slopes of which three are new.
 
-use super::Tolerance;
 use super::card::{ADAPTIVE, Method};
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
+use super::tolerance::Tolerance;
 
 pub(super) const CARD: Method = Method {
     id: "bogacki-shampine-32",

@@ -3,7 +3,7 @@
 //! A method's card says what is its own, and takes the rest from its family's: names, source, orders and
 //! evaluations are always its own.
 
-use super::shared::step_size::Tolerance;
+use super::tolerance::Tolerance;
 
 /// How a method works, for menus and tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Dormand-Prince 5(4): order 5 kept, order 4 beside it for the error, seven slopes of which six are new.
 
-use super::Tolerance;
 use super::card::{ADAPTIVE, Method};
 use super::shared::embedded_pair::{EmbeddedPair, Pair};
+use super::tolerance::Tolerance;
 
 pub(super) const CARD: Method = Method {
     id: "dormand-prince-54",

@@ -1,7 +1,9 @@
 //! Explicit Euler: the tangent at the start, followed for the whole step.
 
 use super::card::{EXPLICIT, Method};
-use super::{Integrator, State, StepFailure, System};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "explicit-euler",

@@ -1,8 +1,10 @@
 //! Gauss-Legendre of two stages: collocation at the two points of Gauss's quadrature.
 
 use super::card::{IMPLICIT, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::newton::{Newton, Stages};
-use super::{Integrator, State, StepFailure, System, Vector};
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "gauss-legendre-4",

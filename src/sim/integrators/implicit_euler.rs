@@ -1,8 +1,10 @@
 //! Implicit Euler: the tangent at the end, followed back to the start.
 
 use super::card::{IMPLICIT, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::newton::Newton;
-use super::{Integrator, State, StepFailure, System};
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "implicit-euler",

@@ -1,8 +1,10 @@
 //! Implicit midpoint: the slope half-way along the chord, followed for the whole step.
 
 use super::card::{IMPLICIT, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::newton::Newton;
-use super::{Integrator, State, StepFailure, System, Vector};
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "implicit-midpoint",

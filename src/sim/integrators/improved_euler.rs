@@ -1,7 +1,9 @@
 //! Improved Euler (Heun): the mean of the slopes at both ends of the step.
 
 use super::card::{EXPLICIT, Method};
-use super::{Integrator, State, StepFailure, System};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler",

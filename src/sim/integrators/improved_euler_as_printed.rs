@@ -1,7 +1,9 @@
 //! Improved Euler as the chapter prints it: the velocity alone is improved, and moves the position.
 
 use super::card::{AS_PRINTED, Method};
-use super::{Integrator, State, StepFailure, System, Vector};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler-as-printed",

@@ -1,7 +1,9 @@
 //! Midpoint: the slope halfway, followed for the whole step.
 
 use super::card::{EXPLICIT, Method};
-use super::{Integrator, State, StepFailure, System};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "midpoint",

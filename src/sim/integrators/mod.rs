@@ -6,7 +6,7 @@
 
 use watched::Watched;
 
-use super::system::{State, System, Vector};
+use super::system::System;
 
 mod adams_bashforth_2;
 mod adaptive_euler;
@@ -16,11 +16,13 @@ mod bogacki_shampine_32;
 mod card;
 mod dormand_prince_54;
 mod explicit_euler;
+mod failure;
 mod gauss_legendre_4;
 mod implicit_euler;
 mod implicit_midpoint;
 mod improved_euler;
 mod improved_euler_as_printed;
+mod integrator;
 mod midpoint;
 mod newmark;
 mod pefrl;
@@ -31,6 +33,7 @@ mod semi_implicit_euler;
 mod shared;
 mod ssp_rk3;
 mod stormer_verlet;
+mod tolerance;
 mod velocity_verlet;
 mod watched;
 mod yoshida4;
@@ -43,11 +46,13 @@ pub use bogacki_shampine_32::BogackiShampine32;
 pub use card::{Family, Method};
 pub use dormand_prince_54::DormandPrince54;
 pub use explicit_euler::ExplicitEuler;
+pub use failure::StepFailure;
 pub use gauss_legendre_4::GaussLegendre4;
 pub use implicit_euler::ImplicitEuler;
 pub use implicit_midpoint::ImplicitMidpoint;
 pub use improved_euler::ImprovedEuler;
 pub use improved_euler_as_printed::ImprovedEulerAsPrinted;
+pub use integrator::Integrator;
 pub use midpoint::Midpoint;
 pub use newmark::Newmark;
 pub use pefrl::Pefrl;
@@ -56,110 +61,11 @@ pub use rk4::Rk4;
 pub use rk4_as_printed::Rk4AsPrinted;
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
-pub use shared::step_size::Tolerance;
 pub use ssp_rk3::SspRk3;
 pub use stormer_verlet::StormerVerlet;
+pub use tolerance::Tolerance;
 pub use velocity_verlet::VelocityVerlet;
 pub use yoshida4::Yoshida4;
-
-/// A way to advance a system by one step.
-///
-/// The system is a parameter of the trait: the force law is inlined into the method, and
-/// `Box<dyn Integrator<Ship>>` is still swappable at run time.
-pub trait Integrator<S: System>: Send {
-    /// A method at rest, with scratch space for coordinate vectors shaped `like` this one.
-    fn new(like: &S::Vector) -> Self
-    where
-        Self: Sized;
-
-    /// Advances `state` from `t` to exactly `t + h` (s), but for methods whose card says that they do
-    /// not [keep time](Method::keeps_time). Never allocates.
-    ///
-    /// # Errors
-    /// A [`StepFailure`] of the method's own; `state` is then somewhere on the way. Values that
-    /// overflow are not the method's business: its caller checks them.
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure>;
-
-    /// Advances from `t` to `t + h` in `n` equal steps: one dynamic call for a whole tick.
-    ///
-    /// # Errors
-    /// As [`Integrator::step`].
-    fn steps(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        n: u32,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
-        let part = h / f64::from(n);
-        for i in 0..n {
-            self.step(system, t + part * f64::from(i), part, state)?;
-        }
-        Ok(())
-    }
-
-    /// Forgets whatever is carried between steps. Call it when the state or the forces jump. A jump of the
-    /// step's length every method notices by itself.
-    fn reset(&mut self) {}
-
-    /// Sets the error that an adaptive method allows in a substep; the others take no notice.
-    fn set_tolerance(&mut self, _tolerance: Tolerance) {}
-
-    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
-
-/// Why a body could not be carried to the end of its tick.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum StepFailure {
-    /// An adaptive method used up its substeps before the end of the tick.
-    #[error("needs more than {limit} substeps for one tick; raise the tick rate or the tolerance")]
-    TooManySubsteps {
-        /// The most attempts that a tick may take.
-        limit: u32,
-    },
-    /// An implicit method's solver gave up on a step's equations. They may have a solution nevertheless.
-    #[error(
-        "the solver gave up on a step's equations: {limit} of Newton's iterations do not solve them, nor does following the solution from a shorter step; raise the tick rate or the substeps"
-    )]
-    NewtonFailed {
-        /// The most iterations that a step may take.
-        limit: u32,
-    },
-    /// A reference solution would take too much work.
-    #[error(
-        "has no reference solution: {evaluations} evaluations of the acceleration did not reach the end of a tick; soften the body"
-    )]
-    ReferenceFailed {
-        /// The evaluations after which it gave up.
-        evaluations: u64,
-    },
-    /// A value became infinite or undefined.
-    #[error("left the numbers: {coordinate} is {value}")]
-    NotFinite {
-        /// The coordinate's name.
-        coordinate: &'static str,
-        /// What it became.
-        value: f64,
-    },
-    /// A value left the range that is followed; see [`crate::lab::ESCAPE`].
-    #[error("left the stage: {coordinate} reached {value:.1e}")]
-    Escaped {
-        /// The coordinate's name.
-        coordinate: &'static str,
-        /// The value that was too large.
-        value: f64,
-    },
-}
 
 /// Something to be made of an integrator whose type is chosen at run time; see [`construct`].
 pub trait Construct<S: System> {

@@ -1,8 +1,10 @@
 //! Newmark's method with β = 1/4 and γ = 1/2: the mean of the accelerations at both ends of the step.
 
 use super::card::{IMPLICIT, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::newton::{Newton, Stages};
-use super::{Integrator, State, StepFailure, System, Vector};
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "newmark",

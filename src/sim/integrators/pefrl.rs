@@ -1,8 +1,10 @@
 //! PEFRL, position-extended Forest-Ruth-like: one kick more than Yoshida 4 buys a far smaller error.
 
 use super::card::{Method, SYMPLECTIC};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::composition::compose;
-use super::{Integrator, State, StepFailure, System};
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "pefrl",

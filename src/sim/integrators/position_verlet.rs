@@ -1,7 +1,9 @@
 //! Position Verlet: half a drift, a whole kick, half a drift.
 
 use super::card::{Method, SYMPLECTIC};
-use super::{Integrator, State, StepFailure, System, Vector};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "position-verlet",

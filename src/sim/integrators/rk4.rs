@@ -1,7 +1,9 @@
 //! The classical Runge-Kutta method: four slopes, weighted 1 2 2 1.
 
 use super::card::{EXPLICIT, Method};
-use super::{Integrator, State, StepFailure, System};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "rk4",

@@ -1,7 +1,9 @@
 //! Runge-Kutta 4 as the chapter prints it: four slopes of the velocity alone, which moves the position.
 
 use super::card::{AS_PRINTED, Method};
-use super::{Integrator, State, StepFailure, System, Vector};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "rk4-as-printed",

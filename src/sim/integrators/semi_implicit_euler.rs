@@ -1,7 +1,9 @@
 //! Semi-implicit Euler: kick the velocity, then drift with the new velocity.
 
 use super::card::{Method, SYMPLECTIC};
-use super::{Integrator, State, StepFailure, System, Vector};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "semi-implicit-euler",

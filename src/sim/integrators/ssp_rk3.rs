@@ -1,7 +1,9 @@
 //! Strong-stability-preserving Runge-Kutta 3: three Euler steps, averaged.
 
 use super::card::{EXPLICIT, Method};
-use super::{Integrator, State, StepFailure, System};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "ssp-rk3",

@@ -1,8 +1,10 @@
 //! Störmer-Verlet: the next position from the last two and the force; the velocity is read off them.
 
 use super::card::{Method, SYMPLECTIC};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
-use super::{Integrator, State, StepFailure, System, Vector};
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "stormer-verlet",

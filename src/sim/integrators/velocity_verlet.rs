@@ -1,8 +1,10 @@
 //! Velocity Verlet: half a kick, a drift, half a kick by the force at the end.
 
 use super::card::{Method, SYMPLECTIC};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
-use super::{Integrator, State, StepFailure, System, Vector};
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "velocity-verlet",

@@ -1,6 +1,9 @@
 //! A method that nobody has to tell that its state was changed.
 
-use super::{Integrator, State, StepFailure, System, Tolerance, Vector};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use super::tolerance::Tolerance;
+use crate::sim::system::{State, System, Vector};
 
 /// A method, [reset](Integrator::reset) whenever it is given a state other than the one it left.
 pub(super) struct Watched<I, V> {

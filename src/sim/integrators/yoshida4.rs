@@ -1,8 +1,10 @@
 //! Yoshida 4: three position Verlet steps, the middle one backwards, whose errors cancel.
 
 use super::card::{Method, SYMPLECTIC};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
 use super::shared::composition::compose;
-use super::{Integrator, State, StepFailure, System};
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "yoshida4",

@@ -6,10 +6,11 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
+use super::comparison::{Mode, Stability, against};
 use super::probe::state_of;
 use super::spectrum::{self, Derivatives, NEUTRAL_WITH_MEMORY};
+use super::tick::Tick;
 use super::trend::growth_of_energy;
-use super::{Mode, Stability, Tick, against};
 use crate::sim::bodies::Input;
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};

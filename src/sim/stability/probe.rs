@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::Tick;
 use super::flock::Flock;
+use super::tick::Tick;
 use crate::sim::integrators::{StepFailure, Tolerance};
 use crate::sim::{Solver, Stepper};
 

@@ -1,6 +1,6 @@
 //! Where a method takes the energy of a body that conserves it, in the long run.
 
-use super::Tick;
+use super::tick::Tick;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 

@@ -2,8 +2,10 @@
 
 use nalgebra::DMatrix;
 
+use super::comparison::Mode;
 use super::probe::{Probe, rates, scale, state_of};
-use super::{Mode, Tick, spectrum};
+use super::spectrum;
+use super::tick::Tick;
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
 

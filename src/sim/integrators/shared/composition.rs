@@ -1,6 +1,6 @@
 //! Drifts and kicks in turn, by which the higher symplectic methods are composed.
 
-use crate::sim::{State, System, Vector};
+use crate::sim::system::{State, System, Vector};
 
 /// For each `(c, d)` of `stages` a drift `q += c h v` and a kick `v += d h a`, then the `last` drift.
 ///

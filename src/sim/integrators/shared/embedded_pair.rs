@@ -3,8 +3,11 @@
 
 use std::marker::PhantomData;
 
-use super::super::{Integrator, State, StepFailure, System, Tolerance, Vector};
 use super::step_size::{StepSize, steady_factor};
+use crate::sim::integrators::failure::StepFailure;
+use crate::sim::integrators::integrator::Integrator;
+use crate::sim::integrators::tolerance::Tolerance;
+use crate::sim::system::{State, System, Vector};
 
 /// The tableau of a pair of `N` stages whose last stage is the kept solution, so that its slope is the
 /// first of the next step.

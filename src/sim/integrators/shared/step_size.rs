@@ -5,8 +5,10 @@
 //! here keep the better of their two solutions, the error for each second is then proportional to the
 //! tolerance, and a method of order p takes `tolerance^(-1/p)` substeps.
 
-use super::super::{State, StepFailure, Vector};
 use super::last_step::LastStep;
+use crate::sim::integrators::failure::StepFailure;
+use crate::sim::integrators::tolerance::Tolerance;
+use crate::sim::system::{State, Vector};
 
 /// Aims below the tolerance, so that the next attempt is rarely rejected.
 const SAFETY: f64 = 0.9;
@@ -19,50 +21,6 @@ const WORTH_WHILE: f64 = 1.25;
 const COMFORTABLE: f64 = 0.8;
 /// Attempts in one tick. Usual ticks take 1 to 50; without a limit a force that jumps would hang.
 const MAX_ATTEMPTS: u32 = 10_000;
-
-/// The error that a substep may make: `absolute + relative |y|` in every component.
-///
-/// `f64::INFINITY` in an absolute part leaves that half of the state out of the control.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
-    /// Absolute part for coordinates, in metres or radians.
-    pub absolute_q: f64,
-    /// Absolute part for velocities, per second.
-    pub absolute_v: f64,
-    /// Part relative to the component's magnitude.
-    pub relative: f64,
-}
-
-impl Tolerance {
-    /// The same number for all three parts.
-    pub const fn uniform(tolerance: f64) -> Self {
-        Self { absolute_q: tolerance, absolute_v: tolerance, relative: tolerance }
-    }
-
-    /// The largest component of `h error`, in units of what is allowed beside `y`.
-    #[inline]
-    pub(in crate::sim::integrators) fn measure<V: Vector>(
-        &self,
-        h: f64,
-        error: &State<V>,
-        y: &State<V>,
-    ) -> f64 {
-        let worst = |absolute: f64, error: &V, y: &V| {
-            let rows = error.components().iter().zip(y.components());
-            rows.fold(0.0, |worst: f64, (error, y)| {
-                let error = (h * error).abs() / (absolute + self.relative * y.abs());
-                larger(worst, error)
-            })
-        };
-        larger(worst(self.absolute_q, &error.q, &y.q), worst(self.absolute_v, &error.v, &y.v))
-    }
-}
-
-/// As `a.max(b)`, which would drop a NaN, and with it the news that the step is worthless.
-#[inline]
-fn larger(a: f64, b: f64) -> f64 {
-    if b <= a || a.is_nan() { a } else { b }
-}
 
 /// What the step is to be multiplied by, where `root` is the error in units of what is allowed, to the
 /// power 1 / p.

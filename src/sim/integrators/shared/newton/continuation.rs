@@ -7,8 +7,9 @@
 //! eigenvalue problems*, 1977), it is followed round such folds. If the force is bounded and smooth, the
 //! curve cannot end before it reaches λ = 1.
 
-use super::{Newton, Stages, components, largest};
-use crate::sim::integrators::{System, Vector};
+use super::curve::Curve;
+use super::iteration::{Newton, Stages, components, largest};
+use crate::sim::system::{System, Vector};
 
 /// The longest stretches of three attempts: with longer ones the curve is left for another nearby, which may
 /// lead nowhere, with shorter ones it takes longer.
@@ -25,41 +26,6 @@ const MOST_CORRECTIONS: u32 = 6;
 const CORRECTED: f64 = 1e-6;
 /// The part of λ by which the slope along it is taken.
 const NUDGE: f64 = 1e-6;
-
-/// The place on the curve and its direction.
-#[derive(Clone, Debug)]
-pub(super) struct Curve {
-    lambda: f64,
-    /// What the accelerations are measured in: the largest that the force made of them.
-    scale: f64,
-    /// How the solution moves with λ, as the matrix says.
-    side: Vec<f64>,
-    /// The direction of unit length, accelerations in units of `scale`, and λ.
-    tangent: Vec<f64>,
-    tangent_lambda: f64,
-    /// The accelerations at the beginning of a stretch.
-    from: Vec<f64>,
-}
-
-impl Curve {
-    pub(super) fn new(size: usize) -> Self {
-        let zeros = || vec![0.0; size];
-        Self {
-            lambda: 0.0,
-            scale: 1.0,
-            side: zeros(),
-            tangent: zeros(),
-            tangent_lambda: 1.0,
-            from: zeros(),
-        }
-    }
-
-    /// The memory that it takes beyond its own size, in bytes.
-    pub(super) fn heap_bytes(&self) -> usize {
-        let vectors = [&self.side, &self.tangent, &self.from];
-        vectors.into_iter().map(|vector| size_of_val(&vector[..])).sum()
-    }
-}
 
 impl<V: Vector, const S: usize> Newton<V, S> {
     /// Solves the equations, and returns whether it did.
