@@ -27,7 +27,7 @@ pub(super) fn record(
     let interrupted = watch_for_interrupt();
     let progress = progress(schedule.frames, "frames");
     let mut lab = recording.lab(experiment);
-    let mut logbook = Logbook::new(recording.mark_every, &lab);
+    let mut logbook = Logbook::new(recording.mark_every, lab.race());
     let mut entries = Vec::new();
     // Frames that are kept are drawn again: to prove that they belong to this run, and because a glyph's
     // place in egui's atlas, and with it the last bit of a few pixels, depends on the frames before it.
@@ -70,7 +70,7 @@ pub(super) fn record(
         complete: done == frames,
         frames: entries,
         lanes: logbook::ends(&lab),
-        marks: logbook.close(&lab),
+        marks: logbook.close(lab.race()),
     };
     let (path, others) = (folder.path().to_owned(), folder.others().to_vec());
     let written = folder.finish(&manifest.to_text());

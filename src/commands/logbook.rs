@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::manifest::{LaneEnd, LaneMark, Mark};
-use crate::lab::{Lab, METRICS};
+use crate::lab::{Lab, METRICS, Observer, Race};
 use crate::sim::Solver;
 
 /// The default number of marks in a run: a change is located to within a few ticks, and the manifest of a
@@ -24,28 +24,28 @@ pub(super) struct Logbook {
 
 impl Logbook {
     /// Starts with a mark of the present state.
-    pub(super) fn new(every: u64, lab: &Lab) -> Self {
-        Self { every, marks: vec![mark(lab)] }
-    }
-
-    /// Adds a mark if one is due. To be called after every tick.
-    pub(super) fn note(&mut self, lab: &Lab) {
-        if lab.race().tick().is_multiple_of(self.every) {
-            self.marks.push(mark(lab));
-        }
+    pub(super) fn new(every: u64, race: &Race) -> Self {
+        Self { every, marks: vec![mark(race)] }
     }
 
     /// All marks; the last is the present state.
-    pub(super) fn close(mut self, lab: &Lab) -> Vec<Mark> {
-        if self.marks.last().is_none_or(|last| last.tick != lab.race().tick()) {
-            self.marks.push(mark(lab));
+    pub(super) fn close(mut self, race: &Race) -> Vec<Mark> {
+        if self.marks.last().is_none_or(|last| last.tick != race.tick()) {
+            self.marks.push(mark(race));
         }
         self.marks
     }
 }
 
-fn mark(lab: &Lab) -> Mark {
-    let race = lab.race();
+impl Observer for Logbook {
+    fn ticked(&mut self, race: &Race) {
+        if race.tick().is_multiple_of(self.every) {
+            self.marks.push(mark(race));
+        }
+    }
+}
+
+fn mark(race: &Race) -> Mark {
     let lanes = race.entrants().iter().zip(race.lane_hashes()).map(|(entrant, hash)| {
         let bodies = entrant.lane.bodies().iter();
         LaneMark {
@@ -98,12 +98,9 @@ mod tests {
     fn marks_are_made_at_the_start_at_each_stride_and_at_the_end() {
         for (every, expected) in [(1, vec![0, 1, 2, 3, 4, 5, 6, 7]), (3, vec![0, 3, 6, 7])] {
             let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-            let mut logbook = Logbook::new(every, &lab);
-            for _ in 0..7 {
-                lab.tick();
-                logbook.note(&lab);
-            }
-            let marks = logbook.close(&lab);
+            let mut logbook = Logbook::new(every, lab.race());
+            (0..7).for_each(|_| lab.tick_seen(&mut logbook));
+            let marks = logbook.close(lab.race());
             assert_eq!(marks.iter().map(|mark| mark.tick).collect::<Vec<_>>(), expected);
             let last = &marks.last().unwrap().lanes[0];
             assert_eq!(last.hash, format!("{:016x}", lab.race().state_hash()));

@@ -40,7 +40,7 @@ pub(super) fn record(
     let Schedule { frames, .. } = recording.schedule;
     let progress = progress(frames, "frames");
     let mut lab = recording.lab(experiment);
-    let mut logbook = Logbook::new(u64::MAX, &lab);
+    let mut logbook = Logbook::new(u64::MAX, lab.race());
     let run = Run {
         artist: &mut artist,
         lab: &mut lab,

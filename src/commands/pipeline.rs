@@ -122,7 +122,7 @@ impl Run<'_> {
         loop {
             let more = next < schedule.frames && !interrupted.load(Ordering::Relaxed);
             if more {
-                schedule.advance(lab, next, |lab| logbook.note(lab));
+                schedule.advance(lab, next, logbook);
                 know_what_is_shown(lab, artist);
                 artist.submit(lab)?;
                 moments.push_back((lab.race().tick(), lab.clock().alpha_fraction()));
@@ -225,7 +225,7 @@ mod tests {
         mut take: impl FnMut(&Drawn) -> Result<(), E> + Send,
     ) -> Result<u32, Stop<E>> {
         let mut lab = race();
-        let mut logbook = Logbook::new(1, &lab);
+        let mut logbook = Logbook::new(1, lab.race());
         let (lab, logbook) = (&mut lab, &mut logbook);
         let run = Run { artist, lab, logbook, schedule: SCHEDULE, interrupted };
         // The first of every two takes longer than the second.
@@ -256,7 +256,7 @@ mod tests {
         let test = "an_encoder_that_panics_ends_the_run_with_its_panic";
         let Some(mut artist) = artist_or_skip(test) else { return };
         let mut lab = race();
-        let mut logbook = Logbook::new(1, &lab);
+        let mut logbook = Logbook::new(1, lab.race());
         let run = Run {
             artist: &mut artist,
             lab: &mut lab,
@@ -274,7 +274,7 @@ mod tests {
         let test = "no_more_frames_are_on_their_way_than_there_are_buffers";
         let Some(mut artist) = artist_or_skip(test) else { return };
         let mut lab = race();
-        let mut logbook = Logbook::new(1, &lab);
+        let mut logbook = Logbook::new(1, lab.race());
         let run = Run {
             artist: &mut artist,
             lab: &mut lab,
@@ -305,7 +305,7 @@ mod tests {
         let Some(mut artist) = artist_or_skip(test) else { return };
         let (mut lab, mut rgba, mut one_by_one) = (race(), Vec::new(), Vec::new());
         for frame in 0..SCHEDULE.frames {
-            SCHEDULE.advance(&mut lab, frame, |_| ());
+            SCHEDULE.advance(&mut lab, frame, &mut ());
             artist.draw(&lab, &mut rgba).unwrap();
             one_by_one.push((lab.race().tick(), lab.clock().alpha_fraction(), rgba.clone()));
         }

@@ -123,6 +123,6 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
     };
     clip::record(experiment, recording, folder)?;
     let mut lab = experiment.lab();
-    (0..frames).for_each(|frame| schedule.advance(&mut lab, frame, |_| ()));
+    (0..frames).for_each(|frame| schedule.advance(&mut lab, frame, &mut ()));
     Ok(lab)
 }

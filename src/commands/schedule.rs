@@ -3,7 +3,7 @@
 
 use super::error::Cause;
 use super::frame_folder::names::MOST_FRAMES;
-use crate::lab::{Clock, Lab};
+use crate::lab::{Clock, Lab, Observer};
 
 /// Smooth enough for every scene, at half the files and half the time of 60.
 pub(super) const FPS: u32 = 30;
@@ -56,15 +56,16 @@ impl Schedule {
         lab.nearest_tick(f64::from(self.frames.saturating_sub(1)) / f64::from(self.fps))
     }
 
-    /// Advances a lab that stands at the frame before `frame`, or at the start, to `frame`.
-    pub(super) fn advance(self, lab: &mut Lab, frame: u32, mut after_tick: impl FnMut(&Lab)) {
+    /// Advances a lab that stands at the frame before `frame`, or at the start, to `frame`, before the eyes of an
+    /// observer.
+    pub(super) fn advance(self, lab: &mut Lab, frame: u32, observer: &mut impl Observer) {
         let Some(before) = frame.checked_sub(1) else { return };
         let longest = u64::from(Clock::LONGEST_FRAME_MS) * 1_000_000;
         let mut left = self.time_ns(frame) - self.time_ns(before);
         // In stretches that the clock accepts without dropping ticks.
         while left > 0 {
             let stretch = left.min(longest).min(until_rate_changes(lab));
-            let due = lab.advance_seen(stretch as i64, &mut after_tick);
+            let due = lab.advance_seen(stretch as i64, observer);
             assert_eq!(due.dropped, 0, "a stretch is no longer than the clock's longest frame");
             left -= stretch;
         }
@@ -85,7 +86,7 @@ fn until_rate_changes(lab: &Lab) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
+    use crate::lab::{Race, Scene};
 
     #[test]
     fn a_frame_shows_its_moment_whatever_tick_rates_a_script_sets() {
@@ -95,7 +96,7 @@ mod tests {
         let mut lab = Lab::new(Scene::parse("x.toml", text).unwrap());
         let schedule = Schedule { frames: 301, fps: 30 };
         for frame in 0..schedule.frames {
-            schedule.advance(&mut lab, frame, |_| ());
+            schedule.advance(&mut lab, frame, &mut ());
             let present = lab.race().t();
             let next_hz = lab.scene().rates_from(lab.race().tick()).next();
             let next_hz = next_hz.filter(|(tick, _)| *tick == lab.race().tick());
@@ -115,6 +116,15 @@ mod tests {
         assert!(frames_in(3e7, 1000).is_err());
     }
 
+    /// How many ticks were made.
+    struct Ticks(u64);
+
+    impl Observer for Ticks {
+        fn ticked(&mut self, _race: &Race) {
+            self.0 += 1;
+        }
+    }
+
     #[test]
     fn each_frame_has_just_the_ticks_that_are_due() {
         for (tick_hz, fps) in
@@ -124,12 +134,12 @@ mod tests {
             scene.tick_hz = tick_hz;
             let mut lab = Lab::new(scene);
             let schedule = Schedule { frames: 2 * fps, fps };
-            let mut seen = 0;
+            let mut seen = Ticks(0);
             for frame in 0..=schedule.frames {
-                schedule.advance(&mut lab, frame, |_| seen += 1);
+                schedule.advance(&mut lab, frame, &mut seen);
                 let due = u64::from(frame) * u64::from(tick_hz) / u64::from(fps);
                 assert_eq!(lab.race().tick(), due, "frame {frame}, {tick_hz} Hz, {fps} fps");
-                assert_eq!(seen, due);
+                assert_eq!(seen.0, due);
             }
         }
     }

@@ -58,7 +58,7 @@ pub(super) fn draw(
                 let done = row as u32 * columns + column;
                 return Err(RecordingError::interrupted(done, cells, "none, a sheet is one"));
             }
-            recording.schedule.advance(&mut lab, column, |_| ());
+            recording.schedule.advance(&mut lab, column, &mut ());
             know_what_is_shown(&mut lab, &artist);
             artist.draw(&lab, &mut cell)?;
             let top = row * height as usize;

@@ -10,7 +10,7 @@ use super::journal::{JournalRow, Source};
 use super::lane_spec::LaneSpec;
 use super::notices::Notices;
 use super::past::{History, Past};
-use super::race::{Entrant, Mode, Race};
+use super::race::{Entrant, Mode, Observer, Race};
 use super::scene::Scene;
 use super::session::{RecordingTooLong, Timeline};
 use super::start::Start;
@@ -194,33 +194,33 @@ impl Lab {
 
     /// Takes in a frame of `frame_ns` nanoseconds of real time, and steps what is due.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
-        self.advance_seen(frame_ns, |_| ())
+        self.advance_seen(frame_ns, &mut ())
     }
 
     /// As [`Lab::advance`], and stops at tick `last`.
     pub fn advance_to(&mut self, last: u64, frame_ns: i64) -> Due {
-        self.advance_by(frame_ns, last, |_| ())
+        self.advance_by(frame_ns, last, &mut ())
     }
 
-    /// As [`Lab::advance`], and shows itself to `after_tick` after every tick.
-    pub fn advance_seen(&mut self, frame_ns: i64, after_tick: impl FnMut(&Lab)) -> Due {
-        self.advance_by(frame_ns, u64::MAX, after_tick)
+    /// As [`Lab::advance`], before the eyes of an observer.
+    pub fn advance_seen(&mut self, frame_ns: i64, observer: &mut impl Observer) -> Due {
+        self.advance_by(frame_ns, u64::MAX, observer)
     }
 
-    fn advance_by(&mut self, frame_ns: i64, last: u64, mut after_tick: impl FnMut(&Lab)) -> Due {
+    fn advance_by(&mut self, frame_ns: i64, last: u64, observer: &mut impl Observer) -> Due {
         if !self.time_runs() {
             return Due::default();
         }
         // A tick rate that the script sets at this tick is that of the time from here on.
-        let ((), told) = self.watched(|timeline, notices| timeline.catch_up(notices));
+        let ((), told) =
+            self.watched(|timeline, notices| timeline.catch_up(&mut (notices, &mut *observer)));
         self.tell(told);
         let due = self.clock.advance(frame_ns);
         for _ in 0..due.ticks {
             if self.race().tick() >= last {
                 break;
             }
-            self.tick();
-            after_tick(self);
+            self.tick_seen(observer);
         }
         if due.ticks > 0 {
             self.timeline.show_present();
@@ -231,7 +231,13 @@ impl Lab {
 
     /// Does what there is to be done at this tick, and steps to the next.
     pub fn tick(&mut self) {
-        let ((), told) = self.watched(|timeline, notices| timeline.tick_seen(notices));
+        self.tick_seen(&mut ());
+    }
+
+    /// As [`Lab::tick`], before the eyes of an observer.
+    pub fn tick_seen(&mut self, observer: &mut impl Observer) {
+        let ((), told) =
+            self.watched(|timeline, notices| timeline.tick_seen(&mut (notices, observer)));
         self.tell(told);
     }
 

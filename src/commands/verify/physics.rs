@@ -16,11 +16,11 @@ pub(super) fn judge(
     report: &mut Report,
 ) {
     let mut lab = recording.lab(experiment);
-    let mut logbook = Logbook::new(recording.mark_every, &lab);
+    let mut logbook = Logbook::new(recording.mark_every, lab.race());
     for frame in 0..manifest.frames.len() as u32 {
-        recording.schedule.advance(&mut lab, frame, |lab| logbook.note(lab));
+        recording.schedule.advance(&mut lab, frame, &mut logbook);
     }
-    let now = logbook.close(&lab);
+    let now = logbook.close(lab.race());
     report.lanes = lab.race().entrants().len();
     report.last_tick = lab.race().tick();
     report.mark_every = recording.mark_every;

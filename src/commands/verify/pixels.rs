@@ -100,7 +100,7 @@ pub(super) fn judge(
     let interrupted = watch_for_interrupt();
     let progress = progress(frames, "frames");
     let mut lab = recording.lab(experiment);
-    let mut logbook = Logbook::new(u64::MAX, &lab);
+    let mut logbook = Logbook::new(u64::MAX, lab.race());
     let run =
         Run { artist, lab: &mut lab, logbook: &mut logbook, schedule, interrupted: &interrupted };
     let mut changes = Vec::new();
