@@ -50,6 +50,31 @@ fn a_selected_lane_stays_selected_whatever_method_it_is_put_under() {
 }
 
 #[test]
+fn a_race_begins_again_with_the_methods_that_its_lanes_were_given() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.apply(Command::ToggleRace);
+    let methods = |lab: &Lab| -> Vec<&str> {
+        let lanes = lab.race().entrants().iter();
+        lanes.map(|lane| lab.entries()[lane.entry].method.id).collect()
+    };
+    let opened = methods(&lab);
+    for (lane, id) in [(2, "bdf2"), (1, "pefrl")] {
+        let spec = LaneSpec { substeps: 3, ..LaneSpec::plain(method(id).unwrap()) };
+        lab.apply(Command::Act(Action::Lane { lane, spec }));
+    }
+    let given = methods(&lab);
+    assert_eq!((given[0], given[1], &given[2..]), ("pefrl", "bdf2", &opened[2..]));
+    lab.apply(Command::Restart);
+    assert_eq!(methods(&lab), given);
+    assert_eq!((lab.selected().lane_number, lab.selected().lane.substeps()), (1, 3));
+    for (lane, spec) in (1..).zip(lab.scene_as_opened().lanes.clone()) {
+        lab.apply(Command::Act(Action::Lane { lane, spec }));
+    }
+    lab.apply(Command::Restart);
+    assert_eq!(methods(&lab), opened);
+}
+
+#[test]
 fn a_scene_is_made_longer_for_plots_and_verdicts_and_stays_so() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     let seconds = lab.scene().seconds;

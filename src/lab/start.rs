@@ -19,6 +19,8 @@ pub(super) struct Start {
     /// The methods, with the substeps and tolerances that the person has given them.
     pub(super) list: Vec<LaneSpec>,
     pub(super) mode: Mode,
+    /// The methods of the lanes of a race, by their places on the list.
+    lanes: Vec<usize>,
     /// The method flown in solo, which is in a race too, by its place on the list.
     pub(super) entry: usize,
     pub(super) tick_hz: u32,
@@ -35,6 +37,7 @@ impl Start {
         Self {
             opened: Arc::clone(&scene),
             list: scene.method_list(),
+            lanes: (0..scene.lanes.len()).collect(),
             mode: Mode::Solo,
             entry,
             tick_hz: scene.tick_hz,
@@ -47,8 +50,8 @@ impl Start {
         let race = match self.mode {
             Mode::Solo => Race::solo(&self.scene, self.list.clone(), self.entry),
             Mode::Race => {
-                let others = (self.entry >= self.scene.lanes.len()).then_some(self.entry);
-                let lanes = (0..self.scene.lanes.len()).chain(others);
+                let other = (!self.lanes.contains(&self.entry)).then_some(self.entry);
+                let lanes = self.lanes.iter().copied().chain(other);
                 Race::among(&self.scene, self.list.clone(), lanes)
             }
         };
@@ -74,6 +77,10 @@ impl Start {
             | Action::Substeps { .. }
             | Action::Tolerance { .. } => {
                 self.list.copy_from_slice(race.list());
+                if race.mode() == Mode::Race {
+                    let entries = race.entrants().iter().map(|entrant| entrant.entry);
+                    self.lanes.iter_mut().zip(entries).for_each(|(lane, entry)| *lane = entry);
+                }
             }
             _ => {}
         }

@@ -112,6 +112,9 @@ impl Lab {
             self.watched(|timeline, notices| timeline.act_seen(action.clone(), notices));
         let Acted::Done { released } = acted else { return self.tell(told) };
         self.start.keep(&action, self.timeline.session().lanes());
+        if let Action::Lane { .. } = action {
+            self.start.entry = self.active();
+        }
         let discarded = was_past.then(|| {
             let tick = self.race().tick();
             format!("another future begins at tick {tick}: Ctrl Z brings the old one back")
@@ -164,7 +167,6 @@ impl Lab {
             (Mode::Solo, _) => {
                 let lane = self.race().entrants()[0].lane_number;
                 self.act(Action::Lane { lane, spec });
-                self.start.entry = self.active();
             }
         }
     }

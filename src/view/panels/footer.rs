@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) {
                 if lab.race().takes(input) { text } else { String::new() }
             };
             let keys = format!(
-                "{}{}K kick  Space pause  H all keys",
+                "{}{}K kick  Space pause  E inspector  H all keys",
                 part("throttle", "↑ ↓", lab.race().throttle()),
                 part("rudder", "← →", lab.race().rudder()),
             );

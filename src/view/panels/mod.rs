@@ -39,9 +39,11 @@ const HEIGHT_FOR_TIMES: f32 = 560.0;
 /// The part of the width that the instruments take.
 const INSTRUMENTS: f32 = 0.38;
 
-/// The part of their height that the inspector takes, and the height in points from which on it leaves them some.
+/// The part of their height that the inspector takes at first, the height in points from which on it leaves them some,
+/// and the least that either has.
 const INSPECTOR: f32 = 0.62;
 const HEIGHT_FOR_INSPECTOR_BELOW: f32 = 330.0;
+const LEAST_BESIDE: f32 = 110.0;
 
 /// Shows all panels. Returns what was asked for and the rectangle left for the stage, in points.
 pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
@@ -89,7 +91,8 @@ fn beside_the_stage(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     } else if height < HEIGHT_FOR_INSPECTOR_BELOW {
         inspector::show(ui, lab, commands);
     } else {
-        let panel = egui::Panel::bottom("inspector").exact_size(height * INSPECTOR);
+        let panel = egui::Panel::bottom("inspector").default_size(height * INSPECTOR);
+        let panel = panel.size_range(LEAST_BESIDE..=height - LEAST_BESIDE).resizable(true);
         let frame = Frame::new().inner_margin(Margin { top: 6, ..Margin::ZERO });
         panel.frame(frame).show(ui, |ui| inspector::show(ui, lab, commands));
         instruments::show(ui, lab, commands);

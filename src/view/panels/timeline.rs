@@ -63,7 +63,10 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     seek(ui, lab, &response, &track, commands);
     let context = Context { scene: lab.scene(), start: lab.timeline().start(), times: &times };
     let in_view = |x: f32| along.expand(1.0).contains(x);
-    let mut groups = grouped(context.marks(&events), |mark| track.x(mark.tick), MARKS_APART);
+    let end = lab.timeline().end();
+    let end = lab.timeline().is_in_past().then(|| context.end(end));
+    let marks = context.marks(&events).into_iter().chain(end).collect();
+    let mut groups = grouped(marks, |mark| track.x(mark.tick), MARKS_APART);
     groups.retain(|group| in_view(group.x));
 
     let painter = ui.painter().clone();
@@ -204,10 +207,6 @@ fn fill(painter: &Painter, lab: &Lab, events: &[Event], track: &Track<'_>) {
             painter.rect_filled(piece, corners, strength(*colour, lab.mode()));
         }
     }
-    if lab.timeline().is_in_past() && track.along.contains(end) {
-        let reach = THICKNESS / 2.0 + 2.5;
-        painter.vline(end, Rangef::point(track.y).expand(reach), Stroke::new(1.5, TEXT));
-    }
 }
 
 /// A race is of many colours: that of the selected lane is kept back.
@@ -232,6 +231,10 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
     let top = if mark.sign == Sign::Halt { foot - 12.0 } else { foot - 4.0 };
     painter.vline(x, Rangef::new(top, track.y + 0.5 * THICKNESS), Stroke::new(1.5, colour));
     match mark.sign {
+        Sign::End => {
+            let reach = Rangef::point(track.y).expand(0.5 * THICKNESS + 3.0);
+            painter.vline(x, reach, Stroke::new(1.5, colour));
+        }
         Sign::Input => {
             painter.vline(x, Rangef::new(foot - 8.0, foot), Stroke::new(2.0, colour));
         }

@@ -10,6 +10,8 @@ use crate::lab::{Action, Event, EventKind, LaneSpec, Mode, Race, Scene, Source, 
 /// The sign of a mark. Of several in one place the last of this list is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Sign {
+    /// A stroke across the track: beyond it nothing was run.
+    End,
     /// A stroke: throttle, rudder.
     Input,
     /// A square: a parameter, substeps, a tolerance.
@@ -86,6 +88,12 @@ impl Context<'_> {
             Mark { tick: event.tick, sign, colour, text }
         };
         events.iter().map(mark).collect()
+    }
+
+    /// The mark of the last tick that was reached.
+    pub(super) fn end(&self, tick: u64) -> Mark {
+        let text = format!("{}: nothing was run beyond it", moment(tick, self.times));
+        Mark { tick, sign: Sign::End, colour: TEXT, text }
     }
 
     fn of_action(&self, action: &Action, mode: Mode) -> (Sign, Color32, String) {
