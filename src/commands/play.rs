@@ -1,16 +1,21 @@
 //! `regatta play`: the window; where there is no display, its first seconds as pictures.
 
+use std::path::Path;
+use std::sync::Arc;
+
+use annotate_snippets::Renderer;
 use clap::Args;
 
 use super::capture::{self, CaptureError, FPS};
-use super::experiment::{self, ExperimentArgs, Lineup};
+use super::experiment::{self, Experiment, ExperimentArgs, Lineup};
 use super::frame_folder::FrameFolder;
 use super::logbook;
 use super::recording::{self, Recording};
+use super::scene_file;
 use super::voyage::Schedule;
 use super::{Error, tell};
 use crate::view::Panels;
-use crate::window::{self, WindowError};
+use crate::window::{self, SceneFiles, WindowError};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -54,7 +59,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(lineup)?;
     let mut lab = experiment.lab();
     lab.set_motion(!args.reduced_motion);
-    match window::run(lab, args.seconds) {
+    match window::run(lab, args.seconds, files(&args.experiment, &experiment)) {
         Err(WindowError::NoDisplay(reason)) => {
             let frames = match args.seconds {
                 Some(seconds) => capture::frames_in(seconds, FPS)?,
@@ -79,4 +84,15 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         }
         done => Ok(done?),
     }
+}
+
+/// How the window reads scene files: the one given with the options given, and each with the words of the command line.
+fn files(args: &ExperimentArgs, experiment: &Experiment) -> SceneFiles {
+    let given = args.clone();
+    let read = move |path: &Path| {
+        given.read(path).map_err(|error| Error::from(error).report(&Renderer::plain()))
+    };
+    let is_file = !scene_file::is_built_in(args.scene());
+    let opened = is_file.then(|| (args.scene().to_owned(), experiment.text.clone()));
+    SceneFiles { read: Arc::new(read), opened }
 }

@@ -12,13 +12,16 @@ use super::past::{History, Past};
 use super::race::{Mode, Race};
 use super::scene::Scene;
 use super::session::Timeline;
+use super::shelf::Shelf;
 use super::start::Start;
 use super::viewer::Viewer;
 
 mod apply;
+mod opening;
 
 /// A scene being run and looked at.
 pub struct Lab {
+    pub(super) shelf: Shelf,
     pub(super) start: Start,
     pub(super) timeline: Timeline,
     pub(super) clock: Clock,
@@ -31,8 +34,10 @@ impl Lab {
     /// Opens a scene, running, in solo mode, under the method that [it names](Scene::opening_method), else
     /// under the first of its lanes.
     pub fn new(scene: Scene) -> Self {
+        let shelf = Shelf::of(&scene);
         let start = Start::of(scene);
         Self {
+            shelf,
             timeline: Timeline::new(start.session()),
             clock: Clock::new(start.tick_hz),
             running: true,
@@ -133,7 +138,7 @@ impl Lab {
         let paused = if self.running { String::new() } else { format!(" (paused, tick {tick})") };
         format!(
             "Regatta - {} - {race}{} - {} Hz{paused}",
-            self.scene().name,
+            self.scene_name(),
             self.entries()[self.active()].method.name,
             self.clock.tick_hz(),
         )

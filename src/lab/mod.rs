@@ -27,6 +27,7 @@ mod race;
 pub mod round_off;
 mod scene;
 mod session;
+mod shelf;
 mod start;
 mod viewer;
 
@@ -56,4 +57,5 @@ pub use scene::{
     parameter_named,
 };
 pub use session::{Event, EventKind, SNAPSHOT_BYTES, Session, Timeline};
-pub use viewer::Viewer;
+pub use shelf::Shelf;
+pub use viewer::{Dialog, Viewer};

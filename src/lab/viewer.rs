@@ -4,6 +4,20 @@ use super::analysis::{Advice, Findings, Verdict};
 use super::display::{Display, Instrument, Interpolation, Pace};
 use super::held::Held;
 
+/// What is open over everything else.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Dialog {
+    /// A field for the path of a scene file.
+    Path,
+    /// What is wrong with a scene file.
+    Mistakes {
+        /// The file.
+        file: String,
+        /// What is wrong with it, and where.
+        report: String,
+    },
+}
+
 /// How a run is looked at, and what there is to read beside it.
 #[derive(Clone, Debug)]
 pub struct Viewer {
@@ -18,6 +32,8 @@ pub struct Viewer {
     pub(super) findings: Option<Findings>,
     /// The body in hand.
     pub(super) held: Option<Held>,
+    pub(super) dialog: Option<Dialog>,
+    pub(super) typed_path: String,
 }
 
 impl Viewer {
@@ -38,7 +54,19 @@ impl Viewer {
             notice: None,
             findings: None,
             held: None,
+            dialog: None,
+            typed_path: String::new(),
         }
+    }
+
+    /// What is open over everything else.
+    pub fn dialog(&self) -> Option<&Dialog> {
+        self.dialog.as_ref()
+    }
+
+    /// The path as far as it is typed.
+    pub fn typed_path(&self) -> &str {
+        &self.typed_path
     }
 
     /// The body in hand, if one is.

@@ -6,6 +6,8 @@ mod desk;
 mod keys;
 mod life;
 mod mouse;
+mod opening;
 mod program;
 mod shape;
+mod touch;
 mod wayland;

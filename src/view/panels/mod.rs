@@ -11,6 +11,7 @@ mod footer;
 mod help;
 mod instruments;
 mod lanes;
+mod opening;
 mod ranges;
 mod top_bar;
 mod tracks;
@@ -59,6 +60,9 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
     let stage = ui.available_rect_before_wrap();
     if lab.display().help {
         help::show(ui, &mut commands);
+    }
+    if let Some(dialog) = lab.viewer().dialog() {
+        opening::show(ui, lab, dialog, &mut commands);
     }
     (commands, stage)
 }
