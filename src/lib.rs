@@ -25,8 +25,9 @@
 //! - `view` is pixels: a graphics device, seas, ribbons and strokes on the stage, panels in egui, and
 //!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
 //!   and differ only in where time comes from and where the texture goes.
-//! - `window` and `commands` are the drivers: they alone touch files and real time. A capture's frames
-//!   pass from the thread that draws to those that encode, and come back in order
+//! - `window` and `commands` are the drivers: they alone touch files and real time. How a scene file is read and
+//!   what is said of its mistakes is the commands'; the window is handed it, and watches the files that it
+//!   opened. A capture's frames pass from the thread that draws to those that encode, and come back in order
 //!   (`commands/pipeline.rs`); what it drew is in a manifest (`commands::manifest` has the schema), by
 //!   which `regatta verify` judges. A sweep's runs and the methods that `advise` judges share nothing, so
 //!   that any number of threads makes the same rows (`commands/jobs.rs`).

@@ -4,30 +4,36 @@
 //! A frame is drawn when something changed: always while time runs, and after an event while it is
 //! paused. A window that is hidden draws nothing and keeps simulating.
 
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use egui_winit::accesskit_winit;
 use winit::application::ApplicationHandler;
-use winit::event::{ElementState, KeyEvent, StartCause, WindowEvent};
+use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, Window, WindowId};
 
-use crate::lab::{Ask, Command, Findings, Key, Lab, command_for};
+use crate::lab::{Ask, Command, Findings, Lab, Scene};
 use crate::view::GpuError;
 
 mod canvas;
 mod keys;
 mod new_file;
+mod opening;
 mod pace;
 mod recording;
 mod screenshot;
 mod thinking;
+mod watch;
+
+pub use opening::{ReadScene, SceneFiles};
 
 use canvas::{Canvas, Drawn};
-use keys::{Focus, Held};
+use keys::Held;
 use pace::Meter;
 use thinking::ThinkingThread;
+use watch::FileWatch;
 
 /// How long the simulation waits for a frame: well inside the clock's longest, so that a window that is
 /// hidden, or that the window system asks no frames of, drops no ticks.
@@ -54,13 +60,14 @@ pub enum WindowError {
 
 /// Opens a window on `lab` and runs it until it is closed, until the tick nearest to `seconds` of simulated time, or,
 /// if it `heeds_interrupts`, until Ctrl-C is pressed in the terminal. Returns the lab as it then is, and whether it was
-/// interrupted.
+/// interrupted. Scene files that are dropped onto it or typed are read as `files` says.
 ///
 /// # Errors
 /// [`WindowError::NoDisplay`] before anything else is tried; the others at any time.
 pub fn run(
-    lab: Lab,
+    mut lab: Lab,
     seconds: Option<f64>,
+    files: SceneFiles,
     heeds_interrupts: bool,
 ) -> Result<(Lab, bool), WindowError> {
     let event_loop = EventLoop::<Event>::with_user_event()
@@ -79,9 +86,17 @@ pub fn run(
             log::warn!("Ctrl-C will stop the window at once: {error}");
         }
     }
+    let SceneFiles { read, opened } = files;
+    let watch = FileWatch::new(Arc::clone(&read), proxy.clone());
+    if let Some((path, text)) = opened {
+        lab.list_as_file(&path);
+        watch.watch(path, text);
+    }
     let mut app = App {
         thinking: ThinkingThread::new(lab.question(), proxy.clone()),
         lab,
+        read,
+        watch,
         seconds,
         proxy,
         canvas: None,
@@ -117,6 +132,11 @@ enum Event {
     Accessibility(accesskit_winit::Event),
     Learnt(Findings),
     Interrupted,
+    /// A scene file has another text than it had.
+    Changed {
+        path: PathBuf,
+        read: Result<(Scene, String), String>,
+    },
 }
 
 impl From<accesskit_winit::Event> for Event {
@@ -128,6 +148,8 @@ impl From<accesskit_winit::Event> for Event {
 struct App {
     lab: Lab,
     thinking: ThinkingThread,
+    read: ReadScene,
+    watch: FileWatch,
     /// When to end, in simulated seconds.
     seconds: Option<f64>,
     proxy: EventLoopProxy<Event>,
@@ -167,15 +189,23 @@ impl App {
             self.lab.set_notice(notice);
             self.stand_still();
         }
+        let waits_for_field = self.waits_for_field();
         let Some(canvas) = &mut self.canvas else { return };
-        match canvas.draw(&self.lab) {
+        // What is typed for a field that is not shown yet is put off until it is.
+        let early = if waits_for_field { canvas.take_events() } else { Vec::new() };
+        let drawn = canvas.draw(&self.lab);
+        canvas.put_back(early);
+        match drawn {
             Ok(Drawn::Shown { commands, repaint_after }) => {
                 if self.meter.first_frame() {
                     log::info!("first frame after {} ms", self.started.elapsed().as_millis());
                     self.stand_still();
                 }
                 self.meter.frame(now, &self.lab);
-                let again = self.lab.running() || !commands.is_empty() || self.screenshot;
+                let again = self.lab.running()
+                    || !commands.is_empty()
+                    || self.screenshot
+                    || waits_for_field;
                 self.asked.extend(commands);
                 self.schedule(event_loop, now, if again { Duration::ZERO } else { repaint_after });
             }
@@ -203,6 +233,13 @@ impl App {
                     self.stand_still();
                 }
                 Some(Ask::ToggleFullScreen) => self.toggle_full_screen(),
+                Some(Ask::OpenTypedPath) => {
+                    opening::open_typed(&mut self.lab, &self.read, &self.watch);
+                }
+                Some(Ask::CompletePath) => {
+                    let path = opening::completed(self.lab.viewer().typed_path());
+                    self.lab.apply(Command::TypePath(path));
+                }
                 None => {}
             }
         }
@@ -271,22 +308,6 @@ impl App {
         self.outcome = outcome;
         event_loop.exit();
     }
-
-    fn key(&mut self, event: &KeyEvent, focus: Focus, menu_is_open: bool) {
-        if event.state != ElementState::Pressed {
-            return;
-        }
-        let Some(key) = keys::key(event, self.held) else { return };
-        // Escape closes a menu.
-        if focus.takes(key) || menu_is_open && key == Key::Escape {
-            return;
-        }
-        if let Some((command, binding)) = command_for(key)
-            && (!event.repeat || binding.repeats)
-        {
-            self.asked.push(command);
-        }
-    }
 }
 
 impl ApplicationHandler<Event> for App {
@@ -346,6 +367,15 @@ impl ApplicationHandler<Event> for App {
                     self.request_redraw();
                 }
             }
+            Event::Changed { path, read } => {
+                match read {
+                    Ok((scene, _)) => self.lab.reload_file(&path, scene),
+                    Err(report) => self.lab.reload_failed(&path, report),
+                }
+                // What it took is no time of the simulation's.
+                self.stand_still();
+                self.request_redraw();
+            }
         }
     }
 
@@ -354,16 +384,25 @@ impl ApplicationHandler<Event> for App {
             return self.frame(event_loop);
         }
         let Some(canvas) = &mut self.canvas else { return };
+        let before = canvas.egui.egui_input().events.len();
         let response = canvas.egui.on_window_event(&canvas.window, &event);
         match &event {
             WindowEvent::CloseRequested | WindowEvent::Destroyed => {
                 return self.end(event_loop, Ok(()));
             }
             WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => {
-                let context = canvas.egui.egui_ctx();
-                let menu_is_open = egui::Popup::is_any_open(context);
-                let focus = Focus::of(response.consumed, context.text_edit_focused());
-                self.key(event, focus, menu_is_open);
+                let panels = canvas.egui.egui_ctx().clone();
+                if self.key(event, response.consumed, &panels)
+                    && let Some(canvas) = &mut self.canvas
+                {
+                    // A key that opens a field is no text for it.
+                    canvas.egui.egui_input_mut().events.truncate(before);
+                }
+            }
+            WindowEvent::DroppedFile(path) => {
+                opening::open(&mut self.lab, &self.read, &self.watch, path);
+                self.stand_still();
+                return self.request_redraw();
             }
             WindowEvent::ModifiersChanged(modifiers) => {
                 self.held = modifiers.state().into();

@@ -1,7 +1,7 @@
 //! The options that every run has in common, and the lab that they set up.
 
 use std::ffi::OsStr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValue, TypedValueParser};
@@ -54,18 +54,28 @@ pub(super) struct Experiment {
 impl ExperimentArgs {
     /// Reads the scene and applies the other options to it.
     pub(super) fn load(&self, lineup: Lineup) -> Result<Experiment, SceneFileError> {
-        let (mut scene, text) = scene_file::load(&self.scene)?;
-        if let Some(tick_hz) = self.tick_hz {
-            scene.tick_hz = tick_hz;
-        }
-        let mut lineup = lineup;
-        if self.methods.len() > 1 {
-            scene.lanes = lanes_of(&scene, &self.methods);
-            lineup = Lineup::Everyone;
+        let (scene, text) = self.read(&self.scene)?;
+        let lineup = if self.methods.len() > 1 { Lineup::Everyone } else { lineup };
+        Ok(Experiment { scene, text, selected: self.methods.first().copied(), lineup })
+    }
+
+    /// Reads a scene, and applies the other options to it if it is the one that was given.
+    pub(super) fn read(&self, path: &Path) -> Result<(Scene, String), SceneFileError> {
+        let (mut scene, text) = scene_file::load(path)?;
+        if path == self.scene {
+            scene.tick_hz = self.tick_hz.unwrap_or(scene.tick_hz);
+            if self.methods.len() > 1 {
+                scene.lanes = lanes_of(&scene, &self.methods);
+            }
         }
         scene.lanes = lanes_that_race(&scene);
         scene.equal_cost = false;
-        Ok(Experiment { scene, text, selected: self.methods.first().copied(), lineup })
+        Ok((scene, text))
+    }
+
+    /// The scene as it was given: a name or a path.
+    pub(super) fn scene(&self) -> &Path {
+        &self.scene
     }
 
     /// The lanes of the methods named, as `scene` has them.

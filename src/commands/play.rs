@@ -1,8 +1,10 @@
 //! `regatta play`: the window; where there is no display, its first seconds as pictures.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use annotate_snippets::Renderer;
 use clap::Args;
 
 use super::error::{Cause, Error};
@@ -13,10 +15,10 @@ use super::output::{AtomicOutput, Older, Place};
 use super::recording::Recording;
 use super::schedule::{FPS, Schedule, frames_in};
 use super::terminal::tell;
-use super::{clip, logbook};
+use super::{clip, logbook, scene_file};
 use crate::lab::{Lab, RecordingTooLong};
 use crate::view::Panels;
-use crate::window::{self, WindowError};
+use crate::window::{self, SceneFiles, WindowError};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -81,7 +83,8 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         Place { path, option: "--record", older }
     });
     let record = record.map(AtomicOutput::open_for_text).transpose()?;
-    let (lab, interrupted) = match window::run(lab, args.seconds, record.is_some()) {
+    let files = files(&args.experiment, &experiment);
+    let (lab, interrupted) = match window::run(lab, args.seconds, files, record.is_some()) {
         Err(WindowError::NoDisplay(reason)) => {
             (without_display(args, &experiment, &reason)?, false)
         }
@@ -125,4 +128,15 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
     let mut lab = experiment.lab();
     (0..frames).for_each(|frame| schedule.advance(&mut lab, frame, &mut ()));
     Ok(lab)
+}
+
+/// How the window reads scene files: the one given with the options given, and each with the words of the command line.
+fn files(args: &ExperimentArgs, experiment: &Experiment) -> SceneFiles {
+    let given = args.clone();
+    let read = move |path: &Path| {
+        given.read(path).map_err(|error| Error::from(error).report(&Renderer::plain()))
+    };
+    let is_file = !scene_file::is_built_in(args.scene());
+    let opened = is_file.then(|| (args.scene().to_owned(), experiment.text.clone()));
+    SceneFiles { read: Arc::new(read), opened }
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::error::{Cause, message};
-use crate::lab::{LARGEST_FILE, SCENES, Scene, SceneErrors, nearest};
+use crate::lab::{BuiltIn, LARGEST_FILE, SCENES, Scene, SceneErrors, nearest};
 
 /// Why there is no scene.
 #[derive(Debug, thiserror::Error)]
@@ -52,12 +52,21 @@ impl Cause for SceneFileError {
 
 /// The built-in scene of that name, or the scene in the file at that path, and its text.
 pub(super) fn load(path: &Path) -> Result<(Scene, String), SceneFileError> {
-    if let Some(built_in) = SCENES.iter().find(|scene| path.to_str() == Some(scene.name)) {
+    if let Some(built_in) = built_in(path) {
         return Ok((Scene::parse(built_in.name, built_in.text)?, built_in.text.to_owned()));
     }
     let bytes = read(path)?;
     let scene = Scene::from_bytes(&path.display().to_string(), &bytes)?;
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
+}
+
+/// Whether this names a built-in scene, and no file.
+pub(super) fn is_built_in(path: &Path) -> bool {
+    built_in(path).is_some()
+}
+
+fn built_in(path: &Path) -> Option<&'static BuiltIn> {
+    SCENES.iter().find(|scene| path.to_str() == Some(scene.name))
 }
 
 /// The first bytes of a file: enough for a scene to be read, or to be found too large.

@@ -72,12 +72,22 @@ pub enum Command {
     RudderRight,
     /// Gives every body an impulse of this many times its own kick.
     Kick(f64),
-    /// Opens the built-in scene on this place of [`SCENES`](super::SCENES), from 0.
+    /// Opens the scene on this place of the [list](super::Shelf), from 0.
     Scene(usize),
-    /// The next built-in scene, round.
+    /// The next scene of the list, round.
     NextScene,
-    /// The previous built-in scene, round.
+    /// The previous scene of the list, round.
     PreviousScene,
+    /// Opens a field for the path of a scene file.
+    AskForPath,
+    /// This is typed in it.
+    TypePath(String),
+    /// Types as much more of it as is sure.
+    CompletePath,
+    /// Opens the file at that path.
+    OpenTypedPath,
+    /// Closes what is open over everything else, but for the help.
+    CloseDialog,
     /// Shows or hides the exact ghost.
     ToggleGhost,
     /// The next way of drawing between ticks: raw, linear, Hermite.
@@ -268,6 +278,12 @@ pub static KEYS: &[Binding] = &[
         shown: "N, B",
         about: "next, previous scene",
         keys: &[(Key::Sign('n'), Command::NextScene), (Key::Sign('b'), Command::PreviousScene)],
+        repeats: false,
+    },
+    Binding {
+        shown: "O",
+        about: "open a scene file; or drop one onto the window",
+        keys: &[(Key::Sign('o'), Command::AskForPath)],
         repeats: false,
     },
     Binding {

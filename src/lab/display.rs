@@ -110,6 +110,10 @@ pub enum Ask {
     Record,
     /// Enter or leave full screen.
     ToggleFullScreen,
+    /// Open the scene file at the path that was typed.
+    OpenTypedPath,
+    /// Type as much more of the path as is sure.
+    CompletePath,
     /// End the program.
     Quit,
 }

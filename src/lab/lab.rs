@@ -13,13 +13,16 @@ use super::past::{History, Past};
 use super::race::{Entrant, Mode, Observer, Race};
 use super::scene::Scene;
 use super::session::{RecordingTooLong, Timeline};
+use super::shelf::Shelf;
 use super::start::Start;
 use super::viewer::Viewer;
 
 mod apply;
+mod opening;
 
 /// A scene being run and looked at.
 pub struct Lab {
+    pub(super) shelf: Shelf,
     pub(super) start: Start,
     pub(super) timeline: Timeline,
     pub(super) clock: Clock,
@@ -32,9 +35,11 @@ impl Lab {
     /// Opens a scene, running, in solo mode, under the method that [it names](Scene::opening_method), else
     /// under the first of its lanes.
     pub fn new(scene: Scene) -> Self {
+        let shelf = Shelf::of(&scene);
         let start = Start::of(scene);
         let timeline = Timeline::new(start.session());
         Self {
+            shelf,
             clock: Clock::new(start.tick_hz),
             running: true,
             dropped: 0,
@@ -137,7 +142,7 @@ impl Lab {
         let paused = if self.running { String::new() } else { format!(" (paused, tick {tick})") };
         format!(
             "Regatta - {} - {race}{} - {} Hz{paused}",
-            self.scene().name,
+            self.scene_name(),
             self.entries()[self.active()].method.name,
             self.clock.tick_hz(),
         )

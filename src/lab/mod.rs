@@ -27,6 +27,7 @@ pub mod picture;
 mod race;
 mod scene;
 mod session;
+mod shelf;
 mod start;
 mod viewer;
 
@@ -59,4 +60,5 @@ pub use scene::{
 pub use session::{
     Event, EventKind, RecordingTooLong, SNAPSHOT_BYTES, Session, TimeScale, Timeline,
 };
-pub use viewer::Viewer;
+pub use shelf::Shelf;
+pub use viewer::{Dialog, Viewer};

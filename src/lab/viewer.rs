@@ -5,6 +5,20 @@ use super::display::{Display, Instrument, Interpolation, Pace};
 use super::held::Held;
 use super::lane_spec::LaneSpec;
 
+/// What is open over everything else.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Dialog {
+    /// A field for the path of a scene file.
+    Path,
+    /// What is wrong with a scene file.
+    Mistakes {
+        /// The file.
+        file: String,
+        /// What is wrong with it, and where.
+        report: String,
+    },
+}
+
 /// How a run is looked at, and what there is to read beside it.
 #[derive(Clone, Debug)]
 pub struct Viewer {
@@ -21,6 +35,8 @@ pub struct Viewer {
     pub(super) before_equal_cost: Option<Vec<LaneSpec>>,
     /// The body in hand.
     pub(super) held: Option<Held>,
+    pub(super) dialog: Option<Dialog>,
+    pub(super) typed_path: String,
 }
 
 impl Viewer {
@@ -43,7 +59,19 @@ impl Viewer {
             findings: None,
             before_equal_cost: None,
             held: None,
+            dialog: None,
+            typed_path: String::new(),
         }
+    }
+
+    /// What is open over everything else.
+    pub fn dialog(&self) -> Option<&Dialog> {
+        self.dialog.as_ref()
+    }
+
+    /// The path as far as it is typed.
+    pub fn typed_path(&self) -> &str {
+        &self.typed_path
     }
 
     /// The body in hand, if one is.

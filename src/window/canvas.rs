@@ -106,6 +106,16 @@ impl Canvas {
         Ok(Drawn::Shown { commands, repaint_after: output.repaint_delay })
     }
 
+    /// The events that the panels have not taken in yet.
+    pub(super) fn take_events(&mut self) -> Vec<egui::Event> {
+        std::mem::take(&mut self.egui.egui_input_mut().events)
+    }
+
+    /// Has the panels take in these events before any others.
+    pub(super) fn put_back(&mut self, events: Vec<egui::Event>) {
+        self.egui.egui_input_mut().events.splice(0..0, events);
+    }
+
     /// What to draw on, and whether the surface asks to be configured anew after that.
     fn acquire(&mut self) -> Option<(wgpu::SurfaceTexture, bool)> {
         use wgpu::CurrentSurfaceTexture::*;

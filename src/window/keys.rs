@@ -1,9 +1,10 @@
 //! From the window system's keys to ours.
 
-use winit::event::KeyEvent;
+use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key as Logical, KeyCode, ModifiersState, NamedKey, PhysicalKey};
 
-use crate::lab::Key;
+use super::App;
+use crate::lab::{Command, Dialog, Key, command_for};
 
 /// The modifiers that are held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,8 +26,57 @@ impl From<ModifiersState> for Held {
     }
 }
 
+impl App {
+    /// Takes a key, unless it is the panels'. Returns whether it took it.
+    pub(super) fn key(
+        &mut self,
+        event: &KeyEvent,
+        widget_has_focus: bool,
+        panels: &egui::Context,
+    ) -> bool {
+        if event.state != ElementState::Pressed {
+            return false;
+        }
+        let Some(key) = key(event, self.held) else { return false };
+        if self.asks_for_path() {
+            // At once: what is typed next is no text any more.
+            let closes = key == Key::Escape;
+            self.asked.extend(closes.then_some(Command::CloseDialog));
+            return closes;
+        }
+        let menu_is_open = egui::Popup::is_any_open(panels);
+        // Escape closes a menu.
+        let focus = Focus::of(widget_has_focus, panels.text_edit_focused());
+        if focus.takes(key) || menu_is_open && key == Key::Escape {
+            return false;
+        }
+        let Some((command, binding)) = command_for(key) else { return false };
+        if !event.repeat || binding.repeats {
+            self.asked.push(command);
+        }
+        true
+    }
+
+    /// Whether there is to be a field for a path that no frame has shown yet.
+    pub(super) fn waits_for_field(&self) -> bool {
+        let panels = self.canvas.as_ref().map(|canvas| canvas.egui.egui_ctx());
+        self.lab.viewer().dialog() == Some(&Dialog::Path)
+            && panels.is_some_and(|panels| !panels.text_edit_focused())
+    }
+
+    /// Whether keys are text for the field of a path, with what is asked for and not done yet.
+    fn asks_for_path(&self) -> bool {
+        let is_open = self.lab.viewer().dialog() == Some(&Dialog::Path);
+        self.asked.iter().fold(is_open, |is_open, command| match command {
+            Command::AskForPath => true,
+            Command::OpenTypedPath | Command::CloseDialog => false,
+            _ => is_open,
+        })
+    }
+}
+
 /// The key of an event, if it is one that could be bound.
-pub(super) fn key(event: &KeyEvent, held: Held) -> Option<Key> {
+fn key(event: &KeyEvent, held: Held) -> Option<Key> {
     from_parts(event.physical_key, &event.logical_key, held)
 }
 
@@ -142,7 +192,7 @@ fn digit(code: KeyCode) -> Option<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, KEYS, command_for};
+    use crate::lab::KEYS;
 
     fn pressed(code: KeyCode, text: &str, shift: bool) -> Option<Key> {
         held(code, text, Held { shift, ..Held::default() })

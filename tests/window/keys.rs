@@ -44,7 +44,10 @@ fn every_key_of_the_table_does_what_the_table_says() {
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     let mut lab = lab("spring");
     for (key, command) in KEYS.iter().flat_map(|binding| binding.keys) {
-        if ![Command::Screenshot, Command::ToggleFullScreen, Command::Escape].contains(command) {
+        // Where a path is typed, keys are text.
+        let others =
+            [Command::Screenshot, Command::ToggleFullScreen, Command::AskForPath, Command::Escape];
+        if !others.contains(command) {
             desk.press(&x_name(*key));
             assert_eq!(lab.apply(command.clone()), None);
             desk.titled(&lab.title());

@@ -3,12 +3,12 @@
 use super::Lab;
 use crate::lab::action::Action;
 use crate::lab::command::{Command, SPEED_LADDER, TICK_LADDER};
-use crate::lab::display::{Ask, Display};
+use crate::lab::display::Ask;
 use crate::lab::equal_cost::equal_cost;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::{Acted, Mode};
-use crate::lab::scene::{SCENES, Scene};
 use crate::lab::session::Timeline;
+use crate::lab::viewer::Dialog;
 
 impl Lab {
     /// Does what a person asked for. What is not the lab's business comes back.
@@ -73,9 +73,9 @@ impl Lab {
             }
             Command::Undo => self.undo(),
             Command::Restart => self.restart(),
-            Command::Scene(index) => self.open(index % SCENES.len()),
-            Command::NextScene => self.open_beside(1),
-            Command::PreviousScene => self.open_beside(SCENES.len() - 1),
+            Command::Scene(place) => self.open(place),
+            Command::NextScene => self.open_beside(true),
+            Command::PreviousScene => self.open_beside(false),
             Command::ToggleGhost => self.viewer.display.ghost = !self.viewer.display.ghost,
             Command::NextInterpolation => self.viewer.next_interpolation(),
             Command::Instrument(instrument) => self.viewer.display.instrument = instrument,
@@ -92,6 +92,15 @@ impl Lab {
             Command::LetGo => self.viewer.held = None,
             Command::Lens { body, lens } => self.viewer.display.set_lens(body, lens),
             Command::Escape if self.viewer.held.is_some() => self.viewer.held = None,
+            Command::AskForPath => self.viewer.dialog = Some(Dialog::Path),
+            Command::TypePath(path) => self.viewer.typed_path = path,
+            Command::CompletePath => return Some(Ask::CompletePath),
+            Command::OpenTypedPath => {
+                self.viewer.dialog = None;
+                return Some(Ask::OpenTypedPath);
+            }
+            Command::CloseDialog => self.viewer.dialog = None,
+            Command::Escape if self.viewer.dialog.is_some() => self.viewer.dialog = None,
             Command::Escape if self.viewer.display.help => self.viewer.display.help = false,
             Command::Escape if self.viewer.display.inspector => {
                 self.viewer.display.inspector = false;
@@ -245,24 +254,6 @@ impl Lab {
         self.clock.set_tick_hz(self.start.tick_hz);
         self.clock.restart();
         self.dropped = 0;
-    }
-
-    fn open_beside(&mut self, offset: usize) {
-        let here = SCENES.iter().position(|scene| scene.name == self.scene().name);
-        self.open(here.map_or(0, |here| (here + offset) % SCENES.len()));
-    }
-
-    /// Opens a built-in scene under its own opening method; mode and look stay as they are.
-    fn open(&mut self, index: usize) {
-        let scene = Scene::built_in(SCENES[index].name).expect("every name in SCENES is built in");
-        let mut lab = Lab::new(scene);
-        lab.start.mode = self.mode();
-        lab.viewer.display = Display { body: 0, lenses: Vec::new(), ..self.viewer.display.clone() };
-        lab.viewer.pace = self.viewer.pace;
-        lab.clock.set_speed_percent(self.clock.speed_percent());
-        lab.running = self.running;
-        lab.restart();
-        *self = lab;
     }
 }
 

@@ -13,6 +13,7 @@ mod help;
 mod inspector;
 mod instruments;
 mod lanes;
+mod opening;
 mod ranges;
 mod timeline;
 mod top_bar;
@@ -79,6 +80,9 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
     let stage = ui.available_rect_before_wrap();
     if lab.display().help {
         help::show(ui, &mut commands);
+    }
+    if let Some(dialog) = lab.viewer().dialog() {
+        opening::show(ui, lab, dialog, &mut commands);
     }
     (commands, stage)
 }

@@ -3,7 +3,7 @@
 use egui::{Align, Button, ComboBox, Label, Layout, RichText, Ui};
 
 use super::{ACCENT, QUIET};
-use crate::lab::{Command, Lab, Mode, Pace, SCENES, SPEED_LADDER, TICK_LADDER};
+use crate::lab::{Command, Lab, Mode, Pace, SPEED_LADDER, TICK_LADDER};
 
 pub(super) const HEIGHT: f32 = 34.0;
 
@@ -53,12 +53,13 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
-    let name = &lab.scene().name;
-    let menu = ComboBox::from_id_salt("scene").selected_text(name).width(86.0);
+    let name = lab.scene_name();
+    let menu = ComboBox::from_id_salt("scene").selected_text(&name).width(86.0);
     let response = menu.show_ui(ui, |ui| {
-        for (index, scene) in SCENES.iter().enumerate() {
-            if ui.selectable_label(scene.name == name, scene.name).clicked() {
-                commands.push(Command::Scene(index));
+        for (place, name) in lab.shelf().names().enumerate() {
+            let is_open = lab.shelf().open() == Some(place);
+            if ui.selectable_label(is_open, name).clicked() {
+                commands.push(Command::Scene(place));
             }
         }
     });

@@ -1,0 +1,111 @@
+use super::*;
+use crate::lab::{Action, Command, Mode, SCENES};
+
+fn text(name: &str) -> &'static str {
+    SCENES.iter().find(|scene| scene.name == name).unwrap().text
+}
+
+fn scene(text: &str) -> Scene {
+    Scene::parse("boat/ship.toml", text).unwrap()
+}
+
+const PATH: &str = "boat/ship.toml";
+
+/// A lab that runs the file's scene.
+fn lab(text: &str) -> Lab {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    lab.open_file(Path::new(PATH), scene(text));
+    lab
+}
+
+#[test]
+fn a_file_stays_on_the_list_and_does_not_pass_for_a_built_in_scene() {
+    let mut lab = lab(text("ship"));
+    assert!(lab.title().starts_with("Regatta - ship.toml - "), "{}", lab.title());
+    assert_eq!(lab.shelf().open(), Some(SCENES.len()));
+    lab.apply(Command::NextScene);
+    assert!(lab.title().starts_with("Regatta - harbour - "), "{}", lab.title());
+    lab.apply(Command::PreviousScene);
+    assert!(lab.title().starts_with("Regatta - ship.toml - "), "{}", lab.title());
+    lab.apply(Command::PreviousScene);
+    assert_eq!(lab.shelf().open(), Some(SCENES.len() - 1));
+    for _ in 0..=SCENES.len() {
+        lab.apply(Command::NextScene);
+    }
+    assert_eq!(lab.shelf().open(), Some(SCENES.len() - 1), "round");
+}
+
+#[test]
+fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
+    let before = text("spring");
+    let after = before.replacen("mass_kg = ", "mass_kg = 1", 1);
+    assert_ne!(before, after);
+    let mut old = lab(before);
+    old.apply(Command::ToggleRace);
+    old.apply(Command::Pick(2));
+    old.apply(Command::Lens { body: 0, lens: crate::lab::Lens::default().zoomed(2.0, [0.0; 2]) });
+    (0..50).for_each(|_| old.tick());
+    old.apply(Command::Act(Action::Kick(1.0)));
+    old.reload_file(Path::new(PATH), scene(&after));
+    assert_eq!(old.viewer().notice.as_deref(), Some("ship.toml changed: run again to tick 50"));
+    assert_eq!((old.mode(), old.active()), (Mode::Race, 2));
+    assert_eq!(old.display().lens(0).zoom(), 2.0);
+
+    let mut new = lab(&after);
+    new.apply(Command::ToggleRace);
+    (0..50).for_each(|_| new.tick());
+    assert_eq!(old.race().state_hash(), new.race().state_hash());
+}
+
+#[test]
+fn a_changed_file_with_other_bodies_or_lanes_begins_again() {
+    let before = text("spring");
+    for after in
+        [text("harbour").to_owned(), before.replacen("\"rk4\", ", "", 1), text("ship").to_owned()]
+    {
+        assert_ne!(before, after);
+        let mut lab = lab(before);
+        (0..50).for_each(|_| lab.tick());
+        lab.reload_file(Path::new(PATH), scene(&after));
+        assert_eq!(lab.race().tick(), 0);
+        assert!(lab.viewer().notice.as_deref().unwrap().contains("begins again"));
+    }
+}
+
+#[test]
+fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
+    let before = text("spring");
+    let after = before.replacen("tick_hz = 60", "tick_hz = 50", 1);
+    assert_ne!(before, after);
+    for (chosen, rate) in [(None, 50), (Some(120), 120)] {
+        let mut lab = lab(before);
+        if let Some(hz) = chosen {
+            lab.apply(Command::TickHz(hz));
+        }
+        lab.reload_file(Path::new(PATH), scene(&after));
+        assert_eq!(lab.race().tick_hz(), rate);
+    }
+}
+
+#[test]
+fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
+    let mut lab = lab(text("spring"));
+    (0..50).for_each(|_| lab.tick());
+    let hash = lab.race().state_hash();
+    lab.reload_failed(Path::new(PATH), "boat/ship.toml:1:1: no".into());
+    let shown = |lab: &Lab| matches!(lab.viewer().dialog(), Some(Dialog::Mistakes { .. }));
+    assert!(shown(&lab) && lab.race().state_hash() == hash);
+    assert_eq!(lab.apply(Command::Escape), None);
+    assert!(!shown(&lab));
+    // Whoever comes back to it is told again.
+    lab.apply(Command::NextScene);
+    assert!(!shown(&lab));
+    lab.apply(Command::PreviousScene);
+    assert!(shown(&lab));
+    lab.reload_file(Path::new(PATH), scene(text("spring")));
+    assert!(!shown(&lab));
+    // Of a file that is not open, nothing is shown yet.
+    lab.apply(Command::NextScene);
+    lab.reload_failed(Path::new(PATH), "boat/ship.toml:1:1: no".into());
+    assert!(!shown(&lab));
+}

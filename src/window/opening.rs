@@ -1,0 +1,135 @@
+//! Scene files: reading them when they are dropped or typed, and completing their paths.
+
+use std::path::{MAIN_SEPARATOR, Path, PathBuf};
+use std::sync::Arc;
+
+use crate::lab::{Lab, SCENES, Scene};
+
+use super::watch::FileWatch;
+
+/// Reads a scene file: its scene and its text, or what the command line would print of it.
+pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), String> + Send + Sync>;
+
+/// The files of a window.
+pub struct SceneFiles {
+    /// How files are read.
+    pub read: ReadScene,
+    /// The file that the window's lab was read from, and its text.
+    pub opened: Option<(PathBuf, String)>,
+}
+
+/// Opens the scene file at `path`, and watches it; what is wrong with it is shown.
+pub(super) fn open(lab: &mut Lab, read: &ReadScene, watch: &FileWatch, path: &Path) {
+    let path = known(lab, path);
+    match read_regular(read, &path) {
+        Ok((scene, text)) => {
+            lab.open_file(&path, scene);
+            watch.watch(path, text);
+        }
+        Err(report) => lab.show_mistakes(&path, report),
+    }
+}
+
+/// Opens what was typed: as on the command line the name of a built-in scene, or else the path of a file.
+pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene, watch: &FileWatch) {
+    let typed = lab.viewer().typed_path().trim().to_owned();
+    match SCENES.iter().position(|scene| scene.name == typed) {
+        Some(place) => _ = lab.apply(crate::lab::Command::Scene(place)),
+        None => open(lab, read, watch, &from_home(&typed)),
+    }
+}
+
+fn read_regular(read: &ReadScene, path: &Path) -> Result<(Scene, String), String> {
+    match path.metadata() {
+        // A pipe would have the window wait for its other end.
+        Ok(found) if !found.is_file() && !found.is_dir() => {
+            Err(format!("error: {} is not a regular file", path.display()))
+        }
+        _ => read(path),
+    }
+}
+
+/// The path under which a file is on the list already, or else the path itself.
+fn known(lab: &Lab, path: &Path) -> PathBuf {
+    let real = path.canonicalize().ok();
+    let is_same = |listed: &&Path| real.is_some() && listed.canonicalize().ok() == real;
+    lab.shelf().paths().find(is_same).unwrap_or(path).to_owned()
+}
+
+/// The path with the home directory for a `~` at its beginning.
+fn from_home(typed: &str) -> PathBuf {
+    let rest = typed.strip_prefix('~').filter(|rest| rest.starts_with(MAIN_SEPARATOR));
+    match (rest, std::env::home_dir()) {
+        (Some(rest), Some(home)) => home.join(rest.trim_start_matches(MAIN_SEPARATOR)),
+        _ => typed.into(),
+    }
+}
+
+/// What was typed, with as much more as all folders and TOML files have in common that begin so.
+pub(super) fn completed(typed: &str) -> String {
+    let (folder, begun) = match typed.rfind(MAIN_SEPARATOR) {
+        Some(end) => typed.split_at(end + MAIN_SEPARATOR.len_utf8()),
+        None => ("", typed),
+    };
+    let listed = if folder.is_empty() { PathBuf::from(".") } else { from_home(folder) };
+    let entries = std::fs::read_dir(listed).into_iter().flatten().flatten();
+    let fitting = entries.filter_map(|entry| {
+        let name = entry.file_name().into_string().ok()?;
+        let is_hidden = name.starts_with('.') && !begun.starts_with('.');
+        if is_hidden || !name.starts_with(begun) {
+            return None;
+        }
+        let path = entry.path();
+        if path.is_dir() {
+            return Some(format!("{name}{MAIN_SEPARATOR}"));
+        }
+        path.extension().is_some_and(|ending| ending == "toml").then_some(name)
+    });
+    let common = fitting.reduce(|common, name| {
+        let alike = common.chars().zip(name.chars()).take_while(|(a, b)| a == b);
+        alike.map(|(character, _)| character).collect()
+    });
+    format!("{folder}{}", common.as_deref().unwrap_or(begun))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_completed_as_far_as_it_is_sure() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = format!("{}{MAIN_SEPARATOR}", folder.path().display());
+        for name in ["ship-a.toml", "ship-b.toml", "ship.png", "other.toml", ".hidden.toml"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        std::fs::create_dir(folder.path().join("deep")).unwrap();
+        std::fs::write(folder.path().join("deep/one.toml"), "").unwrap();
+        let deep = format!("deep{MAIN_SEPARATOR}");
+        for (typed, completed_name) in [
+            ("s", "ship-"),
+            ("ship-b", "ship-b.toml"),
+            ("o", "other.toml"),
+            ("x", "x"),
+            ("d", deep.as_str()),
+            ("", ""),
+            (".", ".hidden.toml"),
+        ] {
+            assert_eq!(completed(&format!("{root}{typed}")), format!("{root}{completed_name}"));
+        }
+        assert_eq!(completed(&format!("{root}{deep}")), format!("{root}{deep}one.toml"));
+        assert_eq!(completed("/no/such/folder/a"), "/no/such/folder/a");
+    }
+
+    #[test]
+    fn a_file_is_known_by_whatever_path_it_is_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.toml");
+        std::fs::write(&path, "").unwrap();
+        let mut lab = Lab::new(Scene::built_in("ship").unwrap());
+        lab.open_file(&path, Scene::built_in("ship").unwrap());
+        assert_eq!(known(&lab, &folder.path().join("./a.toml")), path);
+        let other = folder.path().join("b.toml");
+        assert_eq!(known(&lab, &other), other);
+    }
+}

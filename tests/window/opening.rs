@@ -1,0 +1,101 @@
+//! Scene files opened in the window, and changed on disk.
+
+use std::path::{Path, PathBuf};
+
+use regatta::lab::SCENES;
+use tempfile::TempDir;
+
+use crate::desk::{Desk, until};
+
+fn text(scene: &str) -> &'static str {
+    SCENES.iter().find(|listed| listed.name == scene).unwrap().text
+}
+
+/// A folder with a file of this name and text, and the file's path.
+fn file(name: &str, text: &str) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).unwrap();
+    (folder, path)
+}
+
+fn type_path(desk: &Desk, path: &Path) {
+    desk.press("o");
+    desk.xdotool(&format!("type --delay 1 {}", path.display()));
+}
+
+#[test]
+fn a_path_is_typed_and_its_scene_stays_on_the_list() {
+    let test = "a_path_is_typed_and_its_scene_stays_on_the_list";
+    let (_folder, path) = file("ship.toml", text("ship"));
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    type_path(&desk, &path);
+    desk.press("Escape 2");
+    desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz");
+    type_path(&desk, &path);
+    desk.press("Return");
+    desk.titled("Regatta - ship.toml - Explicit Euler - 2 Hz");
+    desk.press("n");
+    desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
+    desk.press("b");
+    desk.titled("Regatta - ship.toml - Explicit Euler - 2 Hz");
+    desk.quit();
+}
+
+#[test]
+fn a_path_is_completed_by_tab() {
+    let test = "a_path_is_completed_by_tab";
+    let (folder, _) = file("swinging.toml", text("pendulum"));
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    type_path(&desk, &folder.path().join("sw"));
+    desk.press("Tab");
+    desk.press("Return");
+    desk.titled("Regatta - swinging.toml - Explicit Euler - 60 Hz");
+    desk.quit();
+}
+
+#[test]
+fn a_path_without_a_scene_is_told_and_the_run_goes_on() {
+    let test = "a_path_without_a_scene_is_told_and_the_run_goes_on";
+    let (folder, _) = file("other.toml", text("ship"));
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.press("space");
+    until("a pause", || desk.title().contains("(paused").then_some(()));
+    let title = desk.title();
+    desk.still();
+    let before = desk.sight();
+    type_path(&desk, &folder.path().join("none.toml"));
+    desk.press("Return");
+    desk.still();
+    assert_ne!(desk.sight(), before);
+    assert_eq!(desk.title(), title);
+    desk.press_and_see("Escape");
+    desk.press("space 2");
+    desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz");
+    desk.quit();
+}
+
+#[test]
+fn a_file_that_changes_on_disk_is_run_again_and_one_that_breaks_is_not() {
+    let test = "a_file_that_changes_on_disk_is_run_again_and_one_that_breaks_is_not";
+    let before = text("spring");
+    let (folder, path) = file("mine.toml", before);
+    let Some(desk) = Desk::open(test, &format!("--scene {}", path.display())) else { return };
+    desk.titled("Regatta - mine.toml - Explicit Euler - 60 Hz");
+    std::fs::write(&path, before.replace("tick_hz = 60", "tick_hz = 50")).unwrap();
+    desk.titled("Regatta - mine.toml - Explicit Euler - 50 Hz");
+    desk.press("space");
+    until("a pause", || desk.title().contains("(paused").then_some(()));
+    let title = desk.title();
+    desk.still();
+    // Paused, too; and as editors save, by another file renamed over it.
+    let sight = desk.sight();
+    let other = folder.path().join("mine.toml~");
+    std::fs::write(&other, before.replace("tick_hz = 60", "tick_hz = sixty")).unwrap();
+    std::fs::rename(&other, &path).unwrap();
+    until("the mistakes", || (desk.sight() != sight).then_some(()));
+    assert_eq!(desk.title(), title);
+    std::fs::write(&path, before.replace("tick_hz = 60", "tick_hz = 40")).unwrap();
+    desk.titled(&title.replace("50 Hz", "40 Hz"));
+    desk.quit();
+}

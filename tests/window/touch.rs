@@ -1,0 +1,124 @@
+//! Bodies grabbed with the mouse, and the stage zoomed and panned.
+
+use image::RgbaImage;
+use regatta::lab::picture::palette;
+use regatta::sim::integrators::method;
+
+use crate::desk::{Desk, until};
+
+/// Half the side of a square that fits into a mass, and into nothing else of its colour.
+const INSIDE: u32 = 8;
+
+/// The middle of the mass or of the hull under RK4, in pixels, and how many of its pixels lie inside.
+fn body(sight: &RgbaImage) -> Option<([u32; 2], usize)> {
+    let (colour, _) = palette::style(method("rk4").unwrap());
+    let is_own = |x, y| {
+        let pixel = sight.get_pixel(x, y);
+        (0..3).all(|i| pixel[i].abs_diff(colour[i]) <= 1)
+    };
+    let reach = |x: u32| x - INSIDE..=x + INSIDE;
+    let is_inside = |x, y| {
+        is_own(x, y)
+            && [[x - INSIDE, y], [x + INSIDE, y], [x, y - INSIDE], [x, y + INSIDE]]
+                .iter()
+                .all(|&[x, y]| is_own(x, y))
+            && reach(x).all(|x| is_own(x, y))
+            && reach(y).all(|y| is_own(x, y))
+    };
+    // The stage, at the size at which a window opens.
+    let places = (40..500).flat_map(|y| (20..780).map(move |x| (x, y)));
+    let inside: Vec<(u32, u32)> = places.filter(|&(x, y)| is_inside(x, y)).collect();
+    let count = inside.len() as u32;
+    let sum = inside.iter().fold((0, 0), |sum, at| (sum.0 + at.0, sum.1 + at.1));
+    (count > 0).then(|| ([sum.0 / count, sum.1 / count], inside.len()))
+}
+
+/// Waits for the body to be here, but for the line that joins it to the hand.
+#[track_caller]
+fn body_at(desk: &Desk, [x, y]: [u32; 2]) {
+    until("the body", || {
+        let ([now_x, now_y], _) = body(&desk.sight())?;
+        (now_x.abs_diff(x) <= 2 && now_y.abs_diff(y) <= 8).then_some(())
+    });
+}
+
+/// A paused window on the spring under RK4, and where its mass is.
+fn paused(test: &str) -> Option<(Desk, [u32; 2])> {
+    let desk = Desk::open(test, "--scene spring --method rk4")?;
+    desk.press("space");
+    until("a pause", || desk.title().contains("(paused").then_some(()));
+    // Away from the start, and in motion.
+    desk.press(&["period"; 20].join(" "));
+    desk.still();
+    let (at, _) = body(&desk.sight()).expect("a mass");
+    Some((desk, at))
+}
+
+fn drag(desk: &Desk, [x, y]: [u32; 2], to: [u32; 2]) {
+    desk.xdotool(&format!("mousemove --window WINDOW {x} {y} mousedown 1"));
+    let middle = [0, 1].map(|i| ([x, y][i] + to[i]) / 2);
+    for [x, y] in [middle, to] {
+        desk.xdotool(&format!("mousemove --window WINDOW {x} {y}"));
+    }
+}
+
+#[test]
+fn a_mass_is_dragged_and_let_go_and_escape_puts_it_back() {
+    let test = "a_mass_is_dragged_and_let_go_and_escape_puts_it_back";
+    let Some((desk, [x, y])) = paused(test) else { return };
+    let title = desk.title();
+    let to = [if x > 400 { x - 90 } else { x + 90 }, y];
+    drag(&desk, [x, y], [to[0], to[1] + 30]);
+    body_at(&desk, to);
+    desk.press("Escape");
+    body_at(&desk, [x, y]);
+    desk.xdotool("mouseup 1");
+    desk.still();
+    body_at(&desk, [x, y]);
+    drag(&desk, [x, y], to);
+    desk.xdotool("mouseup 1");
+    body_at(&desk, to);
+    assert_eq!(desk.title(), title, "no time went by");
+    // It is done at this tick: gone back to, the tick shows what it came to, and goes on from where the mass was put.
+    desk.press("comma period");
+    body_at(&desk, [x, y]);
+    desk.press("period");
+    body_at(&desk, to);
+    desk.press("space");
+    until("a run", || (!desk.title().contains("(paused")).then_some(()));
+    desk.quit();
+}
+
+#[test]
+fn time_stands_still_while_a_body_is_held() {
+    let test = "time_stands_still_while_a_body_is_held";
+    let Some(desk) = Desk::open(test, "--scene ship --method rk4 --tick-hz 60") else { return };
+    // The camera follows it: it stays in its place.
+    let (at, _) = until("a ship", || body(&desk.sight()));
+    drag(&desk, at, [at[0] + 60, at[1]]);
+    body_at(&desk, [at[0] + 60, at[1]]);
+    let (tick, _) = desk.screenshot();
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert_eq!(desk.screenshot().0, tick);
+    desk.xdotool("mouseup 1");
+    until("time", || (desk.screenshot().0 > tick).then_some(()));
+    desk.quit();
+}
+
+#[test]
+fn the_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
+    let test = "the_wheel_zooms_a_drag_pans_and_a_double_click_fits";
+    let Some((desk, at)) = paused(test) else { return };
+    let (_, size) = body(&desk.sight()).unwrap();
+    let sea = [at[0], 420];
+    desk.xdotool(&format!("mousemove --window WINDOW {} {} click 4 click 4", at[0], at[1]));
+    until("a larger mass", || (body(&desk.sight())?.1 > size * 3 / 2).then_some(()));
+    desk.still();
+    body_at(&desk, at);
+    drag(&desk, sea, [sea[0] + 40, sea[1] - 20]);
+    desk.xdotool("mouseup 1");
+    body_at(&desk, [at[0] + 40, at[1] - 20]);
+    desk.xdotool(&format!("mousemove --window WINDOW {} {} click --repeat 2 1", sea[0], sea[1]));
+    body_at(&desk, at);
+    desk.quit();
+}
