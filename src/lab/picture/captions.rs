@@ -28,7 +28,7 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, lab: &Lab, entrant: &Entra
     let (colour, _) = style(method);
     let (left, right) = (rect.min[0] + 8.0, rect.max[0]);
     let middle = (rect.min[1] + rect.max[1]) / 2.0;
-    if entrant.entry == lab.active() {
+    if entrant.lane_number == lab.selected().lane_number {
         let (top, bottom) = (rect.min[1] + 4.0, rect.max[1] - 4.0);
         let x = rect.min[0] + 2.5;
         let bar = line([x, top], [x, bottom.max(top)], 3.0, colour, rect);

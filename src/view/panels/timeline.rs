@@ -196,8 +196,7 @@ fn fill(painter: &Painter, lab: &Lab, events: &[Event], track: &Track<'_>) {
     painter.rect_filled(track.piece(track.along.min, track.along.max), round, RAISED);
     let [present, end] = [lab.race().tick(), lab.timeline().end()].map(|tick| track.x(tick));
     painter.rect_filled(track.piece(track.along.min, end), round, QUIET.gamma_multiply(0.45));
-    let shown = lab.race().entrants().iter().find(|entrant| entrant.entry == lab.active());
-    let lane = shown.map_or(1, |entrant| entrant.lane_number);
+    let lane = lab.selected().lane_number;
     let colours = marks::colours(lane, events, lab.timeline().start());
     for (i, (from, colour)) in colours.iter().enumerate() {
         let to = colours.get(i + 1).map_or(present, |(tick, _)| track.x(*tick)).min(present);
