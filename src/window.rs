@@ -88,10 +88,10 @@ pub fn run(
     }
     let SceneFiles { read, opened } = files;
     let watch = FileWatch::new(Arc::clone(&read), proxy.clone());
-    if let Some((path, text)) = opened {
-        lab.list_as_file(&path);
-        watch.watch(path, text);
+    if let Some((path, _)) = &opened {
+        lab.list_as_file(path);
     }
+    watch.watch(opened);
     let mut app = App {
         thinking: ThinkingThread::new(lab.question(), proxy.clone()),
         lab,
@@ -234,7 +234,8 @@ impl App {
                 }
                 Some(Ask::ToggleFullScreen) => self.toggle_full_screen(),
                 Some(Ask::OpenTypedPath) => {
-                    opening::open_typed(&mut self.lab, &self.read, &self.watch);
+                    let opened = opening::open_typed(&mut self.lab, &self.read);
+                    self.watch.watch(opened);
                 }
                 Some(Ask::CompletePath) => {
                     let path = opening::completed(self.lab.viewer().typed_path());
@@ -400,7 +401,7 @@ impl ApplicationHandler<Event> for App {
                 }
             }
             WindowEvent::DroppedFile(path) => {
-                opening::open(&mut self.lab, &self.read, &self.watch, path);
+                self.watch.watch(opening::open(&mut self.lab, &self.read, path));
                 self.stand_still();
                 return self.request_redraw();
             }

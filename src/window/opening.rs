@@ -3,9 +3,7 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::lab::{Lab, SCENES, Scene};
-
-use super::watch::FileWatch;
+use crate::lab::{Command, Lab, SCENES, Scene};
 
 /// Reads a scene file: its scene and its text, or what the command line would print of it.
 pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), String> + Send + Sync>;
@@ -18,24 +16,31 @@ pub struct SceneFiles {
     pub opened: Option<(PathBuf, String)>,
 }
 
-/// Opens the scene file at `path`, and watches it; what is wrong with it is shown.
-pub(super) fn open(lab: &mut Lab, read: &ReadScene, watch: &FileWatch, path: &Path) {
+/// Opens the scene file at `path`, and returns its path and text; what is wrong with it is shown.
+pub(super) fn open(lab: &mut Lab, read: &ReadScene, path: &Path) -> Option<(PathBuf, String)> {
     let path = known(lab, path);
     match read_regular(read, &path) {
         Ok((scene, text)) => {
             lab.open_file(&path, scene);
-            watch.watch(path, text);
+            Some((path, text))
         }
-        Err(report) => lab.show_mistakes(&path, report),
+        Err(report) => {
+            lab.show_mistakes(&path, report);
+            None
+        }
     }
 }
 
-/// Opens what was typed: as on the command line the name of a built-in scene, or else the path of a file.
-pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene, watch: &FileWatch) {
+/// Opens what was typed: as on the command line the name of a built-in scene, or else the path of a file, which is
+/// returned with its text.
+pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene) -> Option<(PathBuf, String)> {
     let typed = lab.viewer().typed_path().trim().to_owned();
     match SCENES.iter().position(|scene| scene.name == typed) {
-        Some(place) => _ = lab.apply(crate::lab::Command::Scene(place)),
-        None => open(lab, read, watch, &from_home(&typed)),
+        Some(place) => {
+            lab.apply(Command::Scene(place));
+            None
+        }
+        None => open(lab, read, &from_home(&typed)),
     }
 }
 
@@ -95,6 +100,38 @@ pub(super) fn completed(typed: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::Dialog;
+
+    /// Reads files as scenes, and says no more of their mistakes than that there are some.
+    fn read() -> ReadScene {
+        Arc::new(|path: &Path| {
+            let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+            let scene = Scene::parse(&path.display().to_string(), &text);
+            scene.map(|scene| (scene, text)).map_err(|errors| errors.to_string())
+        })
+    }
+
+    #[test]
+    fn a_file_that_is_dropped_is_opened_and_one_with_mistakes_leaves_the_run_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let [good, bad] = ["ship.toml", "bad.toml"].map(|name| folder.path().join(name));
+        let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
+        std::fs::write(&good, text).unwrap();
+        std::fs::write(&bad, "tick_hz = 0").unwrap();
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        let opened = open(&mut lab, &read(), &good);
+        assert_eq!(opened, Some((good, text.to_owned())));
+        assert_eq!(lab.scene_name(), "ship.toml");
+        lab.tick();
+        assert_eq!(open(&mut lab, &read(), &bad), None);
+        assert_eq!((lab.scene_name().as_str(), lab.race().tick()), ("ship.toml", 1));
+        let Some(Dialog::Mistakes { report, .. }) = lab.viewer().dialog() else { panic!() };
+        assert!(report.starts_with(&format!("{}:1:", bad.display())), "{report}");
+        // A name is that of a built-in scene, as on the command line.
+        lab.apply(Command::TypePath(" ship ".into()));
+        assert_eq!(open_typed(&mut lab, &read()), None);
+        assert_eq!((lab.scene_name().as_str(), lab.viewer().dialog()), ("ship", None));
+    }
 
     #[test]
     fn a_path_is_completed_as_far_as_it_is_sure() {

@@ -28,10 +28,12 @@ impl FileWatch {
         Self { files }
     }
 
-    /// Watches a file that had this text when it was read.
-    pub(super) fn watch(&self, path: PathBuf, text: String) {
-        // A thread that is gone sees nothing more; the window stays.
-        _ = self.files.send(Watched { path, bytes: text.into_bytes() });
+    /// Watches a file that was opened, if one was, and had this text then.
+    pub(super) fn watch(&self, opened: Option<(PathBuf, String)>) {
+        if let Some((path, text)) = opened {
+            // A thread that is gone sees nothing more; the window stays.
+            _ = self.files.send(Watched { path, bytes: text.into_bytes() });
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use super::compose::Shown;
 use super::palette::{self, faded};
 use super::trails::Moment;
 use super::{Framing, Look, Outline, Rect};
-use crate::lab::TruthCurve;
+use crate::lab::{TruthCurve, TruthSample};
 
 /// The true motion of one body at the moment drawn.
 pub(super) struct Ghost {
@@ -64,7 +64,13 @@ fn past(
     trail_s: f64,
 ) -> impl Iterator<Item = Moment> + Clone {
     let colour = faded(palette::TRUTH, 0.55);
-    let samples = curve.samples().rev().skip_while(move |sample| sample.t >= t);
+    let mut newer: Option<&TruthSample> = None;
+    // Where the body was put elsewhere there are two places at one time.
+    let unbroken = curve.samples().rev().take_while(move |sample| {
+        let newer = newer.replace(sample);
+        newer.is_none_or(|newer| newer.t != sample.t || newer.at == sample.at)
+    });
+    let samples = unbroken.skip_while(move |sample| sample.t >= t);
     let moments = samples.map(move |sample| Moment { age: t - sample.t, at: sample.at, colour });
     let now = Moment { age: 0.0, at, colour };
     std::iter::once(now).chain(moments.take_while(move |moment| moment.age < trail_s))

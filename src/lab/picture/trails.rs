@@ -44,11 +44,14 @@ impl Shown<'_> {
         trail_s: f64,
     ) -> impl Iterator<Item = (f64, &'h Sample)> {
         let shown = self.lanes_t;
-        let unbroken_since = history.unbroken_since();
-        let recent = move |s: &&Sample| shown - s.t < trail_s && s.t >= unbroken_since;
-        let count = history.samples().rev().take_while(recent).count();
+        // A body that was put elsewhere did not move there.
+        let jump = history.samples().rev().position(|sample| sample.jumped);
+        let unbroken = jump.map_or(usize::MAX, |jump| jump + 1);
+        let recent = move |s: &&Sample| shown - s.t < trail_s;
+        let count = history.samples().rev().take(unbroken).take_while(recent).count();
         let every = count.div_ceil(TRAIL_POINTS).max(1);
-        let newest_first = history.samples().rev().take_while(recent).step_by(every);
+        let newest_first = history.samples().rev().take(unbroken).take_while(recent);
+        let newest_first = newest_first.step_by(every);
         newest_first.filter(move |s| s.t < shown).map(move |s| (shown - s.t, s))
     }
 

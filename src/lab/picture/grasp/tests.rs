@@ -169,3 +169,28 @@ fn a_point_of_the_stage_and_its_metres_are_each_others_inverse() {
         }
     }
 }
+
+#[test]
+fn no_trail_leads_to_where_a_body_was_put() {
+    for kind in ["spring", "orbit", "pendulum"] {
+        let mut lab = lab(kind);
+        (0..20).for_each(|_| lab.tick());
+        let before = picture(&lab);
+        let cell = &before.cells[0];
+        let mut grasp = Grasp::new(&lab, cell, &cell.grips[0], cell.grips[0].at).unwrap();
+        let to = off(&cell.grips[0], [90.0, 60.0]);
+        grasp.pull(&lab, to, [0.0; 2]);
+        let (q, v) = (grasp.held().q.clone(), grasp.held().v.clone());
+        lab.apply(Command::Act(crate::lab::Action::Place { body: 0, q, v }));
+        for _ in 0..3 {
+            lab.tick();
+            for ribbon in picture(&lab).ribbons {
+                for ends in ribbon.points.windows(2) {
+                    let [a, b] = [ends[0].at, ends[1].at];
+                    let length = (a[0] - b[0]).hypot(a[1] - b[1]);
+                    assert!(length < 30.0, "{kind}: {a:?} to {b:?}");
+                }
+            }
+        }
+    }
+}
