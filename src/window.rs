@@ -5,7 +5,7 @@
 //! paused. A window that is hidden draws nothing and keeps simulating.
 
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui_winit::accesskit_winit;
@@ -15,9 +15,10 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy}
 use winit::window::{Fullscreen, Window, WindowId};
 
 use crate::lab::{Ask, Command, Findings, Lab, Scene};
-use crate::view::GpuError;
 
 mod canvas;
+mod error;
+mod interrupt;
 mod keys;
 mod new_file;
 mod opening;
@@ -27,9 +28,11 @@ mod screenshot;
 mod thinking;
 mod watch;
 
+pub use error::WindowError;
 pub use opening::{ReadScene, SceneFiles};
 
 use canvas::{Canvas, Drawn};
+use error::reason;
 use keys::Held;
 use pace::Meter;
 use thinking::ThinkingThread;
@@ -43,20 +46,6 @@ const USUAL_REFRESH_MHZ: u32 = 60_000;
 /// The first frame after a pause counts as this long: how long it really was says nothing about the
 /// simulation.
 const FIRST_FRAME: Duration = Duration::ZERO;
-
-/// Why the window could not be opened or kept.
-#[derive(Debug, thiserror::Error)]
-pub enum WindowError {
-    /// There is no display to open a window on.
-    #[error("no display to open a window on: {0}")]
-    NoDisplay(String),
-    /// The window system refused.
-    #[error("the window system refused: {0}")]
-    Refused(String),
-    /// There is no graphics device for the window.
-    #[error(transparent)]
-    Gpu(#[from] GpuError),
-}
 
 /// Opens a window on `lab` and runs it until it is closed, until the tick nearest to `seconds` of simulated time, or,
 /// if it `heeds_interrupts`, until Ctrl-C is pressed in the terminal. Returns the lab as it then is, and whether it was
@@ -75,16 +64,7 @@ pub fn run(
         .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
     let proxy = event_loop.create_proxy();
     if heeds_interrupts {
-        let interrupts = Mutex::new(event_loop.create_proxy());
-        let tell = move || {
-            // A window that is closed already needs no telling.
-            if let Ok(proxy) = interrupts.lock() {
-                let _ = proxy.send_event(Event::Interrupted);
-            }
-        };
-        if let Err(error) = ctrlc::set_handler(tell) {
-            log::warn!("Ctrl-C will stop the window at once: {error}");
-        }
+        interrupt::heed(event_loop.create_proxy());
     }
     let SceneFiles { read, opened } = files;
     let watch = FileWatch::new(Arc::clone(&read), proxy.clone());
@@ -115,16 +95,6 @@ pub fn run(
     };
     event_loop.run_app(&mut app).map_err(|error| WindowError::Refused(reason(&error)))?;
     app.outcome.map(|()| (app.lab, app.interrupted))
-}
-
-/// What the window system said, without the place in winit's source that winit puts before it.
-fn reason(error: &dyn std::error::Error) -> String {
-    let text = error.to_string();
-    let said = match text.split_once(": ") {
-        Some((place, said)) if place.starts_with("os error at ") => said,
-        _ => &text,
-    };
-    said.trim_end_matches('.').into()
 }
 
 /// What reaches the window from elsewhere than the window system.

@@ -1,0 +1,27 @@
+//! Why there is no window.
+
+use crate::view::GpuError;
+
+/// Why the window could not be opened or kept.
+#[derive(Debug, thiserror::Error)]
+pub enum WindowError {
+    /// There is no display to open a window on.
+    #[error("no display to open a window on: {0}")]
+    NoDisplay(String),
+    /// The window system refused.
+    #[error("the window system refused: {0}")]
+    Refused(String),
+    /// There is no graphics device for the window.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+}
+
+/// What the window system said, without the place in winit's source that winit puts before it.
+pub(super) fn reason(error: &dyn std::error::Error) -> String {
+    let text = error.to_string();
+    let said = match text.split_once(": ") {
+        Some((place, said)) if place.starts_with("os error at ") => said,
+        _ => &text,
+    };
+    said.trim_end_matches('.').into()
+}
