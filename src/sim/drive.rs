@@ -67,6 +67,7 @@ pub(super) enum Jump {
 pub(super) struct ByMethod<I>(pub(super) I);
 
 impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Drive<B> for ByMethod<I> {
+    #[inline]
     fn advance(
         &mut self,
         body: &Counted<B>,

@@ -14,7 +14,7 @@ pub trait Stepper: Send {
     /// Advances from `t` to `t + h` (s), a method in `substeps` equal steps.
     ///
     /// # Errors
-    /// As [`Integrator::step`].
+    /// As [`Integrator::step`](super::integrators::Integrator::step).
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure>;
 
     /// The coordinates, in the order of the body kind's

@@ -194,6 +194,7 @@ pub trait System {
     /// Takes notice that a method leaves out `h` (s) of the time that it was asked to advance, as only one does
     /// that does not [keep time](super::integrators::Method::keeps_time). It changes no motion: [`Counted`] adds
     /// it up.
+    #[inline]
     fn skipped(&self, _h: f64) {}
 }
 
@@ -241,6 +242,7 @@ impl<S: System> System for Counted<S> {
         self.system.acceleration(t, q, v, a);
     }
 
+    #[inline]
     fn skipped(&self, h: f64) {
         self.lost_time.set(self.lost_time.get() + h);
     }

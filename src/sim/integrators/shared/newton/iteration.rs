@@ -145,6 +145,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     }
 
     /// Writes what is missing, and returns whether it is no more than rounding may make of nothing.
+    #[inline]
     pub(super) fn subtract(&mut self) -> bool {
         let Self { a, found, missing, blur, .. } = self;
         let mut is_rounded = true;
@@ -157,6 +158,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     }
 
     /// Adds the correction to `A`; returns the largest components of both.
+    #[inline]
     fn correct(&mut self) -> (f64, f64) {
         let Self { a, missing, .. } = self;
         let rows = a.iter_mut().flat_map(V::components_mut);
@@ -174,6 +176,7 @@ impl<const S: usize> Stages<S> {
         Self { t: self.t, alpha: scaled(self.alpha), beta: scaled(self.beta) }
     }
 
+    #[inline]
     pub(super) fn evaluate<V: Vector>(
         &self,
         system: &impl System<Vector = V>,
@@ -193,6 +196,7 @@ impl<const S: usize> Stages<S> {
     }
 }
 
+#[inline]
 pub(super) fn components<V: Vector, const S: usize>(
     vectors: &[V; S],
 ) -> impl Iterator<Item = &f64> {
@@ -200,6 +204,7 @@ pub(super) fn components<V: Vector, const S: usize>(
 }
 
 /// The largest magnitude; not a number where one of them is not.
+#[inline]
 pub(super) fn largest<'a>(components: impl Iterator<Item = &'a f64>) -> f64 {
     components.fold(0.0, |largest: f64, component| {
         let size = component.abs();
