@@ -41,7 +41,11 @@ impl App {
         if self.asks_for_path() {
             // At once: what is typed next is no text any more.
             let closes = key == Key::Escape;
-            self.asked.extend(closes.then_some(Command::CloseDialog));
+            if closes {
+                self.asked.push(Command::CloseDialog);
+                let field = panels.memory(|memory| memory.focused());
+                field.into_iter().for_each(|id| panels.memory_mut(|m| m.surrender_focus(id)));
+            }
             return closes;
         }
         let menu_is_open = egui::Popup::is_any_open(panels);
