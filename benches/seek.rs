@@ -17,7 +17,7 @@ const TIMES: u64 = 40;
 
 fn harbour(lanes: Vec<LaneSpec>) -> Timeline {
     let scene = Scene { lanes, ..Scene::built_in("harbour").expect("a built-in scene") };
-    let mut timeline = Timeline::new(Session::race(scene.into()));
+    let mut timeline = Timeline::new(Session::racing(scene.into()));
     (0..TICKS).for_each(|_| timeline.tick());
     timeline
 }

@@ -14,7 +14,7 @@ fn a_parameter_dragged_at_one_tick_is_few_rows_and_replays_to_the_bit() {
             let mut scene = Scene::built_in("spring").unwrap();
             scene.lanes = vec![LaneSpec::plain(method)];
             let scene = std::sync::Arc::new(scene);
-            let mut session = Session::race(scene.clone());
+            let mut session = Session::racing(scene.clone());
             session.run(20);
             let before = scene.bodies[0].values[1];
             for &value in ways {
@@ -22,10 +22,10 @@ fn a_parameter_dragged_at_one_tick_is_few_rows_and_replays_to_the_bit() {
             }
             assert!(session.journal().rows().len() <= 3, "{:?}", session.journal());
             session.run(20);
-            let mut again = Session::race(scene);
+            let mut again = Session::racing(scene);
             again.follow(session.journal().clone());
             again.run(40);
-            let [hash, again] = [&session, &again].map(|session| session.lanes().state_hash());
+            let [hash, again] = [&session, &again].map(|session| session.race().state_hash());
             assert_eq!(hash, again, "{} by {ways:?}", method.id);
         }
     }

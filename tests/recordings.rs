@@ -15,11 +15,11 @@ fn parsed(text: &str) -> Scene {
 
 /// The lanes at the end of a recording that are not what its checks say, run as `regatta verify` does.
 fn wrong_lanes(scene: &Scene) -> Vec<usize> {
-    let mut session = Session::race(scene.clone().into());
+    let mut session = Session::racing(scene.clone().into());
     let mut wrong = Vec::new();
     for check in &scene.checks {
-        session.run(check.tick - session.lanes().tick());
-        let mut entrants = session.lanes().entrants().iter().zip(session.lanes().lane_hashes());
+        session.run(check.tick - session.race().tick());
+        let mut entrants = session.race().entrants().iter().zip(session.race().lane_hashes());
         let found = entrants.find(|(entrant, _)| entrant.lane_number == check.lane);
         if found.map(|(_, hash)| hash) != Some(check.hash) {
             wrong.push(check.lane);
@@ -155,7 +155,7 @@ fn what_a_person_set_holds_after_a_restart_and_what_a_script_set_does_not() {
 
 #[test]
 fn what_is_out_of_range_or_does_not_fit_is_not_done() {
-    let mut session = Session::race(built_in("spring").into());
+    let mut session = Session::racing(built_in("spring").into());
     for action in [
         Action::Set { body: 0, parameter: 0, value: -1.0 },
         Action::Set { body: 0, parameter: 0, value: f64::NAN },
@@ -216,24 +216,24 @@ fn x_gives_equal_cost_and_takes_it_back_and_a_scene_can_ask_for_it() {
     let asked = parsed(&format!("{top}\n[race]\nequal_cost = true\n\n[[{tables}"));
     let lanes: Vec<u32> = lanes_that_race(&asked).iter().map(|spec| spec.substeps).collect();
     assert_eq!(lanes, equal);
-    let race = Session::race(asked.clone().into());
+    let race = Session::racing(asked.clone().into());
     let raced: Vec<u32> =
-        race.lanes().entrants().iter().map(|entrant| entrant.lane.substeps()).collect();
+        race.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect();
     assert_eq!(raced, equal);
     assert!(parsed(&asked.to_toml()).equal_cost);
 }
 
 #[test]
 fn a_run_in_which_too_much_was_done_for_a_file_says_so_and_one_that_is_only_long_does_not() {
-    let mut session = Session::race(built_in("spring").into());
+    let mut session = Session::racing(built_in("spring").into());
     (0..40_000).for_each(|n| _ = session.act(Action::Kick(1e-9 * f64::from(n + 1))));
     let error = session.recording_text(10).unwrap_err();
     assert!(error.bytes > 1 << 20 && error.to_string().contains("record a shorter run"));
 
-    let mut long = Session::race(built_in("spring").into());
+    let mut long = Session::racing(built_in("spring").into());
     long.run(3 * 3600 * 60);
     let text = long.recording_text(3 * 3600 * 60).expect("fewer checks than seconds");
-    let lanes = long.lanes().entrants().len();
+    let lanes = long.race().entrants().len();
     let checks = parsed(&text).checks.len();
     assert!((4_000..=8_000 + lanes).contains(&checks), "{checks}");
 }

@@ -78,7 +78,7 @@ fn scene(dice: &mut Dice, n: usize) -> Scene {
 
 /// Something that can be done to the session as it stands.
 fn action(dice: &mut Dice, session: &Session) -> Action {
-    let race = session.lanes();
+    let race = session.race();
     let lane = race.entrants()[dice.below(race.entrants().len())].lane_number;
     let body = dice.below(race.truth().bodies().len());
     match dice.below(20) {
@@ -111,12 +111,12 @@ fn start(dice: &mut Dice, n: usize) -> Session {
     let scene = Arc::new(scene(dice, n));
     match n % 4 {
         0 => Session::solo(scene, 0),
-        _ => Session::race(scene),
+        _ => Session::racing(scene),
     }
 }
 
 fn hashes(session: &Session) -> Vec<u64> {
-    session.lanes().lane_hashes().collect()
+    session.race().lane_hashes().collect()
 }
 
 /// The ticks at which something is done, in order.
@@ -160,7 +160,7 @@ fn journals(from: usize) {
         for (i, mut copy) in copies.into_iter().enumerate() {
             copy.follow(journal.clone());
             for (tick, hashes_then) in marks.iter().skip(i).take(4) {
-                copy.run(tick - copy.lanes().tick());
+                copy.run(tick - copy.race().tick());
                 assert_eq!(&hashes(&copy), hashes_then, "journal {n} from cut {i} to {tick}");
             }
         }
@@ -168,7 +168,7 @@ fn journals(from: usize) {
         let mut again = begun;
         again.follow(journal);
         for (tick, hashes_then) in &marks {
-            again.run(tick - again.lanes().tick());
+            again.run(tick - again.race().tick());
             assert_eq!(&hashes(&again), hashes_then, "journal {n} again, to {tick}");
         }
         written_and_read(n, &whole);
@@ -183,11 +183,11 @@ fn written_and_read(n: usize, whole: &Session) {
     assert_eq!(read.to_toml(), text, "journal {n}");
     let last = read.checks.last().expect("a check at the end");
     assert_eq!((last.tick, hashes(whole).last()), (TICKS, Some(&last.hash)), "journal {n}");
-    let mut session = Session::race(read.clone().into());
+    let mut session = Session::racing(read.clone().into());
     for check in &read.checks {
-        session.run(check.tick - session.lanes().tick());
-        let entrants = session.lanes().entrants().iter();
-        let mut lanes = entrants.zip(session.lanes().lane_hashes());
+        session.run(check.tick - session.race().tick());
+        let entrants = session.race().entrants().iter();
+        let mut lanes = entrants.zip(session.race().lane_hashes());
         let lane = lanes.find(|(entrant, _)| entrant.lane_number == check.lane);
         assert_eq!(lane.map(|(_, hash)| hash), Some(check.hash), "journal {n}: {check:?}");
     }
@@ -214,7 +214,7 @@ struct Shown {
 }
 
 fn shown(timeline: &Timeline) -> Shown {
-    let race = timeline.session().lanes();
+    let race = timeline.session().race();
     let past: &Past = timeline.past();
     let samples = |place: usize| {
         let histories = past.histories(place).iter();
@@ -319,18 +319,18 @@ fn ten_hours_stay_within_the_memory_that_is_granted() {
     // Of a million ticks, more than of ten hours at the scene's rate.
     let scene = Scene { tick_hz: 30, ..Scene::built_in("spring").unwrap() };
     let limit = 1 << 20;
-    let mut timeline = Timeline::with_limit(Session::race(scene.into()), limit);
+    let mut timeline = Timeline::with_limit(Session::racing(scene.into()), limit);
     let mut most = 0;
     for _ in 0..10 * 3600 * 30 {
         timeline.tick();
         most = most.max(timeline.bytes());
     }
     assert!((limit / 4..=limit).contains(&most), "{most} of {limit} bytes");
-    let end = timeline.session().lanes().state_hash();
+    let end = timeline.session().race().state_hash();
     timeline.seek(12_345);
     assert!(timeline.bytes() <= limit);
     timeline.seek(u64::MAX);
-    assert_eq!(timeline.session().lanes().state_hash(), end);
+    assert_eq!(timeline.session().race().state_hash(), end);
     assert!(SNAPSHOT_BYTES == 64 << 20 && timeline.limit() == limit);
 }
 
@@ -350,14 +350,14 @@ fn every_kind_of_body_is_among_the_random_scenes() {
 #[test]
 fn what_happened_is_told_by_tick_goes_with_its_future_and_comes_back_with_it() {
     let scene = Scene::built_in("stiff").unwrap();
-    let mut timeline = Timeline::new(Session::race(scene.into()));
+    let mut timeline = Timeline::new(Session::racing(scene.into()));
     (0..50).for_each(|_| timeline.tick());
     assert!(timeline.act(Action::Kick(1.0)));
     (0..250).for_each(|_| timeline.tick());
     let events = timeline.events();
     let done = |event: &Event| matches!(event.kind, EventKind::Done(..));
     assert_eq!(events.iter().filter(|event| done(event)).map(|e| e.tick).collect::<Vec<_>>(), [50]);
-    let race = timeline.session().lanes();
+    let race = timeline.session().race();
     let halts = race.entrants().iter().filter_map(|e| Some((e.lane_number, e.lane.halted()?)));
     let halts: Vec<(u64, usize)> = halts.map(|(lane, halt)| (halt.tick, lane)).collect();
     assert!(halts.len() >= 2, "explicit and improved Euler are lost: {halts:?}");

@@ -1,16 +1,10 @@
 //! The lab: a run with its past, the clock that drives it, and how it is looked at. Commands in, state out.
 
-use std::sync::Arc;
-
-use super::action::Action;
-use super::analysis::{Findings, Question, Thinker};
-use super::clock::{Clock, Due};
+use super::clock::Clock;
 use super::display::{Display, Pace};
-use super::journal::{JournalRow, Source};
 use super::lane_spec::LaneSpec;
-use super::notices::Notices;
 use super::past::{History, Past};
-use super::race::{Entrant, Mode, Observer, Race};
+use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
 use super::session::{RecordingTooLong, Timeline};
 use super::shelf::Shelf;
@@ -18,6 +12,8 @@ use super::start::Start;
 use super::viewer::Viewer;
 
 mod apply;
+mod driving;
+mod findings;
 mod opening;
 
 /// A scene being run and looked at.
@@ -43,7 +39,7 @@ impl Lab {
             clock: Clock::new(start.tick_hz),
             running: true,
             dropped: 0,
-            viewer: Viewer::new(timeline.session().lanes().entrants()[0].lane_number),
+            viewer: Viewer::new(timeline.session().race().entrants()[0].lane_number),
             timeline,
             start,
         }
@@ -63,7 +59,7 @@ impl Lab {
     }
     /// The lanes and the truth.
     pub fn race(&self) -> &Race {
-        self.timeline.session().lanes()
+        self.timeline.session().race()
     }
     /// What is remembered of them.
     pub fn past(&self) -> &Past {
@@ -154,131 +150,5 @@ impl Lab {
     /// As [`Session::recording_text`](super::Session::recording_text).
     pub fn recording(&self) -> Result<String, RecordingTooLong> {
         self.timeline.session().recording_text(self.timeline.end())
-    }
-
-    /// What there is to be found out: a verdict on each method of the list at the present tick rate and
-    /// throttle, and advice while it is shown. For a [`Thinker`].
-    pub fn question(&self) -> Question {
-        Question {
-            scene: Arc::clone(&self.start.scene),
-            entries: self.entries().to_vec(),
-            tick_hz: self.clock.tick_hz(),
-            throttle: self.throttle_by_hand(),
-            advice: self.display().instrument == super::Instrument::Advice,
-        }
-    }
-
-    /// The throttle that a person has set since the start, or else that of the start: what the script sets is in the
-    /// scene that is judged.
-    fn throttle_by_hand(&self) -> f64 {
-        let race = self.race();
-        let done = race.journal().rows()[..race.done()].iter();
-        let set = done.filter(|row| row.source == Source::Hand).rev();
-        let throttle = |row: &JournalRow| match row.action {
-            Action::Throttle(part) => Some(part.clamp(-1.0, 1.0)),
-            _ => None,
-        };
-        set.into_iter().find_map(throttle).unwrap_or(1.0)
-    }
-
-    /// Takes in what was found out, unless it is of another scene.
-    pub fn learn(&mut self, findings: Findings) {
-        if findings.question.is_of(&self.start.scene) {
-            self.viewer.findings = Some(findings);
-        }
-    }
-
-    /// Finds out here and now whatever there is to be.
-    pub fn think(&mut self) {
-        let question = self.question();
-        let known = &self.viewer.findings;
-        if !known.as_ref().is_some_and(|known| known.answer(&question)) {
-            self.learn(Thinker::new(question).finish());
-        }
-    }
-
-    /// Takes in a frame of `frame_ns` nanoseconds of real time, and steps what is due.
-    pub fn advance(&mut self, frame_ns: i64) -> Due {
-        self.advance_seen(frame_ns, &mut ())
-    }
-
-    /// As [`Lab::advance`], and stops at tick `last`.
-    pub fn advance_to(&mut self, last: u64, frame_ns: i64) -> Due {
-        self.advance_by(frame_ns, last, &mut ())
-    }
-
-    /// As [`Lab::advance`], before the eyes of an observer.
-    pub fn advance_seen(&mut self, frame_ns: i64, observer: &mut impl Observer) -> Due {
-        self.advance_by(frame_ns, u64::MAX, observer)
-    }
-
-    fn advance_by(&mut self, frame_ns: i64, last: u64, observer: &mut impl Observer) -> Due {
-        if !self.time_runs() {
-            return Due::default();
-        }
-        // A tick rate that the script sets at this tick is that of the time from here on.
-        let ((), told) =
-            self.watched(|timeline, notices| timeline.catch_up(&mut (notices, &mut *observer)));
-        self.tell(told);
-        let due = self.clock.advance(frame_ns);
-        for _ in 0..due.ticks {
-            if self.race().tick() >= last {
-                break;
-            }
-            self.tick_seen(observer);
-        }
-        if due.ticks > 0 {
-            self.timeline.show_present();
-        }
-        self.dropped += due.dropped;
-        due
-    }
-
-    /// Does what there is to be done at this tick, and steps to the next.
-    pub fn tick(&mut self) {
-        self.tick_seen(&mut ());
-    }
-
-    /// As [`Lab::tick`], before the eyes of an observer.
-    pub fn tick_seen(&mut self, observer: &mut impl Observer) {
-        let ((), told) =
-            self.watched(|timeline, notices| timeline.tick_seen(&mut (notices, observer)));
-        self.tell(told);
-    }
-
-    fn tell(&mut self, told: Option<String>) {
-        if told.is_some() {
-            self.viewer.notice = told;
-        }
-    }
-
-    /// Has something done to the run, and returns with it what there is to tell of it.
-    fn watched<T>(
-        &mut self,
-        change: impl FnOnce(&mut Timeline, &mut Notices<'_>) -> T,
-    ) -> (T, Option<String>) {
-        let mut notices = Notices::new(&self.start.scene);
-        let done = self.timeline.session().lanes().done();
-        let changed = change(&mut self.timeline, &mut notices);
-        let told = notices.told;
-        self.clock.set_tick_hz(self.race().tick_hz());
-        self.select_as_scripted(done);
-        (changed, told)
-    }
-
-    /// Selects the lane of the method that the script has named since `done` rows of the journal were done: in a race
-    /// that is all that it does.
-    fn select_as_scripted(&mut self, done: usize) {
-        let race = self.timeline.session().lanes();
-        if race.mode() == Mode::Solo || race.done() <= done {
-            return;
-        }
-        for row in &race.journal().rows()[done..race.done()] {
-            let Action::Method(method) = row.action else { continue };
-            let lane = race.entrants().iter().find(|e| race.list()[e.entry].method == method);
-            if let Some(lane) = lane {
-                self.viewer.selected = lane.lane_number;
-            }
-        }
     }
 }

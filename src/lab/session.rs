@@ -31,16 +31,16 @@ impl Session {
     /// use regatta::lab::{Action, Scene, Session};
     ///
     /// let scene = Scene::built_in("spring").expect("a built-in scene");
-    /// let mut session = Session::race(scene.into());
+    /// let mut session = Session::racing(scene.into());
     /// session.run(60);
     /// let mut copy = session.clone();
     /// session.act(Action::Kick(1.0));
     /// session.run(60);
     /// copy.act(Action::Kick(1.0));
     /// copy.run(60);
-    /// assert_eq!(copy.lanes().state_hash(), session.lanes().state_hash());
+    /// assert_eq!(copy.race().state_hash(), session.race().state_hash());
     /// ```
-    pub fn race(scene: Arc<Scene>) -> Self {
+    pub fn racing(scene: Arc<Scene>) -> Self {
         let race = Race::of(&scene);
         Self::new(scene, race)
     }
@@ -70,7 +70,7 @@ impl Session {
         &self.scene
     }
     /// The lanes and the truth.
-    pub fn lanes(&self) -> &Race {
+    pub fn race(&self) -> &Race {
         &self.race
     }
     /// Whether there is one lane, which is switched from method to method, or one for each method.

@@ -11,7 +11,7 @@ use super::{run_in, stderr};
 fn recorded() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     let harbour = Scene::built_in("harbour").unwrap();
-    let mut session = Session::race(harbour.into());
+    let mut session = Session::racing(harbour.into());
     session.run(130);
     let text = session.recording(130).to_toml();
     fs::write(folder.path().join("run.toml"), format!("# by hand\n{text}")).unwrap();

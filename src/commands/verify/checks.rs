@@ -126,7 +126,7 @@ pub(super) fn judge(
 /// second and for the end.
 pub(super) fn bless(path: &Path) -> Result<(), Error> {
     let (scene, text) = scene_file::load(path)?;
-    let mut session = Session::race(scene.clone().into());
+    let mut session = Session::racing(scene.clone().into());
     let text = if scene.checks.is_empty() {
         let end = Lab::new(scene.clone()).nearest_tick(scene.seconds);
         let checks = session.recording(end).checks;
@@ -138,7 +138,7 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
         let mut hashes: Vec<u64> = scene.checks.iter().map(|check| check.hash).collect();
         for row in order {
             let check = scene.checks[row];
-            session.run(check.tick - session.lanes().tick());
+            session.run(check.tick - session.race().tick());
             hashes[row] = hash(&session, check.lane).unwrap_or(check.hash);
         }
         Scene::with_hashes(&text, &hashes)
@@ -149,17 +149,17 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
 }
 
 fn hash(session: &Session, lane: usize) -> Option<u64> {
-    let race = session.lanes();
+    let race = session.race();
     let place = race.entrants().iter().position(|entrant| entrant.lane_number == lane)?;
     race.lane_hashes().nth(place)
 }
 
 /// Runs the race of a scene past all its checks.
 fn run(scene: &Scene) -> Vec<JudgedLane> {
-    let mut session = Session::race(scene.clone().into());
-    let lanes = session.lanes().entrants().iter().map(|entrant| JudgedLane {
+    let mut session = Session::racing(scene.clone().into());
+    let lanes = session.race().entrants().iter().map(|entrant| JudgedLane {
         number: entrant.lane_number,
-        method: session.lanes().list()[entrant.entry].method.id,
+        method: session.race().list()[entrant.entry].method.id,
         checks: 0,
         last_tick: 0,
         difference: None,
@@ -168,12 +168,12 @@ fn run(scene: &Scene) -> Vec<JudgedLane> {
     let mut checks = scene.checks.clone();
     checks.sort_by_key(|check| check.tick);
     for check in checks {
-        session.run(check.tick - session.lanes().tick());
+        session.run(check.tick - session.race().tick());
         let lane = &mut lanes[check.lane - 1];
         let is = hash(&session, check.lane);
         if lane.difference.is_none() && is != Some(check.hash) {
             let same_at = (lane.checks > 0).then_some(lane.last_tick);
-            let t = session.lanes().t();
+            let t = session.race().t();
             lane.difference =
                 Some(Difference { tick: check.tick, t, was: check.hash, is, same_at });
         }

@@ -120,7 +120,7 @@ impl Lab {
         let (acted, told) =
             self.watched(|timeline, notices| timeline.act_seen(action.clone(), notices));
         let Acted::Done { released } = acted else { return self.tell(told) };
-        self.start.keep(&action, self.timeline.session().lanes());
+        self.start.keep(&action, self.timeline.session().race());
         if let Action::Lane { .. } = action {
             self.start.entry = self.active();
         }

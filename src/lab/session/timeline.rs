@@ -81,7 +81,7 @@ impl Timeline {
 
     /// As [`Timeline::new`], with so many bytes for snapshots.
     pub fn with_limit(session: Session, limit: usize) -> Self {
-        let past = Past::new(session.lanes(), session.scene().seconds);
+        let past = Past::new(session.race(), session.scene().seconds);
         let mut timeline = Self {
             session,
             past,
@@ -148,7 +148,7 @@ impl Timeline {
 
     /// Shows the present, also where no sample of the past is due.
     pub fn show_present(&mut self) {
-        self.past.show_present(self.session.lanes());
+        self.past.show_present(self.session.race());
     }
 
     /// Does what the journal has for the present tick and was not done yet.
@@ -175,7 +175,7 @@ impl Timeline {
     }
 
     fn note_halts(&mut self) {
-        let race = self.session.lanes();
+        let race = self.session.race();
         let lanes = race.entrants().iter().map(|entrant| (entrant.lane_number, &entrant.lane));
         for (number, lane) in std::iter::once((0, race.truth())).chain(lanes) {
             for halt in lane.halts().filter(|halt| halt.tick + 1 == race.tick()) {

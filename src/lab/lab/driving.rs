@@ -1,0 +1,95 @@
+//! How time passes in a lab: frames come in, and ticks that are due are made.
+
+use super::Lab;
+use crate::lab::action::Action;
+use crate::lab::clock::Due;
+use crate::lab::notices::Notices;
+use crate::lab::race::{Mode, Observer};
+use crate::lab::session::Timeline;
+
+impl Lab {
+    /// Takes in a frame of `frame_ns` nanoseconds of real time, and steps what is due.
+    pub fn advance(&mut self, frame_ns: i64) -> Due {
+        self.advance_seen(frame_ns, &mut ())
+    }
+
+    /// As [`Lab::advance`], and stops at tick `last`.
+    pub fn advance_to(&mut self, last: u64, frame_ns: i64) -> Due {
+        self.advance_by(frame_ns, last, &mut ())
+    }
+
+    /// As [`Lab::advance`], before the eyes of an observer.
+    pub fn advance_seen(&mut self, frame_ns: i64, observer: &mut impl Observer) -> Due {
+        self.advance_by(frame_ns, u64::MAX, observer)
+    }
+
+    fn advance_by(&mut self, frame_ns: i64, last: u64, observer: &mut impl Observer) -> Due {
+        if !self.time_runs() {
+            return Due::default();
+        }
+        // A tick rate that the script sets at this tick is that of the time from here on.
+        let ((), told) =
+            self.watched(|timeline, notices| timeline.catch_up(&mut (notices, &mut *observer)));
+        self.tell(told);
+        let due = self.clock.advance(frame_ns);
+        for _ in 0..due.ticks {
+            if self.race().tick() >= last {
+                break;
+            }
+            self.tick_seen(observer);
+        }
+        if due.ticks > 0 {
+            self.timeline.show_present();
+        }
+        self.dropped += due.dropped;
+        due
+    }
+
+    /// Does what there is to be done at this tick, and steps to the next.
+    pub fn tick(&mut self) {
+        self.tick_seen(&mut ());
+    }
+
+    /// As [`Lab::tick`], before the eyes of an observer.
+    pub fn tick_seen(&mut self, observer: &mut impl Observer) {
+        let ((), told) =
+            self.watched(|timeline, notices| timeline.tick_seen(&mut (notices, observer)));
+        self.tell(told);
+    }
+
+    pub(super) fn tell(&mut self, told: Option<String>) {
+        if told.is_some() {
+            self.viewer.notice = told;
+        }
+    }
+
+    /// Has something done to the run, and returns with it what there is to tell of it.
+    pub(super) fn watched<T>(
+        &mut self,
+        change: impl FnOnce(&mut Timeline, &mut Notices<'_>) -> T,
+    ) -> (T, Option<String>) {
+        let mut notices = Notices::new(&self.start.scene);
+        let done = self.timeline.session().race().done();
+        let changed = change(&mut self.timeline, &mut notices);
+        let told = notices.told;
+        self.clock.set_tick_hz(self.race().tick_hz());
+        self.select_as_scripted(done);
+        (changed, told)
+    }
+
+    /// Selects the lane of the method that the script has named since `done` rows of the journal were done: in a race
+    /// that is all that it does.
+    fn select_as_scripted(&mut self, done: usize) {
+        let race = self.timeline.session().race();
+        if race.mode() == Mode::Solo || race.done() <= done {
+            return;
+        }
+        for row in &race.journal().rows()[done..race.done()] {
+            let Action::Method(method) = row.action else { continue };
+            let lane = race.entrants().iter().find(|e| race.list()[e.entry].method == method);
+            if let Some(lane) = lane {
+                self.viewer.selected = lane.lane_number;
+            }
+        }
+    }
+}
