@@ -248,3 +248,16 @@ fn new_hashes_are_written_into_a_file_and_all_else_stays() {
         .replace("00000000000000ff", "0000000000000abc");
     assert_eq!(blessed, wanted);
 }
+
+#[test]
+fn what_is_done_at_the_last_tick_is_in_the_recording() {
+    let mut lab = Lab::new(built_in("spring"));
+    lab.apply(Command::Act(Action::Place { body: 0, q: [2.5].into(), v: [0.0].into() }));
+    let at_start = parsed(&lab.recording().unwrap());
+    assert_eq!(at_start.script.len(), 1);
+    (0..10).for_each(|_| lab.tick());
+    lab.apply(Command::Kick(1.0));
+    let recorded = parsed(&lab.recording().unwrap());
+    assert_eq!(recorded.script.iter().map(|row| row.tick).collect::<Vec<_>>(), [0, 10]);
+    assert!(wrong_lanes(&recorded).is_empty());
+}

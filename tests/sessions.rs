@@ -379,3 +379,42 @@ fn what_happened_is_told_by_tick_goes_with_its_future_and_comes_back_with_it() {
     assert!(timeline.undo());
     assert_eq!((timeline.events(), timeline.end()), (events, 300));
 }
+
+#[test]
+fn undo_takes_back_what_an_action_in_the_past_chose_for_the_next_start_too() {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    lab.apply(Command::ToggleRace);
+    (0..200).for_each(|_| lab.tick());
+    let substeps = |lab: &Lab| -> Vec<u32> {
+        lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
+    };
+    let (mass, plain, asked) = (lab.race().values(0)[0], substeps(&lab), lab.question());
+    for command in [
+        Command::Act(Action::Set { body: 0, parameter: 0, value: 2.5 }),
+        Command::TickHz(50),
+        Command::ToggleEqualCost,
+    ] {
+        lab.apply(Command::Seek(100));
+        lab.apply(command);
+        lab.apply(Command::Undo);
+        assert_eq!((lab.race().values(0)[0], lab.scene().bodies[0].values[0]), (mass, mass));
+        assert!(lab.question() == asked);
+    }
+    lab.apply(Command::ToggleEqualCost);
+    assert_ne!(substeps(&lab), plain, "what was undone is not taken back, but done");
+    lab.apply(Command::Undo);
+    lab.apply(Command::Restart);
+    assert_eq!((lab.race().tick_hz(), substeps(&lab)), (60, plain));
+}
+
+#[test]
+fn what_acts_at_the_start_leaves_the_run_and_its_future_as_they_are() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    (0..200).for_each(|_| lab.tick());
+    lab.apply(Command::Seek(100));
+    lab.apply(Command::Act(Action::Set { body: 0, parameter: 3, value: 0.25 }));
+    assert_eq!((lab.timeline().end(), lab.timeline().can_undo()), (200, false));
+    assert!(lab.timeline().session().journal().rows().is_empty());
+    lab.apply(Command::Restart);
+    assert_eq!(lab.race().truth().bodies()[0].stepper.q(), [0.25]);
+}

@@ -95,12 +95,18 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         let text = lab.recording()?;
         record.write_all(text.as_bytes()).map_err(|error| record.failed(error))?;
         record.close()?;
-        tell(&format!("recorded {} ticks in {name}", lab.timeline().end()));
+        tell(&format!("recorded {} in {name}", ticks(&lab)));
     }
     match interrupted {
-        true => Err(Interrupted::After { done: format!("{} ticks", lab.timeline().end()) }.into()),
+        true => Err(Interrupted::After { done: ticks(&lab) }.into()),
         false => Ok(()),
     }
+}
+
+/// How far a run came, for people.
+fn ticks(lab: &Lab) -> String {
+    let ticks = lab.timeline().end();
+    format!("{ticks} tick{}", if ticks == 1 { "" } else { "s" })
 }
 
 /// Draws the first seconds into a folder, and returns the lab as it then is.
@@ -126,7 +132,12 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
     };
     clip::record(experiment, recording, folder)?;
     let mut lab = experiment.lab();
+    let last = args.seconds.map(|seconds| lab.nearest_tick(seconds));
     (0..frames).for_each(|frame| schedule.advance(&mut lab, frame, &mut ()));
+    // The last frame is before the end.
+    while last.is_some_and(|last| lab.race().tick() < last) {
+        lab.tick();
+    }
     Ok(lab)
 }
 

@@ -113,6 +113,13 @@ fn judge_checks(args: &VerifyArgs) -> Result<(), Error> {
         return checks::bless(&args.dir);
     }
     let reports = reports(args.report.as_deref().unwrap_or_default(), &args.dir)?;
+    let is_judged = |path: &Path| match (path.canonicalize(), args.dir.canonicalize()) {
+        (Ok(path), Ok(judged)) => path == judged,
+        _ => false,
+    };
+    if let Some((_, path)) = reports.iter().find(|(_, path)| is_judged(path)) {
+        return Err(checks::CheckError::ReportOverScene { path: path.to_path_buf() }.into());
+    }
     checks::judge(&args.dir, |checked| {
         for (format, path) in reports {
             let text = match format {

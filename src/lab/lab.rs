@@ -25,6 +25,14 @@ pub struct Lab {
     pub(super) running: bool,
     pub(super) dropped: u64,
     pub(super) viewer: Viewer,
+    /// What comes back with the future that was discarded last.
+    before_discard: Option<Kept>,
+}
+
+/// What a person had chosen before a future was discarded.
+struct Kept {
+    start: Start,
+    before_equal_cost: Option<Vec<LaneSpec>>,
 }
 
 impl Lab {
@@ -41,6 +49,7 @@ impl Lab {
             dropped: 0,
             viewer: Viewer::new(timeline.session().race().entrants()[0].lane_number),
             timeline,
+            before_discard: None,
             start,
         }
     }

@@ -6,7 +6,7 @@ use super::action::Action;
 use super::equal_cost;
 use super::lane_spec::LaneSpec;
 use super::race::{Mode, Race};
-use super::scene::{LEAST_SECONDS, MOST_SECONDS, Scene};
+use super::scene::{LEAST_SECONDS, MOST_SECONDS, Scene, SceneBody, edited_values};
 use super::session::Session;
 
 /// What a restart begins with: what a person chose stays, what a script did is not in it.
@@ -62,6 +62,16 @@ impl Start {
     pub(super) fn set_seconds(&mut self, seconds: f64) {
         if (LEAST_SECONDS..=MOST_SECONDS).contains(&seconds) && seconds != self.scene.seconds {
             Arc::make_mut(&mut self.scene).seconds = seconds;
+        }
+    }
+
+    /// Sets a parameter that acts at the start, where it is in its range and fits the others.
+    pub(super) fn set(&mut self, body: usize, parameter: usize, value: f64) {
+        let SceneBody { kind, values, .. } = &self.scene.bodies[body];
+        if values[parameter] != value
+            && let Ok(values) = edited_values(kind, values, parameter, value)
+        {
+            Arc::make_mut(&mut self.scene).bodies[body].values = values;
         }
     }
 

@@ -145,9 +145,9 @@ fn what_is_played_is_recorded_and_a_file_that_is_there_is_kept() {
         return eprintln!("what_is_played_is_recorded: skipped, no graphics to draw with");
     }
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(stderr(&output).contains("recorded 58 ticks in run.toml"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("recorded 60 ticks in run.toml"), "{}", stderr(&output));
     let (code, data, _) = verify(&folder, "");
-    assert_eq!((code, &*data), (Some(0), "lane 1, rk4: same to the bit: 1 check to tick 58\n"));
+    assert_eq!((code, &*data), (Some(0), "lane 1, rk4: same to the bit: 1 check to tick 60\n"));
 
     let again = run_in(folder.path(), play);
     assert_eq!(again.status.code(), Some(2));
@@ -156,4 +156,16 @@ fn what_is_played_is_recorded_and_a_file_that_is_there_is_kept() {
     fs::remove_dir_all(folder.path().join("regatta-frames")).unwrap();
     let forced = run_in(folder.path(), &format!("{play} --force"));
     assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
+}
+
+#[test]
+fn a_report_never_replaces_the_recording_that_is_judged() {
+    let folder = recorded();
+    let before = fs::read_to_string(folder.path().join("run.toml")).unwrap();
+    for path in ["run.toml", "./run.toml"] {
+        let (code, _, messages) = verify(&folder, &format!("--report json {path}"));
+        assert_eq!(code, Some(2), "{messages}");
+        assert!(messages.contains("is the recording that is judged; give another --report"));
+    }
+    assert_eq!(fs::read_to_string(folder.path().join("run.toml")).unwrap(), before);
 }

@@ -31,6 +31,12 @@ pub(super) enum CheckError {
         /// The option.
         option: &'static str,
     },
+    /// A report would replace what is judged.
+    #[error("{} is the recording that is judged; give another --report", .path.display())]
+    ReportOverScene {
+        /// The file.
+        path: PathBuf,
+    },
     /// It has nothing to be judged by.
     #[error("{} has no [[check]] to be judged by; --bless writes one for each second", .path.display())]
     NoChecks {
@@ -43,7 +49,9 @@ impl Cause for CheckError {
     fn exit_code(&self) -> u8 {
         match self {
             CheckError::Different { .. } => 1,
-            CheckError::OfCaptures { .. } | CheckError::NoChecks { .. } => 2,
+            CheckError::OfCaptures { .. }
+            | CheckError::ReportOverScene { .. }
+            | CheckError::NoChecks { .. } => 2,
         }
     }
 }

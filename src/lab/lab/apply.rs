@@ -1,6 +1,6 @@
 //! What a person's commands do: each becomes an [action](Action) on the run, or a change of how it is looked at.
 
-use super::Lab;
+use super::{Kept, Lab};
 use crate::lab::action::Action;
 use crate::lab::command::{Command, SPEED_LADDER, TICK_LADDER};
 use crate::lab::display::Ask;
@@ -9,6 +9,7 @@ use crate::lab::lane_spec::LaneSpec;
 use crate::lab::race::{Acted, Mode};
 use crate::lab::session::Timeline;
 use crate::lab::viewer::Dialog;
+use crate::sim::bodies::Acts;
 
 impl Lab {
     /// Does what a person asked for. What is not the lab's business comes back.
@@ -116,10 +117,20 @@ impl Lab {
 
     /// Does something to the run, by hand.
     fn act(&mut self, action: Action) {
+        if let Action::Set { body, parameter, value } = action
+            && self.scene().bodies[body].kind.parameters[parameter].acts == Acts::AtStart
+        {
+            return self.start.set(body, parameter, value);
+        }
         let was_past = self.timeline.is_in_past();
+        let before = was_past.then(|| Kept {
+            start: self.start.clone(),
+            before_equal_cost: self.viewer.before_equal_cost.clone(),
+        });
         let (acted, told) =
             self.watched(|timeline, notices| timeline.act_seen(action.clone(), notices));
         let Acted::Done { released } = acted else { return self.tell(told) };
+        self.before_discard = before.or(self.before_discard.take());
         self.start.keep(&action, self.timeline.session().race());
         if let Action::Lane { .. } = action {
             self.start.entry = self.active();
@@ -201,23 +212,28 @@ impl Lab {
             .map(|entrant| (entrant.lane_number, self.entries()[entrant.entry]))
             .collect();
         let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
-        let (wanted, notice) = match self.viewer.before_equal_cost.take() {
+        let (wanted, before, notice) = match &self.viewer.before_equal_cost {
             Some(before) => {
                 let of = |spec: &LaneSpec| {
                     let before = before.iter().find(|known| known.method == spec.method);
                     LaneSpec { substeps: before.map_or(1, |known| known.substeps), ..*spec }
                 };
-                (specs.iter().map(of).collect(), "lanes have the substeps of before")
+                let wanted: Vec<LaneSpec> = specs.iter().map(of).collect();
+                (wanted, None, "lanes have the substeps of before")
             }
             None => {
                 let equal = equal_cost(self.scene(), &specs, self.race().tick_hz());
-                self.viewer.before_equal_cost = Some(specs);
-                (equal, "each lane has as many substeps as cost what the dearest costs")
+                (
+                    equal,
+                    Some(specs),
+                    "each lane has as many substeps as cost what the dearest costs",
+                )
             }
         };
         for ((lane, _), spec) in lanes.into_iter().zip(wanted) {
             self.act(Action::Lane { lane, spec });
         }
+        self.viewer.before_equal_cost = before;
         self.set_notice(notice);
     }
 
@@ -240,6 +256,10 @@ impl Lab {
 
     fn undo(&mut self) {
         if self.timeline.undo() {
+            if let Some(Kept { start, before_equal_cost }) = self.before_discard.take() {
+                self.start = start;
+                self.viewer.before_equal_cost = before_equal_cost;
+            }
             self.timeline.show_present();
             self.clock.set_tick_hz(self.race().tick_hz());
             self.set_notice("the old future is back");
@@ -248,6 +268,7 @@ impl Lab {
 
     pub(super) fn restart(&mut self) {
         self.timeline = Timeline::new(self.start.session());
+        self.before_discard = None;
         self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
         self.viewer.notice = None;
         self.viewer.held = None;

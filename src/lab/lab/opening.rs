@@ -82,6 +82,7 @@ impl Lab {
         if self.start.tick_hz == self.start.scene.tick_hz {
             self.start.tick_hz = scene.tick_hz;
         }
+        self.start.opened = scene.clone().into();
         self.start.scene = scene.into();
         self.viewer.findings = None;
         self.viewer.dialog = None;

@@ -68,6 +68,8 @@ impl Session {
         let every = (checks.len() * writer.lanes.len()).div_ceil(MOST_CHECKS).max(1);
         let kept = checks.into_iter().skip(every - 1).step_by(every);
         let at_end = (end, writer.hashes(&run.race));
+        // What was done as the end was reached, after what was checked there.
+        run.race.catch_up(&mut writer);
         for (tick, hashes) in kept.chain([at_end]) {
             let check = |(lane, hash)| Check { tick, lane, hash };
             scene.checks.extend(hashes.into_iter().map(check));

@@ -101,7 +101,11 @@ fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
         ),
     };
     let check = |value| {
-        let checked = edited_values(kind, lab.race().values(*body), *place, value);
+        let values = match parameter.acts {
+            Acts::AtOnce => lab.race().values(*body),
+            Acts::AtStart => &lab.scene().bodies[*body].values,
+        };
+        let checked = edited_values(kind, values, *place, value);
         checked.map(drop).map_err(|error| error.to_string())
     };
     line(ui, &parameter.quantity(), &about, |ui, [room, number]| {

@@ -37,11 +37,13 @@ impl Values {
 /// The parameters of a body: those that act at once, then those that act from the next start.
 pub(super) fn rows(lab: &Lab, body: usize) -> Vec<Row> {
     let opened = &lab.scene_as_opened().bodies[body];
-    let present = lab.race().values(body);
+    let (present, next) = (lab.race().values(body), &lab.scene().bodies[body].values);
     let row = |(place, parameter): (usize, &'static Parameter)| {
         let is_number = !matches!(parameter.range, Range::Curve { .. });
-        let values =
-            is_number.then(|| Values { present: present[place], opened: opened.values[place] });
+        let values = is_number.then(|| Values {
+            present: if parameter.acts == Acts::AtStart { next[place] } else { present[place] },
+            opened: opened.values[place],
+        });
         Row { body, place, parameter, values }
     };
     let mut rows: Vec<Row> = opened.kind.parameters.iter().enumerate().map(row).collect();
