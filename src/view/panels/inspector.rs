@@ -270,12 +270,14 @@ mod tests {
         lab.apply(Command::TickHz(20));
         lab.apply(Command::Seconds(3.0));
         lab.tick();
-        assert_ne!(lab.race().values(0)[masses], most);
+        assert_ne!(lab.scene().bodies[0].values[masses], most);
+        assert_eq!(lab.race().values(0)[masses], most, "until the next start");
         for command in restoring(&lab) {
             lab.apply(command);
         }
         assert_eq!(restoring(&lab), []);
         assert_eq!(lab.race().values(0), lab.scene_as_opened().bodies[0].values);
+        assert_eq!(lab.scene().bodies[0].values, lab.scene_as_opened().bodies[0].values);
         assert_eq!(lab.scene().seconds, lab.scene_as_opened().seconds);
         assert_eq!(lab.race().tick_hz(), lab.scene_as_opened().tick_hz);
         assert_eq!(lab.race().list()[0], lab.scene_as_opened().lanes[0]);
