@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use regatta::commands::manifest::fingerprint;
 use regatta::lab::{self, Lab, Scene};
-use regatta::view::{AdapterPreference, Artist, Gpu, Panels, png};
+use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels, png};
 
 const ROUNDS: usize = 5;
 const FRAMES: u32 = 300;
@@ -81,18 +81,18 @@ fn round(panels: Panels) -> Result<Round, String> {
 /// Processor time, in seconds, that it takes to draw a frame of the run and have it read back, and to encode one.
 fn stages(panels: Panels) -> Result<(f64, f64), String> {
     let gpu = Gpu::headless(AdapterPreference::Any).map_err(|error| error.to_string())?;
-    let artist = Artist::new(gpu, SIZE_PX, 1.0).map_err(|error| error.to_string())?;
-    let mut artist = artist.with_panels(panels);
+    let renderer = OffscreenRenderer::new(gpu, SIZE_PX, 1.0).map_err(|error| error.to_string())?;
+    let mut renderer = renderer.with_panels(panels);
     let mut lab = Lab::new(Scene::built_in("harbour").expect("a built-in scene"));
     lab.apply(lab::Command::ToggleRace);
-    lab.think();
+    lab.analyse();
     // All frames first drawn and then encoded: the system counts processor time too coarsely for one frame.
     let mut frames = Vec::new();
     let start = processor_s(Whose::Own);
     for _ in 0..FRAMES {
         lab.advance(1_000_000_000 / i64::from(FPS));
         let mut rgba = Vec::new();
-        artist.draw(&lab, &mut rgba).map_err(|error| error.to_string())?;
+        renderer.draw(&lab, &mut rgba).map_err(|error| error.to_string())?;
         frames.push(rgba);
     }
     let drawn = processor_s(Whose::Own);

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use regatta::lab::{Command, Lab, Scene, picture};
 use regatta::view::{
-    AdapterPreference, Artist, FrameRenderer, Gpu, Offscreen, Panels, Readback, png,
+    AdapterPreference, FrameRenderer, Gpu, Offscreen, OffscreenRenderer, Panels, Readback, png,
 };
 
 /// A frame at 60 a second.
@@ -29,17 +29,18 @@ fn main() {
     };
     let mut lab = Lab::new(Scene::built_in("harbour").expect("a built-in scene"));
     lab.apply(Command::ToggleRace);
-    let mut artist = Artist::new(gpu.clone(), SIZE_PX, 1.0).expect("1280x720 is within any limit");
-    artist.draw(&lab, &mut Vec::new()).expect("a fresh device gives its frame back");
+    let mut renderer =
+        OffscreenRenderer::new(gpu.clone(), SIZE_PX, 1.0).expect("1280x720 is within any limit");
+    renderer.draw(&lab, &mut Vec::new()).expect("a fresh device gives its frame back");
     let first = start.elapsed();
 
-    lab.think();
+    lab.analyse();
     for _ in 0..WARM_UP {
         lab.advance(FRAME_NS);
     }
-    let strokes = picture::compose(&lab, STAGE_POINTS).strokes.len();
+    let shapes = picture::compose(&lab, STAGE_POINTS).shapes.len();
     let adapter = format!("{} ({})", gpu.info.name, gpu.info.backend);
-    println!("harbour, race, {} lanes, {strokes} strokes, {adapter}", lab.entries().len());
+    println!("harbour, race, {} lanes, {shapes} shapes, {adapter}", lab.entries().len());
     let aim = verdict(first < MOST_FOR_THE_FIRST_FRAME, "1000 ms");
     println!("start to first frame {:.0} ms{aim}", millis(first));
     for panels in [Panels::Shown, Panels::Off] {

@@ -7,22 +7,22 @@
 //!
 //! - [`sim`] is mathematics: a [`State`](sim::State), an equation of motion ([`System`](sim::System)),
 //!   and ways to step it ([`Integrator`](sim::integrators::Integrator)). It knows no files, clocks or
-//!   pixels. RK4's formula is in `sim/integrators/rk4.rs`. [`sim::stability`] finds what a method makes of
-//!   a body, or of a linear body's [normal modes](sim::stability::NormalMode), in one tick.
+//!   pixels. RK4's formula is in `sim/integrators/rk4.rs`. [`sim::stability`] finds the one-step map of a
+//!   method on a body, or on a linear body's [normal modes](sim::stability::NormalMode), and its spectral radius.
 //! - [`lab`] is the experiment: a [`Scene`](lab::Scene) is read from text and written as text, a
 //!   [`Clock`](lab::Clock) turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the
 //!   truth, and a [`Picture`](lab::picture::Picture) says what to draw. A run is a value, a
-//!   [`Session`](lab::Session): it changes by [`Action`](lab::Action)s and ticks only, which its
-//!   [`Journal`](lab::Journal) has all of, whoever did them: script, person, recording or test. A
+//!   [`Session`](lab::Session): it changes by [`Action`](lab::Action)s and ticks only. Its [`Journal`](lab::Journal) holds
+//!   all of them, those of a script, a person, a recording or a test. A
 //!   [`Timeline`](lab::Timeline) keeps snapshots of it and goes to any tick. What is drawn of earlier ticks is in a
 //!   [`Past`](lab::Past), which watches the race as an [`Observer`](lab::Observer), and what a person looks at in a
 //!   [`Viewer`](lab::Viewer): neither is part of a run. A lane is one method on its own copy of the
 //!   scene's bodies; a [`Judge`](lab::Judge) measures how far one strays, an
-//!   [`Adviser`](lab::Adviser) searches for the substeps that meet a [`Criterion`](lab::Criterion), and a
-//!   [`Thinker`](lab::Thinker) has both done beside the race. The truth is a lane whose solver is the exact flow, or where a body has none
-//!   a [reference](sim::REFERENCE_ACCURACY). The layer knows no GPU and no wall clock: time comes in as
+//!   [`Adviser`](lab::Adviser) searches for the substeps that meet a [`Criterion`](lab::Criterion), and an
+//!   [`AnalysisWorker`](lab::AnalysisWorker) runs both, and the stability map, beside the race. The truth is a lane
+//!   whose solver is the exact flow, or a [reference](sim::REFERENCE_ACCURACY) for a body that has none. The layer knows no GPU and no wall clock: time comes in as
 //!   integers, text as `&str`.
-//! - `view` is pixels: a graphics device, seas, ribbons and strokes on the stage, panels in egui, and
+//! - `view` is pixels: a graphics device, the sea and the shapes on the stage, panels in egui, and
 //!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
 //!   and differ only in where time comes from and where the texture goes.
 //! - `window` and `commands` are the drivers: they alone touch files and real time. How a scene file is read and
@@ -53,10 +53,10 @@
 //!   is to the bit what it was, with its plots (`tests/sessions.rs`, `tests/recordings.rs`).
 //! - **The step allocates nothing**, takes no lock and touches no file (`tests/allocation.rs`).
 //! - **A body that blows up is data.** It halts, keeps its last good state and says why; other bodies
-//!   and lanes go on, unchanged to the bit. Under another method it is taken up again from the truth.
+//!   and lanes go on, unchanged to the bit. Under another method it resumes from the truth.
 //! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
-//!   [metrics](lab::METRICS), [scenes](lab::SCENES) and [keys](lab::KEYS): menus, help, command line
-//!   and tests loop over them.
+//!   [metrics](lab::METRICS), [scenes](lab::SCENES), [keys](lab::KEYS) and the [stops](lab::STOPS) of the guide:
+//!   menus, help, command line and tests loop over them.
 //! - Who may import whom is enforced by `tests/tidy`.
 //!
 //! # Adding a thing
@@ -64,7 +64,7 @@
 //! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
 //!   `methods!`. If its card claims too much or too little, `tests/conformance` fails.
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
-//!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a hand takes hold of it, in a file beside
+//!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a person can grab it, in a file beside
 //!   `lab/picture/look/spring.rs`, and add that to `LOOKS`. `tests/exact_flows.rs` and `tests/bodies` hold its exact flow, or what stands in for one,
 //!   against its equation.
 //! - **A scene**: add a file to `assets/scenes` and its line to [`SCENES`](lab::SCENES).

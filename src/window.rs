@@ -1,64 +1,65 @@
-//! The window: real time, keys, a surface to draw on. The only place that reads a wall clock to
-//! drive a [`Lab`].
+//! The window: drives a [`Lab`] in real time, by keys and mouse, and shows it. No other code reads a wall clock to
+//! drive a lab.
 //!
-//! A frame is drawn when something changed: always while time runs, and after an event while it is
-//! paused. A window that is hidden draws nothing and keeps simulating.
+//! A frame is drawn when something has changed: always while time runs, and after an event while it is paused. A
+//! hidden window draws nothing and continues to simulate.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use egui_winit::accesskit_winit;
 use winit::application::ApplicationHandler;
 use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
-use winit::window::{Fullscreen, Window, WindowId};
+use winit::window::{Fullscreen, WindowId};
 
-use crate::lab::{Ask, Command, Findings, Lab, Scene};
+use crate::lab::{Command, DriverRequest, Lab};
 
+mod analysis_thread;
 mod canvas;
 mod error;
+mod event;
+mod export;
 mod interrupt;
 mod keys;
 mod new_file;
 mod opening;
 mod pace;
 mod recording;
+mod schedule;
 mod screenshot;
-mod thinking;
+mod settings;
+mod tick_timer;
 mod watch;
 
 pub use error::WindowError;
 pub use opening::{ReadScene, SceneFiles};
+pub use settings::{Closed, WindowSettings};
 
+use analysis_thread::AnalysisThread;
 use canvas::{Canvas, Drawn};
 use error::reason;
-use keys::Held;
+use event::Event;
+use keys::Modifiers;
 use pace::Meter;
-use thinking::ThinkingThread;
+use tick_timer::TickTimer;
 use watch::FileWatch;
 
-/// How long the simulation waits for a frame: well inside the clock's longest, so that a window that is
-/// hidden, or that the window system asks no frames of, drops no ticks.
+/// The longest time between two simulation steps without a frame. It is well below the clock's longest frame, so that
+/// a window that is hidden, or not asked for frames by the window system, drops no ticks.
 const LONGEST_WAIT: Duration = Duration::from_millis(100);
-/// The frame rate where neither the display nor the driver sets one.
-const USUAL_REFRESH_MHZ: u32 = 60_000;
-/// The first frame after a pause counts as this long: how long it really was says nothing about the
-/// simulation.
+/// The simulated length of the first frame after a pause, whose real length includes the pause.
 const FIRST_FRAME: Duration = Duration::ZERO;
 
-/// Opens a window on `lab` and runs it until it is closed, until the tick nearest to `seconds` of simulated time, or,
-/// if it `heeds_interrupts`, until Ctrl-C is pressed in the terminal. Returns the lab as it then is, and whether it was
-/// interrupted. Scene files that are dropped onto it or typed are read as `files` says.
+/// Opens a window on `lab` and runs it until it is closed. `files` reads the scene files that are opened in the window.
 ///
 /// # Errors
-/// [`WindowError::NoDisplay`] before anything else is tried; the others at any time.
+/// [`WindowError::NoDisplay`] if there is none, before any other error; the others at any time.
 pub fn run(
     mut lab: Lab,
-    seconds: Option<f64>,
+    settings: WindowSettings,
     files: SceneFiles,
-    heeds_interrupts: bool,
-) -> Result<(Lab, bool), WindowError> {
+) -> Result<Closed, WindowError> {
+    let WindowSettings { seconds, size, heeds_interrupts } = settings;
     let event_loop = EventLoop::<Event>::with_user_event()
         .build()
         .map_err(|error| WindowError::NoDisplay(reason(&error)))?;
@@ -73,15 +74,17 @@ pub fn run(
     }
     watch.watch(opened);
     let mut app = App {
-        thinking: ThinkingThread::new(lab.question(), proxy.clone()),
+        analysis: AnalysisThread::new(lab.analysis_request(), proxy.clone()),
+        tick_timer: TickTimer::new(proxy.clone()),
         lab,
         read,
         watch,
         seconds,
+        size,
         proxy,
         canvas: None,
         asked: Vec::new(),
-        held: Held::default(),
+        held: Modifiers::default(),
         last_frame: None,
         redraw_owed: false,
         occluded: false,
@@ -94,42 +97,28 @@ pub fn run(
         outcome: Ok(()),
     };
     event_loop.run_app(&mut app).map_err(|error| WindowError::Refused(reason(&error)))?;
-    app.outcome.map(|()| (app.lab, app.interrupted))
-}
-
-/// What reaches the window from elsewhere than the window system.
-enum Event {
-    Accessibility(accesskit_winit::Event),
-    Learnt(Findings),
-    Interrupted,
-    /// A scene file has another text than it had.
-    Changed {
-        path: PathBuf,
-        read: Result<(Scene, String), String>,
-    },
-}
-
-impl From<accesskit_winit::Event> for Event {
-    fn from(event: accesskit_winit::Event) -> Self {
-        Event::Accessibility(event)
-    }
+    let App { outcome, lab, interrupted, size, .. } = app;
+    outcome.map(|()| Closed { lab, interrupted, size })
 }
 
 struct App {
     lab: Lab,
-    thinking: ThinkingThread,
+    analysis: AnalysisThread,
+    tick_timer: TickTimer,
     read: ReadScene,
     watch: FileWatch,
-    /// When to end, in simulated seconds.
+    /// The end of the run, in simulated seconds.
     seconds: Option<f64>,
+    /// The size of the window in points, when it last did not fill the screen.
+    size: Option<[u32; 2]>,
     proxy: EventLoopProxy<Event>,
     canvas: Option<Canvas>,
-    /// Commands for the beginning of the next frame.
+    /// Commands that the next frame applies before it simulates.
     asked: Vec<Command>,
-    held: Held,
-    /// When the last frame began; `None` where time did not run.
+    held: Modifiers,
+    /// When the last frame began; `None` if time did not run.
     last_frame: Option<Instant>,
-    /// Whether a frame was asked for that the window system has not called for yet.
+    /// Whether a redraw was requested and the window system has not asked for it yet.
     redraw_owed: bool,
     occluded: bool,
     minimised: bool,
@@ -161,7 +150,7 @@ impl App {
         }
         let waits_for_field = self.waits_for_field();
         let Some(canvas) = &mut self.canvas else { return };
-        // What is typed for a field that is not shown yet is put off until it is.
+        // Text for a field that is not shown yet waits until it is.
         let early = if waits_for_field { canvas.take_events() } else { Vec::new() };
         let drawn = canvas.draw(&self.lab);
         canvas.put_back(early);
@@ -186,35 +175,38 @@ impl App {
         }
     }
 
-    /// Leaves out of the simulation the time since the frame began: it went into work of ours.
+    /// Leaves the time since the frame began out of the simulation, after work that takes long.
     fn stand_still(&mut self) {
         self.last_frame = self.last_frame.map(|_| Instant::now());
     }
 
-    /// Applies what was asked for and steps what is due.
+    /// Applies the commands and steps the ticks that are due.
     fn simulate(&mut self, event_loop: &ActiveEventLoop, now: Instant) {
         for command in std::mem::take(&mut self.asked) {
             match self.lab.apply(command) {
-                Some(Ask::Quit) => self.end(event_loop, Ok(())),
-                Some(Ask::Screenshot) => self.screenshot = true,
-                Some(Ask::Record) => {
+                Some(DriverRequest::Quit) => self.end(event_loop, Ok(())),
+                Some(DriverRequest::Screenshot) => self.screenshot = true,
+                Some(DriverRequest::Record) => {
                     let notice = recording::save(&self.lab);
                     self.lab.set_notice(notice);
                     self.stand_still();
                 }
-                Some(Ask::ToggleFullScreen) => self.toggle_full_screen(),
-                Some(Ask::OpenTypedPath) => {
+                Some(DriverRequest::CopyInstrument) => self.copy_instrument(),
+                Some(DriverRequest::ExportInstrument) => self.export_instrument(),
+                Some(DriverRequest::ToggleFullScreen) => self.toggle_full_screen(),
+                Some(DriverRequest::OpenTypedPath) => {
                     let opened = opening::open_typed(&mut self.lab, &self.read);
                     self.watch.watch(opened);
                 }
-                Some(Ask::CompletePath) => {
+                Some(DriverRequest::CompletePath) => {
                     let path = opening::completed(self.lab.viewer().typed_path());
                     self.lab.apply(Command::TypePath(path));
                 }
                 None => {}
             }
         }
-        self.thinking.ask(self.lab.question());
+        self.analysis.ask(self.lab.analysis_request());
+        self.tick_timer.ask(&self.lab, now);
         let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
         self.last_frame = self.lab.running().then_some(now);
         let last = self.seconds.map_or(u64::MAX, |s| self.lab.nearest_tick(s));
@@ -230,42 +222,6 @@ impl App {
             canvas.window.set_title(&title);
             self.title = title;
         }
-    }
-
-    /// Asks for the next frame: at the display's pace if `after` is over by then.
-    fn schedule(&mut self, event_loop: &ActiveEventLoop, began: Instant, after: Duration) {
-        let Some(canvas) = &self.canvas else { return };
-        let refresh = canvas.refresh_mhz.unwrap_or(USUAL_REFRESH_MHZ);
-        // A driver that waits for the display has used this time up already; a software one has not.
-        let shortest = Duration::from_secs_f64(1000.0 / f64::from(refresh)).mul_f64(0.95);
-        match began.checked_add(shortest.max(after)) {
-            Some(due) if due <= Instant::now() => {
-                self.request_redraw();
-                self.wait(event_loop);
-            }
-            Some(due) => event_loop.set_control_flow(ControlFlow::WaitUntil(due)),
-            None => event_loop.set_control_flow(ControlFlow::Wait),
-        }
-    }
-
-    /// Waits for an event; while time runs, not for long.
-    fn wait(&self, event_loop: &ActiveEventLoop) {
-        event_loop.set_control_flow(if self.lab.running() {
-            ControlFlow::WaitUntil(Instant::now() + LONGEST_WAIT)
-        } else {
-            ControlFlow::Wait
-        });
-    }
-
-    fn request_redraw(&mut self) {
-        if let Some(canvas) = &self.canvas {
-            self.redraw_owed = true;
-            canvas.window.request_redraw();
-        }
-    }
-
-    fn hidden(&self) -> bool {
-        self.occluded || self.minimised
     }
 
     fn toggle_full_screen(&self) {
@@ -287,9 +243,8 @@ impl ApplicationHandler<Event> for App {
             return;
         }
         self.title = self.lab.title();
-        let attributes = Window::default_attributes()
+        let attributes = settings::attributes(self.size)
             .with_title(self.title.clone())
-            .with_inner_size(winit::dpi::LogicalSize::new(1280.0, 720.0))
             // AccessKit has to be there before the window shows.
             .with_visible(false);
         let window = match event_loop.create_window(attributes) {
@@ -300,6 +255,9 @@ impl ApplicationHandler<Event> for App {
         };
         match Canvas::new(event_loop, window, self.proxy.clone()) {
             Ok(canvas) => {
+                if let Some(theme) = canvas.window.theme() {
+                    self.lab.follow_theme(settings::theme_of(theme));
+                }
                 canvas.window.set_visible(true);
                 self.canvas = Some(canvas);
                 self.request_redraw();
@@ -332,18 +290,32 @@ impl ApplicationHandler<Event> for App {
                 self.interrupted = true;
                 self.end(event_loop, Ok(()));
             }
-            Event::Learnt(findings) => {
-                self.lab.learn(findings);
+            Event::Analysed(findings) => {
+                self.lab.accept_findings(findings);
                 if !self.lab.running() {
                     self.request_redraw();
                 }
             }
-            Event::Changed { path, read } => {
+            Event::TicksTimed(times) => {
+                self.lab.set_tick_times(times);
+                if !self.lab.running() {
+                    self.request_redraw();
+                }
+            }
+            Event::FileGone(path) => {
+                self.lab.file_is_gone(&path);
+                self.request_redraw();
+            }
+            Event::FileBack(path) => {
+                self.lab.file_is_back(&path);
+                self.request_redraw();
+            }
+            Event::FileChanged { path, read } => {
                 match read {
                     Ok((scene, _)) => self.lab.reload_file(&path, scene),
                     Err(report) => self.lab.reload_failed(&path, report),
                 }
-                // What it took is no time of the simulation's.
+                // The time that this took is not simulated.
                 self.stand_still();
                 self.request_redraw();
             }
@@ -366,7 +338,7 @@ impl ApplicationHandler<Event> for App {
                 if self.key(event, response.consumed, &panels)
                     && let Some(canvas) = &mut self.canvas
                 {
-                    // A key that opens a field is no text for it.
+                    // A key that opens a field is not text for it.
                     canvas.egui.egui_input_mut().events.truncate(before);
                 }
             }
@@ -379,17 +351,22 @@ impl ApplicationHandler<Event> for App {
                 self.held = modifiers.state().into();
             }
             // The release of a key pressed here may go to another window.
-            WindowEvent::Focused(false) => self.held = Held::default(),
+            WindowEvent::Focused(false) => self.held = Modifiers::default(),
             WindowEvent::Occluded(occluded) => self.occluded = *occluded,
             WindowEvent::Resized(size) => {
                 canvas.resize();
+                self.size = settings::size_of(&canvas.window, *size).or(self.size);
                 // How Windows says that a window is minimised.
                 self.minimised = size.width == 0 || size.height == 0;
+            }
+            WindowEvent::ThemeChanged(theme) => {
+                self.lab.follow_theme(settings::theme_of(*theme));
+                return self.request_redraw();
             }
             WindowEvent::ScaleFactorChanged { .. } | WindowEvent::Moved(_) => canvas.resize(),
             _ => {}
         }
-        // While time runs a frame is due soon, and a mouse that moves is no reason for more.
+        // While time runs the next frame is due soon, and a moving mouse needs no extra frames.
         if (response.repaint || !self.asked.is_empty()) && !self.lab.running() {
             self.request_redraw();
         }

@@ -1,4 +1,4 @@
-//! What a person edits while a run goes on: it is in the journal, and a restart keeps it.
+//! Edits during a run: they are in the journal, and a restart keeps them.
 
 use regatta::lab::{Action, Command, Lab, LaneSpec, Mode, Scene, Session};
 use regatta::sim::integrators::{METHODS, method};
@@ -8,7 +8,7 @@ fn stiffness(value: f64) -> Action {
 }
 
 #[test]
-fn a_parameter_dragged_at_one_tick_is_few_rows_and_replays_to_the_bit() {
+fn dragging_a_parameter_at_one_tick_adds_few_rows_and_repeats_to_the_bit() {
     for ways in [&[50.0, 60.0, 70.0, 80.0][..], &[50.0, 60.0, 50.0, 60.0, 50.0], &[50.0, 0.0]] {
         for method in METHODS {
             let mut scene = Scene::built_in("spring").unwrap();
@@ -32,7 +32,7 @@ fn a_parameter_dragged_at_one_tick_is_few_rows_and_replays_to_the_bit() {
 }
 
 #[test]
-fn a_selected_lane_stays_selected_whatever_method_it_is_put_under() {
+fn a_selected_lane_stays_selected_when_its_method_changes() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     lab.apply(Command::ToggleRace);
     lab.apply(Command::Pick(0));
@@ -50,7 +50,7 @@ fn a_selected_lane_stays_selected_whatever_method_it_is_put_under() {
 }
 
 #[test]
-fn a_race_begins_again_with_the_methods_that_its_lanes_were_given() {
+fn a_race_restarts_with_the_methods_that_a_person_gave_its_lanes() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     lab.apply(Command::ToggleRace);
     let methods = |lab: &Lab| -> Vec<&str> {
@@ -75,7 +75,7 @@ fn a_race_begins_again_with_the_methods_that_its_lanes_were_given() {
 }
 
 #[test]
-fn a_scene_is_made_longer_for_plots_and_verdicts_and_stays_so() {
+fn a_new_scene_length_applies_to_plots_and_verdicts_and_stays_after_a_restart() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     let seconds = lab.scene().seconds;
     for nonsense in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e12] {

@@ -255,19 +255,19 @@ fn where_no_script_is_to_come_there_is_nothing_to_tell() {
 }
 
 #[test]
-fn a_throttle_of_the_script_is_part_of_the_scene_that_is_judged_and_one_by_hand_asks_anew() {
+fn a_throttle_by_hand_changes_the_analysis_request_and_one_of_the_script_does_not() {
     let text = SCENES.iter().find(|scene| scene.name == "ship").unwrap().text;
     let script = "[[command]]\ntick = 3\nthrottle = 0.5\n";
     let mut lab = Lab::new(Scene::parse("ship.toml", &format!("{text}{script}")).unwrap());
-    let asked = lab.question();
+    let asked = lab.analysis_request();
     (0..10).for_each(|_| lab.tick());
     assert_eq!(lab.race().throttle(), 0.5);
-    assert!(lab.question() == asked, "nothing is asked that was not asked at the start");
+    assert!(lab.analysis_request() == asked, "nothing is asked that was not asked at the start");
     lab.apply(Command::Throttle(0.2));
-    let by_hand = lab.question();
+    let by_hand = lab.analysis_request();
     assert!(by_hand != asked);
     (0..10).for_each(|_| lab.tick());
-    assert!(lab.question() == by_hand);
+    assert!(lab.analysis_request() == by_hand);
     lab.apply(Command::Restart);
-    assert!(lab.question() == asked);
+    assert!(lab.analysis_request() == asked);
 }

@@ -1,8 +1,8 @@
 //! Verdicts and advice against plain runs: energies, amplitudes and errors counted out here once more.
 
 use regatta::lab::{
-    Adviser, CRITERIA, Judge, LONGEST_HORIZON_S, LaneSpec, Meets, NoTruth, NotJudged, Scene,
-    TOLERANCE, Verdict, Word,
+    Adviser, CRITERIA, CriterionResult, Judge, LONGEST_HORIZON_S, LaneSpec, NoTruth, NotJudged,
+    Outcome, Scene, TOLERANCE, Verdict,
 };
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
@@ -69,17 +69,17 @@ fn pendulum() -> Scene {
 fn a_springs_energy_and_the_times_of_its_swing_are_those_of_the_run() {
     let scene = spring();
     for (id, tick_hz, word) in [
-        ("explicit-euler", 60, Word::GainsEnergy),
-        ("improved-euler", 10, Word::GainsEnergy),
-        ("improved-euler", 60, Word::OutOfPhase),
-        ("rk4", 10, Word::LosesEnergy),
-        ("bdf2", 10, Word::LosesEnergy),
-        ("bdf2", 60, Word::OutOfPhase),
-        ("implicit-euler", 60, Word::LosesEnergy),
-        ("rk4", 60, Word::Accurate),
+        ("explicit-euler", 60, Outcome::GainsEnergy),
+        ("improved-euler", 10, Outcome::GainsEnergy),
+        ("improved-euler", 60, Outcome::OutOfPhase),
+        ("rk4", 10, Outcome::LosesEnergy),
+        ("bdf2", 10, Outcome::LosesEnergy),
+        ("bdf2", 60, Outcome::OutOfPhase),
+        ("implicit-euler", 60, Outcome::LosesEnergy),
+        ("rk4", 60, Outcome::Accurate),
     ] {
         let found = verdict(&scene, id, tick_hz);
-        assert_eq!(found.word, word, "{found}");
+        assert_eq!(found.outcome, word, "{found}");
         let energies = |seconds| {
             run(&scene, spec(id).solver(), tick_hz, seconds, |body| body.energy().unwrap() / 40.0)
         };
@@ -106,22 +106,22 @@ fn a_pendulums_word_follows_the_mean_of_its_energy() {
     let scene = pendulum();
     let start = body(&scene, Solver::Truth).energy().unwrap();
     for (id, tick_hz, word, is_bounded) in [
-        ("explicit-euler", 60, Word::GainsEnergy, false),
-        ("improved-euler", 10, Word::GainsEnergy, false),
-        ("improved-euler", 60, Word::OutOfPhase, false),
-        ("semi-implicit-euler", 10, Word::OutOfPhase, true),
-        ("semi-implicit-euler", 60, Word::OutOfPhase, true),
+        ("explicit-euler", 60, Outcome::GainsEnergy, false),
+        ("improved-euler", 10, Outcome::GainsEnergy, false),
+        ("improved-euler", 60, Outcome::OutOfPhase, false),
+        ("semi-implicit-euler", 10, Outcome::OutOfPhase, true),
+        ("semi-implicit-euler", 60, Outcome::OutOfPhase, true),
         // Wider by an eighth and narrower by a twentieth than in truth, from the first turn to the last.
-        ("semi-implicit-euler", 5, Word::OutOfPhase, true),
-        ("velocity-verlet", 5, Word::OutOfPhase, true),
-        ("rk4", 10, Word::OutOfPhase, true),
-        ("bdf2", 10, Word::LosesEnergy, true),
-        ("bdf2", 60, Word::OutOfPhase, true),
-        ("implicit-euler", 60, Word::LosesEnergy, true),
-        ("rk4", 60, Word::Accurate, true),
+        ("semi-implicit-euler", 5, Outcome::OutOfPhase, true),
+        ("velocity-verlet", 5, Outcome::OutOfPhase, true),
+        ("rk4", 10, Outcome::OutOfPhase, true),
+        ("bdf2", 10, Outcome::LosesEnergy, true),
+        ("bdf2", 60, Outcome::OutOfPhase, true),
+        ("implicit-euler", 60, Outcome::LosesEnergy, true),
+        ("rk4", 60, Outcome::Accurate, true),
     ] {
         let found = verdict(&scene, id, tick_hz);
-        assert_eq!((found.word, found.is_bounded), (word, Some(is_bounded)), "{found}");
+        assert_eq!((found.outcome, found.is_bounded), (word, Some(is_bounded)), "{found}");
         let energies = run(&scene, spec(id).solver(), tick_hz, 20.0, |b| b.energy().unwrap());
         let last = &energies[energies.len() * 3 / 4..];
         let mean = last.iter().sum::<f64>() / last.len() as f64 / start - 1.0;
@@ -160,13 +160,13 @@ fn what_is_to_die_away_does_not_lose_energy_when_it_does() {
     let damped = "[[spring]]\nmass_kg = 2\nstiffness_n_per_m = 80\ndamping_n_s_per_m = 0.3";
     let free = "[[ship]]\nthrust_n = 2000\ndrag_n_s_per_m = 0\nmass_kg = 1000\nv0_m_per_s = 3";
     for (body, id, word) in [
-        (damped, "implicit-euler", Word::OutOfPhase),
-        (damped, "bdf2", Word::OutOfPhase),
-        (free, "semi-implicit-euler", Word::Accurate),
-        (free, "rk4", Word::Rounding),
+        (damped, "implicit-euler", Outcome::OutOfPhase),
+        (damped, "bdf2", Outcome::OutOfPhase),
+        (free, "semi-implicit-euler", Outcome::Accurate),
+        (free, "rk4", Outcome::Rounding),
     ] {
         let found = verdict(&scene(20.0, body), id, 10);
-        assert_eq!((found.word, found.is_bounded), (word, Some(true)), "{id}: {found}");
+        assert_eq!((found.outcome, found.is_bounded), (word, Some(true)), "{id}: {found}");
         let times = (found.halves_in_s, found.doubles_in_s, found.energy_change);
         assert_eq!(times, (None, None, None), "{id}: {found}");
     }
@@ -177,12 +177,12 @@ fn what_nobody_can_know_is_not_judged() {
     // Let go so near the top that each return there multiplies what the truth may be off.
     let top = |seconds| scene(seconds, "[[pendulum]]\nlength_m = 0.4\ntheta0_rad = 3.14159");
     let found = verdict(&top(15.0), "rk4", 60);
-    assert!(found.word != Word::NoTruth && found.no_truth.is_none(), "{found}");
+    assert!(found.outcome != Outcome::NoTruth && found.no_truth.is_none(), "{found}");
     for (seconds, least, most) in [(30.0, TOLERANCE / 2.0, 0.02), (60.0, 0.02, 0.1)] {
         let found = verdict(&top(seconds), "rk4", 60);
         let Some(NoTruth::Vague(part)) = found.no_truth else { panic!("{found}") };
         assert!(part > least && part < most, "{found}");
-        assert_eq!(found.word, Word::NoTruth);
+        assert_eq!(found.outcome, Outcome::NoTruth);
     }
 }
 
@@ -195,11 +195,14 @@ fn nothing_is_held_against_its_truth_beyond_the_end_of_its_scene() {
     // 0.8 ticks.
     for id in ["explicit-euler", "rk4", "dormand-prince-54"] {
         let found = verdict(&scene, id, 1);
-        assert_eq!(found.word, Word::NotJudged, "{found}");
+        assert_eq!(found.outcome, Outcome::NotJudged, "{found}");
         assert_eq!(found.not_judged, Some(NotJudged::ShorterThanATick));
         assert_eq!((found.is_bounded, found.no_truth, found.frequency_error), (None, None, None));
         let adviser = Adviser::new(&scene, 1.0, 1);
-        assert!(CRITERIA.iter().all(|&of| adviser.meets(spec(id), of) == Meets::Unknown), "{id}");
+        assert!(
+            CRITERIA.iter().all(|&of| adviser.meets(spec(id), of) == CriterionResult::Unknown),
+            "{id}"
+        );
     }
     assert!(verdict(&scene, "rk4", 100).not_judged.is_none());
 }
@@ -338,7 +341,7 @@ fn the_body_that_fares_worst_speaks_and_all_are_counted() {
         let alone: Vec<Verdict> =
             bodies.iter().map(|body| Judge::new(&of(&[body]), 1.0).verdict(spec(id), 60)).collect();
         assert_eq!(found.evaluations, alone.iter().map(|v| v.evaluations).sum::<u64>());
-        assert_eq!((found.word, found.error), (alone[place].word, alone[place].error));
+        assert_eq!((found.outcome, found.error), (alone[place].outcome, alone[place].error));
         assert_eq!(alone[place].body_name, None);
     }
 }

@@ -115,7 +115,7 @@ fn a_lane_takes_the_substeps_that_are_advised_in_flight_and_keeps_them() {
     assert_eq!(substeps.collect::<Vec<_>>(), [1, 1, 1, 4, 1]);
     // One that is not in the race is taken in.
     lab.apply(Command::Fly(LaneSpec { substeps: 3, ..LaneSpec::plain(method("pefrl").unwrap()) }));
-    assert_eq!(lab.viewer().notice.as_deref(), Some("the race began again, with PEFRL in it"));
+    assert_eq!(lab.viewer().notice.as_deref(), Some("the race restarted with PEFRL in it"));
     assert_eq!((lab.race().tick(), lab.race().entrants().len()), (0, 6));
     assert_eq!(lab.entries()[lab.active()].substeps, 3);
 }

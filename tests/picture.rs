@@ -1,24 +1,32 @@
 //! What reaches the stage: finite, within reach of an f32, and where the bodies are.
 
-use regatta::lab::picture::{FAR, Picture, compose};
+use regatta::lab::palette::Theme;
+use regatta::lab::picture::{FAR, Picture, Shape, Whose, compose};
 use regatta::lab::{Command, ESCAPE, Lab, Mode, SCENES, Scene};
 
 fn assert_drawable(picture: &Picture, what: &str) {
     let finite = |values: &[f32]| values.iter().all(|x| x.is_finite() && x.abs() <= 2.0 * FAR);
-    for stroke in &picture.strokes {
-        let all = [stroke.from, stroke.to, stroke.radii, stroke.clip.min, stroke.clip.max];
-        assert!(all.iter().all(|pair| finite(pair)), "{what}: {stroke:?}");
-    }
-    for ribbon in &picture.ribbons {
-        assert!(finite(&ribbon.clip.min) && finite(&ribbon.clip.max), "{what}: {:?}", ribbon.clip);
-        for point in &ribbon.points {
-            assert!(finite(&point.at) && finite(&[point.radius]), "{what}: {point:?}");
-        }
-    }
-    for sea in &picture.seas {
-        let scalars = [sea.grid_step, sea.waves, sea.phase];
-        assert!(finite(&sea.grid_origin) && finite(&scalars), "{what}: {sea:?}");
-        assert!(sea.grid_step > 0.0, "{what}: {sea:?}");
+    for shape in &picture.shapes {
+        let clip = match shape {
+            Shape::Stroke(stroke) => {
+                let all = [stroke.from, stroke.to, stroke.radii];
+                assert!(all.iter().all(|pair| finite(pair)), "{what}: {stroke:?}");
+                stroke.clip
+            }
+            Shape::Path(path) => {
+                for point in &path.points {
+                    assert!(finite(&point.at) && finite(&[point.radius]), "{what}: {point:?}");
+                }
+                path.clip
+            }
+            Shape::Fill(fill) => {
+                for (at, _) in &fill.corners {
+                    assert!(finite(at), "{what}: {fill:?}");
+                }
+                fill.clip
+            }
+        };
+        assert!(finite(&clip.min) && finite(&clip.max), "{what}: {clip:?}");
     }
     for label in &picture.labels {
         assert!(finite(&label.at) && label.size > 0.0, "{what}: {label:?}");
@@ -78,18 +86,19 @@ fn a_body_of_two_coordinates_alone_has_a_cell_for_each_lane_that_fits_its_shape(
     for name in ["chain", "pendulum", "orbit", "helm"] {
         let mut lab = Lab::new(Scene::built_in(name).unwrap());
         lab.apply(Command::ToggleRace);
+        lab.apply(Command::ToggleArrangement);
         lab.advance(100_000_000);
         let size = [780.0, 500.0];
         let picture = compose(&lab, size);
         let lanes = lab.race().entrants().iter();
-        assert_eq!(picture.seas.len(), lanes.len(), "{name}");
-        for (i, sea) in picture.seas.iter().enumerate() {
-            let ([left, top], [right, bottom]) = (sea.rect.min, sea.rect.max);
+        assert_eq!(picture.cells.len(), lanes.len(), "{name}");
+        for (i, cell) in picture.cells.iter().enumerate() {
+            let ([left, top], [right, bottom]) = (cell.rect.min, cell.rect.max);
             assert!(left >= 0.0 && top >= 0.0 && right <= size[0] && bottom <= size[1], "{name}");
             let aspect = (right - left) / (bottom - top);
-            assert!((0.5..4.0).contains(&aspect) && bottom - top > 120.0, "{name}: {sea:?}");
-            let place = |other: &regatta::lab::picture::Sea| other.rect.min;
-            assert!(picture.seas[..i].iter().all(|other| place(other) != sea.rect.min), "{name}");
+            assert!((0.5..4.0).contains(&aspect) && bottom - top > 120.0, "{name}: {cell:?}");
+            let others = &picture.cells[..i];
+            assert!(others.iter().all(|other| other.rect.min != cell.rect.min), "{name}");
         }
         let names = lanes.map(|lane| lab.entries()[lane.entry].method.name);
         for name in names {
@@ -120,7 +129,10 @@ fn a_trail_leads_from_the_body_back_in_time_and_fades() {
         lab.advance(16_666_667);
     }
     let picture = compose(&lab, [780.0, 500.0]);
-    let trail = &picture.ribbons.last().expect("a spring leaves a trail").points;
+    // The trail of the lane in front is 2.4 points wide.
+    let mut trails =
+        picture.paths().filter(|path| path.points[0].radius == 1.2 && path.points.len() > 2);
+    let trail = &trails.next().expect("a spring leaves a trail").points;
     assert!(trail.len() > 50, "{}", trail.len());
     // A chart recorder's paper runs down.
     assert!(trail.is_sorted_by(|new, old| new.at[1] <= old.at[1]));
@@ -141,27 +153,75 @@ fn stages_of_no_size_are_composed() {
 }
 
 #[test]
-fn every_body_of_every_lane_has_a_cell_inside_the_stage() {
+fn every_body_has_a_cell_inside_the_stage_and_side_by_side_every_body_of_every_lane() {
     let size = [780.0, 500.0];
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    let assert_apart = |lab: &Lab, count: usize| {
+        let picture = compose(lab, size);
+        assert_eq!(picture.cells.len(), count);
+        for (i, cell) in picture.cells.iter().enumerate() {
+            let ([left, top], [right, bottom]) = (cell.rect.min, cell.rect.max);
+            assert!(left >= 0.0 && top >= 0.0 && right <= size[0] && bottom <= size[1], "{cell:?}");
+            assert!(right - left > 100.0 && bottom - top > 50.0, "{cell:?}");
+            for other in &picture.cells[..i] {
+                let apart = left >= other.rect.max[0]
+                    || top >= other.rect.max[1]
+                    || right <= other.rect.min[0]
+                    || bottom <= other.rect.min[1];
+                assert!(apart, "{cell:?} covers {other:?}");
+            }
+        }
+    };
     lab.advance(100_000_000);
-    assert_eq!(compose(&lab, size).seas.len(), 3);
+    assert_apart(&lab, 3);
     lab.apply(Command::ToggleRace);
     lab.advance(100_000_000);
-    let picture = compose(&lab, size);
-    assert_eq!(picture.seas.len(), 3 * lab.race().entrants().len());
-    for (i, sea) in picture.seas.iter().enumerate() {
-        let ([left, top], [right, bottom]) = (sea.rect.min, sea.rect.max);
-        assert!(left >= 0.0 && top >= 0.0 && right <= size[0] && bottom <= size[1], "{sea:?}");
-        assert!(right - left > 100.0 && bottom - top > 50.0, "{sea:?}");
-        for other in &picture.seas[..i] {
-            let apart = left >= other.rect.max[0]
-                || top >= other.rect.max[1]
-                || right <= other.rect.min[0]
-                || bottom <= other.rect.min[1];
-            assert!(apart, "{sea:?} covers {other:?}");
+    assert_apart(&lab, 3);
+    lab.apply(Command::ToggleArrangement);
+    assert_apart(&lab, 3 * lab.race().entrants().len());
+}
+
+#[test]
+fn over_each_other_every_lane_has_a_number_and_the_selected_one_its_own_body() {
+    let mut lab = Lab::new(Scene::built_in("orbit").unwrap());
+    lab.apply(Command::ToggleRace);
+    (0..60).for_each(|_| lab.tick());
+    for entry in 0..lab.race().entrants().len() {
+        lab.apply(Command::Pick(entry));
+        let picture = compose(&lab, [780.0, 500.0]);
+        assert_eq!((picture.cells.len(), picture.cells[0].entry), (1, entry));
+        for lane in lab.race().entrants() {
+            let number = (lane.entry + 1).to_string();
+            let is_told = picture.labels.iter().any(|label| label.text == number);
+            assert!(is_told || lane.entry == entry, "{number} with {entry} in front");
+            let is_own = |whose| matches!(whose, Whose::Lane { entry, .. } if entry == lane.entry);
+            assert!(picture.cells[0].grips.iter().any(|grip| is_own(grip.whose)), "{number}");
         }
     }
+}
+
+#[test]
+fn a_lane_that_left_the_stage_has_a_badge_with_its_place_and_is_drawn_across_nothing() {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    lab.apply(Command::ToggleRace);
+    (0..600).for_each(|_| lab.tick());
+    let picture = compose(&lab, [780.0, 500.0]);
+    let x = lab.race().entrants()[0].lane.bodies()[0].stepper.q()[0];
+    let decade = libm::floor(libm::log10(x.abs())) as i32;
+    assert!(decade >= 1, "{x}");
+    let texts: Vec<&str> = picture.labels.iter().map(|label| &*label.text).collect();
+    let is_badge = |text: &&&str| {
+        text.ends_with(" m") && text.starts_with(['−', '1', '2', '3', '4', '5', '6', '7', '8', '9'])
+    };
+    assert!(texts.iter().any(|text| is_badge(&text)), "{texts:?}");
+    let colour = Theme::Dark.style(lab.entries()[0].method).0;
+    let trails = picture.paths().filter(|path| path.points[0].colour[..3] == colour[..3]);
+    let widest = trails.map(|path| {
+        let x = path.points.iter().map(|point| point.at[0]);
+        x.clone().fold(f32::MIN, f32::max) - x.fold(f32::MAX, f32::min)
+    });
+    // The hull of its ship, which is on the stage, and badges.
+    assert!(widest.fold(0.0, f32::max) < 260.0);
 }
 
 #[test]
@@ -170,13 +230,15 @@ fn the_ghost_shows_only_when_it_is_asked_for() {
     lab.advance(100_000_000);
     let drawn = |lab: &Lab| {
         let picture = compose(lab, [780.0, 500.0]);
-        (picture.strokes.len(), picture.ribbons.len())
+        let is_ghost = |grip: &&regatta::lab::picture::Grip| grip.whose == Whose::Truth;
+        let ghosts = picture.cells.iter().flat_map(|cell| &cell.grips).filter(is_ghost).count();
+        (picture.shapes.len(), ghosts)
     };
     let with = drawn(&lab);
     lab.apply(Command::ToggleGhost);
     let without = drawn(&lab);
-    assert!(without.0 < with.0, "{without:?} strokes and ribbons without a ghost, {with:?} with");
-    assert!(without.1 < with.1, "{without:?} strokes and ribbons without a ghost, {with:?} with");
+    assert!(without.0 < with.0, "{without:?} shapes without a ghost, {with:?} with");
+    assert_eq!((without.1, with.1), (0, 3));
 }
 
 #[test]
@@ -193,16 +255,16 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
     assert_eq!(said(&lab), [""; 0]);
     (0..300).for_each(|_| lab.tick());
     let halt = lab.race().entrants()[0].lane.halted().expect("explicit Euler loses the spring");
-    let spring = format!("halted, tick {}", halt.tick);
+    let spring = format!("1 halted, tick {}", halt.tick);
     assert_eq!(said(&lab), std::slice::from_ref(&spring));
 
     // A kick that neither lanes nor truth survive: the ghost is gone with the truth.
-    let strokes = |lab: &Lab| compose(lab, [780.0, 500.0]).strokes.len();
-    let before = strokes(&lab);
+    let shapes = |lab: &Lab| compose(lab, [780.0, 500.0]).shapes.len();
+    let before = shapes(&lab);
     lab.apply(Command::Kick(1e30));
-    let ship = ["halted, tick 300", "no exact solution from tick 300 on"];
-    assert_eq!(said(&lab), [&*spring, ship[0], ship[1], ship[0], ship[1]]);
-    assert!(strokes(&lab) < before);
+    let ship = ["1 halted, tick 300 · 2 halted, tick 300", "no exact solution from tick 300 on"];
+    assert_eq!(said(&lab), [&*spring, ship[0], ship[1]]);
+    assert!(shapes(&lab) < before);
     lab.apply(Command::ToggleRace);
     let alone = said(&lab);
     assert!(alone.contains(&ship[1].to_owned()), "{alone:?}");
@@ -218,10 +280,10 @@ fn a_body_alone_has_its_numbers_of_the_tick_however_it_is_drawn_between_ticks() 
     lab.advance(40_000_000);
     let (tick, said) = (lab.race().tick(), numbers(&lab));
     assert_eq!(said.len(), 1);
-    let drawn = compose(&lab, [780.0, 500.0]).strokes;
+    let drawn = compose(&lab, [780.0, 500.0]).shapes;
     lab.advance(5_000_000);
     assert_eq!(lab.race().tick(), tick);
-    assert!(compose(&lab, [780.0, 500.0]).strokes != drawn);
+    assert!(compose(&lab, [780.0, 500.0]).shapes != drawn);
     for _ in 0..3 {
         assert_eq!(numbers(&lab), said);
         lab.apply(Command::NextInterpolation);

@@ -1,7 +1,8 @@
-//! A run as a scene file: what is written is read back, can be run again to the bit, and says what was done.
+//! A run as a scene file: it is read back unchanged, repeats the run to the bit, and contains its actions.
 
 use regatta::lab::{
-    Action, Command, Lab, LaneSpec, SCENES, Scene, Session, equal_cost, lanes_that_race,
+    Action, Command, Lab, LaneSpec, Mode, SCENES, Scene, Scripted, Session, equal_cost,
+    lanes_that_race,
 };
 use regatta::sim::integrators::{METHODS, method};
 
@@ -13,15 +14,13 @@ fn parsed(text: &str) -> Scene {
     Scene::parse("recording.toml", text).unwrap_or_else(|errors| panic!("{errors}\n{text}"))
 }
 
-/// The lanes at the end of a recording that are not what its checks say, run as `regatta verify` does.
+/// The lanes that differ from the checks of a recording, run as `regatta verify` runs it.
 fn wrong_lanes(scene: &Scene) -> Vec<usize> {
     let mut session = Session::racing(scene.clone().into());
     let mut wrong = Vec::new();
     for check in &scene.checks {
         session.run(check.tick - session.race().tick());
-        let mut entrants = session.race().entrants().iter().zip(session.race().lane_hashes());
-        let found = entrants.find(|(entrant, _)| entrant.lane_number == check.lane);
-        if found.map(|(_, hash)| hash) != Some(check.hash) {
+        if session.race().lane_hash(check.lane) != Some(check.hash) {
             wrong.push(check.lane);
         }
     }
@@ -29,7 +28,7 @@ fn wrong_lanes(scene: &Scene) -> Vec<usize> {
 }
 
 #[test]
-fn every_built_in_scene_is_written_and_read_back_as_it_is() {
+fn every_built_in_scene_is_unchanged_by_writing_and_reading() {
     for built_in in SCENES {
         let scene = Scene::built_in(built_in.name).unwrap();
         let mut again = parsed(&scene.to_toml());
@@ -39,7 +38,7 @@ fn every_built_in_scene_is_written_and_read_back_as_it_is() {
 }
 
 #[test]
-fn texts_and_numbers_that_need_care_are_written_and_read_back() {
+fn difficult_texts_and_numbers_are_unchanged_by_writing_and_reading() {
     let mut scene = built_in("helm");
     scene.title = r#"a "quoted" \ title"#.into();
     scene.bodies[0].name = r"c:\helm".into();
@@ -58,7 +57,7 @@ fn texts_and_numbers_that_need_care_are_written_and_read_back() {
     assert_eq!((bits(&again), again.lanes), (bits(&scene), scene.lanes));
 }
 
-/// The harbour in solo, with everything done to it that can be.
+/// The harbour in solo mode, after an action of every kind.
 fn flown() -> Lab {
     let mut lab = Lab::new(built_in("harbour"));
     let rk4 = LaneSpec { substeps: 3, ..LaneSpec::plain(method("rk4").unwrap()) };
@@ -82,7 +81,7 @@ fn flown() -> Lab {
 }
 
 #[test]
-fn a_recording_has_what_was_done_and_is_run_again_to_the_bit() {
+fn a_recording_has_all_actions_and_repeats_the_run_to_the_bit() {
     let lab = flown();
     let scene = parsed(&lab.recording().unwrap());
     let ticks: Vec<u64> = scene.script.iter().map(|row| row.tick).collect();
@@ -104,7 +103,7 @@ fn a_recording_has_what_was_done_and_is_run_again_to_the_bit() {
 }
 
 #[test]
-fn a_recording_opens_in_the_window_as_the_run_that_it_is_of() {
+fn a_recording_repeats_its_run_in_a_lab() {
     let lab = flown();
     let mut again = Lab::new(parsed(&lab.recording().unwrap()));
     (0..250).for_each(|_| again.tick());
@@ -113,7 +112,7 @@ fn a_recording_opens_in_the_window_as_the_run_that_it_is_of() {
 }
 
 #[test]
-fn a_recording_of_a_race_with_a_script_and_a_lane_that_is_left_alone_is_the_same_to_the_bit() {
+fn a_recording_of_a_scripted_race_that_goes_solo_repeats_it_to_the_bit() {
     let mut lab = Lab::new(built_in("helm"));
     lab.apply(Command::ToggleRace);
     (0..200).for_each(|_| lab.tick());
@@ -134,7 +133,29 @@ fn a_recording_of_a_race_with_a_script_and_a_lane_that_is_left_alone_is_the_same
 }
 
 #[test]
-fn what_a_person_set_holds_after_a_restart_and_what_a_script_set_does_not() {
+fn a_recorded_race_opens_as_a_race_and_a_recorded_solo_run_does_not() {
+    let mut lab = flown();
+    let solo = parsed(&lab.recording().unwrap());
+    assert!(!solo.opens_as_race);
+    lab.apply(Command::ToggleRace);
+    (0..90).for_each(|_| lab.tick());
+    let text = lab.recording().unwrap();
+    assert!(text.contains("\n[race]\nopen = true\n"), "{text}");
+    let race = parsed(&text);
+    assert!(race.opens_as_race && wrong_lanes(&race).is_empty());
+
+    let mut again = Lab::new(solo.clone());
+    again.open_file("solo.toml".as_ref(), solo);
+    assert_eq!(again.mode(), Mode::Solo);
+    again.open_file("race.toml".as_ref(), race);
+    assert_eq!(again.mode(), Mode::Race);
+    (0..90).for_each(|_| again.tick());
+    assert_eq!(again.race().state_hash(), lab.race().state_hash());
+    assert_eq!(again.recording().unwrap(), text, "and is recorded alike");
+}
+
+#[test]
+fn a_restart_keeps_the_settings_of_a_person_and_not_those_of_a_script() {
     let text = format!(
         "{}\n[[command]]\ntick = 5\nset = {{ body = \"ship\", key = \"mass_kg\", value = 5.0 }}\n",
         built_in("ship").to_toml()
@@ -154,7 +175,7 @@ fn what_a_person_set_holds_after_a_restart_and_what_a_script_set_does_not() {
 }
 
 #[test]
-fn what_is_out_of_range_or_does_not_fit_is_not_done() {
+fn an_action_that_is_out_of_range_or_does_not_fit_is_ignored() {
     let mut session = Session::racing(built_in("spring").into());
     for action in [
         Action::Set { body: 0, parameter: 0, value: -1.0 },
@@ -175,7 +196,7 @@ fn what_is_out_of_range_or_does_not_fit_is_not_done() {
 }
 
 #[test]
-fn at_equal_cost_no_lane_could_come_nearer_to_the_dearest_one() {
+fn equal_cost_brings_each_lane_as_near_as_possible_to_the_dearest() {
     let scene = built_in("harbour");
     let cost = |spec: &LaneSpec| {
         let mut lane = regatta::lab::Lane::new(&scene, spec.solver(), spec.substeps);
@@ -196,7 +217,20 @@ fn at_equal_cost_no_lane_could_come_nearer_to_the_dearest_one() {
 }
 
 #[test]
-fn x_gives_equal_cost_and_takes_it_back_and_a_scene_can_ask_for_it() {
+fn equal_cost_includes_the_effect_of_the_script_on_the_cost() {
+    let plain = built_in("spring");
+    let parameter = plain.bodies[0].kind.parameter("stiffness_n_per_m").unwrap().0;
+    let action = Action::Set { body: 0, parameter, value: 1e6 };
+    let script = vec![Scripted { tick: 200, action }];
+    let stiffened = Scene { script, ..plain.clone() };
+    let lanes = ["rk4", "dormand-prince-54"].map(|id| LaneSpec::plain(method(id).unwrap()));
+    let substeps = |scene: &Scene| equal_cost(scene, &lanes, 60)[0].substeps;
+    let (soft, stiff) = (substeps(&plain), substeps(&stiffened));
+    assert!(soft < 10 && stiff > 3 * soft, "{soft} and {stiff} substeps");
+}
+
+#[test]
+fn equal_cost_is_switched_on_and_off_by_a_key_and_on_by_a_scene() {
     let mut lab = Lab::new(built_in("spring"));
     lab.apply(Command::ToggleRace);
     let substeps = |lab: &Lab| -> Vec<u32> {
@@ -224,7 +258,7 @@ fn x_gives_equal_cost_and_takes_it_back_and_a_scene_can_ask_for_it() {
 }
 
 #[test]
-fn a_run_in_which_too_much_was_done_for_a_file_says_so_and_one_that_is_only_long_does_not() {
+fn a_recording_with_too_many_actions_is_refused_and_one_that_is_only_long_is_not() {
     let mut session = Session::racing(built_in("spring").into());
     (0..40_000).for_each(|n| _ = session.act(Action::Kick(1e-9 * f64::from(n + 1))));
     let error = session.recording_text(10).unwrap_err();
@@ -239,7 +273,7 @@ fn a_run_in_which_too_much_was_done_for_a_file_says_so_and_one_that_is_only_long
 }
 
 #[test]
-fn new_hashes_are_written_into_a_file_and_all_else_stays() {
+fn new_hashes_are_written_into_a_file_without_other_changes() {
     let text = "# mine\ntitle = 'x'\n[[check]] # one\ntick=1\nlane = 1\nhash = '0000000000000000' # a\n\n\
                 [[check]]\nhash = \"00000000000000ff\"\ntick = 2\nlane = 1\n";
     let blessed = Scene::with_hashes(text, &[0x12, 0xabc]);
@@ -250,7 +284,7 @@ fn new_hashes_are_written_into_a_file_and_all_else_stays() {
 }
 
 #[test]
-fn what_is_done_at_the_last_tick_is_in_the_recording() {
+fn an_action_at_the_last_tick_is_in_the_recording() {
     let mut lab = Lab::new(built_in("spring"));
     lab.apply(Command::Act(Action::Place { body: 0, q: [2.5].into(), v: [0.0].into() }));
     let at_start = parsed(&lab.recording().unwrap());
@@ -260,4 +294,13 @@ fn what_is_done_at_the_last_tick_is_in_the_recording() {
     let recorded = parsed(&lab.recording().unwrap());
     assert_eq!(recorded.script.iter().map(|row| row.tick).collect::<Vec<_>>(), [0, 10]);
     assert!(wrong_lanes(&recorded).is_empty());
+}
+
+#[test]
+fn a_recording_keeps_the_hint_and_one_without_a_tick_keeps_the_length() {
+    let mut scene = Scene::built_in("spring").unwrap();
+    scene.hint = Some("Press `K`.".into());
+    let session = Session::racing(scene.clone().into());
+    let recorded = session.recording(0);
+    assert_eq!((recorded.hint, recorded.seconds), (scene.hint, scene.seconds));
 }

@@ -65,3 +65,28 @@ fn a_frame_goes_no_further_than_it_may() {
     lab.advance_to(7, 100_000_000);
     assert_eq!(lab.race().tick(), 7);
 }
+
+#[test]
+fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    (0..40).for_each(|_| lab.tick());
+    lab.apply(Command::Kick(1.0));
+    (0..40).for_each(|_| lab.tick());
+    let (hash, journal) = (lab.race().state_hash(), lab.race().journal().clone());
+    lab.apply(Command::Restart);
+    assert_eq!(lab.viewer().notice.as_deref(), Some("restarted: Ctrl Z brings back the run"));
+    (0..3).for_each(|_| lab.tick());
+    // A second restart is not about the run of three ticks.
+    lab.apply(Command::Restart);
+    assert_eq!(lab.viewer().notice, None);
+    (0..5).for_each(|_| lab.tick());
+    lab.apply(Command::Undo);
+    assert_eq!((lab.race().tick(), lab.race().state_hash()), (80, hash));
+    assert_eq!(lab.race().journal(), &journal);
+    assert!(lab.viewer().notice.as_deref().unwrap().starts_with("the run before the restart"));
+    lab.apply(Command::Seek(40));
+    lab.apply(Command::Seek(80));
+    assert_eq!(lab.race().state_hash(), hash, "with its past");
+    lab.apply(Command::Undo);
+    assert_eq!((lab.race().tick(), lab.race().journal().rows().len()), (5, 0));
+}

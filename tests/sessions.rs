@@ -1,8 +1,11 @@
-//! A run is a value: a copy goes on alike to the bit, and any tick of the past is what it was. On random journals; the
+//! A run is a value: a copy continues identically to the bit, and any past tick can be reached again. On random journals; the
 //! seed is printed, and `REGATTA_SEED` sets another.
 
 use std::sync::Arc;
 
+mod dice;
+
+use dice::Dice;
 use regatta::lab::{
     Action, Command, Event, EventKind, Lab, LaneSpec, Past, SNAPSHOT_BYTES, Scene, Session,
     Timeline, TruthSample,
@@ -10,29 +13,7 @@ use regatta::lab::{
 use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::METHODS;
 
-/// SplitMix64.
-struct Dice(u64);
-
 impl Dice {
-    fn new(of_test: u64) -> Self {
-        let seed = std::env::var("REGATTA_SEED").ok().and_then(|seed| seed.parse().ok());
-        let seed = seed.unwrap_or(20_261_120);
-        println!("seed {seed}");
-        Self(seed ^ of_test << 32)
-    }
-
-    fn part(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + self.part() * (high - low)
-    }
-
     fn below(&mut self, count: usize) -> usize {
         (self.part() * count as f64) as usize
     }
@@ -45,8 +26,8 @@ impl Dice {
     }
 }
 
-/// A scene of one or two bodies and up to three lanes. The bodies are drawn from all kinds, those without a closed
-/// form more rarely, as their truth takes long.
+/// A scene of one or two bodies and up to three lanes. The bodies are drawn from all kinds, kinds without a closed form
+/// more rarely, because their truth takes long.
 fn scene(dice: &mut Dice, n: usize) -> Scene {
     let kinds = ["spring", "ship", "chain", "orbit", "spring", "ship"];
     let first = if n.is_multiple_of(40) {
@@ -76,7 +57,7 @@ fn scene(dice: &mut Dice, n: usize) -> Scene {
     Scene { bodies, lanes, opening_method: None, tick_hz: 60, seconds: 20.0, ..all[0].clone() }
 }
 
-/// Something that can be done to the session as it stands.
+/// A random action that is possible in the session's present.
 fn action(dice: &mut Dice, session: &Session) -> Action {
     let race = session.race();
     let lane = race.entrants()[dice.below(race.entrants().len())].lane_number;
@@ -119,7 +100,7 @@ fn hashes(session: &Session) -> Vec<u64> {
     session.race().lane_hashes().collect()
 }
 
-/// The ticks at which something is done, in order.
+/// The ticks of the actions, in order.
 fn ticks_of_actions(dice: &mut Dice, ticks: u64) -> Vec<u64> {
     let mut at: Vec<u64> = (0..40).map(|_| dice.below(ticks as usize) as u64).collect();
     at.sort_unstable();
@@ -128,7 +109,7 @@ fn ticks_of_actions(dice: &mut Dice, ticks: u64) -> Vec<u64> {
 
 const TICKS: u64 = 10_000;
 
-/// Runs journals `from`, `from + 2` and so on: whole, from copies made on the way, and again from what the journal says.
+/// Runs journals `from`, `from + 2` and so on: whole, from copies made on the way, and again from the journal.
 fn journals(from: usize) {
     let mut dice = Dice::new(from as u64);
     for n in (from..200).step_by(2) {
@@ -175,7 +156,7 @@ fn journals(from: usize) {
     }
 }
 
-/// Runs what is read from the text of a run, past all its checks.
+/// Runs the scene in the text of a recording, and compares all its checks.
 fn written_and_read(n: usize, whole: &Session) {
     let text = whole.recording(TICKS).to_toml();
     let read = Scene::parse("recording.toml", &text);
@@ -186,24 +167,22 @@ fn written_and_read(n: usize, whole: &Session) {
     let mut session = Session::racing(read.clone().into());
     for check in &read.checks {
         session.run(check.tick - session.race().tick());
-        let entrants = session.race().entrants().iter();
-        let mut lanes = entrants.zip(session.race().lane_hashes());
-        let lane = lanes.find(|(entrant, _)| entrant.lane_number == check.lane);
-        assert_eq!(lane.map(|(_, hash)| hash), Some(check.hash), "journal {n}: {check:?}");
+        let hash = session.race().lane_hash(check.lane);
+        assert_eq!(hash, Some(check.hash), "journal {n}: {check:?}");
     }
 }
 
 #[test]
-fn random_journals_run_whole_from_copies_and_again_to_the_same_bit() {
+fn random_journals_repeat_to_the_bit_whole_from_copies_and_from_recordings() {
     journals(0);
 }
 
 #[test]
-fn more_random_journals_run_whole_from_copies_and_again_to_the_same_bit() {
+fn more_random_journals_repeat_to_the_bit_whole_from_copies_and_from_recordings() {
     journals(1);
 }
 
-/// All that is shown of a run, to the bit.
+/// The bits of everything that is drawn of a run.
 #[derive(Debug, PartialEq)]
 struct Shown {
     tick: u64,
@@ -230,7 +209,7 @@ fn shown(timeline: &Timeline) -> Shown {
 }
 
 #[test]
-fn to_go_to_a_tick_is_the_same_from_anywhere_as_to_run_there() {
+fn a_seek_from_any_tick_gives_the_state_of_a_run_to_that_tick() {
     let mut dice = Dice::new(2);
     for n in 0..24 {
         let mut timeline = Timeline::new(start(&mut dice, n));
@@ -279,7 +258,7 @@ fn difference(found: &Shown, wanted: &Shown) -> String {
 }
 
 #[test]
-fn an_action_in_the_past_begins_another_future_and_undo_brings_the_old_one_back() {
+fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
     let mut dice = Dice::new(3);
     for n in 0..8 {
         let mut lab = Lab::new(scene(&mut dice, n));
@@ -315,7 +294,7 @@ fn an_action_in_the_past_begins_another_future_and_undo_brings_the_old_one_back(
 }
 
 #[test]
-fn ten_hours_stay_within_the_memory_that_is_granted() {
+fn snapshots_of_ten_hours_stay_within_their_memory_limit() {
     // Of a million ticks, more than of ten hours at the scene's rate.
     let scene = Scene { tick_hz: 30, ..Scene::built_in("spring").unwrap() };
     let limit = 1 << 20;
@@ -348,7 +327,7 @@ fn every_kind_of_body_is_among_the_random_scenes() {
 }
 
 #[test]
-fn what_happened_is_told_by_tick_goes_with_its_future_and_comes_back_with_it() {
+fn events_are_ordered_by_tick_and_are_discarded_and_restored_with_their_future() {
     let scene = Scene::built_in("stiff").unwrap();
     let mut timeline = Timeline::new(Session::racing(scene.into()));
     (0..50).for_each(|_| timeline.tick());
@@ -381,14 +360,14 @@ fn what_happened_is_told_by_tick_goes_with_its_future_and_comes_back_with_it() {
 }
 
 #[test]
-fn undo_takes_back_what_an_action_in_the_past_chose_for_the_next_start_too() {
+fn undo_also_restores_the_settings_of_the_next_start() {
     let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
     lab.apply(Command::ToggleRace);
     (0..200).for_each(|_| lab.tick());
     let substeps = |lab: &Lab| -> Vec<u32> {
         lab.race().entrants().iter().map(|entrant| entrant.lane.substeps()).collect()
     };
-    let (mass, plain, asked) = (lab.race().values(0)[0], substeps(&lab), lab.question());
+    let (mass, plain, asked) = (lab.race().values(0)[0], substeps(&lab), lab.analysis_request());
     for command in [
         Command::Act(Action::Set { body: 0, parameter: 0, value: 2.5 }),
         Command::TickHz(50),
@@ -398,7 +377,7 @@ fn undo_takes_back_what_an_action_in_the_past_chose_for_the_next_start_too() {
         lab.apply(command);
         lab.apply(Command::Undo);
         assert_eq!((lab.race().values(0)[0], lab.scene().bodies[0].values[0]), (mass, mass));
-        assert!(lab.question() == asked);
+        assert!(lab.analysis_request() == asked);
     }
     lab.apply(Command::ToggleEqualCost);
     assert_ne!(substeps(&lab), plain, "what was undone is not taken back, but done");
@@ -408,7 +387,7 @@ fn undo_takes_back_what_an_action_in_the_past_chose_for_the_next_start_too() {
 }
 
 #[test]
-fn what_acts_at_the_start_leaves_the_run_and_its_future_as_they_are() {
+fn a_parameter_that_acts_at_the_start_does_not_change_the_run_or_its_future() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     (0..200).for_each(|_| lab.tick());
     lab.apply(Command::Seek(100));

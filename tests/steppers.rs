@@ -252,7 +252,7 @@ fn a_copy_of_a_stepper_goes_on_alike_to_the_bit() {
     };
     let methods = METHODS.iter().map(Solver::Method);
     let adaptive = METHODS.iter().filter(|method| method.tolerance.is_some());
-    let tolerant = adaptive.map(|method| Solver::Within(method, 1e-7));
+    let tolerant = adaptive.map(|method| Solver::WithTolerance(method, 1e-7));
     for solver in methods.chain(tolerant).chain([Solver::Truth]) {
         for (id, mut body) in bodies(solver, 0.4) {
             // Not at a kick, so that methods with a memory have one.

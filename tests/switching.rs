@@ -2,8 +2,8 @@
 //! left it.
 
 use regatta::lab::{
-    Action, Command, Lab, Lane, LaneBody, LaneSpec, Observer, Origin, Past, Race, Scene, SceneBody,
-    TakenUp,
+    Action, Command, Lab, Lane, LaneBody, LaneSpec, Observer, Past, Race, Resumed, ResumedFrom,
+    Scene, SceneBody,
 };
 use regatta::sim::bodies::{Body, Input, Ship, Spring};
 use regatta::sim::integrators::{METHODS, Method, method};
@@ -311,7 +311,7 @@ fn rk4() -> LaneSpec {
 }
 
 #[test]
-fn a_body_that_blew_up_is_taken_up_from_the_truth_and_the_others_from_where_they_are() {
+fn a_body_that_blew_up_resumes_from_the_truth_and_the_others_continue() {
     let scene = ship_and_lively_spring();
     let (mut race, mut past) = halted_before(&scene, |race| Past::new(race, scene.seconds));
     let halt = race.entrants()[0].lane.halted().unwrap().clone();
@@ -319,8 +319,8 @@ fn a_body_that_blew_up_is_taken_up_from_the_truth_and_the_others_from_where_they
     run(&mut race, 10);
     let ship = body_bits(&race.entrants()[0].lane.bodies()[0]);
     let switch = Action::Lane { lane: 1, spec: rk4() };
-    let taken_up = race.perform(&switch, &mut past);
-    assert_eq!(taken_up, [TakenUp { halt, from: Origin::Truth }]);
+    let resumed = race.perform(&switch, &mut past);
+    assert_eq!(resumed, [Resumed { halt, from: ResumedFrom::Truth }]);
     let (lane, truth) = (&race.entrants()[0].lane, race.truth());
     assert_eq!(lane.halted(), None);
     assert_eq!(body_bits(&lane.bodies()[0]), ship, "the ship had not halted");
@@ -344,9 +344,9 @@ fn where_the_truth_has_failed_too_a_body_is_taken_up_from_its_last_good_state() 
     race.input(Input::Kick(1e300));
     run(&mut race, 10);
     assert!(race.truth().halted().is_some());
-    let taken_up = race.switch(0, rk4());
-    let from: Vec<_> = taken_up.iter().map(|taken_up| taken_up.from).collect();
-    assert_eq!(from, [Origin::LastGood]);
+    let resumed = race.switch(0, rk4());
+    let from: Vec<_> = resumed.iter().map(|resumed| resumed.from).collect();
+    assert_eq!(from, [ResumedFrom::LastGood]);
     assert_eq!(bits(&race.entrants()[0].lane), last);
     run(&mut race, 10);
     assert_ne!(bits(&race.entrants()[0].lane), last, "it goes on");
@@ -384,7 +384,7 @@ fn a_method_is_not_blamed_for_a_state_that_it_inherits_and_the_notice_says_where
     lab.apply(Command::Pick(3));
     assert_eq!(
         lab.viewer().notice.as_deref(),
-        Some("stiff spring had blown up: taken up again from the exact solution")
+        Some("stiff spring had blown up: resumed from the exact solution")
     );
     for _ in 0..1000 {
         lab.tick();

@@ -1,6 +1,6 @@
 //! Verdicts that were false once, each on the scene where it was.
 
-use regatta::lab::{Adviser, CRITERIA, Judge, LaneSpec, Scene, Verdict, Word};
+use regatta::lab::{Adviser, CRITERIA, Judge, LaneSpec, Outcome, Scene, Verdict};
 use regatta::sim::Solver;
 use regatta::sim::integrators::{METHODS, method};
 
@@ -41,7 +41,7 @@ fn a_truth_that_fails_is_no_agreement() {
                     || lane.q()[0].is_nan()
                     || lane.q()[0].abs() >= 10.0
             });
-            let praised = found.word <= Word::Accurate;
+            let praised = found.outcome <= Outcome::Accurate;
             assert!(!(strays && praised), "{body}: {} strays, and is {found}", method.id);
         }
     }
@@ -51,11 +51,11 @@ fn a_truth_that_fails_is_no_agreement() {
 fn words_are_of_the_motion_and_not_of_its_faintest_mode() {
     // Runge-Kutta takes the fastest of the chain's modes within seconds, and a seventh of its energy in ten minutes.
     let found = verdict(&built_in("chain"), "rk4", 60);
-    assert_eq!(found.word, Word::OutOfPhase, "{found}");
+    assert_eq!(found.outcome, Outcome::OutOfPhase, "{found}");
     assert!(found.halves_in_s.is_none_or(|halves| halves > 3600.0), "{found:?}");
     // Improved Euler doubles the swing in 769 s, which nobody sees in 20.
     let found = verdict(&built_in("spring"), "improved-euler", 60);
-    assert_eq!(found.word, Word::OutOfPhase);
+    assert_eq!(found.outcome, Outcome::OutOfPhase);
     assert!((768.0..770.0).contains(&found.doubles_in_s.unwrap()));
 }
 
@@ -73,11 +73,11 @@ fn an_orbit_that_is_flung_out_is_not_one_that_does_not_grow() {
     let radial = scene(20.0, "[[orbit]]\nmu_m3_per_s2 = 1000\nx0_m = 10\nvy0_m_per_s = 0.01");
     for id in ["explicit-euler", "rk4", "semi-implicit-euler", "velocity-verlet"] {
         let found = verdict(&radial, id, 60);
-        let word = found.word;
-        assert!(word >= Word::OutOfPhase || word == Word::NoTruth, "{id}: {found}");
+        let word = found.outcome;
+        assert!(word >= Outcome::OutOfPhase || word == Outcome::NoTruth, "{id}: {found}");
         if found.error > 100.0 {
             assert!(
-                matches!(word, Word::GainsEnergy | Word::BlewUp | Word::NoTruth),
+                matches!(word, Outcome::GainsEnergy | Outcome::BlewUp | Outcome::NoTruth),
                 "{id}: {found}"
             );
         }
@@ -100,7 +100,7 @@ fn a_pendulum_is_not_judged_by_the_map_about_one_of_its_states() {
     let scene = scene(20.0, "[[pendulum]]\nlength_m = 0.4\ntheta0_rad = 0.7");
     // At 3 Hz it turns over and over, to 2170 rad.
     let found = verdict(&scene, "semi-implicit-euler", 3);
-    assert_eq!((found.word, found.is_bounded), (Word::GainsEnergy, Some(false)), "{found}");
+    assert_eq!((found.outcome, found.is_bounded), (Outcome::GainsEnergy, Some(false)), "{found}");
     // The frequency of its swing is lower than that about its rest by 0.49/16, and the method's error is of that.
     let found = verdict(&scene, "semi-implicit-euler", 30);
     let error = found.frequency_error.unwrap();
@@ -138,7 +138,7 @@ fn adams_bashforth_is_bounded_from_the_rate_at_which_it_takes_a_year_to_double()
 fn energy_drifts_relative_to_the_energy_in_motion() {
     let ship = scene(20.0, "[[ship]]\nthrust_n = 1234.5\ndrag_n_s_per_m = 0\nmass_kg = 777");
     let found = verdict(&ship, "rk4", 7);
-    assert_eq!(found.word, Word::Rounding);
+    assert_eq!(found.outcome, Outcome::Rounding);
     assert!(found.energy_drift.is_none_or(|drift| drift.abs() < 1e-9), "{found:?}");
     let still = scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\nx0_m = 0");
     assert_eq!(verdict(&still, "rk4", 60).energy_drift, None);
@@ -150,7 +150,7 @@ fn what_cannot_be_said_is_not_said() {
     for id in ["dormand-prince-54", "rk4", "gauss-legendre-4"] {
         let found = verdict(&damped, id, 60);
         assert_eq!((found.doubles_in_s, found.is_bounded), (None, Some(true)), "{id}: {found}");
-        assert!(found.word <= Word::Accurate, "{id}: {found}");
+        assert!(found.outcome <= Outcome::Accurate, "{id}: {found}");
     }
     // The loss of an adaptive method changes as the swing gets smaller.
     let spring = scene(20.0, "[[spring]]\nmass_kg = 1.509\nstiffness_n_per_m = 5841.83");
@@ -168,25 +168,25 @@ fn what_cannot_be_said_is_not_said() {
 
 #[test]
 fn nothing_but_rounding_is_within_rounding() {
-    assert_eq!(verdict(&built_in("ship"), "explicit-euler", 2).word, Word::OutOfPhase);
+    assert_eq!(verdict(&built_in("ship"), "explicit-euler", 2).outcome, Outcome::OutOfPhase);
     // A fast fly-by is nearly straight, and explicit Euler nearly right on it.
     let fast = scene(
         1.0,
         "[[orbit]]\nmu_m3_per_s2 = 6.488\nx0_m = 3.381\nvx0_m_per_s = 1e5\nvy0_m_per_s = 2.718",
     );
     let found = verdict(&fast, "explicit-euler", 60);
-    assert!(found.word != Word::Rounding || found.error < 1e-9, "{found:?}");
+    assert!(found.outcome != Outcome::Rounding || found.error < 1e-9, "{found:?}");
 }
 
 #[test]
 fn what_takes_too_much_work_is_not_judged() {
     let stiff = scene(20.0, "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e12");
     let found = verdict(&stiff, "dormand-prince-54", 1000);
-    assert_eq!(found.word, Word::NotJudged, "{found}");
+    assert_eq!(found.outcome, Outcome::NotJudged, "{found}");
     assert_eq!(found.to_string(), "not judged: too much work");
     let long = scene(20.0, "[[chain]]\nmasses = 256\nmass_kg = 1\nstiffness_n_per_m = 800");
     let found = verdict(&long, "gauss-legendre-4", 60);
-    assert_eq!(found.word, Word::NotJudged, "{found}");
+    assert_eq!(found.outcome, Outcome::NotJudged, "{found}");
 }
 
 #[test]
@@ -197,7 +197,7 @@ fn the_recommended_lanes_meet_their_criterion_in_a_race() {
         let adviser = Adviser::new(&scene, 1.0, scene.tick_hz);
         let accurate = 2;
         let advised: Vec<_> = ["rk4", "velocity-verlet", "pefrl", "position-verlet"]
-            .map(|id| regatta::lab::Advised {
+            .map(|id| regatta::lab::MethodAdvice {
                 spec: spec(id),
                 verdict: adviser.verdict(spec(id)),
                 met: CRITERIA.map(|criterion| adviser.meets(spec(id), criterion)),
@@ -231,8 +231,8 @@ fn a_scene_is_judged_with_the_inputs_of_its_script() {
                 x0_m = 0\n[[command]]\ntick = 60\nkick = 1.0\n";
     let kicked = Scene::parse("t", text).unwrap();
     let found = verdict(&kicked, "explicit-euler", 60);
-    assert!(matches!(found.word, Word::GainsEnergy | Word::BlewUp), "{found}");
-    assert_eq!(verdict(&kicked, "dormand-prince-54", 60).word, Word::Accurate);
+    assert!(matches!(found.outcome, Outcome::GainsEnergy | Outcome::BlewUp), "{found}");
+    assert_eq!(verdict(&kicked, "dormand-prince-54", 60).outcome, Outcome::Accurate);
     // The helm turns, and explicit Euler's course with it: off by metres.
     let helm = built_in("helm");
     let found = verdict(&helm, "explicit-euler", helm.tick_hz);

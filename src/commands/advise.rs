@@ -1,4 +1,4 @@
-//! `regatta advise`: which method to take for a scene at its tick rate, and why.
+//! `regatta advise`: recommends a method for a scene at its tick rate, and says why.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use judged::{judge_all, warn_of_load};
 
 const ABOUT: &str = "\
 Each method is judged on the scene from its start, with its script's inputs, against the exact solution, at
-the scene's tick rate or at --tick-hz. It is asked for the fewest substeps in a tick, 1 to 64, that meet
+the scene's tick rate or at --tick-hz. For each criterion the fewest substeps per tick, 1 to 64, are sought:
 
   bounded      nothing grows that should not, over the scene and in the long run: no mode of a linear body
                doubles within a year; any other body is followed for 20 times the scene's length
@@ -27,18 +27,18 @@ the scene's tick rate or at --tick-hz. It is asked for the fewest substeps in a 
                body that does not swing stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
-The scene's length is cut to a minute. Costs are those of all bodies for a simulated second: evaluations
-of the acceleration, and time measured here and now, the best of several runs. HOLDS FROM is the slowest
-whole tick rate, down from the one asked about, at which the criterion still holds with as many substeps;
-STIFFER BY is how many times the parameter it names may grow, at most 10000. The recommended method is the
-cheapest; evaluations decide between costs within a fifth of each other.
+A scene longer than a minute is judged over its first minute. Costs are those of all bodies per simulated
+second: evaluations of the acceleration, and time measured on this machine, the best of several runs. HOLDS
+FROM is the slowest whole tick rate, at or below the one judged, at which the criterion still holds with the
+same substeps; STIFFER BY is the largest factor, at most 10000, by which the named parameter may grow. The
+recommended method is the cheapest; between times within a fifth of each other, evaluations decide.
 
 Examples:
   regatta advise --scene harbour
   regatta advise --scene my.toml --tick-hz 50 --format json
   regatta advise --scene spring --method rk4 --method semi-implicit-euler --rates";
 
-/// Say which method to take for a scene at its tick rate, with how many substeps
+/// Recommend a method and its substeps for a scene at its tick rate
 #[derive(Debug, Args)]
 #[command(after_help = ABOUT)]
 pub(super) struct AdviseArgs {
@@ -50,7 +50,7 @@ pub(super) struct AdviseArgs {
     #[arg(long)]
     rates: bool,
 
-    /// How to write it: text or json
+    /// The format: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
     format: TableFormat,
 }

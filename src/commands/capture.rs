@@ -1,12 +1,12 @@
-//! `regatta capture`: a run drawn frame by frame, by a clock that is computed and not read, so that the
-//! same command makes the same bytes.
+//! `regatta capture`: draws a run frame by frame. The time of each frame is computed, not read from a clock, so
+//! that the same command makes the same bytes.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
 use super::error::Error;
-use super::experiment::{self, ExperimentArgs, Lineup};
+use super::experiment::{self, ExperimentArgs, Lineup, ThemeName};
 use super::frame_folder::names::MOST_FRAMES;
 use super::frame_folder::{Existing, FrameFolder};
 use super::movie::{self, MovieFormat};
@@ -14,7 +14,8 @@ use super::output::picture_format::PictureFormat;
 use super::output::{AtomicOutput, Older, OutputError, Place};
 use super::recording::Recording;
 use super::schedule::{FPS, MOST_FPS, Schedule, frames_in};
-use super::{clip, logbook, sheet};
+use super::{clip, sheet, state_log};
+use crate::lab::palette::Theme;
 use crate::view::Panels;
 
 const EXAMPLES: &str = "\
@@ -38,12 +39,12 @@ pub(super) struct CaptureArgs {
     #[arg(long)]
     race: bool,
 
-    /// The directory for frame-000000.png and so on, made where there is none; in other formats than
-    /// png a file, or - for standard output
+    /// The directory for frame-000000.png and so on, created if necessary; in formats other than png a
+    /// file, or - for standard output
     #[arg(long, value_name = "DIR|FILE")]
     out: PathBuf,
 
-    /// How many frames to draw, 1 to 1000000; in a sheet how many across [sheet: 6]
+    /// How many frames to draw, 1 to 1000000; in a sheet the number of columns [sheet: 6]
     #[arg(long, value_name = "N", conflicts_with = "seconds")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_FRAMES)))]
     frames: Option<u32>,
@@ -53,35 +54,38 @@ pub(super) struct CaptureArgs {
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// Frames in a simulated second, 1 to 1000 [default: 30; sheet: 1]
+    /// Frames per simulated second, 1 to 1000 [default: 30; sheet: 1]
     #[arg(long, value_name = "F")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_FPS)))]
     fps: Option<u32>,
 
-    /// Width and height in pixels, 1x1 to 8192x8192; in a sheet of each cell [default: 1280x720;
+    /// Width and height in pixels, 1x1 to 8192x8192; in a sheet those of each cell [default: 1280x720;
     /// sheet: 320x180]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
 
-    /// Pixels to a point, 0.5 to 4: the size of text and lines
+    /// Pixels per point, 0.5 to 4: the size of text and lines
     #[arg(long, value_name = "S", default_value = "1", value_parser = scale)]
     scale: f32,
+
+    /// The theme: dark or light [default: dark]
+    #[arg(long, value_name = "THEME", hide_possible_values = true)]
+    theme: Option<ThemeName>,
 
     /// Whether panels are shown around the stage: on or off [default: on; sheet: off]
     #[arg(long, value_name = "WHEN", hide_possible_values = true)]
     panels: Option<Shown>,
 
-    /// Ticks from one state in the manifest to the next [default: about 500 states in all]
+    /// Ticks between two states in the manifest [default: about 500 states in all]
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     mark_every: Option<u64>,
 
-    /// How to write pictures: png, apng, gif, y4m, rgba or sheet [default: by the ending of FILE; png for
-    /// a DIR]
+    /// The format: png, apng, gif, y4m, rgba or sheet [default: by the ending of FILE; png for a DIR]
     #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
     format: Option<PictureFormat>,
 
-    /// Replace the frames that DIR holds, other files in it stay; or replace FILE
+    /// Replace the frames in DIR, where other files stay; or replace FILE
     #[arg(long)]
     force: bool,
 
@@ -96,7 +100,7 @@ enum Shown {
     Off,
 }
 
-/// A moment a second: enough to see a method go astray on every scene.
+/// One column per second: enough to see a method fail on every scene.
 const SHEET_FPS: u32 = 1;
 
 /// As many cells as stand beside each other on a page.
@@ -128,9 +132,10 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
             Shown::Off => Panels::Off,
         },
         motion: true,
+        theme: args.theme.map(Theme::from).unwrap_or_default(),
         mark_every: args
             .mark_every
-            .unwrap_or_else(|| logbook::usual_stride(schedule.ticks(&experiment.lab()))),
+            .unwrap_or_else(|| state_log::usual_stride(schedule.ticks(&experiment.lab()))),
     };
     let movie = match format {
         PictureFormat::Png => {

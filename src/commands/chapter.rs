@@ -10,7 +10,7 @@ use clap::Args;
 use super::error::Error;
 use super::output::print;
 use super::terminal::tell;
-use crate::view::{AdapterPreference, Artist, Gpu, png};
+use crate::view::{AdapterPreference, Gpu, OffscreenRenderer, png};
 
 mod adaptive;
 mod figures;
@@ -61,12 +61,12 @@ const SCALE: f32 = 1.6;
 
 fn draw(mut folder: FigureFolder) -> Result<(), Error> {
     let gpu = Gpu::headless(AdapterPreference::Any)?;
-    let mut artist = Artist::new(gpu, SIZE_PX, SCALE)?;
+    let mut renderer = OffscreenRenderer::new(gpu, SIZE_PX, SCALE)?;
     folder.clear()?;
     let mut rgba = Vec::new();
     let diagrams = figures::all();
     for Diagram { number, figure } in &diagrams {
-        artist.draw_figure(figure, &mut rgba)?;
+        renderer.draw_figure(figure, &mut rgba)?;
         let name = format!("figure-{number}");
         folder.write(&format!("{name}.csv"), figures::csv(figure).as_bytes())?;
         folder.write(&format!("{name}.png"), &png::encode(SIZE_PX, &rgba))?;

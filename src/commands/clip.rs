@@ -1,15 +1,15 @@
-//! A run drawn into a folder of numbered pictures, with a manifest beside them.
+//! Draws a run into a folder of numbered pictures, and writes a manifest beside them.
 
 use super::experiment::Experiment;
 use super::fingerprint::fingerprint;
 use super::frame_folder::names::frame_name;
 use super::frame_folder::{FrameFolder, FrameFolderError};
 use super::interrupt::watch_for_interrupt;
-use super::logbook::{self, Logbook};
 use super::manifest::{FrameEntry, Manifest, SCHEMA};
 use super::pipeline::{Drawn, Run, Stop};
 use super::recording::{Recording, RecordingError, adapter, closing_line};
 use super::settings;
+use super::state_log::{self, StateLog};
 use super::terminal::{progress, tell};
 use crate::view::png;
 
@@ -20,21 +20,21 @@ pub(super) fn record(
     mut folder: FrameFolder,
 ) -> Result<(), RecordingError> {
     let Recording { schedule, size_px, .. } = recording;
-    let mut artist = recording.artist()?;
-    let adapter = adapter(&artist);
+    let mut renderer = recording.renderer()?;
+    let adapter = adapter(&renderer);
     folder.clear(schedule.frames)?;
 
     let interrupted = watch_for_interrupt();
     let progress = progress(schedule.frames, "frames");
     let mut lab = recording.lab(experiment);
-    let mut logbook = Logbook::new(recording.mark_every, lab.race());
+    let mut state_log = StateLog::new(recording.mark_every, lab.race());
     let mut entries = Vec::new();
     // Frames that are kept are drawn again: to prove that they belong to this run, and because a glyph's
     // place in egui's atlas, and with it the last bit of a few pixels, depends on the frames before it.
     let run = Run {
-        artist: &mut artist,
+        renderer: &mut renderer,
         lab: &mut lab,
-        logbook: &mut logbook,
+        state_log: &mut state_log,
         schedule,
         interrupted: &interrupted,
     };
@@ -58,7 +58,7 @@ pub(super) fn record(
     settled.map_err(|source| RecordingError::Write { source, whole: whole.clone() })?;
     let (done, frames) = (entries.len() as u32, schedule.frames);
     if done < frames && !folder.takes_a_part() {
-        return Err(RecordingError::interrupted(done, frames, "those of before"));
+        return Err(RecordingError::interrupted(done, frames, "the old frames"));
     }
     let settings = settings::written(experiment, &recording);
     let manifest = Manifest {
@@ -69,8 +69,8 @@ pub(super) fn record(
         adapter,
         complete: done == frames,
         frames: entries,
-        lanes: logbook::ends(&lab),
-        marks: logbook.close(lab.race()),
+        lanes: state_log::ends(&lab),
+        marks: state_log.close(lab.race()),
     };
     let (path, others) = (folder.path().to_owned(), folder.others().to_vec());
     let written = folder.finish(&manifest.to_text());

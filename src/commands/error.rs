@@ -1,13 +1,13 @@
-//! Why a command did not do what was asked, whatever the cause.
+//! The error that ends a command, whatever its cause.
 
 use annotate_snippets::{Group, Level, Renderer};
 
 use crate::view::{GpuError, ReadbackError};
 use crate::window::WindowError;
 
-/// An error that ends a command. Each is declared beside what raises it.
+/// An error that can end a command. Each is declared beside the code that raises it.
 pub trait Cause: std::error::Error + Send + Sync + 'static {
-    /// What the process returns: 1 for a run that failed, 2 for what was asked wrongly, 130 for an
+    /// The exit code of the process: 1 for a run that failed, 2 for a mistake in the request, 130 for an
     /// interrupt.
     fn exit_code(&self) -> u8;
 
@@ -27,13 +27,13 @@ pub(super) fn message(error: &(impl std::error::Error + ?Sized), renderer: &Rend
     renderer.render(&[Group::with_title(Level::ERROR.primary_title(error.to_string()))])
 }
 
-/// Why a command did not do what was asked.
+/// The error that ends a command.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct Error(Box<dyn Cause>);
 
 impl Error {
-    /// What the process returns: 1 for a run that failed, 2 for what was asked wrongly, 130 for an
+    /// The exit code of the process: 1 for a run that failed, 2 for a mistake in the request, 130 for an
     /// interrupt.
     pub fn exit_code(&self) -> u8 {
         self.0.exit_code()
@@ -44,7 +44,7 @@ impl Error {
         self.0.is_closed_pipe()
     }
 
-    /// The message, with the lines of the scene file that it speaks of.
+    /// The message, with the lines of the scene file that it refers to.
     pub fn report(&self, renderer: &Renderer) -> String {
         self.0.report(renderer)
     }

@@ -3,48 +3,51 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
 use clap::builder::{PossibleValue, TypedValueParser};
+use clap::{Args, ValueEnum};
 
 use super::scene_file::{self, SceneFileError};
+use crate::lab::palette::Theme;
 use crate::lab::{
     Clock, Command, Lab, LaneSpec, MOST_SECONDS, SCENES, Scene, lanes_that_race, nearest,
 };
 use crate::sim::integrators::{METHODS, Method, method};
 
-/// What is run.
+/// The options that choose a scene, its methods and its tick rate.
 #[derive(Clone, Debug, Args)]
 pub(super) struct ExperimentArgs {
     /// A built-in scene (`regatta list scenes`), or else the path of a scene file
-    #[arg(long, value_name = "NAME|FILE", default_value = SCENES[0].name)]
+    /// [default: harbour]
+    #[arg(long, value_name = "NAME|FILE")]
     #[arg(value_parser = SceneParser, hide_possible_values = true)]
-    scene: PathBuf,
+    scene: Option<PathBuf>,
 
     /// An integrator (`regatta list methods`); give several to race them
     #[arg(long = "method", value_name = "ID", value_parser = MethodParser)]
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
-    /// Ticks in a second, 1 to 10000 [default: the scene's]
+    /// Ticks per second, 1 to 10000 [default: the scene's]
     #[arg(long, value_name = "N")]
     #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
     tick_hz: Option<u32>,
 }
 
-/// Which lanes there are where fewer than two methods are named.
+/// Which lanes there are if fewer than two methods are named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lineup {
-    /// The one method named, else the one that the scene opens with.
+    /// The one method named, else the one that the scene opens with. A scene that opens as a race races where no method
+    /// is named.
     Solo,
-    /// All methods of the scene; the one named, if any, is selected.
+    /// All lanes of the scene; the named method, if any, is selected.
     Everyone,
 }
 
-/// A scene and who sails it.
+/// A scene with the command line's options applied, and the methods that run it.
 pub(super) struct Experiment {
-    /// With the options applied.
+    /// The scene, with the options applied.
     pub(super) scene: Scene,
-    /// The scene file's text, as it was.
+    /// The text of the scene file, without the options.
     pub(super) text: String,
     /// The first method named.
     pub(super) selected: Option<&'static Method>,
@@ -54,15 +57,19 @@ pub(super) struct Experiment {
 impl ExperimentArgs {
     /// Reads the scene and applies the other options to it.
     pub(super) fn load(&self, lineup: Lineup) -> Result<Experiment, SceneFileError> {
-        let (scene, text) = self.read(&self.scene)?;
-        let lineup = if self.methods.len() > 1 { Lineup::Everyone } else { lineup };
+        let (scene, text) = self.read(self.scene())?;
+        let lineup = match self.methods.len() {
+            0 if scene.opens_as_race => Lineup::Everyone,
+            0 | 1 => lineup,
+            _ => Lineup::Everyone,
+        };
         Ok(Experiment { scene, text, selected: self.methods.first().copied(), lineup })
     }
 
     /// Reads a scene, and applies the other options to it if it is the one that was given.
     pub(super) fn read(&self, path: &Path) -> Result<(Scene, String), SceneFileError> {
         let (mut scene, text) = scene_file::load(path)?;
-        if path == self.scene {
+        if path == self.scene() {
             scene.tick_hz = self.tick_hz.unwrap_or(scene.tick_hz);
             if self.methods.len() > 1 {
                 scene.lanes = lanes_of(&scene, &self.methods);
@@ -73,9 +80,21 @@ impl ExperimentArgs {
         Ok((scene, text))
     }
 
-    /// The scene as it was given: a name or a path.
+    /// The scene as it was given, a name or a path, or else the first built-in scene.
     pub(super) fn scene(&self) -> &Path {
-        &self.scene
+        self.scene.as_deref().unwrap_or(Path::new(SCENES[0].name))
+    }
+
+    /// The same options with this scene, unless they choose the scene, its methods or its tick rate.
+    pub(super) fn or_scene(&self, scene: &Path) -> Self {
+        let is_chosen = self.scene.is_some() || !self.methods.is_empty() || self.tick_hz.is_some();
+        let scene = if is_chosen { self.scene.clone() } else { Some(scene.to_owned()) };
+        Self { scene, ..self.clone() }
+    }
+
+    /// Whether a scene is given.
+    pub(super) fn names_a_scene(&self) -> bool {
+        self.scene.is_some()
     }
 
     /// The lanes of the methods named, as `scene` has them.
@@ -106,7 +125,7 @@ fn lanes_of(scene: &Scene, methods: &[&'static Method]) -> Vec<LaneSpec> {
     lanes
 }
 
-/// The lane that a scene opens with where nobody names a method: always one that it lists.
+/// The lane that a scene opens with if no method is named.
 fn opening_lane(scene: &Scene) -> &LaneSpec {
     let named = scene.lanes.iter().find(|lane| Some(lane.method) == scene.opening_method);
     named.or(scene.lanes.first()).expect("a scene has a lane")
@@ -118,7 +137,7 @@ impl Experiment {
         self.selected.unwrap_or_else(|| opening_lane(&self.scene).method)
     }
 
-    /// The lab at tick 0. One lane alone sails solo.
+    /// The lab at tick 0. A single lane is shown solo.
     pub(super) fn lab(&self) -> Lab {
         let mut lab = Lab::new(self.scene.clone());
         lab.apply(Command::Method(self.opening_method()));
@@ -127,7 +146,24 @@ impl Experiment {
         } else {
             lab.apply(Command::Restart);
         }
+        lab.begin_hints();
         lab
+    }
+}
+
+/// A theme on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ThemeName {
+    Dark,
+    Light,
+}
+
+impl From<ThemeName> for Theme {
+    fn from(name: ThemeName) -> Self {
+        match name {
+            ThemeName::Dark => Theme::Dark,
+            ThemeName::Light => Theme::Light,
+        }
     }
 }
 

@@ -1,11 +1,11 @@
-//! Ctrl-C: noticed without ending the process, so that what is done can be kept.
+//! Ctrl-C, SIGTERM and SIGHUP: each sets a flag in place of ending the process, so that finished work can be kept.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::error::Cause;
 
-/// Somebody pressed Ctrl-C.
+/// Ctrl-C was pressed, or the system asked the process to end.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Interrupted {
     /// The result is written whole or not at all, and was not written.
@@ -14,7 +14,7 @@ pub(super) enum Interrupted {
     /// Part of the work is done.
     #[error("interrupted after {done}")]
     After {
-        /// What is done, and of how much.
+        /// The finished part, such as `3 of 10 frames`.
         done: String,
     },
 }
@@ -25,7 +25,7 @@ impl Cause for Interrupted {
     }
 }
 
-/// A flag that is set once Ctrl-C is pressed.
+/// A flag that is set once Ctrl-C is pressed or the system asks the process to end.
 pub(super) fn watch_for_interrupt() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&interrupted);

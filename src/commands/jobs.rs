@@ -1,4 +1,4 @@
-//! Runs many independent jobs on a pool of threads, until they are done or somebody presses Ctrl-C.
+//! Runs independent jobs on a pool of threads until all are done or Ctrl-C is pressed.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -8,12 +8,12 @@ use indicatif::ProgressBar;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
-/// How long an interrupt may go unnoticed.
+/// The longest time until an interrupt is noticed.
 const PATIENCE: Duration = Duration::from_millis(50);
 
 /// The results of `work` for the jobs 0 to `number` - 1, in order; `None` for a job that was not done when
-/// `interrupted` was set. The threads are not waited for then: some jobs take minutes, and the process is
-/// about to end.
+/// `interrupted` was set. After an interrupt the threads are not waited for: some jobs take minutes, and the
+/// process is about to end.
 pub(super) fn results<R: Send + 'static>(
     pool: &ThreadPool,
     number: usize,

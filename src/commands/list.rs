@@ -16,7 +16,7 @@ Examples:
   regatta list bodies                  the tables and keys of a scene file
   regatta list methods --format json   with everything on a method's card";
 
-/// List the scenes, methods, bodies, metrics or keys that there are
+/// List the scenes, methods, bodies, metrics or keys
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct ListArgs {
@@ -24,7 +24,7 @@ pub(super) struct ListArgs {
     #[arg(value_name = "scenes|methods|bodies|metrics|keys")]
     what: Listing,
 
-    /// How to write it: text or json
+    /// The format: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
     format: TableFormat,
 }

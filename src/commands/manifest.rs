@@ -1,21 +1,22 @@
-//! `manifest.json`: what a capture drew, so that it can be judged later.
+//! `manifest.json`: describes what a capture drew, so that `regatta verify` can judge it later.
 //!
 //! The file stands beside the frames, is UTF-8 JSON, and appears whole, after the frames that it
 //! lists. Its numbers are exact: floats are the shortest decimals that read back to the same bits.
 //! This is [`SCHEMA`] 1:
 //!
 //! - `schema`: the number of this description. `regatta`: the version of the program that drew.
-//! - `settings`: all that the run depends on.
+//! - `settings`: everything that the run depends on.
 //!   - `scene`: `name`, `text` (the TOML) and the text's `hash`.
-//!   - `lanes`: what the scene's lanes are, after the command line: each a `method`, its `substeps` and, where
+//!   - `lanes`: the scene's lanes, with the command line applied: each a `method`, its `substeps` and, where
 //!     the scene gives one, its `tolerance`.
-//!   - `race`: whether all of them race; else the `selected` method sails alone. Where it is `null`, as
-//!     older programs wrote, it is the one that the scene opens with.
+//!   - `race`: whether all of them race. If not, the `selected` method is shown solo; `null`, as older programs
+//!     wrote it, stands for the scene's opening method.
 //!   - `tick_hz` at the start, `frames` asked for, `fps`, `size` in pixels, `scale` in pixels a point,
-//!     whether there are `panels`, whether there is `motion`, and `mark_every`, in ticks.
+//!     whether there are `panels`, whether there is `motion`, the `theme`
+//!     where it is `light`, and `mark_every`, in ticks.
 //! - `settings_hash`: the hash of `settings` as JSON without spaces.
-//! - `adapter`: what drew: `name`, `driver`, `driver_info`, `backend`, `kind`.
-//! - `complete`: `false` where the capture was interrupted.
+//! - `adapter`: the graphics adapter: `name`, `driver`, `driver_info`, `backend`, `kind`.
+//! - `complete`: `false` if the capture was interrupted.
 //! - `frames`: for each frame its `file`, the `tick` reached, `alpha` as numerator and denominator of
 //!   the part of the next tick that is drawn, and `pixels`, the hash of its RGBA bytes.
 //! - `lanes`: each lane at the end: `method`, `substeps`, the `hash` of its state, the tick at which its first
@@ -23,11 +24,11 @@
 //!   and, at the end, every metric of `regatta list metrics` against the exact solution, `null` where it has no
 //!   meaning.
 //! - `marks`: the state of each lane at every `mark_every`th `tick` and at the end: for each of the
-//!   `lanes` its `hash` and, body by body, `q` and `v`; a value that is no number, for which JSON has no
-//!   word, is one of the strings `inf`, `-inf` and `NaN`.
+//!   `lanes` its `hash` and, body by body, `q` and `v`; a value that is not finite, which JSON cannot
+//!   write as a number, is one of the strings `inf`, `-inf` and `NaN`.
 //!
 //! A lane's `hash` is [`Race::lane_hashes`](crate::lab::Race::lane_hashes). The other hashes are XXH3's
-//! 64 bits ([`fingerprint`]). All are hexadecimal. There is no seed, for nothing in a run is random.
+//! 64 bits ([`fingerprint`]). All are hexadecimal. There is no seed, because nothing in a run is random.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -58,7 +59,7 @@ pub struct Manifest {
     pub marks: Vec<Mark>,
 }
 
-/// All that a run depends on.
+/// Everything that a run depends on.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -74,11 +75,13 @@ pub struct Settings {
     pub scale: f64,
     pub panels: bool,
     pub motion: bool,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub theme: Option<String>,
     pub mark_every: u64,
 }
 
 impl Settings {
-    /// The hash by which altered settings are known.
+    /// The hash that reveals altered settings.
     pub fn hash(&self) -> String {
         let text = serde_json::to_string(self).expect("all keys are strings");
         fingerprint(text.as_bytes())
@@ -107,7 +110,7 @@ pub struct LaneEntry {
     pub tolerance: Option<f64>,
 }
 
-/// What drew.
+/// The graphics adapter that drew the frames.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "the module describes every field")]
@@ -165,8 +168,7 @@ pub struct LaneMark {
 }
 
 impl LaneMark {
-    /// Whether both are of the same state: the same numbers, and where one is no number, neither is the
-    /// other.
+    /// Whether both hold the same state. NaN equals NaN here.
     pub fn is_same(&self, other: &Self) -> bool {
         let rows = |a: &[Vec<f64>], b: &[Vec<f64>]| {
             let values = |a: &Vec<f64>, b: &Vec<f64>| {
@@ -178,13 +180,13 @@ impl LaneMark {
     }
 }
 
-/// Whether both values are the same number, or no number both.
+/// Whether both values are the same number, or both are NaN.
 pub(super) fn is_same_value(a: f64, b: f64) -> bool {
     a == b || a.is_nan() && b.is_nan()
 }
 
 impl Manifest {
-    /// The file: a line for each entry of a list, so that a difference of two can be read.
+    /// The text of the file, with a line for each entry of a list, so that two manifests can be compared line by line.
     pub fn to_text(&self) -> String {
         let value = serde_json::to_value(self).expect("all keys are strings");
         let mut text = String::new();

@@ -5,8 +5,8 @@
 //! interface that scripts rely on.
 //!
 //! The modules below come in four groups: the subcommands; what is run; how a run is drawn, frame by frame,
-//! into a folder, a stream or a sheet; and what all of them share. Each error stands beside what raises it,
-//! and says as a [`Cause`] what the process returns.
+//! into a folder, a stream or a sheet; and what all of them share. Each error type is declared beside the
+//! code that raises it, and gives the exit code as a [`Cause`].
 
 use clap::{CommandFactory, Parser, Subcommand};
 
@@ -26,14 +26,15 @@ mod scene_file;
 mod clip;
 mod fingerprint;
 mod frame_folder;
-mod logbook;
 pub mod manifest;
 mod movie;
 mod pipeline;
+mod preferences;
 mod recording;
 mod schedule;
 mod settings;
 mod sheet;
+mod state_log;
 
 mod error;
 mod interrupt;
@@ -69,7 +70,7 @@ Examples:
 
 In the window, H shows the keys. `regatta help COMMAND` explains a command.";
 
-/// Race numerical integrators on a ship and on springs against the exact solution
+/// Race numerical integrators on ships, springs, chains, pendulums and orbits against the exact solution
 #[derive(Debug, Parser)]
 #[command(name = "regatta", version, args_conflicts_with_subcommands = true)]
 #[command(after_help = EXAMPLES, subcommand_help_heading = "Commands", max_term_width = 100)]
@@ -93,10 +94,10 @@ enum Command {
     Completions(CompletionsArgs),
 }
 
-/// Does what the command line says.
+/// Runs the command that the command line names.
 ///
 /// # Errors
-/// What kept it from being done. A closed standard output is not an error.
+/// If the command fails. A closed standard output is not an error.
 pub fn run(cli: Cli) -> Result<(), Error> {
     let done = match cli.command.unwrap_or(Command::Play(cli.play)) {
         Command::Play(args) => play::run(&args),

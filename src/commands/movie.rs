@@ -1,14 +1,14 @@
-//! A run as one stream: an animated picture, or frames for a video encoder.
+//! Writes a run as one stream: an animated picture, or frames for a video encoder.
 
 use std::io::{self, Write};
 
 use super::experiment::Experiment;
 use super::interrupt::watch_for_interrupt;
-use super::logbook::Logbook;
 use super::output::AtomicOutput;
 use super::pipeline::{Drawn, Run, Stop};
 use super::recording::{Recording, RecordingError, closing_line};
 use super::schedule::Schedule;
+use super::state_log::StateLog;
 use super::terminal::{progress, tell};
 
 /// A format of one stream.
@@ -20,7 +20,7 @@ pub(super) enum MovieFormat {
     Gif,
     /// YUV4MPEG2, 4:4:4, BT.601 in the limited range.
     Y4m,
-    /// Red, green, blue, alpha, and nothing else.
+    /// Bytes of red, green, blue and alpha, without a header.
     Rgba,
 }
 
@@ -35,16 +35,16 @@ pub(super) fn record(
     format: MovieFormat,
     mut output: AtomicOutput,
 ) -> Result<(), RecordingError> {
-    let mut artist = recording.artist()?;
+    let mut renderer = recording.renderer()?;
     let interrupted = watch_for_interrupt();
     let Schedule { frames, .. } = recording.schedule;
     let progress = progress(frames, "frames");
     let mut lab = recording.lab(experiment);
-    let mut logbook = Logbook::new(u64::MAX, lab.race());
+    let mut state_log = StateLog::new(u64::MAX, lab.race());
     let run = Run {
-        artist: &mut artist,
+        renderer: &mut renderer,
         lab: &mut lab,
-        logbook: &mut logbook,
+        state_log: &mut state_log,
         schedule: recording.schedule,
         interrupted: &interrupted,
     };

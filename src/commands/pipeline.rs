@@ -13,12 +13,12 @@ use std::thread;
 
 use rayon::ThreadPoolBuilder;
 
-use super::logbook::Logbook;
 use super::schedule::Schedule;
+use super::state_log::StateLog;
 use crate::lab::Lab;
-use crate::view::{Artist, Panels, ReadbackError};
+use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
-/// More gain nothing on a software adapter, and cost memory.
+/// Frames that the device draws at a time. More gain nothing on a software adapter, and cost memory.
 const MOST_IN_FLIGHT: usize = 2;
 
 /// Threads that encode: no device draws fast enough to keep more of them busy, and each holds a frame.
@@ -52,10 +52,10 @@ pub(super) enum Stop<E> {
 
 /// A run to be drawn.
 pub(super) struct Run<'a> {
-    pub(super) artist: &'a mut Artist,
+    pub(super) renderer: &'a mut OffscreenRenderer,
     /// At tick 0.
     pub(super) lab: &'a mut Lab,
-    pub(super) logbook: &'a mut Logbook,
+    pub(super) state_log: &'a mut StateLog,
     pub(super) schedule: Schedule,
     /// Once it is set, no further frame is drawn; those drawn already are still passed on.
     pub(super) interrupted: &'a AtomicBool,
@@ -115,23 +115,23 @@ impl Run<'_> {
         buffers: &Receiver<Vec<u8>>,
         mut hand_on: impl FnMut(Drawn),
     ) -> Result<u32, ReadbackError> {
-        let Self { artist, lab, logbook, schedule, interrupted } = self;
+        let Self { renderer, lab, state_log, schedule, interrupted } = self;
         let mut moments = VecDeque::new();
         let mut drawn = 0;
         let mut next = 0;
         loop {
             let more = next < schedule.frames && !interrupted.load(Ordering::Relaxed);
             if more {
-                schedule.advance(lab, next, logbook);
-                know_what_is_shown(lab, artist);
-                artist.submit(lab)?;
+                schedule.advance(lab, next, state_log);
+                complete_analysis(lab, renderer);
+                renderer.submit(lab)?;
                 moments.push_back((lab.race().tick(), lab.clock().alpha_fraction()));
                 next += 1;
             }
             if moments.len() == MOST_IN_FLIGHT || !more {
                 let Some((tick, alpha)) = moments.pop_front() else { return Ok(drawn) };
                 let Ok(mut rgba) = buffers.recv() else { return Ok(drawn) };
-                artist.collect(&mut rgba)?;
+                renderer.collect(&mut rgba)?;
                 hand_on(Drawn { frame: drawn, tick, alpha, rgba });
                 drawn += 1;
             }
@@ -183,11 +183,11 @@ impl<T> ReorderingWindow<T> {
     }
 }
 
-/// Computes what the artist's panels will show, such as verdicts. A window shows them as they are found; a
+/// Completes the analysis that the panels show, such as verdicts. A window shows results as they are found; a
 /// recording waits for all of them before each frame, so that its frames are reproducible.
-pub(super) fn know_what_is_shown(lab: &mut Lab, artist: &Artist) {
-    if artist.panels() == Panels::Shown {
-        lab.think();
+pub(super) fn complete_analysis(lab: &mut Lab, renderer: &OffscreenRenderer) {
+    if renderer.panels() == Panels::Shown {
+        lab.analyse();
     }
 }
 
@@ -204,30 +204,30 @@ mod tests {
     /// More frames than there are buffers.
     const SCHEDULE: Schedule = Schedule { frames: 30, fps: 10 };
 
-    fn artist_or_skip(test: &str) -> Option<Artist> {
+    fn renderer_or_skip(test: &str) -> Option<OffscreenRenderer> {
         let gpu = Gpu::headless(AdapterPreference::CpuOnly)
             .inspect_err(|error| drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")))
             .ok()?;
-        Some(Artist::new(gpu, [160, 90], 0.3).unwrap())
+        Some(OffscreenRenderer::new(gpu, [160, 90], 0.3).unwrap())
     }
 
     fn race() -> Lab {
         let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
         lab.apply(Command::ToggleRace);
-        lab.think();
+        lab.analyse();
         lab
     }
 
     /// Runs the pipeline from frame 0.
     fn piped<E: Send>(
-        artist: &mut Artist,
+        renderer: &mut OffscreenRenderer,
         interrupted: &AtomicBool,
         mut take: impl FnMut(&Drawn) -> Result<(), E> + Send,
     ) -> Result<u32, Stop<E>> {
         let mut lab = race();
-        let mut logbook = Logbook::new(1, lab.race());
-        let (lab, logbook) = (&mut lab, &mut logbook);
-        let run = Run { artist, lab, logbook, schedule: SCHEDULE, interrupted };
+        let mut state_log = StateLog::new(1, lab.race());
+        let (lab, state_log) = (&mut lab, &mut state_log);
+        let run = Run { renderer, lab, state_log, schedule: SCHEDULE, interrupted };
         // The first of every two takes longer than the second.
         let encode = |drawn: &Drawn| {
             thread::sleep(Duration::from_millis(if drawn.frame.is_multiple_of(2) { 5 } else { 0 }));
@@ -254,13 +254,13 @@ mod tests {
     #[test]
     fn an_encoder_that_panics_ends_the_run_with_its_panic() {
         let test = "an_encoder_that_panics_ends_the_run_with_its_panic";
-        let Some(mut artist) = artist_or_skip(test) else { return };
+        let Some(mut renderer) = renderer_or_skip(test) else { return };
         let mut lab = race();
-        let mut logbook = Logbook::new(1, lab.race());
+        let mut state_log = StateLog::new(1, lab.race());
         let run = Run {
-            artist: &mut artist,
+            renderer: &mut renderer,
             lab: &mut lab,
-            logbook: &mut logbook,
+            state_log: &mut state_log,
             schedule: SCHEDULE,
             interrupted: &AtomicBool::new(false),
         };
@@ -272,13 +272,13 @@ mod tests {
     #[test]
     fn no_more_frames_are_on_their_way_than_there_are_buffers() {
         let test = "no_more_frames_are_on_their_way_than_there_are_buffers";
-        let Some(mut artist) = artist_or_skip(test) else { return };
+        let Some(mut renderer) = renderer_or_skip(test) else { return };
         let mut lab = race();
-        let mut logbook = Logbook::new(1, lab.race());
+        let mut state_log = StateLog::new(1, lab.race());
         let run = Run {
-            artist: &mut artist,
+            renderer: &mut renderer,
             lab: &mut lab,
-            logbook: &mut logbook,
+            state_log: &mut state_log,
             schedule: SCHEDULE,
             interrupted: &AtomicBool::new(false),
         };
@@ -302,29 +302,29 @@ mod tests {
     #[test]
     fn frames_come_in_order_with_the_same_bytes_as_one_at_a_time() {
         let test = "frames_come_in_order_with_the_same_bytes_as_one_at_a_time";
-        let Some(mut artist) = artist_or_skip(test) else { return };
+        let Some(mut renderer) = renderer_or_skip(test) else { return };
         let (mut lab, mut rgba, mut one_by_one) = (race(), Vec::new(), Vec::new());
         for frame in 0..SCHEDULE.frames {
             SCHEDULE.advance(&mut lab, frame, &mut ());
-            artist.draw(&lab, &mut rgba).unwrap();
+            renderer.draw(&lab, &mut rgba).unwrap();
             one_by_one.push((lab.race().tick(), lab.clock().alpha_fraction(), rgba.clone()));
         }
         let mut frames = Vec::new();
-        let drawn = piped(&mut artist, &AtomicBool::new(false), |drawn| {
+        let drawn = piped(&mut renderer, &AtomicBool::new(false), |drawn| {
             frames.push((drawn.tick, drawn.alpha, drawn.rgba.clone()));
             Ok::<_, ()>(())
         });
         assert!(matches!(drawn, Ok(30)));
         assert!(frames == one_by_one);
-        assert_eq!(artist.in_flight(), 0);
+        assert_eq!(renderer.in_flight(), 0);
     }
 
     #[test]
     fn a_frame_that_cannot_be_taken_ends_the_run_with_its_reason() {
         let test = "a_frame_that_cannot_be_taken_ends_the_run_with_its_reason";
-        let Some(mut artist) = artist_or_skip(test) else { return };
+        let Some(mut renderer) = renderer_or_skip(test) else { return };
         let mut taken = 0;
-        let stopped = piped(&mut artist, &AtomicBool::new(false), |_| {
+        let stopped = piped(&mut renderer, &AtomicBool::new(false), |_| {
             taken += 1;
             if taken == 3 { Err("full") } else { Ok(()) }
         });
@@ -335,10 +335,10 @@ mod tests {
     #[test]
     fn an_interrupt_lets_the_frames_in_hand_be_taken() {
         let test = "an_interrupt_lets_the_frames_in_hand_be_taken";
-        let Some(mut artist) = artist_or_skip(test) else { return };
+        let Some(mut renderer) = renderer_or_skip(test) else { return };
         let interrupted = AtomicBool::new(false);
         let mut taken = 0;
-        let drawn = piped(&mut artist, &interrupted, |_| {
+        let drawn = piped(&mut renderer, &interrupted, |_| {
             taken += 1;
             interrupted.store(true, Ordering::Relaxed);
             Ok::<_, ()>(())

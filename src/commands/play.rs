@@ -8,17 +8,19 @@ use annotate_snippets::Renderer;
 use clap::Args;
 
 use super::error::{Cause, Error};
-use super::experiment::{self, Experiment, ExperimentArgs, Lineup};
+use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName};
 use super::frame_folder::FrameFolder;
 use super::interrupt::Interrupted;
 use super::output::{AtomicOutput, Older, Place};
+use super::preferences::{self, Preferences};
 use super::recording::Recording;
 use super::schedule::{FPS, Schedule, frames_in};
 use super::terminal::tell;
-use super::{clip, logbook, scene_file};
+use super::{clip, scene_file, state_log};
+use crate::lab::palette::Theme;
 use crate::lab::{Lab, RecordingTooLong};
 use crate::view::Panels;
-use crate::window::{self, SceneFiles, WindowError};
+use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -41,22 +43,40 @@ pub(super) struct PlayArgs {
     #[arg(long)]
     race: bool,
 
-    /// Close after this many simulated seconds, to the nearest tick [default: never]
+    /// Close at the tick nearest to this many simulated seconds [default: never]
     #[arg(long, value_name = "S", value_parser = experiment::seconds)]
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// Write the run into FILE as a scene, when the window is closed or Ctrl-C is pressed
+    /// Write the run to FILE as a scene when the window is closed or Ctrl-C is pressed
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
 
-    /// Replace the --record FILE if it is there
+    /// Replace the --record FILE if it exists
     #[arg(long, requires = "record")]
     force: bool,
+
+    /// The theme: dark or light [default: the one chosen last, else the system's]
+    #[arg(long, value_name = "THEME", hide_possible_values = true)]
+    theme: Option<ThemeName>,
 
     /// Trails do not fade, and the camera does not glide
     #[arg(long)]
     reduced_motion: bool,
+}
+
+/// The recording would replace the scene file that is played.
+#[derive(Debug, thiserror::Error)]
+#[error("{} is the scene that is played; give another --record", .path.display())]
+struct RecordOverScene {
+    /// The file, as given to `--record`.
+    path: PathBuf,
+}
+
+impl Cause for RecordOverScene {
+    fn exit_code(&self) -> u8 {
+        2
+    }
 }
 
 impl Cause for RecordingTooLong {
@@ -65,36 +85,70 @@ impl Cause for RecordingTooLong {
     }
 }
 
-/// Where pictures go that nobody named a directory for.
+/// The directory for pictures if there is no display.
 const FRAMES_DIR: &str = "regatta-frames";
-/// Enough to see what each method does, and drawn in seconds even by software.
+/// How many pictures are drawn if there is no display: enough to see what each method does, and drawn in seconds even
+/// in software.
 const FRAMES: u32 = 4 * FPS;
-/// The size of the window.
+/// The size of those pictures, which is that of the window.
 const SIZE_PX: [u32; 2] = [1280, 720];
 
 pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     let lineup = if args.race { Lineup::Everyone } else { Lineup::Solo };
-    let experiment = args.experiment.load(lineup)?;
+    let preferences = Preferences::load();
+    // A run of a given length is a script's, and is the same everywhere.
+    let last_scene = preferences.scene.as_deref().filter(|_| args.seconds.is_none());
+    let again = last_scene.map(|scene| args.experiment.or_scene(scene));
+    // A scene file may have gone since.
+    let again = again.and_then(|options| Some((options.load(lineup).ok()?, options)));
+    let (experiment, options) = match again {
+        Some(opened) => opened,
+        None => (args.experiment.load(lineup)?, args.experiment.clone()),
+    };
     let mut lab = experiment.lab();
     lab.set_motion(!args.reduced_motion);
-    // Before anything is flown that could then not be kept.
+    if let Some(theme) = args.theme.map(Theme::from).or(preferences.theme) {
+        lab.choose_theme(theme);
+    }
+    // Before the run, which could otherwise turn out impossible to save.
     let record = args.record.as_deref().map(|path| {
         let older = if args.force { Older::Replace } else { Older::Keep };
         Place { path, option: "--record", older }
     });
+    refuse_to_record_over(&options, record.as_ref())?;
     let record = record.map(AtomicOutput::open_for_text).transpose()?;
-    let files = files(&args.experiment, &experiment);
-    let (lab, interrupted) = match window::run(lab, args.seconds, files, record.is_some()) {
+    let played = lab.scene().name.clone();
+    let settings = WindowSettings {
+        seconds: args.seconds,
+        size: preferences.size,
+        heeds_interrupts: record.is_some(),
+    };
+    let (lab, interrupted) = match window::run(lab, settings, files(&options, &experiment)) {
         Err(WindowError::NoDisplay(reason)) => {
             (without_display(args, &experiment, &reason)?, false)
         }
-        done => done?,
+        done => {
+            let Closed { lab, interrupted, size } = done?;
+            let is_own = args.seconds.is_some() || args.experiment.names_a_scene();
+            let theme = lab.chosen_theme().filter(|_| args.theme.is_none());
+            let scene = if is_own { preferences.scene } else { preferences::scene_of(&lab) };
+            let (theme, size) = (theme.or(preferences.theme), size.or(preferences.size));
+            Preferences { scene, theme, size }.save();
+            (lab, interrupted)
+        }
     };
     if let Some(mut record) = record {
-        let name = record.name();
+        let wanted = record.name();
         let text = lab.recording()?;
         record.write_all(text.as_bytes()).map_err(|error| record.failed(error))?;
-        record.close()?;
+        let name = record.close_beside()?;
+        if name != wanted {
+            tell(&format!("{wanted} was made by somebody else during the run, and is kept"));
+        }
+        if lab.scene().name != played {
+            let scene = lab.scene_name();
+            tell(&format!("the run recorded is that of {scene}, which was opened after {played}"));
+        }
         tell(&format!("recorded {} in {name}", ticks(&lab)));
     }
     match interrupted {
@@ -103,7 +157,21 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     }
 }
 
-/// How far a run came, for people.
+/// Fails if the recording would replace the scene file that is played.
+fn refuse_to_record_over(
+    options: &ExperimentArgs,
+    record: Option<&Place<'_>>,
+) -> Result<(), RecordOverScene> {
+    let Some(Place { path, .. }) = record else { return Ok(()) };
+    let is_played = !scene_file::is_built_in(options.scene())
+        && options
+            .scene()
+            .canonicalize()
+            .is_ok_and(|scene| path.canonicalize().ok() == Some(scene));
+    if is_played { Err(RecordOverScene { path: path.to_path_buf() }) } else { Ok(()) }
+}
+
+/// The length of a run in words.
 fn ticks(lab: &Lab) -> String {
     let ticks = lab.timeline().end();
     format!("{ticks} tick{}", if ticks == 1 { "" } else { "s" })
@@ -128,7 +196,8 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
         scale: 1.0,
         panels: Panels::Shown,
         motion: !args.reduced_motion,
-        mark_every: logbook::usual_stride(schedule.ticks(&experiment.lab())),
+        theme: args.theme.map(Theme::from).unwrap_or_default(),
+        mark_every: state_log::usual_stride(schedule.ticks(&experiment.lab())),
     };
     clip::record(experiment, recording, folder)?;
     let mut lab = experiment.lab();
@@ -141,7 +210,8 @@ fn without_display(args: &PlayArgs, experiment: &Experiment, reason: &str) -> Re
     Ok(lab)
 }
 
-/// How the window reads scene files: the one given with the options given, and each with the words of the command line.
+/// How the window reads scene files: the file named on the command line with the options given there, others as they
+/// are. Errors are worded as on the command line.
 fn files(args: &ExperimentArgs, experiment: &Experiment) -> SceneFiles {
     let given = args.clone();
     let read = move |path: &Path| {

@@ -1,4 +1,4 @@
-//! The settings by which a run is drawn, and the errors of drawing it.
+//! The settings with which a run is drawn, and the errors of drawing it.
 
 use super::error::Cause;
 use super::experiment::Experiment;
@@ -8,13 +8,14 @@ use super::manifest::Adapter;
 use super::output::OutputError;
 use super::schedule::Schedule;
 use crate::lab::Lab;
-use crate::view::{AdapterPreference, Artist, Gpu, GpuError, Panels, ReadbackError};
+use crate::lab::palette::Theme;
+use crate::view::{AdapterPreference, Gpu, GpuError, OffscreenRenderer, Panels, ReadbackError};
 
-/// The most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files.
-/// More is a slip of the fingers.
+/// The most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files. More is
+/// probably a typing mistake.
 const MOST_PIXELS: u64 = 1_000_000_000_000;
 
-/// How a run is drawn: which frames, how large, with what on them.
+/// How a run is drawn: its frames, their size and what they show.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Recording {
     pub(super) schedule: Schedule,
@@ -24,6 +25,7 @@ pub(super) struct Recording {
     pub(super) panels: Panels,
     /// Whether trails fade and the camera glides.
     pub(super) motion: bool,
+    pub(super) theme: Theme,
     /// Ticks between two marks in the manifest.
     pub(super) mark_every: u64,
 }
@@ -33,11 +35,12 @@ impl Recording {
     pub(super) fn lab(&self, experiment: &Experiment) -> Lab {
         let mut lab = experiment.lab();
         lab.set_motion(self.motion);
+        lab.choose_theme(self.theme);
         lab
     }
 
     /// A renderer for frames of this size.
-    pub(super) fn artist(&self) -> Result<Artist, RecordingError> {
+    pub(super) fn renderer(&self) -> Result<OffscreenRenderer, RecordingError> {
         let (frames, size_px) = (self.schedule.frames, self.size_px);
         let pixels = u64::from(frames) * u64::from(size_px[0]) * u64::from(size_px[1]);
         if pixels > MOST_PIXELS {
@@ -50,7 +53,7 @@ impl Recording {
         }
         let gpu = Gpu::headless(AdapterPreference::Any)?;
         log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
-        Ok(Artist::new(gpu, size_px, self.scale)?.with_panels(self.panels))
+        Ok(OffscreenRenderer::new(gpu, size_px, self.scale)?.with_panels(self.panels))
     }
 }
 
@@ -79,12 +82,12 @@ pub(super) enum RecordingError {
     /// A frame could not be written.
     #[error("{source}; whole before that: {whole}")]
     Write {
-        /// Why.
+        /// The error.
         source: FrameFolderError,
         /// The names of the frames written before.
         whole: String,
     },
-    /// There is no graphics device that can draw the frames.
+    /// No graphics device can draw the frames.
     #[error(transparent)]
     Gpu(#[from] GpuError),
     /// A frame was drawn, but not read back from the device.
@@ -93,7 +96,7 @@ pub(super) enum RecordingError {
     /// One file, or standard output, could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// Somebody pressed Ctrl-C.
+    /// Ctrl-C was pressed.
     #[error(transparent)]
     Interrupted(Interrupted),
 }
@@ -134,8 +137,8 @@ pub(super) fn closing_line(recording: &Recording, place: &str) -> String {
 }
 
 /// The adapter as the manifest describes it.
-pub(super) fn adapter(artist: &Artist) -> Adapter {
-    let info = artist.adapter();
+pub(super) fn adapter(renderer: &OffscreenRenderer) -> Adapter {
+    let info = renderer.adapter();
     Adapter {
         name: info.name.clone(),
         driver: info.driver.clone(),

@@ -1,4 +1,4 @@
-//! From what stands after `--scene` to a scene: a built-in one, or else a file.
+//! Loads the scene that `--scene` names: a built-in scene, or else a file.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -9,7 +9,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use super::error::{Cause, message};
 use crate::lab::{BuiltIn, LARGEST_FILE, SCENES, Scene, SceneErrors, nearest};
 
-/// Why there is no scene.
+/// The reason why a scene cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum SceneFileError {
     /// Neither a built-in scene nor a file has this name.
@@ -60,7 +60,7 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), SceneFileError> {
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
 }
 
-/// Whether this names a built-in scene, and no file.
+/// Whether `path` is the name of a built-in scene.
 pub(super) fn is_built_in(path: &Path) -> bool {
     built_in(path).is_some()
 }
@@ -69,7 +69,7 @@ fn built_in(path: &Path) -> Option<&'static BuiltIn> {
     SCENES.iter().find(|scene| path.to_str() == Some(scene.name))
 }
 
-/// The first bytes of a file: enough for a scene to be read, or to be found too large.
+/// Reads a file, at most one byte more than a scene file may have.
 fn read(path: &Path) -> Result<Vec<u8>, SceneFileError> {
     let fail = |source: io::Error| {
         let path = path.to_owned();
@@ -88,7 +88,7 @@ fn read(path: &Path) -> Result<Vec<u8>, SceneFileError> {
     Ok(bytes)
 }
 
-/// Each line of the message, and below it the place in the text that it speaks of.
+/// The error messages, each followed by the lines of the file that it refers to.
 fn report(errors: &SceneErrors, renderer: &Renderer) -> String {
     let message = errors.to_string();
     // One line for each error, then perhaps how many more there are.

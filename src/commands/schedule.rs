@@ -1,11 +1,11 @@
-//! When the frames of a recording are, and how a lab gets from one to the next. Time is computed, never read
-//! off a clock.
+//! The times of a recording's frames, and how a lab is advanced from one to the next. Time is computed, never
+//! read from a clock.
 
 use super::error::Cause;
 use super::frame_folder::names::MOST_FRAMES;
 use crate::lab::{Clock, Lab, Observer};
 
-/// Smooth enough for every scene, at half the files and half the time of 60.
+/// The usual frames per simulated second: smooth enough for every scene, at half the files and half the time of 60.
 pub(super) const FPS: u32 = 30;
 
 /// The most frames per simulated second: no display shows as many.

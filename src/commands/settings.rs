@@ -1,4 +1,4 @@
-//! From an experiment and a recording to the settings in a manifest, and back.
+//! Converts an experiment and a recording to the settings of a manifest, and back.
 
 use super::experiment::{Experiment, Lineup};
 use super::fingerprint::fingerprint;
@@ -6,11 +6,15 @@ use super::frame_folder::names::{MOST_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
 use super::recording::Recording;
 use super::schedule::{MOST_FPS, Schedule};
+use crate::lab::palette::Theme;
 use crate::lab::{Clock, LaneSpec, MOST_LANES, MOST_SUBSTEPS, Scene, TOLERANCES};
 use crate::sim::integrators::method;
 use crate::view::Panels;
 
-/// What a manifest says of a run that is about to be recorded.
+/// The light theme in a manifest; the dark one is not written.
+const LIGHT: &str = "light";
+
+/// The settings of a run, for its manifest.
 pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Settings {
     let scene = &experiment.scene;
     let lane = |lane: &LaneSpec| LaneEntry {
@@ -35,16 +39,20 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
         scale: recording.scale.to_string().parse().expect("a number's own text"),
         panels: recording.panels == Panels::Shown,
         motion: recording.motion,
+        theme: (recording.theme == Theme::Light).then(|| LIGHT.to_owned()),
         mark_every: recording.mark_every,
     }
 }
 
-/// The run that these settings describe, or why there is none.
+/// The run that these settings describe.
+///
+/// # Errors
+/// Why this program cannot run it.
 pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), String> {
     let SceneText { name, text, .. } = &settings.scene;
     let known = |id: &str| method(id).ok_or_else(|| format!("this program has no method {id:?}"));
     let mut scene = Scene::parse(&format!("{name}.toml"), text)
-        .map_err(|errors| format!("this program does not take the scene: {errors}"))?;
+        .map_err(|errors| format!("this program cannot read the scene: {errors}"))?;
     let substeps = |lane: &LaneEntry| (1..=MOST_SUBSTEPS).contains(&lane.substeps);
     let tolerance = |lane: &LaneEntry| {
         lane.tolerance.is_none_or(|given| (TOLERANCES.0..=TOLERANCES.1).contains(&given))
@@ -60,18 +68,21 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         ("tolerance", settings.lanes.iter().all(tolerance)),
     ] {
         if !is_in_range {
-            return Err(format!("its {key} is out of range; capture anew"));
+            return Err(format!("its {key} is out of range; capture again"));
         }
     }
     scene.tick_hz = settings.tick_hz;
     let lane = |lane: &LaneEntry| {
         let method = known(&lane.method)?;
         if lane.tolerance.is_some() && method.tolerance.is_none() {
-            return Err(format!("its {} has a tolerance and takes none; capture anew", method.id));
+            return Err(format!(
+                "its {} has a tolerance, but the method takes none; capture again",
+                method.id
+            ));
         }
         Ok(LaneSpec { method, substeps: lane.substeps, tolerance: lane.tolerance })
     };
-    // It is in the substeps of the lanes already.
+    // The lanes already have the substeps of equal cost.
     scene.equal_cost = false;
     scene.lanes = settings.lanes.iter().map(lane).collect::<Result<_, String>>()?;
     let experiment = Experiment {
@@ -86,45 +97,53 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         scale: settings.scale as f32,
         panels: if settings.panels { Panels::Shown } else { Panels::Off },
         motion: settings.motion,
+        theme: match settings.theme.as_deref() {
+            None => Theme::Dark,
+            Some(LIGHT) => Theme::Light,
+            Some(other) => return Err(format!("this program has no theme {other:?}")),
+        },
         mark_every: settings.mark_every,
     };
     Ok((experiment, recording))
 }
 
-/// Whether a manifest's settings are those that its capture had; else what was altered.
+/// Checks that a manifest is as its capture wrote it.
+///
+/// # Errors
+/// What was altered.
 pub(super) fn check(manifest: &Manifest) -> Result<(), String> {
     let settings = &manifest.settings;
     let scene = &settings.scene;
     if fingerprint(scene.text.as_bytes()) != scene.hash {
-        return Err("the scene's text was altered, its hash says; capture anew".into());
+        return Err("the scene's text was altered: its hash differs; capture again".into());
     }
     let mut names = manifest.frames.iter().zip(0..).map(|(frame, n)| (&frame.file, frame_name(n)));
     let (drawn, asked) = (manifest.frames.len(), settings.frames as usize);
     if drawn > asked || manifest.complete && drawn < asked {
-        return Err(format!("it lists {drawn} frames of {asked}; capture anew"));
+        return Err(format!("it lists {drawn} frames of {asked}; capture again"));
     }
     if let Some((file, name)) = names.find(|(file, name)| *file != name) {
-        return Err(format!("it has {file:?} in the place of {name}; capture anew"));
+        return Err(format!("it has {file:?} in the place of {name}; capture again"));
     }
     let marked = manifest.marks.last().map_or(0, |mark| mark.lanes.len());
     if manifest.lanes.len() < marked {
         let ended = manifest.lanes.len();
-        return Err(format!("it lists the ends of {ended} lanes of {marked}; capture anew"));
+        return Err(format!("it lists the ends of {ended} lanes of {marked}; capture again"));
     }
     if settings.hash() == manifest.settings_hash {
         return Ok(());
     }
     match drawn_at_hz(manifest) {
         Some(hz) if hz != u64::from(settings.tick_hz) => Err(format!(
-            "it says {} Hz, and at {} frames a second its frames are of {hz} Hz: another tick rate \
-             is another run; capture anew",
+            "it says {} Hz, but at {} frames per second its frames are those of {hz} Hz: another tick rate \
+             is another run; capture again",
             settings.tick_hz, settings.fps
         )),
-        _ => Err("its settings were altered, their hash says; capture anew".into()),
+        _ => Err("its settings were altered: their hash differs; capture again".into()),
     }
 }
 
-/// The tick rate that the last frame's place in time tells of, where nothing changes it on the way.
+/// The tick rate that follows from the tick and the time of the last frame, if the rate never changes.
 fn drawn_at_hz(manifest: &Manifest) -> Option<u64> {
     let last = manifest.frames.len().checked_sub(1)?;
     let FrameEntry { tick, alpha: [numerator, denominator], .. } = manifest.frames[last];

@@ -1,4 +1,4 @@
-//! A contact sheet: one picture of a race, time across, lanes down.
+//! A contact sheet: one picture of a race, with a column for each moment and a row for each lane.
 
 use std::io::Write;
 use std::sync::atomic::Ordering;
@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use super::experiment::{Experiment, Lineup};
 use super::interrupt::watch_for_interrupt;
 use super::output::AtomicOutput;
-use super::pipeline::know_what_is_shown;
+use super::pipeline::complete_analysis;
 use super::recording::{Recording, RecordingError};
 use super::terminal::{progress, tell};
 use crate::lab::LaneSpec;
@@ -39,7 +39,7 @@ pub(super) fn draw(
             most: MOST_SHEET_PIXELS,
         });
     }
-    let mut artist = recording.artist()?;
+    let mut renderer = recording.renderer()?;
     let interrupted = watch_for_interrupt();
     let progress = progress(cells, "frames");
     let row_bytes = 4 * width as usize;
@@ -59,8 +59,8 @@ pub(super) fn draw(
                 return Err(RecordingError::interrupted(done, cells, "none, a sheet is one"));
             }
             recording.schedule.advance(&mut lab, column, &mut ());
-            know_what_is_shown(&mut lab, &artist);
-            artist.draw(&lab, &mut cell)?;
+            complete_analysis(&mut lab, &renderer);
+            renderer.draw(&lab, &mut cell)?;
             let top = row * height as usize;
             for (y, line) in cell.chunks_exact(row_bytes).enumerate() {
                 let at = (top + y) * sheet_row_bytes + column as usize * row_bytes;

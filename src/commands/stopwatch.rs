@@ -1,27 +1,27 @@
-//! Measures what a lane costs in real time. Nothing else should run meanwhile.
+//! Measures the cost of a lane in real time. Nothing else should run at the same time.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use crate::lab::{Lane, LaneSpec, Scene};
 
-/// The fewest ticks that are timed together: reading the clock takes as long as a few ticks of a small body,
-/// and adds at most a hundredth to this many.
+/// The fewest ticks that are timed together. Reading the clock takes as long as a few ticks of a small body, which is at
+/// most a hundredth of this many.
 const TOGETHER: u64 = 256;
 
-/// What a lane costs.
+/// The cost of a lane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Timing {
     /// Nanoseconds per simulated second, in the fastest run.
     pub(super) ns_per_s: f64,
-    /// How much longer the median run took, relative to the fastest.
+    /// The relative excess of the median run over the fastest.
     pub(super) spread: f64,
 }
 
-/// Times a lane at this rate, from its start to tick `ticks` or as far as it comes within `effort`, as often
-/// as `effort` allows. `None` for no ticks.
+/// Times a lane at this rate, from its start to tick `ticks` or until `effort` has passed, and repeats that until
+/// `effort` has passed. `None` if `ticks` is 0.
 ///
-/// The lane must get through these ticks: a halted one costs nothing.
+/// The lane must not halt within these ticks: a halted lane costs nothing.
 pub(super) fn time(
     scene: &Scene,
     spec: LaneSpec,
@@ -50,7 +50,7 @@ pub(super) fn ns_per_s(
     Some(time(scene, spec, tick_hz, ticks, effort)?.ns_per_s)
 }
 
-/// Nanoseconds per tick, over as many runs as make [`TOGETHER`] ticks.
+/// Nanoseconds per tick, over as many runs as have [`TOGETHER`] ticks.
 fn ns_per_tick(scene: &Scene, spec: LaneSpec, tick_hz: u32, ticks: u64, effort: Duration) -> f64 {
     let hz = f64::from(tick_hz);
     let runs = TOGETHER.div_ceil(ticks);
@@ -58,13 +58,12 @@ fn ns_per_tick(scene: &Scene, spec: LaneSpec, tick_hz: u32, ticks: u64, effort: 
         (0..runs).map(|_| Lane::new(scene, spec.solver(), spec.substeps)).collect();
     let (start, mut done) = (Instant::now(), 0);
     for lane in &mut lanes {
-        for tick in 0..ticks {
-            lane.tick(tick, tick as f64 / hz, 1.0 / hz);
-            done += 1;
-            if done % TOGETHER == 0 && start.elapsed() >= effort {
-                break;
-            }
-        }
+        lane.run_while(hz, |tick, _| {
+            let is_over = tick > 0 && done % TOGETHER == 0 && start.elapsed() >= effort;
+            let goes_on = tick < ticks && !is_over;
+            done += u64::from(goes_on);
+            goes_on
+        });
     }
     let elapsed = start.elapsed();
     black_box(&lanes);

@@ -176,10 +176,10 @@ const COLUMNS: &[Column<Row>] = &[
     },
     Column { key: "evaluations_per_s", heading: None, value: |row| json!(row.evaluations_per_s()) },
     Column { key: "ns_per_s", heading: None, value: |row| json!(row.ns_per_s.map(f64::round)) },
-    Column { key: "verdict", heading: None, value: |row| json!(row.verdict.word.id()) },
+    Column { key: "verdict", heading: None, value: |row| json!(row.verdict.outcome.id()) },
     Column {
         key: "halted",
         heading: None,
-        value: |row| json!(row.verdict.fate.as_ref().map(|fate| fate.failure.to_string())),
+        value: |row| json!(row.verdict.failure.as_ref().map(|failure| failure.cause.to_string())),
     },
 ];

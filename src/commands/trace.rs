@@ -218,19 +218,18 @@ struct Halts {
 impl Halts {
     fn note(&mut self, lab: &Lab) {
         let race = lab.race();
-        let entrants = race.entrants().iter().map(|entrant| &entrant.lane);
-        for (number, lane) in std::iter::once(race.truth()).chain(entrants).enumerate() {
-            for halt in lane.halts().filter(|halt| halt.tick + 1 == race.tick()) {
-                let body = &lab.scene().bodies[halt.body].name;
-                let no_truth = if number == 0 { ", and so do its comparisons" } else { "" };
-                self.lines.push(format!(
-                    "lane {number}, {}, halted at tick {} (t = {:.3} s): {body} {}; its rows end there{no_truth}",
-                    method_id(lane.solver(), lane.bodies()[halt.body].kind),
-                    halt.tick,
-                    race.t() - race.last_step_s(),
-                    halt.failure,
-                ));
-            }
+        for (place, halt) in race.just_halted() {
+            let number = place.map_or(0, |place| place + 1);
+            let lane = place.map_or(race.truth(), |place| &race.entrants()[place].lane);
+            let body = &lab.scene().bodies[halt.body].name;
+            let no_truth = if number == 0 { ", and so do its comparisons" } else { "" };
+            self.lines.push(format!(
+                "lane {number}, {}, halted at tick {} (t = {:.3} s): {body} {}; its rows end there{no_truth}",
+                method_id(lane.solver(), lane.bodies()[halt.body].kind),
+                halt.tick,
+                race.t() - race.last_step_s(),
+                halt.failure,
+            ));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `regatta verify`: does this program still do what it did when the frames were captured, or the run recorded?
+//! `regatta verify`: checks that this program still reproduces a capture or a recording.
 //!
 //! The physics is judged first, bit by bit and without a GPU; then the pixels, which may move when the
 //! physics has not.
@@ -16,7 +16,7 @@ use super::frame_folder::blessing;
 use super::frame_folder::names::is_of_a_capture;
 use super::frame_folder::{Existing, FrameFolder};
 use super::manifest::{Adapter, FILE_NAME, Manifest, SCHEMA};
-use super::output::{DirectoryLock, Older, Place, write_text};
+use super::output::{DirectoryLock, Older, OutputError, Place, write_text};
 use super::recording::{self, Recording, RecordingError};
 use super::settings;
 use super::terminal::tell;
@@ -33,14 +33,14 @@ use pixels::Limits;
 use report::Report;
 
 const EXAMPLES: &str = "\
-A recording, FILE.toml, is a scene with checks: its race is run again, without graphics, and each
-lane is the same to the bit or differs from some check on.
+FILE.toml is a recording: a scene with checks. Its race is run again, without graphics. Each lane is
+reported as the same to the bit, or with the first check that differs.
 
-The manifest in DIR says what was drawn. It is run again: first the physics, to the bit, then the
-frames. On the adapter and driver that drew the frames, every pixel has to be the same; on others a
-channel may differ by 2, and one pixel in ten thousand by more than 1.
+DIR is a capture. The run that its manifest describes is repeated: first the physics, which must be
+the same to the bit, then the frames. On the adapter and driver that drew them, every pixel must be
+the same; on others a channel may differ by 2, and one pixel in ten thousand by more than 1.
 
-Exit code 0: the same. 1: different. 2: cannot be judged, and why.
+Exit code 0: the same. 1: different. 2: cannot be judged; the message says why.
 
 Examples:
   regatta verify clip
@@ -49,7 +49,7 @@ Examples:
   regatta verify clip --bless
   regatta verify recording.toml";
 
-/// Run a capture or a recording again and say whether physics or pixels have changed
+/// Run a capture or a recording again and report whether physics or pixels have changed
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct VerifyArgs {
@@ -57,27 +57,28 @@ pub(super) struct VerifyArgs {
     #[arg(value_name = "DIR|FILE.toml")]
     dir: PathBuf,
 
-    /// Judge the physics alone; needs no graphics
+    /// Judge only the physics; needs no graphics
     #[arg(long)]
     physics_only: bool,
 
-    /// Write the result to FILE too, as junit or json; give it twice for both
+    /// Also write the result to FILE, as junit or json; repeat the option for both
     #[arg(long, num_args = 2, value_names = ["FORMAT", "FILE"])]
     report: Option<Vec<String>>,
 
-    /// Write a picture of the difference into DIR for each frame that differs
+    /// For each frame that differs, write a picture of the difference into DIR
     #[arg(long, value_name = "DIR", conflicts_with = "physics_only")]
     diff: Option<PathBuf>,
 
-    /// The largest difference of a channel, 0 to 255 [default: 0, or 2 on another driver]
+    /// The largest allowed difference of a channel, 0 to 255 [default: 0, or 2 on another driver]
     #[arg(long, value_name = "N")]
     max_channel: Option<u8>,
 
-    /// The most pixels of a frame off by more than 1, in percent [default: 0, or 0.01]
+    /// The largest allowed percentage of pixels off by more than 1 [default: 0, or 0.01 on another driver]
     #[arg(long, value_name = "P", value_parser = percent)]
     max_pixels: Option<f64>,
 
-    /// Draw all anew and take that for right from now on; until all is drawn the clip stays as it is
+    /// Accept the present results: replace all frames, or all checks of a recording. The old frames stay
+    /// until all new ones are drawn
     #[arg(long, conflicts_with_all = ["physics_only", "report", "diff"])]
     bless: bool,
 }
@@ -95,7 +96,7 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
     Ok(judge(args)?)
 }
 
-/// Whether a path is that of a file, or of one that is not there but for its ending.
+/// Whether the path is that of a file, or does not exist and ends in `.toml`.
 fn is_scene_file(path: &Path) -> bool {
     path.is_file() || !path.is_dir() && path.extension().is_some_and(|ending| ending == "toml")
 }
@@ -121,14 +122,7 @@ fn judge_checks(args: &VerifyArgs) -> Result<(), Error> {
         return Err(checks::CheckError::ReportOverScene { path: path.to_path_buf() }.into());
     }
     checks::judge(&args.dir, |checked| {
-        for (format, path) in reports {
-            let text = match format {
-                ReportFormat::Junit => checked.to_junit(),
-                ReportFormat::Json => checked.to_json(),
-            };
-            write_text(Place { path, option: "--report", older: Older::Replace }, &text)?;
-        }
-        Ok(())
+        Ok(write_reports(&reports, || checked.to_junit(), || checked.to_json())?)
     })
 }
 
@@ -145,7 +139,7 @@ fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
     if !manifest.complete {
         return Err(unjudged(format!(
             "its capture was stopped after {} of {} frames; complete it with the same command and \
-             --resume, or draw all with --bless",
+             --resume, or draw all frames with --bless",
             manifest.frames.len(),
             manifest.settings.frames
         )));
@@ -153,37 +147,31 @@ fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
     let scene = &manifest.settings.scene;
     if SCENES.iter().any(|built_in| built_in.name == scene.name && built_in.text != scene.text) {
         let name = &scene.name;
-        tell(&format!("the built-in scene {name} is another; the one in the manifest is run"));
+        tell(&format!("the built-in scene {name} has changed; the one in the manifest is run"));
     }
     let mut report = Report::new(&args.dir);
     physics::judge(&manifest, &experiment, &recording, &mut report);
     report.say_physics()?;
     if !args.physics_only {
         match judge_pixels(args, &manifest, &experiment, &recording, &mut report) {
-            // That the physics is another is a judgement, whatever keeps the pixels from theirs.
+            // Different physics is a result, even if the pixels cannot be judged.
             Err(error) if report.physics.is_some() && error.exit_code() == 2 => {
                 tell(&error.to_string());
             }
             judged => judged?,
         }
     }
-    for (format, path) in reports {
-        let text = match format {
-            ReportFormat::Junit => report.to_junit(),
-            ReportFormat::Json => report.to_json(),
-        };
-        write_text(Place { path, option: "--report", older: Older::Replace }, &text)?;
-    }
+    write_reports(&reports, || report.to_junit(), || report.to_json())?;
     match report.what_differs() {
         None => Ok(()),
         Some(what) => Err(VerifyError::Different { what, manifest: path }),
     }
 }
 
-/// Draws the clip in `dir` anew, and puts it into the place of the old one once it is whole.
+/// Draws the clip in `dir` again and replaces the old one once the new one is complete.
 fn bless(dir: &Path, unjudged: impl Fn(String) -> VerifyError) -> Result<(), VerifyError> {
     let path = dir.join(FILE_NAME);
-    // Looked for first: where there is no clip, the reason is not that of a folder.
+    // Checked first, so that a missing clip is not reported as a problem with the folder.
     if !path.exists() && !blessing::is_pending(dir) {
         read(&path).map_err(&unjudged)?;
     }
@@ -199,18 +187,18 @@ fn bless(dir: &Path, unjudged: impl Fn(String) -> VerifyError) -> Result<(), Ver
     }
 }
 
-/// Keeps writers out of `dir` while it is judged, after the end of what a killed one began; `None` where
-/// there is no such directory.
+/// Locks `dir` against writers while it is judged; completes an interrupted `--bless` first. `None` if there is no such
+/// directory.
 fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
-    let busy = || "another regatta is at work there; wait for it".to_owned();
+    let busy = || "another regatta is writing to it; wait until it has finished".to_owned();
     if blessing::is_pending(dir) {
-        let stopped = "a --bless was stopped while it swapped the frames in";
-        let fail = |error| format!("{stopped}, and that cannot be finished: {error}");
+        let stopped = "a --bless was interrupted while it replaced the frames";
+        let fail = |error| format!("{stopped}, and cannot be completed: {error}");
         let _writer = DirectoryLock::exclusive(dir).map_err(fail)?.ok_or_else(busy)?;
-        // Somebody else may have been faster.
+        // Another process may have completed it meanwhile.
         if blessing::is_pending(dir) {
             blessing::complete(dir).map_err(fail)?;
-            tell(&format!("{stopped}; it is finished now: {}", dir.display()));
+            tell(&format!("{stopped}; now it is complete: {}", dir.display()));
         }
     }
     match DirectoryLock::shared(dir) {
@@ -229,8 +217,8 @@ fn judge_pixels(
     recording: &Recording,
     report: &mut Report,
 ) -> Result<(), VerifyError> {
-    let mut artist = recording.artist()?;
-    let (was, is) = (&manifest.adapter, recording::adapter(&artist));
+    let mut renderer = recording.renderer()?;
+    let (was, is) = (&manifest.adapter, recording::adapter(&renderer));
     let limits = Limits::of(*was == is, args.max_channel, args.max_pixels);
     if *was != is {
         let name = |a: &Adapter| format!("{} ({}, {})", a.name, a.backend, a.driver_info);
@@ -244,32 +232,35 @@ fn judge_pixels(
         ));
     }
     let folder = pixels::Folder { frames: &args.dir, differences: args.diff.as_deref() };
-    pixels::judge(manifest, experiment, recording, &mut artist, limits, folder, report)?;
+    pixels::judge(manifest, experiment, recording, &mut renderer, limits, folder, report)?;
     Ok(report.say_pixels()?)
 }
 
-/// The manifest at `path`, if it is whole and as a capture wrote it; else why it cannot be used.
+/// Reads the manifest at `path`.
+///
+/// # Errors
+/// Why it cannot be used: it is missing, incomplete, altered or of another schema.
 fn read(path: &Path) -> Result<Manifest, String> {
     let text = fs::read_to_string(path)
         .map_err(|error| format!("{error}; `regatta capture` writes it"))?;
     let value: serde_json::Value = serde_json::from_str(&text)
-        .map_err(|error| format!("it is no JSON: {error}; capture anew"))?;
+        .map_err(|error| format!("it is not JSON: {error}; capture again"))?;
     match value["schema"].as_u64() {
         Some(schema) if schema == u64::from(SCHEMA) => {}
         Some(schema) => {
             return Err(format!(
-                "it is of schema {schema}, and this program reads {SCHEMA}; capture anew"
+                "it is of schema {schema}, and this program reads {SCHEMA}; capture again"
             ));
         }
-        None => return Err("it does not name its schema; capture anew".into()),
+        None => return Err("it does not name its schema; capture again".into()),
     }
     let manifest: Manifest = serde_json::from_str(&text)
-        .map_err(|error| format!("it is not as schema {SCHEMA} has it: {error}; capture anew"))?;
+        .map_err(|error| format!("it is not as schema {SCHEMA} has it: {error}; capture again"))?;
     settings::check(&manifest)?;
     Ok(manifest)
 }
 
-/// The reports asked for, of two words each, none of them in the place of a file of a capture.
+/// Parses the `--report` options: pairs of a format and a path. Refuses a path that would replace a file of a capture.
 fn reports<'a>(
     words: &'a [String],
     dir: &Path,
@@ -288,6 +279,22 @@ fn reports<'a>(
         reports.push((format, path));
     }
     Ok(reports)
+}
+
+/// Writes each report in its format.
+fn write_reports(
+    reports: &[(ReportFormat, &Path)],
+    junit: impl Fn() -> String,
+    json: impl Fn() -> String,
+) -> Result<(), OutputError> {
+    for &(format, path) in reports {
+        let text = match format {
+            ReportFormat::Junit => junit(),
+            ReportFormat::Json => json(),
+        };
+        write_text(Place { path, option: "--report", older: Older::Replace }, &text)?;
+    }
+    Ok(())
 }
 
 fn percent(written: &str) -> Result<f64, String> {

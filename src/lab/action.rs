@@ -1,31 +1,31 @@
-//! Everything that can be done to a run: what a person, a script, a recording and a test all do.
+//! The actions on a run, which a person, a script, a recording and a test have in common.
 
 use super::lane_spec::LaneSpec;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::Method;
 
-/// Something done to a run at a tick. It says what is to be, not by how much it changes: done twice, it does no more
-/// than done once, but for a kick.
+/// An action on a run at a tick. It states the new value rather than a change: except for a kick, performing it twice
+/// has the same effect as once.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// Solo: puts the bodies under this method, with the substeps and the tolerance that the list of methods has for
-    /// it. In a race it does nothing, as each lane keeps its own.
+    /// Solo: puts the bodies under this method, with its substeps and tolerance from the list of methods. Race: does
+    /// nothing, as each lane keeps its method.
     Method(&'static Method),
     /// Puts a lane under this method, with these substeps and this tolerance.
     Lane {
         /// The lane's number, from 1 in the order of the scene.
         lane: usize,
-        /// What it is to be under.
+        /// The new method, substeps and tolerance.
         spec: LaneSpec,
     },
-    /// Gives a lane so many substeps in a tick.
+    /// Sets the substeps of a lane.
     Substeps {
         /// The lane's number, from 1.
         lane: usize,
-        /// The substeps, 1 to [`MOST_SUBSTEPS`](super::MOST_SUBSTEPS).
+        /// Steps per tick, 1 to [`MOST_SUBSTEPS`](super::MOST_SUBSTEPS).
         substeps: u32,
     },
-    /// Gives a lane under an adaptive method this tolerance.
+    /// Sets the tolerance of a lane under an adaptive method.
     Tolerance {
         /// The lane's number, from 1.
         lane: usize,
@@ -36,7 +36,7 @@ pub enum Action {
     TickHz(u32),
     /// Sets the throttle of every body that has one, -1 to 1.
     Throttle(f64),
-    /// Lays the rudder of every body that has one, from -1, hard right, to 1, hard left.
+    /// Sets the rudder of every body that has one, from -1, hard right, to 1, hard left.
     Rudder(f64),
     /// Gives every body an impulse of this many times its own kick.
     Kick(f64),
@@ -66,7 +66,7 @@ pub enum Action {
 }
 
 impl Action {
-    /// What it does to the bodies as an input, if it is one.
+    /// The input that it gives to the bodies, if it gives one.
     pub fn input(&self) -> Option<Input> {
         match *self {
             Action::Throttle(part) => Some(Input::Throttle(part.clamp(-1.0, 1.0))),
@@ -76,7 +76,7 @@ impl Action {
         }
     }
 
-    /// What it works, if a script and a person can work it in turn.
+    /// The control that it sets; `None` if it does not set one.
     pub(super) fn control(&self) -> Option<Control> {
         match *self {
             Action::Method(_)
@@ -92,7 +92,7 @@ impl Action {
     }
 }
 
-/// What a script and a person can both work: who takes it in hand keeps it.
+/// A value that both a script and a person can set. Once a person has set it, the script does not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Control {
     Method,

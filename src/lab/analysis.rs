@@ -1,27 +1,32 @@
-//! What is to be said of methods on a scene: verdicts, and advice on which to take. Pure functions of a scene, measured
-//! on the run.
+//! Verdicts on methods on a scene, and advice on which method to choose. Both are pure functions of a scene, measured on
+//! runs of it.
 
 mod advice;
 mod change;
 mod energy;
+mod frequency;
 mod judge;
 mod limits;
 mod modes;
+mod outcome;
 mod peaks;
-mod pitch;
 mod run;
 mod searches;
+mod stability_map;
 mod survey;
-mod thinking;
 mod truth;
 mod verdict;
+mod worker;
 
 pub use advice::{
-    Advised, Adviser, CRITERIA, Criterion, MOST_ADVISED_SUBSTEPS, Meets, Met, recommended,
+    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS,
+    MethodAdvice, recommended,
 };
 pub use judge::{Judge, LONGEST_HORIZON_S};
-pub use limits::{RIGHT_PITCH, TOLERANCE, VISIBLE};
+pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
+pub use outcome::{Outcome, Severity};
 pub use run::MOST_WORK;
-pub use thinking::{Advice, Findings, Question, Thinker};
+pub use stability_map::{Coverage, Here, MapRequest, Region, StabilityMap};
 pub use truth::LONG_RUN;
-pub use verdict::{Fate, NoTruth, NotJudged, Severity, Verdict, Word, duration};
+pub use verdict::{NoTruth, NotJudged, RunFailure, Verdict, duration};
+pub use worker::{Advice, AnalysisRequest, AnalysisWorker, Findings};

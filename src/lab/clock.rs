@@ -7,12 +7,12 @@
 /// One tick in nanoseconds × hertz × percent.
 const TICK: u128 = 1_000_000_000 * 100;
 
-/// What a frame has to simulate.
+/// The ticks that a frame has to simulate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Due {
     /// Ticks to step now.
     pub ticks: u32,
-    /// Ticks given up because the frame was longer than the cap: the simulation fell behind real time.
+    /// Ticks dropped because the frame was longer than the cap: the simulation falls behind real time.
     pub dropped: u64,
 }
 
@@ -30,8 +30,8 @@ impl Clock {
     pub const TICK_HZ: std::ops::RangeInclusive<u32> = 1..=10_000;
     /// The speeds a clock can run at, in percent of real time.
     pub const SPEED_PERCENT: std::ops::RangeInclusive<u32> = 1..=10_000;
-    /// The longest stretch of real time that one frame catches up with: 15 ticks at 60 Hz. Longer, and
-    /// a slow machine spirals down; shorter, and a hitch shows as slow motion.
+    /// The longest real time for which one frame catches up: 15 ticks at 60 Hz. With a longer one a slow machine falls
+    /// further behind each frame; with a shorter one a hitch shows as slow motion.
     pub const LONGEST_FRAME_MS: u32 = 250;
 
     /// A clock at full speed that owes nothing.
@@ -53,26 +53,26 @@ impl Clock {
         self.speed_percent
     }
 
-    /// Changes the tick rate, brought into [`Clock::TICK_HZ`]. The part of a tick that is owed stays
-    /// that part, so that nothing drawn jumps.
+    /// Changes the tick rate, clamped to [`Clock::TICK_HZ`]. The owed part of a tick stays the same part, so that nothing
+    /// drawn jumps.
     pub fn set_tick_hz(&mut self, tick_hz: u32) {
         self.tick_hz = tick_hz.clamp(*Self::TICK_HZ.start(), *Self::TICK_HZ.end());
     }
 
-    /// Changes the speed, brought into [`Clock::SPEED_PERCENT`].
+    /// Changes the speed, clamped to [`Clock::SPEED_PERCENT`].
     pub fn set_speed_percent(&mut self, percent: u32) {
         self.speed_percent =
             percent.clamp(*Self::SPEED_PERCENT.start(), *Self::SPEED_PERCENT.end());
     }
 
-    /// The most ticks that one frame gets: [`Clock::LONGEST_FRAME_MS`] of them, and at least one.
+    /// The most ticks per frame: those of [`Clock::LONGEST_FRAME_MS`], and at least one.
     pub fn most_ticks(&self) -> u32 {
         let per_second = u64::from(self.tick_hz) * u64::from(self.speed_percent);
         let most = (per_second * u64::from(Self::LONGEST_FRAME_MS)).div_ceil(100 * 1000);
         u32::try_from(most).expect("at most 10 000 Hz at a hundredfold speed")
     }
 
-    /// Takes in a frame of `frame_ns` nanoseconds; a negative one counts as none.
+    /// Adds a frame of `frame_ns` nanoseconds and returns the ticks that are due. A negative duration counts as 0.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
         let frame_ns = u128::from(frame_ns.max(0).unsigned_abs());
         self.owed += frame_ns * u128::from(self.tick_hz) * u128::from(self.speed_percent);
@@ -92,7 +92,7 @@ impl Clock {
         (self.owed as u64, TICK as u64)
     }
 
-    /// Owes nothing again.
+    /// Sets the owed time to 0.
     pub fn restart(&mut self) {
         self.owed = 0;
     }

@@ -1,31 +1,31 @@
-//! Everything a person or a script can do, and the keys that do it.
+//! All commands of a person, and their keys.
 //!
 //! Keyboard, panels, scene scripts and tests all make the same [`Command`]s; [`KEYS`] is the one table
 //! from which the window, the help overlay and `regatta list keys` are made.
 
 use super::action::Action;
-use super::display::Instrument;
-use super::held::Held;
+use super::held::HeldBody;
+use super::instrument::Instrument;
+use super::key::Key;
 use super::lane_spec::LaneSpec;
-use super::lens::Lens;
+use super::zoom_pan::ZoomPan;
 use crate::sim::integrators::Method;
 
-/// Something that a person asks for. What touches the run becomes an [`Action`], which says what is to be, and not
-/// by how much it changes.
+/// A command of a person. A command on the run becomes an [`Action`], which states the new value rather than a change.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Does this to the run.
+    /// Performs this action on the run.
     Act(Action),
     /// Solo: switches the bodies to this method in flight. Race: selects its lane.
     Method(&'static Method),
-    /// Solo: switches to the method on this place of the lane list, from 0. Race: selects that lane.
+    /// Solo: switches to the method at this place of the lane list, from 0. Race: selects that lane.
     Pick(usize),
-    /// Gives this method of the list these substeps and this tolerance, and switches to it as [`Command::Method`] does;
-    /// a lane that races keeps its state.
+    /// Sets the substeps and the tolerance of this method of the list, and switches to it like [`Command::Method`]. A lane
+    /// that races keeps its state.
     Fly(LaneSpec),
-    /// The next method or lane on the list, round.
+    /// The next method or lane on the list, cyclically.
     NextMethod,
-    /// The previous method or lane on the list, round.
+    /// The previous method or lane on the list, cyclically.
     PreviousMethod,
     /// Solo to race, from the start line; race to solo, with the selected lane as it is.
     ToggleRace,
@@ -39,9 +39,9 @@ pub enum Command {
     SecondForward,
     /// Pauses and goes one second back.
     SecondBack,
-    /// Pauses and goes to this tick, or to the last that was reached.
+    /// Pauses and goes to this tick, at most the last tick reached.
     Seek(u64),
-    /// Brings back the future that was discarded last.
+    /// Restores the future that was discarded last.
     Undo,
     /// Back to tick 0, the bodies at their start and the script from its top. The method and the tick
     /// rate that a person chose stay; a script's do not.
@@ -64,7 +64,7 @@ pub enum Command {
     ThrottleUp,
     /// A tenth less throttle.
     ThrottleDown,
-    /// Lays the rudder of every body that has one, from -1, hard right, to 1, hard left.
+    /// Sets the rudder of every body that has one, from -1, hard right, to 1, hard left.
     Rudder(f64),
     /// A tenth more rudder to the left.
     RudderLeft,
@@ -72,42 +72,58 @@ pub enum Command {
     RudderRight,
     /// Gives every body an impulse of this many times its own kick.
     Kick(f64),
-    /// Opens the scene on this place of the [list](super::Shelf), from 0.
+    /// Opens the scene at this place of the [list](super::SceneList), from 0.
     Scene(usize),
-    /// The next scene of the list, round.
+    /// The next scene of the list, cyclically.
     NextScene,
-    /// The previous scene of the list, round.
+    /// The previous scene of the list, cyclically.
     PreviousScene,
     /// Opens a field for the path of a scene file.
     AskForPath,
-    /// This is typed in it.
+    /// Sets the text of that field.
     TypePath(String),
-    /// Types as much more of it as is sure.
+    /// Completes the typed path as far as it is unambiguous.
     CompletePath,
     /// Opens the file at that path.
     OpenTypedPath,
-    /// Closes what is open over everything else, but for the help.
+    /// Closes the open dialog.
     CloseDialog,
     /// Shows or hides the exact ghost.
     ToggleGhost,
     /// The next way of drawing between ticks: raw, linear, Hermite.
     NextInterpolation,
+    /// Race: lanes over each other, or side by side.
+    ToggleArrangement,
+    /// The dark theme or the light one.
+    ToggleTheme,
     /// Shows this instrument.
     Instrument(Instrument),
-    /// The next instrument, round.
+    /// Shows this parameter of the displayed body on the stability map, by its place.
+    MapParameter(usize),
+    /// The next instrument, cyclically.
     NextInstrument,
-    /// The plots and the lane list speak of the body on this place of the scene, from 0.
+    /// The previous instrument, cyclically.
+    PreviousInstrument,
+    /// Shows the metric at this place of [`METRICS`](super::METRICS) in the error instrument.
+    Metric(usize),
+    /// Shows the instrument over the stage, or beside it again.
+    ToggleEnlarged,
+    /// Copies the instrument's values.
+    CopyInstrument,
+    /// Saves the instrument to files.
+    ExportInstrument,
+    /// Selects the body of the plots and the lane list, by its place in the scene, from 0.
     Body(usize),
-    /// Holds a body; time stands still until it is let go. To put it where it is held is an [`Action`].
-    Hold(Held),
-    /// Lets the body in hand go on from where it was taken.
+    /// Holds a body; time stands still until it is released. To place it is an [`Action`].
+    Hold(HeldBody),
+    /// Releases the held body, which goes on from where it was grabbed.
     LetGo,
     /// Zooms and pans a body's part of the stage.
-    Lens {
+    ZoomPan {
         /// The body's place in the scene.
         body: usize,
         /// The zoom and the pan.
-        lens: Lens,
+        zoom_pan: ZoomPan,
     },
     /// Opens or closes the help overlay.
     ToggleHelp,
@@ -120,49 +136,26 @@ pub enum Command {
     Screenshot,
     /// Saves the run to a file, as a scene.
     Record,
-    /// Gives each lane as many substeps as bring its cost nearest to the dearest lane's, or takes that back.
+    /// Switches equal cost on or off: each lane has as many substeps as bring its cost nearest to the dearest lane's.
     ToggleEqualCost,
     /// Enters or leaves full screen.
     ToggleFullScreen,
-    /// Lets the body in hand go on, else closes the overlay, else the inspector, else quits.
+    /// Opens the guide where it was left, or closes it.
+    ToggleGuide,
+    /// Opens this stop of the guide, from 0.
+    GoToStop(usize),
+    /// Predicts this choice of the guide's stop, from 0.
+    Predict(usize),
+    /// Releases the held body, else closes the overlay, else the guide, else shrinks the
+    /// instrument, else closes the inspector, else quits.
     Escape,
 }
 
-/// The tick rates that the bracket keys walk, in Hz: the usual ones, with 49 and 50 beside the limit of
-/// the stiff spring.
+/// The tick rates of the bracket keys in Hz: the usual ones, and 49 and 50 next to the limit of the stiff spring.
 pub const TICK_LADDER: [u32; 13] = [2, 5, 10, 15, 20, 30, 49, 50, 60, 100, 120, 240, 1000];
 
-/// The speeds that `-` and `=` walk, in percent of real time.
+/// The speeds of the keys `-` and `=`, in percent of real time.
 pub const SPEED_LADDER: [u32; 6] = [25, 50, 100, 200, 400, 1600];
-
-/// A key as this layer knows it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Key {
-    /// A digit by its place on the keyboard, so that it works unshifted on every layout.
-    Digit(u8),
-    /// A lower-case letter or a sign, as the layout gives it.
-    Sign(char),
-    /// The same letter with Shift held.
-    ShiftSign(char),
-    /// A letter or a sign with Control held, or with Command on a Mac.
-    ControlSign(char),
-    /// The space bar.
-    Space,
-    /// The up arrow.
-    Up,
-    /// The down arrow.
-    Down,
-    /// The left arrow.
-    Left,
-    /// The right arrow.
-    Right,
-    /// Home.
-    Home,
-    /// Escape.
-    Escape,
-    /// A function key.
-    Function(u8),
-}
 
 /// One line of the key table.
 #[derive(Debug)]
@@ -299,9 +292,39 @@ pub static KEYS: &[Binding] = &[
         repeats: false,
     },
     Binding {
-        shown: "T",
-        about: "next instrument",
-        keys: &[(Key::Sign('t'), Command::NextInstrument)],
+        shown: "V",
+        about: "race: lanes over each other / side by side",
+        keys: &[(Key::Sign('v'), Command::ToggleArrangement)],
+        repeats: false,
+    },
+    Binding {
+        shown: "F3",
+        about: "light / dark theme",
+        keys: &[(Key::Function(3), Command::ToggleTheme)],
+        repeats: false,
+    },
+    Binding {
+        shown: "T, Shift T",
+        about: "next, previous instrument",
+        keys: &[
+            (Key::Sign('t'), Command::NextInstrument),
+            (Key::ShiftSign('t'), Command::PreviousInstrument),
+        ],
+        repeats: false,
+    },
+    Binding {
+        shown: "Enter",
+        about: "enlarge the instrument over the stage",
+        keys: &[(Key::Enter, Command::ToggleEnlarged)],
+        repeats: false,
+    },
+    Binding {
+        shown: "Ctrl C, Ctrl E",
+        about: "copy the instrument's values; save it as PNG, SVG and CSV",
+        keys: &[
+            (Key::ControlSign('c'), Command::CopyInstrument),
+            (Key::ControlSign('e'), Command::ExportInstrument),
+        ],
         repeats: false,
     },
     Binding {
@@ -324,7 +347,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "X",
-        about: "lanes of equal cost: substeps for those that are cheap; again: as before",
+        about: "equal cost of all lanes on / off: cheap lanes get more substeps",
         keys: &[(Key::Sign('x'), Command::ToggleEqualCost)],
         repeats: false,
     },
@@ -332,6 +355,12 @@ pub static KEYS: &[Binding] = &[
         shown: "F11",
         about: "full screen",
         keys: &[(Key::Function(11), Command::ToggleFullScreen)],
+        repeats: false,
+    },
+    Binding {
+        shown: "F2",
+        about: "guide: the chapter in stops, each with a prediction and a key to press",
+        keys: &[(Key::Function(2), Command::ToggleGuide)],
         repeats: false,
     },
     Binding {
@@ -346,7 +375,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Esc",
-        about: "let go of a body, close the overlay, else the inspector, else quit",
+        about: "let go of a body, close the overlay, the guide, the instrument, the inspector, or quit",
         keys: &[(Key::Escape, Command::Escape)],
         repeats: false,
     },

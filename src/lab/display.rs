@@ -1,16 +1,17 @@
-//! How a lab is looked at, and what it asks of its driver.
+//! How a lab is displayed, and what it requests of its driver.
 
-use super::lens::Lens;
-use super::metrics::METRICS;
+use super::instrument::Instrument;
+use super::palette::Theme;
+use super::zoom_pan::ZoomPan;
 
 /// How a body is drawn between two ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
-    /// The last tick's state as it is.
+    /// The state of the last tick, unchanged.
     Raw,
     /// A straight line between the last two ticks.
     Linear,
-    /// A cubic through the last two ticks with the velocities known there.
+    /// A cubic through the states and velocities of the last two ticks.
     Hermite,
 }
 
@@ -25,94 +26,91 @@ impl Interpolation {
     }
 }
 
-/// The instruments of the lower plot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Instrument {
-    /// The metric on this place of [`METRICS`], over time.
-    Metric(usize),
-    /// Velocity over coordinate.
-    Phase,
-    /// Which method to take, and at what rate.
-    Advice,
+/// How the lanes of a race share the stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arrangement {
+    /// All lanes of a body over each other, the selected one in front.
+    #[default]
+    Overlay,
+    /// Each lane in cells of its own.
+    SideBySide,
 }
 
-impl Instrument {
-    /// Every instrument, in the order of the tabs.
-    pub fn all() -> impl Iterator<Item = Instrument> {
-        (0..METRICS.len()).map(Instrument::Metric).chain([Instrument::Phase, Instrument::Advice])
-    }
-
-    /// The name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Instrument::Metric(index) => METRICS[index].name,
-            Instrument::Phase => "phase",
-            Instrument::Advice => "advice",
-        }
-    }
-}
-
-/// How the lab is looked at; nothing here touches the physics.
+/// How the lab is displayed. It does not affect the physics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
     /// Whether the exact ghost is drawn.
     pub ghost: bool,
     /// How bodies are drawn between ticks.
     pub interpolation: Interpolation,
-    /// What the lower plot shows.
+    /// What the panel beside the stage shows.
     pub instrument: Instrument,
-    /// The body that the plots and the lane list speak of, by its place in the scene.
+    /// Whether the instrument covers the stage too.
+    pub enlarged: bool,
+    /// The metric of the error instrument, by its place in [`METRICS`](super::METRICS).
+    pub metric: usize,
+    /// The body of the plots and the lane list, by its place in the scene.
     pub body: usize,
+    /// The body and its parameter that a person has chosen for the stability map, by their places.
+    pub mapped_parameter: Option<(usize, usize)>,
+    /// How the lanes of a race share the stage.
+    pub arrangement: Arrangement,
+    /// A dark or a light chart.
+    pub theme: Theme,
     /// Whether the help overlay is open.
     pub help: bool,
     /// Whether the inspector is open.
     pub inspector: bool,
     /// Whether trails fade and the camera follows smoothly.
     pub motion: bool,
-    /// How each body is zoomed and panned, by its place in the scene; a body beyond the end is fitted.
-    pub lenses: Vec<Lens>,
+    /// The zoom and the pan of each body, by its place in the scene; a body beyond the end is fitted.
+    pub zoom_pans: Vec<ZoomPan>,
 }
 
 impl Display {
-    /// How the body at this place of the scene is zoomed and panned.
-    pub fn lens(&self, body: usize) -> Lens {
-        self.lenses.get(body).copied().unwrap_or_default()
+    /// The zoom and the pan of the body at this place of the scene.
+    pub fn zoom_pan(&self, body: usize) -> ZoomPan {
+        self.zoom_pans.get(body).copied().unwrap_or_default()
     }
 
-    pub(super) fn set_lens(&mut self, body: usize, lens: Lens) {
-        if self.lenses.len() <= body {
-            self.lenses.resize(body + 1, Lens::default());
+    pub(super) fn set_zoom_pan(&mut self, body: usize, zoom_pan: ZoomPan) {
+        if self.zoom_pans.len() <= body {
+            self.zoom_pans.resize(body + 1, ZoomPan::default());
         }
-        self.lenses[body] = lens;
+        self.zoom_pans[body] = zoom_pan;
     }
 }
 
-/// How fast the driver of a lab in real time goes; only it can know.
+/// The pace of a driver in real time, as the driver measures it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// Time runs, but not yet for long enough to tell.
+    /// Time has not run long enough for a measurement.
     Unknown,
-    /// What was measured since, over a second or more.
+    /// A measurement over a second or more.
     Measured {
-        /// Frames drawn in a second of real time.
+        /// Frames drawn per second of real time.
         frames_per_second: f64,
-        /// Simulated seconds in a second of real time.
+        /// Simulated seconds per second of real time.
         real_time_factor: f64,
     },
 }
 
-/// What the lab asks of its driver after a command that is not the lab's business.
+/// What a command requests of the driver, because the lab cannot do it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ask {
-    /// Save what is shown to a file.
+pub enum DriverRequest {
+    /// Save a screenshot to a file.
     Screenshot,
     /// Save the run to a file.
     Record,
+    /// Copy the instrument's values to the clipboard.
+    CopyInstrument,
+    /// Save the instrument as a picture, a drawing and a table.
+    ExportInstrument,
     /// Enter or leave full screen.
     ToggleFullScreen,
     /// Open the scene file at the path that was typed.
     OpenTypedPath,
-    /// Type as much more of the path as is sure.
+    /// Complete the typed path as far as it is unambiguous.
     CompletePath,
     /// End the program.
     Quit,

@@ -4,11 +4,11 @@ use super::action::Action;
 use super::lab::Lab;
 use super::scene::Scene;
 
-/// A tie between two ticks goes to the later one, though a time may be off by its last bit.
+/// The tolerance, in ticks, by which a tie between two ticks goes to the later one: a time may be off by its last bit.
 const TIE: f64 = 1e-6;
 
 impl Scene {
-    /// The ticks from `tick` on before which the script sets a tick rate, in order, with that rate in Hz.
+    /// The ticks from `tick` on at which the script sets a tick rate, in order, with that rate in Hz.
     pub fn rates_from(&self, tick: u64) -> impl Iterator<Item = (u64, u32)> {
         let first = self.script.partition_point(|scripted| scripted.tick < tick);
         self.script[first..].iter().filter_map(|scripted| match scripted.action {
@@ -19,8 +19,8 @@ impl Scene {
 }
 
 impl Lab {
-    /// The tick at which `seconds` of simulated time have passed, parts of a tick included, if from here on
-    /// only the script changes the tick rate; the present tick if they have passed already.
+    /// The fractional tick at which `seconds` of simulated time have passed, if only the script changes the tick rate from
+    /// now on; the present tick if they have passed already.
     pub fn tick_at(&self, seconds: f64) -> f64 {
         let race = self.race();
         let (mut tick, mut t, mut tick_hz) = (race.tick(), race.t(), race.tick_hz());
@@ -34,7 +34,7 @@ impl Lab {
         tick as f64 + ((seconds - t) * f64::from(tick_hz)).max(0.0)
     }
 
-    /// The tick nearest to `seconds` of simulated time, as [`Lab::tick_at`] has it.
+    /// The tick nearest to `seconds` of simulated time, by [`Lab::tick_at`].
     pub fn nearest_tick(&self, seconds: f64) -> u64 {
         (self.tick_at(seconds) + TIE).round() as u64
     }

@@ -4,16 +4,22 @@ use super::lane::Lane;
 use super::lane_spec::LaneSpec;
 use super::scene::{MOST_SUBSTEPS, Scene};
 
-/// The ticks over which a cost is counted: a second of most scenes, and enough for step sizes to settle.
-const COUNTED_TICKS: u64 = 60;
+/// The fewest ticks over which a cost is counted, and how many are counted after the script's last action: a second of
+/// most scenes, and enough for step sizes to settle.
+const SETTLING_TICKS: u64 = 60;
+
+/// The most ticks over which a cost is counted. More would keep a person waiting who asks for equal cost; the actions of
+/// a longer script are left out beyond them.
+const MOST_COUNTED_TICKS: u64 = 600;
 
 /// The lanes of a scene, each with as many substeps as bring its evaluations nearest to those of the dearest of them as
-/// it stands. Evaluations are counted over the scene's first ticks at `tick_hz`.
+/// it stands. Evaluations are counted at `tick_hz` from the scene's start until its script is over and step sizes have
+/// settled, 60 to 600 ticks.
 ///
 /// A lane whose bodies halt costs what it did until then.
 pub fn equal_cost(scene: &Scene, lanes: &[LaneSpec], tick_hz: u32) -> Vec<LaneSpec> {
-    let cost = |spec: &LaneSpec| evaluations_per_tick(scene, spec, tick_hz);
-    let dearest = lanes.iter().map(cost).fold(0.0, f64::max);
+    let cost = |spec: &LaneSpec, most| evaluations_per_tick(scene, spec, tick_hz, most);
+    let dearest = lanes.iter().map(|spec| cost(spec, f64::INFINITY)).fold(0.0, f64::max);
     lanes.iter().map(|spec| nearest(dearest, *spec, cost)).collect()
 }
 
@@ -26,30 +32,38 @@ pub fn lanes_that_race(scene: &Scene) -> Vec<LaneSpec> {
 }
 
 /// `spec` with the substeps that bring its cost nearest to `wanted`: found by bisection, as more substeps never cost
-/// less.
-fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec) -> f64) -> LaneSpec {
+/// less. `cost` may be infinite where it is more than its second argument.
+fn nearest(wanted: f64, spec: LaneSpec, cost: impl Fn(&LaneSpec, f64) -> f64) -> LaneSpec {
     let with = |substeps: u32| LaneSpec { substeps, ..spec };
     let (mut low, mut high) = (1, MOST_SUBSTEPS);
     while high - low > 1 {
         let middle = low.midpoint(high);
-        if cost(&with(middle)) <= wanted {
+        if cost(&with(middle), wanted) <= wanted {
             low = middle;
         } else {
             high = middle;
         }
     }
     let [below, above] = [low, high].map(with);
-    let off = |spec: &LaneSpec| (cost(spec) - wanted).abs();
-    if off(&above) < off(&below) { above } else { below }
+    let off_below = (cost(&below, f64::INFINITY) - wanted).abs();
+    let off_above = (cost(&above, wanted + off_below) - wanted).abs();
+    if off_above < off_below { above } else { below }
 }
 
-fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: u32) -> f64 {
+/// The mean cost of a tick; infinite where it is more than `most`.
+fn evaluations_per_tick(scene: &Scene, spec: &LaneSpec, tick_hz: u32, most: f64) -> f64 {
+    let over = scene.script.last().map_or(0, |last| last.tick);
+    let end = over.saturating_add(SETTLING_TICKS).min(MOST_COUNTED_TICKS);
     let mut lane = Lane::new(scene, spec.solver(), spec.substeps);
-    let h = 1.0 / f64::from(tick_hz);
-    let mut ticks = 0;
-    while ticks < COUNTED_TICKS && lane.halted().is_none() {
-        lane.tick(ticks, ticks as f64 * h, h);
-        ticks += 1;
-    }
-    lane.evaluations() as f64 / ticks.max(1) as f64
+    let mut script = scene.script.iter().peekable();
+    let (mut counted, mut is_too_dear) = (0, false);
+    lane.run_while(f64::from(tick_hz), |tick, lane| {
+        while let Some(scripted) = script.next_if(|scripted| scripted.tick <= tick) {
+            lane.act(tick, tick as f64 / f64::from(tick_hz), &scripted.action);
+        }
+        counted = tick;
+        is_too_dear = lane.evaluations() as f64 > most * end as f64;
+        tick < end && lane.halted().is_none() && !is_too_dear
+    });
+    if is_too_dear { f64::INFINITY } else { lane.evaluations() as f64 / counted.max(1) as f64 }
 }

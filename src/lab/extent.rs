@@ -1,13 +1,13 @@
-//! What a motion has covered so far: the scales that errors of speed and energy are held against.
+//! The range of a motion so far: the scale of errors in speed and energy.
 
 use crate::sim::Stepper;
 
-/// An exchange of energy this small against the largest kinetic energy is rounding.
+/// An exchange of energy below this part of the largest kinetic energy is rounding.
 const ROUNDING: f64 = 1e-9;
-/// Kinetic energy below this part of the largest is none: between ticks it may have been 0.
+/// Kinetic energy below this part of the largest counts as 0: between ticks it may have been 0.
 const AT_REST: f64 = 0.01;
 
-/// What the true motion of a body has covered since its start.
+/// The range of a body's true motion since its start.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Extent {
     largest_speed: f64,
@@ -19,16 +19,16 @@ pub(super) struct Extent {
 struct Kinetic {
     least: f64,
     most: f64,
-    /// The same since the last turn.
+    /// The range of the kinetic energy since the last turn.
     recent: (f64, f64),
-    /// Whether it was rising last; `None` before it has moved.
+    /// Whether the kinetic energy was last rising; `None` before it has changed.
     rises: Option<bool>,
-    /// How often it went half its range back.
+    /// How often the kinetic energy has reversed by half its range.
     turns: u32,
 }
 
 impl Extent {
-    /// Takes in a moment: the speed and, where the body conserves its energy, the kinetic energy (J).
+    /// Adds a moment: the speed and, if the body conserves its energy, the kinetic energy (J).
     pub(super) fn cover(&mut self, speed: f64, kinetic_j: Option<f64>) {
         self.largest_speed = self.largest_speed.max(speed);
         if let Some(now) = kinetic_j {
@@ -36,14 +36,14 @@ impl Extent {
         }
     }
 
-    /// The largest speed so far, 0 for what has not moved.
+    /// The largest speed so far; 0 if the body has not moved.
     pub(super) fn largest_speed(&self) -> f64 {
         self.largest_speed
     }
 
-    /// The energy that the motion of `truth` exchanges, in joules: the range of its kinetic energy, and on a linear body
-    /// no less than its energy, all of which its modes exchange now or later. `None` where none is conserved or
-    /// exchanged, and before both ends of the range were seen: a part of it would make much of a small drift.
+    /// The energy that the motion of `truth` exchanges, in joules: the range of its kinetic energy, and for a linear body at
+    /// least its total energy, all of which its modes exchange in time. `None` if energy is not conserved or exchanged, and
+    /// before both ends of the range have been reached: a part of the range would exaggerate the drift.
     pub(super) fn exchanged_j(&self, truth: &dyn Stepper) -> Option<f64> {
         let whole = truth.energy().filter(|_| truth.is_linear());
         Some(self.range_j()?.max(whole.unwrap_or(0.0)))
@@ -63,7 +63,7 @@ impl Kinetic {
         self.most - self.least
     }
 
-    /// Where it turned twice, it turned at either end; what came to rest has no less.
+    /// The range of the kinetic energy, once it has turned at both ends or come to rest.
     fn has_seen_both_ends(self) -> bool {
         self.turns >= 2 || self.turns == 1 && self.least <= AT_REST * self.most
     }
@@ -111,7 +111,7 @@ mod tests {
         assert_eq!(covered(swing(0, 80)).range_j(), Some(1.0));
         assert_eq!(covered(swing(50, 100)).range_j(), None, "it has only fallen");
         assert!((covered(swing(50, 140)).range_j().unwrap() - 1.0).abs() < 1e-12);
-        // From the middle it goes half of its range to the top, and all of it to the bottom.
+        // From the middle it rises by half its range, and then falls by all of it.
         assert_eq!(covered(swing(25, 90)).range_j(), None, "it has turned at the top only");
         assert!((covered(swing(25, 130)).range_j().unwrap() - 1.0).abs() < 1e-12);
         assert_eq!(covered(swing(75, 110)).range_j(), None, "it has hardly turned");

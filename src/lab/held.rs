@@ -2,20 +2,20 @@
 
 use glam::DVec2;
 
-/// A body held in the place that the pointer gives it. Time stands still until it is let go: a body that went on
-/// meanwhile would be another one than was taken, and in a race the lanes would part before they start from it.
+/// A body that the pointer holds in a place. Time stands still until it is released: otherwise the body would move on
+/// meanwhile, and the lanes of a race would diverge before they start from the new state.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Held {
+pub struct HeldBody {
     /// The number of the lane in whose cell it is held.
     pub lane: usize,
     /// The body's place in the scene.
     pub body: usize,
-    /// The coordinates in which it would be let go.
+    /// The coordinates with which it would be released.
     pub q: Box<[f64]>,
-    /// The velocities with which it would be let go.
+    /// The velocities with which it would be released.
     pub v: Box<[f64]>,
-    /// Where the hand is, in metres.
+    /// The place of the pointer, in metres.
     pub hand: DVec2,
-    /// Where the part of the body is that it holds, in metres: as near to the hand as the body can be.
+    /// The place of the held point of the body, in metres: as near to the pointer as the body can be.
     pub handle: DVec2,
 }

@@ -1,38 +1,38 @@
-//! What is done to a run, tick by tick: by its scene's script, by a person, or by a recording.
+//! The actions on a run by tick: by its scene's script, or by a person.
 
 use std::sync::Arc;
 
 use super::action::{Action, Control};
 use super::scene::Scripted;
 
-/// Who does something.
+/// Who performs an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
     /// The scene's script.
     Script,
-    /// A person, or a program in a person's place.
+    /// A person, or a program that acts for one.
     Hand,
 }
 
-/// Something that is done at a tick.
+/// An action at a tick.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JournalRow {
-    /// The tick before which it is done.
+    /// The tick before which the action is performed.
     pub tick: u64,
-    /// What is done.
+    /// The action.
     pub action: Action,
-    /// By whom.
+    /// Who performs it.
     pub source: Source,
 }
 
-/// What was done to a run and what is still to be done, in order. Cheap to copy.
+/// The performed and the pending actions of a run, in order. Cheap to clone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Journal {
     rows: Arc<Vec<JournalRow>>,
 }
 
 impl Journal {
-    /// The journal of a script that has not begun.
+    /// The journal of a script, with all actions pending.
     pub fn of_script(script: &[Scripted]) -> Self {
         let row = |Scripted { tick, action }: &Scripted| JournalRow {
             tick: *tick,
@@ -42,13 +42,14 @@ impl Journal {
         Self { rows: Arc::new(script.iter().map(row).collect()) }
     }
 
-    /// All rows: by tick, and within a tick in the order in which they are done.
+    /// All rows: by tick, and within a tick in the order in which they are performed.
     pub fn rows(&self) -> &[JournalRow] {
         &self.rows
     }
 
-    /// Adds what a person does at `tick`, where `done` rows are done, and returns how many are done with it. What the
-    /// person did later is taken back, and so is what the script has to come for the same control, which is returned.
+    /// Adds a person's action at `tick`, after the first `done` rows, and returns the number of rows up to and including
+    /// it. Removes the person's later actions, and the script's later actions on the same control, which is returned if
+    /// there are any.
     pub(super) fn insert(
         &mut self,
         done: usize,
@@ -60,7 +61,7 @@ impl Journal {
         let mut released = None;
         let later = rows.split_off(done);
         let row = JournalRow { tick, action, source: Source::Hand };
-        if is_passed_over(rows, &row) {
+        if is_intermediate(rows, &row) {
             rows.pop();
         }
         rows.push(row);
@@ -77,8 +78,8 @@ impl Journal {
         (done, released)
     }
 
-    /// Whether the script works this control after the first `done` rows.
-    pub(super) fn script_works(&self, control: Option<Control>, done: usize) -> bool {
+    /// Whether the script acts on this control after the first `done` rows.
+    pub(super) fn script_acts_on(&self, control: Option<Control>, done: usize) -> bool {
         let works = |row: &JournalRow| {
             row.source == Source::Script && control.is_some() && row.action.control() == control
         };
@@ -86,10 +87,10 @@ impl Journal {
     }
 }
 
-/// Whether the last of `done` is one of the many values that a parameter has while a person drags it at one tick, so
-/// that `next` can take its place. A change to the value that is there already would make no method begin again, so
-/// that one real change has to stay before it.
-fn is_passed_over(done: &[JournalRow], next: &JournalRow) -> bool {
+/// Whether the last row of `done` is an intermediate value of a parameter that a person drags at one tick, so that `next`
+/// can replace it. A change to the present value would not restart the methods, so one real change has to stay before
+/// `next`.
+fn is_intermediate(done: &[JournalRow], next: &JournalRow) -> bool {
     let control = next.action.control();
     let is_alike = |row: &&JournalRow| {
         row.tick == next.tick && row.source == next.source && row.action.control() == control

@@ -1,60 +1,69 @@
-//! The lab: a run with its past, the clock that drives it, and how it is looked at. Commands in, state out.
+//! The lab: a run with its past, the clock that drives it, and its display. Commands come in; state goes out.
 
 use super::clock::Clock;
 use super::display::{Display, Pace};
 use super::lane_spec::LaneSpec;
+use super::palette::Theme;
 use super::past::{History, Past};
 use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
+use super::scene_list::SceneList;
 use super::session::{RecordingTooLong, Timeline};
-use super::shelf::Shelf;
-use super::start::Start;
+use super::start::StartSettings;
 use super::viewer::Viewer;
 
 mod apply;
 mod driving;
 mod findings;
+mod guiding;
 mod opening;
+mod restarting;
+
+use restarting::RunBefore;
 
 /// A scene being run and looked at.
 pub struct Lab {
-    pub(super) shelf: Shelf,
-    pub(super) start: Start,
+    pub(super) scene_list: SceneList,
+    pub(super) start: StartSettings,
     pub(super) timeline: Timeline,
     pub(super) clock: Clock,
     pub(super) running: bool,
     pub(super) dropped: u64,
     pub(super) viewer: Viewer,
-    /// What comes back with the future that was discarded last.
-    before_discard: Option<Kept>,
+    /// The settings that an undo restores.
+    before_discard: Option<BeforeDiscard>,
+    /// The run before the last restart of the scene.
+    run_before: Option<Box<RunBefore>>,
 }
 
-/// What a person had chosen before a future was discarded.
-struct Kept {
-    start: Start,
+/// The settings before a future was discarded.
+struct BeforeDiscard {
+    start: StartSettings,
     before_equal_cost: Option<Vec<LaneSpec>>,
 }
 
 impl Lab {
     /// Opens a scene, running, in solo mode, under the method that [it names](Scene::opening_method), else
-    /// under the first of its lanes.
+    /// under the first of its lanes. The caller decides on
+    /// [`Scene::opens_as_race`].
     pub fn new(scene: Scene) -> Self {
-        let shelf = Shelf::of(&scene);
-        let start = Start::of(scene);
+        let scene_list = SceneList::of(&scene);
+        let start = StartSettings::of(scene);
         let timeline = Timeline::new(start.session());
         Self {
-            shelf,
+            scene_list,
             clock: Clock::new(start.tick_hz),
             running: true,
             dropped: 0,
             viewer: Viewer::new(timeline.session().race().entrants()[0].lane_number),
             timeline,
             before_discard: None,
+            run_before: None,
             start,
         }
     }
 
-    /// The scene that is open, with the parameters and the length that a person has set.
+    /// The open scene with the parameters and the length that a person has set.
     pub fn scene(&self) -> &Scene {
         &self.start.scene
     }
@@ -70,7 +79,7 @@ impl Lab {
     pub fn race(&self) -> &Race {
         self.timeline.session().race()
     }
-    /// What is remembered of them.
+    /// The recorded past of the lanes and the truth.
     pub fn past(&self) -> &Past {
         self.timeline.past()
     }
@@ -82,11 +91,11 @@ impl Lab {
     pub fn mode(&self) -> Mode {
         self.race().mode()
     }
-    /// The method flown in solo, the lane selected in a race, by its place on the list.
+    /// The method in solo mode, or of the selected lane in a race, by its place on the list.
     pub fn active(&self) -> usize {
         self.selected().entry
     }
-    /// The lane flown in solo, the lane selected in a race.
+    /// The lane in solo mode, or the selected lane in a race.
     pub fn selected(&self) -> &Entrant {
         let lanes = self.race().entrants();
         lanes.iter().find(|lane| lane.lane_number == self.viewer.selected).unwrap_or(&lanes[0])
@@ -103,20 +112,20 @@ impl Lab {
     pub fn time_runs(&self) -> bool {
         self.running && self.viewer.held.is_none()
     }
-    /// The simulated time in seconds with the part of a tick that is owed: it goes evenly with real time, while
-    /// the race goes on tick by tick.
+    /// The simulated time in seconds with the owed part of a tick. It advances evenly with real time, while the race
+    /// advances by ticks.
     pub fn time_with_owed_s(&self) -> f64 {
         self.race().t() + self.clock.alpha() / f64::from(self.clock.tick_hz())
     }
-    /// Ticks given up since the scene was opened or restarted.
+    /// Ticks dropped since the scene was opened or restarted.
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
-    /// What a person looks at and reads.
+    /// What a person looks at.
     pub fn viewer(&self) -> &Viewer {
         &self.viewer
     }
-    /// How the lab is looked at.
+    /// How the lab is displayed.
     pub fn display(&self) -> &Display {
         &self.viewer.display
     }
@@ -127,15 +136,34 @@ impl Lab {
         entries.enumerate().map(move |(place, entry)| (entry, &self.past().histories(place)[body]))
     }
 
-    /// Says how the bodies move when nothing is to fade or glide.
+    /// Sets whether trails fade and the camera follows smoothly.
     pub fn set_motion(&mut self, motion: bool) {
         self.viewer.display.motion = motion;
     }
-    /// Tells the lab how fast its driver goes.
+    /// Shows the system's theme, unless a person has chosen one.
+    pub fn follow_theme(&mut self, theme: Theme) {
+        if !self.viewer.theme_is_chosen {
+            self.viewer.display.theme = theme;
+        }
+    }
+    /// Shows this theme, whatever the system's is.
+    pub fn choose_theme(&mut self, theme: Theme) {
+        self.viewer.theme_is_chosen = true;
+        self.viewer.display.theme = theme;
+    }
+    /// The theme that a person has chosen; `None` while it follows the system's.
+    pub fn chosen_theme(&self) -> Option<Theme> {
+        self.viewer.theme_is_chosen.then_some(self.viewer.display.theme)
+    }
+    /// Sets the pace that the driver has measured.
     pub fn set_pace(&mut self, pace: Pace) {
         self.viewer.pace = Some(pace);
     }
-    /// Gives people something to read.
+    /// Sets the times of a tick that the driver has measured, as [`Viewer::tick_times`].
+    pub fn set_tick_times(&mut self, times: Vec<(LaneSpec, Option<f64>)>) {
+        self.viewer.tick_times = times;
+    }
+    /// Shows a message.
     pub fn set_notice(&mut self, notice: impl Into<String>) {
         self.viewer.notice = Some(notice.into());
     }
@@ -153,7 +181,7 @@ impl Lab {
         )
     }
 
-    /// The run to the last tick that it reached, as the text of a scene file.
+    /// The run up to the last tick reached, as the text of a scene file.
     ///
     /// # Errors
     /// As [`Session::recording_text`](super::Session::recording_text).

@@ -1,8 +1,9 @@
 //! A solver on its own copy of the scene's bodies; the truth is one too.
 //!
-//! A body that blows up or whose solver gives up halts alone: the others of its lane feel nothing of it and
-//! go on, unchanged to the bit.
+//! A body that blows up or whose solver fails halts alone: the other bodies of its lane go on, unchanged to the
+//! bit.
 
+use super::action::Action;
 use super::extent::Extent;
 use super::number::superscript;
 use super::scene::Scene;
@@ -10,43 +11,43 @@ use crate::sim::bodies::{Coordinate, Input, Kind, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
 
-/// The largest magnitude that is followed. Beyond it a value would no longer fit the f32 of the
-/// picture, and nothing is left to learn: the body halts.
+/// The largest magnitude of a coordinate or velocity. Beyond it the value would not fit the picture's f32, and the
+/// body halts.
 pub const ESCAPE: f64 = 1e38;
 
 /// Why and when a body stopped.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Halt {
-    /// The tick that could not be completed. The body keeps the state it had before.
+    /// The tick that failed. The body keeps its state from before that tick.
     pub tick: u64,
     /// The body that failed, by its place in the scene.
     pub body: usize,
-    /// What happened to it.
+    /// Why.
     pub failure: StepFailure,
 }
 
 impl Halt {
-    /// Whether a value grew past all bounds, and no solver gave up.
+    /// Whether a value left the range of [`ESCAPE`] or was not finite, rather than the solver failing.
     pub fn is_blow_up(&self) -> bool {
         matches!(self.failure, StepFailure::Escaped { .. } | StepFailure::NotFinite { .. })
     }
 }
 
-/// A body that had halted and goes on, because its lane was switched to another method.
+/// A halted body that goes on because its lane was switched to another method.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TakenUp {
+pub struct Resumed {
     /// Why and when it had halted.
     pub halt: Halt,
-    /// The state that it goes on from.
-    pub from: Origin,
+    /// The state from which it goes on.
+    pub from: ResumedFrom,
 }
 
-/// A state that a halted body is taken up from.
+/// The state from which a halted body resumes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Origin {
+pub enum ResumedFrom {
     /// The present state of the truth.
     Truth,
-    /// The body's own last good state, as the truth has failed too.
+    /// The body's own last good state, because the truth has failed too.
     LastGood,
 }
 
@@ -57,16 +58,16 @@ pub struct LaneBody {
     pub kind: &'static Kind,
     /// Its coordinates, in state order.
     pub coordinates: &'static [Coordinate],
-    /// Itself, under the lane's solver.
+    /// The body under the lane's solver.
     pub stepper: Box<dyn Stepper>,
     /// Coordinates one tick ago, for drawing between ticks.
     pub previous_q: Vec<f64>,
     /// Velocities one tick ago.
     pub previous_v: Vec<f64>,
-    /// The state before an input, to go back to if the input breaks the body.
+    /// The state before the last input, which is restored if the input makes the body fail.
     before_input: [Vec<f64>; 2],
     halted: Option<Halt>,
-    /// What the true motion has covered so far; `None` under a method.
+    /// The range of the true motion so far; `None` under a method.
     extent: Option<Extent>,
 }
 
@@ -95,25 +96,25 @@ impl LaneBody {
         self.halted.as_ref()
     }
 
-    /// What the true motion has covered so far; `None` under a method.
+    /// The range of the true motion so far; `None` under a method.
     pub(super) fn extent(&self) -> Option<&Extent> {
         self.extent.as_ref()
     }
 
-    /// The values that belong to coordinates in the first one's unit, of one value for each coordinate.
+    /// Of `values`, one per coordinate, those whose coordinate has the unit of the first coordinate.
     pub(super) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
         let unit = self.coordinates[0].unit;
         let pairs = self.coordinates.iter().zip(values);
         pairs.filter(move |(coordinate, _)| coordinate.unit == unit).map(|(_, &value)| value)
     }
 
-    /// The speed, over the coordinates in the first one's unit.
+    /// The speed in the coordinates that have the unit of the first coordinate.
     pub(super) fn speed(&self) -> f64 {
         self.like_first(self.stepper.v()).fold(0.0, libm::hypot)
     }
 
-    /// What is known of the body's motion, for people: `exact`, or how far a reference can be believed by
-    /// now, in the units of its coordinates.
+    /// How well the true motion is known, for people: `exact`, or the present error of the reference in the units of
+    /// the coordinates.
     pub fn truth_in_words(&self) -> String {
         let id = self.kind.truth.id();
         match (self.kind.truth, self.stepper.truth_error()) {
@@ -127,8 +128,8 @@ impl LaneBody {
         }
     }
 
-    /// Steps from `t` by `h` (s), from tick `tick` to the next, or halts in the state it has. `place` is the
-    /// body's in the scene.
+    /// Steps from `t` by `h` (s), from tick `tick` to the next, or halts in its present state. `place` is the body's
+    /// place in the scene.
     fn tick(&mut self, place: usize, tick: u64, (t, h): (f64, f64), substeps: u32) {
         if self.halted.is_some() {
             return;
@@ -147,8 +148,8 @@ impl LaneBody {
         }
     }
 
-    /// Gives an input at time `t` (s), before tick `tick`. A body that it breaks halts in the state before; one
-    /// that has halted feels no kick, but keeps the throttle for when it goes on.
+    /// Applies an input at time `t` (s), before tick `tick`. A body that fails under it halts in the state before. A
+    /// halted body ignores a kick, and keeps the throttle and the rudder for when it resumes.
     fn input(&mut self, place: usize, tick: u64, t: f64, input: Input) {
         if self.halted.is_some() {
             if !matches!(input, Input::Kick(_)) {
@@ -171,21 +172,20 @@ impl LaneBody {
         }
     }
 
-    /// Puts the body under another solver at time `t` (s), its state carried exactly; if it has halted, in the
+    /// Puts the body under another solver at time `t` (s) with its state unchanged, or, if it has halted, with the
     /// present state of the truth.
-    fn switch(&mut self, solver: Solver, t: f64, truth: &LaneBody) -> Option<TakenUp> {
+    fn switch(&mut self, solver: Solver, t: f64, truth: &LaneBody) -> Option<Resumed> {
         self.stepper = self.stepper.with_solver(solver, t);
         let halt = self.halted.take()?;
-        let from = if truth.halted.is_none() { Origin::Truth } else { Origin::LastGood };
-        if from == Origin::Truth {
+        let from = if truth.halted.is_none() { ResumedFrom::Truth } else { ResumedFrom::LastGood };
+        if from == ResumedFrom::Truth {
             self.stepper.set(t, truth.stepper.q(), truth.stepper.v());
         }
         self.remember();
-        Some(TakenUp { halt, from })
+        Some(Resumed { halt, from })
     }
 
-    /// Puts the body into a state at time `t` (s), before tick `tick`: at rest or on its way, whether it had halted
-    /// or not.
+    /// Puts the body into a state at time `t` (s), before tick `tick`. A halted body resumes.
     fn place(&mut self, place: usize, tick: u64, t: f64, [q, v]: [&[f64]; 2]) {
         self.halted = None;
         let [q0, v0] = &mut self.before_input;
@@ -213,7 +213,7 @@ impl LaneBody {
         size_of::<Self>() + vectors + self.stepper.bytes()
     }
 
-    /// Takes the present into what the true motion has covered.
+    /// Extends the range of the true motion by the present state.
     fn cover(&mut self) {
         if let Some(mut extent) = self.extent.take() {
             extent.cover(self.speed(), self.stepper.kinetic_energy());
@@ -222,7 +222,7 @@ impl LaneBody {
     }
 }
 
-/// Looks for a value of a body that is not finite or beyond [`ESCAPE`].
+/// Fails if a coordinate or a velocity of a body is not finite or is beyond [`ESCAPE`].
 pub(super) fn check(body: &dyn Stepper, coordinates: &[Coordinate]) -> Result<(), StepFailure> {
     let names = coordinates.iter();
     let q = names.clone().map(|c| c.name).zip(body.q());
@@ -254,7 +254,7 @@ impl Lane {
         Self { solver, substeps, bodies }
     }
 
-    /// What carries the bodies forward.
+    /// The solver of the bodies.
     pub fn solver(&self) -> Solver {
         self.solver
     }
@@ -266,11 +266,11 @@ impl Lane {
     pub fn bodies(&self) -> &[LaneBody] {
         &self.bodies
     }
-    /// Why and when bodies stopped, in scene order; the others go on.
+    /// Why and when bodies halted, in scene order; the others go on.
     pub fn halts(&self) -> impl Iterator<Item = &Halt> {
         self.bodies.iter().filter_map(LaneBody::halted)
     }
-    /// Why the first body stopped that did, if one did.
+    /// The earliest halt of a body, if there is one.
     pub fn halted(&self) -> Option<&Halt> {
         self.halts().min_by_key(|halt| halt.tick)
     }
@@ -279,43 +279,50 @@ impl Lane {
         self.bodies.iter().map(|body| body.stepper.evaluations()).sum()
     }
 
-    /// Steps every body from `t` by `h` (s), from tick `tick` to the next. One that fails keeps the state it
-    /// had, and halts.
+    /// Steps every body from `t` by `h` (s), from tick `tick` to the next. A body that fails keeps its state and halts.
     pub fn tick(&mut self, tick: u64, t: f64, h: f64) {
         for (place, body) in self.bodies.iter_mut().enumerate() {
             body.tick(place, tick, (t, h), self.substeps);
         }
     }
 
-    /// Gives an input at time `t` (s), before tick `tick`, to every body that takes it. A body whose state it
-    /// would take past all bounds keeps the state it had, and halts. A halted body feels no kick, but keeps the
-    /// throttle for when it goes on.
+    /// Applies an input at time `t` (s), before tick `tick`, to every body that takes it. A body that fails under it
+    /// keeps its state and halts. A halted body ignores a kick, and keeps the throttle and the rudder.
     pub fn input(&mut self, tick: u64, t: f64, input: Input) {
         for (place, body) in self.bodies.iter_mut().enumerate() {
             body.input(place, tick, t, input);
         }
     }
 
-    /// Puts a body into a state at time `t` (s), before tick `tick`. One that had halted goes on; one that cannot be
-    /// in that state keeps its own, and halts.
-    pub(super) fn place(&mut self, body: usize, tick: u64, t: f64, state: [&[f64]; 2]) {
-        self.bodies[body].place(body, tick, t, state);
+    /// Steps the bodies from their start at `tick_hz` while `goes_on` is true, which is called before each tick.
+    pub fn run_while(&mut self, tick_hz: f64, mut goes_on: impl FnMut(u64, &mut Self) -> bool) {
+        let mut tick = 0;
+        while goes_on(tick, self) {
+            self.tick(tick, tick as f64 / tick_hz, 1.0 / tick_hz);
+            tick += 1;
+        }
     }
 
-    /// Sets a parameter of a body at time `t` (s).
-    pub(super) fn set_parameter(&mut self, body: usize, t: f64, parameter: usize, value: f64) {
-        self.bodies[body].stepper.set_parameter(t, parameter, value);
+    /// Applies the effect of an action on the bodies at time `t` (s), before tick `tick`. A placed body resumes if it
+    /// had halted; if it cannot be in that state, it keeps its own and halts.
+    pub(super) fn act(&mut self, tick: u64, t: f64, action: &Action) {
+        match action {
+            Action::Place { body, q, v } => self.bodies[*body].place(*body, tick, t, [q, v]),
+            Action::Set { body, parameter, value } => {
+                self.bodies[*body].stepper.set_parameter(t, *parameter, *value);
+            }
+            other => other.input().into_iter().for_each(|input| self.input(tick, t, input)),
+        }
     }
 
-    /// The memory that it takes beyond its own size, in bytes, no less than it is.
+    /// An upper bound of its heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         self.bodies.iter().map(LaneBody::bytes).sum()
     }
 
-    /// Puts the bodies under another solver at time `t` (s), their state carried exactly. Those that had halted
-    /// go on from the present state of `truth`, the same scene's, and are returned. To switch to what the lane
-    /// is under already changes nothing.
-    pub fn switch(&mut self, solver: Solver, substeps: u32, t: f64, truth: &Lane) -> Vec<TakenUp> {
+    /// Puts the bodies under another solver at time `t` (s), with their states unchanged. Halted bodies resume from the
+    /// present state of `truth` and are returned. A switch to the present solver and substeps does nothing.
+    pub fn switch(&mut self, solver: Solver, substeps: u32, t: f64, truth: &Lane) -> Vec<Resumed> {
         if (solver, substeps) == (self.solver, self.substeps) {
             return Vec::new();
         }

@@ -1,4 +1,4 @@
-//! What is measured of a body in a lane, against the same body in truth.
+//! The metrics of a body in a lane, compared with the same body in truth.
 
 use std::fmt;
 
@@ -14,14 +14,14 @@ pub enum Scale {
     Linear,
 }
 
-/// What a metric is counted in.
+/// The unit of a metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// The same on every body; empty for a pure number.
     Of(&'static str),
-    /// The unit of the body's first coordinate. Those in another unit are left out.
+    /// The unit of the body's first coordinate. Coordinates in another unit are left out.
     Coordinate,
-    /// That unit per second.
+    /// The unit of the body's first coordinate per second.
     Velocity,
 }
 
@@ -46,23 +46,23 @@ impl fmt::Display for Unit {
     }
 }
 
-/// One thing measured.
+/// A metric.
 #[derive(Debug)]
 pub struct Metric {
     /// Name in output, `snake_case`.
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
-    /// What to say where no lane has a value.
+    /// The text shown if no lane has a value.
     pub absent: &'static str,
-    /// What it is counted in.
+    /// Its unit.
     pub unit: Unit,
     /// How it is plotted.
     pub scale: Scale,
     /// What it is, in one line.
     pub about: &'static str,
-    /// The value for a body in a lane and the same body in truth, or `None` where it has no meaning. What
-    /// compares the two has none once either has halted: a state that stands still is no yardstick.
+    /// The value for a body in a lane and the same body in truth; `None` where it is undefined. A comparison is undefined
+    /// once either body has halted.
     pub measure: fn(lane: &LaneBody, truth: &LaneBody) -> Option<f64>,
 }
 
@@ -138,7 +138,7 @@ pub const METRICS: &[Metric] = &[
     },
 ];
 
-/// The body in a lane and in truth, as long as both go on.
+/// The body in a lane and in truth; `None` once either has halted.
 fn both<'a>(lane: &'a LaneBody, truth: &'a LaneBody) -> Option<[&'a LaneBody; 2]> {
     let go_on = lane.halted().is_none() && truth.halted().is_none();
     go_on.then_some([lane, truth])
@@ -149,7 +149,7 @@ fn known(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-/// NaN, if any difference is.
+/// The largest difference; NaN if any difference is NaN.
 fn largest_difference(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>) -> f64 {
     let larger = |largest: f64, x: f64| if x > largest || x.is_nan() { x } else { largest };
     a.zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, larger)

@@ -12,44 +12,56 @@ mod display;
 mod duration;
 mod equal_cost;
 mod extent;
+mod guide;
 mod held;
+mod instrument;
+mod intervention;
 mod journal;
+mod key;
 #[expect(clippy::module_inception, reason = "the lab is what this layer is about")]
 mod lab;
 mod lane;
 mod lane_spec;
-mod lens;
 mod metrics;
 mod notices;
 pub mod number;
+mod one_step;
+pub mod palette;
 mod past;
 pub mod picture;
 mod race;
 mod scene;
+mod scene_list;
 mod session;
-mod shelf;
 mod start;
 mod viewer;
+mod zoom_pan;
 
 pub use crate::sim::bodies::{Acts, Parameter, Range};
 pub use action::Action;
 pub use analysis::{
-    Advice, Advised, Adviser, CRITERIA, Criterion, Fate, Findings, Judge, LONG_RUN,
-    LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK, Meets, Met, NoTruth, NotJudged, Question,
-    RIGHT_PITCH, Severity, TOLERANCE, Thinker, VISIBLE, Verdict, Word, duration, recommended,
+    Advice, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, Coverage, Criterion, CriterionMet,
+    CriterionResult, FREQUENCY_TOLERANCE, Findings, Here, Judge, LONG_RUN, LONGEST_HORIZON_S,
+    MOST_ADVISED_SUBSTEPS, MOST_WORK, MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome,
+    Region, RunFailure, Severity, StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
 };
 pub use clock::{Clock, Due};
-pub use command::{Binding, Command, KEYS, Key, SPEED_LADDER, TICK_LADDER, command_for};
-pub use display::{Ask, Display, Instrument, Interpolation, Pace};
+pub use command::{Binding, Command, KEYS, SPEED_LADDER, TICK_LADDER, command_for};
+pub use display::{Arrangement, Display, DriverRequest, Interpolation, Pace};
 pub use equal_cost::{equal_cost, lanes_that_race};
-pub use held::Held;
+pub use guide::{Goal, STOPS, Stop, Tour};
+pub use held::HeldBody;
+pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
 pub use journal::{Journal, JournalRow, Source};
+pub use key::Key;
 pub use lab::Lab;
-pub use lane::{ESCAPE, Halt, Lane, LaneBody, Origin, TakenUp};
+pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use lane_spec::LaneSpec;
-pub use lens::{Lens, ZOOMS};
 pub use metrics::{METRICS, Metric, Scale, Unit};
-pub use past::{CAPACITY, History, Past, Run, Sample, Samples, Swept, TruthCurve, TruthSample};
+pub use one_step::{FORMULAS, Formula, OneStep, Slope};
+pub use past::{
+    CAPACITY, Energies, History, Past, Run, Sample, Samples, SweptRange, TruthCurve, TruthSample,
+};
 pub use race::{Entrant, Mode, Observer, Race};
 pub use scene::{
     BuiltIn, Check, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES,
@@ -57,8 +69,9 @@ pub use scene::{
     SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, edited_values, nearest,
     parameter_named,
 };
+pub use scene_list::SceneList;
 pub use session::{
     Event, EventKind, RecordingTooLong, SNAPSHOT_BYTES, Session, TimeScale, Timeline,
 };
-pub use shelf::Shelf;
 pub use viewer::{Dialog, Viewer};
+pub use zoom_pan::{ZOOMS, ZoomPan};

@@ -19,7 +19,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     if value < 0.0 { format!("\u{2212}{magnitude}") } else { magnitude }
 }
 
-/// The same without trailing noughts: for marks on an axis, which are round.
+/// A number without trailing zeros, for the marks of an axis.
 pub fn round(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
     if text.contains('.') && !text.contains('·') {

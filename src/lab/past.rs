@@ -1,20 +1,22 @@
-//! What is remembered of a race to be drawn: the recent past of every body in every lane, and the truth as a curve.
+//! The recorded past of a race for drawing: the recent samples of every body in every lane, and the truth as a curve.
 //!
-//! It watches a race and is no part of it: a race that is copied leaves it behind, and one that goes back in time
-//! finds in it what it showed then.
+//! It observes a race and is not part of it: a copy of the race has none. A race that goes back in time is drawn from it
+//! as it was drawn then.
 
 use super::action::Action;
-use super::lane::{Origin, TakenUp};
+use super::lane::{Resumed, ResumedFrom};
 use super::race::{Entrant, Observer, Race};
 use history::HistoryMark;
 
+mod energies;
 mod history;
-mod log;
-mod swept;
+mod swept_range;
 mod truth_curve;
+mod windowed_log;
 
+pub use energies::Energies;
 pub use history::{CAPACITY, History, Run, Sample, Samples};
-pub use swept::Swept;
+pub use swept_range::SweptRange;
 use truth_curve::TruthMark;
 pub use truth_curve::{TruthCurve, TruthSample};
 
@@ -22,15 +24,15 @@ pub use truth_curve::{TruthCurve, TruthSample};
 pub struct Past {
     /// One for each body, for each lane.
     histories: Vec<Vec<History>>,
-    /// The lanes that they are of, by their numbers.
+    /// The number of each history's lane.
     lanes: Vec<usize>,
     /// One for each body.
     truth_curves: Vec<TruthCurve>,
-    /// The stretch of time, in seconds, that histories are to reach back.
+    /// The duration of the histories in seconds.
     span_s: f64,
 }
 
-/// How much was recorded by some tick: where to [rewind](Past::rewind) to.
+/// The end of the recorded past at some tick, to which it can be [rewound](Past::rewind).
 #[derive(Clone, Debug)]
 pub(super) struct PastMark {
     /// By lane number and body.
@@ -39,7 +41,7 @@ pub(super) struct PastMark {
 }
 
 impl PastMark {
-    /// The memory that it takes beyond its own size, in bytes.
+    /// Its heap memory in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         let row = |(_, marks): &(usize, Box<[HistoryMark]>)| size_of_val(&marks[..]);
         size_of_val(&self.histories[..])
@@ -49,7 +51,7 @@ impl PastMark {
 }
 
 impl Past {
-    /// The past of `race`, which begins with its present and is to reach back `span_s` seconds.
+    /// A past of `span_s` seconds that begins with the present of `race`.
     pub fn new(race: &Race, span_s: f64) -> Self {
         let bodies = race.truth().bodies();
         let histories = || bodies.iter().map(|_| History::new()).collect();
@@ -73,14 +75,13 @@ impl Past {
         &self.truth_curves
     }
 
-    /// The true coordinates and velocities of the body at this place of the scene, at the part `part`, 0 to 1, of the
-    /// last tick of `race`.
+    /// The true coordinates and velocities of the body at this place of the scene within the last tick of `race`; `part`
+    /// goes from 0 at its start to 1 at its end.
     pub fn truth_between(&self, race: &Race, body: usize, part: f64) -> (Vec<f64>, Vec<f64>) {
         self.truth_curves[body].state(&race.truth().bodies()[body], race.last_tick(), part)
     }
 
-    /// Shows the present of `race` until the next sample comes, so that what is drawn reaches the present. Never
-    /// allocates.
+    /// Adds the present of `race` until the next sample, so that the drawn past reaches the present. Never allocates.
     pub fn show_present(&mut self, race: &Race) {
         self.each(race, History::record_passing);
     }
@@ -91,7 +92,7 @@ impl Past {
         ((samples / CAPACITY as f64).ceil() as u64).max(1)
     }
 
-    /// Adds the present to the histories if it is time for a sample; what is passed over until then shows in it.
+    /// Adds the present to the histories if a sample is due, or else to the range that the next sample sweeps.
     fn sample(&mut self, race: &Race) {
         if race.tick().is_multiple_of(self.stride(race)) {
             return self.each(race, History::record);
@@ -122,7 +123,7 @@ impl Past {
         }
     }
 
-    /// Keeps the histories of the lanes that are still in the race.
+    /// Drops the histories of lanes that have left the race.
     fn leave_with(&mut self, race: &Race) {
         let is_there = |number: &usize| race.entrants().iter().any(|e| e.lane_number == *number);
         let mut lanes = self.lanes.iter();
@@ -130,7 +131,7 @@ impl Past {
         self.lanes.retain(is_there);
     }
 
-    /// How much is recorded by now.
+    /// The present end of the recorded past.
     pub(super) fn mark(&self) -> PastMark {
         let marks = |histories: &Vec<History>| histories.iter().map(History::mark).collect();
         let rows = self.lanes.iter().copied().zip(self.histories.iter().map(marks));
@@ -140,7 +141,7 @@ impl Past {
         }
     }
 
-    /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
+    /// Whether a run repeated from the mark `from` will be drawn at `mark` as it was drawn then.
     pub(super) fn fills(&self, from: &PastMark, mark: &PastMark) -> bool {
         let histories = mark.histories.iter().all(|(number, marks)| {
             let begun = from.histories.iter().find(|(other, _)| other == number);
@@ -154,12 +155,12 @@ impl Past {
         histories && curves.all(|(curve, (&begun, &mark))| curve.fills(begun, mark))
     }
 
-    /// Goes back to a mark, or forward to one of the future that is kept: to where `race` stands.
+    /// Goes back to a mark, or forward to one in the recorded future: that of the present of `race`.
     pub(super) fn rewind(&mut self, mark: &PastMark, race: &Race) {
         self.leave_with(race);
         for (number, marks) in &mark.histories {
             if !self.lanes.contains(number) {
-                // A lane that had left comes back.
+                // A lane that has left the race comes back.
                 let place = race.entrants().iter().position(|e| e.lane_number == *number);
                 let place = place.expect("a mark is of the lanes that the race then had");
                 self.lanes.insert(place, *number);
@@ -175,7 +176,7 @@ impl Past {
         }
     }
 
-    /// Forgets the future: another one begins.
+    /// Drops the recorded future.
     pub(super) fn forget_future(&mut self) {
         self.histories.iter_mut().flatten().for_each(History::forget_future);
         self.truth_curves.iter_mut().for_each(TruthCurve::forget_future);
@@ -217,7 +218,7 @@ impl Observer for Past {
         }
     }
 
-    fn after(&mut self, race: &Race, action: &Action, taken_up: &[TakenUp]) {
+    fn after(&mut self, race: &Race, action: &Action, resumed: &[Resumed]) {
         match action {
             Action::Throttle(_) | Action::Rudder(_) | Action::Kick(_) => {
                 self.keep_corner(race);
@@ -244,8 +245,8 @@ impl Observer for Past {
         let Entrant { entry, lane, .. } = &race.entrants()[place];
         let bodies = lane.bodies().iter().zip(race.truth().bodies()).enumerate();
         for ((index, (body, truth)), history) in bodies.zip(&mut self.histories[place]) {
-            let from_truth = |it: &&TakenUp| it.halt.body == index && it.from == Origin::Truth;
-            let jumped = taken_up.iter().any(|it| from_truth(&it));
+            let from_truth = |it: &&Resumed| it.halt.body == index && it.from == ResumedFrom::Truth;
+            let jumped = resumed.iter().any(|it| from_truth(&it));
             let sample = Sample::new(race.t(), *entry, body, truth);
             history.begin_run(Sample { jumped, ..sample });
         }
@@ -287,7 +288,7 @@ mod tests {
 
     #[test]
     fn histories_reach_over_the_scene_with_no_fewer_samples_than_they_must() {
-        // Just as many ticks as there is room for, and one more.
+        // One tick less than the capacity, as many, and one more.
         for (ticks, stride) in
             [(CAPACITY as u32 - 1, 1), (CAPACITY as u32, 1), (CAPACITY as u32 + 1, 2)]
         {
@@ -303,7 +304,7 @@ mod tests {
         assert_eq!(sampled(&mut race, 10.0).len(), 101);
         race.0.perform(&Action::TickHz(1000), &mut race.1);
         let times = sampled(&mut race, 10.0);
-        // 20 s at 1000 Hz are ten times the room.
+        // 20 s at 1000 Hz are ten times the capacity.
         assert!((times[times.len() - 1] - times[times.len() - 2] - 0.01).abs() < 1e-9);
         assert!(times[0] == 0.0 && (times[times.len() - 1] - 20.0).abs() < 1e-9);
     }

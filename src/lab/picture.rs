@@ -3,14 +3,21 @@
 //! Lengths are logical points from the stage's top left corner, y down; colours are straight sRGB with
 //! alpha. Everything in a [`Picture`] is finite and within [`FAR`] of the stage, whatever the lanes do.
 
+mod body;
 mod captions;
+mod chart;
+mod coil;
 mod compose;
+mod flags;
+mod framed;
 mod ghost;
 mod grasp;
+mod hull;
 mod layout;
 mod look;
+mod mass;
+mod moment;
 mod outline;
-pub mod palette;
 mod sketch;
 mod trails;
 
@@ -19,11 +26,10 @@ pub use grasp::{Cell, Grasp, Grip, Whose};
 pub use look::{Framing, Handle, Look, Pull};
 pub use outline::{Mark, Outline};
 
+pub use super::palette::{self, Rgba};
+
 /// The largest coordinate in a picture, in points: far outside any stage, and exact in an f32.
 pub const FAR: f32 = 1e5;
-
-/// A colour: red, green, blue and alpha, sRGB, alpha not multiplied in.
-pub type Rgba = [u8; 4];
 
 /// An upright rectangle in points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,54 +60,78 @@ impl Rect {
     }
 }
 
-/// Everything on the stage, in painting order: seas, then ribbons, then strokes, then labels.
+/// Everything on the stage, in painting order: the sea, then shapes, then labels.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
-    /// Backgrounds, one for each body of each lane.
-    pub seas: Vec<Sea>,
-    /// Trails and wakes.
-    pub ribbons: Vec<Ribbon>,
-    /// Everything else drawn, the first at the bottom.
-    pub strokes: Vec<Stroke>,
+    /// The background.
+    pub sea: Option<Sea>,
+    /// Everything drawn on it, the first at the bottom.
+    pub shapes: Vec<Shape>,
     /// Text over it.
     pub labels: Vec<Label>,
-    /// What a pointer is over, one for each body of each lane.
+    /// What a pointer is over: one for each body, or where lanes have cells of their own, for each body of each lane.
     pub cells: Vec<Cell>,
 }
 
-/// The background of one body's cell: water or chart paper, with a grid in the body's world.
+impl Picture {
+    /// The lines and outlines drawn.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.shapes.iter().filter_map(|shape| match shape {
+            Shape::Path(path) => Some(path),
+            Shape::Stroke(_) | Shape::Fill(_) => None,
+        })
+    }
+}
+
+/// The background of the stage: water, lighter towards the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sea {
     /// Where it is.
     pub rect: Rect,
-    /// The point of the stage at which the grid has a line in both directions.
-    pub grid_origin: [f32; 2],
-    /// Distance between grid lines.
-    pub grid_step: f32,
-    /// How much the water moves: 1 for a ship's sea, 0 for chart paper.
-    pub waves: f32,
-    /// Phase of the waves in radians, from simulated time.
-    pub phase: f32,
+    /// Its colours at the top and at the bottom.
+    pub colours: [Rgba; 2],
+}
+
+/// Something drawn on the sea.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A disc, a taper, or a short line.
+    Stroke(Stroke),
+    /// A line through points.
+    Path(Path),
+    /// A filled outline.
+    Fill(Fill),
 }
 
 /// A line through points, with a width and a colour at each.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ribbon {
+pub struct Path {
     /// The points, of which many may lie in one pixel.
-    pub points: Vec<RibbonPoint>,
+    pub points: Vec<PathPoint>,
+    /// Drawn length and gap in points; a gap of 0 is solid.
+    pub dash: [f32; 2],
     /// Nothing is drawn outside this.
     pub clip: Rect,
 }
 
-/// A point of a ribbon.
+/// A point of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RibbonPoint {
+pub struct PathPoint {
     /// Where.
     pub at: [f32; 2],
     /// Half the width there.
     pub radius: f32,
     /// The colour there.
     pub colour: Rgba,
+}
+
+/// A filled outline: one that can be seen whole from the mean of its points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fill {
+    /// The corners, each with the colour there, in either direction.
+    pub corners: Vec<([f32; 2], Rgba)>,
+    /// Nothing is drawn outside this.
+    pub clip: Rect,
 }
 
 /// The shape of a stroke's ends.
@@ -152,6 +182,10 @@ pub struct Label {
     pub size: f32,
     /// Colour.
     pub colour: Rgba,
+    /// Whether it is semibold.
+    pub is_strong: bool,
+    /// The colour of the halo that keeps it apart from what lies under it.
+    pub halo: Rgba,
     /// What it says.
     pub text: String,
 }

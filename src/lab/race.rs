@@ -1,8 +1,10 @@
-//! All lanes and the truth, tick by tick, in integer time, with everything that is done to them.
+//! All lanes and the truth, stepped tick by tick in integer time, with the actions on them.
+
+use std::sync::Arc;
 
 use super::equal_cost;
 use super::journal::Journal;
-use super::lane::Lane;
+use super::lane::{Halt, Lane};
 use super::lane_spec::LaneSpec;
 use super::scene::{Scene, Scripted};
 use crate::sim::Solver;
@@ -11,9 +13,11 @@ use hash::Fnv;
 
 mod acting;
 mod hash;
+mod judged_start;
 mod observer;
 
-pub(super) use acting::Acted;
+pub(super) use acting::ActionResult;
+pub(super) use judged_start::{JudgedBody, JudgedStart};
 pub use observer::Observer;
 
 /// One method at a time, or all of them at once.
@@ -37,7 +41,7 @@ pub(super) struct LastTick {
 /// A lane in a race.
 #[derive(Clone)]
 pub struct Entrant {
-    /// Its number, from 1 in the order of the race's start: it keeps it, whatever method it is put under.
+    /// Its number, from 1 in the order of the race's start. It does not change with the method.
     pub lane_number: usize,
     /// The place of its method on the list.
     pub entry: usize,
@@ -53,26 +57,27 @@ pub struct Race {
     entrants: Vec<Entrant>,
     /// The methods that lanes can be under, with their substeps and tolerances.
     list: Vec<LaneSpec>,
-    /// The parameters of each body as they are now.
+    /// The present parameters of each body.
     values: Vec<Vec<f64>>,
     throttle: f64,
     rudder: f64,
     tick: u64,
     tick_hz: u32,
-    /// The tick and the time (s) at which the present tick rate was set: time is counted from there,
-    /// and never summed up.
+    /// The tick and the time (s) at which the present tick rate was set. Time is counted from there, never summed.
     origin: (u64, f64),
     /// The length of the last tick, in seconds.
     last_step_s: f64,
     journal: Journal,
-    /// How many rows of the journal are done.
+    /// The number of rows of the journal that have been performed.
     done: usize,
+    /// The state right after a person last placed or kicked a body.
+    judged_start: Option<Arc<JudgedStart>>,
 }
 
 impl Race {
-    /// The race of all the scene's lanes from its start. Each [`step`](Self::step) plays what the scene's script
-    /// has for it; a method that the script names without a lane is left out, as each lane keeps its own. It is the
-    /// race that `regatta capture --race` draws:
+    /// The race of all the scene's lanes at its start. Each [`step`](Self::step) performs the script's actions at its
+    /// tick, except for a method without a lane, as each lane keeps its method. It is the race that
+    /// `regatta capture --race` draws:
     ///
     /// ```
     /// use regatta::lab::{Race, Scene};
@@ -94,8 +99,8 @@ impl Race {
         Self { journal: Journal::of_script(script), ..self }
     }
 
-    /// The scene at its start, with one lane for each `(entry, spec)`, the place of its method on the
-    /// [list](Scene::method_list) and what it is under, and without the scene's script.
+    /// The scene at its start without its script, with a lane for each `(entry, spec)`: the place of the lane's method on
+    /// the [list](Scene::method_list), and the lane's method, substeps and tolerance.
     pub fn new(scene: &Scene, lanes: impl IntoIterator<Item = (usize, LaneSpec)>) -> Self {
         Self::with_list(scene, scene.method_list(), lanes)
     }
@@ -125,6 +130,7 @@ impl Race {
             last_step_s: 0.0,
             journal: Journal::default(),
             done: 0,
+            judged_start: None,
         }
     }
 
@@ -133,7 +139,7 @@ impl Race {
     pub(super) fn solo(scene: &Scene, list: Vec<LaneSpec>, entry: usize) -> Self {
         let mut race = Self::among(scene, list, [entry]);
         race.mode = Mode::Solo;
-        // As it is in a race, if it is there.
+        // The number that the lane has in a race, if it is in one.
         if entry < scene.lanes.len() {
             race.entrants[0].lane_number = entry + 1;
         }
@@ -191,26 +197,39 @@ impl Race {
     pub fn entrants(&self) -> &[Entrant] {
         &self.entrants
     }
-    /// The methods that lanes can be under, with the substeps and tolerances that they have now: the scene's lanes,
-    /// then all other methods.
+    /// All methods with their present substeps and tolerances: the scene's lanes, then all other methods.
     pub fn list(&self) -> &[LaneSpec] {
         &self.list
     }
-    /// The parameters that the body at this place of the scene has now, as its kind
-    /// [takes](crate::sim::bodies::Kind::build) them.
+    /// The present parameters of the body at this place of the scene, in the order of
+    /// [`Kind::build`](crate::sim::bodies::Kind::build).
     pub fn values(&self, body: usize) -> &[f64] {
         &self.values[body]
     }
-    /// What was done and is to be done.
+    /// The bodies that halted in the last tick, each with its lane's place among the [entrants](Self::entrants). The bodies
+    /// of the truth come first, with `None`.
+    pub fn just_halted(&self) -> impl Iterator<Item = (Option<usize>, &Halt)> {
+        let lanes = self.entrants.iter().enumerate().map(|(place, e)| (Some(place), &e.lane));
+        std::iter::once((None, &self.truth)).chain(lanes).flat_map(|(place, lane)| {
+            let halts = lane.halts().filter(|halt| halt.tick + 1 == self.tick);
+            halts.map(move |halt| (place, halt))
+        })
+    }
+    /// The [hash](Self::lane_hashes) of the lane with this number; `None` where it has left the race.
+    pub fn lane_hash(&self, lane_number: usize) -> Option<u64> {
+        let place = self.entrants.iter().position(|e| e.lane_number == lane_number)?;
+        self.lane_hashes().nth(place)
+    }
+    /// The performed and the pending actions.
     pub fn journal(&self) -> &Journal {
         &self.journal
     }
-    /// How many rows of the journal are done.
+    /// The number of rows of the journal that have been performed.
     pub(super) fn done(&self) -> usize {
         self.done
     }
 
-    /// Goes on by another journal, of which as many rows are done.
+    /// Replaces the journal by one in which as many rows have been performed.
     pub(super) fn set_journal(&mut self, journal: Journal) {
         self.journal = journal;
     }
@@ -220,7 +239,7 @@ impl Race {
         LastTick { from_s: to_s - self.last_step_s, to_s }
     }
 
-    /// The memory that it takes, in bytes, no less than it is; but for the journal, which copies share.
+    /// An upper bound of its memory in bytes, without the journal, which copies share.
     pub(super) fn bytes(&self) -> usize {
         let lanes = self.entrants.iter().map(|entrant| &entrant.lane).chain([&self.truth]);
         let values =
@@ -230,14 +249,15 @@ impl Race {
             + self.entrants.len() * size_of::<Entrant>()
             + values.sum::<usize>()
             + lanes.map(Lane::heap_bytes).sum::<usize>()
+            + self.judged_start.as_ref().map_or(0, |judged_start| judged_start.bytes())
     }
 
-    /// Plays what the journal has for this tick, and steps every lane and the truth by it. Never allocates.
+    /// Performs the journal's actions at this tick, and steps every lane and the truth to the next. Never allocates.
     pub fn step(&mut self) {
         self.step_seen(&mut ());
     }
 
-    /// As [`Race::step`], before the eyes of an observer.
+    /// Like [`Race::step`], with an observer.
     pub fn step_seen(&mut self, observer: &mut impl Observer) {
         self.catch_up(observer);
         let (t, h) = (self.t(), 1.0 / f64::from(self.tick_hz));
@@ -250,14 +270,13 @@ impl Race {
         observer.ticked(self);
     }
 
-    /// Steps so many ticks.
+    /// Steps `ticks` ticks.
     pub fn run(&mut self, ticks: u64) {
         (0..ticks).for_each(|_| self.step());
     }
 
-    /// A hash of the tick and of every lane's state to the bit, the truth left out: equal for equal
-    /// physics on every platform and in every build. It is 64-bit FNV-1a over little-endian words, with
-    /// -0 as 0.
+    /// A hash of the tick and of the bits of every lane's state, without the truth: equal for equal physics on every
+    /// platform and in every build. It is 64-bit FNV-1a over little-endian words, with -0 as 0.
     pub fn state_hash(&self) -> u64 {
         let mut hash = Fnv::new();
         hash.word(self.tick);
@@ -265,7 +284,7 @@ impl Race {
         hash.0
     }
 
-    /// [`Race::state_hash`] as it would be for a race of this lane alone, for each lane.
+    /// For each lane the [`Race::state_hash`] of a race of this lane alone.
     pub fn lane_hashes(&self) -> impl Iterator<Item = u64> {
         self.entrants.iter().map(|entrant| {
             let mut hash = Fnv::new();

@@ -1,8 +1,8 @@
-//! What is simulated: a scene, read from TOML text and checked as a whole.
+//! A scene: what is simulated, and how. It is read from TOML text and checked as a whole.
 //!
-//! A scene file is read in one walk, driven by the tables of [methods](crate::sim::integrators::METHODS)
-//! and [bodies](crate::sim::bodies::BODIES): whatever they list, a scene may name. Every fault of a file
-//! is reported at once, each with its place and its remedy; a [`Scene`] in hand has none.
+//! Reading is driven by the tables of [methods](crate::sim::integrators::METHODS) and
+//! [bodies](crate::sim::bodies::BODIES): a scene may name whatever they list. All faults of a file are
+//! reported at once, each with its place and its remedy; a [`Scene`] has none.
 
 use std::path::Path;
 
@@ -32,7 +32,7 @@ pub use nearest::nearest;
 /// mistakes takes the parser some hundred times its size in memory.
 pub const LARGEST_FILE: usize = 1 << 20;
 
-/// The highest tick rate in Hz: ten times what the finest physics of games runs at.
+/// The highest tick rate in Hz: ten times the finest rate of physics in games.
 pub const MOST_TICK_HZ: u32 = 10_000;
 
 /// The longest a scene may run, in seconds: a year. At [`MOST_TICK_HZ`] its last tick is far below
@@ -48,7 +48,7 @@ pub const LAST_TICK: u64 = 365 * 86_400 * MOST_TICK_HZ as u64;
 /// The most bodies in a scene: more cells than this cannot be told apart on a stage.
 pub const MOST_BODIES: usize = 64;
 
-/// The most lanes in a scene: twice as many as colours that can be told apart.
+/// The most lanes in a scene: twice the number of colours that can be told apart.
 pub const MOST_LANES: usize = 32;
 
 /// The most substeps in a tick of a lane.
@@ -58,7 +58,7 @@ pub const MOST_SUBSTEPS: u32 = 1_000;
 /// error may be as large as the value.
 pub const TOLERANCES: (f64, f64) = (1e-14, 1.0);
 
-/// The largest magnitude of a coordinate that a body can be placed at: what is followed; see
+/// The largest magnitude of a coordinate that a body can be placed at. Beyond it bodies halt; see
 /// [`ESCAPE`](super::ESCAPE).
 const LARGEST_COORDINATE: f64 = 1e38;
 
@@ -72,11 +72,11 @@ pub struct Scene {
     pub name: String,
     /// Its name for people.
     pub title: String,
-    /// What it shows; empty where the file does not say.
+    /// What it shows; empty if the file does not say.
     pub about: String,
     /// What to try, for the line under the stage.
     pub hint: Option<String>,
-    /// Ticks a second, 1 to [`MOST_TICK_HZ`].
+    /// Ticks per second, 1 to [`MOST_TICK_HZ`].
     pub tick_hz: u32,
     /// How long it runs, from [`LEAST_SECONDS`] to [`MOST_SECONDS`].
     pub seconds: f64,
@@ -86,11 +86,13 @@ pub struct Scene {
     pub opening_method: Option<&'static Method>,
     /// Whether each lane gets as many substeps as bring its cost nearest to the dearest lane's.
     pub equal_cost: bool,
+    /// Whether the program opens it as a race, and not under one method.
+    pub opens_as_race: bool,
     /// The bodies in the order of the file, 1 to [`MOST_BODIES`], no two of one name.
     pub bodies: Vec<SceneBody>,
-    /// What happens without anybody's doing, by tick, and within a tick in the order of the file.
+    /// The scripted commands by tick, and within a tick in the order of the file.
     pub script: Vec<Scripted>,
-    /// What a race of the scene is known to come to, in the order of the file.
+    /// States that a race of the scene must reproduce, in the order of the file.
     pub checks: Vec<Check>,
 }
 
@@ -115,14 +117,14 @@ pub struct Scripted {
     pub action: Action,
 }
 
-/// The state of a lane that a race of the scene is known to come to.
+/// The state that a lane must reach in a race of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Check {
     /// When, at most [`LAST_TICK`].
     pub tick: u64,
     /// The lane's number, from 1.
     pub lane: usize,
-    /// Its [hash](super::Race::lane_hashes) as the tick is reached, before anything is done there.
+    /// Its [hash](super::Race::lane_hashes) when the tick is reached, before the actions of that tick.
     pub hash: u64,
 }
 
@@ -144,7 +146,7 @@ impl Scene {
     /// Reads a scene from the text of a file; `file` is the file's name, for messages.
     ///
     /// # Errors
-    /// Everything that is wrong with the text, in the order in which it stands there.
+    /// All faults of the text, in its order.
     pub fn parse(file: &str, text: &str) -> Result<Scene, SceneErrors> {
         if text.len() > LARGEST_FILE {
             return Err(SceneErrors::too_large(file));

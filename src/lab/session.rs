@@ -1,10 +1,10 @@
-//! A run as a value: it changes by [actions](Action) and ticks only, and a copy goes on alike to the bit.
+//! A run as a value: only [actions](Action) and ticks change it, and a copy continues identically to the bit.
 
 use std::sync::Arc;
 
 use super::action::Action;
 use super::journal::Journal;
-use super::race::{Acted, Mode, Observer, Race};
+use super::race::{ActionResult, Mode, Observer, Race};
 use super::scene::Scene;
 
 mod recording;
@@ -15,12 +15,12 @@ pub use recording::RecordingTooLong;
 pub use time_scale::TimeScale;
 pub use timeline::{Event, EventKind, SNAPSHOT_BYTES, Timeline};
 
-/// A scene being run. It knows no clock, no picture and nobody who looks at it.
+/// A running scene, without a clock, a picture or a viewer.
 #[derive(Clone)]
 pub struct Session {
     scene: Arc<Scene>,
     race: Race,
-    /// The race at its start, without a journal: what a recording begins with.
+    /// The race at its start without a journal, from which a recording begins.
     start: Box<Race>,
 }
 
@@ -52,17 +52,16 @@ impl Session {
         Self { scene, race, start: Box::new(start) }
     }
 
-    /// The scene at its start with one lane, that of the method on place `entry` of the scene's
-    /// [list](Scene::method_list), which the scene's script may put under other methods.
+    /// The scene at its start with one lane, under the method at place `entry` of the scene's [list](Scene::method_list).
+    /// The scene's script may switch it.
     pub fn solo(scene: Arc<Scene>, entry: usize) -> Self {
         let race = Race::solo(&scene, scene.method_list(), entry);
         Self::new(scene, race)
     }
 
-    /// The same run at its start, with nothing to do.
-    fn at_start(&self) -> Self {
-        let race = (*self.start).clone();
-        Self { scene: Arc::clone(&self.scene), race, start: self.start.clone() }
+    /// The race at its start, before any action; without its journal.
+    fn start(&self) -> &Race {
+        &self.start
     }
 
     /// The scene, as it was opened.
@@ -77,39 +76,41 @@ impl Session {
     pub fn mode(&self) -> Mode {
         self.race.mode()
     }
-    /// What was done and is to be done.
+    /// The performed and the pending actions.
     pub fn journal(&self) -> &Journal {
         self.race.journal()
     }
 
-    /// Goes on by another journal than its own, which has the same rows up to here: one that this run's copy wrote, or
-    /// that was read from a file.
+    /// Replaces the journal by one with the same rows up to the present: from a copy of this run, or from a file.
     pub fn follow(&mut self, journal: Journal) {
         self.race.set_journal(journal);
     }
 
-    /// Does something at the present tick, after what the journal has for it. From here on the journal has only what
-    /// the script does; what was done by hand later is taken back. Returns whether it changed anything: what changes
-    /// nothing is not in the journal.
+    /// Performs an action at the present tick, after the journal's actions at it. Later actions by hand are removed from the
+    /// journal; the script's stay. Returns whether the action changed anything: if not, it is not in the journal.
     pub fn act(&mut self, action: Action) -> bool {
-        self.act_seen(action, &mut ()) != Acted::Nothing
+        self.act_seen(action, &mut ()) != ActionResult::Nothing
     }
 
-    pub(super) fn act_seen(&mut self, action: Action, observer: &mut impl Observer) -> Acted {
+    pub(super) fn act_seen(
+        &mut self,
+        action: Action,
+        observer: &mut impl Observer,
+    ) -> ActionResult {
         self.race.act(action, observer)
     }
 
-    /// Does what the journal has for this tick, and steps to the next. Never allocates, but for what is done.
+    /// Performs the journal's actions at this tick, and steps to the next. Allocates for actions only.
     pub fn tick(&mut self) {
         self.race.step();
     }
 
-    /// As [`Session::tick`], before the eyes of an observer.
+    /// Like [`Session::tick`], with an observer.
     pub fn tick_seen(&mut self, observer: &mut impl Observer) {
         self.race.step_seen(observer);
     }
 
-    /// So many ticks.
+    /// Makes `ticks` ticks.
     pub fn run(&mut self, ticks: u64) {
         self.race.run(ticks);
     }

@@ -1,4 +1,4 @@
-//! What a run begins with: a scene as a person has edited it, and the methods, lanes and tick rate that were chosen.
+//! The settings with which a run starts: a scene as a person has edited it, and the chosen methods, lanes and tick rate.
 
 use std::sync::Arc;
 
@@ -9,25 +9,25 @@ use super::race::{Mode, Race};
 use super::scene::{LEAST_SECONDS, MOST_SECONDS, Scene, SceneBody, edited_values};
 use super::session::Session;
 
-/// What a restart begins with: what a person chose stays, what a script did is not in it.
+/// The settings of the next restart. They include a person's choices, and no effects of a script.
 #[derive(Clone, Debug)]
-pub(super) struct Start {
+pub(super) struct StartSettings {
     /// The scene as it was opened.
     pub(super) opened: Arc<Scene>,
-    /// The same with the parameters and the length that the person has set.
+    /// The scene with the parameters and the length that the person has set.
     pub(super) scene: Arc<Scene>,
-    /// The methods, with the substeps and tolerances that the person has given them.
+    /// The methods with the substeps and tolerances that the person has set.
     pub(super) list: Vec<LaneSpec>,
     pub(super) mode: Mode,
     /// The methods of the lanes of a race, by their places on the list.
     lanes: Vec<usize>,
-    /// The method flown in solo, which is in a race too, by its place on the list.
+    /// The method in solo mode, which is in a race too, by its place on the list.
     pub(super) entry: usize,
     pub(super) tick_hz: u32,
 }
 
-impl Start {
-    /// Of a scene as it is written, solo, under the method that it opens with.
+impl StartSettings {
+    /// The settings of an unedited scene: solo, under its opening method.
     pub(super) fn of(scene: Scene) -> Self {
         let scene =
             Scene { lanes: equal_cost::lanes_that_race(&scene), equal_cost: false, ..scene };
@@ -45,7 +45,7 @@ impl Start {
         }
     }
 
-    /// The run at its start.
+    /// A run at its start.
     pub(super) fn session(&self) -> Session {
         let race = match self.mode {
             Mode::Solo => Race::solo(&self.scene, self.list.clone(), self.entry),
@@ -58,14 +58,14 @@ impl Start {
         Session::new(Arc::clone(&self.scene), race.at_rate(self.tick_hz))
     }
 
-    /// Makes the scene this long, in seconds, if a scene can be.
+    /// Sets the scene's length in seconds, if it is in the allowed range.
     pub(super) fn set_seconds(&mut self, seconds: f64) {
         if (LEAST_SECONDS..=MOST_SECONDS).contains(&seconds) && seconds != self.scene.seconds {
             Arc::make_mut(&mut self.scene).seconds = seconds;
         }
     }
 
-    /// Sets a parameter that acts at the start, where it is in its range and fits the others.
+    /// Sets a parameter that acts at the start, if it is in its range and fits the others.
     pub(super) fn set(&mut self, body: usize, parameter: usize, value: f64) {
         let SceneBody { kind, values, .. } = &self.scene.bodies[body];
         if values[parameter] != value
@@ -75,7 +75,7 @@ impl Start {
         }
     }
 
-    /// Takes notice of what a person did in `race`: it holds after a restart too.
+    /// Keeps the choice of a person's action in `race` for the next restart.
     pub(super) fn keep(&mut self, action: &Action, race: &Race) {
         match *action {
             Action::TickHz(_) => self.tick_hz = race.tick_hz(),

@@ -1,42 +1,58 @@
-//! What a person looks at: nothing here touches a run, and no run remembers it.
+//! What a person looks at. It does not change a run and is not part of one.
 
-use super::analysis::{Advice, Findings, Verdict};
-use super::display::{Display, Instrument, Interpolation, Pace};
-use super::held::Held;
+use super::analysis::{Advice, Findings, StabilityMap, Verdict};
+use super::display::{Arrangement, Display, Interpolation, Pace};
+use super::guide::{Hints, Tour};
+use super::held::HeldBody;
+use super::instrument::Instrument;
 use super::lane_spec::LaneSpec;
+use super::palette::Theme;
 
-/// What is open over everything else.
+/// A dialog over the window.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Dialog {
     /// A field for the path of a scene file.
-    Path,
-    /// What is wrong with a scene file.
+    Path {
+        /// Why the scene at the typed path could not be opened; `None` once the path is edited.
+        refused: Option<String>,
+    },
+    /// The errors of a scene file.
     Mistakes {
         /// The file.
         file: String,
-        /// What is wrong with it, and where.
+        /// The errors with their places.
         report: String,
     },
 }
 
-/// How a run is looked at, and what there is to read beside it.
+/// How a run is looked at, and the texts beside it.
 #[derive(Clone, Debug)]
 pub struct Viewer {
     /// What is shown, and how.
     pub display: Display,
     /// The number of the lane selected in a race: it stays selected, whatever method it is put under.
     pub(super) selected: usize,
-    /// How fast the driver goes while time runs; `None` where there is no real time, as in a capture.
+    /// The driver's pace while time runs; `None` without real time, as in a capture.
     pub pace: Option<Pace>,
-    /// The latest thing worth telling, such as a screenshot's file name.
+    /// The time of a tick of each lane that flew when the driver measured it last, in nanoseconds: `None` of a lane that
+    /// halted.
+    pub tick_times: Vec<(LaneSpec, Option<f64>)>,
+    /// The latest message, such as a screenshot's file name.
     pub notice: Option<String>,
     pub(super) findings: Option<Findings>,
-    /// What lanes were under before they were given equal cost, while they have it.
+    /// The lanes before equal cost was switched on; `None` while it is off.
     pub(super) before_equal_cost: Option<Vec<LaneSpec>>,
-    /// The body in hand.
-    pub(super) held: Option<Held>,
+    /// The body that the person holds.
+    pub(super) held: Option<HeldBody>,
     pub(super) dialog: Option<Dialog>,
     pub(super) typed_path: String,
+    /// Whether a person chose the theme: then it no longer follows the system's.
+    pub(super) theme_is_chosen: bool,
+    pub(super) hints: Hints,
+    /// The open guide.
+    pub(super) tour: Option<Tour>,
+    /// The stop at which the guide was closed.
+    pub(super) left_at: usize,
 }
 
 impl Viewer {
@@ -46,51 +62,71 @@ impl Viewer {
             display: Display {
                 ghost: true,
                 interpolation: Interpolation::Hermite,
-                instrument: Instrument::Metric(0),
+                instrument: Instrument::Motion,
+                enlarged: false,
+                metric: 0,
                 body: 0,
+                mapped_parameter: None,
+                arrangement: Arrangement::Overlay,
+                theme: Theme::Dark,
                 help: false,
                 inspector: false,
                 motion: true,
-                lenses: Vec::new(),
+                zoom_pans: Vec::new(),
             },
             selected,
             pace: None,
+            tick_times: Vec::new(),
             notice: None,
             findings: None,
             before_equal_cost: None,
             held: None,
             dialog: None,
             typed_path: String::new(),
+            theme_is_chosen: false,
+            hints: Hints::default(),
+            tour: None,
+            left_at: 0,
         }
     }
 
-    /// What is open over everything else.
+    /// The open dialog.
     pub fn dialog(&self) -> Option<&Dialog> {
         self.dialog.as_ref()
     }
 
-    /// The path as far as it is typed.
+    /// Where the person is in the guide, if it is open.
+    pub fn tour(&self) -> Option<&Tour> {
+        self.tour.as_ref()
+    }
+
+    /// The path typed so far.
     pub fn typed_path(&self) -> &str {
         &self.typed_path
     }
 
-    /// The body in hand, if one is.
-    pub fn held(&self) -> Option<&Held> {
+    /// The body that the person holds, if any.
+    pub fn held(&self) -> Option<&HeldBody> {
         self.held.as_ref()
     }
 
-    /// What is to be said of the method on this place of the list, over the scene from its start at the
-    /// present tick rate and throttle; `None` until it was [learnt](super::Lab::learn).
+    /// The verdict on the method at this place of the list, of the run that [`Lab::analysis_request`](super::Lab::analysis_request)
+    /// describes; `None` until it has been [found](super::Lab::accept_findings).
     pub fn verdict(&self, entry: usize) -> Option<&Verdict> {
         self.findings.as_ref()?.verdicts.get(entry)?.as_ref()
     }
 
-    /// What is known of every method on this scene, as far as it was [learnt](super::Lab::learn) and is shown.
+    /// The advice on this scene, as far as it has been [found](super::Lab::accept_findings); `None` while it is not shown.
     pub fn advice(&self) -> Option<&Advice> {
         self.findings.as_ref()?.advice.as_ref()
     }
 
-    /// Shows the next way of drawing between ticks, and tells its name.
+    /// The stability map, as far as it has been [found](super::Lab::accept_findings); `None` while it is not shown.
+    pub fn stability_map(&self) -> Option<&StabilityMap> {
+        self.findings.as_ref()?.map.as_ref()
+    }
+
+    /// Switches to the next way of drawing between ticks, and shows its name.
     pub(super) fn next_interpolation(&mut self) {
         self.display.interpolation = match self.display.interpolation {
             Interpolation::Raw => Interpolation::Linear,
@@ -101,9 +137,18 @@ impl Viewer {
         self.notice = Some(format!("drawing between ticks: {name}"));
     }
 
-    /// Shows the next instrument, round.
-    pub(super) fn next_instrument(&mut self) {
-        let mut after = Instrument::all().skip_while(|i| *i != self.display.instrument);
-        self.display.instrument = after.nth(1).unwrap_or(Instrument::Metric(0));
+    /// Shows the lanes of a race in the other arrangement, and tells which.
+    pub(super) fn toggle_arrangement(&mut self) {
+        let (arrangement, told) = match self.display.arrangement {
+            Arrangement::Overlay => (Arrangement::SideBySide, "lanes side by side"),
+            Arrangement::SideBySide => (Arrangement::Overlay, "lanes over each other"),
+        };
+        self.display.arrangement = arrangement;
+        self.notice = Some(told.into());
+    }
+
+    /// Switches to the instrument so many tabs further on, cyclically.
+    pub(super) fn instrument_beside(&mut self, step: isize) {
+        self.display.instrument = self.display.instrument.beside(step);
     }
 }

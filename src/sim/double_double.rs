@@ -1,15 +1,16 @@
-//! Numbers of twice the digits: a sum of two `f64`, of which the second is at most half a unit in the last
-//! place of the first.
+//! Double-double arithmetic: the unevaluated sum of two `f64`, the second at most half a unit in the
+//! last place of the first.
 //!
-//! They serve where a truth would otherwise lose digits to cancellation. Only `+ - × ÷ √` are used, and
-//! no fused multiply-add, so that the bits are the same everywhere. Dekker, *A floating-point technique
-//! for extending the available precision* (1971); Joldes, Muller & Popescu, *Tight and rigorous error
-//! bounds for basic building blocks of double-word arithmetic* (2017).
+//! The closed forms and the reference solution use it where plain `f64` would lose digits to
+//! cancellation. It uses only `+ - × ÷ √` and no fused multiply-add, so that the bits are the same on
+//! every platform. Dekker, *A floating-point technique for extending the available precision* (1971);
+//! Joldes, Muller & Popescu, *Tight and rigorous error bounds for basic building blocks of double-word
+//! arithmetic* (2017).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// `high + low`, to some 1e-32 of itself. Magnitudes from 1e-140 to 1e140 neither overflow in a product nor
-/// lose its lower half.
+/// `high + low`. Products of magnitudes from 1e-140 to 1e140 neither overflow nor lose their lower
+/// half.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct DoubleDouble {
     pub(super) high: f64,
@@ -17,7 +18,7 @@ pub(super) struct DoubleDouble {
 }
 
 /// 2π.
-pub(super) const TURN: DoubleDouble =
+pub(super) const TWO_PI: DoubleDouble =
     DoubleDouble { high: std::f64::consts::TAU, low: 2.449_293_598_294_706_4e-16 };
 
 impl DoubleDouble {
@@ -30,7 +31,7 @@ impl DoubleDouble {
         Self { high, low: (a - (high - b_there)) + (b - b_there) }
     }
 
-    /// The exact sum where `b` is no larger than `a`.
+    /// The exact sum, for `b` no larger in magnitude than `a`.
     fn quick_sum(a: f64, b: f64) -> Self {
         let high = a + b;
         Self { high, low: b - (high - a) }
@@ -48,8 +49,8 @@ impl DoubleDouble {
             return self;
         }
         let root = self.high.sqrt();
-        let left = self - Self::product(root, root);
-        Self::quick_sum(root, left.high / (2.0 * root))
+        let rest = self - Self::product(root, root);
+        Self::quick_sum(root, rest.high / (2.0 * root))
     }
 
     /// Times a power of two.
@@ -119,10 +120,10 @@ impl Div for DoubleDouble {
     type Output = Self;
     fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
-        let left = self - other * first;
-        let second = left.high / other.high;
-        let left = left - other * second;
-        Self::quick_sum(first, second) + Self::from(left.high / other.high)
+        let rest = self - other * first;
+        let second = rest.high / other.high;
+        let rest = rest - other * second;
+        Self::quick_sum(first, second) + Self::from(rest.high / other.high)
     }
 }
 
@@ -130,8 +131,8 @@ impl Div<f64> for DoubleDouble {
     type Output = Self;
     fn div(self, other: f64) -> Self {
         let first = self.high / other;
-        let left = self - Self::product(first, other);
-        Self::quick_sum(first, left.high / other)
+        let rest = self - Self::product(first, other);
+        Self::quick_sum(first, rest.high / other)
     }
 }
 
@@ -143,12 +144,12 @@ mod tests {
         DoubleDouble::ONE / 3.0
     }
 
-    fn assert_small(left: DoubleDouble, most: f64) {
-        assert!(left.high.abs() <= most, "{left:?}");
+    fn assert_small(rest: DoubleDouble, most: f64) {
+        assert!(rest.high.abs() <= most, "{rest:?}");
     }
 
     #[test]
-    fn a_sum_keeps_what_a_single_number_drops() {
+    fn a_sum_keeps_digits_that_f64_drops() {
         let sum = DoubleDouble::from(1e16) + 1.0.into() + 1e-10.into() - 1e16.into();
         assert_eq!(sum.high, 1.0 + 1e-10);
         assert_ne!(1e16 + 1.0 + 1e-10 - 1e16, 1.0 + 1e-10);
@@ -167,7 +168,7 @@ mod tests {
     fn quotients_and_roots_undo_products_to_twice_the_digits() {
         assert_small(third() * 3.0 - DoubleDouble::ONE, 1e-31);
         assert_ne!(third().low, 0.0);
-        let x = third() + TURN;
+        let x = third() + TWO_PI;
         assert_small(x / third() * third() - x, 1e-30);
         assert_small(x.squared().sqrt() - x, 1e-30);
         assert_small((x.scaled(-0.25) * -4.0) - x, 0.0);
@@ -175,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn the_turn_has_its_second_half() {
+    fn two_pi_is_right_to_both_halves() {
         // Machin: π = 16 atan 1/5 - 4 atan 1/239.
         let atan_of_inverse = |n: f64| {
             let (mut power, mut sum) = (DoubleDouble::ONE / n, DoubleDouble::from(0.0));
@@ -186,6 +187,6 @@ mod tests {
             sum
         };
         let pi = atan_of_inverse(5.0) * 16.0 - atan_of_inverse(239.0) * 4.0;
-        assert_small(pi * 2.0 - TURN, 1e-30);
+        assert_small(pi * 2.0 - TWO_PI, 1e-30);
     }
 }

@@ -1,32 +1,32 @@
-//! The truth where there is a closed form.
+//! The truth of a body with a closed form.
 
-use super::bodies::Body;
-use super::drive::{Drive, Jump};
+use super::body::Body;
 use super::integrators::StepFailure;
+use super::propagator::{Jump, Propagator};
 use super::system::{Counted, State, Vector};
 
-/// The exact flow, always computed in one stride from the anchor, so that nothing accumulates.
+/// The exact flow. Each state is computed in one stride from the anchor, so that no error accumulates.
 #[derive(Clone)]
 pub(super) struct ExactFlow<V> {
     anchor: Anchor<V>,
-    /// The time that the state is at.
+    /// The time of the current state, in seconds.
     t: f64,
     scratch: State<V>,
 }
 
-/// Where the flow comes from.
+/// The initial condition of the flow.
 #[derive(Clone)]
 struct Anchor<V> {
     state: State<V>,
     t: f64,
-    /// Where the state may be instead, for the errors that it was made with: it flows alike.
+    /// The state displaced by its error: it is carried by the same flow, to see how the error grows.
     displaced: State<V>,
-    /// By how much it is displaced, in coordinates and velocities.
+    /// The displacement, in coordinates and in velocities.
     error: [f64; 2],
 }
 
 impl<V: Vector> ExactFlow<V> {
-    /// From `state` at time `t` (s).
+    /// The flow from `state` at time `t` (s).
     pub(super) fn new(state: &State<V>, t: f64) -> Self {
         let [displaced, scratch] = [state.clone(), state.clone()];
         let anchor = Anchor { state: state.clone(), t, displaced, error: [0.0; 2] };
@@ -35,8 +35,8 @@ impl<V: Vector> ExactFlow<V> {
 }
 
 impl<V: Vector> Anchor<V> {
-    /// Lies at `state` at time `t` (s), where the body may be off by `error`.
-    fn lay(&mut self, state: &State<V>, t: f64, error: [f64; 2]) {
+    /// Moves the anchor to `state` at time `t` (s), known to within `error`.
+    fn place(&mut self, state: &State<V>, t: f64, error: [f64; 2]) {
         self.state.assign(state);
         self.displaced.assign(state);
         self.displaced.q.components_mut().iter_mut().for_each(|x| *x += error[0]);
@@ -44,8 +44,8 @@ impl<V: Vector> Anchor<V> {
         (self.t, self.error) = (t, error);
     }
 
-    /// How far `state`, where the body has come to at time `t`, may be off: by the rounding of the closed form
-    /// and of the time that it is given, and for what the anchor was off.
+    /// A bound on the error of `state` at time `t`: the rounding of the closed form and of the time,
+    /// and the error of the anchor carried along.
     fn error<B: Body<Vector = V>>(
         &self,
         body: &B,
@@ -71,7 +71,7 @@ impl<V: Vector> Anchor<V> {
     }
 }
 
-impl<B: Body> Drive<B> for ExactFlow<B::Vector> {
+impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
     fn advance(
         &mut self,
         body: &Counted<B>,
@@ -101,7 +101,7 @@ impl<B: Body> Drive<B> for ExactFlow<B::Vector> {
         };
         let is_changed = change(body, state);
         if is_changed {
-            anchor.lay(state, t, error);
+            anchor.place(state, t, error);
             *now = t;
         }
         is_changed
@@ -113,7 +113,7 @@ impl<B: Body> Drive<B> for ExactFlow<B::Vector> {
     }
 }
 
-/// The largest magnitude; not a number where one is not.
+/// The largest magnitude; NaN if a component is NaN.
 fn largest<V: Vector>(vector: &V) -> f64 {
     vector.components().iter().fold(
         0.0,

@@ -5,19 +5,21 @@
 //! in every build profile.
 
 pub mod bodies;
+mod body;
+mod body_stepper;
 mod double_double;
-mod drive;
-mod driven;
 mod exact_flow;
 pub mod integrators;
+mod parameter;
+mod propagator;
 mod reference;
 mod solver;
 pub mod stability;
 mod stepper;
 mod system;
 
-pub use driven::stepper;
+pub use body_stepper::stepper;
 pub use reference::REFERENCE_ACCURACY;
 pub use solver::Solver;
-pub use stepper::Stepper;
-pub use system::{Counted, Counts, State, System, Vector};
+pub use stepper::{RecordedTick, Stepper};
+pub use system::{Counted, Counts, Evaluation, Recorded, State, System, Vector};

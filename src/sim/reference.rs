@@ -1,56 +1,57 @@
-//! The truth where there is no closed form: Bulirsch and Stoer's extrapolation, run to round-off, and beside
-//! it a second solution by other steps, whose distance says how good the first one is.
+//! The reference solution, the truth of a body without a closed form: Bulirsch and Stoer's
+//! extrapolation to round-off, and a second solution with other steps. The difference of the two
+//! estimates the error.
 //!
-//! It is no method of the table: it takes what substeps it wants, and its evaluations are not counted.
+//! It is not a method of the table: it chooses its own substeps, and its evaluations are not counted.
 
-use super::bodies::Body;
-use super::drive::{Drive, Jump};
+use super::body::Body;
 use super::integrators::StepFailure;
+use super::propagator::{Jump, Propagator};
 use super::system::{Counted, State, Vector};
 
 use extrapolation::Extrapolation;
-use track::{Pace, Track};
+use trajectory::{StepControl, Trajectory};
 
 mod extrapolation;
-mod track;
+mod trajectory;
 
-/// What a reference solution aims at: its error over a built-in scene's duration, relative to the largest
-/// coordinate and to the largest velocity. `tests/bodies/reference.rs` holds it against a closed form and
-/// against Runge-Kutta at a fine step, and finds it twenty times better than that. What it reaches on a
-/// run is estimated there: [`Stepper::truth_error`](super::Stepper::truth_error). A motion that
-/// magnifies what it starts with, such as a pendulum on its head, magnifies this error too.
+/// The accuracy that a reference solution aims at: its error over the duration of a built-in scene,
+/// relative to the largest coordinate and to the largest velocity. `tests/bodies/reference.rs` compares
+/// it with a closed form and with Runge-Kutta at a fine step, to a tighter bound.
+/// [`Stepper::truth_error`](super::Stepper::truth_error) estimates the error of each run. A motion that
+/// amplifies its initial deviations, such as a pendulum started upright, amplifies this error too.
 pub const REFERENCE_ACCURACY: f64 = 1e-10;
 
-/// The distance of the two solutions is one sample of their errors: how much larger these may be.
-/// `tests/bodies/fifty_digits.rs` measures what this is worth.
+/// The ratio of the error estimate to the difference of the two solutions, which is only one sample of
+/// their errors. `tests/bodies/fifty_digits.rs` measures the estimate.
 const MARGIN: f64 = 8.0;
 
-/// The evaluations that a solution may take for each call, about the work of 30 calls of a built-in
-/// scene, beside what it has saved. With fewer, a stiff body would have no truth at a coarse tick; with
-/// many more, one without hope would keep its judge waiting.
-const GRANTED: u64 = 6_000;
+/// The evaluations granted per call, in addition to those saved: about the work of 30 calls of a
+/// built-in scene. With fewer, a stiff body would have no truth at a coarse tick; with many more, the
+/// judge would wait long for a hopeless one.
+const EVALUATIONS_PER_CALL: u64 = 6_000;
 
-/// The most evaluations that are saved for hard stretches; there are as many at the start. Some tenths of a
-/// second's work.
-const SAVED: u64 = 4_000_000;
+/// The largest number of evaluations saved for hard stretches, all available at the start: some tenths
+/// of a second of work.
+const MOST_SAVED_EVALUATIONS: u64 = 4_000_000;
 
 /// A reference solution.
 #[derive(Clone, Debug)]
 pub(super) struct Reference<V> {
-    solution: Track<V>,
-    /// The same by other steps.
-    check: Track<V>,
+    solution: Trajectory<V>,
+    /// The second solution, with other steps.
+    check: Trajectory<V>,
     work: Extrapolation<V>,
-    apart: State<V>,
-    /// Whether both are where the body is.
-    is_placed: bool,
-    /// Evaluations that may be spent from now on.
+    difference: State<V>,
+    /// Whether both solutions have started from the state of the body.
+    has_begun: bool,
+    /// Evaluations left to spend.
     saved: u64,
     failed: Option<StepFailure>,
-    /// The simulated seconds since the state was given.
+    /// Simulated seconds since the body was placed.
     elapsed: f64,
-    /// Since then, the farthest that the two were apart, in coordinates and in velocities.
-    farthest: [f64; 2],
+    /// Since then, the largest difference of the two solutions, in coordinates and in velocities.
+    largest_difference: [f64; 2],
     /// The largest velocity and the largest acceleration since then.
     fastest: [f64; 2],
 }
@@ -58,42 +59,42 @@ pub(super) struct Reference<V> {
 impl<V: Vector> Reference<V> {
     pub(super) fn new(like: &State<V>) -> Self {
         Self {
-            solution: Track::new(like, Pace::Long),
-            check: Track::new(like, Pace::Uneven),
+            solution: Trajectory::new(like, StepControl::Long),
+            check: Trajectory::new(like, StepControl::Uneven),
             work: Extrapolation::new(like),
-            apart: like.clone(),
-            is_placed: false,
-            saved: SAVED,
+            difference: like.clone(),
+            has_begun: false,
+            saved: MOST_SAVED_EVALUATIONS,
             failed: None,
             elapsed: 0.0,
-            farthest: [0.0; 2],
+            largest_difference: [0.0; 2],
             fastest: [0.0; 2],
         }
     }
 
-    /// Begins anew: the body was given its state.
+    /// Restarts, because the body was placed into a state.
     fn place(&mut self) {
-        self.is_placed = false;
-        self.saved = SAVED;
+        self.has_begun = false;
+        self.saved = MOST_SAVED_EVALUATIONS;
         self.failed = None;
         self.elapsed = 0.0;
-        (self.farthest, self.fastest) = ([0.0; 2], [0.0; 2]);
+        (self.largest_difference, self.fastest) = ([0.0; 2], [0.0; 2]);
     }
 
-    /// Takes notice that a force changed or an impulse was given, and that `state` is now that of the
-    /// body: what the solution may be off stays.
+    /// Restarts from `state` after a change of a force or an impulse, and keeps the difference of the
+    /// two solutions.
     fn push<B: Body<Vector = V>>(&mut self, body: &B, state: &State<V>) {
         self.failed = None;
-        if self.is_placed {
-            self.check.apart(&self.solution, &mut self.apart);
+        if self.has_begun {
+            self.check.subtract(&self.solution, &mut self.difference);
             self.solution.begin(body, state);
-            self.check.begin_beside(body, &self.solution, &self.apart);
+            self.check.begin_beside(body, &self.solution, &self.difference);
         }
     }
 
     /// Advances `y` from `t` to exactly `t + h` (s).
     ///
-    /// After a failure it fails at once, until it is placed or pushed.
+    /// After a failure every call fails at once, until the body is placed or pushed.
     fn solve<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -105,12 +106,12 @@ impl<V: Vector> Reference<V> {
             return Err(failure.clone());
         }
         let Self { solution, check, work, .. } = self;
-        if !self.is_placed {
+        if !self.has_begun {
             solution.begin(body, y);
             check.begin(body, y);
-            self.is_placed = true;
+            self.has_begun = true;
         }
-        self.saved = (self.saved + GRANTED).min(SAVED);
+        self.saved = (self.saved + EVALUATIONS_PER_CALL).min(MOST_SAVED_EVALUATIONS);
         work.evaluations = 0;
         let solved = solution.advance(body, t, h, work, self.saved);
         self.fastest =
@@ -124,29 +125,31 @@ impl<V: Vector> Reference<V> {
         }
         solution.write(y);
         self.elapsed += h.abs();
-        solution.apart(check, &mut self.apart);
-        self.farthest = [
-            self.farthest[0].max(largest(&self.apart.q)),
-            self.farthest[1].max(largest(&self.apart.v)),
+        solution.subtract(check, &mut self.difference);
+        self.largest_difference = [
+            self.largest_difference[0].max(largest(&self.difference.q)),
+            self.largest_difference[1].max(largest(&self.difference.v)),
         ];
         Ok(())
     }
 
-    /// How far `y`, where it has come to, may be off: in a coordinate and in a velocity. An estimate.
+    /// Estimates the error of the current state `y`: of a coordinate and of a velocity.
     fn error(&self, y: &State<V>) -> [f64; 2] {
         if self.failed.is_some() {
             return [f64::INFINITY; 2];
         }
-        // Both solutions share the rounding of time and of the force law's constants, which make the
-        // motion early or late, and that of what is returned.
+        // Both solutions share the rounding of the time and of the force law's constants, which shifts
+        // the motion in time, and the rounding of the result.
         let late = f64::EPSILON * self.elapsed;
         let size = [largest(&y.q), largest(&y.v)];
         let fastest = [self.fastest[0].max(size[1]), self.fastest[1]];
-        [0, 1].map(|i| MARGIN * self.farthest[i] + late * fastest[i] + f64::EPSILON * size[i])
+        [0, 1].map(|i| {
+            MARGIN * self.largest_difference[i] + late * fastest[i] + f64::EPSILON * size[i]
+        })
     }
 }
 
-impl<B: Body> Drive<B> for Reference<B::Vector> {
+impl<B: Body> Propagator<B> for Reference<B::Vector> {
     fn advance(
         &mut self,
         body: &Counted<B>,
@@ -155,7 +158,7 @@ impl<B: Body> Drive<B> for Reference<B::Vector> {
         _substeps: u32,
         state: &mut State<B::Vector>,
     ) -> Result<(), StepFailure> {
-        // Not through `body`, which counts: the truth is no contender.
+        // Bypasses the counters of `body`: the truth does not compete.
         self.solve(&body.system, t, h, state)
     }
 
@@ -185,7 +188,7 @@ impl<B: Body> Drive<B> for Reference<B::Vector> {
     }
 }
 
-/// The largest magnitude; infinite where one is not a number.
+/// The largest magnitude; infinite if a component is NaN.
 fn largest<V: Vector>(vector: &V) -> f64 {
     let size = |x: &f64| if x.is_nan() { f64::INFINITY } else { x.abs() };
     vector.components().iter().map(size).fold(0.0, f64::max)

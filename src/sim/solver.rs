@@ -1,24 +1,24 @@
-//! What may carry a body forward.
+//! What a body is advanced by.
 
 use super::integrators::Method;
 
-/// What carries a body forward.
+/// A method, or the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Solver {
     /// A method from the table.
     Method(&'static Method),
-    /// An adaptive method from the table with this tolerance, in all its parts, for its card's.
-    Within(&'static Method, f64),
-    /// The exact flow, from the last moment at which the input changed; for a body without a closed
-    /// form, a reference solution.
+    /// An adaptive method from the table; the number replaces its card's tolerance, absolute and
+    /// relative.
+    WithTolerance(&'static Method, f64),
+    /// The exact flow from the last jump; for a body without a closed form, a reference solution.
     Truth,
 }
 
 impl Solver {
-    /// The method that steps, if one does.
+    /// The method, unless this is the truth.
     pub fn method(self) -> Option<&'static Method> {
         match self {
-            Solver::Method(method) | Solver::Within(method, _) => Some(method),
+            Solver::Method(method) | Solver::WithTolerance(method, _) => Some(method),
             Solver::Truth => None,
         }
     }

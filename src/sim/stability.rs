@@ -1,60 +1,60 @@
-//! What a method makes of a body in one tick: the map about the present state, how it grows, and how
-//! fast it turns, against the exact flow.
+//! Stability of a method on a body: the one-tick map linearised about the current state, its growth and
+//! its frequencies, compared with the exact flow.
 //!
-//! The map is found by differencing the stepper itself, never from a formula, so that it holds for any
-//! method on any body: two-sided, at distances scaled to the state. The input stays as it is.
+//! The map is found by central differences of the stepper itself, never from a formula, so that it
+//! holds for any method on any body. The distances are scaled to the state, and the input stays
+//! constant.
 //!
-//! - A method that carries something from step to step is followed over three ticks, and the map is that
-//!   of state and memory together; on a nonlinear body, under the forces of here and now, straightened.
-//! - A method that chooses its substeps steps the differenced copies as one, with the same substeps for
-//!   all: the map is that of the steps it takes here, its control frozen.
-//! - On a nonlinear body the map is that of small deviations here and now. What grows in truth, such as
-//!   a pendulum's fall from the top, is not held against a method. No such map says what
-//!   becomes of the motion in the long run.
+//! - A method with memory is followed over three ticks, and the map is that of state and memory
+//!   together. On a nonlinear body the forces are first linearised about the current state.
+//! - A method that chooses its substeps steps the displaced copies as one ensemble, with the same
+//!   substeps for all: the map is that of the steps it takes here, with its control frozen.
+//! - On a nonlinear body the map holds for small deviations from the current state. Growth that the
+//!   true motion has too, such as the fall of an upright pendulum, is not counted against a method. No
+//!   such map predicts the motion in the long run.
 
 use super::integrators::StepFailure;
 use super::{Solver, Stepper};
 
 mod comparison;
-mod flock;
+mod ensemble;
 mod modes;
-mod probe;
 mod search;
 mod spectrum;
 mod tick;
+mod tick_map;
 mod trend;
 mod true_modes;
 
-use comparison::against;
+use comparison::compare;
 pub use comparison::{FOREVER_S, Stability};
-use flock::Flock;
-pub use modes::{NormalMode, normal_modes, undriven};
-use probe::{COPIES, Carrier, Probe, rates, scale, state_of};
+use ensemble::Ensemble;
+pub use modes::{NormalMode, modes_about_rest, normal_modes, unforced};
 pub use search::{RATES_HZ, RateSearch};
 use spectrum::{Derivatives, Eigenvalue};
 pub use tick::Tick;
+use tick_map::{Copies, OFFSETS, TickMap, force_jacobian, scale, state_of};
 use true_modes::true_modes;
 
 impl Stability {
-    /// Of `body` as it is, under `solver`.
+    /// Stability of `solver` on `body` at its current state.
     ///
-    /// What it says of growth and loss holds at any length of tick. Frequencies it compares only where every mode makes less
-    /// than half a turn in the tick. How often a mode turns in truth is known at any length of tick on a linear body; on
-    /// a nonlinear one only where it turns no more than one and a half times in a tick, or no faster than the forces at
-    /// its start would have it.
+    /// Growth and loss are valid at any length of tick. Frequencies are compared only if every mode
+    /// makes less than half a turn in the tick. On a linear body the true frequency of a mode is known
+    /// at any length of tick; on a nonlinear body only if it makes at most one and a half turns in a
+    /// tick, or turns no faster than under the forces linearised at the start.
     ///
-    /// # Errors
-    /// The failure of the method, or of the exact flow, in the first ticks from here.
+    /// The failure of the method or of the exact flow in the first ticks.
     pub fn of(body: &dyn Stepper, solver: Solver, tick: Tick) -> Result<Self, StepFailure> {
         let truth = true_modes(body, tick)?;
         let Some(values) = eigenvalues(body, solver, tick)? else {
             return Ok(Self::OVERFLOW);
         };
-        Ok(against(&truth, &values, tick.h))
+        Ok(compare(&truth, &values, tick.h))
     }
 }
 
-/// The eigenvalues of `body` under `solver`, from its present state; `None` where the map overflows.
+/// The eigenvalues of `body` under `solver` from its current state; `None` if the map overflows.
 fn eigenvalues(
     body: &dyn Stepper,
     solver: Solver,
@@ -66,29 +66,29 @@ fn eigenvalues(
     first.advance(tick.t, tick.h, tick.substeps)?;
     let there = state_of(&*first);
 
-    let mut probe = Probe::new(body, solver, tick);
+    let mut tick_map = TickMap::new(body, solver, tick);
     let scale = scale(&here, &there, tick.h);
-    // What such a method carries is the length of its steps, and that is frozen.
+    // The memory of an adaptive method is its step size, which is frozen.
     if solver.method().is_some_and(|method| method.tolerance.is_some()) {
-        let [map] = probe.derivatives(&here, &scale)?;
-        return Ok(spectrum::of_map(&map));
+        let [map] = tick_map.derivatives(&here, &scale)?;
+        return Ok(spectrum::eigenvalues_of_map(&map));
     }
     let derivatives = Derivatives {
-        now: probe.derivatives(&here, &scale)?,
-        later: probe.derivatives(&there, &scale)?,
+        now: tick_map.derivatives(&here, &scale)?,
+        later: tick_map.derivatives(&there, &scale)?,
     };
     if let Some(method) = solver.method()
         && derivatives.has_memory()
-        && derivatives.bends()
+        && derivatives.is_nonlinear()
     {
-        // Over three ticks the forces change more than the memory does: only a body with the forces of
-        // here and now can tell it.
-        let rates = rates(body, &here, &scale, tick.t);
-        let flock = Flock::straightened(body, rates, tick.t, method, COPIES.len());
-        let mut probe = Probe { carrier: Carrier::Together(flock), tick };
+        // Over three ticks the change of the forces would be taken for memory. Linearised forces do not
+        // change.
+        let force_jacobian = force_jacobian(body, &here, &scale, tick.t);
+        let ensemble = Ensemble::linearised(body, force_jacobian, tick.t, method, OFFSETS.len());
+        let mut tick_map = TickMap { copies: Copies::Ensemble(ensemble), tick };
         let derivatives = Derivatives {
-            now: probe.derivatives(&here, &scale)?,
-            later: probe.derivatives(&here, &scale)?,
+            now: tick_map.derivatives(&here, &scale)?,
+            later: tick_map.derivatives(&here, &scale)?,
         };
         return Ok(spectrum::eigenvalues(&derivatives));
     }
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frequency_error_is_told_up_to_half_a_turn_in_a_tick_and_not_beyond() {
+    fn a_frequency_error_is_known_up_to_half_a_turn_per_tick_and_not_beyond() {
         let midpoint = Solver::Method(method("implicit-midpoint").unwrap());
         for (turned, told) in
             [(3.1, true), (3.2, false), (8.0, false), (13.0, false), (30.0, false)]

@@ -1,17 +1,26 @@
-//! A body, its solver and its state behind one object-safe face: one dynamic call per tick.
+//! An object-safe stepper: a body, its solver and its state behind one dynamic call per tick.
 
 use std::any::Any;
 
 use glam::DVec2;
 
-use super::bodies::Input;
-use super::integrators::StepFailure;
+use super::body::Input;
+use super::integrators::{Method, StepFailure};
 use super::solver::Solver;
-use super::system::Counts;
+use super::system::{Counts, Evaluation};
 
-/// A body under a solver. Everything above this layer sees bodies only so.
+/// A tick that was taken on a copy of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordedTick {
+    /// Every evaluation of the acceleration, in the order of the method.
+    pub evaluations: Vec<Evaluation>,
+    /// The coordinates and the velocities at the end, or why there are none.
+    pub landing: Result<[Vec<f64>; 2], StepFailure>,
+}
+
+/// A body under a solver. The layers above this one see bodies only through this trait.
 pub trait Stepper: Send {
-    /// Advances from `t` to `t + h` (s), a method in `substeps` equal steps.
+    /// Advances from `t` to `t + h` (s). A method takes `substeps` equal steps.
     ///
     /// # Errors
     /// As [`Integrator::step`](super::integrators::Integrator::step).
@@ -22,50 +31,55 @@ pub trait Stepper: Send {
     fn q(&self) -> &[f64];
     /// Their velocities.
     fn v(&self) -> &[f64];
-    /// Puts the body into a state at time `t` (s). The solver begins again there.
+    /// Puts the body into a state at time `t` (s), and restarts the solver there.
     fn set(&mut self, t: f64, q: &[f64], v: &[f64]);
 
-    /// Gives the body an input at time `t` (s). Returns whether it takes that kind.
+    /// Gives the body an input at time `t` (s). Returns whether this kind of body accepts it.
     fn input(&mut self, t: f64, input: Input) -> bool;
 
-    /// Sets a parameter of the body, by its place among the kind's
-    /// [`parameters`](super::bodies::Kind::parameters), at time `t` (s), the state left as it is. Returns whether
-    /// that changed the body: a value that is set already does not, nor does a parameter that
-    /// [acts at the start](super::bodies::Acts). `value` is in the parameter's range and fits the others.
+    /// Sets a parameter of the body at time `t` (s), by its index in the kind's
+    /// [`parameters`](super::bodies::Kind::parameters). The state is unchanged. Returns whether the
+    /// body changed: it does not if the value is equal to the old one, or if the parameter [acts at the
+    /// start](super::bodies::Acts). `value` must be in the parameter's range and pass the kind's check.
     fn set_parameter(&mut self, t: f64, place: usize, value: f64) -> bool;
 
-    /// Overwrites `a` with the acceleration in the given state under the present input; not counted.
+    /// Overwrites `a` with the acceleration at the given state under the current input. The evaluation
+    /// is not counted.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
 
-    /// What methods did with the body since the start, whichever it was under. The truth counts nothing.
+    /// What [`Stepper::advance`] would do with the method's present memory, on a copy. The body and its
+    /// counts are unchanged. `None` unless the body is under `method`.
+    fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick>;
+
+    /// What all methods have done with the body since the start. The truth is not counted.
     fn counts(&self) -> Counts;
     /// Evaluations of the acceleration since the start.
     fn evaluations(&self) -> u64 {
         self.counts().evaluations
     }
-    /// Whether the body's equation of motion is linear, but for a constant.
+    /// Whether the equation of motion is linear apart from a constant.
     fn is_linear(&self) -> bool;
-    /// How far the truth may be off by now: the largest error expected of a coordinate and of a velocity, in
-    /// their own units. Of a closed form it bounds the roundings; of a reference solution it is estimated on
-    /// this run, from a second one by other steps. Infinite where nothing is known. `None` under a method.
+    /// The error of the truth at the current state: the largest of a coordinate and of a velocity, in
+    /// their own units. For a closed form it is a bound on rounding; for a reference solution it is an
+    /// estimate from a second solution with other steps. Infinite if nothing is known. `None` under a
+    /// method.
     fn truth_error(&self) -> Option<[f64; 2]>;
-    /// The conserved energy in joules, where the body conserves one under its present input.
+    /// The conserved energy in joules; `None` if the body conserves none under its current input.
     fn energy(&self) -> Option<f64>;
-    /// The part of that energy that is the motion's, in joules. Never allocates.
+    /// The kinetic part of [`Stepper::energy`], in joules. Never allocates.
     fn kinetic_energy(&self) -> Option<f64>;
 
     /// Where the body is, in metres. Never allocates.
     fn place(&self) -> DVec2;
-    /// The body with its present parameters, of the type that its kind builds.
+    /// The body with its current parameters; its type is the one that the kind builds.
     fn body(&self) -> &dyn Any;
 
-    /// The same body, under the same input and in the same state to the bit, under another solver.
+    /// A copy of the body under another solver, with the same input and the same state to the bit.
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper>;
 
-    /// The same body under the same solver, with all that the solver carries from step to step: both go on
-    /// alike to the bit.
+    /// A copy with all memory of the solver: original and copy continue with the same bits.
     fn boxed_clone(&self) -> Box<dyn Stepper>;
-    /// The memory that it takes, in bytes, no less than it is.
+    /// An upper bound on its memory, in bytes.
     fn bytes(&self) -> usize;
 }
 

@@ -1,14 +1,14 @@
-//! The equation of motion `q″ = a(t, q, v)`, its state, and the vectors both are made of.
+//! The equation of motion `q″ = a(t, q, v)`, its state, and coordinate vectors.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
-/// A coordinate vector: what a method needs of it, and nothing else.
+/// A coordinate vector, with the operations that methods use.
 ///
-/// `f64` serves bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] those that move in a
-/// plane or in space, `Vec<f64>` those with many. A method is written once, over this trait, and
-/// compiles to registers for the small ones and to loops for the large.
+/// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or
+/// in space, `Vec<f64>` for many coordinates. A method is written once over this trait; it compiles to
+/// registers for the small types and to loops for `Vec`.
 pub trait Vector: Clone + Send + 'static {
-    /// Becomes equal to `from`, which has as many components. Never allocates.
+    /// Copies `from`, which has as many components. Never allocates.
     fn assign(&mut self, from: &Self);
     /// `self += h x`, rounded after the product and after the sum.
     fn add_scaled(&mut self, h: f64, x: &Self);
@@ -42,11 +42,11 @@ pub trait Vector: Clone + Send + 'static {
     }
     /// The components in order.
     fn components(&self) -> &[f64];
-    /// The memory that it takes beyond its own size, in bytes.
+    /// Memory on the heap, in bytes.
     fn heap_bytes(&self) -> usize {
         0
     }
-    /// The components in order, to be written.
+    /// The components in order, mutable.
     fn components_mut(&mut self) -> &mut [f64];
 }
 
@@ -135,7 +135,7 @@ impl Vector for Vec<f64> {
     }
 }
 
-/// Coordinates and their velocities; also their derivatives, `(v, a)`, which add to it.
+/// Coordinates and velocities. Also their time derivative `(v, a)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State<V> {
     /// Coordinates, in metres or radians.
@@ -145,7 +145,7 @@ pub struct State<V> {
 }
 
 impl<V: Vector> State<V> {
-    /// Becomes equal to `from`. Never allocates.
+    /// Copies `from`. Never allocates.
     #[inline]
     pub fn assign(&mut self, from: &Self) {
         self.q.assign(&from.q);
@@ -176,7 +176,7 @@ impl<V: Vector> State<V> {
 
 /// An equation of motion of second order, `q″ = a(t, q, v)`.
 ///
-/// It is kept in second order because the symplectic methods need the split into `q` and `v`.
+/// It stays second order because symplectic methods need the split into `q` and `v`.
 pub trait System {
     /// The body's natural coordinates.
     type Vector: Vector;
@@ -191,14 +191,14 @@ pub trait System {
         self.acceleration(t, &state.q, &state.v, &mut d.v);
     }
 
-    /// Takes notice that a method leaves out `h` (s) of the time that it was asked to advance, as only one does
-    /// that does not [keep time](super::integrators::Method::keeps_time). It changes no motion: [`Counted`] adds
-    /// it up.
+    /// Reports that a method left out `h` (s) of a step, as a method that does not [keep
+    /// time](super::integrators::Method::keeps_time) does. It does not affect the motion; [`Counted`]
+    /// sums it.
     #[inline]
     fn skipped(&self, _h: f64) {}
 }
 
-/// Counts what methods do with a system, whichever they are: a copy goes on from the same counts.
+/// A system that counts evaluations and skipped time. A clone continues from the same counts.
 #[derive(Clone, Debug)]
 pub struct Counted<S> {
     /// The system counted.
@@ -210,9 +210,9 @@ pub struct Counted<S> {
 /// What methods did with a system.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Counts {
-    /// Evaluations of the acceleration: the cost, measured and not taken on the method's word.
+    /// Evaluations of the acceleration.
     pub evaluations: u64,
-    /// Seconds that methods were asked to advance and left out.
+    /// The time in seconds that methods left out of their steps.
     pub lost_time: f64,
 }
 
@@ -245,5 +245,46 @@ impl<S: System> System for Counted<S> {
     #[inline]
     fn skipped(&self, h: f64) {
         self.lost_time.set(self.lost_time.get() + h);
+    }
+}
+
+/// One evaluation of the acceleration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evaluation {
+    /// The time in seconds.
+    pub t: f64,
+    /// The coordinates.
+    pub q: Vec<f64>,
+    /// The velocities.
+    pub v: Vec<f64>,
+    /// The acceleration found.
+    pub a: Vec<f64>,
+}
+
+/// A system that keeps every evaluation, in order. It allocates.
+pub struct Recorded<'a, V: Vector> {
+    system: &'a dyn System<Vector = V>,
+    evaluations: RefCell<Vec<Evaluation>>,
+}
+
+impl<'a, V: Vector> Recorded<'a, V> {
+    /// Wraps `system`, with nothing recorded.
+    pub fn new(system: &'a dyn System<Vector = V>) -> Self {
+        Self { system, evaluations: RefCell::default() }
+    }
+
+    /// What was recorded.
+    pub fn into_evaluations(self) -> Vec<Evaluation> {
+        self.evaluations.into_inner()
+    }
+}
+
+impl<V: Vector> System for Recorded<'_, V> {
+    type Vector = V;
+
+    fn acceleration(&self, t: f64, q: &V, v: &V, a: &mut V) {
+        self.system.acceleration(t, q, v, a);
+        let [q, v, a] = [q, v, a].map(|vector| vector.components().to_vec());
+        self.evaluations.borrow_mut().push(Evaluation { t, q, v, a });
     }
 }

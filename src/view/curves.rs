@@ -12,6 +12,7 @@ use super::bands;
 use super::lines::{Joint, LineMesh, shown};
 
 /// A curve to be drawn.
+#[derive(Clone)]
 pub(super) struct Curve {
     pub(super) colour: Color32,
     /// In points.
@@ -152,15 +153,28 @@ impl<'p> Arrows<'p> {
             at += 2.0 * ARROW * towards.abs().yx();
         }
         self.placed.push(at);
-        let across = towards.rot90();
-        let corner = |ahead: f32, aside: f32| at + ARROW * (ahead * towards + aside * across);
-        let corners = vec![corner(1.0, 0.0), corner(-0.5, 0.866), corner(-0.5, -0.866)];
+        let corners = corners(at, towards).into();
         self.painter.add(Shape::convex_polygon(corners, colour, PathStroke::NONE));
     }
 }
 
+fn corners(at: Pos2, towards: Vec2) -> [Pos2; 3] {
+    let across = towards.rot90();
+    let corner = |ahead: f32, aside: f32| at + ARROW * (ahead * towards + aside * across);
+    [corner(1.0, 0.0), corner(-0.5, 0.866), corner(-0.5, -0.866)]
+}
+
+/// The corners of the arrow of a curve that leaves `frame` on its way between two points; `None` if it does not.
+pub(super) fn arrow_corners(frame: Rect, ends: [Pos2; 2]) -> Option<[Pos2; 3]> {
+    exit(frame, ends).map(|(at, towards)| corners(at, towards))
+}
+
 /// Where the arrow of a curve goes that leaves `frame` between two points, and which way it shows.
 fn exit(frame: Rect, [from, to]: [Pos2; 2]) -> Option<(Pos2, Vec2)> {
+    // No room for an arrow.
+    if frame.size().min_elem() < 2.0 * ARROW_INSET {
+        return None;
+    }
     let outwards = [
         (to.y - frame.top(), vec2(0.0, -1.0)),
         (frame.bottom() - to.y, vec2(0.0, 1.0)),

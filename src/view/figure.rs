@@ -9,8 +9,8 @@ use egui::{
 use egui_plot::{AxisHints, GridInput, GridMark, PlotBounds};
 
 use super::curves::{Curve, Dots};
-use super::panels::{BACKDROP, QUIET, TEXT};
-use super::plot::{Arrow, CURVE, Drawing, X_AXIS, colour, draw, plot, swatch, tick_text};
+use super::plot::{Arrow, CURVE, Drawing, X_AXIS, draw, plot, swatch, tick_text};
+use super::theme::{colour, ink};
 use crate::lab::number::superscript;
 use crate::lab::picture::Rgba;
 
@@ -99,7 +99,7 @@ const INDENT: f32 = 58.0;
 
 /// Shows the figure in all of `ui`.
 pub(super) fn show(ui: &mut Ui, figure: &Figure) {
-    let frame = Frame::new().fill(BACKDROP).inner_margin(Margin {
+    let frame = Frame::new().fill(ink(ui).background).inner_margin(Margin {
         left: 12,
         right: 26,
         top: 18,
@@ -108,7 +108,7 @@ pub(super) fn show(ui: &mut Ui, figure: &Figure) {
     egui::CentralPanel::default_margins().frame(frame).show(ui, |ui| {
         ui.horizontal(|ui| {
             ui.add_space(INDENT);
-            ui.label(RichText::new(&figure.title).size(17.0).color(TEXT));
+            ui.label(RichText::new(&figure.title).size(17.0).color(ink(ui).text));
         });
         ui.add_space(4.0);
         let mut named: Vec<&FigureCurve> = Vec::new();
@@ -121,7 +121,7 @@ pub(super) fn show(ui: &mut Ui, figure: &Figure) {
         }
         legend(ui, &named);
         ui.add_space(8.0);
-        let note = WidgetText::from(RichText::new(&figure.note).color(QUIET));
+        let note = WidgetText::from(RichText::new(&figure.note).color(ink(ui).dim));
         let width = ui.available_width() - INDENT;
         let note = note.into_galley(ui, Some(TextWrapMode::Wrap), width, TextStyle::Body);
         let mut room = ui.available_rect_before_wrap();
@@ -156,7 +156,7 @@ fn show_chart(ui: &mut Ui, chart: &Chart) {
     if !chart.title.is_empty() {
         ui.horizontal(|ui| {
             ui.add_space(INDENT);
-            ui.label(RichText::new(&chart.title).size(14.0).color(TEXT));
+            ui.label(RichText::new(&chart.title).size(14.0).color(ink(ui).text));
         });
     }
     if chart.legend == Legend::Own {
@@ -270,7 +270,7 @@ fn legend(ui: &mut Ui, curves: &[&FigureCurve]) {
     const BEFORE_NAME: f32 = 6.0;
     const AFTER_NAME: f32 = 14.0;
     let name = |curve: &&FigureCurve| {
-        ui.painter().layout_no_wrap(curve.name.clone(), FontId::proportional(13.0), TEXT)
+        ui.painter().layout_no_wrap(curve.name.clone(), FontId::proportional(13.0), ink(ui).text)
     };
     let names: Vec<_> = curves.iter().map(name).collect();
     let mut widths: Vec<f32> =
@@ -293,7 +293,7 @@ fn legend(ui: &mut Ui, curves: &[&FigureCurve]) {
                 let line = rect.left_center();
                 swatch(ui.painter(), line, SWATCH, curve.dash, colour(curve.colour));
                 let at = line + vec2(SWATCH + BEFORE_NAME, -name.size().y / 2.0);
-                ui.painter().galley(at, name.clone(), TEXT);
+                ui.painter().galley(at, name.clone(), ink(ui).text);
             }
         });
     }

@@ -9,15 +9,13 @@ use super::gpu::Gpu;
 use super::meshes::MeshRenderer;
 use super::panels::{self, Panels};
 use super::stage::{Stage, StageRenderer};
+use super::theme::{self, colour, growth};
 use super::touch::Touch;
 use crate::lab::picture::{self, Align, Label};
 use crate::lab::{Command, Lab};
 
-/// Shows where neither stage nor panel is: between the cells of the stage.
-const BACKGROUND: wgpu::Color = wgpu::Color { r: 0.018, g: 0.030, b: 0.051, a: 1.0 };
-
-/// How black the shadow under a white label is, of 255: it can be read on any trail.
-const SHADOW_ALPHA: u32 = 180;
+/// Where the copies of a label lie that make its halo, in points.
+const HALO: [[f32; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
 /// What whoever shows the frame has to do for it.
 #[must_use]
@@ -43,7 +41,7 @@ impl FrameRenderer {
     /// A renderer for targets of `format`, which is one in gamma space.
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
         let context = egui::Context::default();
-        panels::dress(&context);
+        theme::dress(&context);
         // Discs are drawn as polygons: one from the atlas would have to be filtered.
         context.tessellation_options_mut(|options| options.prerasterized_discs = false);
         Self {
@@ -83,6 +81,7 @@ impl FrameRenderer {
         lab: &Lab,
     ) -> (Vec<Command>, FrameOutput) {
         let mut commands = Vec::new();
+        theme::show_theme(&self.context, lab.display().theme);
         let shown = self.shown;
         let mut touch = std::mem::take(&mut self.touch);
         let output = self.draw_with(gpu, target, size_px, scale, input, |ui| {
@@ -93,6 +92,10 @@ impl FrameRenderer {
                     rect
                 }
                 Panels::Off => ui.max_rect(),
+                Panels::Instrument => {
+                    panels::show_instrument(ui, lab);
+                    return None;
+                }
             };
             let size = rect.size().max(egui::Vec2::ZERO);
             let picture = picture::compose(lab, size.into());
@@ -140,6 +143,7 @@ impl FrameRenderer {
         mut show: impl FnMut(&mut egui::Ui) -> Option<Stage>,
     ) -> FrameOutput {
         let mut stage = None;
+        self.context.set_zoom_factor(growth(size_px.map(|side| side as f32 / scale)));
         let input = self.sized(gpu, size_px, scale, input);
         let mut output = self.context.run_ui(input, |ui| {
             stage = show(ui);
@@ -204,7 +208,7 @@ impl FrameRenderer {
                     depth_slice: None,
                     resolve_target: None,
                     ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(BACKGROUND),
+                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
                         store: wgpu::StoreOp::Store,
                     },
                 })],
@@ -222,30 +226,35 @@ impl FrameRenderer {
     }
 }
 
-fn write(painter: &egui::Painter, stage: egui::Rect, label: &Label) {
+pub(super) fn write(painter: &egui::Painter, stage: egui::Rect, label: &Label) {
     let anchor = match label.align {
         Align::Left => egui::Align2::LEFT_CENTER,
         Align::Centre => egui::Align2::CENTER_CENTER,
         Align::Right => egui::Align2::RIGHT_CENTER,
     };
-    let [r, g, b, a] = label.colour;
-    let colour = egui::Color32::from_rgba_unmultiplied(r, g, b, a);
-    let font = egui::FontId::proportional(label.size);
-    let text = painter.layout_no_wrap(label.text.clone(), font, colour);
+    let font = match label.is_strong {
+        true => theme::strong_font(label.size),
+        false => egui::FontId::proportional(label.size),
+    };
+    let inked = colour(label.colour);
+    let text = painter.layout_no_wrap(label.text.clone(), font, inked);
     let at = stage.min + egui::Vec2::from(label.at);
     let corner = anchor.anchor_size(at, text.size()).min;
-    // A shadow under dark text would only blur it.
-    let brightness = u32::from(r.max(g).max(b)) * u32::from(a) / 255;
-    let shadow = egui::Color32::from_black_alpha((SHADOW_ALPHA * brightness / 255) as u8);
-    painter.galley_with_override_text_color(corner + egui::vec2(0.0, 1.0), text.clone(), shadow);
-    painter.galley(corner, text, colour);
+    if label.halo[3] > 0 {
+        let halo = colour(label.halo);
+        for offset in HALO {
+            let corner = corner + egui::Vec2::from(offset);
+            painter.galley_with_override_text_color(corner, text.clone(), halo);
+        }
+    }
+    painter.galley(corner, text, inked);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lab::picture::Picture;
-    use crate::lab::picture::{Cap, Stroke};
+    use crate::lab::picture::{Cap, Shape, Stroke};
     use crate::view::curves;
     use crate::view::curves::{Curve, Dots};
     use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
@@ -260,7 +269,7 @@ mod tests {
             cap: Cap::Round,
             clip: EVERYWHERE,
         };
-        Picture { strokes: vec![stroke], ..Picture::default() }
+        Picture { shapes: vec![Shape::Stroke(stroke)], ..Picture::default() }
     }
 
     /// A panel 40 points wide at the left; the stage is the rest.
@@ -308,6 +317,8 @@ mod tests {
             align,
             size: 20.0,
             colour: [255; 4],
+            is_strong: false,
+            halo: [0; 4],
             text: "HHHH".to_owned(),
         };
         let lit = |align| {

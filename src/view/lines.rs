@@ -4,7 +4,7 @@
 //! a shader can tell how much of a pixel is covered.
 
 use bytemuck::{Pod, Zeroable};
-use egui::{Color32, Pos2, Rect, Vec2};
+use egui::{Color32, Pos2, Rect, Vec2, vec2};
 
 /// How far a line may be drawn from its points, in points of the screen: less than anybody sees.
 const TOLERANCE: f32 = 0.2;
@@ -135,6 +135,45 @@ pub(super) struct LineMesh {
 impl LineMesh {
     pub(super) fn new(dash: [f32; 2]) -> Self {
         Self { dash, vertices: Vec::new(), indices: Vec::new() }
+    }
+
+    /// Adds a filled outline that can be seen whole from the mean of its corners, its edge blurred over a pixel.
+    pub(super) fn fill(&mut self, corners: &[(Pos2, Color32)], px_per_point: f32) {
+        /// Wider than a pixel on both sides: it is all covered.
+        const WHOLE_PX: [f32; 2] = [1.0, 0.0];
+        let count = corners.len();
+        if count < 3 {
+            return;
+        }
+        let first = self.vertices.len() as u32;
+        let mut add = |at: Pos2, colour: Color32| {
+            let (at, along_px) = (at.into(), [0.0, 1.0, 0.0]);
+            self.vertices.push(LineVertex { at, across_px: WHOLE_PX, along_px, colour });
+        };
+        let mean = |channel: usize| {
+            let sum: u32 = corners.iter().map(|(_, colour)| u32::from(colour[channel])).sum();
+            (sum / count as u32) as u8
+        };
+        let middle =
+            corners.iter().fold(Vec2::ZERO, |sum, (at, _)| sum + at.to_vec2()) / count as f32;
+        let middle = middle.to_pos2();
+        add(middle, Color32::from_rgba_premultiplied(mean(0), mean(1), mean(2), mean(3)));
+        for (i, &(at, colour)) in corners.iter().enumerate() {
+            let [before, after] = [i + count - 1, i + 1].map(|place| corners[place % count].0);
+            let along = (after - before).normalized();
+            let normal = vec2(along.y, -along.x);
+            let out = if normal.dot(at - middle) < 0.0 { -normal } else { normal };
+            let half = out * (0.5 / px_per_point);
+            add(at - half, colour);
+            add(at + half, Color32::TRANSPARENT);
+        }
+        for i in 0..count as u32 {
+            let next = (i + 1) % count as u32;
+            let [inner, outer] = [1, 2].map(|side| first + 2 * i + side);
+            let [next_inner, next_outer] = [1, 2].map(|side| first + 2 * next + side);
+            self.indices.extend([first, inner, next_inner]);
+            self.indices.extend([inner, outer, next_inner, next_inner, outer, next_outer]);
+        }
     }
 
     /// Adds a line as quads from joint to joint, mitred where they meet.

@@ -5,38 +5,52 @@
 //! differs between them is where that view comes from and where its pixels go. Colours are blended
 //! as they are stored, in gamma space, so all targets have a format without `Srgb` in its name.
 
-mod artist;
+mod axis_scale;
 mod bands;
 mod curves;
 mod figure;
 mod frame;
 mod gpu;
+#[cfg(test)]
+mod legibility;
 mod lines;
 mod meshes;
 mod offscreen;
+mod offscreen_renderer;
 mod panels;
 mod place;
 mod plot;
 pub mod png;
 mod quads;
 mod readback;
-mod ribbons;
 mod screen;
 mod sea;
+mod shapes;
 mod stage;
 mod strips;
 mod strokes;
 #[cfg(test)]
 mod testing;
+mod theme;
 mod ticks;
 mod touch;
 mod triangles;
 
-pub use artist::Artist;
 pub use figure::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
 pub use frame::{FrameOutput, FrameRenderer};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use offscreen::Offscreen;
+pub use offscreen_renderer::OffscreenRenderer;
 pub use panels::Panels;
 pub use readback::{Readback, ReadbackError};
 pub use screen::Screen;
+
+/// The values of the instrument shown, as comma-separated text; `None` if it has no plots.
+pub fn instrument_csv(lab: &crate::lab::Lab) -> Option<String> {
+    panels::csv(lab)
+}
+
+/// The plots of the instrument shown, as an SVG file; `None` if it has none.
+pub fn instrument_svg(lab: &crate::lab::Lab) -> Option<String> {
+    panels::svg(lab)
+}

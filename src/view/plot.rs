@@ -1,11 +1,10 @@
 //! Curves in a plot: what the window's instruments and the chapter's figures have in common.
 
-use egui::{Color32, Painter, Pos2, Stroke, Ui, pos2, vec2};
-use egui_plot::{AxisHints, Plot, PlotBounds, PlotPoint};
+use egui::{Color32, Painter, Pos2, Rect, Stroke, Ui, pos2, vec2};
+use egui_plot::{AxisHints, Plot, PlotBounds};
 
 use super::curves::{self, Curve, Dots, SCATTERED, dots};
 use crate::lab::number::round;
-use crate::lab::picture::Rgba;
 
 /// The radius of the ring round a switch, in points of the screen.
 const RING: f32 = 4.0;
@@ -30,7 +29,7 @@ pub(super) struct Drawing {
     /// The first at the bottom, and over all of them their dots.
     pub(super) curves: Vec<Curve>,
     /// Over the others and their dots.
-    pub(super) truth: Option<Curve>,
+    pub(super) truth: Vec<Curve>,
     pub(super) arrows: Vec<Arrow>,
     pub(super) switches: Vec<Switch>,
     pub(super) switch_mark: SwitchMark,
@@ -46,9 +45,8 @@ pub(super) enum SwitchMark {
     Ring,
 }
 
-pub(super) fn colour([r, g, b, a]: Rgba) -> Color32 {
-    Color32::from_rgba_unmultiplied(r, g, b, a)
-}
+/// The furthest that a point outside is drawn, in widths or heights of the plot.
+const FAR_OUTSIDE: f64 = 10.0;
 
 /// The usual width of a curve, in points.
 pub(super) const CURVE: f32 = 1.6;
@@ -79,15 +77,28 @@ pub(super) fn plot<'a>(id: &'static str, height: f32) -> Plot<'a> {
 /// Draws everything in the plot, cut off at the bounds.
 pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, drawing: &Drawing) {
     let shown = plot.show(ui, |plot| plot.set_plot_bounds(bounds));
-    let frame = *shown.transform.frame();
-    let painter = ui.painter().with_clip_rect(frame);
+    paint(ui.painter(), *shown.transform.frame(), &bounds, drawing);
+}
+
+/// Where a point of a plot with these bounds lies in its frame on the screen. A point far outside is drawn nearer, but
+/// far enough out for a line to leave at its own slope, and near enough for the f32 of the painter.
+pub(super) fn on_screen(frame: Rect, bounds: &PlotBounds, [x, y]: [f64; 2]) -> Pos2 {
     let ([left, low], [right, high]) = (bounds.min(), bounds.max());
-    // Far enough out for a line to leave at its own slope, near enough for the f32 of the painter.
-    let (wide, tall) = (10.0 * (right - left), 10.0 * (high - low));
-    let on_screen = |[x, y]: &[f64; 2]| {
-        let (x, y) = (x.clamp(left - wide, right + wide), y.clamp(low - tall, high + tall));
-        shown.transform.position_from_point(&PlotPoint::new(x, y))
+    let part = |value: f64, from: f64, to: f64| {
+        ((value - from) / (to - from)).clamp(-FAR_OUTSIDE, 1.0 + FAR_OUTSIDE) as f32
     };
+    let (along, up) = (part(x, left, right), part(y, low, high));
+    pos2(frame.left() + along * frame.width(), frame.bottom() - up * frame.height())
+}
+
+/// Draws everything in a plot into `frame`, cut off at its edges.
+pub(super) fn paint(painter: &Painter, frame: Rect, bounds: &PlotBounds, drawing: &Drawing) {
+    let seen = frame.intersect(painter.clip_rect());
+    if !seen.is_positive() {
+        return;
+    }
+    let painter = painter.with_clip_rect(seen);
+    let on_screen = |at: &[f64; 2]| on_screen(frame, bounds, *at);
     for Switch { at, colour } in &drawing.switches {
         let at = on_screen(at);
         match drawing.switch_mark {
@@ -99,7 +110,7 @@ pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, drawing: &Dr
             }
         }
     }
-    let paint = |curves: &[Curve]| {
+    let paint_curves = |curves: &[Curve]| {
         let mut with_dots = Vec::new();
         for curve in curves {
             let points: Vec<Pos2> = curve.points.iter().map(on_screen).collect();
@@ -116,8 +127,8 @@ pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, drawing: &Dr
             }
         }
     };
-    paint(&drawing.curves);
-    paint(drawing.truth.as_slice());
+    paint_curves(&drawing.curves);
+    paint_curves(&drawing.truth);
     let mut arrows = curves::Arrows::new(&painter);
     for Arrow { from, to, colour } in &drawing.arrows {
         arrows.paint([on_screen(from), on_screen(to)], *colour);

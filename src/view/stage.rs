@@ -1,10 +1,9 @@
-//! The stage: a picture's seas, then its ribbons and its strokes, in their place on the target.
+//! The stage: a picture's sea, then its shapes, in their place on the target.
 
 use super::gpu::Gpu;
 use super::place::{Place, PlaceGroup};
-use super::ribbons::RibbonPipeline;
 use super::sea::SeaPipeline;
-use super::strokes::StrokePipeline;
+use super::shapes::ShapeRenderer;
 use crate::lab::picture::{FAR, Picture, Rect};
 
 /// What clips nothing.
@@ -23,9 +22,8 @@ pub(super) struct Stage {
 #[derive(Debug)]
 pub(super) struct StageRenderer {
     place: PlaceGroup,
-    seas: SeaPipeline,
-    ribbons: RibbonPipeline,
-    strokes: StrokePipeline,
+    sea: SeaPipeline,
+    shapes: ShapeRenderer,
     /// Left, top, width and height on the target.
     scissor_px: [u32; 4],
 }
@@ -40,9 +38,8 @@ impl StageRenderer {
         });
         Self {
             place,
-            seas: SeaPipeline::new(gpu, &layout, format),
-            ribbons: RibbonPipeline::new(gpu, &layout, format),
-            strokes: StrokePipeline::new(gpu, &layout, format),
+            sea: SeaPipeline::new(gpu, &layout, format),
+            shapes: ShapeRenderer::new(gpu, &layout, format),
             scissor_px: [0; 4],
         }
     }
@@ -62,9 +59,8 @@ impl StageRenderer {
         };
         self.place.write(gpu, &place);
         self.scissor_px = place.scissor_px(EVERYWHERE);
-        self.seas.upload(gpu, &stage.picture.seas, &place);
-        self.ribbons.upload(gpu, &stage.picture.ribbons, &place);
-        self.strokes.upload(gpu, &stage.picture.strokes, &place);
+        self.sea.upload(gpu, stage.picture.sea.as_ref(), &place);
+        self.shapes.upload(gpu, &stage.picture.shapes, &place);
     }
 
     /// Draws what was prepared, and nothing outside the stage.
@@ -75,8 +71,7 @@ impl StageRenderer {
         }
         pass.set_scissor_rect(left, top, width, height);
         pass.set_bind_group(0, &self.place.group, &[]);
-        self.seas.paint(pass);
-        self.ribbons.paint(pass);
-        self.strokes.paint(pass);
+        self.sea.paint(pass);
+        self.shapes.paint(pass);
     }
 }

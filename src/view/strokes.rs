@@ -5,7 +5,7 @@ use std::ops::Range;
 use bytemuck::{Pod, Zeroable};
 
 use super::gpu::Gpu;
-use super::place::{Place, pipeline};
+use super::place::pipeline;
 use super::quads::Quads;
 use crate::lab::picture::{Cap, Stroke};
 
@@ -38,34 +38,25 @@ impl From<&Stroke> for StrokeQuad {
 
 /// What a stroke's pixels have to find out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+pub(super) enum StrokeKind {
     /// As wide at one end as at the other: nearly all are so.
     Line,
     Hull,
 }
 
-impl Kind {
-    fn of(stroke: &Stroke) -> Self {
-        if stroke.radii[0] == stroke.radii[1] { Kind::Line } else { Kind::Hull }
+impl StrokeKind {
+    pub(super) fn of(stroke: &Stroke) -> Self {
+        if stroke.radii[0] == stroke.radii[1] { StrokeKind::Line } else { StrokeKind::Hull }
     }
 }
 
 /// Draws a picture's strokes.
 #[derive(Debug)]
 pub(super) struct StrokePipeline {
-    /// One for each [`Kind`], in its order.
+    /// One for each [`StrokeKind`], in its order.
     pipelines: [wgpu::RenderPipeline; 2],
     quads: Quads<StrokeQuad>,
-    draws: Vec<Draw>,
-}
-
-/// Strokes of a kind that follow each other within one clip.
-#[derive(Debug)]
-struct Draw {
-    kind: Kind,
-    /// Left, top, width and height of what shows on the target.
-    scissor_px: [u32; 4],
-    quads: Range<u32>,
+    added: Vec<StrokeQuad>,
 }
 
 impl StrokePipeline {
@@ -82,38 +73,41 @@ impl StrokePipeline {
         Self {
             pipelines: ["line", "hull"].map(pipeline),
             quads: Quads::new(gpu, "strokes"),
-            draws: Vec::new(),
+            added: Vec::new(),
         }
     }
 
-    pub(super) fn upload(&mut self, gpu: &Gpu, strokes: &[Stroke], place: &Place) {
-        self.quads.upload(gpu, strokes.iter().map(StrokeQuad::from));
-        self.draws.clear();
-        let mut first = 0;
-        let alike = |a: &Stroke, b: &Stroke| a.clip == b.clip && Kind::of(a) == Kind::of(b);
-        for run in strokes.chunk_by(alike) {
-            let quads = first..first + run.len() as u32;
-            first = quads.end;
-            let (kind, scissor_px) = (Kind::of(&run[0]), place.scissor_px(run[0].clip));
-            self.draws.push(Draw { kind, scissor_px, quads });
-        }
-        self.draws.retain(|draw| draw.scissor_px[2] > 0 && draw.scissor_px[3] > 0);
+    pub(super) fn clear(&mut self) {
+        self.added.clear();
     }
 
-    pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
+    /// Adds strokes, and says which quads they got.
+    pub(super) fn add<'s>(&mut self, strokes: impl Iterator<Item = &'s Stroke>) -> Range<u32> {
+        let first = self.added.len() as u32;
+        self.added.extend(strokes.map(StrokeQuad::from));
+        first..self.added.len() as u32
+    }
+
+    pub(super) fn upload(&mut self, gpu: &Gpu) {
+        self.quads.upload(gpu, self.added.iter().copied());
+    }
+
+    pub(super) fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        kind: StrokeKind,
+        quads: Range<u32>,
+    ) {
+        pass.set_pipeline(&self.pipelines[kind as usize]);
         self.quads.bind(pass);
-        for Draw { kind, scissor_px: [left, top, width, height], quads } in &self.draws {
-            pass.set_pipeline(&self.pipelines[*kind as usize]);
-            pass.set_scissor_rect(*left, *top, *width, *height);
-            self.quads.draw(pass, quads.clone());
-        }
+        self.quads.draw(pass, quads);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::picture::{Picture, Rect};
+    use crate::lab::picture::{Picture, Rect, Shape};
     use crate::view::testing::{EVERYWHERE, Pixels, draw_picture, gpu_or_skip};
 
     const WHITE: [u8; 4] = [255; 4];
@@ -123,7 +117,10 @@ mod tests {
     }
 
     fn draw(gpu: &Gpu, strokes: &[Stroke]) -> Pixels {
-        let picture = Picture { strokes: strokes.to_vec(), ..Picture::default() };
+        let picture = Picture {
+            shapes: strokes.iter().copied().map(Shape::Stroke).collect(),
+            ..Picture::default()
+        };
         draw_picture(gpu, [64, 64], 1.0, &picture)
     }
 
@@ -218,7 +215,7 @@ mod tests {
         let test = "a_point_is_as_many_pixels_as_the_scale_says";
         let Some(gpu) = gpu_or_skip(test) else { return };
         let stroke = Stroke { cap: Cap::Butt, ..line([4.0, 8.0], [12.0, 8.0], 2.0) };
-        let picture = Picture { strokes: vec![stroke], ..Picture::default() };
+        let picture = Picture { shapes: vec![Shape::Stroke(stroke)], ..Picture::default() };
         assert_eq!(draw_picture(&gpu, [64, 64], 1.0, &picture).lit(), 8 * 4);
         assert_eq!(draw_picture(&gpu, [64, 64], 3.0, &picture).lit(), 9 * 8 * 4);
     }

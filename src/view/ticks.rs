@@ -3,7 +3,6 @@
 
 use std::ops::RangeInclusive;
 
-use egui::Rangef;
 use egui_plot::{GridInput, GridMark};
 
 use crate::lab::number::superscript;
@@ -13,8 +12,6 @@ use crate::lab::number::superscript;
 pub(super) const FINEST: f64 = 8.0;
 /// The fewest marks of an axis: with two, nothing says whether it is linear.
 const FEWEST: i64 = 3;
-/// Marks are placed so that their numbers fit: `egui_plot` is not to fade them.
-pub(super) const NEVER_FADED: Rangef = Rangef { min: 0.0, max: 1.0 };
 /// Numbers of this size are written out, others with a power of ten.
 const PLAIN: std::ops::Range<f64> = 1e-3..1e6;
 

@@ -5,9 +5,9 @@ use std::collections::VecDeque;
 
 use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
-use super::panels::ACCENT;
-use crate::lab::picture::{Cell, Grasp, Picture};
-use crate::lab::{Action, Command, Lab, Lens, Mode};
+use super::theme::ink;
+use crate::lab::picture::{Cell, Grasp, Picture, Whose};
+use crate::lab::{Action, Command, Lab, Mode, ZoomPan};
 
 /// From this distance on, in points, a press is a drag: less is a hand that trembles.
 const DRAG: f32 = 3.0;
@@ -45,7 +45,7 @@ enum Pressed {
     /// A cell without a body there, as it was zoomed then.
     Sea {
         cell: Cell,
-        lens: Lens,
+        zoom_pan: ZoomPan,
     },
 }
 
@@ -129,11 +129,15 @@ impl Touch {
         let on = match grip.and_then(|grip| Grasp::new(stage.lab, cell, grip, point)) {
             Some(grasp) => {
                 commands.push(Command::Hold(grasp.held().clone()));
-                Pressed::Body { grasp, entry: cell.entry }
+                let entry = match grip.map(|grip| grip.whose) {
+                    Some(Whose::Lane { entry, .. }) => entry,
+                    Some(Whose::Truth) | None => cell.entry,
+                };
+                Pressed::Body { grasp, entry }
             }
             None => {
-                let lens = stage.lab.display().lens(cell.body);
-                Pressed::Sea { cell: cell.clone(), lens }
+                let zoom_pan = stage.lab.display().zoom_pan(cell.body);
+                Pressed::Sea { cell: cell.clone(), zoom_pan }
             }
         };
         self.press = Some(Press { from: at, is_drag: false, on });
@@ -153,10 +157,10 @@ impl Touch {
                 grasp.pull(stage.lab, stage.point(at), [0.0; 2]);
                 commands.push(Command::Hold(grasp.held().clone()));
             }
-            Pressed::Sea { cell, lens } => {
+            Pressed::Sea { cell, zoom_pan } => {
                 let [from, to] = [press.from, at].map(|at| cell.part(stage.point(at)));
-                let lens = lens.panned([to[0] - from[0], to[1] - from[1]]);
-                commands.push(Command::Lens { body: cell.body, lens });
+                let zoom_pan = zoom_pan.panned([to[0] - from[0], to[1] - from[1]]);
+                commands.push(Command::ZoomPan { body: cell.body, zoom_pan });
             }
         }
     }
@@ -208,7 +212,7 @@ impl Touch {
                 let [low, high] = [cell.rect.min, cell.rect.max].map(|at| Pos2::from(at) + origin);
                 let painter = ui.painter().with_clip_rect(Rect::from_min_max(low, high));
                 let middle = Pos2::from(grip.at) + origin;
-                painter.circle_stroke(middle, grip.radius + RING, Stroke::new(1.5, ACCENT));
+                painter.circle_stroke(middle, grip.radius + RING, Stroke::new(1.5, ink(ui).accent));
                 CursorIcon::Grab
             }
         };
@@ -226,11 +230,11 @@ fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
     let body = cell.body;
     let times = (scrolled / WHEEL).exp() * pinched;
     if fits {
-        commands.push(Command::Lens { body, lens: Lens::default() });
+        commands.push(Command::ZoomPan { body, zoom_pan: ZoomPan::default() });
     } else if times != 1.0 {
         let about = cell.part(stage.point(at));
-        let lens = stage.lab.display().lens(body).zoomed(f64::from(times), about);
-        commands.push(Command::Lens { body, lens });
+        let zoom_pan = stage.lab.display().zoom_pan(body).zoomed(f64::from(times), about);
+        commands.push(Command::ZoomPan { body, zoom_pan });
     }
 }
 

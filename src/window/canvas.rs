@@ -1,4 +1,4 @@
-//! A window's surface and the renderer that draws on it; made anew when the driver loses them.
+//! A window's surface and the renderer that draws on it. Both are created again when the driver loses them.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -16,24 +16,24 @@ pub(super) struct Canvas {
     pub(super) egui: egui_winit::State,
     pub(super) gpu: Gpu,
     pub(super) renderer: FrameRenderer,
-    /// The display's refresh rate in millihertz, where it is known.
+    /// The display's refresh rate in millihertz, if it is known.
     pub(super) refresh_mhz: Option<u32>,
-    /// `None` only where the surface could not be renewed.
+    /// `None` only if the surface could not be created again.
     screen: Option<Screen>,
     surface_is_lost: bool,
     size_px: [u32; 2],
 }
 
-/// What became of a frame.
+/// The outcome of drawing a frame.
 pub(super) enum Drawn {
     /// It is on the screen.
     Shown {
-        /// What the panels were asked for.
+        /// The commands that were given on the panels.
         commands: Vec<Command>,
-        /// When the panels want to be drawn again, though nothing happens.
+        /// When the panels must be drawn again even if no event comes.
         repaint_after: Duration,
     },
-    /// There was nothing to draw on at the moment.
+    /// There is no surface to draw on at the moment.
     Skipped,
 }
 
@@ -64,7 +64,7 @@ impl Canvas {
         Ok(canvas)
     }
 
-    /// Follows the window's size and the display it is on.
+    /// Takes over the window's size and the refresh rate of its display.
     pub(super) fn resize(&mut self) {
         let display = self.window.current_monitor();
         self.refresh_mhz =
@@ -83,7 +83,7 @@ impl Canvas {
         }
     }
 
-    /// Draws one frame and shows it.
+    /// Draws a frame and shows it.
     pub(super) fn draw(&mut self, lab: &Lab) -> Result<Drawn, WindowError> {
         if self.surface_is_lost || self.gpu.is_lost() {
             self.renew()?;
@@ -106,17 +106,17 @@ impl Canvas {
         Ok(Drawn::Shown { commands, repaint_after: output.repaint_delay })
     }
 
-    /// The events that the panels have not taken in yet.
+    /// Removes and returns the events that the panels have not handled yet.
     pub(super) fn take_events(&mut self) -> Vec<egui::Event> {
         std::mem::take(&mut self.egui.egui_input_mut().events)
     }
 
-    /// Has the panels take in these events before any others.
+    /// Gives these events to the panels before any others.
     pub(super) fn put_back(&mut self, events: Vec<egui::Event>) {
         self.egui.egui_input_mut().events.splice(0..0, events);
     }
 
-    /// What to draw on, and whether the surface asks to be configured anew after that.
+    /// The texture to draw on, and whether the surface must be configured again after that.
     fn acquire(&mut self) -> Option<(wgpu::SurfaceTexture, bool)> {
         use wgpu::CurrentSurfaceTexture::*;
         for _ in 0..2 {
@@ -127,7 +127,7 @@ impl Canvas {
                 Outdated | Validation => self.configure(),
                 Lost => {
                     log::info!("the surface was lost");
-                    // Renewed with the next frame: if the window is gone too, an event says so first.
+                    // Created again with the next frame: if the window is gone too, an event says so first.
                     self.surface_is_lost = true;
                     return None;
                 }
@@ -136,13 +136,13 @@ impl Canvas {
         None
     }
 
-    /// Makes another surface, and another device where the old one is gone or cannot present there.
+    /// Creates a new surface, and a new device if the old one is lost or cannot present on it.
     fn renew(&mut self) -> Result<(), WindowError> {
         if let Some(screen) = self.screen.take() {
             let screen = screen.renewed(Arc::clone(&self.window))?;
             if self.gpu.is_lost() || !self.gpu.adapter.is_surface_supported(screen.surface()) {
                 self.gpu = screen.gpu()?;
-                // With a context of its own, since the old one thinks its fonts are on the device.
+                // With a new context: the old one assumes that its fonts are on the device.
                 self.renderer = FrameRenderer::new(&self.gpu, screen.format(&self.gpu));
                 let accessibility = self.egui.accesskit.take();
                 self.egui = translator(&self.renderer, &self.window, &self.gpu);
@@ -155,7 +155,7 @@ impl Canvas {
         Ok(())
     }
 
-    /// What a screen reader asked for.
+    /// Handles a request of a screen reader.
     pub(super) fn accessibility(&mut self, event: accesskit_winit::Event) {
         use accesskit_winit::WindowEvent;
         match event.window_event {
@@ -168,7 +168,7 @@ impl Canvas {
     }
 }
 
-/// What turns the window's events into those of the renderer's panels.
+/// The translator from the window's events to those of the renderer's panels.
 fn translator(renderer: &FrameRenderer, window: &Window, gpu: &Gpu) -> egui_winit::State {
     egui_winit::State::new(
         renderer.context().clone(),

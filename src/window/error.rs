@@ -1,8 +1,8 @@
-//! Why there is no window.
+//! The errors of opening and running the window.
 
 use crate::view::GpuError;
 
-/// Why the window could not be opened or kept.
+/// The reason why the window could not be opened or was lost.
 #[derive(Debug, thiserror::Error)]
 pub enum WindowError {
     /// There is no display to open a window on.
@@ -16,7 +16,7 @@ pub enum WindowError {
     Gpu(#[from] GpuError),
 }
 
-/// What the window system said, without the place in winit's source that winit puts before it.
+/// The message of the window system, without the place in winit's source that winit puts before it.
 pub(super) fn reason(error: &dyn std::error::Error) -> String {
     let text = error.to_string();
     let said = match text.split_once(": ") {

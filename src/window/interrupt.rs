@@ -1,4 +1,4 @@
-//! Ctrl-C in the terminal that the window was opened from.
+//! Ctrl-C in the terminal that the window was opened from, and a request of the system to end.
 
 use std::sync::Mutex;
 
@@ -6,11 +6,11 @@ use winit::event_loop::EventLoopProxy;
 
 use super::Event;
 
-/// Tells the window of Ctrl-C, which then no longer ends the process at once.
+/// Makes Ctrl-C, SIGTERM and SIGHUP send an event to the window in place of ending the process.
 pub(super) fn heed(window: EventLoopProxy<Event>) {
     let window = Mutex::new(window);
     let tell = move || {
-        // A window that is closed already needs no telling.
+        // A closed window needs no event.
         if let Ok(window) = window.lock() {
             let _ = window.send_event(Event::Interrupted);
         }

@@ -1,4 +1,4 @@
-//! From the window system's keys to ours.
+//! Translates the window system's keys to the program's and turns them into commands.
 
 use winit::event::{ElementState, KeyEvent};
 use winit::keyboard::{Key as Logical, KeyCode, ModifiersState, NamedKey, PhysicalKey};
@@ -6,17 +6,17 @@ use winit::keyboard::{Key as Logical, KeyCode, ModifiersState, NamedKey, Physica
 use super::App;
 use crate::lab::{Command, Dialog, Key, command_for};
 
-/// The modifiers that are held.
+/// The modifier keys that are held down.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Held {
+pub(super) struct Modifiers {
     pub(super) shift: bool,
     /// Control, or Command on a Mac.
     pub(super) control: bool,
-    /// Any other: a chord with it is not ours.
+    /// Any other modifier. The program binds no chord with it.
     pub(super) other: bool,
 }
 
-impl From<ModifiersState> for Held {
+impl From<ModifiersState> for Modifiers {
     fn from(state: ModifiersState) -> Self {
         let (control, other) = match cfg!(target_os = "macos") {
             true => (state.super_key(), state.control_key()),
@@ -27,7 +27,7 @@ impl From<ModifiersState> for Held {
 }
 
 impl App {
-    /// Takes a key, unless it is the panels'. Returns whether it took it.
+    /// Handles a key unless it is meant for a panel. Returns whether it did.
     pub(super) fn key(
         &mut self,
         event: &KeyEvent,
@@ -39,7 +39,7 @@ impl App {
         }
         let Some(key) = key(event, self.held) else { return false };
         if self.asks_for_path() {
-            // At once: what is typed next is no text any more.
+            // At once: the next key is not text any more.
             let closes = key == Key::Escape;
             if closes {
                 self.asked.push(Command::CloseDialog);
@@ -61,37 +61,38 @@ impl App {
         true
     }
 
-    /// Whether there is to be a field for a path that no frame has shown yet.
+    /// Whether the path field is open but has no focus yet, because no frame has shown it.
     pub(super) fn waits_for_field(&self) -> bool {
         let panels = self.canvas.as_ref().map(|canvas| canvas.egui.egui_ctx());
-        self.lab.viewer().dialog() == Some(&Dialog::Path)
+        matches!(self.lab.viewer().dialog(), Some(Dialog::Path { .. }))
             && panels.is_some_and(|panels| !panels.text_edit_focused())
     }
 
-    /// Whether keys are text for the field of a path, with what is asked for and not done yet.
+    /// Whether keys are text for the path field, once the commands that wait for the next frame are applied.
     fn asks_for_path(&self) -> bool {
-        let is_open = self.lab.viewer().dialog() == Some(&Dialog::Path);
+        let is_open = matches!(self.lab.viewer().dialog(), Some(Dialog::Path { .. }));
         self.asked.iter().fold(is_open, |is_open, command| match command {
             Command::AskForPath => true,
-            Command::OpenTypedPath | Command::CloseDialog => false,
+            // `OpenTypedPath` closes the field only if the scene can be opened.
+            Command::CloseDialog => false,
             _ => is_open,
         })
     }
 }
 
-/// The key of an event, if it is one that could be bound.
-fn key(event: &KeyEvent, held: Held) -> Option<Key> {
+/// The key of an event, if it can be bound to a command.
+fn key(event: &KeyEvent, held: Modifiers) -> Option<Key> {
     from_parts(event.physical_key, &event.logical_key, held)
 }
 
-/// What has the keyboard.
+/// The kind of widget that has the keyboard focus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Focus {
-    /// No widget: every key is ours.
+    /// No widget: every key is for the program.
     Nothing,
-    /// A widget that is worked by some keys.
+    /// A widget that responds to some keys.
     Widget,
-    /// A field that is typed in.
+    /// A text field.
     Text,
 }
 
@@ -104,7 +105,7 @@ impl Focus {
         }
     }
 
-    /// Whether a key is for what has the keyboard, and not for us.
+    /// Whether a key is for the focused widget.
     pub(super) fn takes(self, key: Key) -> bool {
         match self {
             Focus::Nothing => false,
@@ -114,20 +115,27 @@ impl Focus {
     }
 }
 
-/// Whether a widget with the focus is worked by this key.
+/// Whether a focused widget responds to this key.
 fn works_widgets(key: Key) -> bool {
     matches!(
         key,
-        Key::Space | Key::Up | Key::Down | Key::Left | Key::Right | Key::Home | Key::Escape
+        Key::Space
+            | Key::Up
+            | Key::Down
+            | Key::Left
+            | Key::Right
+            | Key::Home
+            | Key::Enter
+            | Key::Escape
     )
 }
 
-fn from_parts(physical: PhysicalKey, logical: &Logical, held: Held) -> Option<Key> {
+fn from_parts(physical: PhysicalKey, logical: &Logical, held: Modifiers) -> Option<Key> {
     if held.other {
         return None;
     }
     if held.control {
-        // By the layout, but where it makes a control character of the chord.
+        // By the layout, unless it turns the chord into a control character.
         let Logical::Character(text) = logical else { return None };
         let sign = text.chars().next().filter(|sign| !sign.is_control());
         let sign = sign.and_then(|sign| sign.to_lowercase().next());
@@ -140,8 +148,8 @@ fn from_parts(physical: PhysicalKey, logical: &Logical, held: Held) -> Option<Ke
     {
         return Some(Key::ShiftSign(if code == KeyCode::Comma { ',' } else { '.' }));
     }
-    // By place, since on some layouts the digits are shifted; but where a layout has these signs on a
-    // digit's key, they are meant, being behind Shift or AltGr.
+    // By position, because some layouts have the digits behind Shift. But if a digit's key yields one of these
+    // signs, through Shift or AltGr, the sign is meant.
     if let PhysicalKey::Code(code) = physical
         && let Some(digit) = digit(code)
         && !matches!(logical, Logical::Character(sign) if ["[", "]", "="].contains(&sign.as_str()))
@@ -156,8 +164,11 @@ fn from_parts(physical: PhysicalKey, logical: &Logical, held: Held) -> Option<Ke
             NamedKey::ArrowLeft => Key::Left,
             NamedKey::ArrowRight => Key::Right,
             NamedKey::Home => Key::Home,
+            NamedKey::Enter => Key::Enter,
             NamedKey::Escape => Key::Escape,
             NamedKey::F1 => Key::Function(1),
+            NamedKey::F2 => Key::Function(2),
+            NamedKey::F3 => Key::Function(3),
             NamedKey::F5 => Key::Function(5),
             NamedKey::F11 => Key::Function(11),
             NamedKey::F12 => Key::Function(12),
@@ -199,10 +210,10 @@ mod tests {
     use crate::lab::KEYS;
 
     fn pressed(code: KeyCode, text: &str, shift: bool) -> Option<Key> {
-        held(code, text, Held { shift, ..Held::default() })
+        held(code, text, Modifiers { shift, ..Modifiers::default() })
     }
 
-    fn held(code: KeyCode, text: &str, held: Held) -> Option<Key> {
+    fn held(code: KeyCode, text: &str, held: Modifiers) -> Option<Key> {
         from_parts(PhysicalKey::Code(code), &Logical::Character(text.into()), held)
     }
 
@@ -222,12 +233,12 @@ mod tests {
         assert_eq!(pressed(KeyCode::Comma, "<", true), Some(Key::ShiftSign(',')));
         assert_eq!(pressed(KeyCode::Period, ">", true), Some(Key::ShiftSign('.')));
         assert_eq!(pressed(KeyCode::Comma, ",", false), Some(Key::Sign(',')));
-        // Where Shift and the comma's key make another sign, it is that sign.
+        // If Shift and the comma's key make another sign, that sign is meant.
         assert_eq!(pressed(KeyCode::Comma, "?", true), Some(Key::Sign('?')));
-        let control = Held { control: true, ..Held::default() };
+        let control = Modifiers { control: true, ..Modifiers::default() };
         assert_eq!(held(KeyCode::KeyZ, "z", control), Some(Key::ControlSign('z')));
         assert_eq!(held(KeyCode::KeyY, "z", control), Some(Key::ControlSign('z')));
-        let alt = Held { other: true, ..Held::default() };
+        let alt = Modifiers { other: true, ..Modifiers::default() };
         assert_eq!(held(KeyCode::KeyN, "n", alt), None);
     }
 

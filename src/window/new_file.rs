@@ -1,4 +1,4 @@
-//! Files that a person asks for in the window, beside all that are there.
+//! Writes the files that are saved in the window, under names that do not exist yet.
 
 use std::fs::OpenOptions;
 use std::io::{self, Write};
@@ -20,7 +20,7 @@ pub(super) fn write_new(
                 return match file.write_all(bytes) {
                     Ok(()) => Ok(path),
                     Err(error) => {
-                        // Half a file is none.
+                        // An incomplete file is useless.
                         let _ = std::fs::remove_file(&path);
                         Err(error)
                     }

@@ -1,29 +1,26 @@
-//! Scene files: reading them when they are dropped or typed, and completing their paths.
+//! Opens scene files that are dropped on the window or typed by their paths, and completes paths.
 
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
 use crate::lab::{Command, Lab, SCENES, Scene};
 
-/// Reads a scene file: its scene and its text, or what the command line would print of it.
+/// Reads a scene file and returns its scene and its text, or the error report that the command line would print.
 pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), String> + Send + Sync>;
 
-/// The files of a window.
+/// How a window reads scene files, and the one that it starts with.
 pub struct SceneFiles {
-    /// How files are read.
+    /// The function that reads a file.
     pub read: ReadScene,
     /// The file that the window's lab was read from, and its text.
     pub opened: Option<(PathBuf, String)>,
 }
 
-/// Opens the scene file at `path`, and returns its path and text; what is wrong with it is shown.
+/// Opens the scene file at `path` and returns its path and text. If it cannot be opened, a dialog says why.
 pub(super) fn open(lab: &mut Lab, read: &ReadScene, path: &Path) -> Option<(PathBuf, String)> {
     let path = known(lab, path);
-    match read_regular(read, &path) {
-        Ok((scene, text)) => {
-            lab.open_file(&path, scene);
-            Some((path, text))
-        }
+    match open_listed(lab, read, &path) {
+        Ok(text) => Some((path, text)),
         Err(report) => {
             lab.show_mistakes(&path, report);
             None
@@ -31,8 +28,14 @@ pub(super) fn open(lab: &mut Lab, read: &ReadScene, path: &Path) -> Option<(Path
     }
 }
 
-/// Opens what was typed: as on the command line the name of a built-in scene, or else the path of a file, which is
-/// returned with its text.
+fn open_listed(lab: &mut Lab, read: &ReadScene, path: &Path) -> Result<String, String> {
+    let (scene, text) = read_regular(read, path)?;
+    lab.open_file(path, scene);
+    Ok(text)
+}
+
+/// Opens what was typed, as the command line does: the built-in scene of that name, or else the file at that path,
+/// whose path and text are returned. If it cannot be opened, the field stays open and says why.
 pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene) -> Option<(PathBuf, String)> {
     let typed = lab.viewer().typed_path().trim().to_owned();
     match SCENES.iter().position(|scene| scene.name == typed) {
@@ -40,13 +43,22 @@ pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene) -> Option<(PathBuf, St
             lab.apply(Command::Scene(place));
             None
         }
-        None => open(lab, read, &from_home(&typed)),
+        None => {
+            let path = known(lab, &from_home(&typed));
+            match open_listed(lab, read, &path) {
+                Ok(text) => Some((path, text)),
+                Err(report) => {
+                    lab.refuse_typed_path(&path, report);
+                    None
+                }
+            }
+        }
     }
 }
 
 fn read_regular(read: &ReadScene, path: &Path) -> Result<(Scene, String), String> {
     match path.metadata() {
-        // A pipe would have the window wait for its other end.
+        // Reading a pipe would block the window until its other end is written.
         Ok(found) if !found.is_file() && !found.is_dir() => {
             Err(format!("error: {} is not a regular file", path.display()))
         }
@@ -54,14 +66,14 @@ fn read_regular(read: &ReadScene, path: &Path) -> Result<(Scene, String), String
     }
 }
 
-/// The path under which a file is on the list already, or else the path itself.
+/// The path under which the file is already on the list of scenes, or else `path` itself.
 fn known(lab: &Lab, path: &Path) -> PathBuf {
     let real = path.canonicalize().ok();
     let is_same = |listed: &&Path| real.is_some() && listed.canonicalize().ok() == real;
-    lab.shelf().paths().find(is_same).unwrap_or(path).to_owned()
+    lab.scene_list().paths().find(is_same).unwrap_or(path).to_owned()
 }
 
-/// The path with the home directory for a `~` at its beginning.
+/// Replaces a `~` at the beginning of a path by the home directory.
 fn from_home(typed: &str) -> PathBuf {
     let rest = typed.strip_prefix('~').filter(|rest| rest.starts_with(MAIN_SEPARATOR));
     match (rest, std::env::home_dir()) {
@@ -70,7 +82,7 @@ fn from_home(typed: &str) -> PathBuf {
     }
 }
 
-/// What was typed, with as much more as all folders and TOML files have in common that begin so.
+/// Completes a path: appends what all folders and TOML files whose names begin so have in common.
 pub(super) fn completed(typed: &str) -> String {
     let (folder, begun) = match typed.rfind(MAIN_SEPARATOR) {
         Some(end) => typed.split_at(end + MAIN_SEPARATOR.len_utf8()),
@@ -102,7 +114,7 @@ mod tests {
     use super::*;
     use crate::lab::Dialog;
 
-    /// Reads files as scenes, and says no more of their mistakes than that there are some.
+    /// Reads scene files without the command line's options.
     fn read() -> ReadScene {
         Arc::new(|path: &Path| {
             let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
@@ -127,7 +139,12 @@ mod tests {
         assert_eq!((lab.scene_name().as_str(), lab.race().tick()), ("ship.toml", 1));
         let Some(Dialog::Mistakes { report, .. }) = lab.viewer().dialog() else { panic!() };
         assert!(report.starts_with(&format!("{}:1:", bad.display())), "{report}");
-        // A name is that of a built-in scene, as on the command line.
+        lab.apply(Command::AskForPath);
+        lab.apply(Command::TypePath(bad.display().to_string()));
+        assert_eq!(open_typed(&mut lab, &read()), None);
+        let Some(Dialog::Path { refused: Some(report) }) = lab.viewer().dialog() else { panic!() };
+        assert!(report.starts_with(&format!("{}:1:", bad.display())), "{report}");
+        // The name of a built-in scene opens that, as on the command line.
         lab.apply(Command::TypePath(" ship ".into()));
         assert_eq!(open_typed(&mut lab, &read()), None);
         assert_eq!((lab.scene_name().as_str(), lab.viewer().dialog()), ("ship", None));

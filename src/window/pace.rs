@@ -1,20 +1,20 @@
-//! How fast frames come and simulated time goes, over the last second.
+//! Measures the frame rate and the ratio of simulated to real time over the last second.
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
 use crate::lab::{Lab, Pace};
 
-/// The least time that is measured over: long enough for a steady figure, short enough to follow a change.
+/// The shortest span to measure over: long enough for a steady figure, short enough to follow a change.
 const SPAN: Duration = Duration::from_secs(1);
 
-/// Measures the pace of frames.
+/// Measures frames per second and the real-time factor.
 #[derive(Debug, Default)]
 pub(super) struct Meter {
-    /// When recent frames began, and the simulated time with what is owed of a tick (s): by whole ticks the
-    /// figure would jump at low rates.
+    /// When each recent frame began, and the simulated time then in seconds, with the part of a tick that is owed:
+    /// counted in whole ticks the figure would jump at low rates.
     frames: VecDeque<(Instant, f64)>,
-    /// The tick rate and the speed that they were drawn at.
+    /// The tick rate and the speed of those frames.
     under: (u32, u32),
     any: bool,
 }
@@ -25,8 +25,8 @@ impl Meter {
         !std::mem::replace(&mut self.any, true)
     }
 
-    /// Takes in a frame of `lab` that began at `now`. What was measured before a pause, a jump in time or another
-    /// rate is forgotten.
+    /// Adds a frame of `lab` that began at `now`. A pause, a jump in time or a change of rate starts the measurement
+    /// again.
     pub(super) fn frame(&mut self, now: Instant, lab: &Lab) {
         let under = (lab.clock().tick_hz(), lab.clock().speed_percent());
         let t = lab.time_with_owed_s();
@@ -44,7 +44,7 @@ impl Meter {
         }
     }
 
-    /// The pace, once there is a second to tell it from.
+    /// The pace, once a second has been measured.
     pub(super) fn pace(&self) -> Pace {
         let (Some(&(first, from)), Some(&(last, to))) = (self.frames.front(), self.frames.back())
         else {

@@ -1,11 +1,11 @@
-//! The run as a scene file, for `regatta play`, `capture`, `advise` and `verify`.
+//! Saves the run as a scene file, for `regatta play`, `capture`, `advise` and `verify`.
 
 use std::path::{Path, PathBuf};
 
 use super::new_file::write_new;
 use crate::lab::Lab;
 
-/// Saves the run so far beside nothing that exists, and says in a line for people what became of it.
+/// Saves the run so far under a new name, and returns a notice with the name or the error.
 pub(super) fn save(lab: &Lab) -> String {
     match try_save(lab) {
         Ok(path) => format!("recorded in {0}: regatta verify {0}", path.display()),

@@ -1,13 +1,13 @@
-//! A picture of the lab in the size of the window, drawn to a texture of our own: a surface need not
-//! let itself be read.
+//! Saves a picture of the lab in the size of the window. It is drawn to a texture of its own, because a surface may
+//! not be readable.
 
 use std::path::{Path, PathBuf};
 
 use super::new_file::write_new;
 use crate::lab::{Lab, Mode};
-use crate::view::{Artist, Gpu, png};
+use crate::view::{Gpu, OffscreenRenderer, png};
 
-/// Saves a picture beside nothing that exists, and says in a line for people what became of it.
+/// Saves a picture under a new name, and returns a notice with the name or the error.
 pub(super) fn save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> String {
     match try_save(gpu, size_px, scale, lab) {
         Ok(path) => format!("saved {}", path.display()),
@@ -17,7 +17,7 @@ pub(super) fn save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> Strin
 
 fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> Result<PathBuf, String> {
     let mut rgba = Vec::new();
-    Artist::new(gpu.clone(), size_px, scale)
+    OffscreenRenderer::new(gpu.clone(), size_px, scale)
         .map_err(|error| error.to_string())?
         .draw(lab, &mut rgba)
         .map_err(|error| error.to_string())?;
@@ -25,7 +25,7 @@ fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> Result<PathB
         .map_err(|error| format!("cannot write {}.png here: {error}", name(lab)))
 }
 
-/// What the picture shows, as a file name without its ending.
+/// A file name, without its ending, that says what the picture shows.
 fn name(lab: &Lab) -> String {
     let method = match lab.mode() {
         Mode::Solo => lab.entries()[lab.active()].method.id,

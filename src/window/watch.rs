@@ -1,4 +1,4 @@
-//! Watches the scene files that were opened, on a thread of its own: a disk can be slow.
+//! Watches the opened scene files for changes, on a thread of its own because a disk can be slow.
 
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -10,35 +10,38 @@ use winit::event_loop::EventLoopProxy;
 use super::Event;
 use super::opening::ReadScene;
 
-/// How often files are looked at: often enough for a change to seem at once.
+/// The time between two looks at the files: short enough for a change to seem immediate.
 const INTERVAL: Duration = Duration::from_millis(400);
-/// How long a file stays as it is once it is written: an editor may empty it first.
+/// How long a changed file must stay the same before it is read: an editor may empty it first.
 const STEADY: Duration = Duration::from_millis(60);
+/// How many looks in a row must find no file before it counts as gone. After one, an editor may be about to replace it.
+const MISSING_WHEN_GONE: u32 = 2;
 
-/// The way to the thread that watches. It ends when this is dropped.
+/// A handle to the thread that watches files. The thread ends when this is dropped.
 pub(super) struct FileWatch {
-    files: Sender<Watched>,
+    files: Sender<WatchedFile>,
 }
 
 impl FileWatch {
-    /// Watches nothing yet. What changes is read by `read` and comes as an event.
+    /// Starts the thread, which has no file to watch yet. It sends an event for each file that changes, is deleted or
+    /// comes back; changed files are read by `read`.
     pub(super) fn new(read: ReadScene, events: EventLoopProxy<Event>) -> Self {
         let (files, added) = channel();
         thread::spawn(move || watch(&read, &added, &events));
         Self { files }
     }
 
-    /// Watches a file that was opened, if one was, and had this text then.
+    /// Adds a file that was opened, if one was, with the text that it had then.
     pub(super) fn watch(&self, opened: Option<(PathBuf, String)>) {
         if let Some((path, text)) = opened {
-            // A thread that is gone sees nothing more; the window stays.
-            _ = self.files.send(Watched { path, bytes: text.into_bytes() });
+            // If the thread has ended, changes go unnoticed; the window stays open.
+            _ = self.files.send(WatchedFile::new(path, text.into_bytes()));
         }
     }
 }
 
-fn watch(read: &ReadScene, added: &Receiver<Watched>, events: &EventLoopProxy<Event>) {
-    let mut files: Vec<Watched> = Vec::new();
+fn watch(read: &ReadScene, added: &Receiver<WatchedFile>, events: &EventLoopProxy<Event>) {
+    let mut files: Vec<WatchedFile> = Vec::new();
     loop {
         let file = if files.is_empty() {
             added.recv().map_err(|_| RecvTimeoutError::Disconnected)
@@ -51,10 +54,15 @@ fn watch(read: &ReadScene, added: &Receiver<Watched>, events: &EventLoopProxy<Ev
                 files.push(file);
             }
             Err(RecvTimeoutError::Timeout) => {
-                for file in files.iter_mut().filter_map(|file| file.has_changed().then_some(file)) {
+                for file in &mut files {
                     let path = file.path.clone();
-                    let read = read(&path);
-                    if events.send_event(Event::Changed { path, read }).is_err() {
+                    let event = match file.look() {
+                        Look::Same => continue,
+                        Look::Changed => Event::FileChanged { read: read(&path), path },
+                        Look::Gone => Event::FileGone(path),
+                        Look::Back => Event::FileBack(path),
+                    };
+                    if events.send_event(event).is_err() {
                         return;
                     }
                 }
@@ -64,37 +72,64 @@ fn watch(read: &ReadScene, added: &Receiver<Watched>, events: &EventLoopProxy<Ev
     }
 }
 
-/// A file as it was last.
-struct Watched {
-    path: PathBuf,
-    bytes: Vec<u8>,
+/// What a look at a file finds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Look {
+    /// Nothing new.
+    Same,
+    /// The file has other bytes.
+    Changed,
+    /// The file cannot be read any more.
+    Gone,
+    /// The file was gone, and exists again with the same bytes.
+    Back,
 }
 
-impl Watched {
-    /// Whether the file has other bytes than it had, once it stays as it is. One that is not there has not changed: an
-    /// editor may be about to put another in its place.
+/// A file with the bytes that it had when it was last read.
+struct WatchedFile {
+    path: PathBuf,
+    bytes: Vec<u8>,
+    /// How many looks in a row found no file.
+    missing: u32,
+}
+
+impl WatchedFile {
+    fn new(path: PathBuf, bytes: Vec<u8>) -> Self {
+        Self { path, bytes, missing: 0 }
+    }
+
+    /// Looks at the file; while it is being written, waits until it stays as it is.
     ///
-    /// The bytes tell, and no time of modification: that can be the same for two changes, and be older for a file that
-    /// was put in place of another.
-    fn has_changed(&mut self) -> bool {
-        let Some(mut bytes) = self.read().filter(|bytes| *bytes != self.bytes) else {
-            return false;
+    /// Compares bytes and not times of modification: two changes can have the same time, and a file that replaces
+    /// another can be older.
+    fn look(&mut self) -> Look {
+        let Some(bytes) = self.read_steady() else {
+            self.missing = self.missing.saturating_add(1);
+            return if self.missing == MISSING_WHEN_GONE { Look::Gone } else { Look::Same };
         };
-        loop {
+        let was_gone = std::mem::take(&mut self.missing) >= MISSING_WHEN_GONE;
+        if bytes != self.bytes {
+            self.bytes = bytes;
+            return Look::Changed;
+        }
+        if was_gone { Look::Back } else { Look::Same }
+    }
+
+    /// The bytes of the file. If they are new, waits until they have stayed the same for [`STEADY`].
+    fn read_steady(&self) -> Option<Vec<u8>> {
+        let mut bytes = self.read()?;
+        while bytes != self.bytes {
             thread::sleep(STEADY);
-            match self.read() {
-                Some(now) if now == bytes => break,
-                Some(now) => bytes = now,
-                None => return false,
+            let before = std::mem::replace(&mut bytes, self.read()?);
+            if bytes == before {
+                break;
             }
         }
-        let has_changed = bytes != self.bytes;
-        self.bytes = bytes;
-        has_changed
+        Some(bytes)
     }
 
     fn read(&self) -> Option<Vec<u8>> {
-        // A pipe would have us wait for its other end.
+        // Reading a pipe would block until its other end is written.
         self.path.metadata().ok().filter(|found| found.is_file())?;
         std::fs::read(&self.path).ok()
     }
@@ -104,25 +139,46 @@ impl Watched {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_file_that_is_written_or_replaced_has_changed_once() {
+    /// A file with the text `one`, and its folder.
+    fn watched() -> (tempfile::TempDir, WatchedFile) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.toml");
         std::fs::write(&path, "one").unwrap();
-        let mut watched = Watched { path: path.clone(), bytes: b"one".into() };
-        assert!(!watched.has_changed());
-        std::fs::write(&path, "two").unwrap();
-        assert!(watched.has_changed() && !watched.has_changed());
+        (folder, WatchedFile::new(path, b"one".into()))
+    }
+
+    fn looks(watched: &mut WatchedFile, count: usize) -> Vec<Look> {
+        (0..count).map(|_| watched.look()).collect()
+    }
+
+    #[test]
+    fn a_file_that_is_written_or_replaced_has_changed_once() {
+        let (folder, mut watched) = watched();
+        assert_eq!(watched.look(), Look::Same);
+        std::fs::write(&watched.path, "two").unwrap();
+        assert_eq!(looks(&mut watched, 2), [Look::Changed, Look::Same]);
         // As editors save: another file, renamed over it.
         let other = folder.path().join("a.toml~");
         std::fs::write(&other, "three").unwrap();
-        std::fs::rename(&other, &path).unwrap();
-        assert!(watched.has_changed() && !watched.has_changed());
-        std::fs::remove_file(&path).unwrap();
-        assert!(!watched.has_changed());
-        std::fs::write(&path, "three").unwrap();
-        assert!(!watched.has_changed(), "it is back as it was");
-        std::fs::write(&path, "").unwrap();
-        assert!(watched.has_changed());
+        std::fs::rename(&other, &watched.path).unwrap();
+        assert_eq!(looks(&mut watched, 2), [Look::Changed, Look::Same]);
+        std::fs::write(&watched.path, "").unwrap();
+        assert_eq!(watched.look(), Look::Changed);
+    }
+
+    #[test]
+    fn a_file_that_is_deleted_is_gone_once_and_back_once() {
+        let (_folder, mut watched) = watched();
+        std::fs::remove_file(&watched.path).unwrap();
+        // An editor may be about to put another in its place.
+        assert_eq!(watched.look(), Look::Same);
+        std::fs::write(&watched.path, "one").unwrap();
+        assert_eq!(watched.look(), Look::Same);
+        for (text, found) in [("one", Look::Back), ("two", Look::Changed)] {
+            std::fs::remove_file(&watched.path).unwrap();
+            assert_eq!(looks(&mut watched, 4), [Look::Same, Look::Gone, Look::Same, Look::Same]);
+            std::fs::write(&watched.path, text).unwrap();
+            assert_eq!(looks(&mut watched, 2), [found, Look::Same]);
+        }
     }
 }

@@ -12,13 +12,13 @@ fn chain(masses: usize, damping: f64) -> Chain {
     Chain::new(masses, MASS, STIFFNESS, damping, masses.div_ceil(3), 0.7, 2.0)
 }
 
-/// The damping at which mode `n` of a chain is critical: c ω² / k = 2 ω.
+/// The damping at which mode `n` is critical: c ω² / k = 2 ω.
 fn critical(chain: &Chain, n: usize) -> f64 {
     2.0 * STIFFNESS / chain.angular_frequency(n)
 }
 
-/// A state with something in every mode.
-fn stirred(masses: usize) -> State<Vec<f64>> {
+/// A state in which every mode is excited.
+fn excited(masses: usize) -> State<Vec<f64>> {
     let wave = |j: usize, a: f64, b: f64| libm::sin(a * j as f64 + b) + 0.2;
     State {
         q: (1..=masses).map(|j| wave(j, 2.3, 0.4)).collect(),
@@ -27,11 +27,11 @@ fn stirred(masses: usize) -> State<Vec<f64>> {
 }
 
 #[test]
-fn the_flow_satisfies_its_equation_swinging_critical_and_creeping() {
+fn the_flow_satisfies_its_equation_underdamped_critical_and_overdamped() {
     for masses in [1, 2, 3, 8, 33] {
         let free = chain(masses, 0.0);
         let middle = masses.div_ceil(2);
-        // With the last, all modes creep; with that of the middle mode, some swing and some creep.
+        // At the last damping all modes are overdamped; at that of the middle mode, some are.
         let dampings =
             [0.0, 1e-9, 0.3, critical(&free, middle), critical(&free, 1), 3.0 * critical(&free, 1)];
         for damping in dampings {
@@ -40,14 +40,14 @@ fn the_flow_satisfies_its_equation_swinging_critical_and_creeping() {
             let rate = fastest.max(damping / STIFFNESS * fastest * fastest);
             for dt in [0.0, 0.01, 0.3, 2.0, 40.0] {
                 satisfies_its_equation(&body, &body.start(), dt, 1.0 / rate, 1e-11);
-                satisfies_its_equation(&body, &stirred(masses), dt, 1.0 / rate, 1e-11);
+                satisfies_its_equation(&body, &excited(masses), dt, 1.0 / rate, 1e-11);
             }
         }
     }
 }
 
 #[test]
-fn a_mode_keeps_its_shape_and_swings_at_its_own_frequency() {
+fn a_mode_keeps_its_shape_and_oscillates_at_its_frequency() {
     let masses = 7;
     let body = chain(masses, 0.0);
     for n in 1..=masses {
@@ -68,7 +68,7 @@ fn a_mode_keeps_its_shape_and_swings_at_its_own_frequency() {
 }
 
 #[test]
-fn each_mode_dies_at_its_own_rate() {
+fn each_mode_decays_at_its_own_rate() {
     let (masses, damping) = (5, 0.8);
     let body = chain(masses, damping);
     let energy = |state: &State<Vec<f64>>| chain(masses, 0.0).energy(state).unwrap();
@@ -102,10 +102,10 @@ fn a_chain_of_one_is_a_spring_of_twice_the_stiffness() {
 }
 
 #[test]
-fn the_flow_keeps_the_energy_and_two_strides_make_one() {
+fn the_flow_conserves_energy_and_composes() {
     for masses in [1, 6, 64, 256] {
         let body = chain(masses, 0.0);
-        let start = stirred(masses);
+        let start = excited(masses);
         let before = body.energy(&start).unwrap();
         let first = flow(&body, 3.3, &start);
         assert!((body.energy(&first).unwrap() / before - 1.0).abs() < 1e-12, "{masses} masses");
@@ -119,7 +119,7 @@ fn the_flow_keeps_the_energy_and_two_strides_make_one() {
 
 #[test]
 fn a_damped_chain_has_no_conserved_energy_and_a_kick_hits_the_plucked_mass() {
-    assert_eq!(chain(4, 0.1).energy(&stirred(4)), None);
+    assert_eq!(chain(4, 0.1).energy(&excited(4)), None);
     let mut body = chain(4, 0.0);
     let mut state = body.start();
     assert!(body.input(Input::Kick(3.0), &mut state));

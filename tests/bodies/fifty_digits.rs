@@ -1,15 +1,16 @@
-//! Truths against `fifty_digits.txt`, a table of motions that another program computed to 50 digits and more:
-//! closed forms with their cancellations computed away, Taylor series of order 36 from corner to corner for
-//! what has none. What a truth says of its own error has to cover the difference, and not by too much.
+//! Truths compared with `fifty_digits.txt`, a table of motions that another program computed to 50
+//! digits or more: closed forms without their cancellations, and for bodies without a closed form
+//! Taylor series of order 36 from corner to corner. The error that a truth reports must cover the
+//! difference, and not by too much.
 //!
-//! A line is a kind of body, the tick rate in Hz, the seconds, throttle, rudder and the kind's parameters,
-//! and after the bar the coordinates and velocities then.
+//! Each line has the kind of body, the tick rate in Hz, the seconds, throttle, rudder and the
+//! parameters of the kind, and after the bar the coordinates and velocities at the end.
 
 use regatta::sim::bodies::{Input, Kind, Truth, kind};
 use regatta::sim::integrators::StepFailure;
 use regatta::sim::{Solver, Stepper};
 
-/// The motions of the table, but others may be tried in their place.
+/// The table, or another one from the environment.
 fn table() -> String {
     match std::env::var("REGATTA_TABLE") {
         Ok(file) => std::fs::read_to_string(file).expect("a table"),
@@ -54,7 +55,7 @@ fn rows() -> Vec<Row> {
 }
 
 impl Row {
-    /// The body there.
+    /// Runs the body to the end.
     fn run(&self) -> Result<Box<dyn Stepper>, StepFailure> {
         let mut body = (self.kind.build)(&self.values, Solver::Truth);
         for input in self.inputs {
@@ -70,7 +71,7 @@ impl Row {
         Ok(body)
     }
 
-    /// The largest error of a coordinate and of a velocity, what is said of both, and their sizes.
+    /// The largest error of a coordinate and of a velocity, the reported errors, and the magnitudes.
     fn errors(&self) -> [[f64; 2]; 3] {
         let body = self.run().unwrap_or_else(|failure| panic!("{failure}: {}", self.line));
         let off = |found: &[f64], there: &[f64]| {
@@ -89,8 +90,8 @@ impl Row {
     }
 }
 
-/// What truths of this kind say of their errors, in units of the true ones, in rising order. One that is
-/// below the rounding of what is returned is taken for that.
+/// The reported errors of truths of this kind, divided by the true ones, in rising order. A true error
+/// below the rounding of the result counts as that rounding.
 fn ratios(id: &str) -> Vec<f64> {
     let mut ratios = Vec::new();
     for row in rows().iter().filter(|row| row.kind.id == id) {
@@ -118,14 +119,15 @@ fn ratios(id: &str) -> Vec<f64> {
     ratios
 }
 
-/// The ratio that this part of the others does not exceed.
+/// The quantile of `ratios` at `part`.
 fn at(ratios: &[f64], part: f64) -> f64 {
     ratios[((ratios.len() - 1) as f64 * part).round() as usize]
 }
 
 #[test]
-fn a_closed_form_is_never_further_off_than_it_says_and_says_no_more_than_it_must() {
-    // Three times what it is at the median and at nine tenths. Beyond are errors that happen to be 0.
+fn the_error_bound_of_a_closed_form_holds_and_is_tight() {
+    // Three times the measured median and ninth decile. The largest ratios are errors that happen to be
+    // 0.
     for (id, median, most) in [
         ("ship", 12.0, 200.0),
         ("spring", 70.0, 600.0),
@@ -143,13 +145,14 @@ fn a_closed_form_is_never_further_off_than_it_says_and_says_no_more_than_it_must
 }
 
 #[test]
-fn a_reference_says_how_far_it_is_off_on_this_run() {
+fn a_reference_estimates_its_error_on_each_run() {
     for id in ["pendulum", "helm"] {
         let ratios = ratios(id);
         assert!(ratios.len() >= 90, "{id}");
         let hundredth = at(&ratios, 0.01);
         assert!(hundredth >= 1.0, "{id}: {hundredth}");
-        // Three times what it is: the margin, and what the two solutions happen to share.
+        // Three times the measured median, which includes the margin and common errors of the two
+        // solutions.
         let median = at(&ratios, 0.5);
         assert!(median < 50.0, "{id}: {median}");
     }

@@ -35,8 +35,8 @@ fn derivative<B: Body>(body: &B, from: &State<B::Vector>, dt: f64, step: f64) ->
     sum
 }
 
-/// Holds the flow's derivative `dt` after `from` against the equation. `time_s` is the time in which the
-/// motion there changes, `tolerance` relative to what changes in it.
+/// Compares the derivative of the flow `dt` after `from` with the equation. `time_s` is the time scale
+/// of the motion there; `tolerance` is relative to the motion.
 pub(crate) fn satisfies_its_equation<B: Body>(
     body: &B,
     from: &State<B::Vector>,
@@ -55,7 +55,7 @@ pub(crate) fn satisfies_its_equation<B: Body>(
 }
 
 #[test]
-fn a_wrong_flow_is_seen() {
+fn a_wrong_flow_is_detected() {
     use regatta::sim::bodies::Ship;
     let ship =
         Ship { thrust: 2.0, throttle: 1.0, drag: 1.0, mass: 1.0, s0: 0.0, v0: 0.0, kick: 1.0 };

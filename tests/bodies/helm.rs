@@ -1,4 +1,4 @@
-//! The ship that is steered: its curve, its straight run, its turning circle.
+//! The steered ship: its thrust curve, its straight course, its turning circle.
 
 use glam::{DVec2, DVec3};
 use regatta::sim::bodies::{Body, Helm, Input, Ship, ThrustCurve};
@@ -25,7 +25,7 @@ fn curve() -> ThrustCurve {
     ThrustCurve::new([[0.0, 40_000.0], [5.0, 36_000.0], [10.0, 24_000.0], [15.0, 8_000.0]])
 }
 
-/// Under the truth, ticked at 60 Hz.
+/// Runs the truth at 60 Hz.
 fn run(body: Helm, seconds: u32) -> Box<dyn Stepper> {
     let mut stepper = stepper(body, Solver::Truth);
     for tick in 0..60 * seconds {
@@ -83,7 +83,7 @@ fn on_a_straight_course_under_level_thrust_it_is_the_chapters_ship() {
 }
 
 #[test]
-fn under_steady_rudder_it_settles_into_a_circle_that_the_forces_allow() {
+fn under_constant_rudder_it_settles_into_a_circle_in_equilibrium() {
     for rudder in [1.0, -0.5] {
         let body = Helm { rudder, ..helm(curve()) };
         let sailed = run(body.clone(), 400);
@@ -101,7 +101,7 @@ fn under_steady_rudder_it_settles_into_a_circle_that_the_forces_allow() {
 }
 
 #[test]
-fn the_force_turns_with_the_ship() {
+fn the_force_rotates_with_the_ship() {
     let body = Helm { rudder: 0.3, ..helm(curve()) };
     let turned = |angle: f64| {
         let turn = DVec2::from_angle(angle);

@@ -1,8 +1,8 @@
-//! The bodies of several coordinates and those without a closed form: their flows against their
-//! equations, their conserved quantities, and what the reference is worth.
+//! Bodies with several coordinates or without a closed form: their flows and equations, their conserved
+//! quantities, and the accuracy of the reference.
 //!
-//! Other suites take a body's truth for true. If this one fails, believe none of them; the bodies of one
-//! coordinate that have a closed form are in `tests/exact_flows.rs`.
+//! Other suites rely on the truth of a body. If this one fails, trust none of them; bodies of one
+//! coordinate with a closed form are in `tests/exact_flows.rs`.
 
 mod chain;
 mod edits;

@@ -12,8 +12,8 @@ fn orbit() -> Orbit {
     Orbit { mu: MU, q0: DVec2::new(1.0, 0.0), v0: DVec2::new(0.0, 1.0), kick: 0.5 }
 }
 
-/// A state at distance `r` on an orbit of angular momentum and energy such that the eccentricity is `e`
-/// and the nearest distance 1, inwards or outwards bound, turned by `angle`.
+/// A state at distance `r` on an orbit with eccentricity `e` and periapsis distance 1, moving inwards
+/// or outwards, rotated by `angle`.
 fn state(e: f64, r: f64, outwards: bool, angle: f64) -> State<DVec2> {
     let h2 = MU * (1.0 + e);
     let energy = MU * (e - 1.0) / 2.0;
@@ -24,7 +24,7 @@ fn state(e: f64, r: f64, outwards: bool, angle: f64) -> State<DVec2> {
     State { q: turn.rotate(DVec2::new(r, 0.0)), v: turn.rotate(DVec2::new(along, across)) }
 }
 
-/// Circles, ellipses flat and round, the parabola and its neighbours, hyperbolas, both ways round.
+/// Circles, ellipses flat and round, near-parabolic orbits and hyperbolas, in both directions.
 fn states() -> Vec<(f64, State<DVec2>)> {
     let mut states = Vec::new();
     let eccentricities =
@@ -48,12 +48,12 @@ fn energy(state: &State<DVec2>) -> f64 {
     orbit().energy(state).expect("conserved")
 }
 
-/// Towards the periapsis, as long as the eccentricity.
+/// The eccentricity vector.
 fn eccentricity(State { q, v }: &State<DVec2>) -> DVec2 {
     -v.perp() * q.perp_dot(*v) / MU - *q / q.length()
 }
 
-/// How fast the direction of the orbit changes there, turned into a time.
+/// The time scale on which the motion changes.
 fn time_s(State { q, v }: &State<DVec2>) -> f64 {
     let r = q.length();
     (r * r * r / MU).sqrt().min(r / v.length())
@@ -74,7 +74,7 @@ fn the_flow_satisfies_its_equation_from_any_state() {
 }
 
 #[test]
-fn energy_angular_momentum_and_the_orbits_axis_stay() {
+fn energy_angular_momentum_and_eccentricity_vector_are_conserved() {
     for (e, from) in states() {
         for dt in STRIDES {
             let to = flow(&orbit(), dt, &from);
@@ -96,7 +96,7 @@ fn energy_angular_momentum_and_the_orbits_axis_stay() {
     }
 }
 
-/// Seconds since the periapsis, by the textbook's equations.
+/// Seconds since the periapsis, by the textbook formulas.
 fn since_periapsis(e: f64, state: &State<DVec2>) -> f64 {
     let (r, inwards) = (state.q.length(), state.q.dot(state.v) < 0.0);
     let a = 1.0 / (1.0 - e);
@@ -111,7 +111,7 @@ fn since_periapsis(e: f64, state: &State<DVec2>) -> f64 {
 }
 
 #[test]
-fn the_time_passed_is_keplers() {
+fn the_elapsed_time_satisfies_keplers_equation() {
     for e in [0.3, 0.6, 0.9, 1.5, 4.0] {
         let from = state(e, 1.3, false, 0.2);
         let begin = since_periapsis(e, &from);
@@ -130,7 +130,7 @@ fn the_time_passed_is_keplers() {
 }
 
 #[test]
-fn a_round_ends_where_it_began_and_two_strides_make_one() {
+fn an_orbit_is_periodic_and_its_flow_composes() {
     for (e, from) in states() {
         if e <= 0.95 {
             let period = std::f64::consts::TAU * ((1.0 - e).powi(-3) / MU).sqrt();
@@ -170,7 +170,7 @@ fn a_flow_over_no_time_is_the_identity_to_the_bit() {
 }
 
 #[test]
-fn a_fall_into_the_centre_and_an_escape_from_it_are_followed() {
+fn a_fall_towards_the_centre_and_an_escape_are_accurate() {
     // From rest at 2, the fall takes π √(r³ / 8 μ).
     let from = State { q: DVec2::new(0.0, 2.0), v: DVec2::ZERO };
     let fall = std::f64::consts::PI * (1.0f64 / MU).sqrt();
@@ -215,7 +215,7 @@ fn any_time_from_any_state_ends_soon() {
 }
 
 #[test]
-fn the_least_time_there_is_moves_a_fly_by_nowhere() {
+fn the_smallest_time_does_not_move_a_fly_by() {
     let body = Orbit { mu: 1.0, q0: DVec2::new(100.0, 0.0), v0: DVec2::new(0.0, 3.0), kick: 0.0 };
     for dt in [1e-322, f64::from_bits(1), -1e-322, 1e-308] {
         let to = flow(&body, dt, &body.start());

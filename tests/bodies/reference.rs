@@ -1,12 +1,12 @@
-//! What a reference solution is worth: held against a closed form, and against Runge-Kutta at a step
-//! so fine that its own error is known from two steps.
+//! The accuracy of reference solutions, against a closed form and against Runge-Kutta at a step so fine
+//! that its own error is known from two steps.
 
 use regatta::lab::{SCENES, Scene, SceneBody};
 use regatta::sim::bodies::{BODIES, Body, Input, Pendulum, Truth, kind};
 use regatta::sim::integrators::{StepFailure, method};
 use regatta::sim::{REFERENCE_ACCURACY, Solver, State, stepper};
 
-/// What is stated, less a margin: what is measured.
+/// The measured accuracy: the stated one less a margin.
 const MEASURED: f64 = REFERENCE_ACCURACY / 20.0;
 
 fn pendulum(theta0: f64, omega0: f64) -> Pendulum {
@@ -44,7 +44,7 @@ fn let_go(theta0: f64, t: f64) -> State<f64> {
 }
 
 #[test]
-fn the_closed_form_it_is_held_against_satisfies_the_pendulums_equation() {
+fn the_closed_form_of_the_pendulum_satisfies_its_equation() {
     for theta0 in [0.1, 1.0, 2.8] {
         for t in [0.3, 1.0, 7.7] {
             let h = 1e-4;
@@ -117,7 +117,7 @@ fn every_scenes_reference_agrees_with_runge_kutta_at_a_fine_step() {
 }
 
 #[test]
-fn a_kind_says_exact_just_where_its_bodies_have_a_closed_form() {
+fn a_kind_is_exact_if_and_only_if_its_bodies_have_a_closed_form() {
     let values = |id: &str| match id {
         "helm" => vec![1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0],
         id => {
@@ -157,7 +157,7 @@ fn a_damped_pendulum_comes_to_rest_and_one_in_no_gravity_is_a_ship() {
 }
 
 #[test]
-fn a_kick_and_a_jump_go_on_from_there_and_evaluations_are_not_counted() {
+fn a_kick_and_a_placement_restart_the_reference_and_evaluations_are_not_counted() {
     let mut reference = stepper(pendulum(1.0, 0.0), Solver::Truth);
     reference.advance(0.0, 0.5, 1).unwrap();
     let (q, v) = (reference.q()[0], reference.v()[0]);
@@ -174,7 +174,7 @@ fn a_kick_and_a_jump_go_on_from_there_and_evaluations_are_not_counted() {
 }
 
 #[test]
-fn a_motion_too_stiff_for_its_tick_is_given_up_in_time() {
+fn a_motion_too_stiff_for_its_tick_fails_soon() {
     let stiff = Pendulum { gravity: 1e15, ..pendulum(1.0, 0.0) };
     let mut reference = stepper(stiff, Solver::Truth);
     let failure = reference.advance(0.0, 1.0, 1).unwrap_err();
@@ -182,7 +182,7 @@ fn a_motion_too_stiff_for_its_tick_is_given_up_in_time() {
 }
 
 #[test]
-fn what_failed_is_not_tried_again_until_it_is_placed_anew() {
+fn a_failed_reference_fails_until_it_is_placed_again() {
     let stiff = Pendulum { gravity: 1e15, ..pendulum(1.0, 0.0) };
     let mut reference = stepper(stiff, Solver::Truth);
     let failure = reference.advance(0.0, 1.0, 1).unwrap_err();
@@ -197,7 +197,7 @@ fn what_failed_is_not_tried_again_until_it_is_placed_anew() {
 }
 
 #[test]
-fn the_work_of_a_stiff_body_is_limited_in_all_and_not_only_for_a_call() {
+fn the_total_work_of_a_stiff_body_is_limited() {
     let body = Pendulum { gravity: 1e7, ..pendulum(1.0, 0.0) };
     let mut reference = stepper(body, Solver::Truth);
     let failed = (0..100_000).find(|tick| reference.advance(f64::from(*tick), 1.0, 1).is_err());
@@ -205,7 +205,7 @@ fn the_work_of_a_stiff_body_is_limited_in_all_and_not_only_for_a_call() {
 }
 
 #[test]
-fn a_stiff_scene_has_its_truth_soon_or_is_soon_said_to_have_none() {
+fn a_stiff_scene_has_a_truth_or_fails_soon() {
     let pendulum = |length, damping| vec![length, 1.0, 9.81, damping, 1.0, 0.0, 1.0];
     let mut helm = Scene::built_in("helm").unwrap().bodies[0].values.clone();
     let keys = kind("helm").unwrap().parameters;
@@ -230,7 +230,7 @@ fn a_stiff_scene_has_its_truth_soon_or_is_soon_said_to_have_none() {
 }
 
 #[test]
-fn an_error_outlives_a_kick_but_not_a_new_place() {
+fn an_error_survives_a_kick_but_not_a_placement() {
     for body in [pendulum(3.1, 0.0), pendulum(0.5, 60.0)] {
         let mut reference = stepper(body, Solver::Truth);
         for tick in 0..600 {
@@ -241,13 +241,13 @@ fn an_error_outlives_a_kick_but_not_a_new_place() {
         let [after, _] = reference.truth_error().unwrap();
         assert!(before > 1e-14 && after >= before, "{before:e}, {after:e}");
         reference.set(10.0, &[1.0], &[0.0]);
-        let [anew, _] = reference.truth_error().unwrap();
-        assert!(anew <= f64::EPSILON, "{anew:e}");
+        let [placed, _] = reference.truth_error().unwrap();
+        assert!(placed <= f64::EPSILON, "{placed:e}");
     }
 }
 
 #[test]
-fn the_error_of_a_closed_form_outlives_a_kick_too() {
+fn the_error_of_a_closed_form_survives_a_kick() {
     let mut body = (kind("orbit").unwrap().build)(&[1.0, 1.0, 0.0, 0.0, 1.0, 0.1], Solver::Truth);
     body.advance(0.0, 1e6, 1).unwrap();
     let [before, _] = body.truth_error().unwrap();
@@ -278,7 +278,7 @@ fn a_helm_that_settles_on_a_corner_of_its_curve_keeps_its_truth() {
 }
 
 #[test]
-fn the_pendulums_energy_is_kept_where_it_whirls() {
+fn the_energy_of_a_whirling_pendulum_is_conserved() {
     let body = pendulum(0.0, 7.0);
     let before = body.energy(&body.start()).unwrap();
     let mut reference = stepper(body, Solver::Truth);

@@ -121,7 +121,10 @@ fn a_swap_that_was_stopped_is_finished_by_the_next_command_which_says_so() {
     let Some((folder, old, new, _)) = clip_or_skip(test) else { return };
     let folder = folder.path();
     for (command, said) in [
-        ("verify clip", "a --bless was stopped while it swapped the frames in; it is finished now"),
+        (
+            "verify clip",
+            "a --bless was interrupted while it replaced the frames; now it is complete",
+        ),
         ("verify clip --bless", "wrote 12 frames"),
     ] {
         restore(folder, &old);

@@ -97,12 +97,13 @@ fn a_directory_that_is_written_is_neither_written_nor_judged_by_others() {
     for other in ["--out clip", "--out clip --force", "--out clip --resume"] {
         let output = run_in(folder.path(), &format!("{GIF} {other}"));
         assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
-        let reason = "another regatta is at work in clip; wait for it, or give another --out";
+        let reason =
+            "another regatta is writing to clip; wait until it has finished, or give another --out";
         assert!(stderr(&output).contains(reason), "{other}: {}", stderr(&output));
     }
     let judged = run_in(folder.path(), "verify clip");
     assert_eq!(judged.status.code(), Some(2));
-    assert!(stderr(&judged).contains("another regatta is at work there"), "{}", stderr(&judged));
+    assert!(stderr(&judged).contains("another regatta is writing to it"), "{}", stderr(&judged));
     let interrupt = Command::new("kill").args(["-INT", &first.id().to_string()]).status();
     assert!(interrupt.unwrap().success());
     assert_eq!(first.wait_with_output().unwrap().status.code(), Some(130));
@@ -149,7 +150,7 @@ fn a_link_stays_one_and_its_target_is_written() {
         let capture = format!("{GIF} --out {link}");
         let refused = run_in(folder.path(), &capture);
         assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
-        assert!(stderr(&refused).contains(&format!("{link} is there already; give another --out")));
+        assert!(stderr(&refused).contains(&format!("{link} already exists; give another --out")));
         let forced = drawn_or_skip(test, folder.path(), &format!("{capture} --force"));
         let Some(forced) = forced else { return };
         assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));

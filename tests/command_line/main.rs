@@ -18,6 +18,7 @@ mod recordings;
 mod sweep;
 mod trace;
 mod verify;
+mod verify_reports;
 
 /// The program, with nothing of this machine's display or settings.
 fn regatta() -> Command {
@@ -27,6 +28,8 @@ fn regatta() -> Command {
     }
     // Where it is unset, libwayland says so on standard error.
     command.env("XDG_RUNTIME_DIR", std::env::temp_dir()).stdin(Stdio::null());
+    // Nothing that a window remembers.
+    command.env("XDG_CONFIG_HOME", "/nowhere");
     command
 }
 

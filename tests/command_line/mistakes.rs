@@ -67,7 +67,7 @@ fn each_mistake_is_named_with_its_remedy() {
         ("capture --out x.gif --resume", "only pictures in a directory can be resumed"),
         ("capture --out x.gif --fps 51", "at most 50 frames a second, not 51"),
         ("capture --out -", "numbered pictures need a directory; give --format y4m, rgba, apng"),
-        ("capture --out LICENSE-MIT --format y4m", "LICENSE-MIT is there already"),
+        ("capture --out LICENSE-MIT --format y4m", "LICENSE-MIT already exists"),
         ("capture --out x --format sheet --frames 9999", "fewer --frames or a smaller --size"),
         ("capture --out x --mark-every 0", "0 is not in 1..="),
         ("verify src", "cannot judge src/manifest.json: No such file"),

@@ -53,7 +53,7 @@ fn the_first_check_that_fails_is_named_with_the_last_that_holds() {
     let line = data.lines().nth(3).unwrap();
     let expected = "lane 4, rk4: differs first at tick 120 (2 s): 0000000000000000 in the file, ";
     assert!(line.starts_with(expected), "{line}");
-    assert!(line.ends_with("; the first difference lies after tick 60, the last that is the same"));
+    assert!(line.ends_with("; the last check that holds is at tick 60"));
     assert!(
         messages.contains("1 lane of run.toml differs; if that is meant, --bless"),
         "{messages}"
@@ -101,6 +101,63 @@ fn a_scene_without_checks_is_not_judged_and_gets_them_by_bless() {
 }
 
 #[test]
+fn the_rows_that_bless_adds_have_the_line_endings_of_the_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "# mine\ntitle = 'x'\ntick_hz = 30\nseconds = 2\nmethods = ['rk4']\n\
+                [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
+    for (ending, lone_feeds) in [("\r\n", false), ("\n", true)] {
+        let text = text.replace('\n', ending);
+        fs::write(folder.path().join("run.toml"), &text).unwrap();
+        // The second time the hashes are there, and are replaced.
+        for _ in 0..2 {
+            assert_eq!(verify(&folder, "--bless").0, Some(0));
+            let blessed = fs::read_to_string(folder.path().join("run.toml")).unwrap();
+            assert!(blessed.starts_with(&text) && blessed.contains("[[check]]"), "{blessed:?}");
+            assert_eq!(blessed.replace("\r\n", "").contains('\n'), lone_feeds, "{blessed:?}");
+        }
+        assert_eq!(verify(&folder, "").0, Some(0));
+    }
+}
+
+#[test]
+fn a_lane_is_named_by_its_number_and_by_every_method_that_it_had() {
+    let folder = tempfile::tempdir().unwrap();
+    let switch = |tick: u32, method: &str| {
+        format!("[[command]]\ntick = {tick}\nlane = 1\nmethod = '{method}'\n")
+    };
+    let text = "title = 'x'\ntick_hz = 30\nseconds = 1\nmethods = ['rk4', 'midpoint']\n\
+                [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
+    let [two, four] = ["rk4 then pefrl", "rk4 then 2 others then newmark"];
+    let switched = text.to_owned() + &switch(5, "pefrl");
+    let again = switched.clone() + &switch(6, "bdf2") + &switch(7, "newmark");
+    for (text, methods) in [(switched, two), (again, four)] {
+        fs::write(folder.path().join("run.toml"), text).unwrap();
+        assert_eq!(verify(&folder, "--bless").0, Some(0));
+        let (_, data, _) = verify(&folder, "--report junit r.xml");
+        let expected = format!(
+            "lane 1, {methods}: same to the bit: 1 check to tick 30\n\
+             lane 2, midpoint: same to the bit: 1 check to tick 30\n"
+        );
+        assert_eq!(data, expected);
+        let xml = fs::read_to_string(folder.path().join("r.xml")).unwrap();
+        assert!(xml.contains(&format!("name=\"lane 1, {methods}\"")), "{xml}");
+    }
+}
+
+#[test]
+fn checks_beyond_the_end_of_the_scene_are_announced_and_judged() {
+    let folder = recorded();
+    edit(&folder, |text| text.replacen("seconds = 2.1666666666666665", "seconds = 1.5", 1));
+    for option in ["", "--bless"] {
+        let (code, _, messages) = verify(&folder, option);
+        assert_eq!(code, Some(0), "{messages}");
+        let announced = "10 checks lie beyond the end of run.toml at tick 90 (1.5 s); \
+                         the race runs on to tick 130\n";
+        assert!(messages.starts_with(announced), "{messages}");
+    }
+}
+
+#[test]
 fn reports_of_a_recording_are_written_for_programs() {
     let folder = recorded();
     edit(&folder, |text| text.replacen("hash = \"", "hash = \"0000000000000000\" # \"", 1));
@@ -110,7 +167,8 @@ fn reports_of_a_recording_are_written_for_programs() {
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!((&json["file"], &json["same"]), (&"run.toml".into(), &false.into()));
     let [first, second] = [0, 1].map(|lane| &json["lanes"][lane]);
-    assert_eq!((&first["lane"], &first["method"]), (&1.into(), &"explicit-euler".into()));
+    assert_eq!(first["lane"], 1);
+    assert_eq!(first["methods"], serde_json::json!(["explicit-euler"]));
     assert_eq!(first["first_difference"]["tick"], 60);
     assert_eq!(first["first_difference"]["was"], "0000000000000000");
     assert_eq!((&second["same"], &second["first_difference"]), (&true.into(), &().into()));
@@ -151,11 +209,27 @@ fn what_is_played_is_recorded_and_a_file_that_is_there_is_kept() {
 
     let again = run_in(folder.path(), play);
     assert_eq!(again.status.code(), Some(2));
-    let message = "run.toml is there already; give another --record, or --force to replace it";
+    let message = "run.toml already exists; give another --record, or --force to replace it";
     assert!(stderr(&again).contains(message), "{}", stderr(&again));
     fs::remove_dir_all(folder.path().join("regatta-frames")).unwrap();
     let forced = run_in(folder.path(), &format!("{play} --force"));
     assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
+}
+
+#[test]
+fn a_recording_never_replaces_the_scene_that_is_played() {
+    let folder = recorded();
+    let before = fs::read_to_string(folder.path().join("run.toml")).unwrap();
+    for path in ["run.toml", "./run.toml"] {
+        let output = run_in(
+            folder.path(),
+            &format!("play --scene run.toml --seconds 1 --record {path} --force"),
+        );
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        let message = format!("{path} is the scene that is played; give another --record");
+        assert!(stderr(&output).contains(&message), "{}", stderr(&output));
+    }
+    assert_eq!(fs::read_to_string(folder.path().join("run.toml")).unwrap(), before);
 }
 
 #[test]

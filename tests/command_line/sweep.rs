@@ -7,6 +7,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use regatta::lab::palette::Theme;
 use regatta::lab::{SCENES, Scene};
 use regatta::sim::integrators::{METHODS, method};
 use serde_json::Value;
@@ -216,7 +217,7 @@ fn rows_go_to_a_file_that_is_replaced_only_when_forced() {
     fs::write(&file, "mine").unwrap();
     let refused = run_in(folder.path(), sweep);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(stderr(&refused).contains("rows.csv is there already; give another --out, or --force"));
+    assert!(stderr(&refused).contains("rows.csv already exists; give another --out, or --force"));
     assert_eq!(fs::read(&file).unwrap(), b"mine");
 
     let forced = run_in(folder.path(), &format!("{sweep} --force"));
@@ -240,7 +241,7 @@ fn mistakes_are_refused_before_anything_is_swept() {
         ("--threads 0", "0 is not in 1..=256"),
         ("--format xml", "csv, json"),
         ("--plot src", "src is a directory; give --plot a file"),
-        ("--plot LICENSE-MIT", "LICENSE-MIT is there already; give another --plot, or --force"),
+        ("--plot LICENSE-MIT", "LICENSE-MIT already exists; give another --plot, or --force"),
         ("--plot -", "rows and picture would go to the same place"),
         ("--plot x --out ./x", "rows and picture would go to the same place"),
     ] {
@@ -271,25 +272,27 @@ fn a_pipe_that_closes_early_ends_a_sweep_quietly() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_ends_the_longest_sweep_at_once_and_leaves_nothing() {
+fn an_interrupt_or_a_request_to_end_ends_the_longest_sweep_at_once_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     // Weeks.
     let sweep = "sweep --seconds 31536000 --tick-hz 10000 --out rows.csv";
-    let child = regatta()
-        .current_dir(folder.path())
-        .args(sweep.split(' '))
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    while names(folder.path()).is_empty() {
-        std::thread::sleep(Duration::from_millis(1));
+    for signal in ["-INT", "-TERM", "-HUP"] {
+        let child = regatta()
+            .current_dir(folder.path())
+            .args(sweep.split(' '))
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        while names(folder.path()).is_empty() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
+        assert!(sent.unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(stderr(&output), "error: interrupted; nothing was written\n", "{signal}");
+        assert_eq!(output.status.code(), Some(130), "{signal}");
+        assert!(names(folder.path()).is_empty(), "{signal}");
     }
-    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-    assert!(interrupt.unwrap().success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(stderr(&output), "error: interrupted; nothing was written\n");
-    assert_eq!(output.status.code(), Some(130));
-    assert!(names(folder.path()).is_empty());
 }
 
 /// How many pixels of the picture have each of these colours, or one close to it.
@@ -315,11 +318,12 @@ fn the_plot_is_a_picture_of_every_method_beside_the_rows() {
     assert_eq!(names(folder.path()), ["sweep.png"]);
     let picture = folder.path().join("sweep.png");
     assert_eq!(dimensions(&picture), (1840, 900));
-    let [euler, midpoint, rk4, none] =
-        lit(&picture, &[[213, 94, 0], [86, 180, 233], [204, 121, 167], [0, 178, 130]])[..]
-    else {
-        panic!("four counts")
+    let colour = |id: &str| {
+        let (rgba, _) = Theme::Dark.style(method(id).unwrap());
+        [rgba[0], rgba[1], rgba[2]]
     };
+    let colours = ["explicit-euler", "midpoint", "rk4", "semi-implicit-euler"].map(colour);
+    let [euler, midpoint, rk4, none] = lit(&picture, &colours)[..] else { panic!("four counts") };
     assert!((1_000..40_000).contains(&euler), "{euler} pixels of explicit Euler");
     assert!((300..20_000).contains(&midpoint), "{midpoint} pixels of midpoint");
     assert!((1_000..40_000).contains(&rk4), "{rk4} pixels of Runge-Kutta 4");

@@ -1,4 +1,4 @@
-//! Methods that choose their own substeps: what their tolerance buys, and what it costs.
+//! Adaptive methods: the accuracy and the cost of a tolerance.
 
 use glam::DVec2;
 use regatta::sim::bodies::Body;
@@ -62,7 +62,7 @@ fn adaptive_methods_meet_their_tolerance_and_not_by_far() {
 }
 
 #[test]
-fn work_grows_with_the_tolerance_as_the_order_says() {
+fn work_depends_on_the_tolerance_by_the_order() {
     let evaluations = |method: &Method, tolerance| {
         let system = Counted::new(spring(1.0, 0.0));
         let mut state = State { q: 1.0, v: 0.7 };
@@ -113,7 +113,7 @@ fn pairs_reuse_their_last_slope_from_substep_to_substep_and_from_tick_to_tick() 
 }
 
 #[test]
-fn a_tolerance_that_was_set_outlives_a_reset() {
+fn a_tolerance_survives_a_reset() {
     for method in adaptive() {
         let run = |tolerance: Option<f64>, reset: bool| {
             let mut state = State { q: 1.0, v: 0.0 };
@@ -143,7 +143,7 @@ impl System for Undefined {
 }
 
 #[test]
-fn a_force_that_is_undefined_is_never_taken_for_a_good_step() {
+fn a_step_with_an_undefined_force_is_never_accepted() {
     for method in adaptive() {
         let mut state = State { q: DVec2::ONE, v: DVec2::ZERO };
         let mut integrator = integrator::<Undefined>(method, &state.q);

@@ -16,7 +16,7 @@ fn ids_and_names_are_unique_and_found() {
 }
 
 #[test]
-fn every_card_says_what_to_expect_and_where_it_comes_from() {
+fn every_card_has_a_description_and_a_source() {
     for card in METHODS {
         assert!(card.about.len() > 20, "{}", card.id);
         let year = card.source.as_bytes().windows(4).any(|w| w.iter().all(u8::is_ascii_digit));
@@ -25,7 +25,7 @@ fn every_card_says_what_to_expect_and_where_it_comes_from() {
 }
 
 #[test]
-fn families_agree_with_the_fields_they_sum_up() {
+fn families_agree_with_the_other_fields() {
     for card in METHODS {
         let is_implicit = card.family == Family::Implicit;
         let asks_at_will = card.tolerance.is_some() || is_implicit;

@@ -1,4 +1,4 @@
-//! What a step costs, how far it goes, and when forces are asked for.
+//! The cost of a step, its length, and the times at which it evaluates forces.
 
 use glam::DVec2;
 use regatta::sim::integrators::{AdaptiveEuler, Integrator, METHODS, Method, integrator, method};
@@ -86,7 +86,7 @@ impl System for ClockAndDrag {
 }
 
 #[test]
-fn under_drag_too_methods_keep_time_or_say_how_much_they_lost() {
+fn methods_keep_time_under_drag_or_report_the_loss() {
     for method in METHODS {
         let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(1.0, 0.0) };
         let system = Counted::new(ClockAndDrag);
@@ -107,7 +107,7 @@ fn under_drag_too_methods_keep_time_or_say_how_much_they_lost() {
 }
 
 #[test]
-fn forces_are_asked_for_within_the_step_and_at_the_right_time() {
+fn forces_are_evaluated_within_the_step_and_at_the_right_time() {
     for method in METHODS {
         for (t, substeps) in [(0.0, 1), (5.0, 1), (5.0, 4)] {
             let (_, asked) = run(method, 0, t, substeps);

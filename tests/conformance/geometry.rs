@@ -1,11 +1,11 @@
-//! Area in phase space, and the way back.
+//! Phase-space area, and reversibility.
 
 use regatta::sim::integrators::{METHODS, Method, integrator, method};
 use regatta::sim::{State, System};
 
 use super::systems::{Kepler, Pendulum, kepler_orbit, spring, unbound};
 
-/// Large enough that what a method does not keep is far above round-off.
+/// Large enough that a violation is far above round-off.
 const STEP: f64 = 0.8;
 const FROM: State<f64> = State { q: 1.2, v: 0.5 };
 
@@ -35,8 +35,8 @@ fn area<S: System<Vector = f64> + 'static>(method: &Method, system: &S) -> f64 {
     by_q[0] * by_v[1] - by_q[1] * by_v[0]
 }
 
-/// Whether a step keeps phase-space area on a linear system and on one that is not.
-fn keeps_area(method: &Method) -> bool {
+/// Whether a step conserves phase-space area, on a linear and on a nonlinear system.
+fn conserves_area(method: &Method) -> bool {
     let off = [area(method, &spring(1.0, 0.0)), area(method, &Pendulum)].map(|a| (a - 1.0).abs());
     println!("{:26} {:.1e} {:.1e}", method.id, off[0], off[1]);
     assert!(off.iter().all(|off| off.is_finite()), "{}", method.id);
@@ -52,9 +52,9 @@ fn keeps_area(method: &Method) -> bool {
 }
 
 #[test]
-fn symplectic_methods_and_no_others_keep_area() {
+fn symplectic_methods_and_no_others_conserve_area() {
     for method in METHODS {
-        assert_eq!(keeps_area(method), method.symplectic, "{}", method.id);
+        assert_eq!(conserves_area(method), method.symplectic, "{}", method.id);
     }
 }
 
@@ -68,7 +68,7 @@ fn there_and_back<S: System<Vector = f64> + 'static>(method: &Method, system: &S
 }
 
 #[test]
-fn reversible_methods_and_no_others_find_back() {
+fn reversible_methods_and_no_others_return_to_the_start() {
     for method in METHODS {
         for off in [there_and_back(method, &spring(1.0, 0.0)), there_and_back(method, &Pendulum)] {
             println!("{:22} {off:.1e}", method.id);
@@ -107,7 +107,7 @@ fn kick_drift_kick_and_drift_kick_drift_are_told_apart() {
 }
 
 #[test]
-fn the_kepler_orbit_that_methods_are_held_against_solves_its_equation() {
+fn the_kepler_orbit_of_the_tests_solves_its_equation() {
     for e in [0.0, 0.3, 0.6] {
         for t in [0.0, 0.7, 2.0, 3.1, 5.0, 6.2] {
             let d = 1e-4;

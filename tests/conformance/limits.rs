@@ -85,7 +85,7 @@ fn limit(stable: impl Fn(f64) -> bool) -> f64 {
 }
 
 #[test]
-fn the_one_step_map_of_each_form_leaves_the_unit_circle_at_the_tabled_step() {
+fn the_one_step_map_leaves_the_unit_circle_at_the_tabulated_step() {
     // Under drag the adaptive listing cuts its steps as it likes.
     for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
         let (id, Some(undamped)) = (method.id, method.stability_limit) else { continue };
@@ -104,7 +104,7 @@ fn the_one_step_map_of_each_form_leaves_the_unit_circle_at_the_tabled_step() {
 }
 
 #[test]
-fn in_the_long_run_each_form_is_stable_to_its_maps_limit_or_to_the_lower_one_of_what_it_carries() {
+fn long_runs_are_stable_up_to_the_limit_of_the_map_with_memory() {
     for (id, one_step) in ONE_STEP {
         let method = method(id).expect("a method");
         let carried = LONG_RUN.iter().find(|(carrying, _)| *carrying == id);

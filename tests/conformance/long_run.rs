@@ -1,11 +1,11 @@
-//! What shows only after many steps: whether energy drifts, and whether there is a way back.
+//! Long runs: energy drift and reversibility.
 
 use regatta::sim::integrators::{Family, METHODS, Method};
 use regatta::sim::{State, System};
 
 use super::systems::{Pendulum, fresh, spring};
 
-/// Beyond this there is no motion left to speak of.
+/// Beyond this energy error no motion is left.
 const LOST: f64 = 1e6;
 
 /// The error of the energy over a run, as its amplitude and the rise of the straight line through it.
@@ -44,7 +44,7 @@ fn drift(method: &Method, h: f64, steps: u32) -> Option<Drift> {
 }
 
 #[test]
-fn over_a_million_steps_symplectic_methods_keep_energy_bounded_without_a_trend_and_no_others() {
+fn symplectic_methods_and_no_others_bound_energy_without_a_trend_over_a_million_steps() {
     for method in METHODS {
         let drift = drift(method, 0.3, 1_000_000);
         let trend = drift.as_ref().map_or(f64::INFINITY, Drift::trend);
@@ -82,7 +82,7 @@ fn out_and_back<S: System<Vector = f64> + 'static>(method: &Method, system: &S) 
 }
 
 #[test]
-fn reversible_methods_and_no_others_find_back_after_a_hundred_thousand_steps() {
+fn reversible_methods_and_no_others_return_after_a_hundred_thousand_steps() {
     // Backwards by steps of -h: on forces without drag the same as turning the velocity round.
     for method in METHODS {
         // What is rounded on a spring adds up; on a pendulum, whose frequency it changes, it also grows.

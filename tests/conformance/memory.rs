@@ -1,4 +1,4 @@
-//! What a method remembers of its last step, and when it must forget it.
+//! The memory of methods, and when it must be dropped.
 
 use std::cell::RefCell;
 
@@ -9,8 +9,8 @@ use regatta::sim::integrators::{Integrator, METHODS, Method, integrator};
 
 use super::systems::{Timetable, bits, fresh, spring};
 
-/// Methods that carry something from step to step: a force, a slope, a position, or the length of a substep.
-fn historians() -> impl Iterator<Item = &'static Method> {
+/// Methods with memory: of a force, a slope, a position, or a substep length.
+fn methods_with_memory() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| method.restart.is_some())
 }
 
@@ -22,7 +22,7 @@ fn run(integrator: &mut dyn Integrator<Spring>, state: &mut State<f64>, h: f64, 
 }
 
 #[test]
-fn after_a_reset_a_method_is_as_new() {
+fn a_reset_clears_all_memory() {
     for method in METHODS {
         let (mut used, mut elsewhere) = (fresh(method), State { q: 100.0, v: 3.0 });
         run(&mut *used, &mut elsewhere, 0.05, 57);
@@ -36,7 +36,7 @@ fn after_a_reset_a_method_is_as_new() {
 }
 
 #[test]
-fn methods_with_a_restart_and_no_others_carry_something_from_step_to_step() {
+fn methods_with_a_restart_and_no_others_have_memory() {
     for method in METHODS {
         let mut left_alone = State { q: -0.3, v: 11.0 };
         let mut interrupted = left_alone.clone();
@@ -53,9 +53,9 @@ fn methods_with_a_restart_and_no_others_carry_something_from_step_to_step() {
 }
 
 #[test]
-fn a_history_is_dropped_for_a_state_that_is_not_the_one_left() {
-    assert!(historians().count() >= 7);
-    for method in historians() {
+fn memory_is_dropped_for_a_state_that_was_changed() {
+    assert!(methods_with_memory().count() >= 7);
+    for method in methods_with_memory() {
         for kick in [State { q: 0.0, v: 0.25 }, State { q: 0.25, v: 0.0 }] {
             let (mut used, mut kicked) = (fresh(method), State { q: -0.3, v: 11.0 });
             run(&mut *used, &mut kicked, 0.03, 10);
@@ -69,8 +69,8 @@ fn a_history_is_dropped_for_a_state_that_is_not_the_one_left() {
 }
 
 #[test]
-fn a_history_is_dropped_for_a_step_of_another_length() {
-    for method in historians() {
+fn memory_is_dropped_for_a_step_of_another_length() {
+    for method in methods_with_memory() {
         for h in [0.02, 0.04, -0.03] {
             let (mut used, mut going_on) = (fresh(method), State { q: -0.3, v: 11.0 });
             run(&mut *used, &mut going_on, 0.03, 10);
@@ -83,7 +83,7 @@ fn a_history_is_dropped_for_a_step_of_another_length() {
 }
 
 #[test]
-fn a_method_that_carries_its_step_keeps_its_direction_when_time_turns() {
+fn a_carried_step_changes_sign_when_time_reverses() {
     for method in METHODS {
         let system = Timetable { power: 1, asked: RefCell::default() };
         let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(0.0, 0.0) };

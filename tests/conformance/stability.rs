@@ -58,7 +58,7 @@ fn beyond_its_limit_a_method_grows() {
 }
 
 #[test]
-fn a_method_with_no_limit_stays_bounded_at_any_tick() {
+fn a_method_without_a_limit_stays_bounded_at_any_tick() {
     // A minute of a stiff spring at h ω = 10, five times beyond the usual limit.
     for method in METHODS.iter().filter(|method| method.stability_limit.is_none()) {
         let most = largest_amplitude(method, 100.0, 0.1, 600, 100.0).unwrap();

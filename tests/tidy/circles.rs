@@ -13,10 +13,6 @@ use super::paths::named;
 use super::rules::LAYERS;
 use super::{Source, none, sources};
 
-/// Layers, and files with what is below them, that have circles still. One that has none any more is to be
-/// struck off.
-const NOT_YET: [&str; 2] = ["sim", "lab/picture"];
-
 /// A module's path from the crate's root, such as `["commands", "sweep", "grid"]`.
 type Module = Vec<String>;
 
@@ -115,26 +111,13 @@ fn shown(circle: &[Module]) -> String {
     circle.iter().map(|module| module.join("::")).collect::<Vec<_>>().join(" → ")
 }
 
-/// Whether the circle stays within the layer or the files that begin like this.
-fn is_within(circle: &[Module], place: &str) -> bool {
-    let place: Vec<&str> = place.split('/').collect();
-    circle
-        .iter()
-        .all(|module| module.iter().zip(&place).filter(|(a, b)| a == b).count() == place.len())
-}
-
 #[test]
 fn no_file_depends_on_itself() {
     let circles: Vec<_> = LAYERS
         .iter()
         .flat_map(|layer| circles(&sources(&format!("src/{}", layer.name), &["rs"])))
         .collect();
-    let new = circles.iter().filter(|circle| !NOT_YET.iter().any(|place| is_within(circle, place)));
-    none(new.map(|circle| shown(circle)).collect());
-    for place in NOT_YET {
-        let has_one = circles.iter().any(|circle| is_within(circle, place));
-        assert!(has_one, "{place} has no circle any more: strike it off NOT_YET");
-    }
+    none(circles.iter().map(|circle| shown(circle)).collect());
 }
 
 #[test]

@@ -179,7 +179,7 @@ impl Desk {
     #[track_caller]
     pub(crate) fn shows(&self, picture: &RgbaImage, scale: u32) {
         // The bar above tells of the frame rate, and the footer, now, of the screenshot.
-        let between = |y: u32| (34 * scale..picture.height() - 26 * scale).contains(&y);
+        let between = |y: u32| (40 * scale..picture.height() - 32 * scale).contains(&y);
         let differ = |a: &Rgba<u8>, b: &Rgba<u8>| (0..4).any(|i| a[i].abs_diff(b[i]) > 1);
         until("the screenshot in the window", || {
             let sight = self.sight();
@@ -228,7 +228,7 @@ impl Desk {
     }
 
     #[track_caller]
-    fn connect(&self) -> (RustConnection, Window) {
+    pub(crate) fn connect(&self) -> (RustConnection, Window) {
         let (connection, _) = RustConnection::connect(Some(&self.display.name)).unwrap();
         (connection, self.window.parse().unwrap())
     }

@@ -8,10 +8,12 @@ fn what_is_typed_into_the_inspector_is_an_edit_and_works_no_other_key() {
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
+    // High enough for the line to be in sight.
+    desk.resize(1280, 900);
     desk.press_and_see("e");
+    desk.still();
     let type_in_the_tick_rate = |keys| {
-        // The last line but one, in a window of 1280 × 720.
-        desk.click(1185, 509);
+        desk.click(1185, 568);
         desk.still();
         desk.press(keys);
         desk.still();

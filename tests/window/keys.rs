@@ -32,6 +32,7 @@ fn x_name(key: Key) -> String {
         Key::Right => "Right".into(),
         Key::Down => "Down".into(),
         Key::Home => "Home".into(),
+        Key::Enter => "Return".into(),
         Key::Escape => "Escape".into(),
         Key::Function(number) => format!("F{number}"),
     }
@@ -48,8 +49,12 @@ fn every_key_of_the_table_does_what_the_table_says() {
         let others = [
             Command::Screenshot,
             Command::Record,
+            Command::CopyInstrument,
+            Command::ExportInstrument,
             Command::ToggleFullScreen,
             Command::AskForPath,
+            // It opens a scene, and lets time run.
+            Command::ToggleGuide,
             Command::Escape,
         ];
         if !others.contains(command) {
@@ -59,8 +64,9 @@ fn every_key_of_the_table_does_what_the_table_says() {
         }
     }
     // Three keys opened, closed and opened the help.
-    assert!(lab.display().help && lab.display().inspector);
+    assert!(lab.display().help && lab.display().inspector && lab.display().enlarged);
     assert!(!lab.running());
+    desk.press_and_see("Escape");
     desk.press_and_see("Escape");
     desk.press_and_see("Escape");
     desk.press("space");
@@ -144,5 +150,17 @@ fn a_chord_with_control_or_alt_is_not_ours() {
     desk.press("ctrl+n alt+1 ctrl+space super+c Caps_Lock m");
     // With capitals locked, M is still the next method.
     desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz");
+    desk.quit();
+}
+
+#[test]
+fn the_guide_opens_its_first_stop_and_escape_closes_it() {
+    let test = "the_guide_opens_its_first_stop_and_escape_closes_it";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.press("F2");
+    desk.titled("Regatta - ship - Runge-Kutta 4 - 10 Hz");
+    desk.press("space");
+    desk.press_and_see("Escape");
+    desk.titled("Regatta - ship - Runge-Kutta 4 - 10 Hz (paused)");
     desk.quit();
 }

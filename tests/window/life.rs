@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
 use image::{Rgba, RgbaImage};
-use regatta::lab::picture::palette;
+use regatta::lab::palette::Theme;
 
 use crate::desk::{Desk, Display, until};
 
@@ -68,7 +68,8 @@ fn a_window_that_is_not_mapped_goes_on_in_real_time() {
 /// Whether ticks were dropped: the footer says so in this colour.
 fn tells_of_dropped_ticks(picture: &RgbaImage) -> bool {
     let footer = picture.height() - 26;
-    let alarm = |pixel: &Rgba<u8>| (0..3).all(|i| pixel[i].abs_diff(palette::ALARM[i]) < 40);
+    let alarm =
+        |pixel: &Rgba<u8>| (0..3).all(|i| pixel[i].abs_diff(Theme::Dark.palette().bad[i]) < 40);
     picture.enumerate_pixels().filter(|(_, y, pixel)| *y >= footer && alarm(pixel)).count() > 20
 }
 
@@ -122,4 +123,31 @@ fn a_paused_window_leaves_the_machine_alone() {
     let _ = writeln!(io::stderr(), "{test}: {:.1} % of a core", 100.0 * load);
     assert!(load < 0.1, "{load} of a core");
     desk.quit();
+}
+
+#[test]
+fn the_scene_that_was_open_last_opens_again_unless_another_is_asked_for() {
+    let test = "the_scene_that_was_open_last_opens_again_unless_another_is_asked_for";
+    let config = tempfile::tempdir().unwrap();
+    let variables = [("XDG_CONFIG_HOME", config.path().to_str().unwrap())];
+    let Some(desk) = Desk::open_with(test, "", &variables) else { return };
+    desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
+    desk.press("n");
+    desk.titled("Regatta - ship - Explicit Euler - 2 Hz");
+    desk.resize(900, 640);
+    desk.quit();
+    for (arguments, title) in [
+        ("--scene spring", "Regatta - spring - Explicit Euler - 60 Hz"),
+        ("--seconds 60", "Regatta - harbour - Explicit Euler - 60 Hz"),
+        ("", "Regatta - ship - Explicit Euler - 2 Hz"),
+    ] {
+        let Some(desk) = Desk::open_with(test, arguments, &variables) else { return };
+        desk.titled(title);
+        assert_eq!(desk.sight().dimensions(), (900, 640), "{arguments}");
+        desk.quit();
+    }
+    std::fs::write(config.path().join("regatta/window.toml"), "theme = 5").unwrap();
+    let Some(mut desk) = Desk::open_with(test, "", &variables) else { return };
+    desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
+    desk.program.says("window.toml is ignored: its theme cannot be understood").unwrap();
 }

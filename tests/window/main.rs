@@ -3,12 +3,16 @@
 #![cfg(all(feature = "desktop", target_os = "linux"))]
 
 mod desk;
+#[path = "../dice/mod.rs"]
+mod dice;
+mod dropped;
 mod inspector;
 mod keys;
 mod life;
 mod mouse;
 mod opening;
 mod program;
+mod random;
 mod shape;
 mod time_travel;
 mod touch;

@@ -9,7 +9,7 @@ fn open_scene_menu(desk: &Desk, scale: u32) {
     let below = || *desk.sight().get_pixel(scale * 70, scale * 66);
     desk.still();
     let closed = below();
-    desk.click(scale * 50, scale * 17);
+    desk.click(scale * 50, scale * 20);
     until("the menu of scenes", || (below() != closed).then_some(()));
     desk.still();
 }
@@ -21,8 +21,8 @@ fn panels_are_worked_by_the_mouse_at_every_scale() {
     let (width, height) = (640, 360);
     let lab = Lab::new(Scene::built_in("spring").unwrap());
     let rows = lab.scene().lanes.len().clamp(5, 8) as u32;
-    let list = (28 + 20 * rows).min(height * 2 / 5);
-    let second_row = height - 26 - list + 50;
+    let list = (26 + 26 * rows).min(height * 2 / 5);
+    let second_row = height - 32 - list + 63;
     for scale in [1, 2] {
         let factor = scale.to_string();
         let variables = [("WINIT_X11_SCALE_FACTOR", factor.as_str())];
@@ -35,12 +35,12 @@ fn panels_are_worked_by_the_mouse_at_every_scale() {
         click(140, second_row);
         desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz (paused)");
         // Run, in the top bar.
-        click(140, 17);
+        click(153, 20);
         desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz");
         desk.press("space");
         desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz (paused)");
         open_scene_menu(&desk, scale);
-        click(50, 66);
+        click(50, 78);
         desk.titled("Regatta - ship - Explicit Euler - 2 Hz (paused)");
         desk.quit();
     }
@@ -64,8 +64,8 @@ fn a_widget_with_the_focus_takes_space_and_escape_gives_it_back() {
     let Some(desk) = Desk::open(test, "--scene spring") else { return };
     desk.press("space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz (paused)");
-    // The menu of scenes, restart, run.
-    ["Tab", "Tab", "Tab"].into_iter().for_each(|key| desk.press_and_see(key));
+    // The menu of scenes, restart, a tick back, run.
+    ["Tab", "Tab", "Tab", "Tab"].into_iter().for_each(|key| desk.press_and_see(key));
     desk.press("space");
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     desk.press("space");

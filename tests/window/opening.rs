@@ -69,9 +69,50 @@ fn a_path_without_a_scene_is_told_and_the_run_goes_on() {
     desk.still();
     assert_ne!(desk.sight(), before);
     assert_eq!(desk.title(), title);
+    // The field is still there, with the path: it is mended at its end.
+    for _ in 0.."none.toml".len() {
+        desk.press("BackSpace");
+    }
+    desk.xdotool("type --delay 1 other.toml");
+    desk.press("Return");
+    desk.titled("Regatta - other.toml - Explicit Euler - 2 Hz (paused)");
+    type_path(&desk, &folder.path().join("none.toml"));
+    desk.press("Return");
+    desk.still();
     desk.press_and_see("Escape");
     desk.press("space 2");
-    desk.titled("Regatta - spring - Semi-implicit Euler - 60 Hz");
+    desk.titled("Regatta - other.toml - Semi-implicit Euler - 2 Hz");
+    desk.quit();
+}
+
+#[test]
+fn a_file_that_is_deleted_is_told_and_one_that_is_back_is_read_again() {
+    let test = "a_file_that_is_deleted_is_told_and_one_that_is_back_is_read_again";
+    let before = text("spring");
+    let (_folder, path) = file("mine.toml", before);
+    let Some(desk) = Desk::open(test, &format!("--scene {}", path.display())) else { return };
+    desk.titled("Regatta - mine.toml - Explicit Euler - 60 Hz");
+    desk.press("space");
+    until("a pause", || desk.title().contains("(paused").then_some(()));
+    let title = desk.title();
+    desk.still();
+    let footer = || {
+        let sight = desk.sight();
+        let line = sight.height() - 26;
+        image::imageops::crop_imm(&sight, 0, line, 700, 26).to_image()
+    };
+    let hint = footer();
+    std::fs::remove_file(&path).unwrap();
+    until("the notice", || (footer() != hint).then_some(()));
+    desk.still();
+    let gone = footer();
+    std::fs::write(&path, before).unwrap();
+    until("another notice", || (footer() != gone).then_some(()));
+    assert_eq!(desk.title(), title, "the run is left alone");
+    std::fs::remove_file(&path).unwrap();
+    until("the same notice", || (footer() == gone).then_some(()));
+    std::fs::write(&path, before.replace("tick_hz = 60", "tick_hz = 40")).unwrap();
+    desk.titled(&title.replace("60 Hz", "40 Hz"));
     desk.quit();
 }
 

@@ -21,6 +21,8 @@ impl Program {
             .current_dir(folder)
             // Where it is unset, libwayland says so on standard error.
             .env("XDG_RUNTIME_DIR", folder)
+            // What the window remembers is not the user's.
+            .env("XDG_CONFIG_HOME", folder.join("config"))
             .envs(variables.iter().copied())
             .stdin(Stdio::null())
             .stderr(Stdio::piped());
@@ -58,6 +60,13 @@ impl Program {
         let ticks = fields.split(' ').skip(11).take(2).map(|field| field.parse::<u64>().unwrap());
         // Linux shows a hundred of them a second, whatever the kernel counts in.
         Duration::from_millis(10 * ticks.sum::<u64>())
+    }
+
+    /// The memory that it uses and shares with no file, in MB.
+    pub(crate) fn memory_mb(&self) -> f64 {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.0.id())).unwrap();
+        let line = status.lines().find_map(|line| line.strip_prefix("RssAnon:")).expect("on Linux");
+        line.trim().trim_end_matches(" kB").parse::<f64>().unwrap() / 1024.0
     }
 
     /// Whether all of its threads wait for something.

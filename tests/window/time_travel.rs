@@ -1,6 +1,8 @@
 //! Going back and forth in a run, as the title tells.
 
-use crate::desk::Desk;
+use image::RgbaImage;
+
+use crate::desk::{Desk, until};
 
 const PAUSED: &str = "Regatta - spring - Explicit Euler - 60 Hz (paused)";
 
@@ -54,19 +56,56 @@ fn control_z_brings_back_the_future_that_an_action_in_the_past_discarded() {
 }
 
 #[test]
+fn a_mark_on_the_timeline_has_a_tooltip_with_a_line_for_each_action() {
+    let test = "a_mark_on_the_timeline_has_a_tooltip_with_a_line_for_each_action";
+    let Some((desk, tick)) = paused(test) else { return };
+    // At the start, whose place on the track is known.
+    for _ in 0..=tick / 60 {
+        desk.press("shift+comma");
+    }
+    desk.at_tick(0);
+    desk.press("2");
+    desk.press("bracketleft");
+    desk.press("shift+period");
+    until("a second", || (!desk.title().contains("tick 0)")).then_some(()));
+    // Pixels beside the pointer that a tooltip changes, on the stage and the track.
+    let told_at = |x: u32| {
+        desk.xdotool("mousemove --window WINDOW 600 300");
+        desk.still();
+        let before = desk.sight();
+        desk.xdotool(&format!("mousemove --window WINDOW {x} 512"));
+        until("a tooltip", || (changed(&before, &desk.sight(), x) > 0).then_some(()));
+        desk.still();
+        changed(&before, &desk.sight(), x)
+    };
+    // Between marks it is the moment alone.
+    let (mark, moment) = (told_at(82), told_at(700));
+    assert!(mark > moment * 3 / 2, "{mark} {moment}");
+    desk.quit();
+}
+
+/// How many pixels differ right of the pointer at `x` and near the height of the timeline.
+fn changed(before: &RgbaImage, after: &RgbaImage, x: u32) -> usize {
+    let places = (470..640).flat_map(|y| (x + 8..x + 400).map(move |x| (x, y)));
+    places.filter(|&(x, y)| before.get_pixel(x, y) != after.get_pixel(x, y)).count()
+}
+
+#[test]
 fn a_drag_along_the_timeline_goes_to_the_tick_under_the_mouse() {
     let test = "a_drag_along_the_timeline_goes_to_the_tick_under_the_mouse";
     let Some((desk, tick)) = paused(test) else { return };
     // Under the stage of a window of 1280 × 720 with five rows of lanes.
-    desk.xdotool("mousemove --window WINDOW 90 545 mousedown 1");
+    desk.xdotool("mousemove --window WINDOW 90 512 mousedown 1");
     let near_the_start = desk.tick_within(0..=30);
-    desk.xdotool("mousemove --window WINDOW 140 545");
+    desk.xdotool("mousemove --window WINDOW 140 512");
     let later = desk.tick_within(near_the_start + 30..=119);
-    desk.xdotool("mousemove --window WINDOW 115 545");
+    desk.xdotool("mousemove --window WINDOW 115 512");
     desk.tick_within(near_the_start + 1..=later - 1);
-    desk.xdotool("mousemove --window WINDOW 1200 545");
+    desk.xdotool("mousemove --window WINDOW 1200 512");
     desk.at_tick(tick);
     desk.xdotool("mouseup 1");
+    // In one frame with the release the key would come before it.
+    desk.still();
     desk.press("comma");
     desk.at_tick(tick - 1);
     desk.quit();

@@ -1,25 +1,38 @@
 //! Bodies grabbed with the mouse, and the stage zoomed and panned.
 
 use image::RgbaImage;
-use regatta::lab::picture::palette;
+use regatta::lab::palette::{Theme, mixed};
 use regatta::sim::integrators::method;
 
 use crate::desk::{Desk, until};
 
 /// Half the side of a square that fits into a mass, and into nothing else of its colour.
 const INSIDE: u32 = 8;
+/// The colour of the hatches of a ship, and half the side of a square that fits into one.
+const HATCH: ([u8; 4], u32) = ([138, 160, 112, 255], 4);
 
-/// The middle of the mass or of the hull under RK4, in pixels, and how many of its pixels lie inside.
+/// The middle of the mass under RK4, in pixels, and how many of its pixels lie inside.
 fn body(sight: &RgbaImage) -> Option<([u32; 2], usize)> {
-    let (colour, _) = palette::style(method("rk4").unwrap());
+    let (colour, _) = Theme::Dark.style(method("rk4").unwrap());
+    // The face of a block is a little darker than its method's colour.
+    patch(sight, mixed(colour, [0, 0, 0, 255], 0.12), INSIDE)
+}
+
+/// The middle of the ship's hatches, in pixels.
+fn ship(sight: &RgbaImage) -> Option<[u32; 2]> {
+    Some(patch(sight, HATCH.0, HATCH.1)?.0)
+}
+
+/// The middle of what has this colour in a square of this half side, and how many pixels are in the middle of one.
+fn patch(sight: &RgbaImage, colour: [u8; 4], half: u32) -> Option<([u32; 2], usize)> {
     let is_own = |x, y| {
         let pixel = sight.get_pixel(x, y);
         (0..3).all(|i| pixel[i].abs_diff(colour[i]) <= 1)
     };
-    let reach = |x: u32| x - INSIDE..=x + INSIDE;
+    let reach = |x: u32| x - half..=x + half;
     let is_inside = |x, y| {
         is_own(x, y)
-            && [[x - INSIDE, y], [x + INSIDE, y], [x, y - INSIDE], [x, y + INSIDE]]
+            && [[x - half, y], [x + half, y], [x, y - half], [x, y + half]]
                 .iter()
                 .all(|&[x, y]| is_own(x, y))
             && reach(x).all(|x| is_own(x, y))
@@ -90,13 +103,49 @@ fn a_mass_is_dragged_and_let_go_and_escape_puts_it_back() {
 }
 
 #[test]
+fn a_mass_that_is_let_go_with_shift_keeps_the_velocity_of_the_drag() {
+    let test = "a_mass_that_is_let_go_with_shift_keeps_the_velocity_of_the_drag";
+    let Some((desk, [x, y])) = paused(test) else { return };
+    let away = if x > 400 { -1 } else { 1 };
+    let to = [x.strict_add_signed(90 * away), y];
+    // Slow enough for the program to see it move.
+    let moves = (1..=15).map(|n| {
+        format!(" sleep 0.03 mousemove --window WINDOW {} {y}", x.strict_add_signed(6 * n * away))
+    });
+    let moves: String = moves.collect();
+    let [at_rest, flung] = ["", "keydown shift "].map(|held| {
+        body_at(&desk, [x, y]);
+        let press = format!("{held}mousemove --window WINDOW {x} {y} mousedown 1");
+        desk.xdotool(&format!("{press}{moves} mouseup 1"));
+        if !held.is_empty() {
+            desk.xdotool("keyup shift");
+        }
+        body_at(&desk, to);
+        desk.press("period period period");
+        desk.still();
+        let ([reached, _], _) = body(&desk.sight()).expect("a mass");
+        desk.press("comma comma comma");
+        desk.still();
+        // It is shown as it was before the hand took it.
+        desk.press("comma period");
+        i64::from(reached) * i64::from(away)
+    });
+    assert!(flung > at_rest + 4, "{flung} {at_rest}");
+    desk.quit();
+}
+
+#[test]
 fn time_stands_still_while_a_body_is_held() {
     let test = "time_stands_still_while_a_body_is_held";
     let Some(desk) = Desk::open(test, "--scene ship --method rk4 --tick-hz 60") else { return };
     // The camera follows it: it stays in its place.
-    let (at, _) = until("a ship", || body(&desk.sight()));
+    let at = until("a ship", || ship(&desk.sight()));
     drag(&desk, at, [at[0] + 60, at[1]]);
-    body_at(&desk, [at[0] + 60, at[1]]);
+    until("the ship in hand", || {
+        let x = ship(&desk.sight())?[0];
+        // The line that joins it to the hand may cover a hatch.
+        (x.abs_diff(at[0] + 60) <= 12).then_some(())
+    });
     let (tick, _) = desk.screenshot();
     std::thread::sleep(std::time::Duration::from_millis(300));
     assert_eq!(desk.screenshot().0, tick);
@@ -118,7 +167,18 @@ fn the_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
     drag(&desk, sea, [sea[0] + 40, sea[1] - 20]);
     desk.xdotool("mouseup 1");
     body_at(&desk, [at[0] + 40, at[1] - 20]);
-    desk.xdotool(&format!("mousemove --window WINDOW {} {} click --repeat 2 1", sea[0], sea[1]));
+    let fit = format!("mousemove --window WINDOW {} {} click --repeat 2 1", sea[0], sea[1]);
+    desk.xdotool(&fit);
     body_at(&desk, at);
+    // On the empty stage the wheel zooms about the pointer too: the mass moves away from it.
+    let pointer = [if at[0] > 400 { at[0] - 60 } else { at[0] + 60 }, at[1] + 60];
+    desk.xdotool(&format!("mousemove --window WINDOW {} {} click 4", pointer[0], pointer[1]));
+    until("a larger mass", || (body(&desk.sight())?.1 > size * 6 / 5).then_some(()));
+    desk.still();
+    let (zoomed, _) = body(&desk.sight()).expect("a mass");
+    for i in 0..2 {
+        let [before, after] = [at[i], zoomed[i]].map(|place| place.abs_diff(pointer[i]));
+        assert!(after > before + 3, "{at:?} {zoomed:?} about {pointer:?}");
+    }
     desk.quit();
 }

@@ -10,11 +10,11 @@ use crate::commands::jobs;
 use crate::commands::stopwatch::{self, Timing};
 use crate::commands::terminal::{progress, tell};
 use crate::lab::number::significant;
-use crate::lab::{Advised, Adviser, CRITERIA, LaneSpec, Met, Scene, recommended};
+use crate::lab::{Adviser, CRITERIA, CriterionMet, LaneSpec, MethodAdvice, Scene, recommended};
 
 /// A method judged, and its measured costs.
 pub(super) struct Row {
-    pub(super) advised: Advised,
+    pub(super) advised: MethodAdvice,
     /// For each criterion that is met.
     pub(super) timings: [Option<Timing>; CRITERIA.len()],
     /// For each criterion the slowest rate, where rates were asked for.
@@ -47,7 +47,7 @@ impl Row {
         let met = CRITERIA.map(|criterion| adviser.meets(spec, criterion));
         let plain = LaneSpec { substeps: 1, ..spec };
         Self {
-            advised: Advised { spec, verdict: adviser.verdict(spec), met },
+            advised: MethodAdvice { spec, verdict: adviser.verdict(spec), met },
             timings: [None; CRITERIA.len()],
             rates: rates.then(|| CRITERIA.map(|criterion| adviser.slowest(plain, criterion))),
         }
@@ -92,9 +92,9 @@ pub(super) fn warn_of_load(rows: &[Row]) {
 }
 
 /// The recommended row for a criterion, and how it meets it.
-pub(super) fn best(rows: &[Row], criterion: usize) -> Option<(&Row, &Met)> {
-    let advised: Vec<Advised> = rows.iter().map(|row| row.advised.clone()).collect();
-    let cost = |advised: &Advised, _: &Met| {
+pub(super) fn best(rows: &[Row], criterion: usize) -> Option<(&Row, &CriterionMet)> {
+    let advised: Vec<MethodAdvice> = rows.iter().map(|row| row.advised.clone()).collect();
+    let cost = |advised: &MethodAdvice, _: &CriterionMet| {
         let row = rows.iter().find(|row| row.advised.spec == advised.spec);
         row.and_then(|row| row.ns_per_s(criterion)).unwrap_or(f64::INFINITY)
     };

@@ -5,7 +5,9 @@ use serde_json::{Map, Value, json};
 use super::judged::{Row, best};
 use crate::commands::output::table::{self, Column};
 use crate::lab::number::round;
-use crate::lab::{Adviser, CRITERIA, MOST_ADVISED_SUBSTEPS, Meets, Met, Scene, Verdict};
+use crate::lab::{
+    Adviser, CRITERIA, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS, Scene, Verdict,
+};
 
 /// The answer as text: the methods that meet each criterion with their costs, then the recommendations.
 pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> String {
@@ -17,8 +19,8 @@ pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
             text += &table::text(METS, &met, "  ");
         }
         for (meets, why) in [
-            (Meets::No, format!("not with up to {MOST_ADVISED_SUBSTEPS} substeps")),
-            (Meets::Unknown, "not known: no truth, or too much work".to_owned()),
+            (CriterionResult::No, format!("not with up to {MOST_ADVISED_SUBSTEPS} substeps")),
+            (CriterionResult::Unknown, "not known: no truth, or too much work".to_owned()),
         ] {
             let those = rows.iter().filter(|row| row.advised.met[i] == meets);
             let ids: Vec<&str> = those.map(|row| row.advised.spec.method.id).collect();
@@ -39,7 +41,7 @@ pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
         text += &format!("at {} Hz: {}: ", adviser.tick_hz(), criterion.id());
         text += &match best(rows, i) {
             Some((row, met)) => line(row, met),
-            None if rows.iter().all(|row| row.advised.met[i] == Meets::No) => format!(
+            None if rows.iter().all(|row| row.advised.met[i] == CriterionResult::No) => format!(
                 "none of these with up to {MOST_ADVISED_SUBSTEPS} substeps; raise the tick rate, soften the \
                  stiffest of {}, or damp it",
                 match &scene.bodies[..] {
@@ -58,7 +60,7 @@ pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
 }
 
 /// A recommendation in one line, for a design note.
-fn line(row: &Row, met: &Met) -> String {
+fn line(row: &Row, met: &CriterionMet) -> String {
     let more = if met.stiffness_factor >= 10_000.0 { "more than " } else { "" };
     format!(
         "{} ×{} ({} evaluations/s; holds down to {} Hz, or {more}{} × {})",
@@ -95,7 +97,7 @@ pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usi
 }
 
 fn method(scene: &Scene, row: &Row) -> Value {
-    let Verdict { word, body, error, doubles_in_s, halves_in_s, frequency_error, .. } =
+    let Verdict { outcome, body, error, doubles_in_s, halves_in_s, frequency_error, .. } =
         &row.advised.verdict;
     let criteria = CRITERIA.iter().enumerate().map(|(i, criterion)| {
         let met = row.advised.met[i].met().map(|met| {
@@ -113,7 +115,7 @@ fn method(scene: &Scene, row: &Row) -> Value {
     let mut object = json!({
         "method": row.advised.spec.method.id,
         "verdict": {
-            "word": word.id(),
+            "word": outcome.id(),
             "body": scene.bodies[*body].name,
             "error": Some(*error).filter(|error| error.is_finite()),
             "doubles_in_s": doubles_in_s,
@@ -161,7 +163,7 @@ fn rate(row: &Row, criterion: usize) -> Value {
 /// A method that meets a criterion.
 struct MetRow {
     id: &'static str,
-    met: Met,
+    met: CriterionMet,
     ns_per_s: Option<f64>,
 }
 

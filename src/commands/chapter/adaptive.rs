@@ -38,10 +38,10 @@ pub(super) fn listings() -> String {
     for tolerance in TOLERANCES {
         let allowed = Tolerance { absolute_q: f64::INFINITY, absolute_v: tolerance, relative: 0.0 };
         let mut printed = AdaptiveEulerAsPrinted::with_tolerance(&0.0, allowed);
-        let (slow, counts) = sail(&mut printed, &ship, h);
+        let (slow, counts) = run(&mut printed, &ship, h);
         let simulated = asked - counts.lost_time;
         let mut corrected = AdaptiveEuler::with_tolerance(&0.0, allowed);
-        let (right, Counts { evaluations, .. }) = sail(&mut corrected, &ship, h);
+        let (right, Counts { evaluations, .. }) = run(&mut corrected, &ship, h);
         let percent = |v: f64| format!("{} %", significant(100.0 * (v - truth) / truth, 3));
         let _ = writeln!(
             text,
@@ -58,8 +58,8 @@ pub(super) fn listings() -> String {
         + "\n  As printed a step that is cut short is never made up for: the ship sails in slow motion.\n"
 }
 
-/// The ship's state after all ticks, and what the method did for it.
-fn sail(
+/// The ship's state after all ticks, and the method's counts.
+fn run(
     integrator: &mut dyn Integrator<Counted<Ship>>,
     ship: &Ship,
     h: f64,

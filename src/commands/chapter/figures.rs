@@ -2,7 +2,7 @@
 
 use super::run::{Moment, by_method, exactly, method_of, scene};
 use crate::lab::Scene;
-use crate::lab::picture::palette;
+use crate::lab::palette::Theme;
 use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
 
 /// A figure of the chapter.
@@ -121,7 +121,7 @@ pub(super) fn csv(figure: &Figure) -> String {
     csv
 }
 
-/// Points of an exact curve in a second: far closer than can be seen.
+/// Points per second of an exact curve: closer than can be seen.
 const SMOOTH_HZ: f64 = 100.0;
 
 fn exact(ship: &Scene, seconds: f64) -> FigureCurve {
@@ -134,7 +134,13 @@ fn swing_exactly(spring: &Scene, seconds: f64) -> FigureCurve {
 
 fn truth(points: Vec<[f64; 2]>) -> FigureCurve {
     let dash = [1.0, 0.0];
-    FigureCurve { name: "exact".into(), colour: palette::TRUTH, dash, dots: 0.0, points }
+    FigureCurve {
+        name: "exact".into(),
+        colour: Theme::Dark.palette().exact,
+        dash,
+        dots: 0.0,
+        points,
+    }
 }
 
 /// The speed by this method, a dot at every step.
@@ -154,7 +160,7 @@ fn stepped(
     point: impl Fn(&Moment) -> [f64; 2],
 ) -> FigureCurve {
     let method = method_of(id);
-    let (colour, dash) = palette::style(method);
+    let (colour, dash) = Theme::Dark.style(method);
     let points = moments.iter().map(point).collect();
     FigureCurve { name: method.name.into(), colour, dash, dots, points }
 }

@@ -1,4 +1,4 @@
-//! Numbers as the chapter prints them, and the mark for those that come out the same.
+//! Numbers as the chapter prints them, and the tick for numbers that agree.
 
 /// A row of Table 7-1: time in seconds, then speed in m/s exactly and by Euler's method, and the error.
 pub(super) const TABLE_7_1: [(f64, [&str; 3]); 5] = [
@@ -13,7 +13,7 @@ pub(super) const TABLE_7_1: [(f64, [&str; 3]); 5] = [
 pub(super) const AVERAGES: [(&str, &str); 3] =
     [("explicit-euler", "1.72%"), ("improved-euler", "0.03%"), ("rk4", "3.6e-6%")];
 
-/// What was found, with a tick where the chapter prints the same, and else with what it prints.
+/// The number found, with a tick if the chapter prints the same, or else with the printed number.
 pub(super) fn marked(found: &str, printed: &str) -> String {
     if found == printed { format!("{found} ✓") } else { format!("{found} (printed: {printed})") }
 }
@@ -31,7 +31,7 @@ pub(super) fn seven_digits(x: f64) -> String {
     }
 }
 
-/// As C's `%.2f%%` prints it; two digits and a power of ten where that would be nothing.
+/// As C's `%.2f%%` prints it; two digits and a power of ten where that would print 0.
 pub(super) fn percent(x: f64) -> String {
     if x.abs() < 0.005 { format!("{x:.1e}%") } else { format!("{x:.2}%") }
 }

@@ -1,10 +1,10 @@
-//! Runs of the built-in scenes that the chapter's numbers and figures are read off.
+//! Runs of the built-in scenes from which the chapter's numbers and figures are taken.
 
 use crate::lab::{Lane, Scene};
 use crate::sim::Solver;
 use crate::sim::integrators::{Method, method};
 
-/// A moment of a body.
+/// The state of a body at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Moment {
     pub(super) t: f64,
@@ -24,24 +24,24 @@ pub(super) fn method_of(id: &str) -> &'static Method {
 
 /// The scene's first body at every tick up to `seconds`, the start included, at the scene's tick rate.
 pub(super) fn by_method(scene: &Scene, id: &str, seconds: f64) -> Vec<Moment> {
-    sail(scene, Solver::Method(method_of(id)), seconds, f64::from(scene.tick_hz))
+    run(scene, Solver::Method(method_of(id)), seconds, f64::from(scene.tick_hz))
 }
 
-/// The exact motion of the scene's first body, `per_second` times a second.
+/// The exact motion of the scene's first body, with `per_second` states per second.
 pub(super) fn exactly(scene: &Scene, seconds: f64, per_second: f64) -> Vec<Moment> {
-    sail(scene, Solver::Truth, seconds, per_second)
+    run(scene, Solver::Truth, seconds, per_second)
 }
 
-fn sail(scene: &Scene, solver: Solver, seconds: f64, hz: f64) -> Vec<Moment> {
+fn run(scene: &Scene, solver: Solver, seconds: f64, hz: f64) -> Vec<Moment> {
     let mut lane = Lane::new(scene, solver, 1);
     let at = |lane: &Lane, tick: u64| {
         let stepper = &lane.bodies()[0].stepper;
         Moment { t: tick as f64 / hz, q: stepper.q()[0], v: stepper.v()[0] }
     };
-    let mut moments = vec![at(&lane, 0)];
-    for tick in 0..(seconds * hz).round() as u64 {
-        lane.tick(tick, tick as f64 / hz, 1.0 / hz);
-        moments.push(at(&lane, tick + 1));
-    }
+    let (mut moments, last) = (Vec::new(), (seconds * hz).round() as u64);
+    lane.run_while(hz, |tick, lane| {
+        moments.push(at(lane, tick));
+        tick < last
+    });
     moments
 }

@@ -60,8 +60,8 @@ fn off(found: &[Moment], truth: &[Moment], tick: usize) -> f64 {
     100.0 * (found[tick].v - truth[tick].v) / truth[tick].v
 }
 
-/// The distances run, which the chapter does not print: its listings carry the speed alone through their
-/// stages, and so lose their order in the distance.
+/// The distances run, which the chapter does not print. Its listings carry only the speed through their stages, and so
+/// lose their order in the distance.
 pub(super) fn displacements() -> String {
     let scene = scene("ship");
     let hz = f64::from(scene.tick_hz);

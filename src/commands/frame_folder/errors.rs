@@ -1,14 +1,14 @@
-//! Why a folder cannot take frames.
+//! The errors of writing frames to a folder.
 
 use std::path::PathBuf;
 
 use crate::commands::error::Cause;
 use crate::commands::output::FileError;
 
-/// Why frames could not be kept in a folder.
+/// The reason why frames cannot be written to a folder.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum FrameFolderError {
-    /// The path is taken by something else.
+    /// The path is that of a file or another thing that is no directory.
     #[error("{} is not a directory; give another --out", .path.display())]
     NotADirectory {
         /// The path.
@@ -25,7 +25,7 @@ pub(crate) enum FrameFolderError {
         path: PathBuf,
     },
     /// Another process writes there.
-    #[error("another regatta is at work in {}; wait for it, or give another {option}", .path.display())]
+    #[error("another regatta is writing to {}; wait until it has finished, or give another {option}", .path.display())]
     Busy {
         /// The folder.
         path: PathBuf,
@@ -43,10 +43,10 @@ pub(crate) enum FrameFolderError {
         /// What names its folder on the command line.
         option: &'static str,
     },
-    /// A frame that is there already is none of this capture.
+    /// A frame that already exists is none of this capture.
     #[error(
         "{} is not what this command draws here; give the command that drew it, or --force to draw \
-         all anew",
+         all again",
         .path.display()
     )]
     Foreign {

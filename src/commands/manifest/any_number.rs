@@ -1,4 +1,4 @@
-//! Rows of numbers in JSON, which has no word for what is infinite or no number at all.
+//! Rows of numbers in JSON, which cannot write infinity and NaN as numbers.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

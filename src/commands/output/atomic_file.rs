@@ -72,6 +72,24 @@ impl AtomicFile {
         self.rename(older)?;
         sync_directory(&directory)
     }
+
+    /// Like [`AtomicFile::commit`] beside an existing file: under its name, or else under the first of `name-2`, `name-3` …
+    /// that does not exist. Returns its path.
+    pub(crate) fn commit_beside(self) -> io::Result<PathBuf> {
+        self.sync()?;
+        let Self { mut part, path } = self;
+        for number in 1.. {
+            let free = numbered(&path, number);
+            match part.persist_noclobber(&free) {
+                Ok(_) => return sync_directory(directory_of(&path)).map(|()| free),
+                Err(failed) if failed.error.kind() == io::ErrorKind::AlreadyExists => {
+                    part = failed.file;
+                }
+                Err(failed) => return Err(failed.error),
+            }
+        }
+        unreachable!("no folder holds as many files")
+    }
 }
 
 impl Write for AtomicFile {
@@ -113,6 +131,20 @@ pub(crate) fn sync_directory(path: &Path) -> io::Result<()> {
         }
         synced => synced,
     }
+}
+
+/// The path with this number behind the stem of its name; 1 is the path itself.
+fn numbered(path: &Path, number: u32) -> PathBuf {
+    if number == 1 {
+        return path.to_owned();
+    }
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{number}"));
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    path.with_file_name(name)
 }
 
 fn directory_of(path: &Path) -> &Path {
@@ -171,6 +203,22 @@ mod tests {
         assert_eq!(error.kind(), io::ErrorKind::AlreadyExists);
         assert_eq!(names(folder.path()), ["x"]);
         assert_eq!(fs::read(&path).unwrap(), b"a whole");
+    }
+
+    #[test]
+    fn a_file_whose_name_is_taken_meanwhile_gets_the_next_free_one() {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, taken) in [("run.toml", "run-2.toml"), ("bare", "bare-2")] {
+            let path = folder.path().join(name);
+            let mut file = AtomicFile::create(&path).unwrap();
+            file.write_all(b"ours").unwrap();
+            fs::write(&path, "theirs").unwrap();
+            let written = file.commit_beside().unwrap();
+            assert_eq!(written, folder.path().join(taken));
+            assert_eq!(fs::read(written).unwrap(), b"ours");
+            assert_eq!(fs::read(path).unwrap(), b"theirs");
+        }
+        assert_eq!(names(folder.path()), ["bare", "bare-2", "run-2.toml", "run.toml"]);
     }
 
     #[cfg(unix)]

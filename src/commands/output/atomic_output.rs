@@ -50,7 +50,7 @@ pub(crate) enum AtomicOutput {
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum OutputError {
     /// The file exists, and may not be replaced.
-    #[error("{} is there already; give another {option}, or --force to replace it", .path.display())]
+    #[error("{} already exists; give another {option}, or --force to replace it", .path.display())]
     Taken {
         /// The path.
         path: PathBuf,
@@ -174,6 +174,27 @@ impl AtomicOutput {
             }
             FileError::of("write", &path, option)(error).into()
         })
+    }
+
+    /// Like [`AtomicOutput::close`], but where somebody else has made a file of that name in the meantime, gives the file
+    /// a free name beside it. Returns the name in messages.
+    pub(crate) fn close_beside(mut self) -> Result<String, OutputError> {
+        self.flush().map_err(|error| self.failed(error))?;
+        let name = self.name();
+        match self {
+            AtomicOutput::File { part, path, option, older: Older::Keep } => {
+                let whole = part.into_inner().map_err(io::IntoInnerError::into_error);
+                let written = whole.and_then(AtomicFile::commit_beside);
+                let written = written.map_err(FileError::of("write", &path, option))?;
+                // A link's own name stays the one to tell, unless the file is another.
+                Ok(if written == end_of_links(&path).unwrap_or(path) {
+                    name
+                } else {
+                    written.display().to_string()
+                })
+            }
+            other => other.close().map(|()| name),
+        }
     }
 }
 

@@ -1,5 +1,5 @@
 //! The picture of a sweep: a work-precision diagram for each scene (Hairer, Nørsett & Wanner, *Solving
-//! Ordinary Differential Equations I*, II.10), and what the width of numbers does to the chapter's ship.
+//! Ordinary Differential Equations I*, II.10), and the round-off of f32 and f64 on the chapter's ship.
 
 use std::collections::BTreeMap;
 
@@ -7,14 +7,14 @@ use super::grid::{Row, Swept};
 use super::plot::columns;
 use super::round_off::{self, ErrorCurve, Width};
 use crate::lab::number::round;
-use crate::lab::picture::palette;
+use crate::lab::palette::Theme;
 use crate::sim::integrators::Method;
 use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
 
-/// Errors beyond this many amplitudes tell nothing more: the method is lost.
+/// Errors beyond this many amplitudes are cut off: the method has failed.
 const LOST: f64 = 10.0;
 
-/// The picture of these rows, which are of these scenes and methods.
+/// The picture of the rows on these scenes and methods.
 pub(super) fn figure(swept: &Swept, rows: &[Row]) -> Figure {
     let work = swept.scenes.iter().map(|(name, scene)| {
         let curves = swept.methods.iter().map(|method| {
@@ -31,7 +31,7 @@ pub(super) fn figure(swept: &Swept, rows: &[Row]) -> Figure {
 }
 
 /// A method's error against its evaluations, a point for each tick rate. Of several bodies the worst one
-/// rules, as in advice.
+/// counts, as in advice.
 fn work_curve<'a>(method: &Method, rows: impl Iterator<Item = &'a Row>) -> FigureCurve {
     let mut by_rate = BTreeMap::new();
     for row in rows {
@@ -39,7 +39,7 @@ fn work_curve<'a>(method: &Method, rows: impl Iterator<Item = &'a Row>) -> Figur
         *work += row.evaluations_per_s();
         *error = error.max(row.verdict.error);
     }
-    let (colour, dash) = palette::style(method);
+    let (colour, dash) = Theme::Dark.style(method);
     let points = by_rate.into_values().filter(|point| point[1].is_finite()).collect();
     FigureCurve { name: method.name.into(), colour, dash, dots: 2.2, points }
 }
@@ -64,7 +64,7 @@ fn work_precision(title: &str, curves: Vec<FigureCurve>) -> Chart {
 /// The error of the ship's speed against the step, in both widths.
 fn v_curves(rounded: Vec<ErrorCurve>) -> Chart {
     let curve = |curve: ErrorCurve| {
-        let (colour, _) = palette::style(curve.method);
+        let (colour, _) = Theme::Dark.style(curve.method);
         let (dash, dots) = match curve.width {
             Width::Single => ([6.0, 4.0], 2.6),
             Width::Double => ([1.0, 0.0], 0.0),
@@ -87,7 +87,7 @@ fn v_curves(rounded: Vec<ErrorCurve>) -> Chart {
     }
 }
 
-/// The range of what lies above 0, with some room, and a power of ten at least to be marked.
+/// The range of the positive values with a margin, at least one power of ten, so that the axis has a mark.
 fn view(curves: &[FigureCurve], axis: usize) -> [f64; 2] {
     const ROOM: f64 = 1.6;
     let points = curves.iter().flat_map(|curve| &curve.points);

@@ -1,4 +1,4 @@
-//! The formats that the names of a sweep's files ask for.
+//! The formats of a sweep's files, by their names.
 
 use std::path::{self, Path, PathBuf};
 
@@ -9,7 +9,7 @@ use crate::commands::output::table::RowFormat;
 /// Why a sweep's files cannot have these names.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum FileNameError {
-    /// Rows and picture cannot both go there.
+    /// The rows and the picture cannot go to one file.
     #[error("rows and picture would go to the same place; give another --out or --plot")]
     SamePlace,
     /// The name of the rows' file says that it holds something else.

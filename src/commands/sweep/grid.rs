@@ -45,7 +45,7 @@ struct Subject {
     judge: Judge,
 }
 
-/// A run before it is made.
+/// A run to be made.
 struct Cell {
     subject: usize,
     spec: LaneSpec,
@@ -70,10 +70,10 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// How far the run came, in simulated seconds.
+    /// The simulated seconds of the run.
     pub(super) fn seconds(&self) -> f64 {
         let verdict = &self.verdict;
-        verdict.fate.as_ref().map_or(verdict.seconds, |fate| fate.t)
+        verdict.failure.as_ref().map_or(verdict.seconds, |failure| failure.t)
     }
 
     /// Evaluations of the body's acceleration per simulated second.
@@ -83,7 +83,7 @@ impl Row {
         verdict.evaluations as f64 * hz / (verdict.seconds * hz).round()
     }
 
-    /// The largest error as a part of the amplitude, of a run that came to its end.
+    /// The largest error in amplitudes; `None` if the run ended early.
     pub(super) fn error(&self) -> Option<f64> {
         Some(self.verdict.error).filter(|error| error.is_finite())
     }
@@ -155,7 +155,7 @@ impl Grid {
     }
 }
 
-/// How long a run is timed: a thousand or two of them take seconds.
+/// The duration for which a run is timed: a thousand runs take seconds.
 const EFFORT: Duration = Duration::from_millis(1);
 
 /// The verdict on every run, in the order of the grid.

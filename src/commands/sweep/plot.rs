@@ -2,7 +2,9 @@
 
 use crate::commands::error::{Cause, Error};
 use crate::commands::output::{AtomicOutput, Place};
-use crate::view::{AdapterPreference, Artist, Figure, Gpu, GpuError, ReadbackError, png};
+use crate::view::{
+    AdapterPreference, Figure, Gpu, GpuError, OffscreenRenderer, ReadbackError, png,
+};
 
 /// Pixels of a chart, and pixels per point: legible when a few charts fill a screen.
 const CHART_PX: [u32; 2] = [920, 660];
@@ -32,7 +34,7 @@ impl Cause for TooManyCharts {
 
 /// A picture to be made.
 pub(super) struct Plot {
-    artist: Artist,
+    renderer: OffscreenRenderer,
     output: AtomicOutput,
 }
 
@@ -44,11 +46,12 @@ impl Plot {
         let [across, down] = [columns, charts.div_ceil(columns)].map(|number| number as u32);
         let size_px = [across * CHART_PX[0], down * CHART_PX[1] + MARGIN_PX];
         let gpu = Gpu::headless(AdapterPreference::Any)?;
-        let artist = Artist::new(gpu, size_px, SCALE).map_err(|error| match error {
-            GpuError::TooLarge { limit, .. } => Error::from(TooManyCharts { charts, limit }),
-            error => error.into(),
-        })?;
-        Ok(Self { artist, output })
+        let renderer =
+            OffscreenRenderer::new(gpu, size_px, SCALE).map_err(|error| match error {
+                GpuError::TooLarge { limit, .. } => Error::from(TooManyCharts { charts, limit }),
+                error => error.into(),
+            })?;
+        Ok(Self { renderer, output })
     }
 
     /// Draws the figure. Returns the output, the size in pixels, and the PNG file.
@@ -56,8 +59,8 @@ impl Plot {
         mut self,
         figure: &Figure,
     ) -> Result<(AtomicOutput, [u32; 2], Vec<u8>), ReadbackError> {
-        let (size_px, mut rgba) = (self.artist.size_px(), Vec::new());
-        self.artist.draw_figure(figure, &mut rgba)?;
+        let (size_px, mut rgba) = (self.renderer.size_px(), Vec::new());
+        self.renderer.draw_figure(figure, &mut rgba)?;
         Ok((self.output, size_px, png::encode(size_px, &rgba)))
     }
 }

@@ -1,4 +1,4 @@
-//! A scene file against its own checks: its race is run again, without a picture.
+//! Judges a scene file by its own checks: runs its race again, without graphics, and compares hashes.
 
 use std::path::{Path, PathBuf};
 
@@ -9,12 +9,12 @@ use crate::commands::error::{Cause, Error};
 use crate::commands::output::{Older, Place, write_text};
 use crate::commands::scene_file;
 use crate::commands::terminal::tell;
-use crate::lab::{Check, Lab, Scene, Session};
+use crate::lab::{Action, Check, Lab, Observer, Race, Resumed, Scene, Session};
 
 /// Why a scene file does not pass.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CheckError {
-    /// It was judged, and is not the same.
+    /// Some lanes do not reproduce their hashes.
     #[error(
         "{lanes} lane{} of {} differ{}; if that is meant, --bless", if *lanes == 1 { "" } else { "s" },
         .path.display(), if *lanes == 1 { "s" } else { "" }
@@ -25,20 +25,20 @@ pub(super) enum CheckError {
         /// The file.
         path: PathBuf,
     },
-    /// An option that says how pictures are judged.
+    /// An option that only applies to frames.
     #[error("{option} is for the frames of a capture, and a recording has none; leave it out")]
     OfCaptures {
         /// The option.
         option: &'static str,
     },
-    /// A report would replace what is judged.
+    /// A report would replace the scene file.
     #[error("{} is the recording that is judged; give another --report", .path.display())]
     ReportOverScene {
         /// The file.
         path: PathBuf,
     },
-    /// It has nothing to be judged by.
-    #[error("{} has no [[check]] to be judged by; --bless writes one for each second", .path.display())]
+    /// The file has no checks.
+    #[error("{} has no [[check]] to be judged by; --bless writes one for each second and the end, or fewer if the scene is long", .path.display())]
     NoChecks {
         /// The file.
         path: PathBuf,
@@ -56,12 +56,13 @@ impl Cause for CheckError {
     }
 }
 
-/// What became of a lane.
+/// The verdict on a lane.
 #[derive(Clone, Debug, PartialEq)]
 struct JudgedLane {
     /// From 1.
     number: usize,
-    method: &'static str,
+    /// The ids of its methods, one after the other.
+    methods: Vec<&'static str>,
     checks: usize,
     last_tick: u64,
     difference: Option<Difference>,
@@ -81,8 +82,19 @@ struct Difference {
 }
 
 impl JudgedLane {
+    /// Its number and its methods, such as `lane 2, rk4 then midpoint`.
+    fn name(&self) -> String {
+        let methods = match &self.methods[..] {
+            [first, between @ .., last] if between.len() > 1 => {
+                format!("{first} then {} others then {last}", between.len())
+            }
+            methods => methods.join(" then "),
+        };
+        format!("lane {}, {methods}", self.number)
+    }
+
     fn line(&self) -> String {
-        let Self { number, method, checks, last_tick, difference } = self;
+        let Self { checks, last_tick, difference, .. } = self;
         let outcome = match difference {
             None => {
                 let plural = if *checks == 1 { "" } else { "s" };
@@ -90,7 +102,7 @@ impl JudgedLane {
             }
             Some(difference) => difference.line(),
         };
-        format!("lane {number}, {method}: {outcome}")
+        format!("{}: {outcome}", self.name())
     }
 }
 
@@ -100,9 +112,7 @@ impl Difference {
         let is = is.map_or("the lane has left the race".into(), |is| format!("{is:016x} now"));
         let since = match same_at {
             Some(same) if same + 1 == *tick => String::new(),
-            Some(same) => {
-                format!("; the first difference lies after tick {same}, the last that is the same")
-            }
+            Some(same) => format!("; the last check that holds is at tick {same}"),
             None if *tick == 0 => String::new(),
             None => "; no check before it".into(),
         };
@@ -110,7 +120,7 @@ impl Difference {
     }
 }
 
-/// Judges the scene file at `path`, and writes reports by `write`.
+/// Judges the scene file at `path`, and passes the verdicts to `write`.
 pub(super) fn judge(
     path: &Path,
     write: impl FnOnce(&Checked) -> Result<(), Error>,
@@ -119,7 +129,8 @@ pub(super) fn judge(
     if scene.checks.is_empty() {
         return Err(CheckError::NoChecks { path: path.to_owned() }.into());
     }
-    let checked = Checked { path: path.to_owned(), lanes: run(&scene) };
+    tell_of_late_checks(path, &scene);
+    let checked = Checked { path: path.to_owned(), lanes: compare(&scene) };
     for lane in &checked.lanes {
         say(&lane.line())?;
     }
@@ -130,24 +141,37 @@ pub(super) fn judge(
     }
 }
 
-/// Writes the hashes of now into the checks of the file at `path`; where it has none, a check of each lane for each
-/// second and for the end.
+/// Says that checks lie beyond the scene's end, if some do: they are judged all the same, which can take longer than
+/// the scene.
+fn tell_of_late_checks(path: &Path, scene: &Scene) {
+    let end = Lab::new(scene.clone()).nearest_tick(scene.seconds);
+    let late = scene.checks.iter().map(|check| check.tick).filter(|tick| *tick > end);
+    let Some(last) = late.clone().max() else { return };
+    let (are, count) = match late.count() {
+        1 => ("check lies", 1),
+        count => ("checks lie", count),
+    };
+    tell(&format!(
+        "{count} {are} beyond the end of {} at tick {end} ({} s); the race runs on to tick {last}",
+        path.display(),
+        scene.seconds
+    ));
+}
+
+/// Replaces the hashes in the checks of the file at `path` by those of a run now. A file without checks gets those
+/// of a [recording](Session::recording): of each lane at every second; fewer in a long run; and at the end.
 pub(super) fn bless(path: &Path) -> Result<(), Error> {
     let (scene, text) = scene_file::load(path)?;
-    let mut session = Session::racing(scene.clone().into());
     let text = if scene.checks.is_empty() {
         let end = Lab::new(scene.clone()).nearest_tick(scene.seconds);
-        let checks = session.recording(end).checks;
+        let checks = Session::racing(scene.clone().into()).recording(end).checks;
         let rows: String = checks.iter().map(Check::to_toml).collect();
-        format!("{}\n{rows}", text.trim_end())
+        with_line_ends_of(&text, &format!("{}\n{rows}", text.trim_end()))
     } else {
-        let mut order: Vec<usize> = (0..scene.checks.len()).collect();
-        order.sort_by_key(|&row| scene.checks[row].tick);
         let mut hashes: Vec<u64> = scene.checks.iter().map(|check| check.hash).collect();
-        for row in order {
-            let check = scene.checks[row];
-            session.run(check.tick - session.race().tick());
-            hashes[row] = hash(&session, check.lane).unwrap_or(check.hash);
+        tell_of_late_checks(path, &scene);
+        for reached in replay(&scene, &mut ()) {
+            hashes[reached.row] = reached.hash.unwrap_or(hashes[reached.row]);
         }
         Scene::with_hashes(&text, &hashes)
     };
@@ -156,43 +180,84 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-fn hash(session: &Session, lane: usize) -> Option<u64> {
-    let race = session.race();
-    let place = race.entrants().iter().position(|entrant| entrant.lane_number == lane)?;
-    race.lane_hashes().nth(place)
+/// The text with CRLF at the end of every line if `before` ends its first line so, or else as it is.
+fn with_line_ends_of(before: &str, text: &str) -> String {
+    match before.lines().next().is_some_and(|first| before[first.len()..].starts_with("\r\n")) {
+        true => text.replace("\r\n", "\n").replace('\n', "\r\n"),
+        false => text.to_owned(),
+    }
 }
 
-/// Runs the race of a scene past all its checks.
-fn run(scene: &Scene) -> Vec<JudgedLane> {
+/// The ids of the methods that each lane had, in the order of the lanes' numbers.
+struct MethodsSeen(Vec<Vec<&'static str>>);
+
+impl MethodsSeen {
+    fn look(&mut self, race: &Race) {
+        for entrant in race.entrants() {
+            let seen = &mut self.0[entrant.lane_number - 1];
+            let method = entrant.lane.solver().method().map(|method| method.id);
+            seen.extend(method.filter(|id| seen.last() != Some(id)));
+        }
+    }
+}
+
+impl Observer for MethodsSeen {
+    fn after(&mut self, race: &Race, _: &Action, _: &[Resumed]) {
+        self.look(race);
+    }
+}
+
+/// A check, and the state of its lane as the race reached it.
+struct Reached {
+    /// Its place among the scene's checks.
+    row: usize,
+    /// The simulated time, in seconds.
+    t: f64,
+    /// The hash of its lane; `None` where the lane has left the race.
+    hash: Option<u64>,
+}
+
+/// Runs the race of a scene past all its checks, in the order of their ticks.
+fn replay(scene: &Scene, observer: &mut impl Observer) -> Vec<Reached> {
     let mut session = Session::racing(scene.clone().into());
-    let lanes = session.race().entrants().iter().map(|entrant| JudgedLane {
-        number: entrant.lane_number,
-        method: session.race().list()[entrant.entry].method.id,
+    let mut rows: Vec<usize> = (0..scene.checks.len()).collect();
+    rows.sort_by_key(|&row| scene.checks[row].tick);
+    let reach = |row: usize| {
+        let Check { tick, lane, .. } = scene.checks[row];
+        (session.race().tick()..tick).for_each(|_| session.tick_seen(observer));
+        Reached { row, t: session.race().t(), hash: session.race().lane_hash(lane) }
+    };
+    rows.into_iter().map(reach).collect()
+}
+
+/// Runs the race of a scene, and compares every lane with its checks.
+fn compare(scene: &Scene) -> Vec<JudgedLane> {
+    let mut methods = MethodsSeen(vec![Vec::new(); scene.lanes.len()]);
+    methods.look(&Race::of(scene));
+    let all_reached = replay(scene, &mut methods);
+    let lanes = methods.0.into_iter().zip(1..).map(|(methods, number)| JudgedLane {
+        number,
+        methods,
         checks: 0,
         last_tick: 0,
         difference: None,
     });
     let mut lanes: Vec<JudgedLane> = lanes.collect();
-    let mut checks = scene.checks.clone();
-    checks.sort_by_key(|check| check.tick);
-    for check in checks {
-        session.run(check.tick - session.race().tick());
-        let lane = &mut lanes[check.lane - 1];
-        let is = hash(&session, check.lane);
-        if lane.difference.is_none() && is != Some(check.hash) {
+    for Reached { row, t, hash: is } in all_reached {
+        let Check { tick, lane, hash: was } = scene.checks[row];
+        let lane = &mut lanes[lane - 1];
+        if lane.difference.is_none() && is != Some(was) {
             let same_at = (lane.checks > 0).then_some(lane.last_tick);
-            let t = session.race().t();
-            lane.difference =
-                Some(Difference { tick: check.tick, t, was: check.hash, is, same_at });
+            lane.difference = Some(Difference { tick, t, was, is, same_at });
         }
         lane.checks += 1;
-        lane.last_tick = check.tick;
+        lane.last_tick = tick;
     }
     lanes.retain(|lane| lane.checks > 0);
     lanes
 }
 
-/// What was found.
+/// The verdicts on all lanes of a scene file.
 pub(super) struct Checked {
     path: PathBuf,
     lanes: Vec<JudgedLane>,
@@ -217,7 +282,7 @@ impl Checked {
             });
             json!({
                 "lane": lane.number,
-                "method": lane.method,
+                "methods": lane.methods,
                 "same": difference.is_none(),
                 "checks": lane.checks,
                 "last_tick": lane.last_tick,
@@ -235,7 +300,7 @@ impl Checked {
     /// As JUnit's XML, a test for each lane.
     pub(super) fn to_junit(&self) -> String {
         let case = |lane: &JudgedLane| JunitCase {
-            name: format!("lane {}, {}", lane.number, lane.method),
+            name: lane.name(),
             failure: lane.difference.as_ref().map(Difference::line),
         };
         let cases: Vec<_> = self.lanes.iter().map(case).collect();

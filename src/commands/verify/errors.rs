@@ -1,4 +1,4 @@
-//! Why a capture or a recording does not pass, or cannot be judged.
+//! The reasons why a capture does not pass or cannot be judged.
 
 use std::path::PathBuf;
 
@@ -7,26 +7,26 @@ use super::super::frame_folder::FrameFolderError;
 use super::super::output::{FileError, OutputError};
 use super::super::recording::RecordingError;
 
-/// Why frames do not pass.
+/// The reason why a capture does not pass or cannot be judged.
 #[derive(Debug, thiserror::Error)]
 pub(in crate::commands) enum VerifyError {
-    /// It was judged, and is not the same.
+    /// The capture is not reproduced.
     #[error("{what} differ from {}; if that is meant, --bless", .manifest.display())]
     Different {
         /// Physics, pixels or both.
         what: &'static str,
-        /// What they differ from.
+        /// The manifest of the capture.
         manifest: PathBuf,
     },
-    /// It cannot be judged.
+    /// The capture cannot be judged.
     #[error("cannot judge {}: {reason}", .manifest.display())]
     Unjudged {
-        /// What it would be judged by.
+        /// The manifest of the capture.
         manifest: PathBuf,
-        /// Why not.
+        /// The reason.
         reason: String,
     },
-    /// `--report` with something else than a known format.
+    /// `--report` names an unknown format.
     #[error("no report format is called {0:?}; give junit or json")]
     Format(String),
     /// Two reports would go to the same file.
@@ -65,7 +65,7 @@ pub(in crate::commands) enum VerifyError {
     /// The frames could not be drawn.
     #[error("the pixels cannot be judged: {0}")]
     Capture(#[from] RecordingError),
-    /// The frames could not be drawn anew.
+    /// The frames could not be drawn again.
     #[error("not blessed: {0}")]
     Bless(RecordingError),
 }

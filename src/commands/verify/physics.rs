@@ -1,14 +1,14 @@
-//! The run again, against the marks in the manifest.
+//! Repeats the run of a capture and compares its states with the marks in the manifest.
 
 use super::super::experiment::Experiment;
-use super::super::logbook::{self, Logbook};
 use super::super::manifest::{LaneEnd, LaneMark, Manifest, Mark, is_same_value};
 use super::super::recording::Recording;
+use super::super::state_log::{self, StateLog};
 use super::report::{PhysicsChange, Report};
 use crate::lab::Lab;
 
-/// Runs to where the manifest's run ended, and reports the first mark, or else the first lane's end, that is
-/// another now.
+/// Repeats the run of the manifest to its end, and reports the first mark that differs, or else the first lane that
+/// ended differently.
 pub(super) fn judge(
     manifest: &Manifest,
     experiment: &Experiment,
@@ -16,11 +16,11 @@ pub(super) fn judge(
     report: &mut Report,
 ) {
     let mut lab = recording.lab(experiment);
-    let mut logbook = Logbook::new(recording.mark_every, lab.race());
+    let mut state_log = StateLog::new(recording.mark_every, lab.race());
     for frame in 0..manifest.frames.len() as u32 {
-        recording.schedule.advance(&mut lab, frame, &mut logbook);
+        recording.schedule.advance(&mut lab, frame, &mut state_log);
     }
-    let now = logbook.close(lab.race());
+    let now = state_log.close(lab.race());
     report.lanes = lab.race().entrants().len();
     report.last_tick = lab.race().tick();
     report.mark_every = recording.mark_every;
@@ -33,10 +33,10 @@ pub(super) fn judge(
         .or_else(|| other_end(&manifest.lanes, &lab));
 }
 
-/// What is another of how the lanes ended, metrics aside, if anything is.
+/// The first difference in how the lanes ended, if there is one. Metrics are not compared.
 fn other_end(then: &[LaneEnd], lab: &Lab) -> Option<PhysicsChange> {
     let tick = lab.race().tick();
-    let now = logbook::ends(lab);
+    let now = state_log::ends(lab);
     if then.len() != now.len() {
         let what = format!("{} lanes at the end in the manifest, {} now", then.len(), now.len());
         return Some(PhysicsChange { tick, lane: None, what });
@@ -60,7 +60,7 @@ fn other_end(then: &[LaneEnd], lab: &Lab) -> Option<PhysicsChange> {
     )
 }
 
-/// What is another at this tick, if anything is.
+/// The first difference between two marks, if there is one.
 fn change(then: &Mark, now: &Mark, lab: &Lab) -> Option<PhysicsChange> {
     if then.tick != now.tick || then.lanes.len() != now.lanes.len() {
         let what = format!(
@@ -87,7 +87,7 @@ fn change(then: &Mark, now: &Mark, lab: &Lab) -> Option<PhysicsChange> {
         .next()
 }
 
-/// The first coordinate or velocity of a lane that is another, and by how much.
+/// The first coordinate or velocity of a lane that differs, and by how much.
 fn first_coordinate(then: &LaneMark, now: &LaneMark, lab: &Lab, lane: usize) -> String {
     let bodies = lab.race().entrants()[lane].lane.bodies();
     for (n, body) in bodies.iter().enumerate() {

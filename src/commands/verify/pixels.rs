@@ -1,4 +1,4 @@
-//! The frames again, against the files.
+//! Draws the frames of a capture again and compares them with the files.
 
 use std::fs;
 use std::path::Path;
@@ -8,18 +8,18 @@ use super::super::fingerprint::fingerprint;
 use super::super::frame_folder::FrameFolderError;
 use super::super::frame_folder::names::{frames_claimed, is_marked};
 use super::super::interrupt::watch_for_interrupt;
-use super::super::logbook::Logbook;
 use super::super::manifest::{FILE_NAME, FrameEntry, Manifest};
 use super::super::output::{FileError, write_whole};
 use super::super::pipeline::{Drawn, Run, Stop};
 use super::super::recording::{Recording, RecordingError};
 use super::super::schedule::Schedule;
+use super::super::state_log::StateLog;
 use super::super::terminal::progress;
 use super::errors::VerifyError;
 use super::report::{FrameChange, Report};
-use crate::view::{Artist, png};
+use crate::view::{OffscreenRenderer, png};
 
-/// What another driver's frames differ by, and a little more.
+/// The limits on another driver: a little more than the differences that were seen.
 const OTHER_DRIVER: (u8, f64) = (2, 0.01);
 
 /// How much a frame may differ.
@@ -32,7 +32,7 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    /// None on the driver that drew the frames, except for what was asked for.
+    /// No difference on the driver that drew the frames, except what the options allow.
     pub(super) fn of(same_driver: bool, max_channel: Option<u8>, max_pixels: Option<f64>) -> Self {
         let (channel, pixels) = if same_driver { (0, 0.0) } else { OTHER_DRIVER };
         Self {
@@ -47,14 +47,14 @@ impl Limits {
     }
 }
 
-/// Where frames are, and where pictures of their differences go.
+/// The folder of the frames, and the folder for pictures of their differences.
 #[derive(Clone, Copy)]
 pub(super) struct Folder<'a> {
     pub(super) frames: &'a Path,
     pub(super) differences: Option<&'a Path>,
 }
 
-/// What two pictures of one size differ by.
+/// The difference of two pictures of the same size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Difference {
     pixels: usize,
@@ -76,12 +76,12 @@ fn difference(a: &[u8], b: &[u8]) -> Difference {
     difference
 }
 
-/// Draws every frame of the manifest and reports those that are others now.
+/// Draws every frame of the manifest and reports those that differ.
 pub(super) fn judge(
     manifest: &Manifest,
     experiment: &Experiment,
     recording: &Recording,
-    artist: &mut Artist,
+    renderer: &mut OffscreenRenderer,
     limits: Limits,
     folder: Folder<'_>,
     report: &mut Report,
@@ -100,9 +100,14 @@ pub(super) fn judge(
     let interrupted = watch_for_interrupt();
     let progress = progress(frames, "frames");
     let mut lab = recording.lab(experiment);
-    let mut logbook = Logbook::new(u64::MAX, lab.race());
-    let run =
-        Run { artist, lab: &mut lab, logbook: &mut logbook, schedule, interrupted: &interrupted };
+    let mut state_log = StateLog::new(u64::MAX, lab.race());
+    let run = Run {
+        renderer,
+        lab: &mut lab,
+        state_log: &mut state_log,
+        schedule,
+        interrupted: &interrupted,
+    };
     let mut changes = Vec::new();
     let size_px = recording.size_px;
     let make = |drawn: &Drawn| {
@@ -129,7 +134,7 @@ pub(super) fn judge(
     Ok(())
 }
 
-/// What is wrong with a frame, if anything is.
+/// The difference of a frame from its file, if there is one beyond the limits.
 fn compare(
     entry: &FrameEntry,
     size_px: [u32; 2],
@@ -171,7 +176,7 @@ fn compare(
     Ok(Some(what))
 }
 
-/// Each channel's difference, the worst as 255.
+/// A picture of each channel's difference, scaled so that the largest is 255.
 fn picture_of(a: &[u8], b: &[u8], worst: u8) -> Vec<u8> {
     let scaled =
         |(a, b): (&u8, &u8)| (u32::from(a.abs_diff(*b)) * 255 / u32::from(worst.max(1))) as u8;

@@ -1,4 +1,4 @@
-//! What was found, for people, for programs and for a CI's list of tests.
+//! The result of `regatta verify` as text, as JSON and as JUnit's XML.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use serde_json::json;
 
 use crate::commands::output::OutputError;
 
-/// The first mark that is another now.
+/// The first mark that differs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct PhysicsChange {
     pub(super) tick: u64,
@@ -16,14 +16,14 @@ pub(super) struct PhysicsChange {
     pub(super) what: String,
 }
 
-/// A frame that is another now.
+/// A frame that differs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct FrameChange {
     pub(super) file: String,
     pub(super) what: String,
 }
 
-/// All that was found.
+/// The result for a capture.
 #[derive(Debug)]
 pub(super) struct Report {
     pub(super) dir: PathBuf,
@@ -31,7 +31,7 @@ pub(super) struct Report {
     pub(super) last_tick: u64,
     pub(super) mark_every: u64,
     pub(super) physics: Option<PhysicsChange>,
-    /// The frames that were judged; none where only the physics was.
+    /// The frames that were judged; `None` if only the physics was.
     pub(super) frames: Option<Vec<String>>,
     /// Whether frames have to be the same to the byte.
     pub(super) is_exact: bool,
@@ -53,7 +53,7 @@ impl Report {
         }
     }
 
-    /// Physics, pixels or both, if any.
+    /// Names what differs: physics, pixels or both.
     pub(super) fn what_differs(&self) -> Option<&'static str> {
         match (&self.physics, self.pixels.is_empty()) {
             (Some(_), true) => Some("physics"),
@@ -86,12 +86,12 @@ impl Report {
         }
     }
 
-    /// Says what became of the physics.
+    /// Prints the result of the physics.
     pub(super) fn say_physics(&self) -> Result<(), OutputError> {
         say(&format!("physics: {}", self.physics_line()))
     }
 
-    /// Says what became of the pixels.
+    /// Prints the result of the pixels.
     pub(super) fn say_pixels(&self) -> Result<(), OutputError> {
         for FrameChange { file, what } in &self.pixels {
             say(&format!("pixels: {file}: {what}"))?;
@@ -142,7 +142,7 @@ impl Report {
     }
 }
 
-/// A test in a CI's list.
+/// A test case of JUnit's XML.
 pub(super) struct JunitCase {
     pub(super) name: String,
     pub(super) failure: Option<String>,
@@ -171,7 +171,7 @@ pub(super) fn junit(suite: &str, cases: &[JunitCase]) -> String {
     text + "</testsuite>\n"
 }
 
-/// One line of data.
+/// Prints a line to standard output.
 pub(super) fn say(line: &str) -> Result<(), OutputError> {
     match writeln!(io::stdout(), "{line}") {
         // Whoever listens no more still gets the exit code.
@@ -180,7 +180,7 @@ pub(super) fn say(line: &str) -> Result<(), OutputError> {
     }
 }
 
-/// As the value of an attribute in XML.
+/// Escapes text for an attribute's value in XML.
 fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {

@@ -1,24 +1,24 @@
-//! Which method to take for a scene at its tick rate: how few substeps meet each of three criteria, and how much
-//! coarser the ticks or stiffer the bodies could be.
+//! Advice on the method for a scene at its tick rate: the fewest substeps that meet each of three criteria, and how much
+//! lower the rate or stiffer the bodies could be.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
-use super::judge::{Finding, Judge};
-use super::searches::{furthest, rung, slowest_down};
+use super::judge::{CriterionFinding, Judge};
+use super::searches::{furthest, slowest_down, tried_substeps};
 use super::verdict::Verdict;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::{Scene, edited_values};
 use crate::sim::stability::RateSearch;
 
-/// What a developer may want of a method.
+/// A requirement that a developer may have of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Criterion {
-    /// Nothing grows that should not, over the scene and in the long run.
+    /// Nothing grows that does not grow in truth, over the scene and in the long run.
     Bounded,
-    /// The swing is as wide and as fast as in truth, as far as one sees.
+    /// Amplitude and frequency show no visible error.
     LooksRight,
-    /// The motion is the true one, moment by moment, as far as one sees.
+    /// The state shows no visible error at any moment.
     Accurate,
 }
 
@@ -36,7 +36,7 @@ impl Criterion {
         }
     }
 
-    /// As people read it.
+    /// Its name for people.
     pub fn name(self) -> &'static str {
         match self {
             Criterion::Bounded => "bounded",
@@ -45,7 +45,7 @@ impl Criterion {
         }
     }
 
-    /// What it asks for, in one line.
+    /// The requirement in one line.
     pub fn about(self) -> &'static str {
         match self {
             Criterion::Bounded => {
@@ -62,124 +62,125 @@ impl Criterion {
     }
 }
 
-/// The most substeps in a tick that are tried.
+/// The most substeps per tick that are tried.
 pub const MOST_ADVISED_SUBSTEPS: u32 = 64;
 
-/// The most work for one run of a stiffer scene, of which there are many, as [`MOST_WORK`](super::MOST_WORK) counts it.
+/// The most work for one run of a stiffer scene, in the unit of [`MOST_WORK`](super::MOST_WORK). There are many such runs.
 const WORK_WHEN_STIFFER: u64 = 5_000_000;
 
-/// How a method meets a criterion, with as few substeps as it takes.
+/// The fewest substeps with which a method meets a criterion, and its margins.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Met {
-    /// Steps in a tick.
+pub struct CriterionMet {
+    /// Steps per tick.
     pub substeps: u32,
     /// Evaluations of all bodies' accelerations per simulated second.
     pub evaluations_per_s: f64,
-    /// The slowest tick rate in Hz, down from the one asked about, at which it still holds with as many substeps.
+    /// The lowest tick rate in Hz, going down from the requested one, at which the criterion still holds with as many
+    /// substeps.
     pub slowest_hz: u32,
-    /// How many times stiffer the bodies may be, one to ten thousand, to two digits.
+    /// The largest factor by which the bodies may be stiffer, 1 to 10 000, to two digits.
     pub stiffness_factor: f64,
-    /// What that factor is of, on the body that fails first beyond it.
+    /// The parameter that the factor multiplies, of the body that fails first beyond it.
     pub limited_by: String,
 }
 
-/// What is known of one method on a scene.
+/// The advice on one method on a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Advised {
+pub struct MethodAdvice {
     /// The method.
     pub spec: LaneSpec,
-    /// At the rate that was asked about.
+    /// The verdict at the requested rate.
     pub verdict: Verdict,
-    /// For each of [`CRITERIA`] how the method meets it, if it does.
-    pub met: [Meets; CRITERIA.len()],
+    /// Whether and how the method meets each of [`CRITERIA`].
+    pub met: [CriterionResult; CRITERIA.len()],
 }
 
 /// Whether a method meets a criterion.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Meets {
-    /// So it does.
-    With(Met),
-    /// Not with [`MOST_ADVISED_SUBSTEPS`] or fewer.
+pub enum CriterionResult {
+    /// It does, in this way.
+    With(CriterionMet),
+    /// It does not with [`MOST_ADVISED_SUBSTEPS`] or fewer.
     No,
-    /// That takes too much work to tell, or there is no truth to tell it by.
+    /// Not known: it takes too much work, or there is no truth.
     Unknown,
 }
 
-impl Meets {
-    /// How, if it does.
-    pub fn met(&self) -> Option<&Met> {
+impl CriterionResult {
+    /// How it meets the criterion, if it does.
+    pub fn met(&self) -> Option<&CriterionMet> {
         match self {
-            Meets::With(met) => Some(met),
-            Meets::No | Meets::Unknown => None,
+            CriterionResult::With(met) => Some(met),
+            CriterionResult::No | CriterionResult::Unknown => None,
         }
     }
 }
 
-/// Judges methods on a scene at one tick rate. What several of them need is worked out once, and they may be asked about
-/// from several threads.
+/// Judges methods on a scene at one tick rate. Shared results are computed once, and several threads may use it at the
+/// same time.
 pub struct Adviser {
     scene: Scene,
     judge: Judge,
     tick_hz: u32,
-    /// The same scene, stiffer by the factor on this place of [`FACTORS`]; `None` where it cannot be.
+    /// Judges of the scene made stiffer, by the place of their factor; `None` if no scene can be so stiff.
     stiffer: Mutex<HashMap<usize, Option<Arc<Judge>>>>,
 }
 
-/// The factors by which bodies are made stiffer, to two digits: 24 in a decade.
+/// The factors by which bodies are made stiffer, 24 per decade, to two digits.
 const DECADE: [f64; 24] = [
     1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.8, 2.0, 2.2, 2.4, 2.7, 3.0, 3.3, 3.6, 3.9, 4.3, 4.7, 5.1,
     5.6, 6.2, 6.8, 7.5, 8.2,
 ];
 const DECADES: usize = 4;
 
-/// The factor on this place of all that are tried: 1 to 10 000.
+/// The factor at this place among all that are tried, 1 to 10 000.
 fn factor(place: usize) -> f64 {
     DECADE[place % DECADE.len()] * [1.0, 10.0, 100.0, 1000.0, 10_000.0][place / DECADE.len()]
 }
 
 impl Adviser {
-    /// For `scene` under this throttle at this rate.
+    /// An adviser for `scene` under this throttle at this rate.
     pub fn new(scene: &Scene, throttle: f64, tick_hz: u32) -> Self {
         let judge = Judge::new(scene, throttle);
         Self { scene: scene.clone(), judge, tick_hz, stiffer: Mutex::default() }
     }
 
-    /// What methods are held against.
+    /// The judge of the scene.
     pub fn judge(&self) -> &Judge {
         &self.judge
     }
 
-    /// The rate that is asked about, in Hz.
+    /// The requested rate in Hz.
     pub fn tick_hz(&self) -> u32 {
         self.tick_hz
     }
 
-    /// What is to be said of a lane at that rate.
+    /// The verdict on a lane at that rate.
     pub fn verdict(&self, spec: LaneSpec) -> Verdict {
         self.judge.verdict(spec, self.tick_hz)
     }
 
-    /// Whether a method meets a criterion, and how with the fewest substeps: one fewer does not. The substeps of `spec`
-    /// do not matter.
-    pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> Meets {
+    /// Whether a method meets a criterion, and with how many substeps: with one fewer it does not. The substeps of `spec`
+    /// are ignored.
+    pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let with = |substeps: u32| LaneSpec { substeps, ..spec };
         let tried = |substeps| find(&self.judge, criterion, with(substeps), self.tick_hz);
         let (mut fails, mut holds) = (0, None);
-        for substeps in (0..).map(rung).take_while(|&n| n <= MOST_ADVISED_SUBSTEPS) {
+        for substeps in (0..).map(tried_substeps).take_while(|&n| n <= MOST_ADVISED_SUBSTEPS) {
             match tried(substeps) {
-                Finding::Holds { evaluations_per_s } => {
+                CriterionFinding::Holds { evaluations_per_s } => {
                     holds = Some((substeps, evaluations_per_s));
                     break;
                 }
-                Finding::Fails { .. } => fails = substeps,
-                Finding::Unknown => return Meets::Unknown,
+                CriterionFinding::Fails { .. } => fails = substeps,
+                CriterionFinding::Unknown => return CriterionResult::Unknown,
             }
         }
-        let Some((mut substeps, mut evaluations_per_s)) = holds else { return Meets::No };
+        let Some((mut substeps, mut evaluations_per_s)) = holds else { return CriterionResult::No };
         while substeps - fails > 1 {
             let middle = fails.midpoint(substeps);
             match tried(middle) {
-                Finding::Holds { evaluations_per_s: found } => {
+                CriterionFinding::Holds { evaluations_per_s: found } => {
                     (substeps, evaluations_per_s) = (middle, found);
                 }
                 _ => fails = middle,
@@ -188,30 +189,36 @@ impl Adviser {
         let spec = with(substeps);
         let (stiffness_factor, limited_by) = self.stiffest(spec, criterion);
         let slowest_hz = self.slowest_down(spec, criterion);
-        Meets::With(Met { substeps, evaluations_per_s, slowest_hz, stiffness_factor, limited_by })
+        CriterionResult::With(CriterionMet {
+            substeps,
+            evaluations_per_s,
+            slowest_hz,
+            stiffness_factor,
+            limited_by,
+        })
     }
 
-    /// The slowest rate in Hz of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion; `None`
-    /// where it does at none.
+    /// The lowest rate in Hz of [`RATES_HZ`](crate::sim::stability::RATES_HZ) at which a lane meets a criterion; `None` if
+    /// it meets it at no rate.
     pub fn slowest(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
         RateSearch::run(|hz| holds(find(&self.judge, criterion, spec, hz)))
     }
 
-    /// The slowest rate down from the one asked about, where the lane meets the criterion, at which it still does; one
-    /// hertz slower it does not.
+    /// The lowest rate, going down from the requested one, at which the lane still meets the criterion; one hertz lower it
+    /// does not.
     fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> u32 {
-        // A linear body's rates have few gaps, and only wide ones; others are tried at nearly every rate.
+        // The rates of a linear body have few gaps, all of them wide; of other bodies nearly every rate is tried.
         let strides = if self.judge.is_linear() { 6 } else { 60 };
         slowest_down(self.tick_hz, strides, |hz| holds(find(&self.judge, criterion, spec, hz)))
     }
 
-    /// The largest factor of all that are tried by which every body may be stiffer, and what fails beyond it.
+    /// The largest factor tried by which every body may be stiffer, and the parameter that limits it.
     fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> (f64, String) {
         let mut culprit = None;
         let place = furthest(DECADE.len() * DECADES, |place| {
             let Some(judge) = self.stiffer(place) else { return false };
             let finding = find(&judge, criterion, spec, self.tick_hz);
-            if let Finding::Fails { body } = finding {
+            if let CriterionFinding::Fails { body } = finding {
                 culprit = Some(body);
             }
             holds(finding)
@@ -229,7 +236,7 @@ impl Adviser {
         })
     }
 
-    /// What is made stiffer about a body, in words.
+    /// The name of the parameter that makes a body stiffer.
     fn stiffness_name(&self, body: usize) -> String {
         let body = &self.scene.bodies[body];
         let (_, leading) =
@@ -241,7 +248,7 @@ impl Adviser {
         }
     }
 
-    /// The scene with every body stiffer by the factor on this place.
+    /// The judge of the scene with every body stiffer by the factor at this place.
     fn stiffer(&self, place: usize) -> Option<Arc<Judge>> {
         if let Some(known) = self.stiffer.lock().expect("no thread panics with it").get(&place) {
             return known.clone();
@@ -265,7 +272,7 @@ impl Adviser {
     }
 }
 
-fn find(judge: &Judge, criterion: Criterion, spec: LaneSpec, tick_hz: u32) -> Finding {
+fn find(judge: &Judge, criterion: Criterion, spec: LaneSpec, tick_hz: u32) -> CriterionFinding {
     match criterion {
         Criterion::Bounded => judge.is_bounded(spec, tick_hz),
         Criterion::LooksRight => judge.looks_right(spec, tick_hz),
@@ -273,19 +280,19 @@ fn find(judge: &Judge, criterion: Criterion, spec: LaneSpec, tick_hz: u32) -> Fi
     }
 }
 
-fn holds(finding: Finding) -> bool {
-    matches!(finding, Finding::Holds { .. })
+fn holds(finding: CriterionFinding) -> bool {
+    matches!(finding, CriterionFinding::Holds { .. })
 }
 
-/// The method to take for a criterion: of those that meet it the one with the least `cost`, the listings as printed left
-/// out. Costs that differ by less than `blur`, as a factor, count as equal, and evaluations decide.
+/// The recommended method for a criterion, by its place in `advised`: the method with the least `cost` that meets it,
+/// without the listings as printed. Costs within a factor `blur` count as equal; among them the fewest evaluations win.
 pub fn recommended(
-    advised: &[Advised],
+    advised: &[MethodAdvice],
     criterion: usize,
     blur: f64,
-    cost: impl Fn(&Advised, &Met) -> f64,
+    cost: impl Fn(&MethodAdvice, &CriterionMet) -> f64,
 ) -> Option<usize> {
-    let met = |(i, advised): (usize, &Advised)| {
+    let met = |(i, advised): (usize, &MethodAdvice)| {
         let met = advised.met[criterion].met().filter(|_| !advised.spec.method.is_as_printed())?;
         Some((i, cost(advised, met), met.evaluations_per_s))
     };
@@ -301,20 +308,20 @@ mod tests {
     use crate::sim::integrators::method;
 
     #[test]
-    fn of_costs_that_are_alike_evaluations_decide_and_listings_as_printed_are_left_out() {
+    fn evaluations_decide_between_similar_costs_and_listings_as_printed_are_left_out() {
         let judge = Judge::new(&Scene::built_in("spring").unwrap(), 1.0);
         let advised = |id: &str, evaluations_per_s: f64| {
             let spec = LaneSpec::plain(method(id).unwrap());
             let limited_by = "stiffness".into();
-            let met = Met {
+            let met = CriterionMet {
                 substeps: 1,
                 evaluations_per_s,
                 slowest_hz: 60,
                 stiffness_factor: 1.0,
                 limited_by,
             };
-            let met = [Meets::With(met), Meets::No, Meets::Unknown];
-            Advised { spec, verdict: judge.verdict(spec, 60), met }
+            let met = [CriterionResult::With(met), CriterionResult::No, CriterionResult::Unknown];
+            MethodAdvice { spec, verdict: judge.verdict(spec, 60), met }
         };
         let all = [
             advised("rk4", 240.0),

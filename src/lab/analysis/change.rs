@@ -1,18 +1,18 @@
-//! What becomes of the amplitude of a body that was followed, within the horizon and in the long run.
+//! The change of a body's amplitude, within the horizon and in the long run, from a run.
 
+use super::frequency::{FrequencyError, frequency_error};
 use super::limits::VISIBLE;
-use super::pitch::{Pitch, pitch};
 use super::run::Run;
 use super::truth::{BodyTruth, Swing};
 use super::verdict::Verdict;
 
-/// The growth of the swing over the second half of a long run that is growth and not the last of what comes and goes.
+/// The relative growth of the swing over the second half of the long run above which it counts as growth.
 const GROWTH_SEEN: f64 = 2e-3;
 
-/// A change of the amplitude this large is one, however it came about: a factor.
+/// A change of the amplitude by this factor counts even if it happens at once and then stops.
 const LEAP: f64 = 1.5;
 
-/// What becomes of the amplitude within the horizon.
+/// The change of the amplitude within the horizon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Change {
     None,
@@ -21,7 +21,7 @@ pub(super) enum Change {
 }
 
 impl Change {
-    /// Of a swing whose amplitude has become this part of what it was.
+    /// The change of a swing whose amplitude has changed by this factor.
     pub(super) fn of(amplitude: f64) -> Self {
         match amplitude {
             a if a >= 1.0 + VISIBLE => Change::Grows,
@@ -30,8 +30,8 @@ impl Change {
         }
     }
 
-    /// Of a swing whose amplitude, in units of that at the start, is `first` early on and `last` at the end: what changes at
-    /// once and then stays is no growth, unless it is a [leap](LEAP).
+    /// The change of a swing whose amplitude, in units of the initial one, is `first` in the first quarter and `last` in
+    /// the last. A change that happens at once and then stops does not count, unless it is a [leap](LEAP).
     fn between(first: f64, last: f64) -> Self {
         let trend = Change::of(last / first);
         match Change::of(last) {
@@ -42,8 +42,8 @@ impl Change {
     }
 }
 
-/// What the run itself shows.
-pub(super) fn tell_of_run(
+/// Puts the change of the motion into a verdict, from the run, and returns the change within the horizon.
+pub(super) fn fill_from_run(
     verdict: &mut Verdict,
     truth: &BodyTruth,
     run: &Run,
@@ -53,10 +53,12 @@ pub(super) fn tell_of_run(
     verdict.doubles_in_s = run.doubled_at;
     let period = truth.swing.as_ref().map_or(horizon_s, Swing::period);
     let end = run.followed_s;
-    // A swing that stays small for some turns, after more turns than would blur the moment.
+    // The swing stays small for some turns, after so many turns that the time of halving is sharp.
     let died = |t: f64| end - t >= 4.0 * period && t >= 10.0 * period;
     verdict.halves_in_s = run.halved_at.filter(|&t| died(t));
-    verdict.frequency_error = pitch(truth, run).filter(Pitch::is_steady).map(|pitch| pitch.error);
+    verdict.frequency_error = frequency_error(truth, run)
+        .filter(FrequencyError::is_steady)
+        .map(|measured| measured.error);
     let within = |at: Option<f64>| at.is_some_and(|t| t <= horizon_s);
     if truth.energy_scale.is_none() {
         let grows = within(run.doubled_at) || within(run.rushed_at);
@@ -67,14 +69,14 @@ pub(super) fn tell_of_run(
     if within(run.doubled_at) { Change::Grows } else { Change::between(first, last) }
 }
 
-/// The amplitude, in units of that at the start, of a swing whose energy has changed by this part.
+/// The amplitude, in units of the initial one, of a swing whose energy has changed by this part.
 fn amplitude(energy_change: f64) -> f64 {
     (1.0 + energy_change).max(0.0).sqrt()
 }
 
-/// Whether a followed body stays as small as it is in truth; `None` where it was not followed to the end.
+/// Whether the amplitude of a body stays bounded by the true one; `None` if the run did not get to its end.
 pub(super) fn bounded(truth: &BodyTruth, run: &Run) -> Option<bool> {
-    let failed = run.fate.is_some() || run.later.is_some();
+    let failed = run.failure.is_some() || run.later.is_some();
     if failed || run.doubled_at.is_some() || run.rushed_at.is_some() {
         return Some(false);
     }
@@ -90,7 +92,7 @@ pub(super) fn bounded(truth: &BodyTruth, run: &Run) -> Option<bool> {
 mod tests {
     use super::*;
     use crate::lab::analysis::run::{MOST_WORK, Until, follow};
-    use crate::lab::analysis::verdict::Fate;
+    use crate::lab::analysis::verdict::RunFailure;
     use crate::lab::{Judge, LaneSpec, Scene};
     use crate::sim::integrators::StepFailure;
     use crate::sim::integrators::method;
@@ -115,7 +117,7 @@ mod tests {
         }
     }
 
-    /// A swing that is followed to the end, and neither grows nor dies.
+    /// A run to the end of a swing that neither grows nor dies.
     fn followed() -> (BodyTruth, Run, Verdict) {
         let text = "title = 't'\ntick_hz = 60\nseconds = 10\n[[pendulum]]\nlength_m = 1\n";
         let scene = Scene::parse("t", text).unwrap();
@@ -130,12 +132,12 @@ mod tests {
     #[test]
     fn bounded_is_what_neither_fails_nor_leaves_nor_goes_on_gaining() {
         let (mut truth, run, _) = followed();
-        let failure = StepFailure::Escaped { coordinate: "x", value: 1e39 };
-        let fate = Some(Fate { t: 1.0, failure: failure.clone() });
+        let cause = StepFailure::Escaped { coordinate: "x", value: 1e39 };
+        let failure = Some(RunFailure { t: 1.0, cause: cause.clone() });
         let cases: [(&str, Run, Option<bool>); 12] = [
             ("as it is", run.clone(), Some(true)),
-            ("ended early", Run { fate: fate.clone(), ..run.clone() }, Some(false)),
-            ("ended late", Run { later: fate.clone(), ..run.clone() }, Some(false)),
+            ("ended early", Run { failure: failure.clone(), ..run.clone() }, Some(false)),
+            ("ended late", Run { later: failure.clone(), ..run.clone() }, Some(false)),
             ("doubled", Run { doubled_at: Some(7.0), ..run.clone() }, Some(false)),
             ("rushed", Run { rushed_at: Some(150.0), ..run.clone() }, Some(false)),
             ("cut short", Run { is_too_much: true, ..run.clone() }, None),
@@ -168,14 +170,14 @@ mod tests {
         let gaining = &cases[9].1;
         truth.energy_scale = None;
         assert_eq!(bounded(&truth, gaining), Some(true), "what keeps no energy gains none");
-        truth.failure = Some(failure);
+        truth.failure = Some(cause);
         assert_eq!(bounded(&truth, &run), None, "there is no truth to leave");
     }
 
     #[test]
     fn what_grows_after_the_horizon_has_not_grown_within_it() {
         let (mut truth, run, mut verdict) = followed();
-        let mut tell = |run: &Run, truth: &BodyTruth| tell_of_run(&mut verdict, truth, run, 10.0);
+        let mut tell = |run: &Run, truth: &BodyTruth| fill_from_run(&mut verdict, truth, run, 10.0);
         for (at, change) in [(9.0, Change::Grows), (11.0, Change::None)] {
             let doubled = Run { doubled_at: Some(at), ..run.clone() };
             assert_eq!(tell(&doubled, &truth), change, "doubled at {at} s");

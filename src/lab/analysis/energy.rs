@@ -1,25 +1,25 @@
-//! The energy of a body that is followed: how far it drifts, and what its mean becomes.
+//! The energy of a body during a run: its drift, and its mean over quarters of the run.
 
 use super::truth::BodyTruth;
 use crate::sim::Stepper;
 
-/// A swing that loses more than this part of its amplitude over the second half of a long run is losing.
+/// A swing that loses more than this part of its amplitude over the second half of the long run counts as losing.
 const LOSING: f64 = 0.01;
 
-/// The energy of a body as it goes along, in units of the energy in motion, less that at the start.
+/// The change of a body's energy since the start, in units of the largest true kinetic energy.
 pub(super) struct Energy {
     start: f64,
     scale: Option<f64>,
-    /// The unit in percent of the energy that the motion exchanges.
+    /// The unit in percent of the energy that the true motion exchanges.
     pub(super) percent: Option<f64>,
-    /// Means over the quarters of the horizon.
+    /// The means over the quarters of the horizon.
     pub(super) horizon: Means,
-    /// And of the long run.
+    /// The means over the quarters of the long run.
     pub(super) long: Means,
 }
 
 impl Energy {
-    /// That of `stepper` at its start, for a horizon and a long run that end at these ticks.
+    /// The energy of `stepper` at its start, for a horizon and a long run that end at ticks `horizon` and `end`.
     pub(super) fn of(stepper: &dyn Stepper, truth: &BodyTruth, horizon: u64, end: u64) -> Self {
         let start = stepper.energy().unwrap_or(0.0);
         Self {
@@ -31,13 +31,13 @@ impl Energy {
         }
     }
 
-    /// Whether the amplitude goes down in the long run.
+    /// Whether the amplitude decreases in the long run.
     pub(super) fn is_losing(&self) -> bool {
         let [_, early, _, late] = self.long.means().map(|drift| (1.0 + drift).max(0.0).sqrt());
         self.scale.is_some() && late < (1.0 - LOSING) * early
     }
 
-    /// Takes in the state after `tick` ticks and returns its drift.
+    /// Adds the state after `tick` ticks and returns its drift.
     pub(super) fn take_in(&mut self, stepper: &dyn Stepper, tick: u64) -> Option<f64> {
         let drift = (stepper.energy()? - self.start) / self.scale?;
         if !drift.is_finite() {
@@ -49,7 +49,7 @@ impl Energy {
     }
 }
 
-/// Means over the quarters of a stretch, weighted so that what swings inside a quarter does not count.
+/// Means over the quarters of a run, weighted so that oscillations within a quarter average out.
 pub(super) struct Means {
     end: u64,
     sums: [(f64, f64); 4],

@@ -1,10 +1,10 @@
-//! What can be seen of an error: the limits by which a run is judged.
+//! The limits by which a run is judged: the errors that a player sees.
 
-/// The error that still counts as accurate: a hundredth of the amplitude, about what can be seen.
+/// The largest error that counts as accurate, in amplitudes: about the smallest that can be seen.
 pub const TOLERANCE: f64 = 0.01;
 
-/// The change of a swing's amplitude that is seen: a twentieth.
+/// The smallest relative change of an amplitude that can be seen.
 pub const VISIBLE: f64 = 0.05;
 
-/// The frequency error that still looks right.
-pub const RIGHT_PITCH: f64 = 0.01;
+/// The largest relative frequency error that looks right.
+pub const FREQUENCY_TOLERANCE: f64 = 0.01;

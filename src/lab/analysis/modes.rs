@@ -1,30 +1,29 @@
-//! What becomes of the motion of a linear body under a method of equal steps, by its normal modes.
+//! The long-term motion of a linear body under a method of equal steps, from its normal modes.
 
 use super::change::Change;
 use super::run::{MOST_WORK, work_of};
 use super::truth::BodyTruth;
 use super::verdict::Verdict;
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::Solver;
-use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, undriven};
+use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
 
-/// To find the modes takes more work than a run may.
+/// Finding the modes would take more work than a run may.
 pub(super) struct TooMuch;
 
-/// Steps that a mode's map is found from: three from each of two states.
+/// The steps from which a mode's map is computed: three from each of two states.
 const STEPS_PER_MODE: u64 = 6;
 
-/// What a method of equal steps makes of the modes of a linear body.
+/// The normal modes of a linear body, and their stability under a method of equal steps.
 pub(super) struct Modes<'a> {
     /// Each with its share of the motion's energy.
     modes: Vec<(&'a NormalMode, f64, Stability)>,
 }
 
 impl<'a> Modes<'a> {
-    /// `None` where the body is not linear, where the method chooses its own steps, or where it gives up.
+    /// `None` if the body is not linear, or if the method chooses its own steps or fails.
     ///
     /// # Errors
-    /// Where that takes too much work.
+    /// If that takes too much work.
     pub(super) fn of(
         truth: &'a BodyTruth,
         spec: LaneSpec,
@@ -33,13 +32,13 @@ impl<'a> Modes<'a> {
         let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
         let Some(modes) = truth.modes.as_ref().filter(|_| !chooses) else { return Ok(None) };
         let n = modes.len() as u64;
-        // An implicit step differences the force along every coordinate.
+        // An implicit step takes differences of the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));
         let steps = STEPS_PER_MODE * n;
         if work_of(steps * evaluations, n, spec) > MOST_WORK {
             return Err(TooMuch);
         }
-        let free = undriven(&*truth.start(Solver::Truth));
+        let free = unforced(&*truth.with_last_parameters());
         let tick = Tick { t: 0.0, h: 1.0 / f64::from(tick_hz), substeps: spec.substeps };
         let each = modes.iter().map(|(mode, share)| {
             let stability = mode.stability(&*free, spec.solver(), tick).ok()?;
@@ -52,7 +51,7 @@ impl<'a> Modes<'a> {
         self.modes.iter().all(|(.., stability)| stability.is_bounded())
     }
 
-    /// Of the mode that carries the most energy of those that swing.
+    /// The frequency error of the swinging mode with the most energy.
     pub(super) fn frequency_error(&self) -> Option<f64> {
         let swinging = self.modes.iter().filter(|(mode, ..)| mode.swing().is_some());
         swinging.max_by(|a, b| a.1.total_cmp(&b.1))?.2.frequency_error
@@ -62,7 +61,7 @@ impl<'a> Modes<'a> {
         self.modes.iter().all(|(mode, ..)| mode.is_conserved() && mode.omega_squared > 0.0)
     }
 
-    /// The amplitude after `t` seconds, in units of that at the start; of modes that decay in truth, what grows.
+    /// The amplitude after `t` seconds, in units of the initial one. Modes that decay in truth contribute their growth only.
     fn amplitude(&self, t: f64) -> f64 {
         let conserved = self.are_conserved();
         let energy = self.modes.iter().map(|(_, share, stability)| {
@@ -77,7 +76,7 @@ impl<'a> Modes<'a> {
         energy.sum::<f64>().sqrt()
     }
 
-    /// The first time, up to [`FOREVER_S`], at which the amplitude is past `level`.
+    /// The first time, up to [`FOREVER_S`], at which `is_past` is true of the amplitude.
     fn reaches(&self, is_past: impl Fn(f64) -> bool) -> Option<f64> {
         let (mut low, mut high) = (0.0, FIRST_LOOK_S);
         while !is_past(self.amplitude(high)) {
@@ -93,8 +92,8 @@ impl<'a> Modes<'a> {
         Some(high)
     }
 
-    /// Puts into a verdict what becomes of the motion, and returns what does within the horizon.
-    pub(super) fn tell(&self, verdict: &mut Verdict, horizon_s: f64) -> Change {
+    /// Puts the change of the motion into a verdict, and returns the change within the horizon.
+    pub(super) fn fill(&self, verdict: &mut Verdict, horizon_s: f64) -> Change {
         verdict.is_bounded = Some(self.are_bounded());
         verdict.frequency_error = self.frequency_error();
         let moves = self.modes.iter().any(|(_, share, _)| *share > 0.0);
@@ -106,7 +105,7 @@ impl<'a> Modes<'a> {
         }
         let worst = self.modes.iter().filter_map(|(.., stability)| stability.doubling_s());
         let worst = worst.min_by(f64::total_cmp);
-        // A mode that is not in the motion yet grows out of its rounding.
+        // A mode that has no energy at the start grows out of rounding.
         let hidden =
             worst.filter(|&worst| verdict.doubles_in_s.is_none_or(|all| worst < all / 2.0));
         verdict.parasite_doubles_in_s = hidden;
@@ -118,6 +117,6 @@ impl<'a> Modes<'a> {
     }
 }
 
-/// When the amplitude is first looked at, in seconds, and the factor from one look to the next.
+/// The first time at which the amplitude is evaluated, in seconds, and the ratio of each later time to the one before.
 const FIRST_LOOK_S: f64 = 1e-9;
 const LOOKS_APART: f64 = 1.05;

@@ -1,11 +1,11 @@
-//! How far a body swings, from its states at ticks alone.
+//! How far a body swings, from its states at ticks.
 
 use super::truth::{BodyTruth, window};
 use crate::sim::Stepper;
 
-/// How far the coordinates swing, seen between ticks as if they swung harmonically.
+/// Finds the peaks of the coordinates, interpolated between ticks by harmonic motion.
 pub(super) struct Peaks {
-    /// The last two values of each coordinate from its middle, the older one first.
+    /// The last two distances of each coordinate from its centre, the older one first.
     last: Vec<[f64; 2]>,
 }
 
@@ -15,7 +15,7 @@ impl Peaks {
         Self { last: from.map(|(q, middle)| [f64::NAN, q - middle]).collect() }
     }
 
-    /// Takes in where the swing begins.
+    /// Puts the initial state into the first window.
     pub(super) fn start(&self, truth: &BodyTruth, windows: &mut [f64]) {
         if let Some(first) = windows.first_mut() {
             let parts = self.last.iter().zip(&truth.amplitudes).map(|(last, a)| last[1].abs() / a);
@@ -43,13 +43,12 @@ impl Peaks {
     }
 }
 
-/// The amplitude of the harmonic swing through three values at equal distances, of which the middle one is the
-/// largest.
+/// The amplitude of the harmonic motion through three values at equal intervals, the middle one being the largest.
 fn harmonic_peak(before: f64, here: f64, next: f64) -> f64 {
     let cos = (before + next) / (2.0 * here);
     let sin_squared = 1.0 - cos * cos;
     let side = (next - before) / 2.0;
     let peak = libm::hypot(here, side / sin_squared.sqrt());
-    // Values further apart than a third of a turn say nothing of what is between them.
+    // Values more than a third of a turn apart do not determine the peak.
     if sin_squared > 0.0 && peak <= 2.0 * here.abs() { peak } else { here.abs() }
 }

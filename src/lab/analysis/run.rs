@@ -1,103 +1,102 @@
-//! One body under one method, followed tick by tick and held against its truth.
+//! One body under one method, stepped tick by tick and compared with its truth.
 
 use super::energy::Energy;
 use super::peaks::Peaks;
-use super::truth::{BodyTruth, Course, LONG_RUN, ticks};
-use super::verdict::Fate;
+use super::truth::{BodyTruth, LONG_RUN, TruthSeries, ticks};
+use super::verdict::RunFailure;
 use crate::lab::lane::check;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::Stepper;
 use crate::sim::integrators::{Family, StepFailure};
 
-/// Work that a run may take, in evaluations of one coordinate: less than a second's.
+/// The most work of a run, in evaluations of one coordinate: less than a second.
 pub const MOST_WORK: u64 = 50_000_000;
 
-/// Coordinates from which on an implicit method spends more on its matrix than on evaluations.
+/// The number of coordinates above which an implicit method spends more work on its matrix than on evaluations.
 const SMALL_MATRIX: u64 = 20;
 
-/// Ticks between two looks at the work done, of a body of one coordinate.
+/// Ticks between two checks of the work done, for a body of one coordinate.
 const TICKS_PER_LOOK: u64 = 64;
 
-/// A swing that reaches this many times as far as the truth has grown, and one that stays below its inverse has died
-/// away.
+/// A swing of this many true amplitudes has grown, and a swing below the inverse has died away.
 const TWICE: f64 = 2.0;
 
-/// A swing that is [losing](Energy::is_losing) by the end of a long run is followed on, this many times as far, until it
-/// is known what becomes of it: an orbit that shrinks may yet be flung out.
+/// A swing that is [losing](Energy::is_losing) at the end of the long run is followed this many times as far: a shrinking
+/// orbit may still be ejected.
 const FOLLOWED_ON: u64 = 100;
 
-/// A swing that has come down to this part of the truth's has come to rest.
+/// A swing below this part of the true one has come to rest.
 const AT_REST: f64 = 0.02;
 
-/// What ends a run before its time.
+/// When a run ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Until {
-    /// The end of the horizon, or an error beyond this many amplitudes.
+    /// At the end of the horizon, or when the error exceeds this many amplitudes.
     Error(f64),
-    /// The end of the horizon.
+    /// At the end of the horizon.
     Horizon,
-    /// The end of the long run, or a swing that has grown.
+    /// At the end of the long run, or when the swing has grown.
     Grown,
-    /// The end of the long run.
+    /// At the end of the long run.
     LongRun,
 }
 
-/// How a body fared.
+/// What was measured on a run.
 #[derive(Clone, Debug)]
 pub(super) struct Run {
-    /// The largest error of a coordinate or a velocity over the horizon, in amplitudes, and when; infinite where the
-    /// body did not get through.
+    /// The largest error of a coordinate or a velocity over the horizon, in amplitudes, and its time. Infinite if the body
+    /// failed.
     pub(super) error: f64,
     pub(super) error_at_s: f64,
-    /// The largest error of the last twentieth of the horizon.
+    /// The largest error in the last twentieth of the horizon.
     pub(super) last_error: f64,
     /// The energy drift of largest magnitude over the horizon, in percent of the energy in motion.
     pub(super) energy_drift: Option<f64>,
-    /// What ended the run within the horizon.
-    pub(super) fate: Option<Fate>,
-    /// Why the body cannot be held against its truth.
+    /// The failure of the body within the horizon.
+    pub(super) failure: Option<RunFailure>,
+    /// Why the truth failed, if it did.
     pub(super) no_truth: Option<StepFailure>,
-    /// Whether the run was given up for the work it took.
+    /// Whether the run was stopped because it took too much work.
     pub(super) is_too_much: bool,
     pub(super) evaluations: u64,
-    /// How far the body came within the horizon, in seconds.
+    /// The simulated seconds within the horizon.
     pub(super) seconds: f64,
-    /// How far it was followed, in seconds.
+    /// All simulated seconds.
     pub(super) followed_s: f64,
-    /// How far it was to come within the horizon, in seconds.
+    /// The horizon in seconds, in whole ticks.
     pub(super) horizon_s: f64,
-    /// What ended the run after the horizon.
-    pub(super) later: Option<Fate>,
-    /// When a swing first reached twice as far as the truth's, and a velocity twice as far.
+    /// The failure of the body after the horizon.
+    pub(super) later: Option<RunFailure>,
+    /// When a coordinate, and when a velocity, first reached twice its true amplitude.
     pub(super) doubled_at: Option<f64>,
     pub(super) rushed_at: Option<f64>,
-    /// Since when no swing reaches half as far as the truth's.
+    /// Since when the swing stays below half the true amplitude.
     pub(super) halved_at: Option<f64>,
-    /// Whether the swing was seen to lose, and was followed on; and whether it has come to rest since.
+    /// Whether the swing was losing and was followed beyond the long run; and whether it came to rest there.
     pub(super) is_losing: bool,
     pub(super) has_come_to_rest: bool,
-    /// Mean energy in the quarters of the horizon and of the long run, in units of the energy in motion, less that at
-    /// the start.
+    /// The mean change of the energy in the quarters of the horizon and of the long run, in units of the largest true
+    /// kinetic energy.
     pub(super) quarters: [f64; 4],
     pub(super) long_quarters: [f64; 4],
-    /// The watched coordinate after each tick of the horizon.
+    /// The swinging coordinate after each tick of the horizon.
     pub(super) series: Vec<f64>,
     /// The largest swing in each window of the horizon, in amplitudes.
     pub(super) windows: Vec<f64>,
 }
 
-/// Work spent by now.
+/// The work done so far.
 fn work(stepper: &dyn Stepper, spec: LaneSpec) -> u64 {
     work_of(stepper.evaluations(), stepper.q().len() as u64, spec)
 }
 
-/// The work of so many evaluations of a body of `n` coordinates.
+/// The work of `evaluations` evaluations of a body of `n` coordinates.
 pub(super) fn work_of(evaluations: u64, n: u64, spec: LaneSpec) -> u64 {
     let matrix = if spec.method.family == Family::Implicit { n / SMALL_MATRIX } else { 0 };
     evaluations.saturating_mul(n * (1 + matrix))
 }
 
-/// Follows `truth`'s body under `spec` from its start.
+/// Runs `truth`'s body under `spec` from its start.
 pub(super) fn follow(
     truth: &BodyTruth,
     spec: LaneSpec,
@@ -114,9 +113,9 @@ pub(super) fn follow(
     };
     let mut stepper = truth.start(spec.solver());
     let mut run = Run::new(truth, horizon as f64 / hz);
-    // What is judged without its error needs no truth.
-    let course = (until != Until::Grown).then(|| truth.course(tick_hz));
-    if course.as_ref().is_some_and(|course| course.is_too_much) {
+    // A run that is judged without its error needs no truth.
+    let series = (until != Until::Grown).then(|| truth.series(tick_hz));
+    if series.as_ref().is_some_and(|series| series.is_too_much) {
         run.is_too_much = true;
         return run;
     }
@@ -128,14 +127,14 @@ pub(super) fn follow(
     while tick < end {
         tick += 1;
         let t = tick as f64 / hz;
-        truth.give_inputs(&mut *stepper, tick - 1, tick_hz);
+        truth.apply_inputs(&mut *stepper, tick - 1, tick_hz);
         let advanced = stepper.advance((tick - 1) as f64 / hz, 1.0 / hz, spec.substeps);
-        if let Err(failure) = advanced.and_then(|()| check(&*stepper, coordinates)) {
-            let fate = Some(Fate { t: (tick - 1) as f64 / hz, failure });
+        if let Err(cause) = advanced.and_then(|()| check(&*stepper, coordinates)) {
+            let failure = Some(RunFailure { t: (tick - 1) as f64 / hz, cause });
             if tick <= horizon {
-                run.fate = fate
+                run.failure = failure
             } else {
-                run.later = fate
+                run.later = failure
             }
             break;
         }
@@ -143,8 +142,8 @@ pub(super) fn follow(
         if tick <= horizon {
             run.seconds = t;
             run.evaluations = stepper.evaluations();
-            if let Some(course) = &course {
-                run.compare(&*stepper, course, truth, tick, horizon, t);
+            if let Some(series) = &series {
+                run.compare(&*stepper, series, truth, tick, horizon, t);
                 if let Some(swing) = &truth.swing {
                     run.series.push(stepper.q()[swing.coordinate]);
                     peaks.take_in(&*stepper, truth, t, &mut run.windows);
@@ -167,7 +166,7 @@ pub(super) fn follow(
         }
         run.watch_reach(&*stepper, truth, drift, t);
         if tick == end && tick > horizon && !run.is_losing {
-            // What does not come back goes on further than its truth was followed.
+            // The truth is not needed beyond the horizon.
             run.is_losing = energy.is_losing() && truth.swing.is_some();
             end *= if run.is_losing { FOLLOWED_ON } else { 1 };
         }
@@ -185,7 +184,7 @@ pub(super) fn follow(
         }
     }
     (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
-    if run.fate.is_some() {
+    if run.failure.is_some() {
         run.error = f64::INFINITY;
         (run.error_at_s, run.last_error) = (run.seconds, f64::INFINITY);
     }
@@ -200,7 +199,7 @@ impl Run {
             error_at_s: 0.0,
             last_error: 0.0,
             energy_drift: None,
-            fate: None,
+            failure: None,
             no_truth: None,
             is_too_much: false,
             evaluations: 0,
@@ -223,20 +222,20 @@ impl Run {
     fn compare(
         &mut self,
         stepper: &dyn Stepper,
-        course: &Course,
+        series: &TruthSeries,
         truth: &BodyTruth,
         tick: u64,
         horizon: u64,
         t: f64,
     ) {
-        let Some(exact) = course.at(tick) else {
-            self.no_truth = course.failure.clone();
+        let Some(exact) = series.at(tick) else {
+            self.no_truth = series.failure.clone();
             return;
         };
         let values = stepper.q().iter().chain(stepper.v());
         let parts = values.zip(exact).zip(&truth.amplitudes);
         let parts = parts.map(|((x, exact), amplitude)| (x - exact).abs() / amplitude);
-        // Written so that what is not a number is kept.
+        // Written so that NaN is kept.
         let off = parts.fold(0.0, |off, part| if part <= off { off } else { part });
         if off.is_nan() || off > self.error {
             (self.error, self.error_at_s) = (off, t);
@@ -258,7 +257,7 @@ impl Run {
             let parts = values.iter().zip(&truth.reach[from..]);
             parts.map(|(x, (middle, half))| (x - middle).abs() / half).fold(0.0, f64::max)
         };
-        // An oscillator's amplitude shows in its energy at every moment, and in its coordinates now and then.
+        // The energy gives an oscillator's amplitude at every moment, its coordinates only at their peaks.
         let swing = match drift {
             Some(drift) if truth.is_oscillator() => (1.0 + drift).max(0.0).sqrt(),
             _ => far(stepper.q(), 0),
@@ -278,12 +277,12 @@ impl Run {
 }
 
 impl Run {
-    /// Whether it was given up within the horizon.
+    /// Whether it was stopped within the horizon.
     pub(super) fn is_cut_short(&self) -> bool {
         self.is_too_much && self.seconds < self.horizon_s
     }
 
-    /// Whether neither coordinates nor velocities are far from where they rest.
+    /// Whether coordinates and velocities are all near their values at rest.
     fn rests(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
         let values = stepper.q().iter().chain(stepper.v());
         let mut parts =

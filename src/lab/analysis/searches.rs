@@ -1,16 +1,16 @@
-//! Searches for where something ceases to hold: by strides, and then by halving the gap.
+//! Searches for the limit of a property: in strides until it fails, then by bisection.
 
-/// The substeps that are tried on the way up: 1, 2, 3, 4, 6, 8, 12 … 64.
-pub(super) fn rung(rung: u32) -> u32 {
-    match rung {
+/// The number of substeps tried at this place of the sequence 1, 2, 3, 4, 6, 8, 12 … 64.
+pub(super) fn tried_substeps(place: u32) -> u32 {
+    match place {
         0 => 1,
         odd if odd % 2 == 1 => 2 << (odd / 2),
         even => 3 << (even / 2 - 1),
     }
 }
 
-/// The slowest rate in Hz down from `hz`, where something holds, at which it still does. It goes down by a part of the
-/// rate, one of so many `strides`, until it does not hold, and then halves the gap.
+/// The lowest rate in Hz, going down from `hz`, at which `holds` is still true; it is true at `hz`. Each stride is the
+/// rate divided by `strides`; after the first failure the gap is bisected.
 pub(super) fn slowest_down(hz: u32, strides: u32, mut holds: impl FnMut(u32) -> bool) -> u32 {
     let (mut held, mut failed) = (hz, 0);
     while held > 1 {
@@ -28,8 +28,8 @@ pub(super) fn slowest_down(hz: u32, strides: u32, mut holds: impl FnMut(u32) -> 
     held
 }
 
-/// The furthest of the places 1 to `last` at which something holds that holds at 0. It climbs by twice as much each time,
-/// so that next to nothing is tried far beyond, and then halves the gap.
+/// The furthest of the places 1 to `last` at which `holds` is still true; it is true at 0. Strides double, so that little
+/// is tried far beyond the limit, and then the gap is bisected.
 pub(super) fn furthest(last: usize, mut holds: impl FnMut(usize) -> bool) -> usize {
     let (mut held, mut failed) = (0, last + 1);
     let mut stride = 1;
@@ -51,8 +51,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn substeps_are_tried_twice_an_octave_up_to_the_most_that_are_advised() {
-        let tried: Vec<u32> = (0..).map(rung).take_while(|&n| n <= 64).collect();
+    fn two_numbers_of_substeps_are_tried_per_octave_up_to_the_most_that_are_advised() {
+        let tried: Vec<u32> = (0..).map(tried_substeps).take_while(|&n| n <= 64).collect();
         assert_eq!(tried, [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64]);
     }
 

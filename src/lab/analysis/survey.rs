@@ -1,25 +1,24 @@
-//! A walk along the true motion of one body: how far it reaches, how often it swings, how much energy it moves.
+//! Follows the true motion of one body in adaptive steps, and measures the range of each component.
 
 use crate::lab::action::Action;
 use crate::sim::Stepper;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::StepFailure;
 
-/// The part of a step at which it is checked: no fraction of a period that a regular step could meet.
+/// The part of a step at which it is checked: irrational, so that regular steps do not resonate with a period.
 const CHECKED_AT: f64 = 0.381_966_011_250_105_1;
-/// The first step, as a part of the stretch: far below a period of anything that can be followed.
+/// The first step as a part of the duration: far below any period that can be followed.
 const FIRST_STEP: f64 = 1e-7;
-/// How far a cubic through both ends of a step may be off, as a part of what the motion has covered: about
-/// a sixth of a radian of a swing.
+/// The largest error of the cubic through both ends of a step, as a part of the motion's range: steps of about a sixth
+/// of a radian.
 const CHORD: f64 = 1e-5;
-/// What has covered less than this part of its magnitude is held against the magnitude: the rest is rounding.
+/// A range smaller than this part of the magnitude is rounding, and this part is used in its place.
 const ROUNDING: f64 = 1e-9;
-/// By how much a step may change from one to the next.
+/// The least and the greatest ratio of a step to the one before.
 const FACTORS: (f64, f64) = (0.3, 2.0);
-/// Values between two moments at which extremes are looked for.
+/// The parts into which a step is divided to find an extreme.
 const BETWEEN: u32 = 4;
-/// Of the moments that a walk may take, the part that is kept for what is left of the stretch, should the rest
-/// not last.
+/// One in this many moments is reserved for the end of the motion, in case the others do not reach it.
 const KEPT: usize = 4;
 
 /// A moment of the true motion.
@@ -55,7 +54,7 @@ impl Moment {
     }
 }
 
-/// The range that each component covers; of coordinates first, then of velocities.
+/// The range of each component, coordinates first.
 #[derive(Clone, Debug)]
 pub(super) struct Ranges(pub(super) Vec<(f64, f64)>);
 
@@ -64,7 +63,7 @@ impl Ranges {
         Self(body.q().iter().chain(body.v()).map(|&x| (x, x)).collect())
     }
 
-    /// Takes in the way from one moment to the next.
+    /// Extends the ranges by the motion between two moments.
     pub(super) fn take_in(&mut self, from: &Moment, to: &Moment) {
         for (i, range) in self.0.iter_mut().enumerate() {
             let turns = from.slope[i] * to.slope[i] < 0.0;
@@ -77,52 +76,52 @@ impl Ranges {
     }
 }
 
-/// What is done to a body, and when, in seconds.
+/// A change that an action makes to a body, and its time in seconds.
 #[derive(Clone, Debug)]
 pub(super) struct TimedInput {
     pub(super) t: f64,
-    pub(super) given: Given,
+    pub(super) input: BodyInput,
 }
 
-/// What is done to a body.
+/// A change that an action makes to a body.
 #[derive(Clone, Debug)]
-pub(super) enum Given {
+pub(super) enum BodyInput {
     Input(Input),
     Parameter { place: usize, value: f64 },
     State { q: Box<[f64]>, v: Box<[f64]> },
 }
 
-impl Given {
-    /// What an action does to the body on this place of the scene.
-    pub(super) fn by(action: &Action, to: usize) -> Option<Self> {
+impl BodyInput {
+    /// The change that an action makes to the body at this place of the scene, if it makes one.
+    pub(super) fn of(action: &Action, place: usize) -> Option<Self> {
         match action {
-            Action::Set { body, parameter: place, value } if *body == to => {
-                Some(Given::Parameter { place: *place, value: *value })
+            Action::Set { body, parameter, value } if *body == place => {
+                Some(BodyInput::Parameter { place: *parameter, value: *value })
             }
-            Action::Place { body, q, v } if *body == to => {
-                Some(Given::State { q: q.clone(), v: v.clone() })
+            Action::Place { body, q, v } if *body == place => {
+                Some(BodyInput::State { q: q.clone(), v: v.clone() })
             }
-            other => other.input().map(Given::Input),
+            other => other.input().map(BodyInput::Input),
         }
     }
 
-    /// Does it to `body` at time `t` (s).
-    pub(super) fn to(&self, body: &mut dyn Stepper, t: f64) {
+    /// Applies the change to `body` at time `t` (s).
+    pub(super) fn apply_to(&self, body: &mut dyn Stepper, t: f64) {
         match self {
-            Given::Input(input) => _ = body.input(t, *input),
-            Given::Parameter { place, value } => _ = body.set_parameter(t, *place, *value),
-            Given::State { q, v } => body.set(t, q, v),
+            BodyInput::Input(input) => _ = body.input(t, *input),
+            BodyInput::Parameter { place, value } => _ = body.set_parameter(t, *place, *value),
+            BodyInput::State { q, v } => body.set(t, q, v),
         }
     }
 }
 
-/// Walks from the start of `body` over `seconds`, its inputs given on the way, in order, and shows each piece to `see`. The steps follow the
-/// motion: a cubic through both ends of each is as good as exact. A walk that would take more than `most` moments
-/// goes on at scattered ones, of which only the ends are shown.
+/// Follows `body` from its start over `seconds`, applies its inputs in order, and passes both ends of each step to `see`.
+/// The steps are so short that the cubic through both ends is as good as exact. If that would take more than `most`
+/// moments, the rest of the motion is sampled at scattered moments, and `see` receives each as both ends.
 ///
 /// # Errors
-/// Where the truth cannot be found, or is not finite, any more.
-pub(super) fn walk(
+/// If the truth fails or is not finite.
+pub(super) fn follow_truth(
     body: &mut dyn Stepper,
     mut inputs: &[TimedInput],
     seconds: f64,
@@ -138,7 +137,7 @@ pub(super) fn walk(
         if let Some((next, rest)) = inputs.split_first()
             && next.t <= here.t
         {
-            next.given.to(body, here.t);
+            next.input.apply_to(body, here.t);
             (here, inputs) = (Moment::of(body, here.t), rest);
             step = FIRST_STEP * seconds;
             continue;
@@ -169,7 +168,7 @@ pub(super) fn walk(
                 && next.t <= t
             {
                 here = Moment::of_advanced(body, here.t, next.t.max(here.t))?;
-                next.given.to(body, here.t);
+                next.input.apply_to(body, here.t);
                 inputs = rest;
             }
             let there = Moment::of_advanced(body, here.t, t)?;
@@ -192,7 +191,7 @@ impl Moment {
     }
 }
 
-/// How far the cubic from `here` to `there` is off at `check`, as a part of what each component has covered.
+/// The largest error of the cubic from `here` to `there` at `check`, as a part of the range of its kind of component.
 fn worst_chord(here: &Moment, check: &Moment, there: &Moment, part: f64, ranges: &Ranges) -> f64 {
     let n = here.x.len() / 2;
     let covered = |half: std::ops::Range<usize>| {

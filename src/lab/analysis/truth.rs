@@ -1,6 +1,6 @@
-//! What is known of the true motion of one body before any method is held against it.
+//! What is known of the true motion of one body before any method is compared with it.
 
-use super::survey::{Moment, Ranges, TimedInput, walk};
+use super::survey::{BodyInput, Moment, Ranges, TimedInput, follow_truth};
 use crate::lab::extent::Extent;
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Coordinate, Input, Truth};
@@ -8,80 +8,83 @@ use crate::sim::integrators::StepFailure;
 use crate::sim::stability::{NormalMode, normal_modes};
 use crate::sim::{Solver, Stepper};
 
-use course::Courses;
+mod amplitudes;
+mod series;
 
-mod course;
+use amplitudes::{amplitudes, largest_alike};
+use series::TruthSeriesByRate;
+pub(super) use series::{TruthSeries, ticks};
 
-pub(super) use course::{Course, ticks};
-
-/// A nonlinear body is followed for this many times the horizon, to see what becomes of it in the long run.
+/// The long run of a nonlinear body in horizons.
 pub const LONG_RUN: f64 = 20.0;
 
-/// A half range this small against the largest value is rounding: the body keeps that value.
-const KEEPS_STILL: f64 = 1e-9;
-
-/// Moments of a walk, and products that its exact flow takes, at most: for a chain the square of its masses at each
-/// moment.
+/// Limits of [`follow_truth`], in moments and in products of the exact flow, n² for a chain of n masses.
 const MOST_MOMENTS: usize = 100_000;
 const MOST_REFERENCE_MOMENTS: usize = 20_000;
 const FEWEST_MOMENTS: usize = 512;
 const MOST_PRODUCTS: usize = 40_000_000;
 
-/// A crossing at less than this part of the largest speed is no swing any more.
+/// A crossing slower than this part of the largest speed does not count as a swing.
 const FAINT: f64 = 1e-3;
 
-/// The windows in which the swing is compared, at most.
+/// The most windows in which the swing is compared.
 const MOST_WINDOWS: usize = 64;
 
 /// The true motion of one body under one throttle.
 pub(super) struct BodyTruth {
     pub(super) body: SceneBody,
     pub(super) throttle: f64,
-    /// What the scene's script does to it within the horizon, in order.
+    /// The script's actions on the body at tick 0, in order. The motion begins after them.
+    at_start: Vec<BodyInput>,
+    /// The script's later actions on the body within the horizon, in order.
     pub(super) inputs: Vec<TimedInput>,
     pub(super) horizon_s: f64,
     /// The amplitude of each component of the state, coordinates first.
     pub(super) amplitudes: Vec<f64>,
-    /// What each coordinate swings about: the middle of its range or, where its energy goes, where it comes to rest.
+    /// The centre of each coordinate's swing: the middle of its range, or the place of rest if it loses energy.
     pub(super) centres: Vec<f64>,
-    /// The middle and half the range of each component over the long run, or as far as the truth goes.
+    /// The middle and half the range of each component over the long run, or until the truth fails.
     pub(super) reach: Vec<(f64, f64)>,
-    /// The normal modes of a linear body, each with its share of the energy of the motion.
+    /// The normal modes of a linear body with its last parameters, each with its share of the energy of the motion after
+    /// the last input.
     pub(super) modes: Option<Vec<(NormalMode, f64)>>,
-    /// The energy in motion in joules: the largest kinetic energy, which is all of an oscillator's. `None` where none is
-    /// conserved, or nothing moves.
+    /// The largest kinetic energy in joules, which is all the energy of an oscillator. `None` if energy is not conserved
+    /// or nothing moves.
     pub(super) energy_scale: Option<f64>,
-    /// The energy that the motion exchanges, in joules, as the metric of energy drift has it.
+    /// The energy that the motion exchanges, in joules, as the metric `energy_drift` defines it.
     pub(super) exchanged_j: Option<f64>,
     pub(super) swing: Option<Swing>,
-    /// Why the truth is not known over the whole horizon, if it is not.
+    /// Why the truth is not known over the whole horizon; `None` if it is known.
     pub(super) failure: Option<StepFailure>,
-    courses: Courses,
+    series_by_rate: TruthSeriesByRate,
 }
 
-/// How a body swings in truth.
+/// The true swing of a body.
 pub(super) struct Swing {
-    /// The coordinate that is watched.
+    /// The coordinate whose crossings are counted.
     pub(super) coordinate: usize,
-    /// When it passes its middle upwards, in seconds.
+    /// When it crosses its centre upwards, in seconds.
     pub(super) crossings: Vec<f64>,
-    /// The largest swing from the middle of any coordinate, in amplitudes, in each of equal windows of the horizon.
+    /// The largest distance of any coordinate from its centre, in amplitudes, in each of equal windows of the horizon.
     pub(super) windows: Vec<f64>,
 }
 
 impl BodyTruth {
-    /// The amplitude of a component is half the range that the truth covers in it, or in another component of the
-    /// same body and unit that covers more; of what keeps its value, that value.
+    /// The amplitude of a component is half its true range, or that of the component of the same unit with the largest
+    /// range. The amplitude of a constant component is its value.
     pub(super) fn new(
         body: &SceneBody,
         inputs: &[TimedInput],
         throttle: f64,
         horizon_s: f64,
     ) -> Self {
+        let (at_start, later) = inputs.iter().partition::<Vec<_>, _>(|input| input.t <= 0.0);
+        let later = later.into_iter().filter(|input| input.t < horizon_s);
         let mut truth = Self {
             body: body.clone(),
             throttle,
-            inputs: inputs.iter().filter(|input| input.t < horizon_s).cloned().collect(),
+            at_start: at_start.into_iter().map(|input| input.input.clone()).collect(),
+            inputs: later.cloned().collect(),
             horizon_s,
             amplitudes: Vec::new(),
             centres: Vec::new(),
@@ -91,16 +94,17 @@ impl BodyTruth {
             exchanged_j: None,
             swing: None,
             failure: None,
-            courses: Courses::default(),
+            series_by_rate: TruthSeriesByRate::default(),
         };
         truth.survey();
         truth
     }
 
-    /// The body at its start under `solver`.
+    /// The body under `solver` at its start, after the script's actions at tick 0.
     pub(super) fn start(&self, solver: Solver) -> Box<dyn Stepper> {
         let mut stepper = (self.body.kind.build)(&self.body.values, solver);
         stepper.input(0.0, Input::Throttle(self.throttle));
+        self.at_start.iter().for_each(|input| input.apply_to(&mut *stepper, 0.0));
         stepper
     }
 
@@ -109,7 +113,7 @@ impl BodyTruth {
         self.inputs.last().map_or(0.0, |input| input.t)
     }
 
-    /// The truth once all inputs are given, or as near to that as it comes.
+    /// The true state after the last input, or after the last that could be reached.
     fn after_inputs(&self) -> Box<dyn Stepper> {
         let mut body = self.start(Solver::Truth);
         let mut t = 0.0;
@@ -118,8 +122,16 @@ impl BodyTruth {
                 break;
             }
             t = input.t;
-            input.given.to(&mut *body, t);
+            input.input.apply_to(&mut *body, t);
         }
+        body
+    }
+
+    /// The body in its initial state, with the parameters that are in force after the last input.
+    pub(super) fn with_last_parameters(&self) -> Box<dyn Stepper> {
+        let mut body = self.start(Solver::Truth);
+        let is_parameter = |input: &&TimedInput| matches!(input.input, BodyInput::Parameter { .. });
+        self.inputs.iter().filter(is_parameter).for_each(|it| it.input.apply_to(&mut *body, it.t));
         body
     }
 
@@ -135,14 +147,15 @@ impl BodyTruth {
             Truth::Reference => MOST_REFERENCE_MOMENTS,
         };
         let most = (MOST_PRODUCTS / (n * n)).clamp(FEWEST_MOMENTS, most_moments);
-        self.modes = normal_modes(&*body).map(|modes| shares(&*self.after_inputs(), modes));
+        let after_inputs = self.after_inputs();
+        self.modes = normal_modes(&*after_inputs).map(|modes| shares(&*after_inputs, modes));
         let mut there = self.start(Solver::Truth);
         let mut ranges = Ranges::at(&*body);
         let mut kinetic: f64 = body.kinetic_energy().unwrap_or(0.0);
         let mut extent = Extent::default();
         extent.cover(0.0, body.kinetic_energy());
         let conserves = body.energy().is_some() && self.inputs.is_empty();
-        let walked = walk(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
+        let walked = follow_truth(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
             ranges.take_in(from, to);
             for moment in fastest(from, to).into_iter().filter(|_| conserves) {
                 there.set(0.0, &moment.x[..n], &moment.x[n..]);
@@ -163,12 +176,13 @@ impl BodyTruth {
         }
         let returns = self.swing.as_ref().is_some_and(|swing| swing.crossings.len() > 2);
         if !self.is_oscillator() && !returns {
-            // What becomes of other motions beyond the horizon is followed as far as it can be.
+            // Other motions are followed beyond the horizon, as far as the truth goes.
             let mut body = self.start(Solver::Truth);
             ranges = Ranges::at(&*body);
             let mut sums = vec![0.0; n];
             let mut seconds = 0.0;
-            let _ = walk(&mut *body, &self.inputs, LONG_RUN * self.horizon_s, most, |from, to| {
+            let long_run_s = LONG_RUN * self.horizon_s;
+            let _ = follow_truth(&mut *body, &self.inputs, long_run_s, most, |from, to| {
                 ranges.take_in(from, to);
                 seconds += to.t - from.t;
                 for (i, sum) in sums.iter_mut().enumerate() {
@@ -176,7 +190,7 @@ impl BodyTruth {
                 }
             });
             if self.energy_scale.is_none() && seconds > 0.0 {
-                // What comes to rest swings about the place where it does.
+                // A motion that comes to rest swings about its place of rest.
                 self.centres = sums.iter().map(|sum| sum / seconds).collect();
             }
         }
@@ -190,26 +204,25 @@ impl BodyTruth {
         };
         self.reach = (0..2 * n).map(reach).collect();
         let halves: Vec<f64> = self.reach.iter().map(|(_, half)| *half).collect();
-        for (i, reach) in self.reach.iter_mut().enumerate() {
-            reach.1 = largest_alike((self.body.kind.coordinates)(&self.body.values), &halves, i);
-        }
+        let coordinates = self.coordinates();
+        (0..2 * n).for_each(|i| self.reach[i].1 = largest_alike(coordinates, &halves, i));
     }
 
-    /// Whether all that it does is to swing for ever, linearly.
+    /// Whether the body is linear and all its modes are undamped oscillations.
     pub(super) fn is_oscillator(&self) -> bool {
         self.modes.as_ref().is_some_and(|modes| {
             modes.iter().all(|(mode, _)| mode.is_conserved() && mode.omega_squared > 0.0)
         })
     }
 
-    /// Follows the swing about the middles of the coordinates.
+    /// The swing about `middles`, one per coordinate.
     fn watch(&self, middles: &[f64], most: usize) -> Option<Swing> {
         let n = middles.len();
         let mut crossings = vec![Vec::new(); n];
         let fast: Vec<f64> = self.amplitudes[n..].iter().map(|v| FAINT * v).collect();
         let mut peaks: Vec<(f64, f64)> = Vec::new();
         let mut body = self.start(Solver::Truth);
-        walk(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
+        follow_truth(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
             let mut peak: f64 = 0.0;
             for i in 0..n {
                 let (a, b) = (from.x[i] - middles[i], to.x[i] - middles[i]);
@@ -239,12 +252,12 @@ impl BodyTruth {
     }
 }
 
-/// The window, of `count`, that this part of the horizon falls into.
+/// The index of the window, of `count`, that contains this part of the horizon.
 pub(super) fn window(part: f64, count: usize) -> usize {
     ((part * count as f64) as usize).min(count - 1)
 }
 
-/// When coordinate `i` passes `level` between two moments, in seconds.
+/// The time in seconds at which coordinate `i` crosses `level` between two moments.
 fn crossing(from: &Moment, to: &Moment, i: usize, level: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..50 {
@@ -254,7 +267,7 @@ fn crossing(from: &Moment, to: &Moment, i: usize, level: f64) -> f64 {
     from.t + low * (to.t - from.t)
 }
 
-/// The end of a piece of the way, and where a velocity is largest within it, some moments about there.
+/// The second of two moments, and 15 between them if a velocity has an extreme there.
 fn fastest(from: &Moment, to: &Moment) -> Vec<Moment> {
     let n = to.x.len() / 2;
     let turns = (n..2 * n).any(|i| from.slope[i] * to.slope[i] < 0.0);
@@ -267,7 +280,7 @@ fn fastest(from: &Moment, to: &Moment) -> Vec<Moment> {
     steps.map(at).collect()
 }
 
-/// The share of each mode in the energy of the motion of `body` about its rest.
+/// Each mode's share of the energy of `body` about its equilibrium.
 fn shares(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<(NormalMode, f64)> {
     let n = body.q().len();
     let mut push = vec![0.0; n];
@@ -288,41 +301,10 @@ fn shares(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<(NormalMode, f64)> 
     modes.into_iter().zip(energies).map(|(mode, energy)| (mode, share(energy))).collect()
 }
 
-/// The largest of the values that are of the same half of the state as component `i` and in its unit.
-fn largest_alike(coordinates: &[Coordinate], values: &[f64], i: usize) -> f64 {
-    let n = coordinates.len();
-    let is_alike = |j: &usize| i / n == j / n && coordinates[i % n].unit == coordinates[j % n].unit;
-    (0..2 * n).filter(is_alike).map(|j| values[j]).fold(0.0, f64::max)
-}
-
-/// The amplitude of each component, from what the truth covers.
-fn amplitudes(ranges: &[(f64, f64)], coordinates: &[Coordinate]) -> Vec<f64> {
-    let halves: Vec<f64> = ranges.iter().map(|(low, high)| (high - low) / 2.0).collect();
-    let sizes: Vec<f64> = ranges.iter().map(|(low, high)| low.abs().max(high.abs())).collect();
-    let amplitude = |i: usize| {
-        let half = largest_alike(coordinates, &halves, i);
-        let largest = largest_alike(coordinates, &sizes, i);
-        match (half > KEEPS_STILL * largest, largest > 0.0) {
-            (true, _) => half,
-            (false, true) => largest,
-            (false, false) => 1.0,
-        }
-    };
-    (0..ranges.len()).map(amplitude).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lab::Scene;
-    use crate::sim::bodies::kind;
-
-    #[test]
-    fn the_amplitude_is_half_the_range_or_what_is_kept() {
-        let ship = kind("ship").unwrap().plain_coordinates();
-        assert_eq!(amplitudes(&[(-1.0, 3.0), (20.0, 20.0)], ship), [2.0, 20.0]);
-        assert_eq!(amplitudes(&[(0.0, 0.0), (5.0, 5.0 + 1e-12)], ship), [1.0, 5.0 + 1e-12]);
-    }
 
     fn truth(text: &str, seconds: f64) -> BodyTruth {
         let text = format!("title = \"t\"\ntick_hz = 60\nseconds = {seconds}\n{text}");
@@ -331,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn amplitudes_are_those_of_the_motion_whatever_its_period_is_to_the_stretch() {
+    fn amplitudes_do_not_depend_on_the_ratio_of_period_and_horizon() {
         let omega = std::f64::consts::TAU;
         for seconds in [1.0, 20.0, 511.0, 512.0, 1024.0] {
             let spring =

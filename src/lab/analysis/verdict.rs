@@ -1,117 +1,27 @@
-//! What is to be said of a method on a scene: one word, and the number behind it.
+//! The verdict on a method on a scene: its outcome and the numbers behind it.
 
 use std::fmt;
 
 use super::limits::TOLERANCE;
+use super::outcome::Outcome;
 use crate::lab::number::{round, significant, superscript};
 use crate::sim::integrators::StepFailure;
 
-/// The word, from best to worst. It speaks of the scene's length; what shows only later follows it in the text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Word {
-    /// No error but rounding.
-    Rounding,
-    /// The error stays within [`TOLERANCE`](super::TOLERANCE) of the amplitude.
-    Accurate,
-    /// It takes too much work to judge, or the scene has no tick to judge.
-    NotJudged,
-    /// There is no truth to hold it against, or none that is precise enough.
-    NoTruth,
-    /// The error does not stay within the tolerance, though the amplitude is about what it is in truth.
-    OutOfPhase,
-    /// The amplitude dies away that should stay.
-    LosesEnergy,
-    /// The amplitude grows that should not.
-    GainsEnergy,
-    /// The method's solver failed.
-    GaveUp,
-    /// A value left the range that is followed.
-    BlewUp,
-}
-
-impl Word {
-    /// Every word, from best to worst.
-    pub const ALL: [Self; 9] = [
-        Self::Rounding,
-        Self::Accurate,
-        Self::NotJudged,
-        Self::NoTruth,
-        Self::OutOfPhase,
-        Self::LosesEnergy,
-        Self::GainsEnergy,
-        Self::GaveUp,
-        Self::BlewUp,
-    ];
-
-    /// Its name in output, in kebab case.
-    pub fn id(self) -> &'static str {
-        match self {
-            Word::Rounding => "rounding",
-            Word::Accurate => "accurate",
-            Word::NotJudged => "not-judged",
-            Word::NoTruth => "no-truth",
-            Word::OutOfPhase => "out-of-phase",
-            Word::LosesEnergy => "loses-energy",
-            Word::GainsEnergy => "gains-energy",
-            Word::GaveUp => "gave-up",
-            Word::BlewUp => "blew-up",
-        }
-    }
-
-    /// As people read it.
-    pub fn text(self) -> &'static str {
-        match self {
-            Word::Rounding => "within rounding",
-            Word::Accurate => "accurate",
-            Word::NotJudged => "not judged",
-            Word::NoTruth => "no truth",
-            Word::OutOfPhase => "out of phase",
-            Word::LosesEnergy => "loses energy",
-            Word::GainsEnergy => "gains energy",
-            Word::GaveUp => "gave up",
-            Word::BlewUp => "blew up",
-        }
-    }
-
-    /// How much it should worry a developer.
-    pub fn severity(self) -> Severity {
-        match self {
-            Word::Rounding | Word::Accurate => Severity::Fine,
-            Word::NotJudged | Word::NoTruth => Severity::Unknown,
-            Word::OutOfPhase => Severity::Doubtful,
-            Word::LosesEnergy | Word::GainsEnergy | Word::GaveUp | Word::BlewUp => Severity::Bad,
-        }
-    }
-}
-
-/// How much a verdict should worry a developer; each has one colour.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Severity {
-    /// Nothing to see.
-    Fine,
-    /// Seen, if one looks for it.
-    Doubtful,
-    /// Seen at once.
-    Bad,
-    /// Nothing is known.
-    Unknown,
-}
-
-/// What ended a run.
+/// Why and when a body's run ended early.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fate {
+pub struct RunFailure {
     /// When, in simulated seconds.
     pub t: f64,
-    /// How.
-    pub failure: StepFailure,
+    /// Why.
+    pub cause: StepFailure,
 }
 
-/// Why there is no truth to hold a lane against.
+/// Why a lane cannot be compared with the truth.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoTruth {
-    /// The exact solution or the reference cannot be found.
+    /// The exact solution or the reference has failed.
     Failed(StepFailure),
-    /// It may be off by this part of the amplitude.
+    /// Its error may be as large as this part of the amplitude.
     Vague(f64),
 }
 
@@ -130,9 +40,9 @@ impl fmt::Display for NoTruth {
 /// Why a lane is not judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotJudged {
-    /// It takes more than [`MOST_WORK`](super::MOST_WORK).
+    /// Its run takes more than [`MOST_WORK`](super::MOST_WORK).
     TooMuchWork,
-    /// The scene is over before its first tick.
+    /// The scene is shorter than one tick.
     ShorterThanATick,
 }
 
@@ -145,66 +55,90 @@ impl fmt::Display for NotJudged {
     }
 }
 
-/// What is to be said of a lane over a stretch of a scene. Shows as one line. Amplitudes and times to double or
-/// halve are those of the swing; its energy doubles and halves twice as fast.
+/// The verdict on a lane over a horizon; displayed as one line. Doubling and halving times are those of the amplitude:
+/// the energy doubles and halves in half the time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// The word.
-    pub word: Word,
-    /// The body that fares worst, by its place in the scene: the one that all of this is about.
+    /// The outcome.
+    pub outcome: Outcome,
+    /// The place in the scene of the worst body, which the verdict is about.
     pub body: usize,
-    /// Its name, in a scene of several bodies.
+    /// The body's name; `None` in a scene of one body.
     pub body_name: Option<String>,
-    /// The largest error of a coordinate or a velocity, as a part of its amplitude; infinite for a body that did not
-    /// get through.
+    /// The largest error of a coordinate or a velocity, in amplitudes; infinite for a body that failed.
     pub error: f64,
-    /// When the error was largest, in seconds.
+    /// The time of the largest error, in seconds.
     pub error_at_s: f64,
-    /// The largest error in the last twentieth of the stretch.
+    /// The largest error in the last twentieth of the horizon.
     pub last_error: f64,
     /// Whether the body swings in truth.
     pub swings: bool,
-    /// The seconds in which the amplitude doubles that in truth does not; `None` where it does not within a year, or
-    /// where that cannot be said.
+    /// The time in seconds in which the amplitude doubles, if it does not in truth; `None` if it does not double within a
+    /// year or if that is not known.
     pub doubles_in_s: Option<f64>,
-    /// The seconds in which the amplitude halves that in truth stays; `None` as above.
+    /// The time in seconds in which the amplitude halves, if it is constant in truth; `None` if it does not halve within a
+    /// year or if that is not known.
     pub halves_in_s: Option<f64>,
-    /// The seconds in which a mode doubles that carries next to none of the motion.
+    /// The doubling time in seconds of a mode that has next to no energy at the start.
     pub parasite_doubles_in_s: Option<f64>,
-    /// The change of the energy over the stretch, as a part of the energy in motion; `None` where none is conserved.
+    /// The change of the energy over the horizon, in units of the largest true kinetic energy; `None` if energy is not
+    /// conserved.
     pub energy_change: Option<f64>,
-    /// How much too fast the body swings, as a part of its frequency; of several modes, the one that carries most of
-    /// the motion. `None` where nothing swings, or where the error is not steady enough to be told.
+    /// The relative frequency error, positive if the body swings too fast; of several modes, that of the one with the most
+    /// energy. `None` if nothing swings or the error is not steady.
     pub frequency_error: Option<f64>,
-    /// Whether nothing grows that should not, in the long run too; `None` where that is not known.
+    /// Whether nothing grows that does not grow in truth, in the long run too; `None` if that is not known.
     pub is_bounded: Option<bool>,
-    /// The energy drift of largest magnitude, in percent of the energy in motion; `None` where none is conserved.
+    /// The energy drift of largest magnitude, in percent of the energy that the motion exchanges; `None` if energy is not
+    /// conserved.
     pub energy_drift: Option<f64>,
-    /// What ended the run, if something did.
-    pub fate: Option<Fate>,
-    /// Why there is no truth, where there is none.
+    /// Why and when the run ended early, if it did.
+    pub failure: Option<RunFailure>,
+    /// Why there is no truth; `None` if there is one.
     pub no_truth: Option<NoTruth>,
-    /// Why the lane is not judged, where it is not.
+    /// Why the lane is not judged; `None` if it is.
     pub not_judged: Option<NotJudged>,
-    /// Evaluations of all bodies' accelerations over the stretch.
+    /// Evaluations of all bodies' accelerations over the horizon.
     pub evaluations: u64,
-    /// How far the body came, in simulated seconds.
+    /// The simulated seconds that the body got through.
     pub seconds: f64,
-    /// The stretch, in simulated seconds.
+    /// The horizon in simulated seconds.
     pub horizon_s: f64,
+    /// The time of the run, in seconds, at which the judged part begins: 0, or that of a person's last kick or placement.
+    /// The other times count from there; the displayed moments are times of the run.
+    pub starts_at_s: f64,
+    /// The verdicts on the bodies of the scene, in its order; empty in one of those.
+    pub of_bodies: Vec<Verdict>,
 }
 
 impl Verdict {
-    /// Whether the error stays within the tolerance over the stretch.
+    /// Whether the error stays within the tolerance over the horizon.
     pub fn is_accurate(&self) -> bool {
-        self.word <= Word::Accurate
+        self.outcome <= Outcome::Accurate
+    }
+
+    /// The same verdict on a part of a run that begins at this time of the run, in seconds.
+    pub(super) fn starting_at(self, starts_at_s: f64) -> Self {
+        let of_bodies = self.of_bodies.into_iter().map(|of_body| of_body.starting_at(starts_at_s));
+        Self { starts_at_s, of_bodies: of_bodies.collect(), ..self }
+    }
+
+    /// The time of the run, `seconds` after the judged part begins.
+    fn moment(&self, seconds: f64) -> String {
+        duration(self.starts_at_s + seconds)
+    }
+
+    /// When the run failed, `seconds` after the judged part begins: a time of the run.
+    fn failed(&self, seconds: f64) -> String {
+        let how = if self.starts_at_s == 0.0 { "after" } else { "at" };
+        format!("{how} {}", self.moment(seconds))
     }
 
     pub(super) fn is_worse_than(&self, other: &Self) -> bool {
-        (self.word, self.error) > (other.word, other.error)
+        (self.outcome, self.error) > (other.outcome, other.error)
     }
 
-    /// What becomes of the swing, by its time or else by its energy.
+    /// The change of the swing: its doubling or halving time, or else its energy change, or else its error.
     fn swing(&self, time: Option<f64>, factor: &str) -> String {
         match (time, self.energy_change) {
             (Some(time), _) => format!("{} {factor} in {}", self.what_grows(), duration(time)),
@@ -222,8 +156,8 @@ impl Verdict {
         if self.swings { "swing" } else { "deviation" }
     }
 
-    /// What the error is, when, and whether it is one of time: a phase alone makes no error of more than twice the
-    /// amplitude, and what dies away is off for other reasons too.
+    /// The error and its time, and whether it is a phase error: a phase error is at most twice the amplitude, and a motion
+    /// that dies away has other errors too.
     fn out_of_phase(&self) -> String {
         let (error, horizon) = (percent(self.error), duration(self.horizon_s));
         let bounded = if self.is_bounded == Some(true) { "stable, " } else { "" };
@@ -231,10 +165,11 @@ impl Verdict {
         if is_phase {
             return format!("{bounded}out of phase by {error} after {horizon}");
         }
-        let at = duration(self.error_at_s);
+        let at = self.moment(self.error_at_s);
         match self.last_error {
             last if last <= TOLERANCE => {
-                format!("{bounded}off by {error} at {at}, settled by {horizon}")
+                let settled = self.moment(self.horizon_s);
+                format!("{bounded}off by {error} at {at}, settled by {settled}")
             }
             last if last < 0.9 * self.error => {
                 format!("{bounded}off by {error} at {at}, by {} after {horizon}", percent(last))
@@ -243,12 +178,13 @@ impl Verdict {
         }
     }
 
-    /// What stands in brackets after the word and its number: how fast the body swings, and which it is.
+    /// The frequency error and the body's name in brackets, if there are any.
     fn in_brackets(&self) -> String {
-        let pitch = self.frequency_error.filter(|_| self.word == Word::OutOfPhase).map(|error| {
-            let how = if error > 0.0 { "fast" } else { "slow" };
-            format!("{} {how}", percent(error.abs()))
-        });
+        let pitch =
+            self.frequency_error.filter(|_| self.outcome == Outcome::OutOfPhase).map(|error| {
+                let how = if error > 0.0 { "fast" } else { "slow" };
+                format!("{} {how}", percent(error.abs()))
+            });
         let parts: Vec<String> = pitch.into_iter().chain(self.body_name.clone()).collect();
         if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
     }
@@ -257,38 +193,40 @@ impl Verdict {
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let horizon = duration(self.horizon_s);
-        match (self.word, &self.fate, &self.no_truth) {
-            (Word::Rounding, ..) => {
+        match (self.outcome, &self.failure, &self.no_truth) {
+            (Outcome::Rounding, ..) => {
                 let bound = libm::ceil(libm::log10(self.error.max(1e-15))) as i32;
                 write!(f, "within rounding: error below 10{} in {horizon}", superscript(bound))?;
             }
-            (Word::Accurate, ..) => {
+            (Outcome::Accurate, ..) => {
                 write!(f, "accurate: error {} in {horizon}", percent(self.error))?
             }
-            (Word::OutOfPhase, ..) => f.write_str(&self.out_of_phase())?,
-            (Word::GainsEnergy, ..) => {
+            (Outcome::OutOfPhase, ..) => f.write_str(&self.out_of_phase())?,
+            (Outcome::GainsEnergy, ..) => {
                 write!(f, "gains energy: {}", self.swing(self.doubles_in_s, "×2"))?;
             }
-            (Word::LosesEnergy, ..) => {
+            (Outcome::LosesEnergy, ..) => {
                 write!(f, "loses energy: {}", self.swing(self.halves_in_s, "½"))?;
             }
-            (Word::BlewUp, Some(fate), _) => write!(f, "blew up after {}", duration(fate.t))?,
-            (Word::GaveUp, Some(fate), _) => {
-                write!(f, "gave up after {}: {}", duration(fate.t), fate.failure)?;
+            (Outcome::BlewUp, Some(failure), _) => write!(f, "blew up {}", self.failed(failure.t))?,
+            (Outcome::GaveUp, Some(failure), _) => {
+                write!(f, "gave up {}: {}", self.failed(failure.t), failure.cause)?;
             }
-            (Word::NoTruth, _, Some(why)) => write!(f, "no truth: {why}")?,
+            (Outcome::NoTruth, _, Some(why)) => write!(f, "no truth: {why}")?,
             (word, ..) => f.write_str(word.text())?,
         }
-        if let Some(why) = self.not_judged.filter(|_| self.word == Word::NotJudged) {
+        if let Some(why) = self.not_judged.filter(|_| self.outcome == Outcome::NotJudged) {
             write!(f, ": {why}")?;
         }
         f.write_str(&self.in_brackets())?;
-        let is_told = matches!(self.word, Word::GainsEnergy | Word::BlewUp | Word::GaveUp);
+        let is_told =
+            matches!(self.outcome, Outcome::GainsEnergy | Outcome::BlewUp | Outcome::GaveUp);
         let later = self.doubles_in_s.filter(|_| !is_told);
         if let Some(seconds) = later {
             write!(f, "; {} ×2 in {}", self.what_grows(), duration(seconds))?;
         }
-        if let Some(seconds) = self.parasite_doubles_in_s.filter(|_| self.word <= Word::GainsEnergy)
+        if let Some(seconds) =
+            self.parasite_doubles_in_s.filter(|_| self.outcome <= Outcome::GainsEnergy)
         {
             write!(f, "; a faint mode ×2 in {}", duration(seconds))?;
         }
@@ -300,12 +238,12 @@ fn percent(part: f64) -> String {
     format!("{} %", significant(100.0 * part, 2))
 }
 
-/// A length of time to three digits, in the unit that suits it.
+/// A duration to three digits, in the unit that fits its length.
 pub fn duration(seconds: f64) -> String {
     const MINUTE: f64 = 60.0;
     const HOUR: f64 = 60.0 * MINUTE;
     const DAY: f64 = 24.0 * HOUR;
-    // Up to a thousand seconds as seconds, and two days as hours: they are told from others like them.
+    // Seconds up to a thousand and hours up to two days, so that similar durations have one unit.
     let (unit, name) = match seconds {
         s if s < 999.5 => (1.0, "s"),
         s if s < HOUR => (MINUTE, "min"),
@@ -344,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn verdicts_are_a_word_and_its_number() {
+    fn a_verdict_shows_as_its_outcome_and_the_number_behind_it() {
         for (scene, id, tick_hz, shown) in [
             ("spring", "explicit-euler", 60, "gains energy: swing ×2 in 2.12 s"),
             (
@@ -364,10 +302,22 @@ mod tests {
             ("spring", "rk4", 10, "loses energy: swing ½ in 171 s"),
             ("stiff", "semi-implicit-euler", 49, "blew up after 4.14 s"),
             ("ship", "explicit-euler", 2, "stable, off by 1.9 % at 10 s, settled by 60 s"),
-            // The worst body speaks.
+            // The verdict is that of the worst body.
             ("harbour", "explicit-euler", 60, "gains energy: swing ×2 in 2.12 s (free spring)"),
         ] {
             assert_eq!(verdict(scene, id, tick_hz).to_string(), shown, "{scene} {id} {tick_hz} Hz");
+        }
+    }
+
+    #[test]
+    fn moments_are_times_of_the_run_and_lengths_count_from_where_it_is_judged() {
+        for (scene, id, tick_hz, shown) in [
+            ("spring", "explicit-euler", 60, "gains energy: swing ×2 in 2.12 s"),
+            ("stiff", "semi-implicit-euler", 49, "blew up at 104 s"),
+            ("ship", "explicit-euler", 2, "stable, off by 1.9 % at 110 s, settled by 160 s"),
+        ] {
+            let verdict = verdict(scene, id, tick_hz).starting_at(100.0);
+            assert_eq!(verdict.to_string(), shown, "{scene} {id} {tick_hz} Hz");
         }
     }
 }

@@ -1,19 +1,26 @@
-//! What a person's commands do: each becomes an [action](Action) on the run, or a change of how it is looked at.
+//! The effects of commands: each becomes an [action](Action) on the run, or changes the display.
 
-use super::{Kept, Lab};
+use super::{BeforeDiscard, Lab};
 use crate::lab::action::Action;
 use crate::lab::command::{Command, SPEED_LADDER, TICK_LADDER};
-use crate::lab::display::Ask;
+use crate::lab::display::DriverRequest;
 use crate::lab::equal_cost::equal_cost;
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::race::{Acted, Mode};
-use crate::lab::session::Timeline;
+use crate::lab::metrics::METRICS;
+use crate::lab::race::{ActionResult, Mode};
 use crate::lab::viewer::Dialog;
 use crate::sim::bodies::Acts;
 
 impl Lab {
-    /// Does what a person asked for. What is not the lab's business comes back.
-    pub fn apply(&mut self, command: Command) -> Option<Ask> {
+    /// Carries out a command. Returns what the driver has to do for it, if anything.
+    pub fn apply(&mut self, command: Command) -> Option<DriverRequest> {
+        self.viewer.hints.see(&command, self.start.scene.hint.as_deref());
+        let request = self.carry_out(command);
+        self.look_at_goal();
+        request
+    }
+
+    fn carry_out(&mut self, command: Command) -> Option<DriverRequest> {
         let race = self.race();
         match command {
             Command::Act(action) => self.act(action),
@@ -52,6 +59,7 @@ impl Lab {
             Command::Kick(times) => self.act(Action::Kick(times)),
             Command::ToggleRace => match race.mode() {
                 Mode::Solo => {
+                    self.keep_run();
                     self.start.mode = Mode::Race;
                     self.restart();
                 }
@@ -59,7 +67,7 @@ impl Lab {
                     let lane = self.selected().lane_number;
                     self.start.mode = Mode::Solo;
                     self.act(Action::Solo { lane });
-                    // It may be of a lane that is no more.
+                    // It may be about a lane that has left the race.
                     self.viewer.notice = None;
                 }
             },
@@ -73,14 +81,34 @@ impl Lab {
                 self.seek(tick);
             }
             Command::Undo => self.undo(),
-            Command::Restart => self.restart(),
+            Command::Restart => {
+                if self.restart_keeping_run() {
+                    self.set_notice("restarted: Ctrl Z brings back the run");
+                }
+            }
             Command::Scene(place) => self.open(place),
             Command::NextScene => self.open_beside(true),
             Command::PreviousScene => self.open_beside(false),
             Command::ToggleGhost => self.viewer.display.ghost = !self.viewer.display.ghost,
             Command::NextInterpolation => self.viewer.next_interpolation(),
+            Command::ToggleArrangement => self.viewer.toggle_arrangement(),
+            Command::ToggleTheme => {
+                self.viewer.theme_is_chosen = true;
+                self.viewer.display.theme = self.viewer.display.theme.other();
+            }
             Command::Instrument(instrument) => self.viewer.display.instrument = instrument,
-            Command::NextInstrument => self.viewer.next_instrument(),
+            Command::MapParameter(parameter) => {
+                let display = &mut self.viewer.display;
+                display.mapped_parameter = Some((display.body, parameter));
+            }
+            Command::NextInstrument => self.viewer.instrument_beside(1),
+            Command::PreviousInstrument => self.viewer.instrument_beside(-1),
+            Command::Metric(place) => self.viewer.display.metric = place.min(METRICS.len() - 1),
+            Command::ToggleEnlarged => {
+                self.viewer.display.enlarged = !self.viewer.display.enlarged;
+            }
+            Command::CopyInstrument => return Some(DriverRequest::CopyInstrument),
+            Command::ExportInstrument => return Some(DriverRequest::ExportInstrument),
             Command::Body(body) => {
                 self.viewer.display.body = body.min(self.scene().bodies.len() - 1);
             }
@@ -91,31 +119,35 @@ impl Lab {
             Command::Seconds(seconds) => self.start.set_seconds(seconds),
             Command::Hold(held) => self.viewer.held = Some(held),
             Command::LetGo => self.viewer.held = None,
-            Command::Lens { body, lens } => self.viewer.display.set_lens(body, lens),
+            Command::ZoomPan { body, zoom_pan } => self.viewer.display.set_zoom_pan(body, zoom_pan),
             Command::Escape if self.viewer.held.is_some() => self.viewer.held = None,
-            Command::AskForPath => self.viewer.dialog = Some(Dialog::Path),
-            Command::TypePath(path) => self.viewer.typed_path = path,
-            Command::CompletePath => return Some(Ask::CompletePath),
-            Command::OpenTypedPath => {
-                self.viewer.dialog = None;
-                return Some(Ask::OpenTypedPath);
-            }
+            Command::AskForPath => self.viewer.dialog = Some(Dialog::Path { refused: None }),
+            Command::TypePath(path) => self.type_path(path),
+            Command::CompletePath => return Some(DriverRequest::CompletePath),
+            Command::OpenTypedPath => return Some(DriverRequest::OpenTypedPath),
             Command::CloseDialog => self.viewer.dialog = None,
             Command::Escape if self.viewer.dialog.is_some() => self.viewer.dialog = None,
             Command::Escape if self.viewer.display.help => self.viewer.display.help = false,
+            Command::ToggleGuide => self.toggle_guide(),
+            Command::GoToStop(place) => self.go_to_stop(place),
+            Command::Predict(choice) => {
+                self.viewer.tour.iter_mut().for_each(|tour| tour.predict(choice));
+            }
+            Command::Escape if self.viewer.tour.is_some() => self.toggle_guide(),
+            Command::Escape if self.viewer.display.enlarged => self.viewer.display.enlarged = false,
             Command::Escape if self.viewer.display.inspector => {
                 self.viewer.display.inspector = false;
             }
-            Command::Escape => return Some(Ask::Quit),
-            Command::Screenshot => return Some(Ask::Screenshot),
-            Command::Record => return Some(Ask::Record),
+            Command::Escape => return Some(DriverRequest::Quit),
+            Command::Screenshot => return Some(DriverRequest::Screenshot),
+            Command::Record => return Some(DriverRequest::Record),
             Command::ToggleEqualCost => self.toggle_equal_cost(),
-            Command::ToggleFullScreen => return Some(Ask::ToggleFullScreen),
+            Command::ToggleFullScreen => return Some(DriverRequest::ToggleFullScreen),
         }
         None
     }
 
-    /// Does something to the run, by hand.
+    /// Performs an action on the run by hand.
     fn act(&mut self, action: Action) {
         if let Action::Set { body, parameter, value } = action
             && self.scene().bodies[body].kind.parameters[parameter].acts == Acts::AtStart
@@ -123,13 +155,13 @@ impl Lab {
             return self.start.set(body, parameter, value);
         }
         let was_past = self.timeline.is_in_past();
-        let before = was_past.then(|| Kept {
+        let before = was_past.then(|| BeforeDiscard {
             start: self.start.clone(),
             before_equal_cost: self.viewer.before_equal_cost.clone(),
         });
         let (acted, told) =
             self.watched(|timeline, notices| timeline.act_seen(action.clone(), notices));
-        let Acted::Done { released } = acted else { return self.tell(told) };
+        let ActionResult::Done { released } = acted else { return self.tell(told) };
         self.before_discard = before.or(self.before_discard.take());
         self.start.keep(&action, self.timeline.session().race());
         if let Action::Lane { .. } = action {
@@ -137,7 +169,7 @@ impl Lab {
         }
         let discarded = was_past.then(|| {
             let tick = self.race().tick();
-            format!("another future begins at tick {tick}: Ctrl Z brings the old one back")
+            format!("a new future begins at tick {tick}: Ctrl Z restores the old one")
         });
         let released = released.map(|control| {
             format!("the {} is yours: the script leaves it alone until a restart", control.name())
@@ -146,8 +178,8 @@ impl Lab {
         self.tell((!told.is_empty()).then(|| told.join("; ")));
     }
 
-    /// The number of the lane that is picked at this place of the list: in solo, of the only one.
-    fn picked(&self, entry: usize) -> Option<usize> {
+    /// The number of the lane that a pick of this place of the list selects: in solo mode that of the only lane.
+    pub(super) fn picked(&self, entry: usize) -> Option<usize> {
         let lanes = self.race().entrants();
         let picked = match self.mode() {
             Mode::Solo => lanes.first().filter(|_| entry < self.entries().len()),
@@ -166,18 +198,19 @@ impl Lab {
         }
     }
 
-    /// Gives a method of the list other substeps, its lane in a race too, and picks it. A race that it is not in begins
-    /// again with it.
+    /// Gives a method of the list new substeps and a new tolerance, switches its lane in a race to them, and picks it. A race
+    /// without the method restarts with it.
     fn fly(&mut self, spec: LaneSpec) {
         let listed = self.entries().iter().position(|known| known.method == spec.method);
         let entry = listed.expect("every method is on the list");
         let flown = self.race().entrants().iter().find(|entrant| entrant.entry == entry);
         match (self.mode(), flown) {
             (Mode::Race, None) => {
+                self.keep_run();
                 self.start.list[entry] = spec;
                 self.start.entry = entry;
                 self.restart();
-                self.set_notice(format!("the race began again, with {} in it", spec.method.name));
+                self.set_notice(format!("the race restarted with {} in it", spec.method.name));
             }
             (Mode::Race, Some(flown)) => {
                 let lane = flown.lane_number;
@@ -191,7 +224,7 @@ impl Lab {
         }
     }
 
-    /// The next place on the list that can be picked, round, `step` forward or back.
+    /// Picks the next place on the list that can be picked, cyclically, in the direction of `step`.
     fn pick_beside(&mut self, step: isize) {
         let (active, count) = (self.active() as isize, self.entries().len() as isize);
         let mut around = (1..=count).map(|i| (active + i * step).rem_euclid(count) as usize);
@@ -200,10 +233,10 @@ impl Lab {
         }
     }
 
-    /// Gives each lane as many substeps as the dearest can pay for, or takes that back.
+    /// Switches equal cost on or off.
     fn toggle_equal_cost(&mut self) {
         if self.mode() == Mode::Solo {
-            return self.set_notice("lanes have equal cost in a race: C");
+            return self.set_notice("equal cost needs a race: press C");
         }
         let lanes: Vec<(usize, LaneSpec)> = self
             .race()
@@ -219,14 +252,14 @@ impl Lab {
                     LaneSpec { substeps: before.map_or(1, |known| known.substeps), ..*spec }
                 };
                 let wanted: Vec<LaneSpec> = specs.iter().map(of).collect();
-                (wanted, None, "lanes have the substeps of before")
+                (wanted, None, "equal cost is off: lanes have their own substeps again")
             }
             None => {
                 let equal = equal_cost(self.scene(), &specs, self.race().tick_hz());
                 (
                     equal,
                     Some(specs),
-                    "each lane has as many substeps as cost what the dearest costs",
+                    "equal cost is on: each lane has as many substeps as match the dearest lane's cost",
                 )
             }
         };
@@ -237,7 +270,7 @@ impl Lab {
         self.set_notice(notice);
     }
 
-    /// Pauses, and goes so many ticks on or back.
+    /// Pauses and goes `ticks` ticks forward, or back if negative.
     fn step_by(&mut self, ticks: i64) {
         self.running = false;
         let tick = self.race().tick().saturating_add_signed(ticks);
@@ -256,29 +289,20 @@ impl Lab {
 
     fn undo(&mut self) {
         if self.timeline.undo() {
-            if let Some(Kept { start, before_equal_cost }) = self.before_discard.take() {
+            if let Some(BeforeDiscard { start, before_equal_cost }) = self.before_discard.take() {
                 self.start = start;
                 self.viewer.before_equal_cost = before_equal_cost;
             }
             self.timeline.show_present();
             self.clock.set_tick_hz(self.race().tick_hz());
             self.set_notice("the old future is back");
+        } else {
+            self.bring_back_run();
         }
-    }
-
-    pub(super) fn restart(&mut self) {
-        self.timeline = Timeline::new(self.start.session());
-        self.before_discard = None;
-        self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
-        self.viewer.notice = None;
-        self.viewer.held = None;
-        self.clock.set_tick_hz(self.start.tick_hz);
-        self.clock.restart();
-        self.dropped = 0;
     }
 }
 
-/// `part` and so many tenths more, in whole tenths, so that ten steps up and down end where they began.
+/// `part` plus `more` tenths, rounded to tenths, so that ten steps up and ten down end at the initial value.
 fn tenths(part: f64, more: f64) -> f64 {
     ((part * 10.0).round() + more) / 10.0
 }

@@ -1,4 +1,4 @@
-//! How time passes in a lab: frames come in, and ticks that are due are made.
+//! Time in a lab: for each frame it makes the ticks that are due.
 
 use super::Lab;
 use crate::lab::action::Action;
@@ -8,17 +8,17 @@ use crate::lab::race::{Mode, Observer};
 use crate::lab::session::Timeline;
 
 impl Lab {
-    /// Takes in a frame of `frame_ns` nanoseconds of real time, and steps what is due.
+    /// Adds a frame of `frame_ns` nanoseconds of real time, and makes the ticks that are due.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
         self.advance_seen(frame_ns, &mut ())
     }
 
-    /// As [`Lab::advance`], and stops at tick `last`.
+    /// Like [`Lab::advance`], but stops at tick `last`.
     pub fn advance_to(&mut self, last: u64, frame_ns: i64) -> Due {
         self.advance_by(frame_ns, last, &mut ())
     }
 
-    /// As [`Lab::advance`], before the eyes of an observer.
+    /// Like [`Lab::advance`], with an observer.
     pub fn advance_seen(&mut self, frame_ns: i64, observer: &mut impl Observer) -> Due {
         self.advance_by(frame_ns, u64::MAX, observer)
     }
@@ -27,7 +27,7 @@ impl Lab {
         if !self.time_runs() {
             return Due::default();
         }
-        // A tick rate that the script sets at this tick is that of the time from here on.
+        // A tick rate that the script sets at this tick applies to the time from here on.
         let ((), told) =
             self.watched(|timeline, notices| timeline.catch_up(&mut (notices, &mut *observer)));
         self.tell(told);
@@ -45,12 +45,12 @@ impl Lab {
         due
     }
 
-    /// Does what there is to be done at this tick, and steps to the next.
+    /// Performs the actions at this tick, and steps to the next.
     pub fn tick(&mut self) {
         self.tick_seen(&mut ());
     }
 
-    /// As [`Lab::tick`], before the eyes of an observer.
+    /// Like [`Lab::tick`], with an observer.
     pub fn tick_seen(&mut self, observer: &mut impl Observer) {
         let ((), told) =
             self.watched(|timeline, notices| timeline.tick_seen(&mut (notices, observer)));
@@ -63,7 +63,7 @@ impl Lab {
         }
     }
 
-    /// Has something done to the run, and returns with it what there is to tell of it.
+    /// Applies `change` to the run, and returns its result with a notice about it, if there is one.
     pub(super) fn watched<T>(
         &mut self,
         change: impl FnOnce(&mut Timeline, &mut Notices<'_>) -> T,
@@ -77,8 +77,7 @@ impl Lab {
         (changed, told)
     }
 
-    /// Selects the lane of the method that the script has named since `done` rows of the journal were done: in a race
-    /// that is all that it does.
+    /// In a race, selects the lane of the method that the script named after the first `done` rows of the journal.
     fn select_as_scripted(&mut self, done: usize) {
         let race = self.timeline.session().race();
         if race.mode() == Mode::Solo || race.done() <= done {

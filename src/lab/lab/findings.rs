@@ -1,52 +1,85 @@
-//! What a lab wants to know of its methods, and what it learns.
+//! The verdicts and the advice of a lab: what it requests, and how it takes the findings in.
 
 use std::sync::Arc;
 
 use super::Lab;
-use crate::lab::action::Action;
-use crate::lab::analysis::{Findings, Question, Thinker};
-use crate::lab::display::Instrument;
-use crate::lab::journal::{JournalRow, Source};
+use crate::lab::analysis::{AnalysisRequest, AnalysisWorker, Findings, MapRequest};
+use crate::lab::instrument::Instrument;
+use crate::lab::intervention::Interventions;
+use crate::sim::bodies::{Acts, Range};
 
 impl Lab {
-    /// What there is to be found out: a verdict on each method of the list at the present tick rate and
-    /// throttle, and advice while it is shown. For a [`Thinker`].
-    pub fn question(&self) -> Question {
-        Question {
+    /// The verdicts and the advice that the lab wants at present, for a [`AnalysisWorker`]: a verdict on each method of the
+    /// list at the present tick rate, and advice while it is shown.
+    ///
+    /// They are of the scene from its start, with what a person has set since and the parameters that the script has set
+    /// by the present tick. If a person has placed or kicked a body, they are of the run from there: from the true state
+    /// right after it.
+    pub fn analysis_request(&self) -> AnalysisRequest {
+        AnalysisRequest {
             scene: Arc::clone(&self.start.scene),
+            by_hand: Interventions::in_race(self.race()),
             entries: self.entries().to_vec(),
             tick_hz: self.clock.tick_hz(),
-            throttle: self.throttle_by_hand(),
             advice: self.display().instrument == Instrument::Advice,
+            map: (self.display().instrument == Instrument::StabilityMap)
+                .then(|| self.map_request())
+                .flatten(),
         }
     }
 
-    /// The throttle that a person has set since the start, or else that of the start: what the script sets is in the
-    /// scene that is judged.
-    fn throttle_by_hand(&self) -> f64 {
-        let race = self.race();
-        let done = race.journal().rows()[..race.done()].iter();
-        let set = done.filter(|row| row.source == Source::Hand).rev();
-        let throttle = |row: &JournalRow| match row.action {
-            Action::Throttle(part) => Some(part.clamp(-1.0, 1.0)),
-            _ => None,
-        };
-        set.into_iter().find_map(throttle).unwrap_or(1.0)
+    /// The map of the scene's lanes, and of the selected method, at the present values.
+    fn map_request(&self) -> Option<MapRequest> {
+        let (body, parameter) = (self.display().body, self.mapped_parameter()?);
+        let lanes = 0..self.scene().lanes.len();
+        let other = Some(self.active()).filter(|active| !lanes.contains(active));
+        let specs = lanes.chain(other).map(|entry| (entry, self.entries()[entry])).collect();
+        let opened = &self.scene_as_opened().bodies[body];
+        let values = self.race().values(body);
+        Some(MapRequest::new((body, parameter), opened, values, self.clock.tick_hz(), specs))
     }
 
-    /// Takes in what was found out, unless it is of another scene.
-    pub fn learn(&mut self, findings: Findings) {
-        if findings.question.is_of(&self.start.scene) {
+    /// The parameters of the displayed body that a stability map can show, by their places: those that act at once and
+    /// are not negative, so that they have a logarithmic scale.
+    pub fn mappable_parameters(&self) -> impl Iterator<Item = usize> {
+        let parameters = self.scene().bodies[self.display().body].kind.parameters.iter();
+        let is_mappable = |(_, parameter): &(usize, &crate::lab::Parameter)| {
+            let is_signless = matches!(parameter.range, Range::Positive(_) | Range::NonNegative(_));
+            parameter.acts == Acts::AtOnce && is_signless
+        };
+        parameters.enumerate().filter(is_mappable).map(|(place, _)| place)
+    }
+
+    /// The parameter that the stability map shows: the one chosen for the displayed body, or else the one that makes it
+    /// stiffer. `None` if the body has none.
+    pub fn mapped_parameter(&self) -> Option<usize> {
+        let body = self.display().body;
+        let chosen = self.display().mapped_parameter.filter(|(of, _)| *of == body);
+        let kind = self.scene().bodies[body].kind;
+        let leading = kind.parameter(kind.leading).map(|(place, _)| place);
+        let mut places = self.mappable_parameters();
+        let wanted = chosen.map(|(_, place)| place).or(leading);
+        let first = places.next()?;
+        Some(
+            wanted
+                .filter(|&wanted| wanted == first || places.any(|at| at == wanted))
+                .unwrap_or(first),
+        )
+    }
+
+    /// Keeps findings, unless they are about another scene.
+    pub fn accept_findings(&mut self, findings: Findings) {
+        if findings.request.is_of(&self.start.scene) {
             self.viewer.findings = Some(findings);
         }
     }
 
-    /// Finds out here and now whatever there is to be.
-    pub fn think(&mut self) {
-        let question = self.question();
+    /// Computes all requested verdicts and advice now.
+    pub fn analyse(&mut self) {
+        let request = self.analysis_request();
         let known = &self.viewer.findings;
-        if !known.as_ref().is_some_and(|known| known.answer(&question)) {
-            self.learn(Thinker::new(question).finish());
+        if !known.as_ref().is_some_and(|known| known.answer(&request)) {
+            self.accept_findings(AnalysisWorker::new(request).finish());
         }
     }
 }

@@ -1,52 +1,62 @@
-//! Opening scenes: those that are built in, and those of files, which can change while they run.
+//! Opening built-in scenes and scene files, which may change while they run.
 
 use std::path::Path;
 
 use super::Lab;
+use super::restarting::is_by_hand;
 use crate::lab::display::Display;
+use crate::lab::race::Mode;
 use crate::lab::scene::Scene;
-use crate::lab::shelf::Shelf;
+use crate::lab::scene_list::SceneList;
 use crate::lab::viewer::Dialog;
 
-/// How far a scene that changed is run again to where it was, in ticks: an hour at 60 Hz, which takes a second or so.
+/// The most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
 const LONGEST_RERUN: u64 = 60 * 3600;
 
 impl Lab {
-    /// The scenes that can be gone through.
-    pub fn shelf(&self) -> &Shelf {
-        &self.shelf
+    /// The scenes that can be opened.
+    pub fn scene_list(&self) -> &SceneList {
+        &self.scene_list
     }
 
-    /// The name under which the open scene is listed.
+    /// The open scene's name on the list.
     pub fn scene_name(&self) -> String {
-        let listed = self.shelf.open().and_then(|place| self.shelf.names().nth(place));
+        let listed = self.scene_list.open().and_then(|place| self.scene_list.names().nth(place));
         listed.unwrap_or_else(|| self.scene().name.clone())
     }
 
-    /// Puts the open scene on the list as that of the file at `path`.
+    /// Lists the open scene as the file at `path`.
     pub fn list_as_file(&mut self, path: &Path) {
-        let place = self.shelf.put(path, self.scene().clone());
-        self.shelf.set_open(place);
+        let place = self.scene_list.put(path, self.scene().clone());
+        self.scene_list.set_open(place);
     }
 
     /// Opens a scene that was read from the file at `path`, and puts it on the list.
     pub fn open_file(&mut self, path: &Path, scene: Scene) {
-        let place = self.shelf.put(path, scene);
+        let place = self.scene_list.put(path, scene);
         self.open(place);
     }
 
-    /// Takes in that a file on the list was changed. If it is open, the new scene is run to the tick that the old one
-    /// had reached, if it has the same lanes and bodies of the same kinds; else it begins.
+    /// Replaces the scene of a changed file. If it is open and equal, the run goes on; if it has the same lanes and kinds of
+    /// bodies, the new scene runs to the present tick; otherwise it starts at tick 0. What a person has done in the run is
+    /// told to be discarded.
     pub fn reload_file(&mut self, path: &Path, scene: Scene) {
-        let is_open = self.shelf.open_path() == Some(path);
+        let is_open = self.scene_list.open_path() == Some(path);
         let tick = self.race().tick();
-        let before = self.shelf.open().map(|place| self.shelf.scene(place));
+        let before = self.scene_list.open().map(|place| self.scene_list.scene(place));
+        let is_equal = before.as_ref().is_some_and(|before| before.to_toml() == scene.to_toml());
         let keeps = before.is_some_and(|before| is_alike(&before, &scene));
-        let place = self.shelf.put(path, scene);
+        let place = self.scene_list.put(path, scene);
         if !is_open {
             return;
         }
         let name = self.scene_name();
+        if is_equal {
+            self.viewer.dialog.take_if(|dialog| matches!(dialog, Dialog::Mistakes { .. }));
+            return self
+                .set_notice(format!("{name} changed in nothing that runs: the run goes on"));
+        }
+        let is_by_hand = is_by_hand(&self.timeline);
         if !keeps {
             self.open(place);
             self.set_notice(format!("{name} changed: it begins again, with other lanes or bodies"));
@@ -57,28 +67,66 @@ impl Lab {
             self.run_again(place, tick);
             self.set_notice(format!("{name} changed: run again to tick {tick}"));
         }
-    }
-
-    /// Tells what is wrong with a file. The run that is open goes on.
-    pub fn show_mistakes(&mut self, path: &Path, report: String) {
-        self.shelf.mark(path, report.clone());
-        self.viewer.dialog = Some(Dialog::Mistakes { file: path.display().to_string(), report });
-    }
-
-    /// Takes in that a file on the list was changed and is no scene any more. The run goes on.
-    pub fn reload_failed(&mut self, path: &Path, report: String) {
-        if self.shelf.open_path() == Some(path) {
-            self.show_mistakes(path, report);
-        } else {
-            self.shelf.mark(path, report);
+        if is_by_hand && let Some(notice) = &mut self.viewer.notice {
+            *notice += ", without what was done by hand";
+            // Another scene has another lab.
+            *notice += if keeps { ": Ctrl Z brings back the old run" } else { "" };
         }
     }
 
-    /// Runs the scene on this place, which is open and has changed, to a tick: under the methods, the rate and the looks
-    /// that a person has chosen, and without what was done by hand.
+    /// Shows why the scene at the typed path, which is that of the file at `path`, cannot be opened. The field for the
+    /// path stays open.
+    pub fn refuse_typed_path(&mut self, path: &Path, report: String) {
+        self.scene_list.mark(path, report.clone());
+        self.viewer.dialog = Some(Dialog::Path { refused: Some(report) });
+    }
+
+    pub(super) fn type_path(&mut self, path: String) {
+        if let Some(Dialog::Path { refused }) = &mut self.viewer.dialog
+            && path != self.viewer.typed_path
+        {
+            *refused = None;
+        }
+        self.viewer.typed_path = path;
+    }
+
+    /// Tells that a file on the list is not there any more. The run goes on.
+    pub fn file_is_gone(&mut self, path: &Path) {
+        if let Some(name) = self.scene_list.name_of(path) {
+            self.set_notice(format!(
+                "{name} is gone: the run goes on, and the file is read again when it is back"
+            ));
+        }
+    }
+
+    /// Tells that a file on the list is there again, with the same text.
+    pub fn file_is_back(&mut self, path: &Path) {
+        if let Some(name) = self.scene_list.name_of(path) {
+            self.set_notice(format!("{name} is back, unchanged"));
+        }
+    }
+
+    /// Shows the errors of a file. The open run goes on.
+    pub fn show_mistakes(&mut self, path: &Path, report: String) {
+        self.scene_list.mark(path, report.clone());
+        self.viewer.dialog = Some(Dialog::Mistakes { file: path.display().to_string(), report });
+    }
+
+    /// Records the errors of a changed file, and shows them if it is open. The run goes on.
+    pub fn reload_failed(&mut self, path: &Path, report: String) {
+        if self.scene_list.open_path() == Some(path) {
+            self.show_mistakes(path, report);
+        } else {
+            self.scene_list.mark(path, report);
+        }
+    }
+
+    /// Runs the open scene at this place, which has changed, to a tick: with the methods, the rate and the display that a
+    /// person has chosen, and without actions by hand.
     fn run_again(&mut self, place: usize, tick: u64) {
-        let scene = self.shelf.scene(place);
-        // What nobody has chosen is as the scene has it.
+        let scene = self.scene_list.scene(place);
+        self.keep_run();
+        // Without a choice the scene's rate applies.
         if self.start.tick_hz == self.start.scene.tick_hz {
             self.start.tick_hz = scene.tick_hz;
         }
@@ -92,32 +140,37 @@ impl Lab {
     }
 
     pub(super) fn open_beside(&mut self, forward: bool) {
-        let count = self.shelf.count();
+        let count = self.scene_list.count();
         let offset = if forward { 1 } else { count - 1 };
-        self.open(self.shelf.open().map_or(0, |here| (here + offset) % count));
+        self.open(self.scene_list.open().map_or(0, |here| (here + offset) % count));
     }
 
-    /// Opens the scene on this place of the list, round, under its own opening method; mode and look stay as they are.
+    /// Opens the scene at this place of the list, modulo its length, under the scene's opening method. The look stays,
+    /// and so does the mode, unless the scene opens as a race.
     pub(super) fn open(&mut self, place: usize) {
-        let place = place % self.shelf.count();
-        let mut lab = Lab::new(self.shelf.scene(place));
-        lab.shelf = self.shelf.clone();
-        lab.shelf.set_open(place);
-        lab.start.mode = self.mode();
-        lab.viewer.display = Display { body: 0, lenses: Vec::new(), ..self.display().clone() };
+        let place = place % self.scene_list.count();
+        let mut lab = Lab::new(self.scene_list.scene(place));
+        lab.scene_list = self.scene_list.clone();
+        lab.scene_list.set_open(place);
+        lab.start.mode = if lab.scene().opens_as_race { Mode::Race } else { self.mode() };
+        lab.viewer.display = Display { body: 0, zoom_pans: Vec::new(), ..self.display().clone() };
         lab.viewer.typed_path = self.viewer.typed_path.clone();
         lab.viewer.pace = self.viewer.pace;
+        lab.viewer.theme_is_chosen = self.viewer.theme_is_chosen;
+        lab.viewer.hints = self.viewer.hints.of_next_scene();
+        lab.viewer.tour = self.viewer.tour.take();
+        lab.viewer.left_at = self.viewer.left_at;
         lab.clock.set_speed_percent(self.clock.speed_percent());
         lab.running = self.running;
         lab.restart();
-        let file = lab.shelf.file(place);
+        let file = lab.scene_list.file(place);
         let mistakes = file.and_then(|file| Some((file.name(), file.mistakes.clone()?)));
         lab.viewer.dialog = mistakes.map(|(file, report)| Dialog::Mistakes { file, report });
         *self = lab;
     }
 }
 
-/// Whether a run of one scene can be gone on with in the other.
+/// Whether a run of one scene can continue in the other: they have equal lanes and bodies of the same kinds.
 fn is_alike(a: &Scene, b: &Scene) -> bool {
     let kinds = |scene: &Scene| -> Vec<_> {
         let bodies = scene.bodies.iter();

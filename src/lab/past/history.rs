@@ -1,23 +1,23 @@
-//! The recent past of one body in one lane: what trails and plots are drawn from. Bounded, and
-//! allocated once.
+//! The recent past of one body in one lane, from which trails and plots are drawn. Bounded, and allocated once.
 //!
-//! A switch of method leaves a mark: the run of samples under the old method ends, and that under the new
-//! one begins, with a sample at the moment of the switch.
+//! At a switch of method the run of samples under the old method ends, and the run under the new one begins, both with a
+//! sample at the moment of the switch.
 
 use std::collections::vec_deque;
 use std::{iter, option};
 
 use glam::DVec2;
 
-use super::log::Log;
-use super::swept::Swept;
+use super::energies::Energies;
+use super::swept_range::SweptRange;
+use super::windowed_log::WindowedLog;
 use crate::lab::lane::LaneBody;
 use crate::lab::metrics::METRICS;
 
-/// Samples shown: enough for every tick of 30 s at 60 Hz, and more than a plot has pixels.
+/// The most samples shown: every tick of 30 s at 60 Hz, and more than a plot has pixels.
 pub const CAPACITY: usize = 2048;
 
-/// Samples kept beside, to go back to at once: as many as 17 s at 60 Hz.
+/// Further samples that are kept for going back without a repetition: 17 s at 60 Hz.
 const SPARE: usize = 1024;
 
 /// One moment of a body.
@@ -27,26 +27,30 @@ pub struct Sample {
     pub t: f64,
     /// The first coordinate.
     pub q: f64,
-    /// What the first coordinate passed over since the sample before.
-    pub swept: Swept,
+    /// The range of the first coordinate since the sample before.
+    pub swept: SweptRange,
     /// Its velocity.
     pub v: f64,
     /// Where the body was, in metres.
     pub at: DVec2,
+    /// Its energies, if it conserves energy.
+    pub energies: Option<Energies>,
     /// The lane's place on the list of methods at that moment: a trail changes colour at a switch.
     pub entry: usize,
     /// One value for each of [`METRICS`]; NaN where it has no meaning.
     pub metrics: [f64; METRICS.len()],
-    /// Whether the body was put here: no path leads from the samples before.
+    /// Whether the body was put here, so that no path leads from the sample before.
     pub jumped: bool,
 }
 
-/// To the bit.
+/// Compares bits.
 impl PartialEq for Sample {
     fn eq(&self, other: &Self) -> bool {
         let numbers = |s: &Self| [s.t, s.q, s.v, s.at.x, s.at.y].map(f64::to_bits);
         let metrics = |s: &Self| s.metrics.map(f64::to_bits);
+        let energies = |s: &Self| s.energies.map(Energies::to_bits);
         numbers(self) == numbers(other)
+            && energies(self) == energies(other)
             && metrics(self) == metrics(other)
             && (self.entry, self.jumped, self.swept) == (other.entry, other.jumped, other.swept)
     }
@@ -58,36 +62,37 @@ impl Sample {
         let (q, v) = (body.stepper.q()[0], body.stepper.v()[0]);
         let metrics =
             std::array::from_fn(|i| (METRICS[i].measure)(body, truth).unwrap_or(f64::NAN));
-        let (swept, at) = (Swept::at(q), body.stepper.place());
-        Self { t, q, swept, v, at, entry, metrics, jumped: false }
+        let (swept, at) = (SweptRange::at(q), body.stepper.place());
+        let energies = Energies::of(&*body.stepper);
+        Self { t, q, swept, v, at, energies, entry, metrics, jumped: false }
     }
 }
 
 /// The recent past of one body in one lane, oldest first.
 #[derive(Debug)]
 pub struct History {
-    samples: Log<Sample>,
-    /// The present, where it is no sample that stays.
+    samples: WindowedLog<Sample>,
+    /// The present, if no sample is due at it.
     present: Option<Sample>,
-    /// What the first coordinate passed over since the newest sample.
-    since: Swept,
+    /// The range of the first coordinate since the newest sample.
+    since: SweptRange,
 }
 
-/// Where a [`History`] was at some tick.
+/// The end of a [`History`] at some tick.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HistoryMark {
-    /// How much was recorded since the start.
+    /// The number of samples since the start.
     samples: u64,
-    since: Swept,
+    since: SweptRange,
 }
 
 /// Samples of a [`History`], oldest first.
 pub type Samples<'h> = iter::Chain<vec_deque::Iter<'h, Sample>, option::Iter<'h, Sample>>;
 
-/// Samples that follow each other under one method.
+/// Consecutive samples under one method.
 #[derive(Clone, Debug)]
 pub struct Run<'h> {
-    /// The method's place on the list: what gives this stretch of the past its colour.
+    /// The method's place on the list, which gives the run its colour.
     pub entry: usize,
     /// The samples, oldest first; at least one.
     pub samples: iter::Take<Samples<'h>>,
@@ -96,10 +101,14 @@ pub struct Run<'h> {
 impl History {
     /// An empty history with room for [`CAPACITY`] samples.
     pub fn new() -> Self {
-        Self { samples: Log::new(CAPACITY, SPARE), present: None, since: Swept::NOTHING }
+        Self {
+            samples: WindowedLog::new(CAPACITY, SPARE),
+            present: None,
+            since: SweptRange::NOTHING,
+        }
     }
 
-    /// The samples, oldest first. The newest is the present, but for a body that has halted.
+    /// The samples, oldest first. The newest is the present, unless the body has halted.
     pub fn samples(&self) -> Samples<'_> {
         self.after(0)
     }
@@ -110,8 +119,8 @@ impl History {
         self.samples.range(skipped.min(self.samples.len())).chain(present)
     }
 
-    /// The samples cut where the method was switched, oldest run first. A run ends at the moment of the switch
-    /// and the next one begins there; if it begins later, the body had halted and was taken up again.
+    /// The samples split at switches of method, oldest run first. A run ends at the switch and the next one begins there; if
+    /// it begins later, the body had halted and then resumed.
     pub fn runs(&self) -> impl Iterator<Item = Run<'_>> {
         let mut from = 0;
         iter::from_fn(move || {
@@ -123,32 +132,31 @@ impl History {
         })
     }
 
-    /// The time (s) since which the samples are one motion: a body that was put where it did not go has no path
-    /// from the samples before to those after.
+    /// The time (s) of the last jump of the body, since when the samples are one continuous motion.
     pub fn unbroken_since(&self) -> f64 {
         let jump = self.samples().rev().find(|sample| sample.jumped);
         jump.map_or(f64::NEG_INFINITY, |sample| sample.t)
     }
 
-    /// Takes in a tick at which no sample is due.
+    /// Adds a tick at which no sample is due.
     pub(super) fn pass(&mut self, q: f64) {
         self.since = self.since.and(q);
     }
 
-    /// Adds the present, and forgets the oldest sample if full.
+    /// Adds the present, and drops the oldest sample if the history is full.
     pub(super) fn record(&mut self, now: Sample) {
         let swept = self.since.and(now.q);
         self.begin_at(Sample { swept, ..now });
     }
 
-    /// Adds a sample to which nothing leads from the one before.
+    /// Adds a sample that no path connects with the one before.
     fn begin_at(&mut self, now: Sample) {
         self.present = None;
-        self.since = Swept::NOTHING;
+        self.since = SweptRange::NOTHING;
         self.samples.push(now);
     }
 
-    /// Shows the present until the next sample comes.
+    /// Adds the present until the next sample.
     pub(super) fn record_passing(&mut self, now: Sample) {
         let is_there = self.samples.newest().is_some_and(|newest| newest.t == now.t);
         let swept = self.since.and(now.q);
@@ -163,8 +171,7 @@ impl History {
         }
     }
 
-    /// Begins the run of the method that `now` is under. One that began at this very moment leaves no trace:
-    /// nothing was flown under it.
+    /// Begins a run under the method of `now`. It replaces a run that began at the same moment, which has no motion.
     pub(super) fn begin_run(&mut self, mut now: Sample) {
         let mut newest_first = self.samples.shown().rev();
         let newest = newest_first.next().filter(|newest| newest.t == now.t);
@@ -225,9 +232,10 @@ mod tests {
         Sample {
             t,
             q: 0.0,
-            swept: Swept::at(0.0),
+            swept: SweptRange::at(0.0),
             v: 0.0,
             at: DVec2::ZERO,
+            energies: None,
             entry,
             metrics: [0.0; METRICS.len()],
             jumped: false,

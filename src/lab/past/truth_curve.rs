@@ -1,28 +1,35 @@
-//! The true motion of one body between ticks: its recent past on a fine time grid that no tick rate
-//! changes, and its state at any moment of the last tick. Bounded, and allocated once.
+//! The true motion of one body between ticks: its recent past on a fine time grid that is independent of the tick rate,
+//! and its state at any moment of the last tick. Bounded, and allocated once.
 
 use std::collections::vec_deque;
 use std::mem::discriminant;
 
 use glam::DVec2;
 
-use super::log::Log;
-use super::swept::Swept;
+use super::energies::Energies;
+use super::swept_range::SweptRange;
+use super::windowed_log::WindowedLog;
 use crate::lab::lane::LaneBody;
 use crate::lab::race::LastTick;
 use crate::sim::bodies::Input;
 use crate::sim::{Solver, Stepper};
 
-/// Grid points in the stretch of time that is kept: several for each pixel of a plot.
+/// Grid points in the duration shown: several for each pixel of a plot.
 const GRID: usize = 4096;
 
-/// Room for samples off the grid: those at which an input bent the curve.
+/// The capacity for samples off the grid, which are made at inputs.
 const OFF_GRID: usize = 512;
 
-/// The kinds of input that wait for a tick to begin: more would make the list grow.
+/// The capacity for pending inputs: one of each kind.
 const KINDS_OF_INPUT: usize = 3;
 
-/// Grid points kept beside, to go back to at once.
+/// The most points that are put between two samples.
+const MOST_BETWEEN: f64 = 1e4;
+
+/// The relative difference up to which a flow leads to a sample.
+const FOLLOWS: f64 = 1e-9;
+
+/// Further grid points that are kept for going back without a repetition.
 const SPARE: usize = GRID / 2;
 
 /// One moment of the true motion.
@@ -32,18 +39,21 @@ pub struct TruthSample {
     pub t: f64,
     /// The first coordinate.
     pub q: f64,
-    /// What the first coordinate passed over since the sample before, as far as ticks show it.
-    pub swept: Swept,
+    /// The range of the first coordinate at ticks since the sample before.
+    pub swept: SweptRange,
     /// Its velocity.
     pub v: f64,
     /// Where the body was, in metres.
     pub at: DVec2,
+    /// Its energies, if it conserves energy.
+    pub energies: Option<Energies>,
 }
 
 impl TruthSample {
     fn of(t: f64, stepper: &dyn Stepper) -> Self {
         let q = stepper.q()[0];
-        Self { t, q, swept: Swept::at(q), v: stepper.v()[0], at: stepper.place() }
+        let energies = Energies::of(stepper);
+        Self { t, q, swept: SweptRange::at(q), v: stepper.v()[0], at: stepper.place(), energies }
     }
 
     fn is_finite(&self) -> bool {
@@ -53,48 +63,84 @@ impl TruthSample {
 
 /// The true motion of one body as a curve.
 pub struct TruthCurve {
-    /// A copy of the true body under what pushed it in the last tick, which is moved about within that tick. The
-    /// truth itself is only read, so that no bit of it depends on what is drawn.
+    /// A copy of the true body under the inputs of the last tick, which is set to moments within that tick. The truth itself
+    /// is only read, so that no bit of it depends on what is drawn.
     between: Box<dyn Stepper>,
-    /// What was done to the truth since the last tick: `between` takes it when that tick is over.
+    /// The inputs since the last tick, which `between` receives at the next.
     pending: Vec<Input>,
-    /// Whether the truth was changed otherwise: a new copy is to be made.
+    /// Whether the truth has changed otherwise, so that a new copy is needed.
     is_stale: bool,
     spacing_s: f64,
-    samples: Log<TruthSample>,
-    /// What ticks showed of the first coordinate since the newest sample.
-    since: Swept,
+    samples: WindowedLog<TruthSample>,
+    /// The range of the first coordinate at ticks since the newest sample.
+    since: SweptRange,
 }
 
-/// Where a [`TruthCurve`] was at some tick.
+/// The end of a [`TruthCurve`] at some tick.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TruthMark {
-    /// How much was recorded since the start.
+    /// The number of samples since the start.
     samples: u64,
-    since: Swept,
+    since: SweptRange,
 }
 
 impl TruthCurve {
-    /// The curve of `truth` at its start, with room for the last `span_s` seconds.
+    /// The curve of `truth` at its start, with a capacity of `span_s` seconds.
     pub(super) fn new(truth: &LaneBody, span_s: f64) -> Self {
         let mut curve = Self {
             between: truth.stepper.with_solver(Solver::Truth, 0.0),
             pending: Vec::with_capacity(KINDS_OF_INPUT),
             is_stale: false,
             spacing_s: span_s / GRID as f64,
-            samples: Log::new(GRID + OFF_GRID, SPARE),
-            since: Swept::NOTHING,
+            samples: WindowedLog::new(GRID + OFF_GRID, SPARE),
+            since: SweptRange::NOTHING,
         };
         curve.keep(0.0, truth);
         curve
     }
 
-    /// The recent past, oldest first: at every point of the grid, and on both sides of an input.
+    /// The samples, oldest first: at every point of the grid, and on both sides of an input.
     pub fn samples(&self) -> vec_deque::Iter<'_, TruthSample> {
         self.samples.shown()
     }
 
-    /// The coordinates and velocities at the part `part`, 0 to 1, of the last tick of `truth`.
+    /// The present of the true body `truth`, at time `t` (s): the curve's end, wherever the grid is.
+    pub fn present(truth: &LaneBody, t: f64) -> TruthSample {
+        TruthSample::of(t, &*truth.stepper)
+    }
+
+    /// The first coordinate over time through consecutive `samples` of the true body `truth`, at least every `spacing_s`
+    /// seconds. A body of one coordinate is set to a sample and advanced from there, if that leads to the next sample;
+    /// what an input or an edit has changed since, and a body of several coordinates, is a cubic through both samples.
+    pub fn finer(truth: &LaneBody, samples: &[TruthSample], spacing_s: f64) -> Vec<[f64; 2]> {
+        let mut copy = truth.stepper.with_solver(Solver::Truth, 0.0);
+        let mut flow = |from: &TruthSample, t: f64| {
+            if truth.coordinates.len() > 1 {
+                return None;
+            }
+            copy.set(from.t, &[from.q], &[from.v]);
+            copy.advance(from.t, t - from.t, 1).ok()?;
+            Some([copy.q()[0], copy.v()[0]])
+        };
+        let mut points = Vec::new();
+        for pair in samples.windows(2) {
+            let [from, to] = [&pair[0], &pair[1]];
+            let wide = to.t - from.t;
+            let near = |a: f64, b: f64| (a - b).abs() <= FOLLOWS * a.abs().max(b.abs());
+            let follows = flow(from, to.t).is_some_and(|[q, v]| near(q, to.q) && near(v, to.v));
+            let count = libm::ceil(wide / spacing_s).clamp(1.0, MOST_BETWEEN) as u32;
+            for i in 0..count {
+                let part = f64::from(i) / f64::from(count);
+                let t = from.t + part * wide;
+                let q = if follows { flow(from, t).map(|[q, _]| q) } else { None };
+                points.push([t, q.unwrap_or_else(|| cubic(from, to, part))]);
+            }
+        }
+        points.extend(samples.last().map(|last| [last.t, last.q]));
+        points
+    }
+
+    /// The coordinates and velocities of `truth` within its last tick; `part` goes from 0 at its start to 1 at its end.
     pub(super) fn state(
         &self,
         truth: &LaneBody,
@@ -111,14 +157,13 @@ impl TruthCurve {
         (copy.q().to_vec(), copy.v().to_vec())
     }
 
-    /// Takes in the tick that `truth` has just made. Never allocates, but after the truth was
-    /// [changed](Self::change).
+    /// Adds the tick that `truth` has just made. Allocates only after the truth was [changed](Self::change).
     pub(super) fn extend(&mut self, truth: &LaneBody, LastTick { from_s, to_s }: LastTick) {
         self.refresh(truth, from_s);
         for input in self.pending.drain(..) {
             self.between.input(from_s, input);
         }
-        // A tick longer than all that is kept has as many points as are kept.
+        // A tick longer than the curve has as many points as the curve.
         let spacing_s = self.spacing_s.max((to_s - from_s) / GRID as f64);
         let first = libm::floor(from_s / spacing_s);
         let count = (libm::floor(to_s / spacing_s) - first) as u64;
@@ -136,7 +181,7 @@ impl TruthCurve {
             t = next;
             self.push(TruthSample::of(t, &*self.between));
         }
-        // Where the grid is finer than the ticks, its own points are all there is to see.
+        // Where the grid is finer than the ticks, the grid points alone are drawn.
         if t < to_s && to_s - from_s < spacing_s {
             self.since = self.since.and(truth.stepper.q()[0]);
         }
@@ -174,7 +219,7 @@ impl TruthCurve {
         let follows = newest.is_none_or(|last| is_another(last) && last.t <= sample.t);
         if follows && sample.is_finite() {
             let swept = self.since.and(sample.q);
-            self.since = Swept::NOTHING;
+            self.since = SweptRange::NOTHING;
             self.samples.push(TruthSample { swept, ..sample });
         }
     }
@@ -200,5 +245,43 @@ impl TruthCurve {
     /// Forgets the future: another one begins.
     pub(super) fn forget_future(&mut self) {
         self.samples.forget_future();
+    }
+}
+
+/// The first coordinate at a part of the way between two samples, on the cubic through both with their velocities.
+fn cubic(from: &TruthSample, to: &TruthSample, part: f64) -> f64 {
+    let (wide, rest) = (to.t - from.t, 1.0 - part);
+    let [out, into] = [from.v, to.v].map(|v| wide * v);
+    rest * rest * ((1.0 + 2.0 * part) * from.q + part * out)
+        + part * part * ((3.0 - 2.0 * part) * to.q - rest * into)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{Race, Scene};
+
+    #[test]
+    fn points_between_samples_are_on_the_exact_motion() {
+        let race = Race::of(&Scene::built_in("spring").unwrap());
+        let truth = &race.truth().bodies()[0];
+        let tau = std::f64::consts::TAU;
+        let sample = |t: f64| TruthSample {
+            q: libm::cos(tau * t),
+            v: -tau * libm::sin(tau * t),
+            ..TruthCurve::present(truth, t)
+        };
+        let samples: Vec<TruthSample> = (0..5).map(|i| sample(0.1 * f64::from(i))).collect();
+        let points = TruthCurve::finer(truth, &samples, 0.001);
+        assert!(points.len() >= 400 && points.windows(2).all(|pair| pair[1][0] > pair[0][0]));
+        for [t, q] in &points {
+            assert!((q - libm::cos(tau * t)).abs() < 1e-11, "{q} at {t} s");
+        }
+        // A jump that the flow does not make: the ends stay, and nothing else is known.
+        let put = TruthSample { q: 3.0, ..samples[1] };
+        let points = TruthCurve::finer(truth, &[samples[0], put], 0.01);
+        assert_eq!((points[0][1], points[points.len() - 1][1]), (1.0, 3.0));
+        let middle = cubic(&samples[0], &samples[1], 0.5);
+        assert!((middle - libm::cos(tau * 0.05)).abs() < 1e-3, "{middle}");
     }
 }

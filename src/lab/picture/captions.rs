@@ -2,12 +2,13 @@
 
 use glam::DVec2;
 
-use super::palette::{self, style};
-use super::sketch::{Camera, line};
+use super::moment::Moment;
+use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
 use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::number::{round, significant};
+use crate::lab::palette::{Palette, faded};
 use crate::lab::race::Entrant;
-use crate::lab::{Halt, Lab, LaneBody};
+use crate::lab::{Halt, LaneBody, Severity, Verdict};
 
 /// The least height of a cell, in points, that marks along its bottom do not crowd.
 const ROOM_FOR_BAR: f32 = 64.0;
@@ -17,28 +18,51 @@ const BAR_MARGIN: f32 = 130.0;
 const ROOM_FOR_MARKS: f32 = 330.0;
 /// The least size of a cell, in points, that its caption does not crowd.
 const ROOM_FOR_CAPTION: [f32; 2] = [70.0, 30.0];
+/// The least height of a cell, in points, that a chip does not crowd.
+const ROOM_FOR_CHIP: f32 = 90.0;
+/// The height of a chip, in points.
+const CHIP: f32 = 27.0;
+/// At least the mean width of a letter of a body's name, of a verdict, and of other words at a cell's head, in points.
+const NAME_LETTER: f32 = 8.5;
+const VERDICT_LETTER: f32 = 7.6;
+const LETTER: f32 = 6.7;
 /// From this width of a cell on, in points, numbers fit beside its caption.
 const ROOM_FOR_NUMBERS: f32 = 330.0;
-/// From this width of a cell on, in points, the method's name fits beside the body's.
-const ROOM_FOR_METHOD: f32 = 450.0;
+/// How far captions keep from the left edge of a wide cell, in points.
+const WIDE_INSET: f32 = 62.0;
+
+/// Text on the water.
+fn text(
+    palette: &Palette,
+    at: [f32; 2],
+    align: Align,
+    size: f32,
+    colour: Rgba,
+    text: String,
+) -> Label {
+    Label { at, align, size, colour, is_strong: false, halo: faded(palette.sea[1], 0.85), text }
+}
 
 /// Names a lane at the left of its row, with a bar where it is selected.
-pub(super) fn lane(picture: &mut Picture, rect: Rect, lab: &Lab, entrant: &Entrant) {
+pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, entrant: &Entrant) {
+    let lab = moment.lab;
     let method = lab.entries()[entrant.entry].method;
-    let (colour, _) = style(method);
+    let (colour, _) = moment.style(entrant.entry);
     let (left, right) = (rect.min[0] + 8.0, rect.max[0]);
     let middle = (rect.min[1] + rect.max[1]) / 2.0;
     if entrant.lane_number == lab.selected().lane_number {
         let (top, bottom) = (rect.min[1] + 4.0, rect.max[1] - 4.0);
         let x = rect.min[0] + 2.5;
         let bar = line([x, top], [x, bottom.max(top)], 3.0, colour, rect);
-        picture.strokes.push(bar);
+        picture.shapes.push(bar);
     }
-    let mut write = |y, colour, text: String| {
-        picture.labels.push(Label { at: [left, y], align: Align::Left, size: 12.0, colour, text });
+    let mut write = |y, colour, words: String| {
+        let at = [left, y];
+        picture.labels.push(text(moment.palette, at, Align::Left, 12.0, colour, words));
     };
     let number = entrant.entry + 1;
-    if right - rect.min[0] < ROOM_FOR_CAPTION[0] {
+    let name = format!("{number} {}", method.name);
+    if right - left < (LETTER * name.chars().count() as f32).max(ROOM_FOR_CAPTION[0]) {
         write(middle, colour, format!("{number}"));
         return;
     }
@@ -48,64 +72,118 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, lab: &Lab, entrant: &Entra
         _ => None,
     };
     let y = if alone.is_some() { middle - 8.0 } else { middle };
-    write(y, colour, format!("{number} {}", method.name));
+    write(y, colour, name);
     if let Some(halt) = alone {
-        write(middle + 8.0, palette::ALARM, format!("halted, tick {}", halt.tick));
+        write(middle + 8.0, moment.palette.bad, format!("halted, tick {}", halt.tick));
     }
 }
 
-/// Says at the foot of a cell what no longer goes on in it: the body, where the lane's name does not say so, and
+/// Says at the foot of a cell what no longer goes on in it: bodies, where the lane's name does not say so, and
 /// the truth.
-pub(super) fn halts(picture: &mut Picture, rect: Rect, body: Option<&Halt>, truth: &LaneBody) {
+pub(super) fn halts<'h>(
+    picture: &mut Picture,
+    rect: Rect,
+    bodies: impl Iterator<Item = (Option<usize>, &'h Halt)>,
+    truth: &LaneBody,
+    palette: &Palette,
+) {
     let width = rect.max[0] - rect.min[0];
     if width < ROOM_FOR_CAPTION[0] {
         return;
     }
-    let of_body = body.map(|halt| format!("halted, tick {}", halt.tick));
+    let of_bodies = bodies.map(|(lane, halt)| match lane {
+        None => format!("halted, tick {}", halt.tick),
+        Some(lane) => format!("{lane} halted, tick {}", halt.tick),
+    });
+    let of_bodies: Vec<String> = of_bodies.collect();
+    let of_bodies = (!of_bodies.is_empty()).then(|| of_bodies.join(" · "));
     let of_truth = truth
         .halted()
         .map(|halt| format!("no {} solution from tick {} on", truth.kind.truth.id(), halt.tick));
-    for (text, y) in of_body.into_iter().chain(of_truth).zip([12.0, 27.0]) {
-        let at = [rect.min[0] + 9.0, rect.max[1] - y];
-        let (colour, size) = (palette::ALARM, 11.0);
-        picture.labels.push(Label { at, align: Align::Left, size, colour, text });
+    for (words, y) in of_bodies.into_iter().chain(of_truth).zip([12.0, 27.0]) {
+        let at = [rect.min[0] + 9.0 + inset(rect), rect.max[1] - y];
+        picture.labels.push(text(palette, at, Align::Left, 11.0, palette.bad, words));
     }
 }
 
-/// Names a body at the head of its column.
-pub(super) fn column(picture: &mut Picture, rect: Rect, lab: &Lab, index: usize) {
+/// How far captions keep from the left edge of a wide cell: there the quay may be.
+fn inset(rect: Rect) -> f32 {
+    let is_wide = rect.max[0] - rect.min[0] > ROOM_FOR_NUMBERS;
+    if is_wide { (WIDE_INSET - rect.min[0]).max(6.0) } else { 0.0 }
+}
+
+/// Names a body at the head of its cell.
+pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, index: usize) {
     if let Some(at) = caption_place(rect) {
-        let (colour, text) = (palette::TEXT, lab.scene().bodies[index].name.clone());
-        picture.labels.push(Label { at, align: Align::Left, size: 11.0, colour, text });
+        let name = capitalised(&moment.lab.scene().bodies[index].name);
+        let size = if inset(rect) > 0.0 { 14.0 } else { 11.5 };
+        let label = text(moment.palette, at, Align::Left, size, moment.palette.text, name);
+        picture.labels.push(Label { is_strong: true, ..label });
     }
 }
 
-/// Names the body and the method that it flies under, and says where it is at the present tick.
-pub(super) fn solo(picture: &mut Picture, rect: Rect, lab: &Lab, index: usize, flown: &LaneBody) {
-    let Some(at) = caption_place(rect) else { return };
-    let body = &lab.scene().bodies[index];
-    let method = lab.entries()[lab.active()].method;
-    let width = rect.max[0] - rect.min[0];
-    let text = if width > ROOM_FOR_METHOD {
-        format!("{}: {}", body.name, method.name)
-    } else {
-        body.name.clone()
-    };
-    let (colour, size) = (style(method).0, 12.0);
-    picture.labels.push(Label { at, align: Align::Left, size, colour, text });
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
 
-    let at = [rect.max[0] - 9.0, at[1]];
-    if let Some(halt) = flown.halted() {
-        let (colour, text) = (palette::ALARM, format!("halted at tick {}", halt.tick));
-        picture.labels.push(Label { at, align: Align::Right, size, colour, text });
-    } else if width > ROOM_FOR_NUMBERS {
-        let held = lab.viewer().held().filter(|held| held.body == index);
+/// What stands at the head of a cell beside the name of a body that is alone there: where it is at the present tick, and
+/// what is to be said of its method, where that does not do what it should. Where there is not room for both, the
+/// latter.
+pub(super) fn head(
+    picture: &mut Picture,
+    rect: Rect,
+    moment: &Moment<'_>,
+    index: usize,
+    entrant: &Entrant,
+) {
+    let Some([x, y]) = caption_place(rect) else { return };
+    let body = &entrant.lane.bodies()[index];
+    let name = moment.lab.scene().bodies[index].name.chars().count();
+    let left = x + NAME_LETTER * name as f32 + 14.0;
+    let right = left + LETTER * widest_state(body) as f32 + 14.0;
+    let chip =
+        Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= ROOM_FOR_CHIP);
+    let room_for = |from: f32| rect.max[0] - 10.0 - from;
+    let beside_both = chip.as_ref().and_then(|chip| chip.within(room_for(right)));
+    let alone = chip.as_ref().and_then(|chip| chip.within(room_for(left)));
+    if beside_both.is_some() || alone.is_none() {
+        state(picture, [left, y + 0.5], rect, moment, index, body);
+    }
+    if let Some(chip) = beside_both.or(alone) {
+        chip.draw(picture, rect, moment.palette);
+    }
+}
+
+/// The most letters of what is said of where a body is.
+fn widest_state(body: &LaneBody) -> usize {
+    const NUMBER: usize = 10;
+    let coordinate = &body.coordinates[0];
+    let words = [coordinate.name, coordinate.unit, coordinate.velocity, coordinate.unit];
+    words.map(str::len).iter().sum::<usize>() + 2 * NUMBER + 9
+}
+
+/// Says where a body is at the present tick.
+fn state(
+    picture: &mut Picture,
+    at: [f32; 2],
+    rect: Rect,
+    moment: &Moment<'_>,
+    index: usize,
+    body: &LaneBody,
+) {
+    let palette = moment.palette;
+    if let Some(halt) = body.halted() {
+        let words = format!("halted at tick {}", halt.tick);
+        picture.labels.push(text(palette, at, Align::Left, 12.5, palette.bad, words));
+    } else if rect.max[0] - rect.min[0] > ROOM_FOR_NUMBERS {
+        let held = moment.lab.viewer().held().filter(|held| held.body == index);
         let (q, v) = match held {
             Some(held) => (&*held.q, &*held.v),
-            None => (flown.stepper.q(), flown.stepper.v()),
+            None => (body.stepper.q(), body.stepper.v()),
         };
-        let coordinate = &flown.coordinates[0];
-        let text = format!(
+        let coordinate = &body.coordinates[0];
+        let words = format!(
             "{} = {} {unit}   {} = {} {unit}/s",
             coordinate.name,
             significant(q[0], 4),
@@ -113,80 +191,136 @@ pub(super) fn solo(picture: &mut Picture, rect: Rect, lab: &Lab, index: usize, f
             significant(v[0], 4),
             unit = coordinate.unit,
         );
-        let colour = palette::TEXT;
-        picture.labels.push(Label { at, align: Align::Right, size, colour, text });
+        picture.labels.push(text(palette, at, Align::Left, 12.5, palette.dim, words));
     }
 }
 
 fn caption_place(rect: Rect) -> Option<[f32; 2]> {
     let fits = (0..2).all(|axis| rect.max[axis] - rect.min[axis] >= ROOM_FOR_CAPTION[axis]);
-    fits.then_some([rect.min[0] + 9.0, rect.min[1] + 11.0])
+    fits.then_some([rect.min[0] + 9.0 + inset(rect), rect.min[1] + 13.0])
 }
 
-/// An arrow at the edge of the cell for a body drawn `at` a place beyond it, with its place at the present tick, `told`,
-/// as a number.
-pub(super) fn arrow(picture: &mut Picture, camera: &Camera, at: DVec2, told: DVec2, colour: Rgba) {
-    let Rect { min, max } = camera.rect;
-    let place = camera.points(at);
-    // Left and right before up and down: a ship's lane is low.
-    let Some(axis) = (0..2).find(|&i| place[i] < min[i] || place[i] > max[i]) else { return };
-    let other = 1 - axis;
-    let (edge, inwards) = if place[axis] < min[axis] { (min, 1.0) } else { (max, -1.0) };
-    let along = place[other].clamp(min[other], max[other].max(min[other]));
-    let point = |inset: f32| {
-        let mut point = [along; 2];
-        point[axis] = edge[axis] + inwards * inset;
-        point
-    };
-    let mut arrow = line(point(17.0), point(5.0), 1.0, colour, camera.rect);
-    arrow.radii = [7.0, 0.8];
-    picture.strokes.push(arrow);
-    let (at_text, align) = match (axis, inwards > 0.0) {
-        (0, true) => ([point(28.0)[0], along - 12.0], Align::Left),
-        (0, false) => ([point(28.0)[0], along - 12.0], Align::Right),
-        _ => ([along + 12.0, point(12.0)[1]], Align::Left),
-    };
-    let text = format!("{} m", significant(told[axis], 3));
-    picture.labels.push(Label { at: at_text, align, size: 12.0, colour, text });
+/// What is to be said of the method on the stage, on one line.
+struct Chip {
+    sign: &'static str,
+    /// The colour of the sign, and of the rim.
+    colours: [Rgba; 2],
+    verdict: String,
+    /// How far the body has swung, and how far it should.
+    swing: Option<String>,
 }
 
-/// Distance marks along a ship's course.
-pub(super) fn distance_marks(picture: &mut Picture, camera: &Camera) {
+impl Chip {
+    /// The chip of a body whose method does not do what it should.
+    fn of(moment: &Moment<'_>, index: usize, entrant: &Entrant) -> Option<Self> {
+        let verdict = moment.lab.viewer().verdict(entrant.entry)?;
+        let palette = moment.palette;
+        let (sign, tone) = match verdict.outcome.severity() {
+            Severity::Bad => ("▲", palette.bad),
+            Severity::Doubtful => ("◆", palette.warn),
+            Severity::Fine | Severity::Unknown => return None,
+        };
+        if verdict.body != index {
+            return None;
+        }
+        let furthest = |samples: &mut dyn Iterator<Item = f64>| {
+            samples.map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max)
+        };
+        let samples = moment.history(entrant, index).samples();
+        let lane = furthest(&mut samples.map(|sample| sample.q));
+        let samples = moment.lab.past().truth_curves()[index].samples();
+        let exact = furthest(&mut samples.map(|sample| sample.q));
+        let unit = moment.lab.race().truth().bodies()[index].coordinates[0].unit;
+        let how_far = |reach: f64| format!("{} {unit}", significant(reach, 2));
+        Some(Self {
+            sign,
+            colours: [tone, moment.style(entrant.entry).0],
+            verdict: Verdict { body_name: None, ..verdict.clone() }.to_string(),
+            swing: verdict.swings.then(|| format!("{}, exact {}", how_far(lane), how_far(exact))),
+        })
+    }
+
+    fn width(&self) -> f32 {
+        let [verdict, swing] = [Some(&self.verdict), self.swing.as_ref()]
+            .map(|words| words.map_or(0, |words| words.chars().count()) as f32);
+        34.0 + VERDICT_LETTER * verdict + if swing > 0.0 { 10.0 + LETTER * swing } else { 0.0 }
+    }
+
+    /// As much of the chip as this width takes.
+    fn within(&self, width: f32) -> Option<Self> {
+        let shorter = |swing| Self {
+            sign: self.sign,
+            colours: self.colours,
+            verdict: self.verdict.clone(),
+            swing,
+        };
+        [shorter(self.swing.clone()), shorter(None)].into_iter().find(|chip| chip.width() <= width)
+    }
+
+    fn draw(self, picture: &mut Picture, rect: Rect, palette: &Palette) {
+        let (right, top) = (rect.max[0] - 10.0, rect.min[1] + 4.0);
+        let left = right - self.width();
+        let shape = rounded([left, top], [right, top + CHIP], 7.0);
+        picture.shapes.push(fill(&shape, faded(palette.panel, 0.94), rect));
+        picture.shapes.push(ring(&shape, 1.6, self.colours[1], SOLID, rect));
+        let middle = top + CHIP / 2.0;
+        let mut write = |x, align, size, colour, is_strong, words: String| {
+            let label = text(palette, [x, middle], align, size, colour, words);
+            picture.labels.push(Label { is_strong, halo: [0; 4], ..label });
+        };
+        write(left + 11.0, Align::Left, 12.5, self.colours[0], true, self.sign.into());
+        write(left + 28.0, Align::Left, 13.5, palette.text, true, self.verdict);
+        if let Some(swing) = self.swing {
+            write(right - 11.0, Align::Right, 12.5, palette.dim, false, swing);
+        }
+    }
+}
+
+/// The line of a ship's course with distance marks.
+pub(super) fn course(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     let Rect { min, max } = camera.rect;
+    let y = camera.points(DVec2::new(0.0, camera.centre_m.y))[1];
+    let chart = faded(palette.chart, 0.45);
+    picture.shapes.push(path([[min[0], y], [max[0], y]], 1.0, chart, [8.0, 5.0], camera.rect));
     if max[0] - min[0] < ROOM_FOR_MARKS || max[1] - min[1] < ROOM_FOR_BAR {
         return;
     }
     let step_m = camera.round_length_m(96.0);
     let (left, right) = camera.span_m();
     let first = libm::ceil(left / step_m);
-    let bottom = max[1] - 1.0;
     for i in 0..=((right - left) / step_m) as usize {
         let x_m = (first + i as f64) * step_m;
         let [x, _] = camera.points(DVec2::new(x_m, 0.0));
-        if x > min[0] + 20.0 && x < max[0] - BAR_MARGIN {
-            let colour = palette::MARK;
-            picture.strokes.push(line([x, bottom], [x, bottom - 5.0], 1.0, colour, camera.rect));
-            let at = [x, bottom - 12.0];
-            let text = format!("{} m", round(x_m, 6));
-            picture.labels.push(Label { at, align: Align::Centre, size: 10.0, colour, text });
+        if x > min[0] + 30.0 && x < max[0] - 30.0 {
+            let colour = palette.dim;
+            picture.shapes.push(line([x, y - 5.0], [x, y + 5.0], 1.5, colour, camera.rect));
+            let words = format!("{} m", round(x_m, 6));
+            picture.labels.push(text(
+                palette,
+                [x, (y + 32.0).min(max[1] - 9.0)],
+                Align::Centre,
+                12.0,
+                colour,
+                words,
+            ));
         }
     }
 }
 
 /// How long a round number of metres is.
-pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera) {
+pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palette) {
     let Rect { min, max } = camera.rect;
     if max[0] - min[0] < BAR_MARGIN || max[1] - min[1] < ROOM_FOR_BAR {
         return;
     }
     let length_m = camera.round_length_m(40.0);
-    let (right, y, colour) = (max[0] - 10.0, max[1] - 8.0, palette::MARK);
+    let (right, y, colour) = (max[0] - 10.0, max[1] - 8.0, palette.dim);
     let left = right - camera.length(length_m);
-    picture.strokes.push(line([left, y], [right, y], 1.5, colour, camera.rect));
+    picture.shapes.push(line([left, y], [right, y], 1.5, colour, camera.rect));
     for x in [left, right] {
-        picture.strokes.push(line([x, y - 3.0], [x, y + 3.0], 1.5, colour, camera.rect));
+        picture.shapes.push(line([x, y - 3.0], [x, y + 3.0], 1.5, colour, camera.rect));
     }
     let at = [(left + right) / 2.0, y - 10.0];
-    let text = format!("{} m", round(length_m, 4));
-    picture.labels.push(Label { at, align: Align::Centre, size: 10.0, colour, text });
+    let words = format!("{} m", round(length_m, 4));
+    picture.labels.push(text(palette, at, Align::Centre, 11.0, colour, words));
 }

@@ -2,339 +2,388 @@
 
 use glam::DVec2;
 
+use super::body::Seen;
+use super::flags::{Flag, Lost, badges, flags};
+use super::framed::{View, quay_width};
 use super::ghost::Ghost;
-use super::layout::{grid, mosaic};
-use super::palette::{self, faded, style};
-use super::sketch::{Camera, Paint, demote, line, strokes};
-use super::{Cell, Framing, Look, Picture, Rect, Sea, Whose, captions};
+use super::layout::{bands, grid, mosaic};
+use super::mass::Coat;
+use super::moment::Moment;
+use super::sketch::{Camera, line, path};
+use super::{Cell, Framing, Look, Picture, Rect, Rgba, Whose, captions, chart};
+use crate::lab::palette::faded;
 use crate::lab::race::Entrant;
-use crate::lab::{Interpolation, Lab, LaneBody, Mode};
+use crate::lab::{Arrangement, Lab, Mode, ZoomPan};
 
 /// The head of a cell in which its lane is named, and may have halted, in points.
 const CAPTION: f32 = 32.0;
-/// The head of a cell that a body with a fixed camera leaves to the caption, in points.
-const HEAD: f64 = 20.0;
 /// The column of lane names at the left of a race, in points: on a stage wide enough for names, and on
 /// others, where only the number fits.
-const GUTTERS: (f32, f32) = (120.0, 18.0);
+const GUTTERS: (f32, f32) = (124.0, 18.0);
 /// From this width of the stage on, in points, lane names fit.
 const ROOM_FOR_NAMES: f32 = 520.0;
+/// From this height of the stage on, in points, a ruler fits above it.
+const ROOM_FOR_RULER: f32 = 260.0;
 /// How much is seen of a body where it was taken from, while it is held.
 const LEFT_BEHIND: f32 = 0.35;
-/// The part of a scene's duration that a chart recorder's paper holds: three swings of the harbour's
-/// 1 Hz spring, and no more of a faster one than can be told apart.
-const PAPER: f64 = 0.15;
-/// The most that the paper holds, in seconds.
-const LONGEST_PAPER_S: f64 = 3.0;
+/// Widths of trails in points: of the lane in front, of others, and of the truth.
+const TRAILS: (f32, f32, f32) = (2.4, 1.3, 1.5);
+/// How much of its colour fills a lane behind, of few.
+const FILL: f32 = 0.2;
+/// How much of its colour has a lane behind: its body, and its trail.
+const BEHIND: (f32, f32) = (0.9, 0.45);
+/// How far a trail may be drawn from the true one, in points: less than anybody sees.
+const TOLERANCE: f64 = 0.15;
+/// Chart recorders whose scales differ by less than this factor have one scale.
+const ALIKE: f64 = 5.0;
 
 /// The picture of the lab on a stage of `size` points.
 pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
+    let moment = Moment::of(lab);
     let mut picture = Picture::default();
-    let race = lab.race();
-    let (alpha, h) = (lab.clock().alpha(), race.last_step_s());
-    let t = race.t() - (1.0 - alpha) * h;
-    let shown = Shown {
-        lab,
-        alpha,
-        h,
-        t,
-        lanes_t: match lab.display().interpolation {
-            Interpolation::Raw => race.t(),
-            Interpolation::Linear | Interpolation::Hermite => t,
-        },
-        paper_s: (PAPER * lab.scene().seconds).min(LONGEST_PAPER_S),
-    };
+    let stage = Rect { min: [0.0; 2], max: size };
+    chart::sea(&mut picture, stage, moment.palette);
     let bodies = lab.scene().bodies.len();
-    match lab.mode() {
-        Mode::Solo => {
-            let stage = Rect { min: [0.0; 2], max: size };
-            for (index, cell) in grid(stage, bodies, 1).into_iter().enumerate() {
-                let ghost = Ghost::new(&shown, index, cell);
-                shown.body(&mut picture, cell, &race.entrants()[0], (index, &ghost));
-            }
+    let ghosts: Vec<Ghost> = (0..bodies).map(|index| Ghost::new(&moment, index)).collect();
+    let entrants: Vec<&Entrant> = lab.race().entrants().iter().collect();
+    match (lab.mode(), lab.display().arrangement) {
+        (Mode::Solo, _) | (Mode::Race, Arrangement::Overlay) => {
+            overlay(&mut picture, &moment, stage, &ghosts, &entrants);
         }
-        Mode::Race if let Some(shape) = shown.shape() => {
-            let stage = Rect { min: [0.0; 2], max: size };
-            let cells = mosaic(stage, race.entrants().len(), shape);
-            let ghost = Ghost::new(&shown, 0, cells[0]);
-            for (entrant, cell) in race.entrants().iter().zip(cells) {
-                shown.body(&mut picture, cell, entrant, (0, &ghost));
-                let bottom = (cell.min[1] + CAPTION).min(cell.max[1]);
-                let head = Rect { min: cell.min, max: [cell.max[0], bottom] };
-                captions::lane(&mut picture, head, lab, entrant);
-            }
-        }
-        Mode::Race => {
-            let gutter = if size[0] >= ROOM_FOR_NAMES { GUTTERS.0 } else { GUTTERS.1 };
-            let stage = Rect { min: [gutter, 0.0], max: size };
-            let cells = grid(stage, race.entrants().len(), bodies);
-            let ghosts = cells.iter().take(bodies).enumerate();
-            let ghosts: Vec<_> =
-                ghosts.map(|(index, &cell)| Ghost::new(&shown, index, cell)).collect();
-            for (entrant, row) in race.entrants().iter().zip(cells.chunks(bodies)) {
-                let name = Rect { min: [0.0, row[0].min[1]], max: [gutter, row[0].max[1]] };
-                captions::lane(&mut picture, name, lab, entrant);
-                for (index, cell) in row.iter().enumerate() {
-                    shown.body(&mut picture, *cell, entrant, (index, &ghosts[index]));
-                }
-            }
-            for (index, cell) in cells.iter().take(bodies).enumerate() {
-                captions::column(&mut picture, *cell, lab, index);
-            }
+        (Mode::Race, Arrangement::SideBySide) => {
+            side_by_side(&mut picture, &moment, stage, &ghosts, &entrants);
         }
     }
     picture
 }
 
-/// The moment that is drawn.
-pub(super) struct Shown<'a> {
-    pub(super) lab: &'a Lab,
-    /// How far the moment is from the previous tick to the present one.
-    pub(super) alpha: f64,
-    /// The last tick's length in seconds.
-    h: f64,
-    /// The moment in seconds.
-    pub(super) t: f64,
-    /// The moment at which lanes are drawn, in seconds: without interpolation the present tick.
-    pub(super) lanes_t: f64,
-    /// How far a chart recorder's trail reaches back, in seconds.
-    pub(super) paper_s: f64,
+/// All lanes of a body on one band of the stage, the selected one in front.
+fn overlay(
+    picture: &mut Picture,
+    moment: &Moment<'_>,
+    stage: Rect,
+    ghosts: &[Ghost],
+    entrants: &[&Entrant],
+) {
+    let front = moment.lab.selected();
+    let views: Vec<View> = ghosts.iter().map(|ghost| ghost.view).collect();
+    let views: Vec<View> = match moment.lab.mode() {
+        Mode::Solo => {
+            let widened = |(index, view): (usize, View)| view.widened(moment, front, index);
+            views.into_iter().enumerate().map(widened).collect()
+        }
+        Mode::Race => views,
+    };
+    let views = alike(views);
+    // A ship on a straight course has its own marks.
+    let has_ruler = stage.max[1] - stage.min[1] >= ROOM_FOR_RULER
+        && (!matches!(views[0].framing, Framing::Follow { .. }) || views[0].turns);
+    let top = stage.min[1] + if has_ruler { chart::RULER } else { 0.0 };
+    let room = Rect { min: [stage.min[0], top], ..stage };
+    let heights = views.iter().map(|view| match view.framing {
+        Framing::Follow { .. } if !view.turns => 0.8,
+        Framing::Follow { .. } | Framing::Recorder { .. } | Framing::Fixed { .. } => 1.0,
+    });
+    let mut cells = bands(room, &heights.collect::<Vec<f32>>());
+    if let Some(moored) = views.iter().position(|view| view.recorded_m().is_some()) {
+        let camera = moment.camera(cells[moored], moored, &views[moored]);
+        chart::quay(&mut picture.shapes, &Camera { rect: room, ..camera }, moment.palette);
+        let afloat = cells.iter_mut().zip(&views).filter(|(_, view)| view.recorded_m().is_none());
+        afloat.for_each(|(cell, _)| cell.min[0] += quay_width(room));
+    }
+    for (index, ((ghost, view), cell)) in ghosts.iter().zip(&views).zip(&cells).enumerate() {
+        let camera = moment.camera(*cell, index, view);
+        let of_body = Band { moment, index, ghost, camera, lanes: entrants, front };
+        of_body.draw(picture);
+        captions::name(picture, *cell, moment, index);
+        if moment.lab.mode() == Mode::Solo {
+            captions::head(picture, *cell, moment, index, front);
+        }
+        let is_measured = match view.framing {
+            Framing::Follow { .. } => !view.turns,
+            Framing::Recorder { .. } => view.recorded_m() == views[0].recorded_m(),
+            Framing::Fixed { .. } => index == 0,
+        };
+        if !(is_measured
+            && (has_ruler
+                || !matches!(view.framing, Framing::Recorder { .. } | Framing::Fixed { .. })))
+        {
+            captions::scale_bar(picture, &camera, moment.palette);
+        }
+    }
+    if has_ruler {
+        let strip = Rect { min: stage.min, max: [stage.max[0], top] };
+        let camera = moment.camera(cells[0], 0, &views[0]);
+        chart::ruler(picture, strip, &camera, moment.palette);
+    }
 }
 
-impl Shown<'_> {
-    /// The width and height, in metres, of what is to be seen of a body that is alone in its scene and
-    /// moves both across and up. Other bodies move along rows.
-    fn shape(&self) -> Option<DVec2> {
-        let [body] = self.lab.race().truth().bodies() else { return None };
-        match Look::of(body.kind).framing(&*body.stepper) {
-            Framing::Fixed { half_m, .. } => Some(half_m),
-            Framing::Follow { width_m, height_m, .. } if turns(body) => {
-                Some(DVec2::new(width_m, height_m))
-            }
-            Framing::Follow { .. } | Framing::Recorder { .. } => None,
+/// The same views, chart recorders of about one scale with one scale.
+fn alike(mut views: Vec<View>) -> Vec<View> {
+    let widest = views.iter().filter_map(View::recorded_m).fold(0.0, f64::max);
+    for view in &mut views {
+        if let (Some(half_m), Framing::Recorder { half_width_m }) =
+            (view.recorded_m(), &mut view.framing)
+            && half_m * ALIKE > widest
+        {
+            *half_width_m = widest;
         }
     }
+    views
+}
 
-    /// A body's coordinates at the moment drawn.
-    fn coordinates(&self, body: &LaneBody) -> Vec<f64> {
-        let (q0, v0) = (&body.previous_q, &body.previous_v);
-        let (q1, v1) = (body.stepper.q(), body.stepper.v());
-        let each = |f: &dyn Fn(usize) -> f64| (0..q1.len()).map(f).collect();
-        match self.lab.display().interpolation {
-            Interpolation::Raw => q1.to_vec(),
-            Interpolation::Linear => each(&|i| q0[i] + (q1[i] - q0[i]) * self.alpha),
-            Interpolation::Hermite => {
-                each(&|i| hermite(self.alpha, self.h, [q0[i], q1[i]], [v0[i], v1[i]]))
-            }
+/// Each lane in cells of its own.
+fn side_by_side(
+    picture: &mut Picture,
+    moment: &Moment<'_>,
+    stage: Rect,
+    ghosts: &[Ghost],
+    entrants: &[&Entrant],
+) {
+    let bodies = ghosts.len();
+    let draw = |picture: &mut Picture, cell: Rect, index: usize, entrant: &&Entrant| {
+        let ghost = &ghosts[index];
+        let camera = moment.camera(cell, index, &ghost.view);
+        let lanes = std::slice::from_ref(entrant);
+        if ghost.view.recorded_m().is_some() {
+            chart::quay(&mut picture.shapes, &camera, moment.palette);
         }
+        Band { moment, index, ghost, camera, lanes, front: entrant }.draw(picture);
+        frame(picture, cell, faded(moment.palette.chart, 0.3));
+        if entrant.lane_number == entrants[entrants.len() - 1].lane_number {
+            captions::scale_bar(picture, &camera, moment.palette);
+        }
+    };
+    if let Some(shape) = moment.shape(&ghosts[0].view) {
+        let cells = mosaic(stage, entrants.len(), shape);
+        for (entrant, cell) in entrants.iter().zip(cells) {
+            draw(picture, cell, 0, entrant);
+            let bottom = (cell.min[1] + CAPTION).min(cell.max[1]);
+            let head = Rect { min: cell.min, max: [cell.max[0], bottom] };
+            captions::lane(picture, head, moment, entrant);
+        }
+        return;
     }
+    let width = stage.max[0] - stage.min[0];
+    let gutter = if width >= ROOM_FOR_NAMES { GUTTERS.0 } else { GUTTERS.1 };
+    let right = Rect { min: [stage.min[0] + gutter, stage.min[1]], ..stage };
+    let cells = grid(right, entrants.len(), bodies);
+    for (entrant, row) in entrants.iter().zip(cells.chunks(bodies)) {
+        for (index, cell) in row.iter().enumerate() {
+            draw(picture, *cell, index, entrant);
+        }
+        let name = Rect { min: [0.0, row[0].min[1]], max: [gutter, row[0].max[1]] };
+        captions::lane(picture, name, moment, entrant);
+    }
+    for (index, cell) in cells.iter().take(bodies).enumerate() {
+        captions::name(picture, *cell, moment, index);
+    }
+}
 
-    fn body(
-        &self,
-        picture: &mut Picture,
-        rect: Rect,
-        entrant: &Entrant,
-        (index, ghost): (usize, &Ghost),
-    ) {
-        let truth = &self.lab.race().truth().bodies()[index];
-        let body = &entrant.lane.bodies()[index];
-        let race = self.lab.race().entrants();
-        let place = race.iter().position(|other| other.lane_number == entrant.lane_number);
-        let place = place.expect("it is in the race");
-        let history = &self.lab.past().histories(place)[index];
-        let (look, coordinates) = (Look::of(body.kind), self.coordinates(body));
-        let outline = look.outline(&*body.stepper, &coordinates);
+/// A thin line round a cell.
+fn frame(picture: &mut Picture, Rect { min, max }: Rect, colour: Rgba) {
+    let corners = [min, [max[0], min[1]], max, [min[0], max[1]], min];
+    let everywhere = Rect { min: [min[0] - 1.0, min[1] - 1.0], max: [max[0] + 1.0, max[1] + 1.0] };
+    picture.shapes.push(path(corners, 1.0, colour, super::sketch::SOLID, everywhere));
+}
 
-        let framing = ghost.framing;
-        let camera = self.camera(rect, index, ghost);
-        let (colour, _) = style(self.lab.entries()[entrant.entry].method);
-        let own = Paint { colour, line_width: 2.0, grow: 0.0 };
-        let exact = Paint { colour: faded(palette::TRUTH, 0.75), line_width: 1.0, grow: 1.6 };
+/// One body of the scene in one cell: its ghost, and some lanes' bodies.
+struct Band<'a> {
+    moment: &'a Moment<'a>,
+    index: usize,
+    ghost: &'a Ghost,
+    camera: Camera,
+    lanes: &'a [&'a Entrant],
+    front: &'a Entrant,
+}
 
-        let shows_ghost = self.lab.display().ghost && truth.halted().is_none();
-        picture.seas.push(self.sea(&camera, framing));
-        match framing {
-            Framing::Follow { width_m, wake_s, .. } => {
-                self.wake(picture, &camera, outline.at, history, width_m, wake_s);
-            }
-            Framing::Recorder { .. } => {
-                if shows_ghost {
-                    self.recorded(picture, &camera, &ghost.past);
-                }
-                for leg in self.legs(outline.at, history, self.paper_s) {
-                    self.recorded(picture, &camera, &leg);
-                    self.dots(picture, &camera, &leg, self.paper_s, |moment| {
-                        self.on_paper(&camera, moment)
-                    });
-                }
-                envelope(picture, &camera, ghost.reach_m.x);
-            }
-            Framing::Fixed { trail_s, .. } => {
-                if shows_ghost {
-                    self.path(picture, &camera, &ghost.past, trail_s);
-                }
-                for leg in self.legs(outline.at, history, trail_s) {
-                    self.path(picture, &camera, &leg, trail_s);
-                    self.dots(picture, &camera, &leg, trail_s, |moment| camera.points(moment.at));
-                }
-            }
-        }
-        if shows_ghost {
-            picture.strokes.extend(strokes(&ghost.outline.marks, &camera, exact));
-        }
-        match self.lab.viewer().held().filter(|held| held.body == index) {
-            None => picture.strokes.extend(strokes(&outline.marks, &camera, own)),
-            Some(held) => {
-                let left = Paint { colour: faded(colour, LEFT_BEHIND), ..own };
-                picture.strokes.extend(strokes(&outline.marks, &camera, left));
-                let held_outline = look.outline(&*body.stepper, &held.q);
-                picture.strokes.extend(strokes(&held_outline.marks, &camera, own));
-                if held.lane == entrant.lane_number {
-                    let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
-                    picture.strokes.push(line(handle, hand, 1.0, palette::TEXT, rect));
-                }
-            }
-        }
+impl Band<'_> {
+    fn draw(&self, picture: &mut Picture) {
+        let Self { moment, index, ghost, ref camera, .. } = *self;
+        let (lab, framing, palette) = (moment.lab, ghost.view.framing, moment.palette);
+        let truth = &lab.race().truth().bodies()[index];
+        let shows_ghost = lab.display().ghost && truth.halted().is_none();
+        self.ground(picture, shows_ghost);
 
-        captions::arrow(picture, &camera, outline.at, body.stepper.place(), colour);
-        if self.lab.mode() == Mode::Solo || entrant.entry == race[race.len() - 1].entry {
-            captions::scale_bar(picture, &camera);
-        }
-        if let (Framing::Follow { .. }, false) = (framing, turns(body)) {
-            captions::distance_marks(picture, &camera);
-        }
+        let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
+        let mut flagged: Vec<Flag> = Vec::new();
+        let mut lost: Vec<Lost> = Vec::new();
         let mut cell = Cell {
-            rect,
-            lane: entrant.lane_number,
-            entry: entrant.entry,
+            rect: camera.rect,
+            lane: self.front.lane_number,
+            entry: self.front.entry,
             body: index,
             grips: Vec::new(),
-            camera,
+            camera: *camera,
         };
-        cell.add_grips(body, &coordinates, Whose::Lane);
+        for lane in behind.chain([&self.front]) {
+            let body = &lane.lane.bodies()[index];
+            let (look, coordinates) = (Look::of(body.kind), moment.coordinates(body));
+            let outline = look.outline(&*body.stepper, &coordinates);
+            let (colour, dash) = moment.style(lane.entry);
+            let at = camera.points(outline.at);
+            let flag = Flag { at, number: lane.entry + 1, colour };
+            let is_front = self.is_front(lane);
+            let colour_of_body = faded(colour, if is_front { 1.0 } else { BEHIND.0 });
+            let coat = Coat { colour: colour_of_body, dash, fill: self.fill() };
+            let seen = Seen { outline: &outline, camera, palette };
+            let whose = Whose::Lane { number: lane.lane_number, entry: lane.entry };
+            cell.add_grips(body, &coordinates, whose);
+            let held = lab.viewer().held().filter(|held| held.body == index);
+            let stays = self.trail(picture, lane, outline.at);
+            if held.is_none() && !(stays && self.room().contains(at)) {
+                lost.push(Lost { flag, place: body.stepper.place() });
+                if is_front {
+                    seen.still(&mut picture.shapes);
+                    self.draw_ghost(picture, shows_ghost);
+                }
+                continue;
+            }
+            if !is_front {
+                seen.behind(&mut picture.shapes, coat);
+                flagged.push(flag);
+                continue;
+            }
+            let in_hand = held.map(|held| look.outline(&*body.stepper, &held.q));
+            let shown = Seen { outline: in_hand.as_ref().unwrap_or(&outline), ..seen };
+            if held.is_some() {
+                let left = Coat { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
+                seen.behind(&mut picture.shapes, left);
+            }
+            shown.carried(&mut picture.shapes, coat);
+            self.draw_ghost(picture, shows_ghost);
+            shown.front(&mut picture.shapes, coat);
+            if let Some(held) = held.filter(|held| held.lane == lane.lane_number) {
+                let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
+                picture.shapes.push(line(handle, hand, 1.0, palette.text, camera.rect));
+            }
+            if self.lanes.len() > 1 {
+                shown.number(picture, lane.entry + 1);
+            }
+        }
         if shows_ghost {
             cell.add_grips(truth, &ghost.q, Whose::Truth);
         }
+        let lift = match framing {
+            Framing::Recorder { .. } => 0.72 * camera.block,
+            Framing::Follow { .. } | Framing::Fixed { .. } => 22.0,
+        };
+        let room = badges(picture, camera, &lost, 30.0, palette);
+        flags(picture, &flagged, lift, palette, (room, camera.rect));
+        let is_alone = self.lanes.len() == 1;
+        let says_beside =
+            is_alone && (lab.mode() == Mode::Solo || self.front.lane.bodies().len() == 1);
+        let halted = self.lanes.iter().filter(|_| !says_beside).filter_map(|lane| {
+            let halt = lane.lane.bodies()[index].halted()?;
+            Some(((!is_alone).then_some(lane.entry + 1), halt))
+        });
+        captions::halts(picture, camera.rect, halted, truth, palette);
         picture.cells.push(cell);
-        match self.lab.mode() {
-            Mode::Solo => {
-                captions::solo(picture, rect, self.lab, index, body);
-                captions::halts(picture, rect, None, truth);
+    }
+
+    /// How much of its colour fills a lane behind: the less, the more of them may lie over each other.
+    fn fill(&self) -> f32 {
+        const FEW: f32 = 4.0;
+        FILL * (FEW / self.lanes.len() as f32).min(1.0)
+    }
+
+    /// Where a body can be seen: the cell, and of one with a quay what is beside that.
+    fn room(&self) -> Rect {
+        let mut room = self.camera.rect;
+        if let Framing::Recorder { .. } = self.ghost.view.framing {
+            let quay = self.camera.points(DVec2::new(self.camera.quay_m, 0.0))[0];
+            room.min[0] = room.min[0].max(quay);
+        }
+        room
+    }
+
+    fn is_front(&self, lane: &Entrant) -> bool {
+        lane.lane_number == self.front.lane_number
+    }
+
+    /// What lies under the bodies: the quay, a course, the exact trail, and how far the exact body swings.
+    fn ground(&self, picture: &mut Picture, shows_ghost: bool) {
+        let Self { moment, index, ghost, ref camera, .. } = *self;
+        let framing = ghost.view.framing;
+        match framing {
+            Framing::Follow { .. } if !ghost.view.turns => {
+                captions::course(picture, camera, moment.palette);
             }
-            Mode::Race => {
-                let is_alone = entrant.lane.bodies().len() == 1;
-                let halt = body.halted().filter(|_| !is_alone);
-                captions::halts(picture, rect, halt, truth);
+            Framing::Recorder { .. } => {
+                chart::mooring(&mut picture.shapes, camera, moment.palette);
+                envelope(picture, camera, ghost.view.reach_m.x, faded(moment.palette.exact, 0.6));
             }
+            Framing::Follow { .. } | Framing::Fixed { .. } => {}
+        }
+        if let Some(trail_s) = trail_s(framing, moment).filter(|_| shows_ghost) {
+            let tolerance_m = TOLERANCE / camera.points_per_metre;
+            let past = ghost.past(moment, index, trail_s, tolerance_m);
+            moment.trail(picture, camera, framing, &past, TRAILS.2);
         }
     }
 
-    /// The camera of a cell of the body at this place of the scene.
-    pub(super) fn camera(&self, rect: Rect, index: usize, ghost: &Ghost) -> Camera {
-        let turns = turns(&self.lab.race().truth().bodies()[index]);
-        self.fitted(rect, turns, ghost).through(self.lab.display().lens(index))
-    }
-
-    fn fitted(&self, rect: Rect, turns: bool, ghost: &Ghost) -> Camera {
-        let [width, height] = rect.size();
-        let middle = [0, 1].map(|i| (rect.min[i] + rect.max[i]) / 2.0);
-        match ghost.framing {
-            Framing::Follow { width_m, height_m, .. } => {
-                let centre_m = if self.lab.display().motion {
-                    ghost.outline.at
-                } else {
-                    // In pages, so that nothing but the ship moves.
-                    let (page, leaf) = (0.6 * width_m, 0.5 * height_m);
-                    let x = (libm::floor(ghost.outline.at.x / page) + 0.5) * page;
-                    DVec2::new(x, libm::round(ghost.outline.at.y / leaf) * leaf)
-                };
-                // On a straight course half a ship's length ahead of the middle leaves room for the
-                // wake.
-                let ahead = if turns { 0.0 } else { 0.1 };
-                let at = [middle[0] + ahead * width as f32, middle[1] + 0.06 * height as f32];
-                let points_per_metre = (width / width_m).min(height / height_m);
-                Camera { rect, centre_m, at, points_per_metre, paper: 0.0 }
-            }
-            Framing::Recorder { half_width_m } => {
-                let half_width_m = half_width_m.max(1.15 * ghost.reach_m.x);
-                let at = [middle[0] + 0.05 * width as f32, rect.min[1] + 0.46 * height as f32];
-                let points_per_metre = (width / 2.1).min(height * 1.1) / half_width_m;
-                let paper = f64::from(rect.max[1] - at[1]);
-                Camera { rect, centre_m: DVec2::ZERO, at, points_per_metre, paper }
-            }
-            Framing::Fixed { centre_m, half_m, .. } => {
-                let half_m = half_m.max(1.05 * ghost.reach_m);
-                let head = HEAD.min(height / 4.0);
-                let at = [middle[0], middle[1] + head as f32 / 2.0];
-                let points_per_metre = (width / half_m.x).min((height - head) / half_m.y) / 2.0;
-                Camera { rect, centre_m, at, points_per_metre, paper: 0.0 }
-            }
+    fn draw_ghost(&self, picture: &mut Picture, shows_ghost: bool) {
+        if shows_ghost {
+            let outline = &self.ghost.outline;
+            let seen = Seen { outline, camera: &self.camera, palette: self.moment.palette };
+            seen.ghost(&mut picture.shapes);
         }
     }
 
-    fn sea(&self, camera: &Camera, framing: Framing) -> Sea {
-        let step_m = camera.round_length_m(48.0);
-        // The nearest grid line to the middle, so that no large number reaches an f32.
-        let Rect { min, max } = camera.rect;
-        let middle = camera.metres([0, 1].map(|axis| (min[axis] + max[axis]) / 2.0));
-        let line = (middle / step_m).round() * step_m;
-        Sea {
-            rect: camera.rect,
-            grid_origin: camera.points(line),
-            grid_step: camera.length(step_m),
-            waves: if matches!(framing, Framing::Follow { .. }) { 1.0 } else { 0.0 },
-            phase: if self.lab.display().motion {
-                demote((self.t * 0.7) % std::f64::consts::TAU)
-            } else {
-                0.0
-            },
+    /// Where a lane's body has been, which is now at `from`. Returns whether it stayed within the cell: of one that did
+    /// not nothing is drawn.
+    fn trail(&self, picture: &mut Picture, lane: &Entrant, from: DVec2) -> bool {
+        let Self { moment, index, ghost, ref camera, .. } = *self;
+        let (framing, is_front) = (ghost.view.framing, self.is_front(lane));
+        let history = moment.history(lane, index);
+        if let Framing::Follow { width_m, wake_s, .. } = framing {
+            if is_front {
+                moment.wake(picture, camera, from, history, (width_m, wake_s));
+            }
+            return true;
         }
+        let Some(trail_s) = trail_s(framing, moment) else { return true };
+        let mut legs = moment.legs(from, history, trail_s);
+        // A person who zooms in has chosen what to see.
+        let is_fitted = moment.lab.display().zoom_pan(index) == ZoomPan::default();
+        let room = self.room();
+        let stayed = legs.iter().flatten().all(|place| room.contains(camera.points(place.at)));
+        if is_fitted && !stayed {
+            return false;
+        }
+        for leg in &mut legs {
+            if !is_front {
+                leg.iter_mut().for_each(|place| place.colour = faded(place.colour, BEHIND.1));
+            }
+            moment.trail(picture, camera, framing, leg, if is_front { TRAILS.0 } else { TRAILS.1 });
+            if is_front {
+                moment.dots(picture, camera, framing, leg);
+            }
+        }
+        true
     }
 }
 
-/// Whether a body leaves the line that it starts on: the one coordinate of the others is along it.
-pub(super) fn turns(body: &LaneBody) -> bool {
-    body.coordinates.len() > 1
+/// How far back the trail of a body reaches that is framed like this, in seconds; ships leave a wake.
+fn trail_s(framing: Framing, moment: &Moment<'_>) -> Option<f64> {
+    match framing {
+        Framing::Follow { .. } => None,
+        Framing::Recorder { .. } => Some(moment.paper_s),
+        Framing::Fixed { trail_s, .. } => Some(trail_s),
+    }
 }
 
-/// Two dashed ticks at the largest swing of the truth: a mass beyond them has gained energy.
-fn envelope(picture: &mut Picture, camera: &Camera, swing_m: f64) {
-    /// From the beginning of a dash to its end and to the next one, in points.
-    const DASH: f32 = 3.0;
-    const PERIOD: f32 = 6.0;
-    let colour = faded(palette::TRUTH, 0.6);
-    let half = 0.13 * (camera.rect.max[1] - camera.rect.min[1]);
+/// Two dotted lines at the largest swing of the truth: a mass beyond them has gained energy.
+fn envelope(picture: &mut Picture, camera: &Camera, swing_m: f64, colour: Rgba) {
+    let (top, bottom) = (camera.rect.min[1] + 4.0, camera.rect.max[1] - 4.0);
     for x in [-swing_m, swing_m] {
-        let [x, y] = camera.points(DVec2::new(x, 0.0));
-        for dash in 0..(2.0 * half / PERIOD).ceil() as u32 {
-            let from = y - half + dash as f32 * PERIOD;
-            let to = (from + DASH).min(y + half);
-            // Their round ends are part of them.
-            let (from, to) = (from + 0.5, to.max(from + 1.0) - 0.5);
-            picture.strokes.push(line([x, from], [x, to], 1.0, colour, camera.rect));
-        }
-    }
-}
-
-/// The cubic through `q` at both ends of a tick of `h` seconds with the velocities `v` there, at the
-/// part `alpha` of it.
-fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
-    let (a, b) = (alpha, 1.0 - alpha);
-    let ends = b * b * (1.0 + 2.0 * a) * q[0] + a * a * (1.0 + 2.0 * b) * q[1];
-    ends + h * a * b * (b * v[0] - a * v[1])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_hermite_cubic_passes_its_ends_with_their_slopes_and_keeps_a_parabola() {
-        let (q, v) = (|t: f64| 3.0 + 2.0 * t - t * t, |t: f64| 2.0 - 2.0 * t);
-        for alpha in [0.0, 0.25, 0.5, 0.75, 1.0] {
-            let h = 0.5;
-            let shown = hermite(alpha, h, [q(1.0), q(1.5)], [v(1.0), v(1.5)]);
-            assert!((shown - q(1.0 + alpha * h)).abs() < 1e-15, "at {alpha}: {shown}");
-        }
+        let [x, _] = camera.points(DVec2::new(x, 0.0));
+        picture.shapes.push(path(
+            [[x, top], [x, bottom.max(top)]],
+            1.3,
+            colour,
+            [2.5, 4.0],
+            camera.rect,
+        ));
     }
 }

@@ -2,57 +2,56 @@
 
 use glam::DVec2;
 
-use super::compose::Shown;
-use super::palette::{self, faded};
-use super::trails::Moment;
-use super::{Framing, Look, Outline, Rect};
+use super::framed::View;
+use super::moment::{Moment, turns};
+use super::trails::Place;
+use super::{Framing, Look, Outline, Rgba};
+use crate::lab::palette::faded;
 use crate::lab::{TruthCurve, TruthSample};
 
 /// The true motion of one body at the moment drawn.
 pub(super) struct Ghost {
     /// What part of the body's world is shown.
-    pub(super) framing: Framing,
+    pub(super) view: View,
     /// Its coordinates there.
     pub(super) q: Vec<f64>,
     /// What it looks like there.
     pub(super) outline: Outline,
-    /// Where it has been, newest first, as far back as its trail shows.
-    pub(super) past: Vec<Moment>,
-    /// How far it has been from what its camera looks at, along x and along y, in metres.
-    pub(super) reach_m: DVec2,
 }
 
-/// How far a trail may be drawn from the true one, in points: less than anybody sees.
-const TOLERANCE: f64 = 0.15;
-
 impl Ghost {
-    /// The ghost of the body at this place of the scene, for cells of the size of `cell`. It is the exact
-    /// flow at the moment drawn, however lanes are drawn between ticks.
-    pub(super) fn new(shown: &Shown<'_>, index: usize, cell: Rect) -> Self {
-        let race = shown.lab.race();
+    /// The ghost of the body at this place of the scene. It is the exact flow at the moment drawn, however lanes are
+    /// drawn between ticks.
+    pub(super) fn new(moment: &Moment<'_>, index: usize) -> Self {
+        let race = moment.lab.race();
         let body = &race.truth().bodies()[index];
-        let remembered = shown.lab.past();
+        let remembered = moment.lab.past();
         let curve = &remembered.truth_curves()[index];
-        let (q, _) = remembered.truth_between(race, index, shown.alpha);
+        let (q, _) = remembered.truth_between(race, index, moment.alpha);
         let look = Look::of(body.kind);
         let outline = look.outline(&*body.stepper, &q);
         let framing = look.framing(&*body.stepper);
-        let (trail_s, centre_m) = match framing {
-            Framing::Follow { .. } => (0.0, DVec2::ZERO),
-            Framing::Recorder { .. } => (shown.paper_s, DVec2::ZERO),
-            Framing::Fixed { centre_m, trail_s, .. } => (trail_s, centre_m),
+        let centre_m = match framing {
+            Framing::Follow { .. } | Framing::Recorder { .. } => DVec2::ZERO,
+            Framing::Fixed { centre_m, .. } => centre_m,
         };
-        let mut ghost = Self {
-            framing,
-            q,
-            outline,
-            past: Vec::new(),
-            reach_m: curve.samples().map(|s| (s.at - centre_m).abs()).fold(DVec2::ZERO, DVec2::max),
-        };
-        let camera = shown.camera(cell, index, &ghost);
-        let tolerance_m = TOLERANCE / camera.points_per_metre;
-        ghost.past = thinned(past(curve, ghost.outline.at, shown.t, trail_s), tolerance_m);
-        ghost
+        let reach_m = curve.samples().map(|s| (s.at - centre_m).abs());
+        let reach_m = reach_m.fold(DVec2::ZERO, DVec2::max);
+        let view = View { framing, followed: outline.at, reach_m, turns: turns(body) };
+        Self { view, q, outline }
+    }
+
+    /// Where it has been in the last `trail_s` seconds, newest first, within this tolerance in metres.
+    pub(super) fn past(
+        &self,
+        moment: &Moment<'_>,
+        index: usize,
+        trail_s: f64,
+        tolerance_m: f64,
+    ) -> Vec<Place> {
+        let curve = &moment.lab.past().truth_curves()[index];
+        let colour = faded(moment.palette.exact, 0.55);
+        thinned(past(curve, self.outline.at, moment.t, trail_s, colour), tolerance_m)
     }
 }
 
@@ -62,8 +61,8 @@ fn past(
     at: DVec2,
     t: f64,
     trail_s: f64,
-) -> impl Iterator<Item = Moment> + Clone {
-    let colour = faded(palette::TRUTH, 0.55);
+    colour: Rgba,
+) -> impl Iterator<Item = Place> + Clone {
     let mut newer: Option<&TruthSample> = None;
     // Where the body was put elsewhere there are two places at one time.
     let unbroken = curve.samples().rev().take_while(move |sample| {
@@ -71,15 +70,15 @@ fn past(
         newer.is_none_or(|newer| newer.t != sample.t || newer.at == sample.at)
     });
     let samples = unbroken.skip_while(move |sample| sample.t >= t);
-    let moments = samples.map(move |sample| Moment { age: t - sample.t, at: sample.at, colour });
-    let now = Moment { age: 0.0, at, colour };
+    let moments = samples.map(move |sample| Place { age: t - sample.t, at: sample.at, colour });
+    let now = Place { age: 0.0, at, colour };
     std::iter::once(now).chain(moments.take_while(move |moment| moment.age < trail_s))
 }
 
 /// The same trail with fewer moments, and none where it is as good as straight.
-fn thinned(trail: impl Iterator<Item = Moment> + Clone, tolerance_m: f64) -> Vec<Moment> {
+fn thinned(trail: impl Iterator<Item = Place> + Clone, tolerance_m: f64) -> Vec<Place> {
     let mut moments = trail.clone();
-    let mut kept: Vec<Moment> = moments.next().into_iter().collect();
+    let mut kept: Vec<Place> = moments.next().into_iter().collect();
     let (mut left_out, mut bend_m) = (0.0, 0.0);
     let mut before = kept.first().copied();
     for (this, next) in moments.zip(trail.skip(2).map(Some).chain([None])) {
@@ -107,7 +106,7 @@ mod tests {
         for motion in [|x: f64| libm::sin(3.0 * x), zigzag] {
             let moment = |i: i32| {
                 let age = f64::from(i) / 200.0;
-                Moment { age, at: DVec2::new(motion(age), 0.0), colour: palette::TRUTH }
+                Place { age, at: DVec2::new(motion(age), 0.0), colour: [255; 4] }
             };
             let kept = thinned((0..=800).map(moment), 1e-3);
             assert!((5..250).contains(&kept.len()), "{}", kept.len());

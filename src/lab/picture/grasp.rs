@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::sketch::Camera;
 use super::{Look, Pull, Rect};
-use crate::lab::{Held, Lab, LaneBody};
+use crate::lab::{HeldBody, Lab, LaneBody};
 
 /// How close to the middle of a small handle a hand can take hold of it, in points: as close as people aim.
 const LEAST_RADIUS: f32 = 14.0;
@@ -41,26 +41,34 @@ pub struct Grip {
 /// Whose body is seen in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Whose {
-    /// The cell's lane's.
-    Lane,
+    /// A lane's.
+    Lane {
+        /// The lane's number.
+        number: usize,
+        /// The place of its method on the list.
+        entry: usize,
+    },
     /// The truth's: a ghost.
     Truth,
 }
 
 impl Cell {
-    /// What a hand at this point of the stage takes hold of: of what it touches the nearest, a ghost only where the
-    /// lane's own body is out of reach.
+    /// What a hand at this point of the stage takes hold of: of what it touches the nearest, another lane's body or a
+    /// ghost only where that of the cell's own lane is out of reach.
     pub fn grip_at(&self, at: [f32; 2]) -> Option<&Grip> {
         let away = |grip: &Grip| (grip.at[0] - at[0]).hypot(grip.at[1] - at[1]);
-        let nearest = |whose: Whose| {
-            let touched = self.grips.iter().filter(|grip| grip.whose == whose);
+        let nearest = |is_wanted: &dyn Fn(Whose) -> bool| {
+            let touched = self.grips.iter().filter(|grip| is_wanted(grip.whose));
             let touched = touched.filter(|grip| away(grip) <= grip.radius);
             touched.min_by(|a, b| away(a).total_cmp(&away(b)))
         };
         if !self.rect.contains(at) {
             return None;
         }
-        nearest(Whose::Lane).or_else(|| nearest(Whose::Truth))
+        let own = |whose| matches!(whose, Whose::Lane { number, .. } if number == self.lane);
+        nearest(&own)
+            .or_else(|| nearest(&|whose| whose != Whose::Truth))
+            .or_else(|| nearest(&|whose| whose == Whose::Truth))
     }
 
     /// Where a point of the stage is in the body's world, in metres.
@@ -75,8 +83,11 @@ impl Cell {
 
     pub(super) fn add_grips(&mut self, body: &LaneBody, q: &[f64], whose: Whose) {
         let handles = Look::of(body.kind).handles(&*body.stepper, q);
+        let is_recorder = self.camera.quay_m != 0.0;
+        let least =
+            if is_recorder { LEAST_RADIUS.max(self.camera.block / 2.0) } else { LEAST_RADIUS };
         self.grips.extend(handles.into_iter().enumerate().map(|(handle, part)| {
-            let radius = self.camera.length(part.radius).max(LEAST_RADIUS);
+            let radius = self.camera.length(part.radius).max(least);
             Grip { at: self.camera.points(part.at), radius, handle, whose }
         }));
     }
@@ -89,7 +100,7 @@ pub struct Grasp {
     handle: usize,
     /// From the handle to the hand, in metres.
     offset_m: DVec2,
-    held: Held,
+    held: HeldBody,
 }
 
 impl Grasp {
@@ -97,7 +108,9 @@ impl Grasp {
     pub fn new(lab: &Lab, cell: &Cell, grip: &Grip, hand: [f32; 2]) -> Option<Self> {
         let race = lab.race();
         let lane = match grip.whose {
-            Whose::Lane => &race.entrants().iter().find(|e| e.lane_number == cell.lane)?.lane,
+            Whose::Lane { number, .. } => {
+                &race.entrants().iter().find(|lane| lane.lane_number == number)?.lane
+            }
             Whose::Truth => race.truth(),
         };
         let stepper = &lane.bodies()[cell.body].stepper;
@@ -105,8 +118,11 @@ impl Grasp {
         let mut grasp = Self {
             handle: grip.handle,
             offset_m: hand_m - place,
-            held: Held {
-                lane: cell.lane,
+            held: HeldBody {
+                lane: match grip.whose {
+                    Whose::Lane { number, .. } => number,
+                    Whose::Truth => cell.lane,
+                },
                 body: cell.body,
                 q: stepper.q().into(),
                 v: stepper.v().into(),
@@ -133,7 +149,7 @@ impl Grasp {
     }
 
     /// The body as it is held.
-    pub fn held(&self) -> &Held {
+    pub fn held(&self) -> &HeldBody {
         &self.held
     }
 }

@@ -7,6 +7,18 @@ use super::Rect;
 /// Space round the stage and between its cells, in points.
 const MARGIN: f32 = 6.0;
 
+/// The stage in bands, one below the other, of these parts of its height.
+pub(super) fn bands(stage: Rect, heights: &[f32]) -> Vec<Rect> {
+    let (room, all) = ((stage.max[1] - stage.min[1]).max(0.0), heights.iter().sum::<f32>());
+    let mut top = stage.min[1];
+    let band = heights.iter().map(|height| {
+        let min = [stage.min[0], top];
+        top += room * height / all;
+        Rect { min, max: [stage.max[0], top] }
+    });
+    band.collect()
+}
+
 /// The cells of a grid, row by row.
 pub(super) fn grid(stage: Rect, rows: usize, columns: usize) -> Vec<Rect> {
     let side = |axis: usize, count: usize| {

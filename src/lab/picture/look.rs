@@ -5,7 +5,7 @@ use std::any::Any;
 
 use glam::DVec2;
 
-use super::outline::Outline;
+use super::outline::{Mark, Outline};
 use crate::sim::bodies::{Body, Chain, Helm, Kind, Orbit, Pendulum, Ship, Spring};
 use crate::sim::{State, Stepper, Vector};
 

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::{Cap, FAR, Mark, Rect, Rgba, Stroke};
-use crate::lab::Lens;
+use super::{Cap, FAR, Fill, Path, PathPoint, Rect, Rgba, Shape, Stroke};
+use crate::lab::ZoomPan;
 
 /// Looks at one body's world through one cell of the stage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,20 +18,25 @@ pub(super) struct Camera {
     pub(super) points_per_metre: f64,
     /// How long a chart recorder's paper is from the body down, in points.
     pub(super) paper: f64,
+    /// The side of a block on a spring, in points.
+    pub(super) block: f32,
+    /// Where the edge of the quay is, at which springs are moored, in metres.
+    pub(super) quay_m: f64,
 }
 
 impl Camera {
-    /// The camera through a lens.
-    pub(super) fn through(self, lens: Lens) -> Self {
-        let (seen, size) = (lens.seen(self.rect.part(self.at)), self.rect.size());
+    /// The same camera, zoomed in and panned.
+    pub(super) fn through(self, zoom_pan: ZoomPan) -> Self {
+        let (seen, size) = (zoom_pan.seen(self.rect.part(self.at)), self.rect.size());
         let point = |axis: usize| {
             let middle = f64::from(self.rect.min[axis] + self.rect.max[axis]) / 2.0;
             demote(middle + seen[axis] * size[axis])
         };
         Self {
             at: [point(0), point(1)],
-            points_per_metre: self.points_per_metre * lens.zoom(),
-            paper: self.paper * lens.zoom(),
+            points_per_metre: self.points_per_metre * zoom_pan.zoom(),
+            paper: self.paper * zoom_pan.zoom(),
+            block: self.block * demote(zoom_pan.zoom()),
             ..self
         }
     }
@@ -76,52 +81,80 @@ pub(super) fn demote(x: f64) -> f32 {
     if x.is_nan() { FAR } else { x.clamp(-far, far) as f32 }
 }
 
-/// How the marks of one outline are painted.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Paint {
-    pub(super) colour: Rgba,
-    /// Width of a line of weight 1, in points.
-    pub(super) line_width: f32,
-    /// By how many points shapes are grown, for a ghost to show round what lies over it.
-    pub(super) grow: f32,
-}
-
-/// The strokes of an outline.
-pub(super) fn strokes<'a>(
-    marks: &'a [Mark],
-    camera: &'a Camera,
-    paint: Paint,
-) -> impl Iterator<Item = Stroke> + 'a {
-    let Paint { colour, line_width, grow } = paint;
-    marks.iter().map(move |mark| {
-        let stroke = |from, to, radii: [f32; 2], cap| Stroke {
-            from: camera.points(from),
-            to: camera.points(to),
-            radii: [radii[0] + grow, radii[1] + grow],
-            colour,
-            cap,
-            clip: camera.rect,
-        };
-        match *mark {
-            Mark::Line { from, to, weight } => {
-                let radius = line_width * weight as f32 / 2.0 - grow;
-                stroke(from, to, [radius, radius], Cap::Round)
-            }
-            Mark::Taper { from, to, from_radius, to_radius } => {
-                let radii = [camera.length(from_radius), camera.length(to_radius)];
-                stroke(from, to, radii, Cap::Round)
-            }
-            Mark::Block { centre, along, half } => {
-                let side = along * (half + f64::from(grow) / camera.points_per_metre);
-                let radius = camera.length(half);
-                stroke(centre - side, centre + side, [radius, radius], Cap::Butt)
-            }
-        }
-    })
-}
-
 /// A line with round ends, `width` points wide.
-pub(super) fn line(from: [f32; 2], to: [f32; 2], width: f32, colour: Rgba, clip: Rect) -> Stroke {
-    let radii = [width / 2.0; 2];
-    Stroke { from, to, radii, colour, cap: Cap::Round, clip }
+pub(super) fn line(from: [f32; 2], to: [f32; 2], width: f32, colour: Rgba, clip: Rect) -> Shape {
+    taper(from, to, [width / 2.0; 2], colour, clip)
+}
+
+/// A disc.
+pub(super) fn disc(at: [f32; 2], radius: f32, colour: Rgba, clip: Rect) -> Shape {
+    taper(at, at, [radius; 2], colour, clip)
+}
+
+/// A line from a disc of one radius to a disc of another.
+pub(super) fn taper(
+    from: [f32; 2],
+    to: [f32; 2],
+    radii: [f32; 2],
+    colour: Rgba,
+    clip: Rect,
+) -> Shape {
+    Shape::Stroke(Stroke { from, to, radii, colour, cap: Cap::Round, clip })
+}
+
+/// The dash pattern of an unbroken line.
+pub(super) const SOLID: [f32; 2] = [1.0, 0.0];
+
+/// A line through points, `width` points wide.
+pub(super) fn path(
+    points: impl IntoIterator<Item = [f32; 2]>,
+    width: f32,
+    colour: Rgba,
+    dash: [f32; 2],
+    clip: Rect,
+) -> Shape {
+    let point = |at| PathPoint { at, radius: width / 2.0, colour };
+    Shape::Path(Path { points: points.into_iter().map(point).collect(), dash, clip })
+}
+
+/// A line round the outline through these corners.
+pub(super) fn ring(
+    corners: &[[f32; 2]],
+    width: f32,
+    colour: Rgba,
+    dash: [f32; 2],
+    clip: Rect,
+) -> Shape {
+    path(corners.iter().chain(corners.first()).copied(), width, colour, dash, clip)
+}
+
+/// A filled outline of one colour.
+pub(super) fn fill(corners: &[[f32; 2]], colour: Rgba, clip: Rect) -> Shape {
+    shaded(corners, |_| colour, clip)
+}
+
+/// A filled outline with a colour for each place.
+pub(super) fn shaded(corners: &[[f32; 2]], colour: impl Fn([f32; 2]) -> Rgba, clip: Rect) -> Shape {
+    Shape::Fill(Fill { corners: corners.iter().map(|&at| (at, colour(at))).collect(), clip })
+}
+
+/// The outline of an upright rectangle with round corners.
+pub(super) fn rounded(min: [f32; 2], max: [f32; 2], radius: f32) -> Vec<[f32; 2]> {
+    /// Pieces of a quarter of a turn.
+    const PIECES: u8 = 4;
+    let radius = radius.min((max[0] - min[0]) / 2.0).min((max[1] - min[1]) / 2.0).max(0.0);
+    let centres = [
+        [max[0] - radius, min[1] + radius],
+        [max[0] - radius, max[1] - radius],
+        [min[0] + radius, max[1] - radius],
+        [min[0] + radius, min[1] + radius],
+    ];
+    let corner = |(turn, [x, y]): (u8, [f32; 2])| {
+        (0..=PIECES).map(move |piece| {
+            let quarters = f32::from(turn) - 1.0 + f32::from(piece) / f32::from(PIECES);
+            let angle = quarters * std::f32::consts::FRAC_PI_2;
+            [x + radius * libm::cosf(angle), y + radius * libm::sinf(angle)]
+        })
+    };
+    (0..4).zip(centres).flat_map(corner).collect()
 }

@@ -4,24 +4,25 @@ use std::iter;
 
 use glam::{DVec2, Vec2};
 
-use super::compose::Shown;
-use super::palette::{self, faded, style};
-use super::sketch::{Camera, demote, line};
-use super::{Picture, Rect, Rgba, Ribbon, RibbonPoint};
+use super::moment::Moment;
+use super::sketch::{Camera, SOLID, demote, disc};
+use super::{Framing, Path, PathPoint, Picture, Rect, Rgba, Shape};
+use crate::lab::palette::{faded, mixed};
 use crate::lab::{History, Sample};
 
 /// The most points in a lane's trail: more would not show.
 const TRAIL_POINTS: usize = 720;
-/// Half the width of a trail and of an arm of a bow wave, in points.
-const TRAIL_RADIUS: f32 = 0.75;
-const ARM_RADIUS: f32 = 0.6;
+/// Half the width of an arm of a bow wave, in points.
+const ARM_RADIUS: f32 = 0.8;
+/// From the middle of a block to the point of the pen under it, in blocks.
+const PEN: f32 = 0.66;
 /// From this distance on, in points, samples of a trail can be told apart, and have dots of this radius.
 const SPARSE: f32 = 6.0;
 const DOT_RADIUS: f32 = 1.7;
 
-/// A moment of a body's past.
+/// Where a body was.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moment {
+pub(super) struct Place {
     /// How long ago, in seconds.
     pub(super) age: f64,
     /// Where the body was, in metres.
@@ -30,12 +31,12 @@ pub(super) struct Moment {
     pub(super) colour: Rgba,
 }
 
-/// A ribbon through some moments.
-fn ribbon(moments: &[Moment], clip: Rect, point: impl FnMut(&Moment) -> RibbonPoint) -> Ribbon {
-    Ribbon { points: moments.iter().map(point).collect(), clip }
+/// A line through some places.
+fn trail(places: &[Place], clip: Rect, point: impl FnMut(&Place) -> PathPoint) -> Shape {
+    Shape::Path(Path { points: places.iter().map(point).collect(), dash: SOLID, clip })
 }
 
-impl Shown<'_> {
+impl Moment<'_> {
     /// The samples of the last `trail_s` seconds before the moment drawn, newest first, thinned to
     /// what shows, each with its age.
     fn recent<'h>(
@@ -57,14 +58,14 @@ impl Shown<'_> {
 
     /// The past of a body that is now at `from`, newest first, cut where its method was switched, each
     /// part beginning where the one before ends.
-    pub(super) fn legs(&self, from: DVec2, history: &History, trail_s: f64) -> Vec<Vec<Moment>> {
+    pub(super) fn legs(&self, from: DVec2, history: &History, trail_s: f64) -> Vec<Vec<Place>> {
         let past: Vec<(f64, &Sample)> = self.recent(history, trail_s).collect();
         let (mut age, mut at) = (0.0, from);
         let legs = past.chunk_by(|(_, new), (_, old)| new.entry == old.entry).map(|flown| {
-            let colour = style(self.lab.entries()[flown[0].1.entry].method).0;
-            let first = Moment { age, at, colour };
-            let rest = flown.iter().map(|&(age, sample)| Moment { age, at: sample.at, colour });
-            let leg: Vec<Moment> = iter::once(first).chain(rest).collect();
+            let colour = self.style(flown[0].1.entry).0;
+            let first = Place { age, at, colour };
+            let rest = flown.iter().map(|&(age, sample)| Place { age, at: sample.at, colour });
+            let leg: Vec<Place> = iter::once(first).chain(rest).collect();
             (age, at) = leg.last().map_or((age, at), |last| (last.age, last.at));
             leg
         });
@@ -75,54 +76,63 @@ impl Shown<'_> {
         if self.lab.display().motion { demote(1.0 - age / trail_s) } else { 0.6 }
     }
 
-    /// Where a moment lies on a chart recorder's paper: older is further down.
-    pub(super) fn on_paper(&self, camera: &Camera, moment: &Moment) -> [f32; 2] {
-        let drop = camera.paper / self.paper_s;
-        let [x, y] = camera.points(moment.at);
-        [x, demote(f64::from(y) + moment.age * drop)]
+    /// Where a place lies on a chart recorder's paper: older is further down, from the pen under the block on.
+    fn on_paper(&self, camera: &Camera, place: &Place) -> [f32; 2] {
+        let pen = f64::from(PEN * camera.block);
+        let drop = (camera.paper - pen).max(0.0) / self.paper_s;
+        let [x, y] = camera.points(place.at);
+        [x, demote(f64::from(y) + pen + place.age * drop)]
     }
 
-    /// Where a body has been that moves along x, drawn as a chart recorder would.
-    pub(super) fn recorded(&self, picture: &mut Picture, camera: &Camera, past: &[Moment]) {
-        picture.ribbons.push(ribbon(past, camera.rect, |moment| RibbonPoint {
-            at: self.on_paper(camera, moment),
-            radius: TRAIL_RADIUS,
-            colour: faded(moment.colour, self.fade(moment.age, self.paper_s)),
-        }));
-    }
-
-    /// Where a body has been, in its place.
-    pub(super) fn path(
+    /// Where a body has been, drawn as its camera has it.
+    pub(super) fn trail(
         &self,
         picture: &mut Picture,
         camera: &Camera,
-        past: &[Moment],
-        trail_s: f64,
+        framing: Framing,
+        places: &[Place],
+        width: f32,
     ) {
-        picture.ribbons.push(ribbon(past, camera.rect, |moment| RibbonPoint {
-            at: camera.points(moment.at),
-            radius: TRAIL_RADIUS,
-            // Opaque, since where a trail crosses itself one piece covers the other.
-            colour: palette::dimmed(moment.colour, self.fade(moment.age, trail_s)),
-        }));
+        let radius = width / 2.0;
+        picture.shapes.push(match framing {
+            Framing::Follow { .. } => return,
+            Framing::Recorder { .. } => trail(places, camera.rect, |place| PathPoint {
+                at: self.on_paper(camera, place),
+                radius,
+                colour: faded(place.colour, self.fade(place.age, self.paper_s)),
+            }),
+            Framing::Fixed { trail_s, .. } => trail(places, camera.rect, |place| {
+                // Opaque, since where a trail crosses itself one piece covers the other.
+                let part = self.fade(place.age, trail_s) * f32::from(place.colour[3]) / 255.0;
+                let colour = mixed(self.palette.sea[1], place.colour, part);
+                PathPoint { at: camera.points(place.at), radius, colour }
+            }),
+        });
     }
 
     /// A dot on each sample of a lane's trail that is far enough from the next one for the line between
-    /// them to be taken for motion. The first moment of a leg is no sample.
+    /// them to be taken for motion. The first place of a leg is no sample.
     pub(super) fn dots(
         &self,
         picture: &mut Picture,
         camera: &Camera,
-        leg: &[Moment],
-        trail_s: f64,
-        place: impl Fn(&Moment) -> [f32; 2],
+        framing: Framing,
+        leg: &[Place],
     ) {
+        let trail_s = match framing {
+            Framing::Follow { .. } => return,
+            Framing::Recorder { .. } => self.paper_s,
+            Framing::Fixed { trail_s, .. } => trail_s,
+        };
+        let at = |place: &Place| match framing {
+            Framing::Recorder { .. } => self.on_paper(camera, place),
+            Framing::Follow { .. } | Framing::Fixed { .. } => camera.points(place.at),
+        };
         for ends in leg.windows(2) {
-            let [newer, older] = [0, 1].map(|i| Vec2::from(place(&ends[i])));
+            let [newer, older] = [0, 1].map(|i| Vec2::from(at(&ends[i])));
             if newer.distance(older) >= SPARSE {
                 let colour = faded(ends[1].colour, self.fade(ends[1].age, trail_s));
-                let at = older.into();
-                picture.strokes.push(line(at, at, 2.0 * DOT_RADIUS, colour, camera.rect));
+                picture.shapes.push(disc(older.into(), DOT_RADIUS, colour, camera.rect));
             }
         }
     }
@@ -135,34 +145,39 @@ impl Shown<'_> {
         camera: &Camera,
         from: DVec2,
         history: &History,
-        width_m: f64,
-        wake_s: f64,
+        (width_m, wake_s): (f64, f64),
     ) {
         /// Half the opening of a ship's wake on deep water, as Kelvin found it: sin = 1/3.
         const KELVIN_SLOPE: f64 = 0.353_553_390_593_273_8;
         let unit = width_m / 60.0;
+        let foam = self.palette.chart;
         let legs = self.legs(from, history, wake_s);
         for leg in &legs {
-            picture.ribbons.push(ribbon(leg, camera.rect, |moment| RibbonPoint {
-                at: camera.points(moment.at),
-                radius: camera.length(unit * (0.35 + 0.75 * moment.age / wake_s)),
-                colour: faded(moment.colour, 0.55 * self.fade(moment.age, wake_s)),
-            }));
+            for (spread, part) in [(1.0, 0.30), (0.45, 0.35)] {
+                picture.shapes.push(trail(leg, camera.rect, |place| {
+                    let colour = mixed(foam, place.colour, 0.35);
+                    PathPoint {
+                        at: camera.points(place.at),
+                        radius: camera.length(spread * unit * (0.8 + 0.9 * place.age / wake_s)),
+                        colour: faded(colour, part * self.fade(place.age, wake_s)),
+                    }
+                }));
+            }
         }
-        let course: Vec<Moment> = legs.into_iter().flatten().collect();
+        let course: Vec<Place> = legs.into_iter().flatten().collect();
         let Some([newest, next]) = course.first_chunk() else { return };
         for side in [-1.0, 1.0] {
             let (mut last, mut run) = (newest.at, 0.0);
             let mut ahead = (newest.at - next.at).try_normalize().unwrap_or(DVec2::X);
-            picture.ribbons.push(ribbon(&course, camera.rect, |moment| {
-                let sailed = last - moment.at;
+            picture.shapes.push(trail(&course, camera.rect, |place| {
+                let sailed = last - place.at;
                 ahead = sailed.try_normalize().unwrap_or(ahead);
-                (last, run) = (moment.at, run + sailed.length());
+                (last, run) = (place.at, run + sailed.length());
                 let spread = side * (1.2 * unit + KELVIN_SLOPE * run);
-                RibbonPoint {
-                    at: camera.points(moment.at + 3.0 * unit * ahead + spread * ahead.perp()),
+                PathPoint {
+                    at: camera.points(place.at + 3.0 * unit * ahead + spread * ahead.perp()),
                     radius: ARM_RADIUS,
-                    colour: faded(palette::TRUTH, 0.35 * self.fade(moment.age, wake_s)),
+                    colour: faded(foam, 0.6 * self.fade(place.age, wake_s)),
                 }
             }));
         }

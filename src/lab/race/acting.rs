@@ -1,24 +1,25 @@
-//! What is done to a race: by its journal, and by hand.
+//! The actions on a race, from its journal and by hand.
 
 use super::observer::Observer;
 use super::{Mode, Race};
 use crate::lab::action::{Action, Control};
-use crate::lab::lane::{Lane, TakenUp};
+use crate::lab::journal::Source;
+use crate::lab::lane::Resumed;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edited_values;
-use crate::sim::bodies::Input;
+use crate::sim::bodies::{Acts, Input};
 
-/// What became of an action.
+/// The effect of an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::lab) enum Acted {
-    /// It would have changed nothing: it is not in the journal.
+pub(in crate::lab) enum ActionResult {
+    /// None: the action is not in the journal.
     Nothing,
-    /// It was done. A control that it takes from the script is `released`.
+    /// It was performed. `released` is the control that it took from the script, if it took one.
     Done { released: Option<Control> },
 }
 
 impl Race {
-    /// Plays what the journal has for the present tick and was not played yet.
+    /// Performs the journal's pending actions at the present tick.
     pub(in crate::lab) fn catch_up(&mut self, observer: &mut impl Observer) {
         if self.journal.rows().get(self.done).is_none_or(|row| row.tick > self.tick) {
             return;
@@ -27,22 +28,30 @@ impl Race {
         while let Some(row) = journal.rows().get(self.done).filter(|row| row.tick <= self.tick) {
             self.done += 1;
             self.perform(&row.action, observer);
+            if row.source == Source::Hand {
+                self.note_judged_start(&row.action);
+            }
         }
     }
 
-    /// Does what a person asks for at the present tick, after what the journal has for it, and notes it in the
-    /// journal, where what the person did later is taken back. What would change nothing, neither now nor what the
-    /// script has to come, is neither done nor noted.
-    pub(in crate::lab) fn act(&mut self, action: Action, observer: &mut impl Observer) -> Acted {
+    /// Performs a person's action at the present tick, after the journal's actions at it, and adds it to the journal, from
+    /// which the person's later actions are removed. An action that changes neither the present nor the script's pending
+    /// actions is ignored.
+    pub(in crate::lab) fn act(
+        &mut self,
+        action: Action,
+        observer: &mut impl Observer,
+    ) -> ActionResult {
         self.catch_up(observer);
         let control = action.control();
-        if !self.changes(&action) && !self.journal.script_works(control, self.done) {
-            return Acted::Nothing;
+        if !self.changes(&action) && !self.journal.script_acts_on(control, self.done) {
+            return ActionResult::Nothing;
         }
         let (done, released) = self.journal.insert(self.done, self.tick, action.clone());
         self.done = done;
         self.perform(&action, observer);
-        Acted::Done { released }
+        self.note_judged_start(&action);
+        ActionResult::Done { released }
     }
 
     /// Whether an action would change anything.
@@ -56,9 +65,12 @@ impl Race {
             Action::TickHz(tick_hz) => self.tick_hz != *tick_hz,
             Action::Set { body, parameter, value } => {
                 let present = &self.values[*body];
-                let is_new = present.get(*parameter).is_some_and(|present| present != value);
                 let kind = self.truth.bodies()[*body].kind;
-                is_new && edited_values(kind, present, *parameter, *value).is_ok()
+                let acts = kind.parameters.get(*parameter).map(|parameter| parameter.acts);
+                let is_new = present.get(*parameter).is_some_and(|present| present != value);
+                is_new
+                    && acts == Some(Acts::AtOnce)
+                    && edited_values(kind, present, *parameter, *value).is_ok()
             }
             Action::Place { body, q, v } => {
                 let bodies = self.entrants.iter().map(|e| &e.lane).chain([&self.truth]);
@@ -91,12 +103,12 @@ impl Race {
         self.truth.bodies().iter().any(|body| body.kind.inputs.contains(&input))
     }
 
-    /// The place of the lane that an action puts under a method, with substeps and a tolerance.
+    /// The place of the lane whose method, substeps or tolerance an action sets.
     pub(in crate::lab) fn switched_by(&self, action: &Action) -> Option<usize> {
         Some(self.switch_asked(action)?.0)
     }
 
-    /// The lane that an action is about, by its place, and what it asks for it.
+    /// The place of the lane that an action switches, and its new method, substeps and tolerance.
     pub(in crate::lab) fn switch_asked(&self, action: &Action) -> Option<(usize, LaneSpec)> {
         let numbered = |lane: usize| self.entrants.iter().position(|e| e.lane_number == lane);
         let present = |place: usize| self.list[self.entrants[place].entry];
@@ -120,26 +132,20 @@ impl Race {
         }
     }
 
-    /// Does something at the present tick, before the eyes of an observer, and leaves it out of the journal. Bodies that
-    /// had halted and go on for it are returned.
-    pub fn perform(&mut self, action: &Action, observer: &mut impl Observer) -> Vec<TakenUp> {
+    /// Performs an action at the present tick, without adding it to the journal. Returns the halted bodies that resume.
+    pub fn perform(&mut self, action: &Action, observer: &mut impl Observer) -> Vec<Resumed> {
         if !self.changes(action) {
             return Vec::new();
         }
         observer.before(self, action);
-        let t = self.t();
-        let mut taken_up = Vec::new();
+        let (tick, t) = (self.tick, self.t());
+        let mut resumed = Vec::new();
         match action {
             Action::Throttle(part) => self.throttle = part.clamp(-1.0, 1.0),
             Action::Rudder(part) => self.rudder = part.clamp(-1.0, 1.0),
             Action::TickHz(tick_hz) => self.set_rate(*tick_hz),
             Action::Set { body, parameter, value } => {
                 self.values[*body][*parameter] = *value;
-                self.each_lane(|lane| lane.set_parameter(*body, t, *parameter, *value));
-            }
-            Action::Place { body, q, v } => {
-                let tick = self.tick;
-                self.each_lane(|lane| lane.place(*body, tick, t, [q, v]));
             }
             Action::Solo { lane } => {
                 self.entrants.retain(|entrant| entrant.lane_number == *lane);
@@ -150,22 +156,14 @@ impl Race {
             | Action::Substeps { .. }
             | Action::Tolerance { .. } => {
                 let (place, spec) = self.switch_asked(action).expect("it changes something");
-                taken_up = self.switch(place, spec);
+                resumed = self.switch(place, spec);
             }
-            Action::Kick(_) => {}
+            Action::Place { .. } | Action::Kick(_) => {}
         }
-        if let Some(input) = action.input() {
-            let tick = self.tick;
-            self.each_lane(|lane| lane.input(tick, t, input));
-        }
-        observer.after(self, action, &taken_up);
-        taken_up
-    }
-
-    /// The truth is the first.
-    fn each_lane(&mut self, mut change: impl FnMut(&mut Lane)) {
-        change(&mut self.truth);
-        self.entrants.iter_mut().for_each(|entrant| change(&mut entrant.lane));
+        self.truth.act(tick, t, action);
+        self.entrants.iter_mut().for_each(|entrant| entrant.lane.act(tick, t, action));
+        observer.after(self, action, &resumed);
+        resumed
     }
 
     fn set_rate(&mut self, tick_hz: u32) {
@@ -173,9 +171,9 @@ impl Race {
         self.tick_hz = tick_hz;
     }
 
-    /// Puts the lane at this place under another method, its state carried exactly, but of a body that had halted:
-    /// that is taken up again from the truth, and returned. To switch a lane to what it is under changes nothing.
-    pub fn switch(&mut self, place: usize, spec: LaneSpec) -> Vec<TakenUp> {
+    /// Puts the lane at this place under another method with its state unchanged. Halted bodies resume from the truth and
+    /// are returned. A switch to the lane's present method, substeps and tolerance does nothing.
+    pub fn switch(&mut self, place: usize, spec: LaneSpec) -> Vec<Resumed> {
         let entry = self.entry_for(self.entrants[place].entry, spec);
         self.list[entry] = spec;
         let (t, truth) = (self.t(), &self.truth);
@@ -184,7 +182,7 @@ impl Race {
         entrant.lane.switch(spec.solver(), spec.substeps, t, truth)
     }
 
-    /// The place on the list for a lane that has the one at `present` and goes on under `spec`.
+    /// The place on the list for a lane that is at place `present` and switches to `spec`.
     fn entry_for(&self, present: usize, spec: LaneSpec) -> usize {
         let listed = self.list.iter().position(|known| *known == spec);
         let own = (self.list[present].method == spec.method).then_some(present);
@@ -192,14 +190,14 @@ impl Race {
         listed.or(own).or_else(of_method).expect("every method is on the list")
     }
 
-    /// Changes the tick rate from here on. Methods begin anew, from the states as they are; to set the rate
-    /// that is set already changes nothing.
+    /// Changes the tick rate from the present tick on. Methods restart from the present states. Setting the present rate
+    /// does nothing.
     pub fn set_tick_hz(&mut self, tick_hz: u32) {
         self.perform(&Action::TickHz(tick_hz), &mut ());
     }
 
-    /// Gives an input to every lane and the truth, at the present tick; throttle and rudder are brought into -1
-    /// to 1. What is set to what it is, and a kick of nothing, changes nothing.
+    /// Applies an input to every lane and the truth at the present tick. Throttle and rudder are clamped to -1 to 1. Setting
+    /// the present value, and a kick of 0, do nothing.
     pub fn input(&mut self, input: Input) {
         let action = match input {
             Input::Throttle(part) => Action::Throttle(part),

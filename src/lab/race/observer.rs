@@ -1,20 +1,20 @@
-//! Who watches a race: one loop of ticks serves all that is to be known of it.
+//! Observers of a race: one tick loop serves all who need to know what happens in it.
 
 use super::Race;
 use crate::lab::action::Action;
-use crate::lab::lane::TakenUp;
+use crate::lab::lane::Resumed;
 
-/// Someone who watches a race and changes nothing about it.
+/// Receives what happens in a race, and does not change it.
 pub trait Observer {
-    /// Something is about to be done that will change the race.
+    /// An action is about to change the race.
     fn before(&mut self, _race: &Race, _action: &Action) {}
-    /// It was done. Bodies that had halted and go on for it are `taken_up`.
-    fn after(&mut self, _race: &Race, _action: &Action, _taken_up: &[TakenUp]) {}
-    /// A tick was made.
+    /// The action was performed. `resumed` are the halted bodies that go on because of it.
+    fn after(&mut self, _race: &Race, _action: &Action, _taken_up: &[Resumed]) {}
+    /// A tick was completed.
     fn ticked(&mut self, _race: &Race) {}
 }
 
-/// Nobody.
+/// Ignores everything.
 impl Observer for () {}
 
 impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
@@ -22,9 +22,9 @@ impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
         self.0.before(race, action);
         self.1.before(race, action);
     }
-    fn after(&mut self, race: &Race, action: &Action, taken_up: &[TakenUp]) {
-        self.0.after(race, action, taken_up);
-        self.1.after(race, action, taken_up);
+    fn after(&mut self, race: &Race, action: &Action, resumed: &[Resumed]) {
+        self.0.after(race, action, resumed);
+        self.1.after(race, action, resumed);
     }
     fn ticked(&mut self, race: &Race) {
         self.0.ticked(race);

@@ -1,4 +1,4 @@
-//! One variant for each thing that can be wrong with a scene file, with its values and its remedy.
+//! The faults that a scene file can have: a variant for each, with its values and its remedy.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -9,7 +9,7 @@ use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{self, BODIES, Fault};
 use crate::sim::integrators::METHODS;
 
-/// What is wrong. The display says that, [`Cause::remedy`] what to do.
+/// A fault of a scene file. Its display says what is wrong, and [`Cause::remedy`] what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(super) enum Cause {
     #[error("the file holds more than {LARGEST_FILE} bytes")]
@@ -76,15 +76,17 @@ pub(super) enum Cause {
     TwoLaneLists,
     #[error("`{key}` is {method:?}, which no lane of this scene has")]
     NotALane { key: &'static str, method: &'static str, known: Vec<&'static str> },
-    #[error("`{key}` means nothing to {method:?}")]
+    #[error("`{key}` does not apply to the method {method:?}")]
     NoTolerance { key: &'static str, method: &'static str },
+    #[error("`tolerance` does not apply to lane {lane}: at tick {tick} its method is {method:?}")]
+    NoToleranceInLane { lane: usize, method: &'static str, tick: u64 },
     #[error("the command does nothing")]
     NoAction { known: Vec<&'static str> },
     #[error("the command does {} things: {}", found.len(), list(found, '`', " and "))]
     ManyActions { found: Vec<&'static str> },
     #[error("no body of this scene takes `{input}`")]
     NoTaker { input: &'static str },
-    #[error("`lane` means nothing to this command")]
+    #[error("`lane` does not apply to this command")]
     LaneAlone { known: [&'static str; 3] },
     #[error("the command does not say of which lane")]
     NoLane { lanes: usize },
@@ -92,6 +94,8 @@ pub(super) enum Cause {
     UnknownBody { name: String, known: Vec<String> },
     #[error("{:?} is no parameter of this body", clip(key))]
     UnknownParameter { key: String, nearest: Option<&'static str>, known: Vec<&'static str> },
+    #[error("`{key}` acts at the start only, and a command comes later")]
+    ActsAtStart { key: &'static str, settable: Vec<&'static str> },
     #[error("`{key}` is {text:?}, not a hash")]
     NoHash { key: &'static str, text: String },
 }
@@ -107,7 +111,7 @@ pub(super) enum Place {
     Within(&'static str),
 }
 
-/// What a key takes.
+/// The kind of value that a key takes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Wanted {
     /// A string of at most this many characters.
@@ -118,7 +122,7 @@ pub(super) enum Wanted {
     Whole(RangeInclusive<u64>),
     /// A list of points.
     Curve(bodies::Range),
-    /// One of them.
+    /// A point of a curve.
     Point,
     /// The id of a method.
     Method,
@@ -128,16 +132,16 @@ pub(super) enum Wanted {
     Tables(&'static str),
     /// A table of this name.
     Table(&'static str),
-    /// Yes or no.
+    /// `true` or `false`.
     Truth,
-    /// So many numbers.
+    /// A list of this many numbers.
     Numbers(usize),
     /// The state of a lane, as 16 hexadecimal digits.
     Hash,
 }
 
 impl Cause {
-    /// What to do about it.
+    /// How to mend it.
     pub(super) fn remedy(&self) -> String {
         match self {
             Cause::TooLarge => "give a scene file, with a shorter script".into(),
@@ -189,9 +193,10 @@ impl Cause {
                 format!("write one of {}, or give it a lane", list(known, '"', ", "))
             }
             Cause::NoTolerance { .. } => {
-                let adaptive = METHODS.iter().filter(|method| method.tolerance.is_some());
-                let adaptive: Vec<_> = adaptive.map(|method| method.id).collect();
-                format!("remove it, or take an adaptive method: {}", list(&adaptive, '"', ", "))
+                format!("remove it, or choose an adaptive method: {}", adaptive_methods())
+            }
+            Cause::NoToleranceInLane { .. } => {
+                format!("remove it, or give it with an adaptive `method`: {}", adaptive_methods())
             }
             Cause::NoAction { known } => format!("write one of {}", list(known, '`', ", ")),
             Cause::ManyActions { .. } => {
@@ -206,6 +211,10 @@ impl Cause {
                 format!("write one of {}", list(&known, '"', ", "))
             }
             Cause::UnknownParameter { nearest, known, .. } => offer(*nearest, known, '"'),
+            Cause::ActsAtStart { settable, .. } => format!(
+                "write it in the body's table, move the body by `place`, or set one of {}",
+                list(settable, '"', ", ")
+            ),
             Cause::NoHash { .. } => format!("write {}", Wanted::Hash),
             Cause::NoTaker { input } => {
                 let takers = BODIES.iter().filter(|kind| kind.inputs.contains(input));
@@ -227,7 +236,7 @@ impl fmt::Display for Place {
 }
 
 impl Wanted {
-    /// What a parameter of this range takes.
+    /// The kind of value that a parameter of this range takes.
     pub(super) fn of(range: bodies::Range) -> Self {
         match range {
             bodies::Range::Count(most) => Wanted::Whole(1..=most.into()),
@@ -274,6 +283,11 @@ impl fmt::Display for Wanted {
             Wanted::Tables(name) => write!(f, "`[[{name}]]` in double brackets and its keys below"),
         }
     }
+}
+
+fn adaptive_methods() -> String {
+    let adaptive = METHODS.iter().filter(|method| method.tolerance.is_some());
+    list(&adaptive.map(|method| method.id).collect::<Vec<_>>(), '"', ", ")
 }
 
 fn describe(lane: &LaneSpec) -> String {

@@ -1,9 +1,9 @@
-//! A file's text in messages.
+//! Shortens a file's text for messages.
 
 /// The most characters of a file's text in one message, so that it stays a line.
 const MOST_QUOTED_CHARS: usize = 40;
 
-/// Text of a file as part of a message: not too much of it, and no control characters.
+/// Text of a file for a message: shortened, and without control characters.
 pub(super) fn clip(text: &str) -> String {
     let mut shown = String::new();
     for character in text.chars().take(MOST_QUOTED_CHARS) {

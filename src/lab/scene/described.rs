@@ -1,4 +1,4 @@
-//! The bodies of a scene file.
+//! Reads the bodies of a scene file.
 
 use std::ops::Range as Span;
 
@@ -60,7 +60,7 @@ fn read_values(kind: &Kind, row: &mut Table<'_>) -> Option<Vec<f64>> {
     Some(values)
 }
 
-/// Complains of names that several bodies have.
+/// Reports names that several bodies have.
 pub(super) fn check_names(text: &str, bodies: &[Described], top: &mut Table<'_>) {
     for (n, body) in bodies.iter().enumerate() {
         let Some(name) = &body.name else { continue };

@@ -1,4 +1,4 @@
-//! The walk over a scene file, from its top to a [`Scene`].
+//! Reads a scene file from its top level down into a [`Scene`].
 
 use toml::de::DeTable;
 
@@ -9,7 +9,7 @@ use super::fields::{
     ABOUT, HINT, METHOD_LIST, OPENING_METHOD, SECONDS, SUBSTEPS, TICK_HZ, TITLE, TOP, optional,
     read_tolerance, required,
 };
-use super::script::{self, Cast};
+use super::script::{self, SceneContext};
 use super::syntax;
 use super::table::{Field, Table};
 use super::{LEAST_SECONDS, MOST_LANES, MOST_SECONDS, MOST_SUBSTEPS, MOST_TICK_HZ, Scene};
@@ -17,23 +17,27 @@ use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
 use crate::sim::integrators::{METHODS, Method};
 
-/// The most characters of a title: it stands in the window's title bar.
+/// The most characters of a title, which is shown in the window's title bar.
 const MOST_TITLE_CHARS: usize = 80;
 
-/// The most characters of what a scene is about: a few lines of a panel.
+/// The most characters of `about`: a few lines of a panel.
 const MOST_ABOUT_CHARS: usize = 400;
 
-/// The most characters of a hint: the line under the stage.
+/// The most characters of a hint, which is the line under the stage.
 const MOST_HINT_CHARS: usize = 120;
 
 const LANE_METHOD: Field = required("method", "the method that races");
 const EQUAL_COST: Field = optional("equal_cost");
+const OPENS_AS_RACE: Field = optional("open");
 
-/// Reads the scene called `name`, or says everything that is wrong with its text, in no order.
+/// Reads the scene called `name`.
+///
+/// # Errors
+/// Everything that is wrong with its text, in no particular order.
 pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let (document, errors) = DeTable::parse_recoverable(text);
     let mut errors = syntax::errors(text, errors);
-    // A key given twice leaves the rest of the file clear; other syntax errors leave only guesses.
+    // After a duplicate key the rest of the file can be read; after other syntax errors it cannot.
     if errors.iter().any(|error| !matches!(error.cause, Cause::DuplicateKey { .. })) {
         return Err(errors);
     }
@@ -49,13 +53,13 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let seconds = top.number(SECONDS, Range::Between(LEAST_SECONDS, MOST_SECONDS));
     let lanes = read_lanes(text, &mut top);
     let opening_method = read_opening_method(&lanes, &mut top);
-    let equal_cost = read_equal_cost(&mut top);
+    let (equal_cost, opens_as_race) = read_race(&mut top);
     let mut bodies = read_bodies(&mut top);
     check_names(text, &bodies, &mut top);
     name_the_nameless(&mut bodies);
-    let cast = Cast { bodies: &bodies, lanes: lanes.len() };
-    let script = script::read(&cast, &mut top);
-    let checks = script::read_checks(&cast, &mut top);
+    let context = SceneContext { bodies: &bodies, lanes: &lanes };
+    let script = script::read(&context, &mut top);
+    let checks = script::read_checks(&context, &mut top);
     errors.extend(top.finish(&[]));
     let may_mean_a_body = |error: &SceneError| {
         matches!(
@@ -80,6 +84,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
                 lanes,
                 opening_method,
                 equal_cost,
+                opens_as_race,
                 bodies,
                 script,
                 checks,
@@ -126,7 +131,7 @@ fn read_lanes(text: &str, top: &mut Table<'_>) -> Vec<LaneSpec> {
     }
 }
 
-/// The method to open with, which has to be a lane's: what a person sees first is then among what races.
+/// The opening method, which must be that of a lane, so that it races too.
 fn read_opening_method(lanes: &[LaneSpec], top: &mut Table<'_>) -> Option<&'static Method> {
     let method = top.method(OPENING_METHOD)?;
     if !lanes.is_empty() && !lanes.iter().any(|lane| lane.method == method) {
@@ -142,10 +147,11 @@ fn read_opening_method(lanes: &[LaneSpec], top: &mut Table<'_>) -> Option<&'stat
     Some(method)
 }
 
-/// What the scene's `[race]` says of the lanes' cost.
-fn read_equal_cost(top: &mut Table<'_>) -> bool {
-    let Some(mut race) = top.table("race") else { return false };
-    let equal_cost = race.truth(EQUAL_COST).unwrap_or(false);
+/// The scene's `[race]`: whether its lanes have equal cost, and whether the program opens it as a race.
+fn read_race(top: &mut Table<'_>) -> (bool, bool) {
+    let Some(mut race) = top.table("race") else { return (false, false) };
+    let [equal_cost, opens_as_race] =
+        [EQUAL_COST, OPENS_AS_RACE].map(|field| race.truth(field).unwrap_or(false));
     top.adopt(race, &TOP);
-    equal_cost
+    (equal_cost, opens_as_race)
 }

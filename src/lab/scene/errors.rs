@@ -1,4 +1,4 @@
-//! Everything that is wrong with one scene file, with its places.
+//! The faults of a scene file, with their places.
 
 use std::fmt;
 use std::ops::Range;

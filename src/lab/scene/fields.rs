@@ -1,4 +1,4 @@
-//! The keys at a scene file's top, and those that several of its tables have.
+//! The keys at the top level of a scene file, and the keys that several of its tables share.
 
 use super::TOLERANCES;
 use super::cause::Cause;
@@ -9,7 +9,7 @@ use crate::sim::integrators::Method;
 pub(super) const TITLE: Field = required("title", "the scene's name for people");
 pub(super) const ABOUT: Field = optional("about");
 pub(super) const HINT: Field = optional("hint");
-pub(super) const TICK_HZ: Field = required("tick_hz", "ticks a second");
+pub(super) const TICK_HZ: Field = required("tick_hz", "ticks per second");
 pub(super) const SECONDS: Field = required("seconds", "how long it runs");
 pub(super) const METHOD_LIST: Field = optional("methods");
 pub(super) const OPENING_METHOD: Field = optional("method");
@@ -27,7 +27,7 @@ pub(super) const fn optional(key: &'static str) -> Field {
     Field { key, needed_as: None }
 }
 
-/// A tolerance, for `method` if it is known.
+/// Reads a tolerance. If the lane's method is known, reports one that takes none.
 pub(super) fn read_tolerance(row: &mut Table<'_>, method: Option<&'static Method>) -> Option<f64> {
     let tolerance = row.number(TOLERANCE, Range::Between(TOLERANCES.0, TOLERANCES.1));
     if let (Some(method), true) = (method, row.has(TOLERANCE.key))

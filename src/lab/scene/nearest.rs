@@ -1,4 +1,4 @@
-//! The known name that somebody may have meant.
+//! Finds the known name that a misspelt one probably stands for.
 
 /// How alike two spellings must be, from 0 to 1 after Jaro and Winkler, for one to be offered for the
 /// other: the tests below show what that lets through.

@@ -1,4 +1,4 @@
-//! What is done in a scene, and what it is known to come to: `[[command]]` and `[[check]]`.
+//! Reads a scene's script and the hashes that its race has to reproduce: `[[command]]` and `[[check]]`.
 
 use super::cause::Cause;
 use super::described::Described;
@@ -9,7 +9,8 @@ use super::{Check, LAST_TICK, MOST_NAME_CHARS, MOST_SUBSTEPS, MOST_TICK_HZ, Scri
 use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::edit::edited_values;
-use crate::sim::bodies::{LARGEST, Parameter, Range};
+use crate::sim::bodies::{Acts, LARGEST, Parameter, Range};
+use crate::sim::integrators::Method;
 
 const TICK: Field = required("tick", "the tick before which it is done");
 const LANE: Field = optional("lane");
@@ -26,101 +27,144 @@ const CHECKED_LANE: Field = required("lane", "the lane's number");
 const CHECKED_TICK: Field = required("tick", "the tick at which it is known");
 const HASH: Field = required("hash", "the lane's state then");
 
-/// What a script is about.
-pub(super) struct Cast<'d> {
-    /// By now each has a name.
+/// The bodies and lanes that a script can refer to.
+pub(super) struct SceneContext<'d> {
+    /// Each with a name.
     pub(super) bodies: &'d [Described],
-    pub(super) lanes: usize,
+    pub(super) lanes: &'d [LaneSpec],
 }
 
-/// Something that a `[[command]]` may do, by its key.
-struct Doable {
+/// A key of `[[command]]`, which stands for an action.
+struct CommandKey {
     field: Field,
     /// The input that some body must take for the action to have an effect.
     input: Option<&'static str>,
-    read: fn(&Cast<'_>, &mut Table<'_>, Field) -> Option<Action>,
+    read: fn(&SceneContext<'_>, &mut Table<'_>, Field) -> Option<Action>,
 }
 
-const fn doable(
+const fn command_key(
     key: &'static str,
-    read: fn(&Cast<'_>, &mut Table<'_>, Field) -> Option<Action>,
-) -> Doable {
-    Doable { field: optional(key), input: None, read }
+    read: fn(&SceneContext<'_>, &mut Table<'_>, Field) -> Option<Action>,
+) -> CommandKey {
+    CommandKey { field: optional(key), input: None, read }
 }
 
 const fn input(
     key: &'static str,
-    read: fn(&Cast<'_>, &mut Table<'_>, Field) -> Option<Action>,
-) -> Doable {
-    Doable { input: Some(key), ..doable(key, read) }
+    read: fn(&SceneContext<'_>, &mut Table<'_>, Field) -> Option<Action>,
+) -> CommandKey {
+    CommandKey { input: Some(key), ..command_key(key, read) }
 }
 
-/// What changes a lane; `lane` says which.
+/// The keys that change a lane; `lane` says which.
 const OF_A_LANE: [&str; 3] = [METHOD.key, SUBSTEPS.key, TOLERANCE.key];
 
-static DOABLE: [Doable; 10] = [
-    doable(METHOD.key, |cast, row, _| read_method(cast, row)),
+static COMMAND_KEYS: [CommandKey; 10] = [
+    command_key(METHOD.key, |context, row, _| read_method(context, row)),
     input("throttle", |_, row, field| row.number(field, Range::Within(1.0)).map(Action::Throttle)),
     input("rudder", |_, row, field| row.number(field, Range::Within(1.0)).map(Action::Rudder)),
     input("kick", |_, row, field| row.number(field, Range::Within(LARGEST)).map(Action::Kick)),
-    doable("tick_hz", |_, row, field| row.whole(field, 1..=MOST_TICK_HZ).map(Action::TickHz)),
-    doable(SUBSTEPS.key, |cast, row, field| {
+    command_key("tick_hz", |_, row, field| row.whole(field, 1..=MOST_TICK_HZ).map(Action::TickHz)),
+    command_key(SUBSTEPS.key, |context, row, field| {
         let substeps = row.whole(field, 1..=MOST_SUBSTEPS);
-        let lane = read_lane(cast, row)?;
+        let lane = read_lane(context, row)?;
         Some(Action::Substeps { lane, substeps: substeps? })
     }),
-    doable(TOLERANCE.key, |cast, row, _| {
+    command_key(TOLERANCE.key, |context, row, _| {
         let tolerance = read_tolerance(row, None);
-        let lane = read_lane(cast, row)?;
+        let lane = read_lane(context, row)?;
         Some(Action::Tolerance { lane, tolerance: tolerance? })
     }),
-    doable("set", |cast, row, _| {
+    command_key("set", |context, row, _| {
         let mut set = row.table("set")?;
-        let action = read_set(cast, &mut set);
+        let action = read_set(context, &mut set);
         row.adopt(set, &TOP);
         action
     }),
-    doable("place", |cast, row, _| {
+    command_key("place", |context, row, _| {
         let mut place = row.table("place")?;
-        let action = read_place(cast, &mut place);
+        let action = read_place(context, &mut place);
         row.adopt(place, &TOP);
         action
     }),
-    doable(SOLO.key, |cast, row, field| {
-        row.whole(field, 1..=cast.lanes as u32).map(|lane| Action::Solo { lane: lane as usize })
+    command_key(SOLO.key, |context, row, field| {
+        row.whole(field, 1..=context.lanes.len() as u32)
+            .map(|lane| Action::Solo { lane: lane as usize })
     }),
 ];
 
-/// What is done, by tick, and within a tick in the order of the file.
-pub(super) fn read(cast: &Cast<'_>, top: &mut Table<'_>) -> Vec<Scripted> {
+/// The scripted commands by tick, and within a tick in the order of the file.
+pub(super) fn read(context: &SceneContext<'_>, top: &mut Table<'_>) -> Vec<Scripted> {
     let mut script = Vec::new();
     for mut row in top.rows("command") {
         let tick = row.whole(TICK, 0..=LAST_TICK);
-        let action = read_action(cast, &mut row);
-        script.extend(tick.zip(action).map(|(tick, action)| Scripted { tick, action }));
+        let action = read_action(context, &mut row);
+        let span = row.span(TOLERANCE.key);
+        let scripted = tick.zip(action).map(|(tick, action)| (Scripted { tick, action }, span));
+        script.extend(scripted);
         top.adopt(row, &TOP);
     }
-    script.sort_by_key(|scripted| scripted.tick);
-    script
+    script.sort_by_key(|(scripted, _)| scripted.tick);
+    // If a lane or a command could not be read, the methods in force are unknown.
+    if top.is_faultless() {
+        check_tolerances(context.lanes, &script, top);
+    }
+    script.into_iter().map(|(scripted, _)| scripted).collect()
 }
 
-fn read_action(cast: &Cast<'_>, row: &mut Table<'_>) -> Option<Action> {
+/// Complains of every tolerance for a lane whose method takes none at that tick, whether the lane races or is flown
+/// solo. The span of a command is that of its `tolerance`.
+fn check_tolerances(
+    lanes: &[LaneSpec],
+    script: &[(Scripted, std::ops::Range<usize>)],
+    top: &mut Table<'_>,
+) {
+    let mut in_race: Vec<&Method> = lanes.iter().map(|spec| spec.method).collect();
+    let mut in_solo = in_race.clone();
+    // A method given without a lane changes nothing while several race.
+    let mut race_is_over = false;
+    for (Scripted { tick, action }, span) in script {
+        match *action {
+            Action::Method(method) => {
+                in_solo.fill(method);
+                if race_is_over {
+                    in_race.fill(method);
+                }
+            }
+            Action::Lane { lane, spec } => {
+                (in_race[lane - 1], in_solo[lane - 1]) = (spec.method, spec.method);
+            }
+            Action::Solo { .. } => race_is_over = true,
+            Action::Tolerance { lane, .. } => {
+                let methods = [in_race[lane - 1], in_solo[lane - 1]];
+                if methods.iter().all(|method| method.tolerance.is_none()) {
+                    let method = methods[0].id;
+                    let cause = Cause::NoToleranceInLane { lane, method, tick: *tick };
+                    top.complain(span.clone(), cause);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action> {
     row.knows(LANE.key);
     // Substeps and a tolerance may go with a method.
     let goes_with = |key: &str| row.has(METHOD.key) && OF_A_LANE[1..].contains(&key);
-    let given = DOABLE.iter().filter(|it| row.has(it.field.key) && !goes_with(it.field.key));
-    let found: Vec<_> = given.map(|doable| doable.field.key).collect();
+    let given = COMMAND_KEYS.iter().filter(|it| row.has(it.field.key) && !goes_with(it.field.key));
+    let found: Vec<_> = given.map(|command_key| command_key.field.key).collect();
     let mut action = None;
-    for Doable { field, input, read } in &DOABLE {
+    for CommandKey { field, input, read } in &COMMAND_KEYS {
         row.knows(field.key);
         if !found.contains(&field.key) {
             continue;
         }
-        // Each is read, also where one too many is found: so all faults are.
-        action = read(cast, row, *field).or(action);
+        // All are read, even if only one is allowed, so that all faults are found.
+        action = read(context, row, *field).or(action);
         if let Some(input) = *input
-            && !cast.bodies.is_empty()
-            && !cast.bodies.iter().any(|body| body.kind.inputs.contains(&input))
+            && !context.bodies.is_empty()
+            && !context.bodies.iter().any(|body| body.kind.inputs.contains(&input))
         {
             row.complain(row.span(field.key), Cause::NoTaker { input });
         }
@@ -131,7 +175,7 @@ fn read_action(cast: &Cast<'_>, row: &mut Table<'_>) -> Option<Action> {
     let header = row.header.clone();
     match found.len() {
         0 => {
-            let known = DOABLE.iter().map(|doable| doable.field.key).collect();
+            let known = COMMAND_KEYS.iter().map(|command_key| command_key.field.key).collect();
             row.complain(header, Cause::NoAction { known });
         }
         1 => {}
@@ -140,54 +184,63 @@ fn read_action(cast: &Cast<'_>, row: &mut Table<'_>) -> Option<Action> {
     action
 }
 
-/// The lane's number. Where there is one lane, it need not be given.
-fn read_lane(cast: &Cast<'_>, row: &mut Table<'_>) -> Option<usize> {
+/// The lane's number. If the scene has one lane, it may be left out.
+fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<usize> {
     if !row.has(LANE.key) {
-        if cast.lanes != 1 {
-            row.complain(row.header.clone(), Cause::NoLane { lanes: cast.lanes });
+        if context.lanes.len() != 1 {
+            row.complain(row.header.clone(), Cause::NoLane { lanes: context.lanes.len() });
             return None;
         }
         return Some(1);
     }
-    row.whole(LANE, 1..=cast.lanes as u32).map(|lane| lane as usize)
+    row.whole(LANE, 1..=context.lanes.len() as u32).map(|lane| lane as usize)
 }
 
-fn read_method(cast: &Cast<'_>, row: &mut Table<'_>) -> Option<Action> {
+fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action> {
     let method = row.method(METHOD);
     let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS);
     let tolerance = read_tolerance(row, method);
     if [LANE, SUBSTEPS, TOLERANCE].iter().any(|field| row.has(field.key)) {
-        let lane = read_lane(cast, row)?;
+        let lane = read_lane(context, row)?;
         let spec = LaneSpec { method: method?, substeps: substeps.unwrap_or(1), tolerance };
         return Some(Action::Lane { lane, spec });
     }
     method.map(Action::Method)
 }
 
-/// The body that a table names, by its place.
-fn read_body<'d>(cast: &Cast<'d>, table: &mut Table<'_>) -> Option<(usize, &'d Described)> {
+/// The body that a table names, with its place in the scene.
+fn read_body<'d>(
+    context: &SceneContext<'d>,
+    table: &mut Table<'_>,
+) -> Option<(usize, &'d Described)> {
     let name = table.text(BODY, MOST_NAME_CHARS)?;
     let is_called = |body: &Described| body.name.as_ref() == Some(&name);
-    let Some(place) = cast.bodies.iter().position(is_called) else {
-        let known = cast.bodies.iter().filter_map(|body| body.name.clone()).collect();
+    let Some(place) = context.bodies.iter().position(is_called) else {
+        let known = context.bodies.iter().filter_map(|body| body.name.clone()).collect();
         table.complain(table.span(BODY.key), Cause::UnknownBody { name, known });
         return None;
     };
-    Some((place, &cast.bodies[place]))
+    Some((place, &context.bodies[place]))
 }
 
-fn read_set(cast: &Cast<'_>, set: &mut Table<'_>) -> Option<Action> {
-    let body = read_body(cast, set);
+fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
+    let body = read_body(context, set);
     let key = set.text(KEY, MOST_NAME_CHARS);
     set.knows(VALUE.key);
     let (place, Described { kind, values, .. }) = body?;
     let key = key?;
-    let Some((parameter, &Parameter { range, .. })) = kind.parameter(&key) else {
+    let Some((parameter, &Parameter { key: known, range, acts, .. })) = kind.parameter(&key) else {
         let known: Vec<_> = kind.parameters.iter().map(|parameter| parameter.key).collect();
         let nearest = nearest(&key, known.iter().map(|name| (*name, *name)));
         set.complain(set.span(KEY.key), Cause::UnknownParameter { key, nearest, known });
         return None;
     };
+    if acts == Acts::AtStart {
+        let at_once = kind.parameters.iter().filter(|parameter| parameter.acts == Acts::AtOnce);
+        let settable = at_once.map(|parameter| parameter.key).collect();
+        set.complain(set.span(KEY.key), Cause::ActsAtStart { key: known, settable });
+        return None;
+    }
     let value = match range {
         Range::Count(most) => f64::from(set.whole(VALUE, 1..=most)?),
         _ => set.number(VALUE, range)?,
@@ -202,21 +255,21 @@ fn read_set(cast: &Cast<'_>, set: &mut Table<'_>) -> Option<Action> {
     Some(Action::Set { body: place, parameter, value })
 }
 
-fn read_place(cast: &Cast<'_>, place: &mut Table<'_>) -> Option<Action> {
-    let body = read_body(cast, place);
+fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Action> {
+    let body = read_body(context, place);
     [Q, V].iter().for_each(|field| place.knows(field.key));
     let (at, Described { kind, values, .. }) = body?;
     let count = (kind.coordinates)(values.as_ref()?).len();
-    let (q, v) = (place.numbers(Q, count), place.numbers(V, count));
+    let (q, v) = (place.coordinates(Q, count), place.coordinates(V, count));
     Some(Action::Place { body: at, q: q?.into(), v: v?.into() })
 }
 
-/// What the lanes are known to come to.
-pub(super) fn read_checks(cast: &Cast<'_>, top: &mut Table<'_>) -> Vec<Check> {
+/// The states that lanes are known to reach.
+pub(super) fn read_checks(context: &SceneContext<'_>, top: &mut Table<'_>) -> Vec<Check> {
     let mut checks: Vec<Check> = Vec::new();
     for mut row in top.rows("check") {
         let tick = row.whole(CHECKED_TICK, 0..=LAST_TICK);
-        let lane = row.whole(CHECKED_LANE, 1..=cast.lanes.max(1) as u32);
+        let lane = row.whole(CHECKED_LANE, 1..=context.lanes.len().max(1) as u32);
         let hash = row.hash(HASH);
         if let (Some(tick), Some(lane), Some(hash)) = (tick, lane, hash) {
             checks.push(Check { tick, lane: lane as usize, hash });

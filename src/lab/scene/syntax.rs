@@ -1,4 +1,4 @@
-//! What the TOML parser complains of, in the words of a scene's messages.
+//! Translates the TOML parser's errors into messages with a remedy.
 
 use std::ops::Range;
 

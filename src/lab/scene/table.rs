@@ -1,27 +1,28 @@
-//! One table of a scene file, read key by key; what is not asked for is unknown.
+//! Reads a table of a scene file key by key; keys that are never asked for are reported as unknown.
 
 use std::ops::{Range, RangeInclusive};
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::LARGEST_COORDINATE as ESCAPE;
 use super::cause::{Cause, Place, Wanted};
 use super::clip::clip;
 use super::errors::SceneError;
 use super::nearest::nearest;
-use crate::sim::bodies::{self, LARGEST, MOST_POINTS};
+use crate::sim::bodies;
 use crate::sim::integrators::{METHODS, Method};
+
+mod lists;
 
 /// A key that a table may or must have.
 #[derive(Clone, Copy)]
 pub(super) struct Field {
     pub(super) key: &'static str,
-    /// What it is, for a table that must have it; `None` where it may be left out.
+    /// What the key stands for, if it is required; `None` if it is optional.
     pub(super) needed_as: Option<&'static str>,
 }
 
-/// A table and what was found wrong with it so far. Whatever is wrong is noted, and read as `None`.
+/// A table with the faults found in it so far. A value with a fault is read as `None`.
 pub(super) struct Table<'t> {
     text: &'t str,
     place: Place,
@@ -31,7 +32,7 @@ pub(super) struct Table<'t> {
     keys: Vec<&'static str>,
     arrays: Vec<&'static str>,
     errors: Vec<SceneError>,
-    /// What is wrong with the tables below it.
+    /// The faults of the tables below it.
     below: Vec<SceneError>,
 }
 
@@ -57,7 +58,12 @@ impl<'t> Table<'t> {
         self.errors.push(SceneError { span, cause });
     }
 
-    /// Where the value of `key` is, or else the header.
+    /// Whether no fault has been found so far, in this table or below it.
+    pub(super) fn is_faultless(&self) -> bool {
+        self.errors.is_empty() && self.below.is_empty()
+    }
+
+    /// The bytes of the value of `key`, or of the header if there is none.
     pub(super) fn span(&self, key: &str) -> Range<usize> {
         self.entries.get(key).map_or(self.header.clone(), Spanned::span)
     }
@@ -66,7 +72,7 @@ impl<'t> Table<'t> {
         self.entries.contains_key(key)
     }
 
-    /// Takes notice of a key that may stand here, whatever becomes of it.
+    /// Notes that a key is allowed here.
     pub(super) fn knows(&mut self, key: &'static str) {
         if !self.keys.contains(&key) {
             self.keys.push(key);
@@ -102,45 +108,6 @@ impl<'t> Table<'t> {
         self.within(field, value, range.contains(number).then_some(number), wanted)
     }
 
-    /// The points of a curve, in rising order of their first numbers. No more than [`MOST_POINTS`]
-    /// are looked at.
-    pub(super) fn curve(&mut self, field: Field, range: bodies::Range) -> Option<Vec<[f64; 2]>> {
-        let key = field.key;
-        let wanted = Wanted::Curve(range);
-        let value = self.value(field, &wanted)?;
-        let Some(entries) = value.get_ref().as_array() else {
-            return self.wrong_type(format!("`{key}`"), value, wanted);
-        };
-        let found = entries.len();
-        if !(2..=MOST_POINTS).contains(&found) {
-            self.complain(value.span(), Cause::PointCount { key, found, wanted });
-        }
-        let mut points: Vec<[f64; 2]> = Vec::new();
-        for entry in entries.iter().take(MOST_POINTS) {
-            let point = self.point(field, entry)?;
-            if let Some([before, _]) = points.last().filter(|last| last[0] >= point[0]) {
-                let cause = Cause::NotRising { key, value: point[0], before: *before };
-                self.complain(entry.span(), cause);
-            }
-            points.push(point);
-        }
-        (points.len() == found).then_some(points)
-    }
-
-    fn point(&mut self, field: Field, entry: &Spanned<DeValue<'_>>) -> Option<[f64; 2]> {
-        let pair = entry.get_ref().as_array().filter(|pair| pair.len() == 2);
-        let numbers = pair.and_then(|pair| Some([number(&pair[0])?, number(&pair[1])?]));
-        let (Some(pair), Some(numbers)) = (pair, numbers) else {
-            return self.wrong_type(format!("a point of `{}`", field.key), entry, Wanted::Point);
-        };
-        let range = bodies::Range::Within(LARGEST);
-        for (value, number) in pair.iter().zip(numbers) {
-            let number = range.contains(number).then_some(number);
-            self.within(field, value, number, Wanted::Number(range))?;
-        }
-        Some(numbers)
-    }
-
     pub(super) fn whole<T>(&mut self, field: Field, range: RangeInclusive<T>) -> Option<T>
     where
         T: Copy + PartialOrd + Into<u64> + TryFrom<i128>,
@@ -159,7 +126,7 @@ impl<'t> Table<'t> {
         self.method_named(field.key, format!("`{}`", field.key), value)
     }
 
-    /// Methods with the bytes of their names. No more than `most` entries are looked at.
+    /// Methods with the bytes of their names. At most `most` entries are read.
     pub(super) fn methods(
         &mut self,
         field: Field,
@@ -221,7 +188,7 @@ impl<'t> Table<'t> {
         truth.or_else(|| self.wrong_type(format!("`{}`", field.key), value, Wanted::Truth))
     }
 
-    /// A hash and how it is written.
+    /// A hash, written as 16 hexadecimal digits.
     pub(super) fn hash(&mut self, field: Field) -> Option<u64> {
         let value = self.value(field, &Wanted::Hash)?;
         let (span, key) = (value.span(), field.key);
@@ -236,32 +203,12 @@ impl<'t> Table<'t> {
         hash
     }
 
-    /// So many numbers.
-    pub(super) fn numbers(&mut self, field: Field, count: usize) -> Option<Vec<f64>> {
-        let wanted = Wanted::Numbers(count);
-        let value = self.value(field, &wanted)?;
-        let array = value.get_ref().as_array();
-        let Some(numbers): Option<Vec<f64>> =
-            array.and_then(|array| array.iter().map(number).collect())
-        else {
-            return self.wrong_type(format!("`{}`", field.key), value, wanted);
-        };
-        if numbers.len() != count {
-            let cause = Cause::NumberCount { key: field.key, found: numbers.len(), wanted };
-            self.complain(value.span(), cause);
-            return None;
-        }
-        let are_in_range = numbers.iter().all(|number| number.abs() <= ESCAPE);
-        self.within(field, value, are_in_range.then_some(numbers), wanted)
-    }
-
-    /// Takes in what is wrong with a table below this one; a key of `top` is known to belong to the
-    /// top of the file.
+    /// Collects the faults of a table below this one. Keys of `top` in it are reported as misplaced.
     pub(super) fn adopt(&mut self, row: Table<'t>, top: &[Field]) {
         self.below.extend(row.finish(top));
     }
 
-    /// Everything that is wrong with the table, now that all its keys were asked for.
+    /// All faults of the table, once all its keys have been asked for.
     pub(super) fn finish(mut self, top: &[Field]) -> Vec<SceneError> {
         let mut unknown = Vec::new();
         for (key, value) in self.entries {
@@ -270,7 +217,7 @@ impl<'t> Table<'t> {
                 unknown.push(SceneError { span, cause: self.unknown(key, value.get_ref(), top) });
             }
         }
-        // What stands in the file misspelt or misplaced is not missing as well.
+        // A misspelt or misplaced key is not reported as missing too.
         let misspelt = unknown.iter().filter_map(|error| match error.cause {
             Cause::UnknownKey { nearest, .. } => nearest,
             _ => None,
@@ -382,7 +329,7 @@ fn is_table(value: &DeValue<'_>) -> bool {
     value.is_table() || first.is_some_and(|first| first.get_ref().is_table())
 }
 
-/// A number, whole or not; what does not fit is out of every range.
+/// A number, whole or not. One that does not fit is out of every range.
 fn number(value: &Spanned<DeValue<'_>>) -> Option<f64> {
     match value.get_ref() {
         DeValue::Integer(_) => Some(integer(value).map_or(f64::INFINITY, |whole| whole as f64)),

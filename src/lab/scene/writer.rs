@@ -1,4 +1,4 @@
-//! A scene as the text of its file: what is written is read back to the same scene, to the bit.
+//! Writes a scene as the text of a file, from which the same scene is read back, to the bit.
 
 use std::fmt::Write;
 
@@ -10,8 +10,8 @@ use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
 
 impl Scene {
-    /// The `text` of a scene file with other hashes in its checks, in the order of the file, and all else as it is.
-    /// Where there are fewer hashes than checks, the last checks keep theirs.
+    /// Replaces the hashes in the checks of a scene file's `text`, in the order of the file. The rest of the text stays
+    /// the same. If there are fewer hashes than checks, the last checks keep theirs.
     pub fn with_hashes(text: &str, hashes: &[u64]) -> String {
         let Ok(document) = DeTable::parse(text) else { return text.into() };
         let rows = document.get_ref().get("check").and_then(|checks| checks.get_ref().as_array());
@@ -56,8 +56,10 @@ impl Scene {
             let ids = self.lanes.iter().map(|spec| quoted(spec.method.id));
             line("methods", list(ids));
         }
-        if self.equal_cost {
-            text += "\n[race]\nequal_cost = true\n";
+        if self.equal_cost || self.opens_as_race {
+            text += "\n[race]\n";
+            text += if self.equal_cost { "equal_cost = true\n" } else { "" };
+            text += if self.opens_as_race { "open = true\n" } else { "" };
         }
         if !are_plain {
             self.lanes.iter().for_each(|spec| write_lane(&mut text, spec));
@@ -113,7 +115,7 @@ impl Scene {
 }
 
 impl Check {
-    /// Its row in a scene file, with an empty line before it.
+    /// The check as a table of a scene file, with an empty line before it.
     pub fn to_toml(&self) -> String {
         let Self { tick, lane, hash } = self;
         format!("\n[[check]]\ntick = {tick}\nlane = {lane}\nhash = \"{hash:016x}\"\n")
@@ -134,7 +136,7 @@ fn write_body(text: &mut String, SceneBody { name, kind, values }: &SceneBody) {
     *text += &format!("\n[[{}]]\nname = {}\n", kind.id, quoted(name));
     for (parameter, place) in kind.parameters.iter().zip(0..) {
         let value = match parameter.range {
-            // It is the last, and has all the values that are left.
+            // A curve is the last parameter, and takes all remaining values.
             Range::Curve { .. } => {
                 let points = values[place..].chunks_exact(2);
                 list(points.map(|point| list(point.iter().map(|x| number(*x)))))

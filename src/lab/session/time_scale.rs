@@ -1,16 +1,16 @@
-//! The time of every tick of a run whose tick rate may change on the way.
+//! The times of the ticks of a run whose tick rate may change.
 
 use crate::lab::action::Action;
 use crate::lab::journal::JournalRow;
 
-/// Times of a run's ticks, and the ticks of its times.
+/// Converts between the ticks and the times of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeScale {
-    /// By tick; the first begins at the start.
+    /// In order; the first begins at tick 0.
     pieces: Vec<Piece>,
 }
 
-/// Ticks of one rate.
+/// Consecutive ticks of one rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Piece {
     tick: u64,
@@ -25,7 +25,7 @@ impl Piece {
 }
 
 impl TimeScale {
-    /// Of a run that starts at this tick rate and has this journal.
+    /// The time scale of a run that starts at this tick rate and has this journal.
     pub(super) fn new(tick_hz: u32, journal: &[JournalRow]) -> Self {
         let mut pieces = vec![Piece { tick: 0, t: 0.0, tick_hz }];
         for row in journal {

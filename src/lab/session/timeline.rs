@@ -1,22 +1,21 @@
-//! A session with its past and its future: any tick that it reached can be gone to, and is to the bit what it was.
+//! A session with its past and its future: it can go to any tick that it has reached, with identical bits.
 
 use super::{Session, TimeScale};
 use crate::lab::action::Action;
 use crate::lab::journal::{Journal, Source};
 use crate::lab::past::{Past, PastMark};
-use crate::lab::race::{Acted, Observer, Race};
+use crate::lab::race::{ActionResult, Observer, Race};
 
 /// The memory that snapshots may take, in bytes.
 pub const SNAPSHOT_BYTES: usize = 64 << 20;
 
-/// Ticks between snapshots at first: gone over in less than a frame.
+/// The initial spacing of snapshots in ticks, which are repeated in less than a frame.
 const SPACING: u64 = 32;
 
-/// A session that can be gone back and forth in.
+/// A session that can go back and forth in time.
 ///
-/// It keeps a snapshot of the session every so many ticks, and comes to any tick from the nearest by doing again what
-/// the journal has. Snapshots grow sparser as there are more, so that they never take more than a stated number of
-/// bytes.
+/// It keeps snapshots of the session at regular ticks, and reaches any tick from the nearest snapshot before it by
+/// repeating the journal's actions. When the snapshots reach their memory limit, their spacing doubles.
 pub struct Timeline {
     session: Session,
     past: Past,
@@ -24,7 +23,7 @@ pub struct Timeline {
     snapshots: Vec<Snapshot>,
     spacing: u64,
     limit: usize,
-    /// The last tick that was reached.
+    /// The last tick reached.
     end: u64,
     halts: Vec<Event>,
     undone: Option<Undone>,
@@ -32,7 +31,7 @@ pub struct Timeline {
 
 /// A session at a tick.
 struct Snapshot {
-    /// Without its journal, which is the timeline's.
+    /// Without a journal, which the timeline has.
     race: Race,
     mark: PastMark,
     bytes: usize,
@@ -40,7 +39,7 @@ struct Snapshot {
 
 /// A future that was discarded.
 struct Undone {
-    /// The tick at which another one began.
+    /// The tick at which another future began.
     tick: u64,
     journal: Journal,
     end: u64,
@@ -60,7 +59,7 @@ pub struct Event {
 /// What happened in a run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EventKind {
-    /// Something was done.
+    /// An action was performed.
     Done(Action, Source),
     /// A body of this lane halted; 0 is the truth.
     Halted {
@@ -68,18 +67,18 @@ pub enum EventKind {
         lane: usize,
         /// The body's place in the scene.
         body: usize,
-        /// Whether a value grew past all bounds, and no solver gave up.
+        /// Whether a value left its range, rather than the solver failing.
         is_blow_up: bool,
     },
 }
 
 impl Timeline {
-    /// The timeline of a session that stands at its start.
+    /// The timeline of a session at its start.
     pub fn new(session: Session) -> Self {
         Self::with_limit(session, SNAPSHOT_BYTES)
     }
 
-    /// As [`Timeline::new`], with so many bytes for snapshots.
+    /// Like [`Timeline::new`], with at most `limit` bytes for snapshots.
     pub fn with_limit(session: Session, limit: usize) -> Self {
         let past = Past::new(session.race(), session.scene().seconds);
         let mut timeline = Self {
@@ -100,23 +99,23 @@ impl Timeline {
     pub fn session(&self) -> &Session {
         &self.session
     }
-    /// The race as it stood at tick 0, before anything was done; without its journal.
+    /// The race at tick 0, before any action; without its journal.
     pub fn start(&self) -> &Race {
-        &self.snapshots[0].race
+        self.session.start()
     }
-    /// The time of every tick, by what was done and what the script has to come.
+    /// The time of every tick, by the performed and the pending changes of the tick rate.
     pub fn times(&self) -> TimeScale {
         TimeScale::new(self.start().tick_hz(), self.session.journal().rows())
     }
-    /// What is remembered of it.
+    /// The recorded past that is drawn.
     pub fn past(&self) -> &Past {
         &self.past
     }
-    /// The last tick that was reached: beyond it nothing is known.
+    /// The last tick reached.
     pub fn end(&self) -> u64 {
         self.end
     }
-    /// Whether the present tick is one of the run's past.
+    /// Whether the present tick is before the last tick reached.
     pub fn is_in_past(&self) -> bool {
         self.session.race.tick() < self.end
     }
@@ -134,7 +133,7 @@ impl Timeline {
         self.undone.is_some()
     }
 
-    /// What happened up to the last tick that was reached, by tick.
+    /// The events up to the last tick reached, by tick.
     pub fn events(&self) -> Vec<Event> {
         let rows = self.session.journal().rows().iter();
         let done = rows.take_while(|row| row.tick <= self.end).map(|row| Event {
@@ -146,22 +145,22 @@ impl Timeline {
         events
     }
 
-    /// Shows the present, also where no sample of the past is due.
+    /// Adds the present to what is drawn, even if no sample is due.
     pub fn show_present(&mut self) {
         self.past.show_present(self.session.race());
     }
 
-    /// Does what the journal has for the present tick and was not done yet.
+    /// Performs the journal's pending actions at the present tick.
     pub(in crate::lab) fn catch_up<O: Observer>(&mut self, observer: &mut O) {
         self.session.race.catch_up(&mut (&mut self.past, observer));
     }
 
-    /// Makes a tick: again, in the past.
+    /// Makes a tick; in the past it repeats the tick that was made.
     pub fn tick(&mut self) {
         self.tick_seen(&mut ());
     }
 
-    /// As [`Timeline::tick`], before the eyes of an observer.
+    /// Like [`Timeline::tick`], with an observer.
     pub fn tick_seen<O: Observer>(&mut self, observer: &mut O) {
         self.session.tick_seen(&mut (&mut self.past, observer));
         let tick = self.session.race.tick();
@@ -176,47 +175,45 @@ impl Timeline {
 
     fn note_halts(&mut self) {
         let race = self.session.race();
-        let lanes = race.entrants().iter().map(|entrant| (entrant.lane_number, &entrant.lane));
-        for (number, lane) in std::iter::once((0, race.truth())).chain(lanes) {
-            for halt in lane.halts().filter(|halt| halt.tick + 1 == race.tick()) {
-                let is_blow_up = halt.is_blow_up();
-                let kind = EventKind::Halted { lane: number, body: halt.body, is_blow_up };
-                self.halts.push(Event { tick: halt.tick, kind });
-            }
-        }
+        self.halts.extend(race.just_halted().map(|(place, halt)| {
+            let lane = place.map_or(0, |place| race.entrants()[place].lane_number);
+            let is_blow_up = halt.is_blow_up();
+            Event { tick: halt.tick, kind: EventKind::Halted { lane, body: halt.body, is_blow_up } }
+        }));
     }
 
-    /// Does something at the present tick, as [`Session::act`] does. In the past, another future begins with it, and
-    /// the one that was is kept for [`Timeline::undo`].
+    /// Performs an action at the present tick, like [`Session::act`]. In the past, another future begins with it, and the
+    /// old future is kept for [`Timeline::undo`].
     pub fn act(&mut self, action: Action) -> bool {
-        self.act_seen(action, &mut ()) != Acted::Nothing
+        self.act_seen(action, &mut ()) != ActionResult::Nothing
     }
 
     pub(in crate::lab) fn act_seen(
         &mut self,
         action: Action,
         observer: &mut impl Observer,
-    ) -> Acted {
-        let before = self.session.journal().clone();
+    ) -> ActionResult {
+        let before = self.is_in_past().then(|| self.session.journal().clone());
         let acted = self.session.act_seen(action, &mut (&mut self.past, observer));
-        if acted == Acted::Nothing {
+        if acted == ActionResult::Nothing {
             return acted;
         }
         let tick = self.session.race.tick();
         self.past.forget_future();
-        // A snapshot shows the session as it came to a tick, before anything is done there.
+        // A snapshot holds the session as it reached a tick, before the actions there.
         let later = self.snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick);
         let snapshots = self.snapshots.split_off(later);
         let later = self.halts.partition_point(|event| event.tick < tick);
         let halts = self.halts.split_off(later);
-        if tick < self.end {
-            self.undone = Some(Undone { tick, journal: before, end: self.end, snapshots, halts });
+        if let Some(journal) = before {
+            self.undone = Some(Undone { tick, journal, end: self.end, snapshots, halts });
             self.end = tick;
         }
         acted
     }
 
-    /// Brings the future back that was discarded last, and goes to where that was. Returns whether there was one.
+    /// Restores the future that was discarded last, and goes to the tick at which that happened. Returns whether there was
+    /// one.
     pub fn undo(&mut self) -> bool {
         let Some(undone) = self.undone.take() else { return false };
         let Undone { tick, journal, end, snapshots, halts } = undone;
@@ -227,13 +224,12 @@ impl Timeline {
         self.session.race.set_journal(journal);
         self.end = end;
         self.restore(tick);
-        // It is that of the future that was begun instead.
+        // The recorded future is the one that has just been undone.
         self.past.forget_future();
         true
     }
 
-    /// Goes to a tick, at most the last that was reached: to the state in which the session came to it, before
-    /// anything is done there.
+    /// Goes to a tick, at most the last reached, in the state before the actions at that tick.
     pub fn seek(&mut self, tick: u64) {
         let tick = tick.min(self.end);
         if tick != self.session.race.tick() {
@@ -247,7 +243,7 @@ impl Timeline {
         let present = self.session.race.tick();
         let is_ahead = (self.snapshots[nearest].race.tick()..tick).contains(&present);
         if !is_ahead {
-            // From so far back that what is shown of the past is whole again.
+            // Starts so far back that the drawn past is complete again.
             let wanted = &self.snapshots[nearest].mark;
             let fills = |snapshot: &Snapshot| self.past.fills(&snapshot.mark, wanted);
             let from = self.snapshots[..=nearest].iter().rfind(|snapshot| fills(snapshot));
@@ -280,7 +276,7 @@ impl Timeline {
         Snapshot { race, mark, bytes }
     }
 
-    /// Keeps the present, if it is not kept yet, and no more than may be.
+    /// Adds a snapshot of the present if there is none, and thins the snapshots to their memory limit.
     fn take_snapshot(&mut self) {
         let tick = self.session.race.tick();
         let place = self.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);

@@ -1,24 +1,25 @@
-//! Equal masses in a row, joined by equal springs with dash-pots to each other and to a wall at either
+//! Equal masses in a row, joined by equal springs with dash-pots to each other and to a wall at each
 //! end.
 //!
-//! A dash-pot in each spring, as one on each mass would, acts on every normal mode by itself: the modes
-//! stay apart, and the motion has a closed form. Here the damping of a mode grows with the square of its
-//! frequency, so that one chain has modes that swing and modes that creep.
+//! Each dash-pot is parallel to a spring. The damping matrix is then proportional to the stiffness
+//! matrix, so that the normal modes stay uncoupled and the motion has a closed form. The damping of a
+//! mode grows with the square of its frequency: one chain has modes that oscillate and modes that are
+//! overdamped.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 use glam::DVec2;
 
-use super::body::{Body, Input};
 use super::kind::{Coordinate, Kind, Truth};
 use super::oscillator;
-use super::parameter::{self, Fault, ParameterOf, Range};
-use crate::sim::driven::stepper;
+use crate::sim::body::{Body, Input};
+use crate::sim::body_stepper::stepper;
+use crate::sim::parameter::{self, Fault, ParameterOf, Range};
 use crate::sim::system::{State, System};
 
-/// The most masses in a chain: as many as can be told apart on a wide stage. The closed form takes the
-/// square of this many multiplications for a tick.
+/// The largest number of masses: as many as can be told apart on a wide stage. The closed form needs of
+/// the order of its square multiplications per tick.
 const MOST_MASSES: u32 = 256;
 
 /// x1, x2 …
@@ -85,19 +86,19 @@ pub struct Chain {
     stiffness: f64,
     /// c, in newtons for each metre per second.
     damping: f64,
-    /// The mass that is plucked and kicked, from 1.
+    /// The number of the mass that is plucked and kicked, from 1.
     plucked: usize,
     /// Its displacement at the start, in metres.
     x0: f64,
     /// The impulse of one kick, in newton seconds.
     kick: f64,
-    /// `sin(π i / (N + 1))` for i from 0 to 2 N + 1: mass j in mode n moves as far as i = j n, round,
-    /// says.
+    /// `sin(π i / (N + 1))` for i from 0 to 2 N + 1. The displacement of mass j in mode n is entry j n,
+    /// modulo the length.
     sines: Vec<f64>,
 }
 
 impl Chain {
-    /// No masses, and every parameter is 0: for [`Body::with_parameters`] to fill in.
+    /// No masses and all parameters 0, to be set by [`Body::with_parameters`].
     pub const BLANK: Self = Self {
         masses: 0,
         mass: 0.0,
@@ -109,7 +110,7 @@ impl Chain {
         sines: Vec::new(),
     };
 
-    /// Half the distance of the walls, in units of the amplitude.
+    /// Half the distance between the walls, in units of the amplitude.
     pub const HALF_LENGTH: f64 = 2.4;
 
     /// `masses` of `mass` kg, joined by springs of `stiffness` N/m with dash-pots of `damping` N·s/m;
@@ -138,7 +139,7 @@ impl Chain {
         2.0 * (self.stiffness / self.mass).sqrt() * libm::sin(half)
     }
 
-    /// How far each mass moves in mode `n`, from 1, of amplitude 1.
+    /// The displacement of each mass in mode `n`, from 1, at amplitude 1.
     fn shape(&self, n: usize) -> impl Iterator<Item = f64> {
         let mut i = 0;
         (0..self.masses).map(move |_| {
@@ -150,13 +151,13 @@ impl Chain {
         })
     }
 
-    /// How far the plucked mass is held aside at the start, in metres; 1 where it is not.
+    /// The initial displacement of the plucked mass, in metres; 1 if that is 0.
     pub fn amplitude(&self) -> f64 {
         if self.x0 == 0.0 { 1.0 } else { self.x0.abs() }
     }
 
-    /// Where mass `j`, from 1, is when it is displaced by `x`, in metres. The displacements are along the chain;
-    /// they are shown across it, where they do not hide each other.
+    /// The position on the stage, in metres, of mass `j`, from 1, displaced by `x`. Displacements are
+    /// along the chain, but are drawn across it so that masses do not hide each other.
     pub fn place_of(&self, j: usize, x: f64) -> DVec2 {
         let part = j as f64 / (self.masses + 1) as f64;
         DVec2::new((2.0 * part - 1.0) * Self::HALF_LENGTH * self.amplitude(), x)
@@ -169,7 +170,8 @@ impl System for Chain {
     #[inline]
     fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
         let (k, c) = (self.stiffness / self.mass, self.damping / self.mass);
-        // What each mass gives to either side; the walls give nothing.
+        // k q + c v of the mass to the left, of this one and of the one to the right; the walls are at
+        // rest.
         let mut left = 0.0;
         let mut here = k * q[0] + c * v[0];
         let last = q.len() - 1;
@@ -190,7 +192,7 @@ impl Body for Chain {
         let (masses, plucked) = (self.masses, self.plucked);
         assert!((1..=masses).contains(&plucked), "mass {plucked} of {masses}");
         let sine = |i: usize| libm::sin(PI * i as f64 / (masses + 1) as f64);
-        // By the symmetry of the sine, so that equal numbers are equal to the bit.
+        // Mirrored, so that sines that are equal by symmetry are equal to the bit.
         let quarter = |i: usize| sine(i.min(masses + 1 - i));
         let half = (0..=masses).map(quarter);
         self.sines = half.clone().chain(half.map(|sine| -sine)).collect();
@@ -239,7 +241,7 @@ impl Body for Chain {
         let norm = 2.0 / (self.masses + 1) as f64;
         let mut sum = [0.0; 2];
         for n in 1..=self.masses {
-            // Magnitudes, so that nothing cancels in what bounds the rounding of sums.
+            // Sums of magnitudes: they bound the rounding even if the sums cancel.
             let mut mode = State { q: 0.0, v: 0.0 };
             for ((q, v), shape) in from.q.iter().zip(&from.v).zip(self.shape(n)) {
                 mode.q += norm * (shape * q).abs();

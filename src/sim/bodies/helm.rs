@@ -1,16 +1,16 @@
-//! A ship that is steered: surge and sway of its centre of mass, and yaw, the angular equation of
-//! motion. Its thrust is read off a table over its speed.
+//! A ship that is steered: surge and sway of its centre of mass, and yaw. Its thrust is interpolated
+//! from a table over speed.
 //!
-//! In the water's frame, so that the coordinates are what the equation is of second order in:
-//! `m (vx, vy)′ = (δₜ T(u) - C u) bow - S w port` and `I r′ = δᵣ L u - D r`, with the surge `u` along
-//! the bow and the sway `w` to port.
+//! Written in the frame of the water, where the equation is of second order in the coordinates:
+//! `m (vx, vy)′ = (δₜ T(u) - C u) bow - S w port` and `I r′ = δᵣ L u - D r`, with the surge speed `u`
+//! along the bow and the sway speed `w` to port.
 
 use glam::{DVec2, DVec3};
 
-use super::body::{Body, Input};
 use super::kind::{Coordinate, Kind, Truth};
-use super::parameter::{self, ParameterOf, Range};
-use crate::sim::driven::stepper;
+use crate::sim::body::{Body, Input};
+use crate::sim::body_stepper::stepper;
+use crate::sim::parameter::{self, ParameterOf, Range};
 use crate::sim::system::{State, System};
 
 pub(super) const KIND: Kind = Kind {
@@ -73,16 +73,15 @@ const PARAMETERS: [Of; 12] = [
 /// Thrust over speed, from a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ThrustCurve {
-    /// Speeds in metres per second with the thrust there in newtons, in order of speed. Without a point there is
-    /// no thrust.
+    /// Points of a speed in m/s and the thrust in newtons, in order of speed. Without points the thrust
+    /// is 0.
     points: Vec<[f64; 2]>,
 }
 
 impl ThrustCurve {
-    /// The curve through points of a speed in m/s and a thrust in N.
+    /// The curve through points of speed in m/s and thrust in N.
     ///
-    /// # Panics
-    /// If there is none, or if the speeds do not rise.
+    /// If there are no points, or if the speeds do not rise.
     pub fn new(points: impl IntoIterator<Item = [f64; 2]>) -> Self {
         let points: Vec<_> = points.into_iter().collect();
         assert!(!points.is_empty(), "a curve without a point");
@@ -90,32 +89,32 @@ impl ThrustCurve {
         Self { points }
     }
 
-    /// The thrust at `speed`, in newtons: straight between the points, level beyond them.
+    /// The thrust at `speed`, in newtons: linear between the points, constant beyond them.
     #[inline]
     pub fn at(&self, speed: f64) -> f64 {
         self.on(self.piece(speed), speed)
     }
 
-    /// The piece that `speed` lies on: how many points are at or below it.
+    /// The index of the piece at `speed`: the number of points at or below it.
     #[inline]
     fn piece(&self, speed: f64) -> usize {
         self.points.partition_point(|point| point[0] <= speed)
     }
 
-    /// The largest magnitude of a point's speed; 1 where that is 0.
+    /// The largest magnitude of a point's speed; 1 if that is 0.
     fn fastest(&self) -> f64 {
         let [first, last] = [self.points.first(), self.points.last()];
         let fastest = first.into_iter().chain(last).map(|[x, _]| x.abs()).fold(0.0, f64::max);
         if fastest > 0.0 { fastest } else { 1.0 }
     }
 
-    /// The points at the lower and at the upper end of a piece.
+    /// The points at the lower and the upper boundary of a piece.
     #[inline]
     fn ends(&self, piece: usize) -> (Option<&[f64; 2]>, Option<&[f64; 2]>) {
         (piece.checked_sub(1).map(|below| &self.points[below]), self.points.get(piece))
     }
 
-    /// The thrust by one piece of the curve, in newtons, which goes on straight beyond its ends.
+    /// The thrust in newtons by one piece of the curve, continued linearly beyond its boundaries.
     #[inline]
     fn on(&self, piece: usize, speed: f64) -> f64 {
         match self.ends(piece) {
@@ -126,8 +125,8 @@ impl ThrustCurve {
     }
 }
 
-/// A ship that is steered. Its coordinates are its place, x and y in metres, and its heading ψ, in
-/// radians counter-clockwise from x.
+/// A steered ship. Its coordinates are x and y in metres and the heading ψ, in radians
+/// counter-clockwise from x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Helm {
     /// m, in kilograms.
@@ -144,9 +143,9 @@ pub struct Helm {
     pub rudder_moment: f64,
     /// T, over the speed ahead.
     pub thrust: ThrustCurve,
-    /// The part of the full thrust that is set, -1 to 1.
+    /// The throttle: the fraction of full thrust, -1 to 1.
     pub throttle: f64,
-    /// The part of the full rudder that is laid, -1 to 1; positive turns left.
+    /// The rudder: the fraction of its full angle, -1 to 1; positive turns left.
     pub rudder: f64,
     /// Place and heading at the start.
     pub q0: DVec3,
@@ -165,12 +164,12 @@ fn surge(state: &State<DVec3>) -> f64 {
     bow(state.q.z).dot(state.v.truncate())
 }
 
-/// How far a speed may be beyond the end of a piece for its rounding, in units of itself and of the end.
-const ROUNDED: f64 = 16.0 * f64::EPSILON;
+/// Rounding of a speed at a boundary, relative to the speed and to the boundary. A smaller tolerance
+/// would take a rounded boundary for a crossing.
+const SPEED_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl Helm {
-    /// Full thrust is set, the rudder lies amidships, and every parameter is 0: for [`Body::with_parameters`] to
-    /// fill in.
+    /// Full throttle, rudder amidships and all parameters 0, to be set by [`Body::with_parameters`].
     pub const BLANK: Self = Self {
         mass: 0.0,
         inertia: 0.0,
@@ -186,9 +185,9 @@ impl Helm {
         kick: 0.0,
     };
 
-    /// The acceleration where the thrust at speed `u` is `thrust(u)`.
+    /// The acceleration, with `thrust` as the thrust at a surge speed.
     #[inline]
-    fn pushed_by(&self, thrust: impl Fn(f64) -> f64, q: &DVec3, v: &DVec3) -> DVec3 {
+    fn acceleration_under(&self, thrust: impl Fn(f64) -> f64, q: &DVec3, v: &DVec3) -> DVec3 {
         let (bow, r) = (bow(q.z), v.z);
         let port = bow.perp();
         let (u, w) = (bow.dot(v.truncate()), port.dot(v.truncate()));
@@ -204,7 +203,7 @@ impl System for Helm {
 
     #[inline]
     fn acceleration(&self, _t: f64, q: &DVec3, v: &DVec3, a: &mut DVec3) {
-        *a = self.pushed_by(|u| self.thrust.at(u), q, v);
+        *a = self.acceleration_under(|u| self.thrust.at(u), q, v);
     }
 }
 
@@ -231,20 +230,20 @@ impl Body for Helm {
         self.thrust.piece(surge(state))
     }
 
-    fn room(&self, piece: usize, state: &State<DVec3>) -> [f64; 2] {
+    fn distances_to_ends(&self, piece: usize, state: &State<DVec3>) -> [f64; 2] {
         let u = surge(state);
         let (lower, upper) = self.thrust.ends(piece);
         let unit = self.thrust.fastest();
-        let room = |end: Option<&[f64; 2]>, sign: f64| {
-            let room = |x: f64| sign * (u - x) + ROUNDED * (u.abs() + x.abs());
-            end.map_or(f64::INFINITY, |[x, _]| room(*x) / unit)
+        let distances_to_ends = |end: Option<&[f64; 2]>, sign: f64| {
+            let distances_to_ends = |x: f64| sign * (u - x) + SPEED_ROUNDING * (u.abs() + x.abs());
+            end.map_or(f64::INFINITY, |[x, _]| distances_to_ends(*x) / unit)
         };
-        [room(lower, 1.0), room(upper, -1.0)]
+        [distances_to_ends(lower, 1.0), distances_to_ends(upper, -1.0)]
     }
 
     #[inline]
     fn acceleration_on(&self, piece: usize, _t: f64, q: &DVec3, v: &DVec3, a: &mut DVec3) {
-        *a = self.pushed_by(|u| self.thrust.on(piece, u), q, v);
+        *a = self.acceleration_under(|u| self.thrust.on(piece, u), q, v);
     }
 
     fn energy(&self, _state: &State<DVec3>) -> Option<f64> {

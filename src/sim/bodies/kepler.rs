@@ -1,39 +1,42 @@
-//! Kepler's problem, solved: where a body is on its ellipse, parabola or hyperbola after a while.
+//! The closed form of Kepler's problem: the state on an ellipse, parabola or hyperbola after a given
+//! time.
 //!
-//! One formula for all three, in the universal variable `s`, of which time is `dt = r ds`. Stiefel &
-//! Scheifele, *Linear and Regular Celestial Mechanics* (1971); Wisdom & Hernandez, *Fast and accurate
-//! Kepler via universal variables* (2015).
+//! One formula for all three, in the universal variable `s` with `dt = r ds`. Stiefel & Scheifele,
+//! *Linear and Regular Celestial Mechanics* (1971); Wisdom & Hernandez, *Fast and accurate Kepler via
+//! universal variables* (2015).
 //!
-//! On an ellipse `s` is counted from the start, on an open path from the periapsis: a fly-by from r away
-//! at speed v, counted from its start, would lose (r v² / μ)² to cancellation. Times and places are kept in
-//! [`DoubleDouble`], so that what is returned is as good as rounded once.
+//! On an ellipse `s` is counted from the initial state; on an open path from the periapsis, because a
+//! fly-by from distance r at speed v, counted from its start, would lose (r v² / μ)² to cancellation.
+//! Times and positions are kept in [`DoubleDouble`] until the result is rounded.
 
 use std::f64::consts::TAU;
 
 use glam::DVec2;
 
 use crate::sim::State;
-use crate::sim::double_double::{DoubleDouble, TURN};
+use crate::sim::double_double::{DoubleDouble, TWO_PI};
 
-/// The most steps towards the root before it is polished; Newton's method takes some five, halving
-/// the open path's bracket at worst sixty.
+/// The largest number of steps to the root before it is refined: more than bisection of a bracket needs
+/// down to the last digit.
 const MOST_STEPS: u32 = 200;
 
-/// The most doublings of an open path's bracket: from the least number to beyond the largest.
+/// The largest number of doublings of the bracket of an open path: from the smallest number to beyond
+/// the largest.
 const MOST_DOUBLINGS: u32 = 2100;
 
-/// So near the root, Newton's method doubles the digits at every step, and needs no bracket.
+/// This close to the root, relative to it, Newton's method doubles the digits at every step and needs
+/// no bracket.
 const NEAR: f64 = 1e-5;
 
-/// The most steps that polish the root to twice the digits: two or three, but beside a collision, where the
-/// root is triple and each leaves two thirds of the error.
-const MOST_POLISHES: u32 = 80;
+/// The largest number of Newton steps in double-double arithmetic. Near a collision the root is triple,
+/// and each step leaves two thirds of the error.
+const MOST_REFINEMENTS: u32 = 80;
 
-/// The part of the root that the last step may be.
-const POLISHED: f64 = 1e-30;
+/// The relative size of a step after which the root is accepted.
+const REFINED_TO: f64 = 1e-30;
 
-/// `r v² / μ` from which on the pull bends no path that [`DoubleDouble`] can tell from a straight line.
-const STRAIGHT: f64 = 1e60;
+/// `r v² / μ` above which the path is straight to the precision of [`DoubleDouble`].
+const UNBENT: f64 = 1e60;
 
 /// Stumpff's functions `Gₖ = sᵏ cₖ(β s²)`, with `G₀″ = -β G₀`: for β = 1 they are cos s, sin s,
 /// 1 - cos s, s - sin s.
@@ -47,8 +50,8 @@ impl Stumpff {
     fn new(beta: f64, s: f64) -> Self {
         let z = beta * s * s;
         if z.abs() <= 4.0 {
-            // Series, where the closed forms would cancel: Σ (-z)ⁿ 2 / (2n + 2)! and Σ (-z)ⁿ 6 / (2n + 3)!;
-            // the first terms left out are below 1e-19.
+            // The series, where the closed forms would cancel:
+            // Σ (-z)ⁿ 2 / (2n + 2)! and Σ (-z)ⁿ 6 / (2n + 3)!; the first omitted terms are below 1e-19.
             let (mut c2, mut c3) = (1.0, 1.0);
             for n in (1..13).rev() {
                 let n = 2.0 * f64::from(n);
@@ -71,15 +74,15 @@ impl Stumpff {
     }
 }
 
-/// The same to twice the digits, with `G₀`.
-struct Fine {
+/// Stumpff's functions in double-double arithmetic, with `G₀`.
+struct PreciseStumpff {
     g0: DoubleDouble,
     g1: DoubleDouble,
     g2: DoubleDouble,
     g3: DoubleDouble,
 }
 
-impl Fine {
+impl PreciseStumpff {
     fn new(beta: DoubleDouble, s: DoubleDouble) -> Self {
         let mut halvings = 0;
         let mut part = 1.0;
@@ -89,7 +92,7 @@ impl Fine {
         }
         let s = s.scaled(part);
         let z = beta * s * s;
-        // The first terms left out are below 1e-33.
+        // The first omitted terms are below 1e-33.
         let (mut c2, mut c3) = (DoubleDouble::ONE, DoubleDouble::ONE);
         for n in (1..13).rev() {
             let n = 2.0 * f64::from(n);
@@ -108,7 +111,8 @@ impl Fine {
     }
 }
 
-/// A place and a velocity in units in which the start is 1 to 2 from the centre, and its pull 1 to 8.
+/// The initial state, in units in which the distance from the centre is 1 to 2 and the gravitational
+/// parameter 1 to 8.
 struct Path {
     mu: DoubleDouble,
     q: [DoubleDouble; 2],
@@ -117,17 +121,16 @@ struct Path {
     r: DoubleDouble,
     /// q · v.
     eta: DoubleDouble,
-    /// Twice the binding energy; positive on an ellipse.
+    /// Twice the binding energy per kilogram; positive on an ellipse.
     beta: DoubleDouble,
 }
 
-/// A place and a velocity.
-type Place = ([DoubleDouble; 2], [DoubleDouble; 2]);
+/// A position and a velocity.
+type PositionAndVelocity = ([DoubleDouble; 2], [DoubleDouble; 2]);
 
-/// The state `dt` seconds after `from`, about a centre at the origin that pulls with `mu` / r².
+/// The state `dt` seconds after `from`, about a centre at the origin with acceleration `mu` / r².
 ///
-/// Good to a rounding or two of place and velocity, for the `dt` that is given. From the centre, or where it
-/// is hit, it is not finite.
+/// The result is not finite if the path starts at the centre or hits it.
 pub(super) fn flow(mu: f64, dt: f64, from: &State<DVec2>) -> State<DVec2> {
     if dt == 0.0 {
         return from.clone();
@@ -136,7 +139,7 @@ pub(super) fn flow(mu: f64, dt: f64, from: &State<DVec2>) -> State<DVec2> {
     if reach == 0.0 || !from.q.is_finite() || !from.v.is_finite() {
         return State { q: DVec2::NAN, v: DVec2::NAN };
     }
-    // By powers of two, which change no digit, and not all at once, which might overflow.
+    // Scaled by powers of two, which are exact, and one factor at a time so that none overflows.
     let metre = libm::ilogb(reach);
     let second = (3 * metre - libm::ilogb(mu)).div_euclid(2);
     let by = |x: f64, power: i32| DoubleDouble::from(libm::scalbn(x, power));
@@ -158,21 +161,21 @@ impl Path {
         Self { mu, q, v, r, eta: dot(q, v), beta }
     }
 
-    fn after(&self, dt: DoubleDouble) -> Place {
+    fn after(&self, dt: DoubleDouble) -> PositionAndVelocity {
         let kinetic = self.r * dot(self.v, self.v);
-        if kinetic.high > STRAIGHT * self.mu.high {
+        if kinetic.high > UNBENT * self.mu.high {
             let [x, y] = [0, 1].map(|i| self.q[i] + self.v[i] * dt);
             return ([x, y], self.v);
         }
         if self.beta.high > 0.0 { self.on_an_ellipse(dt) } else { self.on_an_open_path(dt) }
     }
 
-    /// By Lagrange's coefficients, from the start.
-    fn on_an_ellipse(&self, dt: DoubleDouble) -> Place {
+    /// By Lagrange's coefficients from the initial state.
+    fn on_an_ellipse(&self, dt: DoubleDouble) -> PositionAndVelocity {
         let Self { mu, q, v, r: r0, eta, beta } = *self;
-        let period = TURN * mu / (beta * beta.sqrt());
+        let period = TWO_PI * mu / (beta * beta.sqrt());
         let rounds = libm::rint(dt.high / period.high);
-        // A round longer than any number is not gone round.
+        // A period that overflows is never completed.
         let dt = if rounds == 0.0 || !period.high.is_finite() { dt } else { dt - period * rounds };
         let slow = mu - beta * r0;
         let kepler = |s: f64| {
@@ -181,53 +184,54 @@ impl Path {
             (time, r0.high + eta.high * g1 + slow.high * g2)
         };
         let s = root(kepler, beta.high, dt.high / r0.high, dt.high);
-        let s = polished(s, |s| {
-            let Fine { g1, g2, g3, .. } = Fine::new(beta, s);
+        let s = refined(s, |s| {
+            let PreciseStumpff { g1, g2, g3, .. } = PreciseStumpff::new(beta, s);
             (r0 * g1 + eta * g2 + mu * g3 - dt, r0 + eta * g1 + slow * g2)
         });
 
-        let Fine { g1, g2, .. } = Fine::new(beta, s);
+        let PreciseStumpff { g1, g2, .. } = PreciseStumpff::new(beta, s);
         let r = r0 + eta * g1 + slow * g2;
         let (f, g) = (DoubleDouble::ONE - mu * g2 / r0, r0 * g1 + eta * g2);
         let (f_dot, g_dot) = (-(mu * g1 / (r * r0)), DoubleDouble::ONE - mu * g2 / r);
         ([0, 1].map(|i| f * q[i] + g * v[i]), [0, 1].map(|i| f_dot * q[i] + g_dot * v[i]))
     }
 
-    /// From the periapsis, where nothing cancels: all terms of Kepler's equation have one sign there.
-    fn on_an_open_path(&self, dt: DoubleDouble) -> Place {
+    /// From the periapsis, where nothing cancels: there all terms of Kepler's equation have the same
+    /// sign.
+    fn on_an_open_path(&self, dt: DoubleDouble) -> PositionAndVelocity {
         let Self { mu, q, v, eta, beta, .. } = *self;
         let momentum = q[0] * v[1] - q[1] * v[0];
         let e = (DoubleDouble::ONE - beta * (momentum / mu).squared()).sqrt();
         let nearest = momentum * momentum / (mu * (DoubleDouble::ONE + e));
         let pull = mu * e;
-        // In the frame of which x points to the periapsis.
+        // In the frame whose x axis points to the periapsis.
         let place = |s: DoubleDouble| {
-            let Fine { g0, g1, g2, .. } = Fine::new(beta, s);
+            let PreciseStumpff { g0, g1, g2, .. } = PreciseStumpff::new(beta, s);
             let r = nearest + pull * g2;
             ([nearest - mu * g2, momentum * g1], [-(mu * g1 / r), momentum * g0 / r])
         };
 
-        // The start is where q · v = pull G₁.
+        // The initial state is where q · v = pull G₁.
         let w = (-beta.high).sqrt();
         let reach = eta.high / pull.high;
         let begin = if w * reach.abs() > 1e-8 { libm::asinh(w * reach) / w } else { reach };
-        let begin = polished(begin, |s| {
-            let Fine { g0, g1, .. } = Fine::new(beta, s);
+        let begin = refined(begin, |s| {
+            let PreciseStumpff { g0, g1, .. } = PreciseStumpff::new(beta, s);
             (pull * g1 - eta, pull * g0)
         });
-        let Fine { g1, g3, .. } = Fine::new(beta, begin);
+        let PreciseStumpff { g1, g3, .. } = PreciseStumpff::new(beta, begin);
         let time = nearest * g1 + mu * g3 + dt;
         let kepler = |s: f64| {
             let Stumpff { g1, g2, g3 } = Stumpff::new(beta.high, s);
             (nearest.high * g1 + mu.high * g3 - time.high, nearest.high + pull.high * g2)
         };
         let guess = time.high / (nearest.high + self.r.high);
-        let end = polished(root(kepler, beta.high, guess, time.high), |s| {
-            let Fine { g1, g2, g3, .. } = Fine::new(beta, s);
+        let end = refined(root(kepler, beta.high, guess, time.high), |s| {
+            let PreciseStumpff { g1, g2, g3, .. } = PreciseStumpff::new(beta, s);
             (nearest * g1 + mu * g3 - time, nearest + pull * g2)
         });
 
-        // Turned by as much as the start is.
+        // Rotated by the angle of the initial state.
         let ([x0, y0], _) = place(begin);
         let size = x0 * x0 + y0 * y0;
         let cos = (q[0] * x0 + q[1] * y0) / size;
@@ -242,16 +246,16 @@ fn dot(a: [DoubleDouble; 2], b: [DoubleDouble; 2]) -> DoubleDouble {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// The root near `s` of what rises, by Newton's method from a root good to single numbers; `f` gives a
-/// value and its slope.
-fn polished(s: f64, f: impl Fn(DoubleDouble) -> (DoubleDouble, DoubleDouble)) -> DoubleDouble {
+/// The root near `s` of an increasing function, by Newton's method in double-double arithmetic from a
+/// root accurate to `f64`. `f` returns a value and a slope.
+fn refined(s: f64, f: impl Fn(DoubleDouble) -> (DoubleDouble, DoubleDouble)) -> DoubleDouble {
     let mut s = DoubleDouble::from(s);
     let mut last = f64::INFINITY;
-    for _ in 0..MOST_POLISHES {
+    for _ in 0..MOST_REFINEMENTS {
         let (value, slope) = f(s);
-        // It need not be better than the digits that are missing. At the rounding of `f` it grows again.
+        // An `f64` step is accurate enough. Steps grow again at the rounding level of `f`.
         let step = (value.high / slope.high).abs();
-        if step <= POLISHED * s.high.abs() || step >= last || step.is_nan() {
+        if step <= REFINED_TO * s.high.abs() || step >= last || step.is_nan() {
             break;
         }
         s = s - (value.high / slope.high).into();
@@ -260,23 +264,24 @@ fn polished(s: f64, f: impl Fn(DoubleDouble) -> (DoubleDouble, DoubleDouble)) ->
     s
 }
 
-/// How long a round takes, in seconds, for a body bound by `beta` / 2 for each kilogram.
+/// The orbital period in seconds, for a binding energy of `beta` / 2 per kilogram; `None` on an open
+/// path.
 pub(super) fn period(mu: f64, beta: f64) -> Option<f64> {
     let period = TAU * mu / (beta * beta.sqrt());
     (beta > 0.0 && period.is_finite()).then_some(period)
 }
 
-/// The `s` at which `late` is 0. It rises with `s` from `-dt` at 0: its slope is the distance from the
-/// centre.
+/// The `s` at which the time `late` is 0. It increases with `s` from `-dt` at 0; its slope is the
+/// distance from the centre.
 fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64 {
-    // Too small a time to be halved.
+    // A time too small to be halved.
     if guess == 0.0 {
         return 0.0;
     }
     let sign = dt.signum();
-    // What overflows is far beyond.
+    // An overflow means that `s` is far beyond the root.
     let is_beyond = |time: f64| time.is_nan() || time * sign >= 0.0;
-    // Less than a round; on an open path as far as it takes.
+    // Less than one period; on an open path doubled until it brackets the root.
     let mut far = if beta > 0.0 { sign * TAU / beta.sqrt() } else { guess };
     for _ in 0..MOST_DOUBLINGS {
         if beta > 0.0 || is_beyond(late(far).0) {
@@ -296,7 +301,8 @@ fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64
         } else {
             near = s;
         }
-        // Newton's step where it is half the last or less; far out on a hyperbola it would creep.
+        // Newton's step if it is at most half of the last step; otherwise bisection, because Newton's
+        // method converges slowly far out on a hyperbola.
         let newton = time / distance;
         let is_fast = is_between(s - newton, near, far) && 2.0 * newton.abs() <= last_step;
         let next = if is_fast { s - newton } else { near + (far - near) / 2.0 };

@@ -1,17 +1,16 @@
-//! The card on which a kind of body describes itself.
+//! The card of a kind of body.
 
-use super::parameter::{Fault, Parameter};
+use crate::sim::parameter::{Fault, Parameter};
 use crate::sim::reference::REFERENCE_ACCURACY;
 use crate::sim::solver::Solver;
 use crate::sim::stepper::Stepper;
 
-/// What is known of a body's motion, for methods to be held against.
+/// The kind of solution that methods are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Truth {
-    /// A closed form, computed afresh at every tick.
+    /// A closed form, evaluated at every tick.
     Exact,
-    /// No closed form: a numerical solution that aims at [`REFERENCE_ACCURACY`], and estimates on each run
-    /// what it reaches.
+    /// A numerical solution that aims at [`REFERENCE_ACCURACY`] and estimates its error on each run.
     ///
     /// [`REFERENCE_ACCURACY`]: crate::sim::REFERENCE_ACCURACY
     Reference,
@@ -26,7 +25,7 @@ impl Truth {
         }
     }
 
-    /// The error that what is not exact aims at; see [`REFERENCE_ACCURACY`].
+    /// The error that a reference solution aims at, [`REFERENCE_ACCURACY`]; `None` for an exact truth.
     ///
     /// [`REFERENCE_ACCURACY`]: crate::sim::REFERENCE_ACCURACY
     pub fn aimed_accuracy(self) -> Option<f64> {
@@ -46,29 +45,30 @@ pub struct Kind {
     pub about: &'static str,
     /// The coordinates of a body with these parameter values, in state order.
     pub coordinates: fn(&[f64]) -> &'static [Coordinate],
-    /// The keys of its table, in the order in which [`Kind::build`] takes their values.
+    /// The keys of its table, in the order of the values that [`Kind::build`] expects.
     pub parameters: &'static [Parameter],
-    /// The kinds of input it takes: `throttle`, `rudder`, `kick`.
+    /// The inputs that it accepts: `throttle`, `rudder`, `kick`.
     pub inputs: &'static [&'static str],
-    /// The key of the parameter that makes it stiffer: the motion faster, and the tick coarser beside it.
+    /// The key of the parameter that makes it stiffer: larger values make the motion faster in relation
+    /// to the tick.
     pub leading: &'static str,
-    /// Whether its motion has a closed form.
+    /// Whether its truth is a closed form or a reference solution.
     pub truth: Truth,
-    /// Says what is wrong with values that are each in range but do not go together.
+    /// Checks values that are each in range for errors in combination.
     pub check: fn(&[f64]) -> Result<(), Fault>,
-    /// Puts a body with these parameter values, as [`Body::with_parameters`](super::Body::with_parameters) takes them, at its start under a
-    /// solver.
+    /// Builds a body from these parameter values (see
+    /// [`Body::with_parameters`](super::Body::with_parameters)), at its start under a solver.
     pub build: fn(&[f64], Solver) -> Box<dyn Stepper>,
 }
 
 impl Kind {
-    /// The coordinates of a body that says no more than it must.
+    /// The coordinates of a body with default parameters, and 1 for those without a default.
     pub fn plain_coordinates(&self) -> &'static [Coordinate] {
         let default = |parameter: &Parameter| parameter.default.unwrap_or(1.0);
         (self.coordinates)(&self.parameters.iter().map(default).collect::<Vec<_>>())
     }
 
-    /// The parameter with this key, and its place among [`Kind::parameters`].
+    /// The parameter with this key, and its index in [`Kind::parameters`].
     pub fn parameter(&self, key: &str) -> Option<(usize, &'static Parameter)> {
         self.parameters.iter().enumerate().find(|(_, parameter)| parameter.key == key)
     }
@@ -77,9 +77,9 @@ impl Kind {
 /// One coordinate of a body.
 #[derive(Debug)]
 pub struct Coordinate {
-    /// Its name, as in the CSV's `coordinate` column: fit to be typed.
+    /// Its name, as in the `coordinate` column of the CSV: ASCII, easy to type.
     pub name: &'static str,
-    /// The letter of its velocity.
+    /// The name of its velocity.
     pub velocity: &'static str,
     /// Its unit.
     pub unit: &'static str,

@@ -1,31 +1,29 @@
 //! The bodies: one file each, one line each in the table below.
 //!
-//! A body is a closed system with natural coordinates, and an exact flow where there is one. Its
-//! [`Kind`] card says how a scene describes it; how it looks is said elsewhere, by
-//! [`Look`](crate::lab::picture::Look). To add one, copy `spring.rs`, declare it, and name it in
-//! [`BODIES`].
+//! A body is a closed system with natural coordinates, and with an exact flow if it has a closed form.
+//! Its [`Kind`] card says how a scene describes it; [`Look`](crate::lab::picture::Look) says how it is
+//! drawn. To add one, copy `spring.rs`, declare it, and name it in [`BODIES`].
 
-mod body;
 mod chain;
 mod helm;
 mod kepler;
 mod kind;
 mod orbit;
 mod oscillator;
-mod parameter;
 mod pendulum;
 mod ship;
 mod spring;
 
-pub use body::{Body, Input};
 pub use chain::Chain;
 pub use helm::{Helm, ThrustCurve};
 pub use kind::{Coordinate, Kind, Truth};
 pub use orbit::{Ellipse, Orbit};
-pub use parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
 pub use pendulum::Pendulum;
 pub use ship::Ship;
 pub use spring::Spring;
+
+pub use super::body::{Body, Input};
+pub use super::parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
 
 /// Every kind of body, in menu order.
 pub static BODIES: &[Kind] =

@@ -1,12 +1,12 @@
-//! A satellite about a fixed centre that pulls as Newton's law says: `r″ = -μ r / |r|³`.
+//! A satellite about a fixed centre of gravity: `r″ = -μ r / |r|³`.
 
 use glam::DVec2;
 
-use super::body::{Body, Input};
 use super::kepler;
 use super::kind::{Coordinate, Kind, Truth};
-use super::parameter::{self, Fault, ParameterOf, Range};
-use crate::sim::driven::stepper;
+use crate::sim::body::{Body, Input};
+use crate::sim::body_stepper::stepper;
+use crate::sim::parameter::{self, Fault, ParameterOf, Range};
 use crate::sim::system::{State, System};
 
 pub(super) const KIND: Kind = Kind {
@@ -55,13 +55,13 @@ const PARAMETERS: [Of; 6] = [
         .about("what one kick adds to the speed, along the path"),
 ];
 
-/// A satellite of no mass to speak of; its energy is for each kilogram. Its coordinates are its place
-/// from the centre, in metres.
+/// A satellite of negligible mass; its energy is per kilogram. Its coordinates are its position
+/// relative to the centre, in metres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orbit {
     /// μ, in cubic metres per second squared.
     pub mu: f64,
-    /// Place at the start, in metres; not the centre.
+    /// Position at the start, in metres; not the centre.
     pub q0: DVec2,
     /// Velocity at the start, in metres per second.
     pub v0: DVec2,
@@ -72,25 +72,25 @@ pub struct Orbit {
 /// An ellipse about the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
-    /// Its middle, in metres.
+    /// Its centre, in metres.
     pub middle: DVec2,
-    /// How far it reaches from there along x and along y, in metres.
+    /// Half its extent along x and along y, in metres.
     pub half: DVec2,
-    /// How long a round takes, in seconds.
+    /// The orbital period, in seconds.
     pub period_s: f64,
 }
 
 impl Orbit {
-    /// Every parameter is 0: for [`Body::with_parameters`] to fill in.
+    /// All parameters 0, to be set by [`Body::with_parameters`].
     pub const BLANK: Self = Self { mu: 0.0, q0: DVec2::ZERO, v0: DVec2::ZERO, kick: 0.0 };
 
-    /// The ellipse that the start lies on, if it is one.
+    /// The ellipse of the initial state; `None` on a parabola or hyperbola.
     pub fn ellipse(&self) -> Option<Ellipse> {
         let Self { mu, q0, v0, .. } = *self;
         let beta = 2.0 * mu / q0.length() - v0.length_squared();
         let period_s = kepler::period(mu, beta)?;
         let semi_major = mu / beta;
-        // Towards the periapsis, as long as the orbit is eccentric.
+        // The eccentricity vector: towards the periapsis.
         let momentum = q0.perp_dot(v0);
         let eccentricity = -v0.perp() * momentum / mu - q0 / q0.length();
         let minor_squared = (1.0 - eccentricity.length_squared()).max(0.0);
@@ -124,7 +124,7 @@ impl Body for Orbit {
         Some(kepler::flow(self.mu, dt, from))
     }
 
-    /// Infinite so near to the centre that it is passed within the rounding of the time.
+    /// Infinite so close to the centre that the rounding of the time exceeds the time of passage.
     fn exact_error(&self, dt: f64, _from: &State<DVec2>, to: &State<DVec2>) -> [f64; 2] {
         if 100.0 * f64::EPSILON * dt.abs() * to.v.length() > to.q.length() {
             return [f64::INFINITY; 2];

@@ -1,21 +1,22 @@
-//! The damped oscillator `x″ = -ω² x - 2 α x′`, solved: a spring is one, a chain is one for each mode.
+//! The closed form of the damped oscillator `x″ = -ω² x - 2 α x′`: of a spring, and of each mode of a
+//! chain.
 
 use crate::sim::State;
 
-/// The exact flow over `dt` (s), for `omega2` = ω² > 0 and `alpha` = α ≥ 0: swinging, critical or
-/// creeping.
+/// The exact flow over `dt` (s), for `omega2` = ω² > 0 and `alpha` = α ≥ 0: underdamped, critical or
+/// overdamped.
 pub(super) fn flow(omega2: f64, alpha: f64, dt: f64, from: &State<f64>) -> State<f64> {
     let State { q: x, v } = *from;
     let w2 = omega2 - alpha * alpha;
     let u = w2 * dt * dt;
     if u <= -NEAR_CRITICAL {
-        // Two decays, at the rates of the creep and of the recoil, each kept whole: as hyperbolic
-        // functions they would overflow, and cancel in the velocity.
+        // The slow and the fast exponential, computed separately: as hyperbolic functions they would
+        // overflow, and cancel in the velocity.
         let w = (-w2).sqrt();
         let (slow, fast) = (omega2 / (alpha + w), alpha + w);
-        let creep = (fast * x + v) * libm::exp(-slow * dt) / (2.0 * w);
-        let recoil = (slow * x + v) * libm::exp(-fast * dt) / (2.0 * w);
-        return State { q: creep - recoil, v: fast * recoil - slow * creep };
+        let slow_part = (fast * x + v) * libm::exp(-slow * dt) / (2.0 * w);
+        let fast_part = (slow * x + v) * libm::exp(-fast * dt) / (2.0 * w);
+        return State { q: slow_part - fast_part, v: fast * fast_part - slow * slow_part };
     }
     // e^(-alpha t) (x C + (v + alpha x) S), with C = cos(w t) and S = sin(w t) / w.
     let (c, s) = if u < NEAR_CRITICAL {
@@ -32,7 +33,7 @@ pub(super) fn flow(omega2: f64, alpha: f64, dt: f64, from: &State<f64>) -> State
     }
 }
 
-/// A bound on the rounding of [`flow`], in the coordinate and in the velocity.
+/// A bound on the rounding error of [`flow`], in the coordinate and in the velocity.
 pub(super) fn flow_error(omega2: f64, alpha: f64, dt: f64, from: &State<f64>) -> [f64; 2] {
     let [x, v] = [from.q, from.v].map(f64::abs);
     let dt = dt.abs();
@@ -40,30 +41,30 @@ pub(super) fn flow_error(omega2: f64, alpha: f64, dt: f64, from: &State<f64>) ->
     let (w, most) = (w2.abs().sqrt(), omega2 + alpha * alpha);
     if w2 * dt * dt <= -NEAR_CRITICAL {
         let (slow, fast) = (omega2 / (alpha + w), alpha + w);
-        // How the rounding of w² moves w, and with it either rate.
+        // The error of w from the rounding of w², and with it of both rates.
         let moved = most / w;
         let part = |rate: f64, moved: f64, size: f64| {
             let rounding = f64::EPSILON * (8.0 + 4.0 * (rate + moved) * dt);
             rounding * size * libm::exp(-rate * dt) / (2.0 * w)
         };
         let worse = 1.0 + moved / w;
-        let creep = part(slow, slow / fast * moved, fast * x + v);
-        let recoil = part(fast, moved, slow * x + v);
-        return [worse * (creep + recoil), worse * (slow * creep + fast * recoil)];
+        let slow_part = part(slow, slow / fast * moved, fast * x + v);
+        let fast_part = part(fast, moved, slow * x + v);
+        return [worse * (slow_part + fast_part), worse * (slow * slow_part + fast * fast_part)];
     }
-    // How the rounding of w² moves what has been gone through by now.
+    // The error of the phase from the rounding of w².
     let phase = most * dt * dt / (w * dt).max(1.0);
     let rounding = f64::EPSILON * (8.0 + 4.0 * (alpha * dt + phase)) * libm::exp(-alpha * dt);
     let s = if w * dt > 1.0 { 1.0 / w } else { dt };
     [rounding * (x + (v + alpha * x) * s), rounding * (v + (omega2 * x + alpha * v) * s)]
 }
 
-/// The `|w t|²` below which the flow is a series: much smaller, and `sin(w t) / w` loses digits beside
-/// it; larger, and the series needs more terms.
+/// The `|w t|²` below which the flow is a series. If much smaller, `sin(w t) / w` loses digits near the
+/// limit; if larger, the series needs more terms.
 const NEAR_CRITICAL: f64 = 1e-3;
 
-/// `cos √u` and `sin √u / √u` as their Taylor series in `u`, which know no difference between swinging
-/// and creeping; for |u| < [`NEAR_CRITICAL`] the first term left out is below 1e-19.
+/// `cos √u` and `sin √u / √u` by their Taylor series in `u`, which hold for both signs of `u`.
+/// For |u| < [`NEAR_CRITICAL`] the first omitted term is below 1e-19.
 fn near_critical(u: f64) -> (f64, f64) {
     let c = 1.0 - u / 2.0 * (1.0 - u / 12.0 * (1.0 - u / 30.0 * (1.0 - u / 56.0)));
     let s = 1.0 - u / 6.0 * (1.0 - u / 20.0 * (1.0 - u / 42.0 * (1.0 - u / 72.0)));

@@ -1,11 +1,11 @@
-//! A pendulum that may swing as far as it likes: `m l² θ″ = -m g l sin θ - c θ′`.
+//! A pendulum at any amplitude: `m l² θ″ = -m g l sin θ - c θ′`.
 
 use glam::DVec2;
 
-use super::body::{Body, Input};
 use super::kind::{Coordinate, Kind, Truth};
-use super::parameter::{self, ParameterOf, Range};
-use crate::sim::driven::stepper;
+use crate::sim::body::{Body, Input};
+use crate::sim::body_stepper::stepper;
+use crate::sim::parameter::{self, ParameterOf, Range};
 use crate::sim::system::{State, System};
 
 pub(super) const KIND: Kind = Kind {
@@ -67,7 +67,7 @@ pub struct Pendulum {
 }
 
 impl Pendulum {
-    /// Every parameter is 0: for [`Body::with_parameters`] to fill in.
+    /// All parameters 0, to be set by [`Body::with_parameters`].
     pub const BLANK: Self = Self {
         length: 0.0,
         mass: 0.0,
@@ -83,7 +83,7 @@ impl Pendulum {
         self.mass * self.length * self.length
     }
 
-    /// Where the bob hangs from the pivot, in metres.
+    /// The position of the bob relative to the pivot, in metres.
     fn bob(&self, theta: f64) -> DVec2 {
         self.length * DVec2::new(libm::sin(theta), -libm::cos(theta))
     }
@@ -116,7 +116,7 @@ impl Body for Pendulum {
 
     fn energy(&self, state: &State<f64>) -> Option<f64> {
         let State { q: theta, v: omega } = *state;
-        // 1 - cos θ, without its cancellation.
+        // 1 - cos θ, without cancellation.
         let half = libm::sin(theta / 2.0);
         let height = 2.0 * self.length * half * half;
         let energy = self.inertia() * omega * omega / 2.0 + self.mass * self.gravity * height;

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::body::{Body, Input};
 use super::kind::{Coordinate, Kind, Truth};
-use super::parameter::{self, ParameterOf, Range};
-use crate::sim::driven::stepper;
+use crate::sim::body::{Body, Input};
+use crate::sim::body_stepper::stepper;
+use crate::sim::parameter::{self, ParameterOf, Range};
 use crate::sim::system::{State, System};
 
 pub(super) const KIND: Kind = Kind {
@@ -45,7 +45,7 @@ const PARAMETERS: [Of; 6] = [
 pub struct Ship {
     /// T, the full thrust, in newtons.
     pub thrust: f64,
-    /// The part of the full thrust that is set, -1 to 1.
+    /// The throttle: the fraction of full thrust, -1 to 1.
     pub throttle: f64,
     /// C, in newtons for each metre per second.
     pub drag: f64,
@@ -60,7 +60,7 @@ pub struct Ship {
 }
 
 impl Ship {
-    /// Full thrust is set, and every parameter is 0: for [`Body::with_parameters`] to fill in.
+    /// Full throttle and all parameters 0, to be set by [`Body::with_parameters`].
     pub const BLANK: Self =
         Self { thrust: 0.0, throttle: 1.0, drag: 0.0, mass: 0.0, s0: 0.0, v0: 0.0, kick: 0.0 };
 }
@@ -70,8 +70,8 @@ impl System for Ship {
 
     #[inline]
     fn acceleration(&self, _t: f64, _s: &f64, v: &f64, a: &mut f64) {
-        // Divided first, as these are the same at every stage: a division between one stage and the
-        // next would double the time of a step.
+        // Divided first, since these quotients are the same at every stage: a division between two
+        // stages would double the time of a step.
         let (push, rate) = (self.thrust * self.throttle / self.mass, self.drag / self.mass);
         *a = push - rate * v;
     }
@@ -100,12 +100,13 @@ impl Body for Ship {
     fn exact_error(&self, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {
         let push = self.thrust * self.throttle / self.mass;
         let rate = self.drag / self.mass;
-        // φ₁ and φ₂ are at most 1 and ½, and 1/z and 1/z: the least of them, in magnitude.
+        // φ₁ ≤ min(1, 1/|z|) and φ₂ ≤ min(½, 1/|z|).
         let z = (rate * dt).abs();
         let [phi1, phi2] = [1.0, 0.5].map(|most: f64| most.min(1.0 / z));
         let run = (from.v * dt * phi1).abs() + (push * dt * dt * phi2).abs();
         let gained = (push.abs() + (rate * from.v).abs()) * dt.abs() * phi1;
-        // Just above the series' end 1 - φ₁ is a twentieth of 1.
+        // The largest amplification is just above the limit of the series, where 1 - φ₁ is a twentieth
+        // of 1.
         [from.q.abs() + 32.0 * run, from.v.abs() + 8.0 * gained].map(|size| f64::EPSILON * size)
     }
 
@@ -137,8 +138,8 @@ fn phi(z: f64) -> (f64, f64) {
     (phi1, (1.0 - phi1) / z)
 }
 
-/// Both as their Taylor series, where the closed forms would cancel: for |z| < 0.1 the first term left
-/// out is below 1e-20.
+/// φ₁ and φ₂ by their Taylor series, where the closed forms would cancel. For |z| < 0.1 the first
+/// omitted term is below 1e-20.
 fn phi_series(z: f64) -> (f64, f64) {
     let (mut term1, mut term2) = (1.0, 0.5);
     let (mut phi1, mut phi2) = (0.0, 0.0);

@@ -2,11 +2,11 @@
 
 use glam::DVec2;
 
-use super::body::{Body, Input};
 use super::kind::{Coordinate, Kind, Truth};
 use super::oscillator;
-use super::parameter::{self, ParameterOf, Range};
-use crate::sim::driven::stepper;
+use crate::sim::body::{Body, Input};
+use crate::sim::body_stepper::stepper;
+use crate::sim::parameter::{self, ParameterOf, Range};
 use crate::sim::system::{State, System};
 
 pub(super) const KIND: Kind = Kind {
@@ -61,7 +61,7 @@ pub struct Spring {
 }
 
 impl Spring {
-    /// Every parameter is 0: for [`Body::with_parameters`] to fill in.
+    /// All parameters 0, to be set by [`Body::with_parameters`].
     pub const BLANK: Self =
         Self { mass: 0.0, stiffness: 0.0, damping: 0.0, x0: 0.0, v0: 0.0, kick: 0.0 };
 
@@ -76,10 +76,11 @@ impl System for Spring {
 
     #[inline]
     fn acceleration(&self, _t: f64, x: &f64, v: &f64, a: &mut f64) {
-        // Divided first, as these are the same at every stage: a division between one stage and the
-        // next would nearly double the time of a step. The 0 changes no value, but makes the two
-        // quotients unlike: the compiler would pack alike ones, and with them x and v, into one register,
-        // and wait for both halves at each stage and for the store of both before the next tick.
+        // Divided first, since these quotients are the same at every stage: a division between two
+        // stages would nearly double the time of a step. Adding 0 changes no value but makes the two
+        // quotients different expressions. Otherwise the compiler packs both quotients, and with them x
+        // and v, into one register, and waits for both halves at each stage and for the store of both
+        // before the next tick.
         let (k, c) = (self.stiffness / self.mass, self.damping / self.mass + 0.0);
         *a = -k * x - c * v;
     }

@@ -1,4 +1,4 @@
-//! Adams-Bashforth 2: the slope here and the slope one step ago, drawn on to the step's middle.
+//! Adams-Bashforth 2: extrapolates the slopes here and one step ago to the middle of the step.
 
 use super::card::{EXPLICIT, Method};
 use super::failure::StepFailure;

@@ -1,4 +1,5 @@
-//! Adaptive Euler: one whole step against two half steps gives the error, which sets the step.
+//! Adaptive Euler: the difference of one whole step and two half steps is the error, which controls the
+//! step size.
 
 use super::card::{ADAPTIVE, Method};
 use super::failure::StepFailure;
@@ -18,7 +19,7 @@ pub(super) const CARD: Method = Method {
     ..ADAPTIVE
 };
 
-/// A millimetre and a millimetre per second, or a thousandth of the value: what can be seen.
+/// A millimetre, a millimetre per second, or a thousandth of the value: just visible.
 const TOLERANCE: Tolerance = Tolerance { absolute_q: 1e-3, absolute_v: 1e-3, relative: 1e-3 };
 
 /// Step doubling: `y1` by one Euler step of `h`, `y2` by two of `h/2`. Their difference is the error;
@@ -29,12 +30,12 @@ pub struct AdaptiveEuler<V> {
     k1: State<V>,
     k2: State<V>,
     half: State<V>,
-    /// `k1 - k2`, which half the step makes the error.
+    /// `k1 - k2`; the error is half the step times this.
     difference: State<V>,
 }
 
 impl<V: Vector> AdaptiveEuler<V> {
-    /// The method with a tolerance other than its card's.
+    /// The method with a tolerance that overrides its card's.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
         Self {
@@ -70,19 +71,19 @@ impl<S: System> Integrator<S> for AdaptiveEuler<S::Vector> {
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         let Self { step_size, k1, k2, half, difference } = self;
-        let mut cover = step_size.cover(h);
+        let mut progress = step_size.begin_tick(h);
         system.derivative(t, y, k1);
-        while !cover.is_over() {
-            let (t, h) = (t + cover.gone(), cover.trial()?);
+        while !progress.is_finished() {
+            let (t, h) = (t + progress.elapsed(), progress.trial()?);
             half.assign_sum(y, h / 2.0, k1);
             system.derivative(t + h / 2.0, half, k2);
 
             difference.assign_sum(k1, -1.0, k2);
-            let error = cover.error(h / 2.0, difference, y);
-            if cover.accepts(error, |error| factor(error.sqrt())) {
+            let error = progress.error(h / 2.0, difference, y);
+            if progress.accepts(error, |error| factor(error.sqrt())) {
                 // 2 y2 - y1 = y + h k2
                 y.add_scaled(h, k2);
-                if !cover.is_over() {
+                if !progress.is_finished() {
                     system.derivative(t + h, y, k1);
                 }
             }

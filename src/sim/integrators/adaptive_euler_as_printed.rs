@@ -1,4 +1,4 @@
-//! Adaptive Euler as the chapter prints it: a step that is cut short ends the tick all the same.
+//! Adaptive Euler as the chapter prints it: a shortened step still ends the tick.
 
 use super::card::{AS_PRINTED, Method};
 use super::failure::StepFailure;
@@ -18,13 +18,13 @@ pub(super) const CARD: Method = Method {
     ..AS_PRINTED
 };
 
-/// The listing looks at the velocity only, and absolutely. It prints no value; this one is ours, at which
-/// the chapter's ship sails 2.55 s in 8.5 s.
+/// The listing checks only the velocity, with an absolute tolerance. It prints no value; at this one
+/// the chapter's ship covers 2.55 s in 8.5 s.
 const TOLERANCE: Tolerance =
     Tolerance { absolute_q: f64::INFINITY, absolute_v: 1e-3, relative: 0.0 };
 
 /// `v1` by one step of `h`, `v2` by two of `h/2`, `e = |v1 - v2|`. If `h √(tolerance / e)` is less than
-/// `h`, a step of so much is taken, unchecked, and nothing after it.
+/// `h`, a single step of that length is taken without a check.
 #[derive(Clone)]
 pub struct AdaptiveEulerAsPrinted<V> {
     tolerance: Tolerance,
@@ -34,7 +34,7 @@ pub struct AdaptiveEulerAsPrinted<V> {
 }
 
 impl<V: Vector> AdaptiveEulerAsPrinted<V> {
-    /// The method with a tolerance other than its card's, of which only `absolute_v` counts.
+    /// The method with its own tolerance, of which only `absolute_v` is used.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
         Self { tolerance, a: like.clone(), v1: like.clone(), v2: like.clone() }
     }
@@ -57,7 +57,7 @@ impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
         system.acceleration(t, q, v, a);
         v1.assign_sum(v, h, a);
 
-        // The same force again: the listing evaluates it anew wherever it stands.
+        // The listing evaluates the same force again.
         system.acceleration(t, q, v, a);
         v2.assign_sum(v, h / 2.0, a);
         system.acceleration(t + h / 2.0, q, v2, a);

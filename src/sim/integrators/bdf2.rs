@@ -26,14 +26,14 @@ pub struct Bdf2<V> {
     newton: Newton<V, 1>,
     /// `y"`
     before: State<V>,
-    /// `y`, while `y'` is made in its place.
+    /// `y`, because `y'` is computed in its place.
     start: State<V>,
     /// The first stage of the first step.
     stage: State<V>,
     last_step: LastStep,
 }
 
-/// The diagonal of the starting method, with which it damps like this one: `1 - 1/√2`.
+/// The diagonal of the starting method, which makes it L-stable like this one: `1 - 1/√2`.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 impl<S: System> Integrator<S> for Bdf2<S::Vector> {
@@ -55,14 +55,14 @@ impl<S: System> Integrator<S> for Bdf2<S::Vector> {
         if last_step.is_continued_by(h) {
             y.add_scaled(1.0 / 3.0, start);
             y.add_scaled(-1.0 / 3.0, before);
-            newton.backward(system, t + h, h * 2.0 / 3.0, y)?;
+            newton.backward_euler(system, t + h, h * 2.0 / 3.0, y)?;
         } else {
             stage.assign(y);
-            newton.backward(system, t + h * GAMMA, h * GAMMA, stage)?;
-            // y + (1 - γ) h f(stage), of which γ h f(stage) = stage - y is at hand.
+            newton.backward_euler(system, t + h * GAMMA, h * GAMMA, stage)?;
+            // y + (1 - γ) h f(stage), with γ h f(stage) = stage - y.
             y.add_scaled((1.0 - GAMMA) / GAMMA, stage);
             y.add_scaled((GAMMA - 1.0) / GAMMA, start);
-            newton.backward(system, t + h, h * GAMMA, y)?;
+            newton.backward_euler(system, t + h, h * GAMMA, y)?;
         }
         std::mem::swap(before, start);
         last_step.end(h);

@@ -1,4 +1,4 @@
-//! Bogacki-Shampine 3(2): order 3 kept, order 2 beside it for the error, four slopes of which three are new.
+//! Bogacki-Shampine 3(2): keeps order 3 and estimates the error by order 2; four slopes, three of them new.
 
 use super::card::{ADAPTIVE, Method};
 use super::shared::embedded_pair::{EmbeddedPair, Pair};

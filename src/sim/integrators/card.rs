@@ -1,27 +1,27 @@
-//! The card on which a method describes itself, and for each family the card that its methods start from.
+//! The card of a method, and for each family the card that its methods start from.
 //!
-//! A method's card says what is its own, and takes the rest from its family's: names, source, orders and
-//! evaluations are always its own.
+//! A method sets its name, source, orders and evaluations, and takes the other fields from its family
+//! unless they differ.
 
 use super::tolerance::Tolerance;
 
-/// How a method works, for menus and tables.
+/// The families of methods, for menus and tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// Each stage from values already known.
+    /// Computes each stage from known values.
     Explicit,
     /// Conserves phase-space area on systems without drag.
     Symplectic,
     /// Chooses its own substeps to meet a tolerance.
     Adaptive,
-    /// Solves an equation for the end of the step.
+    /// Solves an equation for each step.
     Implicit,
-    /// The chapter's listing, faults and all.
+    /// A listing of the chapter, with its faults.
     AsPrinted,
 }
 
 impl Family {
-    /// The family in one lower-case word.
+    /// Its id: one lower-case word.
     pub fn id(self) -> &'static str {
         match self {
             Family::Explicit => "explicit",
@@ -33,47 +33,46 @@ impl Family {
     }
 }
 
-/// A method's card: what it claims. Every field is measured by `tests/conformance`.
+/// The card of a method: its claims. `tests/conformance` measures every field.
 #[derive(Debug)]
 pub struct Method {
     /// Kebab-case name in scenes, on the command line and in output.
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
-    /// What to expect of it, in one line.
+    /// What to expect, in one line.
     pub about: &'static str,
     /// How it works.
     pub family: Family,
-    /// Global order of the error of the whole state, where forces depend on position only. As printed,
-    /// `v` may do better than `q`; else both have it.
+    /// Global order of the error of the whole state if forces depend on position only. In a listing as
+    /// printed `v` may be of higher order than `q`.
     pub order: u32,
-    /// Global order where forces depend on velocity too.
+    /// Global order if forces also depend on velocity.
     pub order_with_drag: u32,
-    /// Evaluations of the acceleration in one step, in the long run; `None` where the method decides. A
-    /// method with a [restart](Method::restart) owes one more at its first step.
+    /// Evaluations of the acceleration per step, averaged over a long run; `None` if the method
+    /// decides. A method with a [restart](Method::restart) needs one more at its first step.
     pub evaluations: Option<u32>,
     /// Whether the one-step map conserves phase-space area on a system without drag.
     pub symplectic: bool,
     /// Whether a step of `-h` undoes a step of `h`, up to round-off.
     pub reversible: bool,
-    /// The largest `h ω` at which the undamped oscillator stays bounded; `None` where there is none: for
-    /// implicit methods, and for those that choose their own substeps.
+    /// The largest `h ω` at which the undamped oscillator stays bounded. `None` for implicit methods,
+    /// and for those that choose their own substeps.
     pub stability_limit: Option<f64>,
-    /// The error that an adaptive method allows in a substep.
+    /// The default tolerance of a substep of an adaptive method.
     pub tolerance: Option<Tolerance>,
-    /// How the method begins, where it carries something from step to step: at the start, after a kick, a
-    /// switch or a change of the step, and whenever it is given a state other than it left. `None` where
-    /// it carries nothing.
+    /// How a method with memory starts: at the start, after a kick, a switch or a change of step, and
+    /// if it is given a state other than it returned. `None` without memory.
     pub restart: Option<&'static str>,
-    /// Whether a step of `h` always advances by `h`. A method that does not tells
-    /// [`System::skipped`](crate::sim::System::skipped) what is missing.
+    /// Whether a step of `h` always advances by `h`. A method that does not reports the rest to
+    /// [`System::skipped`](crate::sim::System::skipped).
     pub keeps_time: bool,
     /// Where the method comes from.
     pub source: &'static str,
 }
 
 impl Method {
-    /// Whether this is the chapter's listing with its faults.
+    /// Whether this is a listing of the chapter with its faults.
     pub fn is_as_printed(&self) -> bool {
         self.family == Family::AsPrinted
     }
@@ -85,7 +84,7 @@ impl PartialEq for Method {
     }
 }
 
-/// What most families have in common: nothing conserved, nothing carried, no step size of its own.
+/// The common defaults: nothing conserved, no memory, no step size control.
 const PLAIN: Method = Method {
     id: "",
     name: "",
@@ -116,7 +115,7 @@ pub(super) const SYMPLECTIC: Method = Method {
     ..PLAIN
 };
 
-/// An adaptive method; its tolerance is its own.
+/// An adaptive method, whose card sets a tolerance.
 pub(super) const ADAPTIVE: Method = Method {
     family: Family::Adaptive,
     restart: Some("by trying the whole tick as one step"),
@@ -126,6 +125,6 @@ pub(super) const ADAPTIVE: Method = Method {
 /// An implicit method.
 pub(super) const IMPLICIT: Method = Method { family: Family::Implicit, ..PLAIN };
 
-/// A listing of the chapter: where forces depend on position only, all are semi-implicit Euler.
+/// A listing of the chapter: if forces depend on position only, all are semi-implicit Euler.
 pub(super) const AS_PRINTED: Method =
     Method { family: Family::AsPrinted, symplectic: true, stability_limit: Some(2.0), ..PLAIN };

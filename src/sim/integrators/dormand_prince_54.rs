@@ -1,4 +1,4 @@
-//! Dormand-Prince 5(4): order 5 kept, order 4 beside it for the error, seven slopes of which six are new.
+//! Dormand-Prince 5(4): keeps order 5 and estimates the error by order 4; seven slopes, six of them new.
 
 use super::card::{ADAPTIVE, Method};
 use super::shared::embedded_pair::{EmbeddedPair, Pair};

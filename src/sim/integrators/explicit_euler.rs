@@ -1,4 +1,4 @@
-//! Explicit Euler: the tangent at the start, followed for the whole step.
+//! Explicit Euler: follows the tangent at the start for the whole step.
 
 use super::card::{EXPLICIT, Method};
 use super::failure::StepFailure;

@@ -1,6 +1,6 @@
-//! Why a step may fail.
+//! Failures of a step.
 
-/// Why a body could not be carried to the end of its tick.
+/// Why a body could not be advanced to the end of its tick.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StepFailure {
     /// An adaptive method used up its substeps before the end of the tick.
@@ -9,7 +9,8 @@ pub enum StepFailure {
         /// The most attempts that a tick may take.
         limit: u32,
     },
-    /// An implicit method's solver gave up on a step's equations. They may have a solution nevertheless.
+    /// The solver of an implicit method did not solve the equations of a step. They may have a solution
+    /// nevertheless.
     #[error(
         "the solver gave up on a step's equations: {limit} of Newton's iterations do not solve them, nor does following the solution from a shorter step; raise the tick rate or the substeps"
     )]
@@ -17,12 +18,12 @@ pub enum StepFailure {
         /// The most iterations that a step may take.
         limit: u32,
     },
-    /// A reference solution would take too much work.
+    /// A reference solution exceeded its budget of evaluations.
     #[error(
         "has no reference solution: {evaluations} evaluations of the acceleration did not reach the end of a tick; soften the body"
     )]
     ReferenceFailed {
-        /// The evaluations after which it gave up.
+        /// The evaluations spent.
         evaluations: u64,
     },
     /// A value became infinite or undefined.
@@ -30,10 +31,10 @@ pub enum StepFailure {
     NotFinite {
         /// The coordinate's name.
         coordinate: &'static str,
-        /// What it became.
+        /// Its value.
         value: f64,
     },
-    /// A value left the range that is followed; see [`crate::lab::ESCAPE`].
+    /// A value left the range in which bodies are simulated; see [`crate::lab::ESCAPE`].
     #[error("left the stage: {coordinate} reached {value:.1e}")]
     Escaped {
         /// The coordinate's name.

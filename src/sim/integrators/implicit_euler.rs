@@ -1,4 +1,4 @@
-//! Implicit Euler: the tangent at the end, followed back to the start.
+//! Implicit Euler: follows the tangent at the end of the step.
 
 use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
@@ -34,7 +34,7 @@ impl<S: System> Integrator<S> for ImplicitEuler<S::Vector> {
         h: f64,
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        self.newton.backward(system, t + h, h, y)
+        self.newton.backward_euler(system, t + h, h, y)
     }
 
     fn heap_bytes(&self) -> usize {

@@ -1,4 +1,4 @@
-//! Implicit midpoint: the slope half-way along the chord, followed for the whole step.
+//! Implicit midpoint: follows the slope at the middle of the chord for the whole step.
 
 use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
@@ -41,7 +41,7 @@ impl<S: System> Integrator<S> for ImplicitMidpoint<S::Vector> {
     ) -> Result<(), StepFailure> {
         let Self { newton, middle } = self;
         middle.assign(y);
-        newton.backward(system, t + h / 2.0, h / 2.0, middle)?;
+        newton.backward_euler(system, t + h / 2.0, h / 2.0, middle)?;
         y.q.add_scaled(h, &middle.v);
         y.v.add_scaled(h, &newton.a[0]);
         Ok(())

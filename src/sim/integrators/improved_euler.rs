@@ -42,7 +42,8 @@ impl<S: System> Integrator<S> for ImprovedEuler<S::Vector> {
         let Self { k1, k2, end } = self;
         system.derivative(t, y, k1);
         end.assign_sum(y, h, k1);
-        // Before the second slope is known: side by side the compiler would pack both slopes' halves, and wait for both.
+        // Added before the second slope is known: otherwise the compiler packs both slopes into one
+        // register, and waits for both.
         y.add_scaled(h / 2.0, k1);
         system.derivative(t + h, end, k2);
         y.add_scaled(h / 2.0, k2);

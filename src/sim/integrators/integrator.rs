@@ -1,25 +1,25 @@
-//! What every method implements.
+//! The trait that every method implements.
 
 use super::failure::StepFailure;
 use super::tolerance::Tolerance;
 use crate::sim::system::{State, System};
 
-/// A way to advance a system by one step.
+/// A method that advances a system by steps.
 ///
 /// The system is a parameter of the trait: the force law is inlined into the method, and
 /// `Box<dyn Integrator<Ship>>` is still swappable at run time.
 pub trait Integrator<S: System>: Send {
-    /// A method at rest, with scratch space for coordinate vectors shaped `like` this one.
+    /// Returns a method without memory, with scratch space for coordinate vectors shaped `like` this
+    /// one.
     fn new(like: &S::Vector) -> Self
     where
         Self: Sized;
 
-    /// Advances `state` from `t` to exactly `t + h` (s), but for methods whose card says that they do
-    /// not [keep time](super::Method::keeps_time). Never allocates.
+    /// Advances `state` from `t` to exactly `t + h` (s), unless the card says that the method does not
+    /// [keep time](super::Method::keeps_time). Never allocates.
     ///
-    /// # Errors
-    /// A [`StepFailure`] of the method's own; `state` is then somewhere on the way. Values that
-    /// overflow are not the method's business: its caller checks them.
+    /// A [`StepFailure`] of the method; `state` is then undefined. Overflow is not reported: the caller
+    /// checks the values.
     fn step(
         &mut self,
         system: &S,
@@ -47,14 +47,14 @@ pub trait Integrator<S: System>: Send {
         Ok(())
     }
 
-    /// Forgets whatever is carried between steps. Call it when the state or the forces jump. A jump of the
-    /// step's length every method notices by itself.
+    /// Clears the memory of the method. Call it if the state or the forces jump. A method detects a
+    /// change of the step length itself.
     fn reset(&mut self) {}
 
-    /// Sets the error that an adaptive method allows in a substep; the others take no notice.
+    /// Sets the tolerance of an adaptive method; other methods ignore it.
     fn set_tolerance(&mut self, _tolerance: Tolerance) {}
 
-    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
+    /// Memory in bytes, without its own size and that of its coordinate vectors.
     fn heap_bytes(&self) -> usize {
         0
     }

@@ -1,4 +1,4 @@
-//! Midpoint: the slope halfway, followed for the whole step.
+//! Midpoint: follows the slope halfway for the whole step.
 
 use super::card::{EXPLICIT, Method};
 use super::failure::StepFailure;

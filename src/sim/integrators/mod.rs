@@ -4,7 +4,7 @@
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
 //! of each card, both ways. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
 
-use watched::Watched;
+use reset_on_change::ResetOnChange;
 
 use super::system::System;
 
@@ -27,6 +27,7 @@ mod midpoint;
 mod newmark;
 mod pefrl;
 mod position_verlet;
+mod reset_on_change;
 mod rk4;
 mod rk4_as_printed;
 mod semi_implicit_euler;
@@ -35,7 +36,6 @@ mod ssp_rk3;
 mod stormer_verlet;
 mod tolerance;
 mod velocity_verlet;
-mod watched;
 mod yoshida4;
 
 pub use adams_bashforth_2::AdamsBashforth2;
@@ -67,11 +67,11 @@ pub use tolerance::Tolerance;
 pub use velocity_verlet::VelocityVerlet;
 pub use yoshida4::Yoshida4;
 
-/// Something to be made of an integrator whose type is chosen at run time; see [`construct`].
+/// What [`construct`] builds from an integrator whose type is chosen at run time.
 pub trait Construct<S: System> {
-    /// What is made.
+    /// The result.
     type Output;
-    /// Makes it of the method `I`.
+    /// Builds the result from the integrator type `I`.
     fn of<I: Integrator<S> + Clone + 'static>(self) -> Self::Output;
 }
 
@@ -80,7 +80,7 @@ macro_rules! methods {
         /// Every method, in the order of the digit keys and of race lanes.
         pub static METHODS: &[Method] = &[$($file::CARD),+];
 
-        /// Calls `construct` with the integrator type that `method` is the card of.
+        /// Calls `construct` with the integrator type of `method`.
         ///
         /// # Panics
         /// If `method` is not from [`METHODS`].
@@ -124,9 +124,9 @@ pub fn method(id: &str) -> Option<&'static Method> {
     METHODS.iter().find(|method| method.id == id)
 }
 
-/// A fresh integrator of `method` for systems with coordinates shaped `like` these. It notices by itself
-/// where it is given a state other than it left, and [resets](Integrator::reset); forces that jump it
-/// has to be told of.
+/// A new integrator of `method` for systems with coordinates shaped `like` these. It
+/// [resets](Integrator::reset) itself if it is given a state other than it returned; a jump of the
+/// forces must be reported by the caller.
 ///
 /// ```
 /// # use regatta::sim::{State, bodies::Spring, integrators::{integrator, method}};
@@ -144,7 +144,7 @@ pub fn integrator<S: System + 'static>(
     impl<S: System + 'static> Construct<S> for Boxed<'_, S::Vector> {
         type Output = Box<dyn Integrator<S>>;
         fn of<I: Integrator<S> + Clone + 'static>(self) -> Self::Output {
-            Box::new(Watched::<I, _>::new(self.0))
+            Box::new(ResetOnChange::<I, _>::new(self.0))
         }
     }
     construct::<S, _>(method, Boxed(like))

@@ -25,7 +25,7 @@ pub struct Newmark<V> {
     newton: Newton<V, 1>,
 }
 
-/// The mean acceleration over the step. Other β are stable up to some step only.
+/// The mean acceleration over the step. A smaller β is stable only up to some step.
 const BETA: f64 = 0.25;
 /// The only γ of second order.
 const GAMMA: f64 = 0.5;

@@ -1,4 +1,4 @@
-//! PEFRL, position-extended Forest-Ruth-like: one kick more than Yoshida 4 buys a far smaller error.
+//! PEFRL, position-extended Forest-Ruth-like: one kick more than Yoshida 4, for a far smaller error.
 
 use super::card::{Method, SYMPLECTIC};
 use super::failure::StepFailure;
@@ -21,7 +21,7 @@ pub(super) const CARD: Method = Method {
 const XI: f64 = 0.178_617_895_844_809_1;
 const LAMBDA: f64 = -0.212_341_831_062_605_4;
 const CHI: f64 = -0.066_264_582_669_818_5;
-/// Drift and kick of each stage, in parts of the step.
+/// Drift and kick of each stage, as fractions of the step.
 const STAGES: [(f64, f64); 4] = [
     (XI, (1.0 - 2.0 * LAMBDA) / 2.0),
     (CHI, LAMBDA),

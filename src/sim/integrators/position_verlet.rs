@@ -1,4 +1,4 @@
-//! Position Verlet: half a drift, a whole kick, half a drift.
+//! Position Verlet: half a drift, a kick, half a drift.
 
 use super::card::{Method, SYMPLECTIC};
 use super::failure::StepFailure;

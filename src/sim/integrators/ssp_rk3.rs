@@ -12,7 +12,7 @@ pub(super) const CARD: Method = Method {
     order: 3,
     order_with_drag: 3,
     evaluations: Some(3),
-    // √3, where z⁴ (z² - 3) / 36, by which the squared amplitude grows in a step, changes sign.
+    // √3, where z⁴ (z² - 3) / 36, the growth of the squared amplitude in a step, changes sign.
     stability_limit: Some(1.732_050_807_568_877_2),
     source: "Shu & Osher, Efficient implementation of essentially non-oscillatory shock-capturing schemes (1988)",
     ..EXPLICIT

@@ -20,8 +20,8 @@ pub(super) const CARD: Method = Method {
 
 /// `q' = 2 q - p + h² a`, with `p` the position one step ago, and `v' = (q' - q) / h + h a' / 2`.
 ///
-/// The plain difference `(q' - q) / h` is the velocity of half a step ago, and first order; half a kick
-/// by the force at the end, which the next step needs anyway, makes it second order.
+/// The plain difference `(q' - q) / h` is the velocity half a step ago, and first order. Half a kick by
+/// the force at the end, which the next step needs anyway, makes it second order.
 #[derive(Clone)]
 pub struct StormerVerlet<V> {
     p: V,
@@ -55,7 +55,7 @@ impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
         q_end.assign_scaled(2.0, q);
         q_end.add_terms([(-1.0, p), (h * h, a)]);
 
-        // The force at the end is taken at the slope there of the parabola through all three.
+        // The force at the end uses the slope there of the parabola through all three positions.
         v.assign_scaled(1.5 / h, q_end);
         v.add_terms([(-2.0 / h, q), (0.5 / h, p)]);
         system.acceleration(t + h, q_end, v, a);

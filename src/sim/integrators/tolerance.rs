@@ -1,10 +1,10 @@
-//! What an adaptive method allows.
+//! The tolerance of an adaptive method.
 
 use crate::sim::system::{State, Vector};
 
-/// The error that a substep may make: `absolute + relative |y|` in every component.
+/// The allowed error of a substep: `absolute + relative |y|` in every component.
 ///
-/// `f64::INFINITY` in an absolute part leaves that half of the state out of the control.
+/// An absolute part of `f64::INFINITY` excludes that half of the state from the control.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Absolute part for coordinates, in metres or radians.
@@ -16,14 +16,14 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// The same number for all three parts.
+    /// One number for all three parts.
     pub const fn uniform(tolerance: f64) -> Self {
         Self { absolute_q: tolerance, absolute_v: tolerance, relative: tolerance }
     }
 
-    /// The largest component of `h error`, in units of what is allowed beside `y`.
+    /// The largest component of `h error`, relative to the tolerance at `y`.
     #[inline]
-    pub(in crate::sim::integrators) fn measure<V: Vector>(
+    pub(in crate::sim::integrators) fn relative_error<V: Vector>(
         &self,
         h: f64,
         error: &State<V>,
@@ -40,7 +40,7 @@ impl Tolerance {
     }
 }
 
-/// As `a.max(b)`, which would drop a NaN, and with it the news that the step is worthless.
+/// The larger number; unlike `f64::max` it keeps a NaN, so that a worthless step is rejected.
 #[inline]
 fn larger(a: f64, b: f64) -> f64 {
     if b <= a || a.is_nan() { a } else { b }

@@ -20,8 +20,8 @@ pub(super) const CARD: Method = Method {
 
 /// `v½ = v + h a / 2`, `q' = q + h v½`, `a' = a(t + h, q', v½ + h a / 2)`, `v' = v½ + h a' / 2`.
 ///
-/// The second force is taken at the velocity predicted for the end, which keeps the order under drag; at
-/// the half-step velocity `v½` it would be 1.
+/// The force at the end uses the predicted velocity there, which keeps second order under drag; with
+/// the half-step velocity `v½` it would be first order.
 #[derive(Clone)]
 pub struct VelocityVerlet<V> {
     a: V,

@@ -1,4 +1,5 @@
-//! Yoshida 4: three position Verlet steps, the middle one backwards, whose errors cancel.
+//! Yoshida 4: three position Verlet steps, the middle one backwards, chosen so that their third-order
+//! errors cancel.
 
 use super::card::{Method, SYMPLECTIC};
 use super::failure::StepFailure;
@@ -18,9 +19,10 @@ pub(super) const CARD: Method = Method {
     ..SYMPLECTIC
 };
 
-/// θ = 1 / (2 - ∛2): the part of the step that the outer two take; the middle one takes 1 - 2θ < 0.
+/// θ = 1 / (2 - ∛2): the length of the outer two steps, relative to the whole.
+/// The middle one has 1 - 2θ < 0.
 const THETA: f64 = 1.351_207_191_959_657_6;
-/// Drift and kick of each stage, in parts of the step.
+/// Drift and kick of each stage, as fractions of the step.
 const STAGES: [(f64, f64); 3] =
     [(THETA / 2.0, THETA), ((1.0 - THETA) / 2.0, 1.0 - 2.0 * THETA), ((1.0 - THETA) / 2.0, THETA)];
 /// The drift after the last kick.

@@ -1,23 +1,25 @@
-//! One step of Bulirsch and Stoer's extrapolation: the midpoint rule with 2, 4, 6 … substeps, extrapolated
-//! to none. Bulirsch & Stoer, *Numerical treatment of ordinary differential equations by extrapolation
-//! methods* (1966); Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.9.
+//! One step of Bulirsch and Stoer's extrapolation: the midpoint rule with 2, 4, 6 … substeps,
+//! extrapolated to step size zero. Bulirsch & Stoer, *Numerical treatment of ordinary differential
+//! equations by extrapolation methods* (1966); Hairer, Nørsett & Wanner, *Solving Ordinary Differential
+//! Equations I*, II.9.
 
-use crate::sim::bodies::Body;
+use crate::sim::body::Body;
 use crate::sim::system::{State, System, Vector};
 
-/// The most columns of the extrapolation; the last has order 16. More gain nothing in f64.
+/// The number of columns of the extrapolation table; the last has order 16. More gain nothing in `f64`.
 const COLUMNS: usize = 8;
 
-/// From this column on, the states on the way tell whether the step leaves its piece of the force law.
-const TELLING: usize = 2;
+/// The first column whose intermediate states are checked against the boundaries of the piece of the
+/// force law.
+const FIRST_SAMPLED: usize = 2;
 
-/// A body's force law, one of its smooth pieces continued to everywhere.
-struct Smooth<'a, B> {
+/// One smooth piece of the force law of a body, continued beyond its boundaries.
+struct SmoothPiece<'a, B> {
     body: &'a B,
     piece: usize,
 }
 
-impl<B: Body> System for Smooth<'_, B> {
+impl<B: Body> System for SmoothPiece<'_, B> {
     type Vector = B::Vector;
 
     #[inline]
@@ -26,21 +28,21 @@ impl<B: Body> System for Smooth<'_, B> {
     }
 }
 
-/// What a step is made in.
+/// The extrapolation table and the scratch of a step.
 #[derive(Clone, Debug)]
 pub(super) struct Extrapolation<V> {
-    /// What the step adds to the state, by the finest column so far and by the coarser ones.
+    /// The increment of the state by each column, the finest first.
     table: Vec<State<V>>,
-    /// The derivative at the step's beginning.
+    /// The derivative at the start of the step.
     pub(super) begin: State<V>,
-    /// The derivative on the way.
+    /// The derivative at an intermediate state.
     d: State<V>,
-    /// What was added to the state one substep ago, and by now.
+    /// The increment one substep ago, and the current one.
     before: State<V>,
     now: State<V>,
     stage: State<V>,
-    /// The least room on the way, as [`Body::room`] has it.
-    pub(super) least_room: [f64; 2],
+    /// The smallest of [`Body::distances_to_ends`] at the intermediate states.
+    pub(super) least_distances: [f64; 2],
     /// Evaluations so far.
     pub(super) evaluations: u64,
 }
@@ -55,29 +57,29 @@ impl<V: Vector> Extrapolation<V> {
             before: state(),
             now: state(),
             stage: state(),
-            least_room: [f64::INFINITY; 2],
+            least_distances: [f64::INFINITY; 2],
             evaluations: 0,
         }
     }
 
-    /// The memory that it takes beyond its own size and that of its coordinate vectors, in bytes.
+    /// Memory in bytes, without its own size and that of its coordinate vectors.
     pub(super) fn heap_bytes(&self) -> usize {
         let column = size_of::<State<V>>() + 2 * self.begin.q.heap_bytes();
         self.table.len() * column
     }
 
-    /// What the last attempt adds to the state.
+    /// The increment of the last attempt.
     pub(super) fn added(&self) -> &State<V> {
         &self.table[0]
     }
 
-    /// The state to which the last attempt leads from `y`.
+    /// The final state of the last attempt, from `y`.
     pub(super) fn end(&mut self, y: &State<V>) -> &State<V> {
         self.stage.assign_sum(y, 1.0, &self.table[0]);
         &self.stage
     }
 
-    /// Takes the derivative at `y`, where steps are to begin.
+    /// Evaluates the derivative at `y`, the start of the next attempts.
     pub(super) fn begin<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -86,13 +88,13 @@ impl<V: Vector> Extrapolation<V> {
         y: &State<V>,
     ) {
         self.evaluations += 1;
-        Smooth { body, piece }.derivative(t, y, &mut self.begin);
+        SmoothPiece { body, piece }.derivative(t, y, &mut self.begin);
     }
 
-    /// Attempts a step of `h` from `y` by the given piece of the force law, and returns how many columns it
-    /// took; `None` where all of them are not enough for an error of `tolerance`, relative to the largest
-    /// value of the same unit. What is estimated is the error of the column before the one that is kept, so
-    /// that what is made is far smaller.
+    /// Attempts a step of `h` from `y` by the given piece of the force law. Returns how many columns it
+    /// needed; `None` if no column reaches `tolerance`, relative to the largest value of the same unit.
+    /// The estimated error is that of the column before the one returned, so that the actual error is
+    /// far smaller.
     pub(super) fn attempt<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -102,10 +104,10 @@ impl<V: Vector> Extrapolation<V> {
         y: &State<V>,
         tolerance: f64,
     ) -> Option<usize> {
-        self.least_room = [f64::INFINITY; 2];
+        self.least_distances = [f64::INFINITY; 2];
         for column in 0..COLUMNS {
             self.midpoint(body, piece, t, h, 2 * (column + 1), y);
-            // Aitken and Neville: in the end `table[0]` has the highest order, `table[1]` the next.
+            // Aitken and Neville: afterwards `table[0]` has the highest order and `table[1]` the next.
             for i in (0..column).rev() {
                 let ratio = (column + 1) as f64 / (i + 1) as f64;
                 let (coarse, fine) = self.table.split_at_mut(i + 1);
@@ -118,8 +120,8 @@ impl<V: Vector> Extrapolation<V> {
         None
     }
 
-    /// What `n` substeps of the midpoint rule add to `y`, into the next place of the table. Kept apart
-    /// from `y`, so that round-off is relative to the little that is added.
+    /// Writes the increment from `y` by `n` substeps of the midpoint rule to the next entry of the
+    /// table. It is kept separate from `y`, so that round-off is relative to the small increment.
     fn midpoint<B: Body<Vector = V>>(
         &mut self,
         body: &B,
@@ -129,9 +131,9 @@ impl<V: Vector> Extrapolation<V> {
         n: usize,
         y: &State<V>,
     ) {
-        let system = Smooth { body, piece };
-        let is_telling = n > 2 * TELLING;
-        let Self { table, begin, d, before, now, stage, least_room, evaluations } = self;
+        let system = SmoothPiece { body, piece };
+        let samples_room = n > 2 * FIRST_SAMPLED;
+        let Self { table, begin, d, before, now, stage, least_distances, evaluations } = self;
         let part = h / n as f64;
         fill(before, 0.0);
         fill(now, 0.0);
@@ -139,9 +141,10 @@ impl<V: Vector> Extrapolation<V> {
         for i in 1..=n {
             stage.assign_sum(y, 1.0, now);
             system.derivative(t + part * i as f64, stage, d);
-            if is_telling {
-                let room = body.room(piece, stage);
-                *least_room = [least_room[0].min(room[0]), least_room[1].min(room[1])];
+            if samples_room {
+                let distances = body.distances_to_ends(piece, stage);
+                *least_distances =
+                    [least_distances[0].min(distances[0]), least_distances[1].min(distances[1])];
             }
             if i < n {
                 before.add_scaled(2.0 * part, d);
@@ -149,7 +152,7 @@ impl<V: Vector> Extrapolation<V> {
             }
         }
         *evaluations += n as u64;
-        // Gragg's smoothing: half of the last two places and of where the last slope leads.
+        // Gragg's smoothing: the mean of the last two increments and of a step along the last slope.
         let sum = &mut table[n / 2 - 1];
         fill(sum, 0.0);
         sum.add_scaled(0.5, before);
@@ -157,8 +160,8 @@ impl<V: Vector> Extrapolation<V> {
         sum.add_scaled(0.5 * part, d);
     }
 
-    /// Whether the last two orders agree, relative to what the state and its change amount to: angles
-    /// among themselves, and lengths.
+    /// Whether the last two columns agree to `tolerance`, relative to the magnitude of the state and
+    /// its change. Angles and lengths are scaled separately.
     fn passes<B: Body<Vector = V>>(&self, body: &B, h: f64, y: &State<V>, tolerance: f64) -> bool {
         let part = |y: &V, slope: &V, last: &V, before: &V, angles: bool| {
             let of = |x: &V| largest(x, |i| body.is_angle(i) == angles);
@@ -192,7 +195,7 @@ fn extrapolate<V: Vector>(coarse: &mut State<V>, fine: &State<V>, weight: f64) {
     each(&mut coarse.v, &fine.v);
 }
 
-/// The largest magnitude of the components chosen.
+/// The largest magnitude of the selected components.
 fn largest<V: Vector>(vector: &V, is_chosen: impl Fn(usize) -> bool) -> f64 {
     let components = vector.components().iter().enumerate();
     components.filter(|&(i, _)| is_chosen(i)).fold(0.0, |most, (_, x)| x.abs().max(most))

@@ -1,30 +1,30 @@
-//! What a method makes of a body's modes, beside what they are in truth.
+//! The modes of a method on a body, compared with its true modes.
 
 use super::spectrum::Eigenvalue;
 
 /// How a method treats small deviations of a body from its present state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stability {
-    /// The largest modulus of an eigenvalue of the one-tick map; infinite where the map overflows.
+    /// The spectral radius of the one-tick map; infinite if the map overflows.
     pub spectral_radius: f64,
-    /// By how much the worst mode grows in a second beyond what it does in truth or, where it decays in
-    /// truth, beyond standing still: the natural logarithm of the factor. Negative where all decays.
+    /// The largest growth rate of a mode in excess of its true growth; for a mode that truly decays, in
+    /// excess of zero. Natural logarithm of the factor per second, negative if all modes decay.
     pub growth_per_s: f64,
-    /// By how much the method damps the mode that it damps most of those that truth conserves: the
-    /// natural logarithm in a second, 0 without such a mode.
+    /// The largest decay rate of a mode that is truly conserved: natural logarithm per second, 0
+    /// without such a mode.
     pub loss_per_s: f64,
-    /// How much too fast the mode turns that is furthest off, as a part of its frequency; `None` where
-    /// nothing swings, where the method no longer does, or where a mode makes half a turn or more in the
-    /// tick: the map of a tick does not tell one turn and a bit from a bit of a turn.
+    /// The largest frequency error of a mode, relative to its true frequency. `None` if no mode
+    /// oscillates, if the method turns an oscillation into a real eigenvalue, or if a mode makes half a
+    /// turn or more in the tick: the one-tick map does not determine the number of turns.
     pub frequency_error: Option<f64>,
 }
 
-/// An amplitude that takes longer than this to double is bounded: a year, in seconds. No game runs as
-/// long, and at 10 000 Hz less growth could not be told from rounding.
+/// An amplitude that takes longer than this to double counts as bounded: a year, in seconds. No game
+/// runs as long, and at 10 000 Hz a smaller growth could not be told from rounding.
 pub const FOREVER_S: f64 = 365.0 * 86_400.0;
 
 impl Stability {
-    /// Of a map that overflows.
+    /// The stability of a map that overflows.
     pub(super) const OVERFLOW: Self = Self {
         spectral_radius: f64::INFINITY,
         growth_per_s: f64::INFINITY,
@@ -32,28 +32,28 @@ impl Stability {
         frequency_error: None,
     };
 
-    /// Whether deviations stay as small as they are in truth, for as long as anybody looks.
+    /// Whether the excess growth takes longer than [`FOREVER_S`] to double an amplitude.
     pub fn is_bounded(&self) -> bool {
         self.growth_per_s * FOREVER_S < std::f64::consts::LN_2
     }
 
-    /// The seconds in which the amplitude doubles that in truth does not; `None` where it is bounded.
+    /// The time in seconds in which the excess growth doubles an amplitude; `None` if it is bounded.
     pub fn doubling_s(&self) -> Option<f64> {
         (!self.is_bounded()).then(|| std::f64::consts::LN_2 / self.growth_per_s)
     }
 
-    /// The seconds in which the amplitude halves that in truth does not; `None` where none does within
-    /// [`FOREVER_S`].
+    /// The time in seconds in which the amplitude of a conserved mode halves; `None` if that takes
+    /// longer than [`FOREVER_S`].
     pub fn halving_s(&self) -> Option<f64> {
         let halving = std::f64::consts::LN_2 / self.loss_per_s;
         (halving > 0.0 && halving < FOREVER_S).then_some(halving)
     }
 }
 
-/// How fast a mode grows and turns.
+/// The growth rate and the frequency of a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mode {
-    /// Natural logarithm of the factor in a second.
+    /// Natural logarithm of the factor per second.
     pub(super) growth_per_s: f64,
     /// Radians per second, not negative.
     pub(super) frequency: f64,
@@ -65,23 +65,23 @@ impl Mode {
     }
 }
 
-/// What grows less than this in a second, as a part of a turn in a tick, stands still: the rounding of
-/// the differences.
-const STILL: f64 = 1e-9;
+/// A growth per tick below this is zero: it is the rounding of the differences.
+const NO_GROWTH: f64 = 1e-9;
 
-/// What grows in truth may grow by this part faster: neither rate says much of the long run.
-const OWN_GROWTH: f64 = 0.1;
+/// A mode that truly grows may grow faster or slower by this fraction: neither rate predicts the long
+/// run.
+const IGNORED_EXCESS: f64 = 0.1;
 
-/// What the eigenvalues of a map over `h` (s) are beside the modes that the motion has in truth.
-pub(super) fn against(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
+/// Pairs the eigenvalues of a map over `h` (s) with the true modes and compares them.
+pub(super) fn compare(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stability {
     let (swinging, creeping): (Vec<Mode>, Vec<Mode>) =
         truth.iter().partition(|m| m.frequency > 0.0);
-    // Beyond as many as truth has, the faintest are what the method remembers.
+    // The smallest eigenvalues beyond the number of true modes belong to the memory of the method.
     let mut by_modulus = values.to_vec();
     by_modulus.sort_by(|a, b| b.modulus.total_cmp(&a.modulus));
     let memory = by_modulus.split_off(truth.len().min(by_modulus.len()));
     let (mut turning, mut rest): (Vec<Eigenvalue>, Vec<Eigenvalue>) =
-        by_modulus.into_iter().partition(|value| value.turns());
+        by_modulus.into_iter().partition(|value| value.is_complex());
 
     let mut pairs: Vec<(Option<Mode>, Mode)> = Vec::new();
     let mut frequency_error = None;
@@ -118,13 +118,13 @@ pub(super) fn against(truth: &[Mode], values: &[Eigenvalue], h: f64) -> Stabilit
     pairs.extend(unpaired);
 
     let excess = pairs.iter().map(|&(truth, found)| match truth {
-        Some(Mode { growth_per_s: own, .. }) if own * h > STILL => {
+        Some(Mode { growth_per_s: own, .. }) if own * h > NO_GROWTH => {
             let excess = found.growth_per_s - own;
-            if excess.abs() < OWN_GROWTH * own { 0.0 } else { excess }
+            if excess.abs() < IGNORED_EXCESS * own { 0.0 } else { excess }
         }
         _ => found.growth_per_s,
     });
-    let conserved = |mode: Mode| (mode.growth_per_s * h).abs() < STILL;
+    let conserved = |mode: Mode| (mode.growth_per_s * h).abs() < NO_GROWTH;
     let losses = pairs.iter().filter(|(truth, _)| truth.is_some_and(conserved));
     Stability {
         spectral_radius: values.iter().map(|value| value.modulus).fold(0.0, f64::max),
@@ -153,26 +153,26 @@ mod tests {
     }
 
     #[test]
-    fn what_creeps_in_truth_is_held_against_the_nearest_eigenvalue() {
+    fn an_overdamped_mode_is_compared_with_the_nearest_eigenvalue() {
         let h = 0.1;
         for (case, nearest) in [
-            // Nearer than what turns a sixth of a turn, whose real part is a quarter.
+            // Nearer than the pair at a sixth of a turn, whose real part is a quarter.
             ([(0.5, PI / 3.0), (0.5, PI / 3.0), (0.4, 0.0)], 0.4),
-            // Further off than what hardly turns.
+            // Farther than the pair that hardly turns.
             ([(0.9, 0.2), (0.9, 0.2), (0.7, 0.0)], 0.9),
-            // What flips is far off, however near in modulus.
+            // A negative eigenvalue is far away, however close its modulus.
             ([(0.99, PI), (0.99, PI), (0.8, 0.0)], 0.8),
         ] {
-            let found = against(&creeping([0.0, -1.0, -1.0]), &values(case), h);
+            let found = compare(&creeping([0.0, -1.0, -1.0]), &values(case), h);
             assert!(near(found.loss_per_s, -libm::log(nearest) / h), "{case:?}: {found:?}");
         }
         // The nearest to e^0.2 and to e³.
-        let found = against(&creeping([2.0, 30.0]), &values([(19.0, 0.0), (1.2, 0.0)]), h);
+        let found = compare(&creeping([2.0, 30.0]), &values([(19.0, 0.0), (1.2, 0.0)]), h);
         assert_eq!(found.growth_per_s, 0.0);
     }
 
     #[test]
-    fn growth_is_counted_beyond_that_of_the_truth_and_from_a_tenth_of_it() {
+    fn growth_counts_in_excess_of_true_growth_and_from_a_tenth_of_it() {
         for h in [0.1, 4.0] {
             for (own, grows, counted) in [
                 (2.0, 2.15, 0.0),
@@ -184,37 +184,38 @@ mod tests {
                 (0.0, 0.1, 0.1),
             ] {
                 let value = (libm::exp(grows * h), 0.0);
-                let found = against(&creeping([own]), &values([value]), h).growth_per_s;
+                let found = compare(&creeping([own]), &values([value]), h).growth_per_s;
                 assert!((found - counted).abs() < 1e-9, "{own}, {grows}: {found}");
             }
         }
-        // Truth that seems to grow by 1e-10 in a tick stands still.
-        let found = against(&creeping([1e-6]), &values([(1.0 + 1e-10, 0.0)]), 1e-4);
+        // A true growth of 1e-10 per tick counts as zero.
+        let found = compare(&creeping([1e-6]), &values([(1.0 + 1e-10, 0.0)]), 1e-4);
         assert!((found.growth_per_s / 1e-6 - 1.0).abs() < 1e-3, "{found:?}");
-        let found = against(&creeping([1e-6]), &values([(0.5, 0.0)]), 1e-4);
+        let found = compare(&creeping([1e-6]), &values([(0.5, 0.0)]), 1e-4);
         assert!(near(found.loss_per_s, libm::log(2.0) / 1e-4), "{found:?}");
-        // A loss of what decays in truth is none.
-        let found = against(&creeping([-1.0]), &values([(0.5, 0.0)]), 1.0);
+        // A decaying mode has no loss.
+        let found = compare(&creeping([-1.0]), &values([(0.5, 0.0)]), 1.0);
         assert_eq!(found.loss_per_s, 0.0);
     }
 
     #[test]
-    fn of_all_frequencies_the_one_furthest_off_is_told() {
+    fn the_largest_frequency_error_is_reported() {
         let swing = |frequency: f64| Mode { growth_per_s: 0.0, frequency };
         let truth = [swing(40.0), swing(10.0), swing(40.0), swing(10.0)];
         let turning = |of: [f64; 2]| values([of[0], of[0], of[1], of[1]].map(|a| (1.0, a * 0.01)));
-        let error = |of| against(&truth, &turning(of), 0.01).frequency_error.unwrap();
+        let error = |of| compare(&truth, &turning(of), 0.01).frequency_error.unwrap();
         assert!(near(error([10.1, 38.8]), -0.03));
         assert!(near(error([40.4, 10.3]), 0.03));
-        // One that flips swings no more, and then nothing is told of the other.
+        // A mode that has become a negative eigenvalue does not oscillate, so no frequency error is
+        // known.
         let flipped = values([(1.0, 0.1), (1.0, 0.1), (1.0, PI), (1.0, PI)]);
-        assert_eq!(against(&truth, &flipped, 0.01).frequency_error, None);
+        assert_eq!(compare(&truth, &flipped, 0.01).frequency_error, None);
     }
 
     #[test]
-    fn what_a_method_remembers_counts_where_it_grows() {
+    fn a_growing_memory_mode_counts() {
         let h = 0.1;
-        let found = against(&creeping([-1.0]), &values([(1.1, PI), (0.9, 0.0)]), h);
+        let found = compare(&creeping([-1.0]), &values([(1.1, PI), (0.9, 0.0)]), h);
         assert!(near(found.growth_per_s, libm::log(1.1) / h), "{found:?}");
         assert_eq!(found.spectral_radius, 1.1);
     }

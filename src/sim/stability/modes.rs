@@ -1,15 +1,15 @@
-//! The normal modes of a linear body, and what a method makes of each in a tick.
+//! The normal modes of a linear body, and the stability of a method on each.
 //!
-//! The modes come from the body's own acceleration. A method treats each mode of a linear body by itself, so that
-//! its map is found mode by mode from the stepper: of two rows without memory, where the map of the whole body would
-//! have as many rows as a chain has coordinates and velocities.
+//! The modes come from the body's own acceleration. A method acts on each mode of a linear body
+//! separately, so that its map is found mode by mode from the stepper: of size 2 without memory,
+//! instead of twice the number of coordinates.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::comparison::{Mode, Stability, against};
-use super::probe::state_of;
+use super::comparison::{Mode, Stability, compare};
 use super::spectrum::{self, Derivatives, NEUTRAL_WITH_MEMORY};
 use super::tick::Tick;
+use super::tick_map::{force_jacobian, state_of};
 use super::trend::growth_of_energy;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::StepFailure;
@@ -18,7 +18,7 @@ use crate::sim::{Solver, Stepper};
 /// A normal mode of a linear body, `x″ = -ω² x - c x′`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NormalMode {
-    /// How far each coordinate moves in it; of length 1.
+    /// The displacement of each coordinate; normalised to length 1.
     pub shape: Vec<f64>,
     /// ω², per second squared; not negative.
     pub omega_squared: f64,
@@ -27,18 +27,18 @@ pub struct NormalMode {
 }
 
 impl NormalMode {
-    /// The angular frequency at which it swings, in radians per second; `None` where it only creeps.
+    /// Its damped angular frequency in radians per second; `None` if it is overdamped.
     pub fn swing(&self) -> Option<f64> {
         let squared = self.omega_squared - self.damping_per_s * self.damping_per_s / 4.0;
         (squared > 0.0).then(|| squared.sqrt())
     }
 
-    /// Whether it keeps its energy.
+    /// Whether its energy is conserved.
     pub fn is_conserved(&self) -> bool {
         self.damping_per_s == 0.0
     }
 
-    /// What of `values`, one for each coordinate, is in this mode.
+    /// The projection of `values`, one per coordinate, onto this mode.
     pub fn part(&self, values: &[f64]) -> f64 {
         self.shape.iter().zip(values).map(|(shape, value)| shape * value).sum()
     }
@@ -55,23 +55,22 @@ impl NormalMode {
         }
     }
 
-    /// What a method of equal steps makes of this mode of `body`, which stands free as [`undriven`] leaves it. Its
-    /// frequency is compared where it makes less than half a turn in a step.
+    /// Stability of a method with equal steps on this mode of `body`, which must be [`unforced`]. The
+    /// frequency is compared if the mode makes less than half a turn in a step.
     ///
-    /// # Errors
-    /// The failure of the method in its first ticks.
+    /// The failure of the method in the first ticks.
     pub fn stability(
         &self,
         body: &dyn Stepper,
         solver: Solver,
         tick: Tick,
     ) -> Result<Stability, StepFailure> {
-        // The map of a tick is a power of that of its steps, in which the mode turns less.
+        // The map of a tick is a power of that of a step, in which the mode turns less.
         let substeps = tick.substeps;
         let tick = Tick { h: tick.h / f64::from(substeps), substeps: 1, ..tick };
         let mut stepper = body.with_solver(solver, tick.t);
         let n = self.shape.len();
-        // The unit of velocity in which the mode's orbit is a circle, or in which a tick's way is 1.
+        // The unit of velocity: the orbit of the mode is a circle, or the distance in a step is 1.
         let rate = if self.omega_squared > 0.0 { self.omega_squared.sqrt() } else { 1.0 / tick.h };
         let mut maps: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(2, 2));
         for column in 0..2 {
@@ -93,11 +92,12 @@ impl NormalMode {
         let Some(values) = spectrum::eigenvalues(&derivatives) else {
             return Ok(Stability::OVERFLOW);
         };
-        let mut stability = against(&self.true_modes(), &values, tick.h);
+        let mut stability = compare(&self.true_modes(), &values, tick.h);
         stability.spectral_radius = stability.spectral_radius.powi(substeps as i32);
         let is_blurred = (stability.growth_per_s * tick.h).abs() <= NEUTRAL_WITH_MEMORY;
         if has_memory && is_blurred && self.is_conserved() && self.omega_squared > 0.0 {
-            // What a map cannot tell that had to be found out, many ticks can.
+            // The map of a method with memory is not accurate enough for a small growth; the energy
+            // over many ticks is.
             stepper.set(tick.t, &self.shape, &vec![0.0; n]);
             let scale = stepper.energy().unwrap_or(0.0);
             if scale > 0.0 && scale.is_finite() {
@@ -110,22 +110,24 @@ impl NormalMode {
     }
 }
 
-/// Ticks over which the energy of a mode is followed: a growth of 1e-15 a tick shows.
+/// Ticks over which the energy of a mode is followed.
 const FOLLOWED_TICKS: u64 = 1 << 14;
 
-/// A copy of `body` without what drives it: its equation is then homogeneous, and deviations move as the body does.
-pub fn undriven(body: &dyn Stepper) -> Box<dyn Stepper> {
+/// A copy of `body` with throttle 0, so that its equation is homogeneous and deviations obey the same
+/// equation.
+pub fn unforced(body: &dyn Stepper) -> Box<dyn Stepper> {
     let mut free = body.with_solver(Solver::Truth, 0.0);
     free.input(0.0, Input::Throttle(0.0));
     free
 }
 
-/// The normal modes of `body`; `None` if it is not [linear](Stepper::is_linear), or if its damping couples its modes.
+/// The normal modes of `body`; `None` if it is not [linear](Stepper::is_linear), or if damping couples
+/// the modes.
 pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
     if !body.is_linear() {
         return None;
     }
-    let free = undriven(body);
+    let free = unforced(body);
     let n = state_of(&*free).len() / 2;
     let column = |j: usize, moves: bool| {
         let mut state = vec![0.0; 2 * n];
@@ -138,7 +140,32 @@ pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
         let columns: Vec<f64> = (0..n).flat_map(|j| column(j, moves)).collect();
         -DMatrix::from_vec(n, n, columns)
     };
-    let (stiffness, damping) = (matrix(false), matrix(true));
+    modes_of(matrix(false), &matrix(true))
+}
+
+/// The normal modes of small deviations of `body` from rest at the origin, without throttle. `None` if
+/// the body does not stay at rest there, or if damping couples the modes.
+pub fn modes_about_rest(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
+    let mut free = unforced(body);
+    let n = free.q().len();
+    let rest = vec![0.0; 2 * n];
+    let mut a = vec![0.0; n];
+    free.acceleration(0.0, &rest[..n], &rest[n..], &mut a);
+    if a.iter().any(|&a| a != 0.0) {
+        return None;
+    }
+    free.set(0.0, &rest[..n], &rest[n..]);
+    let jacobian = force_jacobian(&*free, &rest, &vec![1.0; 2 * n], 0.0);
+    if jacobian.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let half = |first: usize| -jacobian.columns(first, n).into_owned();
+    modes_of(half(0), &half(n))
+}
+
+/// The modes of `x″ = -stiffness x - damping x′`.
+fn modes_of(stiffness: DMatrix<f64>, damping: &DMatrix<f64>) -> Option<Vec<NormalMode>> {
+    let n = stiffness.nrows();
     let is_near_nought =
         |rest: DMatrix<f64>, whole: &DMatrix<f64>| rest.amax() <= COUPLING * whole.amax();
     if !is_near_nought(&stiffness - stiffness.transpose(), &stiffness) {
@@ -146,9 +173,9 @@ pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
     }
     let eigen = SymmetricEigen::new(stiffness);
     let shapes = eigen.eigenvectors;
-    let by_mode = shapes.transpose() * &damping * &shapes;
+    let by_mode = shapes.transpose() * damping * &shapes;
     let own = DMatrix::from_diagonal(&by_mode.diagonal());
-    if !is_near_nought(&by_mode - own, &damping) {
+    if !is_near_nought(&by_mode - own, damping) {
         return None;
     }
     let mode = |i: usize| NormalMode {
@@ -159,7 +186,7 @@ pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
     Some((0..n).map(mode).collect())
 }
 
-/// Modes that feel each other by less than this, as a part of the largest entry, do not: rounding.
+/// Coupling below this fraction of the largest entry is rounding.
 const COUPLING: f64 = 1e-10;
 
 #[cfg(test)]
@@ -181,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mode_swings_below_its_critical_damping_and_creeps_at_two_rates_beyond() {
+    fn a_mode_oscillates_below_critical_damping_and_decays_at_two_rates_above() {
         for (omega_squared, damping, swing, rates) in [
             (25.0, 0.0, Some(5.0), [0.0, 0.0]),
             (25.0, 6.0, Some(4.0), [-3.0, -3.0]),
@@ -218,7 +245,7 @@ mod tests {
                 assert!((mode.omega_squared / (wanted * 400.0) - 1.0).abs() < 1e-12, "{mode:?}");
                 let decay = wanted * damping / 0.5;
                 assert!((mode.damping_per_s - decay).abs() < 1e-12, "{mode:?}");
-                // Half of what a wave of amplitude 1 has in it, for a shape of length 1.
+                // The projection of a wave of amplitude 1 onto a shape of length 1.
                 let wave: Vec<f64> =
                     (1..=MASSES).map(|j| libm::sin(2.0 * half * j as f64)).collect();
                 let length = ((MASSES + 1) as f64 / 2.0).sqrt();
@@ -231,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_linear_has_no_modes_and_a_thrust_changes_none() {
+    fn a_nonlinear_body_has_no_modes_and_thrust_does_not_change_modes() {
         assert_eq!(normal_modes(&*body("pendulum", &[1.0, 1.0, 9.81, 0.0, 1.0, 0.0, 1.0])), None);
         assert_eq!(normal_modes(&*body("orbit", &[1000.0, 9.0, 2.0, 1.5, 10.0, 0.3])), None);
         let ship = body("ship", &[2000.0, 300.0, 1000.0, 0.0, 0.0, 1.0]);
@@ -241,9 +268,20 @@ mod tests {
     }
 
     #[test]
-    fn a_mode_of_a_chain_fares_as_the_spring_of_its_frequency_and_damping() {
+    fn a_pendulum_at_rest_swings_as_a_spring_and_an_orbit_has_no_rest() {
+        let pendulum = body("pendulum", &[2.0, 3.0, 9.81, 0.6, 1.2, 0.5, 1.0]);
+        let modes = modes_about_rest(&*pendulum).unwrap();
+        assert_eq!(modes.len(), 1);
+        assert!((modes[0].omega_squared / (9.81 / 2.0) - 1.0).abs() < 1e-9, "{modes:?}");
+        // c / (m l²), with l = 2 m and m = 3 kg.
+        assert!((modes[0].damping_per_s / (0.6 / 12.0) - 1.0).abs() < 1e-9, "{modes:?}");
+        assert_eq!(modes_about_rest(&*body("orbit", &[1000.0, 9.0, 2.0, 1.5, 10.0, 0.3])), None);
+    }
+
+    #[test]
+    fn a_mode_of_a_chain_has_the_stability_of_a_spring_with_its_frequency_and_damping() {
         for damping in [0.0, 0.3] {
-            let chain = undriven(&*chain(damping));
+            let chain = unforced(&*chain(damping));
             for mode in normal_modes(&*chain).unwrap() {
                 let values = [1.0, mode.omega_squared, mode.damping_per_s, 1.0, 0.0, 1.0];
                 let spring = body("spring", &values);
@@ -276,17 +314,17 @@ mod tests {
     }
 
     #[test]
-    fn a_faint_loss_of_a_method_with_memory_is_told_from_many_ticks() {
+    fn a_small_loss_of_a_method_with_memory_is_found_over_many_ticks() {
         let h = 0.001;
         let spring = body("spring", &[1.0, 25.0, 0.0, 1.0, 0.0, 1.0]);
         let tick = Tick { t: 0.0, h, substeps: 1 };
         let solver = Solver::Method(method("bdf2").unwrap());
         let found = mode(25.0, 0.0).stability(&*spring, solver, tick).unwrap();
-        // Of BDF2 on y′ = iω y the amplitude loses z⁴/4 a step, to the first order.
+        // BDF2 on y′ = iω y reduces the amplitude by z⁴/4 per step, to first order.
         let wanted = 0.005_f64.powi(4) / 4.0 / h;
         assert!((found.loss_per_s / wanted - 1.0).abs() < 0.01, "{found:?}, not {wanted}");
         assert!((found.growth_per_s / wanted + 1.0).abs() < 0.01, "{found:?}, not {wanted}");
-        // What Adams-Bashforth gains, by as much, is no loss.
+        // Adams-Bashforth gains by the same rate and has no loss.
         let solver = Solver::Method(method("adams-bashforth-2").unwrap());
         let found = mode(25.0, 0.0).stability(&*spring, solver, tick).unwrap();
         assert!((found.growth_per_s / wanted - 1.0).abs() < 0.01, "{found:?}, not {wanted}");

@@ -1,24 +1,26 @@
-//! The slowest whole tick rate at which something holds.
+//! Search for the slowest whole tick rate with a property.
 
-/// The rates that are searched, in Hz.
+/// The searched rates, in Hz.
 pub const RATES_HZ: std::ops::RangeInclusive<u32> = 1..=10_000;
 
-/// Rates that have to hold above the slowest one found, each about 1.4 times the one before.
+/// The number of further rungs of the ladder, above the first that passes, that must pass too. Each is
+/// about 1.4 times the one before.
 const CONFIRMATIONS: u32 = 2;
 
-/// Searches [`RATES_HZ`], a rate at a time, for the slowest at which something holds.
+/// Searches [`RATES_HZ`], one rate per call, for the slowest that passes a test.
 ///
-/// It climbs a ladder of two rates an octave from the bottom until one holds and the next two do, then
-/// halves the gap below. What it finds holds, and fails one hertz slower; neither stability nor error
-/// need be monotone in the rate, and a gap between the rungs above it that failed would not be seen.
+/// It climbs a ladder of two rates per octave until one rung and the next two pass, then bisects the
+/// gap below. The rate found passes, and the rate one hertz slower fails. Neither stability nor error
+/// need be monotone in the rate: a failing gap between the rungs above is not noticed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RateSearch {
-    state: State,
+    state: SearchState,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum State {
-    /// Trying this rung; `held` is the first of those that held in a row, `fails` the last that did not.
+enum SearchState {
+    /// Trying this rung. `held` is the first of the rungs in a row that passed, with the number of
+    /// confirmations; `fails` is the last rate that failed.
     Climbing {
         rung: u32,
         held: Option<(u32, u32)>,
@@ -32,23 +34,23 @@ enum State {
 }
 
 impl RateSearch {
-    /// A search that has tried nothing.
+    /// A search before its first rate.
     pub fn new() -> Self {
-        Self { state: State::Climbing { rung: 0, held: None, fails: 0 } }
+        Self { state: SearchState::Climbing { rung: 0, held: None, fails: 0 } }
     }
 
-    /// The slowest rate that holds, or that none does; `None` while it is not known yet.
+    /// The slowest rate that passes, or `Some(None)` if none does; `None` while the search goes on.
     pub fn found(&self) -> Option<Option<u32>> {
         match self.state {
-            State::Found(hz) => Some(hz),
+            SearchState::Found(hz) => Some(hz),
             _ => None,
         }
     }
 
-    /// Tries one rate. Returns whether the search goes on.
+    /// Tries one rate. Returns whether the search continues.
     pub fn advance(&mut self, holds_at: impl FnOnce(u32) -> bool) -> bool {
         self.state = match self.state {
-            State::Climbing { rung, held, fails } => {
+            SearchState::Climbing { rung, held, fails } => {
                 let hz = rate(rung);
                 let (held, fails) = match (holds_at(hz), held) {
                     (true, Some((first, times))) => (Some((first, times + 1)), fails),
@@ -59,20 +61,20 @@ impl RateSearch {
                     Some((first, times)) if times == CONFIRMATIONS || hz == *RATES_HZ.end() => {
                         halving(fails, first)
                     }
-                    _ if hz == *RATES_HZ.end() => State::Found(None),
-                    _ => State::Climbing { rung: rung + 1, held, fails },
+                    _ if hz == *RATES_HZ.end() => SearchState::Found(None),
+                    _ => SearchState::Climbing { rung: rung + 1, held, fails },
                 }
             }
-            State::Halving { fails, holds } => {
+            SearchState::Halving { fails, holds } => {
                 let middle = fails.midpoint(holds);
                 if holds_at(middle) { halving(fails, middle) } else { halving(middle, holds) }
             }
-            State::Found(hz) => State::Found(hz),
+            SearchState::Found(hz) => SearchState::Found(hz),
         };
         self.found().is_none()
     }
 
-    /// The whole search at once.
+    /// Runs the whole search.
     pub fn run(mut holds_at: impl FnMut(u32) -> bool) -> Option<u32> {
         let mut search = Self::new();
         while search.advance(&mut holds_at) {}
@@ -86,8 +88,12 @@ impl Default for RateSearch {
     }
 }
 
-fn halving(fails: u32, holds: u32) -> State {
-    if holds - fails > 1 { State::Halving { fails, holds } } else { State::Found(Some(holds)) }
+fn halving(fails: u32, holds: u32) -> SearchState {
+    if holds - fails > 1 {
+        SearchState::Halving { fails, holds }
+    } else {
+        SearchState::Found(Some(holds))
+    }
 }
 
 /// The rungs: 1, 2, 3, 4, 6, 8, 12 … 8192, and the fastest rate.
@@ -119,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lucky_rate_alone_is_not_believed() {
+    fn a_rate_that_passes_alone_is_rejected() {
         assert_eq!(RateSearch::run(|hz| hz == 3 || hz >= 100), Some(100));
     }
 }

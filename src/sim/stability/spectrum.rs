@@ -1,8 +1,8 @@
-//! Eigenvalues of a map that is known by its derivatives, and of one that remembers more than it shows.
+//! Eigenvalues of the one-tick map from its Jacobians, also for methods with memory.
 
 use nalgebra::{ColPivQR, DMatrix, Schur};
 
-/// An eigenvalue, with its conjugate turned to this side.
+/// An eigenvalue; a conjugate pair is given by its upper half.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Eigenvalue {
     pub(super) modulus: f64,
@@ -15,91 +15,96 @@ impl Eigenvalue {
         Self { modulus: libm::hypot(re, im), angle: libm::atan2(im.abs(), re) }
     }
 
-    /// Whether it turns, and not only stretches or flips.
-    pub(super) fn turns(self) -> bool {
+    /// Whether it is not real.
+    pub(super) fn is_complex(self) -> bool {
         self.angle > 0.0 && self.angle < std::f64::consts::PI
     }
 }
 
-/// Derivatives of the state after some ticks with respect to the state before them, `ahead[k]` being
-/// after k + 1 ticks: three from the present, two from one tick later.
+/// Jacobians of the state after 1, 2, 3 ticks: `now` from the current state, `later` from the state one
+/// tick later.
 pub(super) struct Derivatives {
     pub(super) now: [DMatrix<f64>; 3],
     pub(super) later: [DMatrix<f64>; 2],
 }
 
 impl Derivatives {
-    /// Whether two ticks are more than one after the other.
+    /// Whether the map over two ticks differs from the product of two one-tick maps.
     pub(super) fn has_memory(&self) -> bool {
-        remembers(&self.now, &self.later).1
+        memory_defect(&self.now, &self.later).1
     }
 
-    /// Whether the map changes as the body moves.
-    pub(super) fn bends(&self) -> bool {
-        (&self.now[0] - &self.later[0]).amax() > BEND * (1.0 + self.now[0].amax())
+    /// Whether the map depends on the state.
+    pub(super) fn is_nonlinear(&self) -> bool {
+        (&self.now[0] - &self.later[0]).amax() > NONLINEAR * (1.0 + self.now[0].amax())
     }
 }
 
-/// How far two ticks are from the product of the two, and whether that is memory.
-fn remembers(now: &[DMatrix<f64>; 3], later: &[DMatrix<f64>; 2]) -> (f64, bool) {
+/// The defect of the two-tick map against the product of two one-tick maps, and whether it shows
+/// memory.
+fn memory_defect(now: &[DMatrix<f64>; 3], later: &[DMatrix<f64>; 2]) -> (f64, bool) {
     let off = (&now[1] - &later[0] * &now[0]).amax();
     (off, off > MEMORY * (1.0 + now[1].amax()))
 }
 
-/// A map that differs by more than this a tick later is that of a nonlinear body.
-const BEND: f64 = 1e-9;
-/// How far two ticks may be from the product of the two before it is memory: well above the rounding
-/// of the differences, well below what a step of a multistep method adds where its order can be seen.
+/// A map that changes by more than this within a tick belongs to a nonlinear body.
+const NONLINEAR: f64 = 1e-9;
+/// A defect above this shows memory: well above the rounding of the differences, and well below the
+/// contribution of a multistep method at any useful step.
 const MEMORY: f64 = 1e-10;
-/// Directions that the states reached fill less than this, against the most filled, are rounding.
+/// Pivots below this fraction of the largest are rounding.
 const RANK: f64 = 1e-10;
-/// Sweeps of the eigenvalue iteration; it takes some 3 for each row.
-const SWEEPS_A_ROW: usize = 60;
+/// The largest number of QR sweeps per row; about 3 are usual.
+const SWEEPS_PER_ROW: usize = 60;
 
-/// Eigenvalues of the true map: one of the state alone where two ticks are the product of the two, and
-/// else of the state and what the method carries, found from how the states reached go on.
+/// Eigenvalues of the map: of the state alone if the method has no memory, otherwise of state and
+/// memory together, reconstructed from successive states.
 ///
-/// `None` where they are not finite or cannot be found.
+/// `None` if they are not finite or the iteration does not converge.
 pub(super) fn eigenvalues(derivatives: &Derivatives) -> Option<Vec<Eigenvalue>> {
     let Derivatives { now, later } = derivatives;
     let all = now.iter().chain(later);
     if all.clone().any(|matrix| matrix.iter().any(|x| !x.is_finite())) {
         return None;
     }
-    // Parts that do not feel each other in turn are taken apart: exact noughts keep what is neutral
-    // exactly neutral, where an iteration over the whole would blur double eigenvalues.
+    // Strongly connected components are solved separately: exact zeros keep neutral eigenvalues exactly
+    // neutral, while an iteration over the whole would perturb double eigenvalues.
     let mut values = Vec::new();
-    for part in parts(&all.collect::<Vec<_>>()) {
+    for part in strongly_connected_components(&all.collect::<Vec<_>>()) {
         let cut = |matrix: &DMatrix<f64>| matrix.select_rows(&part).select_columns(&part);
         let (now, later) = (now.each_ref().map(cut), later.each_ref().map(cut));
-        let (off, has_memory) = remembers(&now, &later);
-        let (map, blur) = match has_memory {
+        let (off, has_memory) = memory_defect(&now, &later);
+        let (map, tolerance) = match has_memory {
             true => (&with_memory(&now, &later)?, NEUTRAL_WITH_MEMORY),
-            false => (&now[0], BLUR * off),
+            false => (&now[0], (NEUTRAL_IN_DEFECTS * off).min(MOST_NEUTRAL)),
         };
-        values.extend(of_matrix(map)?.into_iter().map(|value| sharpened(value, blur)));
+        values.extend(
+            eigenvalues_of_matrix(map)?
+                .into_iter()
+                .map(|value| snapped_to_neutral(value, tolerance)),
+        );
     }
     Some(values)
 }
 
 /// Eigenvalues of a map without memory.
-pub(super) fn of_map(map: &DMatrix<f64>) -> Option<Vec<Eigenvalue>> {
+pub(super) fn eigenvalues_of_map(map: &DMatrix<f64>) -> Option<Vec<Eigenvalue>> {
     if map.iter().any(|x| !x.is_finite()) {
         return None;
     }
     let mut values = Vec::new();
-    for part in parts(&[map]) {
-        values.extend(of_matrix(&map.select_rows(&part).select_columns(&part))?);
+    for part in strongly_connected_components(&[map]) {
+        values.extend(eigenvalues_of_matrix(&map.select_rows(&part).select_columns(&part))?);
     }
     Some(values)
 }
 
-/// The classes of indices that feel each other, by however many steps, in any of the matrices.
-fn parts(matrices: &[&DMatrix<f64>]) -> Vec<Vec<usize>> {
+/// The strongly connected components of the indices, coupled by nonzero entries of any of the matrices.
+fn strongly_connected_components(matrices: &[&DMatrix<f64>]) -> Vec<Vec<usize>> {
     let n = matrices[0].nrows();
-    let felt = |i: usize, j: usize| matrices.iter().any(|matrix| matrix[(i, j)] != 0.0);
+    let couples = |i: usize, j: usize| matrices.iter().any(|matrix| matrix[(i, j)] != 0.0);
     let mut reaches: Vec<Vec<bool>> =
-        (0..n).map(|i| (0..n).map(|j| i == j || felt(i, j)).collect()).collect();
+        (0..n).map(|i| (0..n).map(|j| i == j || couples(i, j)).collect()).collect();
     for k in 0..n {
         let through = reaches[k].clone();
         for row in reaches.iter_mut().filter(|row| row[k]) {
@@ -111,19 +116,19 @@ fn parts(matrices: &[&DMatrix<f64>]) -> Vec<Vec<usize>> {
     (0..n).filter(first).map(|i| (i..n).filter(|&j| mutual(i, j)).collect()).collect()
 }
 
-fn of_matrix(matrix: &DMatrix<f64>) -> Option<Vec<Eigenvalue>> {
+fn eigenvalues_of_matrix(matrix: &DMatrix<f64>) -> Option<Vec<Eigenvalue>> {
     match matrix.nrows() {
         1 => Some(vec![Eigenvalue::new(matrix[0], 0.0)]),
-        2 => Some(of_two_rows(matrix).to_vec()),
+        2 => Some(eigenvalues_of_two_rows(matrix).to_vec()),
         rows => {
-            let sweeps = SWEEPS_A_ROW * rows;
+            let sweeps = SWEEPS_PER_ROW * rows;
             let schur = Schur::try_new(matrix.clone(), f64::EPSILON, sweeps)?;
             Some(schur.complex_eigenvalues().iter().map(|z| Eigenvalue::new(z.re, z.im)).collect())
         }
     }
 }
 
-fn of_two_rows(matrix: &DMatrix<f64>) -> [Eigenvalue; 2] {
+fn eigenvalues_of_two_rows(matrix: &DMatrix<f64>) -> [Eigenvalue; 2] {
     let (a, b, c, d) = (matrix[(0, 0)], matrix[(0, 1)], matrix[(1, 0)], matrix[(1, 1)]);
     let (mean, half) = ((a + d) / 2.0, (a - d) / 2.0);
     let square = half * half + b * c;
@@ -135,20 +140,23 @@ fn of_two_rows(matrix: &DMatrix<f64>) -> [Eigenvalue; 2] {
     }
 }
 
-/// A modulus this near 1 is 1, where a memory had to be found out.
+/// With memory, a modulus this close to 1 is 1.
 pub(super) const NEUTRAL_WITH_MEMORY: f64 = 1e-9;
-/// And without memory, in units of what two ticks are off from their product, which is the rounding of
-/// the differences: much for a method that makes velocities of differences of positions.
-const BLUR: f64 = 10.0;
+/// Without memory, the tolerance in units of the two-tick defect, which is the rounding of the
+/// differences. It is large for a method that computes velocities from differences of positions.
+const NEUTRAL_IN_DEFECTS: f64 = 10.0;
+/// A modulus further from 1 is never taken for 1: the defect of a map that grows without limit says
+/// nothing.
+const MOST_NEUTRAL: f64 = 1e-3;
 
-fn sharpened(value: Eigenvalue, blur: f64) -> Eigenvalue {
-    let neutral = (value.modulus - 1.0).abs() < blur;
+fn snapped_to_neutral(value: Eigenvalue, tolerance: f64) -> Eigenvalue {
+    let neutral = (value.modulus - 1.0).abs() < tolerance;
     Eigenvalue { modulus: if neutral { 1.0 } else { value.modulus }, ..value }
 }
 
-/// The map of (state, state one tick ago), restricted to what is reached: its action on two pairs of
-/// states that came of a fresh start, one and two ticks ago, is known. What a method carries, be it
-/// forces, slopes or an older state, follows from two states in a row.
+/// The map of (state, state one tick ago), restricted to the reachable subspace. Its action on two
+/// pairs of states after a fresh start, one and two ticks later, is known. The memory of a method, be
+/// it forces, slopes or an older state, follows from two successive states.
 fn with_memory(now: &[DMatrix<f64>; 3], later: &[DMatrix<f64>; 2]) -> Option<DMatrix<f64>> {
     let n = now[0].nrows();
     let identity = DMatrix::identity(n, n);
@@ -161,7 +169,7 @@ fn with_memory(now: &[DMatrix<f64>; 3], later: &[DMatrix<f64>; 2]) -> Option<DMa
     let factors = ColPivQR::new(reached);
     let (q, r) = (factors.q(), factors.r());
     let rank = (0..2 * n).take_while(|&i| r[(i, i)].abs() > RANK * r[(0, 0)].abs()).count();
-    // Not a number, or past all numbers.
+    // NaN or overflow.
     if rank == 0 {
         return None;
     }
@@ -179,20 +187,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_are_those_that_feel_each_other() {
+    fn components_are_the_strongly_connected_ones() {
         let map = DMatrix::from_row_slice(
             4,
             4,
             &[1.0, 0.1, 0.0, 0.0, 0.0, 0.9, 0.0, 0.2, 0.3, 0.0, 1.0, 0.0, 0.0, 0.5, 0.0, 1.0],
         );
-        assert_eq!(parts(&[&map]), [vec![0], vec![1, 3], vec![2]]);
-        // Two neutral coordinates, one driving the other, stay neutral to the bit.
-        let values = of_map(&map).unwrap();
+        assert_eq!(strongly_connected_components(&[&map]), [vec![0], vec![1, 3], vec![2]]);
+        // Two neutral coordinates, of which one drives the other, stay neutral to the bit.
+        let values = eigenvalues_of_map(&map).unwrap();
         assert_eq!(values.iter().filter(|value| value.modulus == 1.0).count(), 2);
     }
 
     #[test]
-    fn a_map_that_remembers_gives_up_its_hidden_eigenvalue() {
+    fn the_eigenvalue_of_a_memory_is_found() {
         // x' = 1.2 x + 0.3 x_before, which begins as if x_before were x.
         let recur = |states: &[f64]| {
             let before = if states.len() > 1 { states[states.len() - 2] } else { states[0] };
@@ -214,21 +222,21 @@ mod tests {
     }
 
     #[test]
-    fn what_rounding_alone_fills_is_no_memory() {
-        // One of two coordinates remembers, x' = 1.2 x + 0.3 x_before; the other one, x' = 0.8 x, does not. Both are
-        // seen at an angle, and blurred.
+    fn a_direction_at_rounding_level_is_no_memory() {
+        // The first coordinate has memory, x' = 1.2 x + 0.3 x_before; the second has none, x' = 0.8 x.
+        // Both are rotated and perturbed.
         for size in [1.0, 30.0] {
             let one = [1.5, 2.1, 2.97].map(|x| x * size);
             let other = [0.8, 0.64, 0.512].map(|x| x * size);
             let (cos, sin) = (libm::cos(0.7), libm::sin(0.7));
             let turn = DMatrix::from_row_slice(2, 2, &[cos, -sin, sin, cos]);
-            let mut blur = 0.0;
+            let mut entry = 0.0;
             let mut seen = |k: usize, power: i32| {
                 let own = DMatrix::from_row_slice(2, 2, &[one[k], 0.0, 0.0, other[k]]);
                 let map: DMatrix<f64> = &turn * own * turn.transpose() * size.powi(power);
                 map.map(|x| {
-                    blur += 1.0;
-                    x * (1.0 + 1e-12 * libm::sin(blur))
+                    entry += 1.0;
+                    x * (1.0 + 1e-12 * libm::sin(entry))
                 })
             };
             let now = [seen(0, 0), seen(1, 1), seen(2, 2)];
@@ -245,36 +253,36 @@ mod tests {
     }
 
     #[test]
-    fn what_only_stretches_or_flips_does_not_turn() {
-        for (re, im, turns) in
+    fn a_real_eigenvalue_is_not_complex() {
+        for (re, im, is_complex) in
             [(0.9, 0.0, false), (-0.9, 0.0, false), (0.5, 0.1, true), (-0.5, -0.1, true)]
         {
-            assert_eq!(Eigenvalue::new(re, im).turns(), turns, "{re} {im}");
+            assert_eq!(Eigenvalue::new(re, im).is_complex(), is_complex, "{re} {im}");
         }
     }
 
-    /// Derivatives of a body whose map is `first`, a tick later `then`, and then that for ever.
+    /// Jacobians of a body whose map is `first`, then `then` for all later ticks.
     fn without_memory(first: &DMatrix<f64>, then: &DMatrix<f64>) -> Derivatives {
         let now = [first.clone(), then * first, then * then * first];
         Derivatives { now, later: [then.clone(), then * then] }
     }
 
     #[test]
-    fn memory_and_bends_are_told_from_rounding_whatever_the_size_of_the_map() {
+    fn memory_and_nonlinearity_are_told_from_rounding_at_any_scale() {
         for size in [1.0, 1e5] {
             let map = DMatrix::from_row_slice(2, 2, &[0.8, 0.3 * size, -0.5 / size, 0.9]);
             let still = without_memory(&map, &map);
-            assert!(!still.has_memory() && !still.bends(), "{size}");
+            assert!(!still.has_memory() && !still.is_nonlinear(), "{size}");
             let turned = without_memory(&map, &(&map * (1.0 + 1e-8)));
-            assert!(!turned.has_memory() && turned.bends(), "{size}");
+            assert!(!turned.has_memory() && turned.is_nonlinear(), "{size}");
             let blurred = without_memory(&map, &(&map * (1.0 + 1e-11)));
-            assert!(!blurred.has_memory() && !blurred.bends(), "{size}");
-            for (off, remembers) in [(1e-8, true), (1e-12, false)] {
+            assert!(!blurred.has_memory() && !blurred.is_nonlinear(), "{size}");
+            for (off, has_memory) in [(1e-8, true), (1e-12, false)] {
                 let Derivatives { mut now, later } = without_memory(&map, &map);
                 now[1] *= 1.0 + off;
                 let found = Derivatives { now, later };
-                assert_eq!(found.has_memory(), remembers, "{size}: {off}");
-                assert!(!found.bends(), "{size}: {off}");
+                assert_eq!(found.has_memory(), has_memory, "{size}: {off}");
+                assert!(!found.is_nonlinear(), "{size}: {off}");
             }
         }
     }

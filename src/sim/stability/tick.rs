@@ -1,11 +1,11 @@
-//! The tick that is looked at.
+//! A tick.
 
 /// One tick of a lane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tick {
-    /// When it begins, in seconds.
+    /// Its start, in seconds.
     pub t: f64,
-    /// How long it is, in seconds.
+    /// Its length, in seconds.
     pub h: f64,
     /// Equal steps in it.
     pub substeps: u32,

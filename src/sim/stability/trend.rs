@@ -1,19 +1,19 @@
-//! Where a method takes the energy of a body that conserves it, in the long run.
+//! The long-term drift of the energy of a conservative body under a method.
 
 use super::tick::Tick;
 use crate::sim::Stepper;
 use crate::sim::integrators::StepFailure;
 
-/// How fast the amplitude of `body` grows per second, the natural logarithm of the factor, by its energy over
-/// `ticks` ticks such as `tick`, the first of them from where it stands at `tick.t`; `scale` is its energy in
-/// joules without what is there at rest.
+/// The growth rate of the amplitude of `body`, as the natural logarithm of the factor per second, from
+/// its energy over `ticks` ticks of length `tick.h`, starting at `tick.t`. `scale` is its energy in
+/// joules in excess of that at rest.
 ///
-/// It is half the trend of the energy: the mean over the second half less that over the first, both weighted by
-/// Birkhoff's bump, which takes what comes back out of a mean faster than any power of the time (Das, Saiki,
-/// Sander & Yorke, Quantitative quasiperiodicity, 2017). Right for a growth that is small over the stretch.
+/// It is half the trend of the energy: the mean over the second half less that over the first. Both are
+/// weighted by a bump function, whose means of quasiperiodic functions converge faster than any power
+/// of the time (Das, Saiki, Sander & Yorke, Quantitative quasiperiodicity, 2017). Valid for small
+/// growth over the stretch.
 ///
-/// # Errors
-/// The failure of the method; [`StepFailure::NotFinite`] where the energy is not a number any more.
+/// The failure of the method; [`StepFailure::NotFinite`] if the energy is not finite.
 ///
 /// # Panics
 /// If the body conserves no energy.
@@ -30,7 +30,7 @@ pub(super) fn growth_of_energy(
     Ok((last - first) / seconds / scale / 2.0)
 }
 
-/// The weighted mean over the next `ticks` ticks.
+/// The weighted mean energy over the next `ticks` ticks.
 fn mean_energy(
     body: &mut dyn Stepper,
     Tick { t, h, substeps }: Tick,
@@ -50,7 +50,7 @@ fn mean_energy(
     Ok(sum / weights)
 }
 
-/// Smooth, and flat at both ends of 0 to 1 in every derivative.
+/// A bump function on 0 to 1: all its derivatives vanish at both ends.
 fn bump(part: f64) -> f64 {
     libm::exp(-1.0 / (part * (1.0 - part)))
 }
@@ -62,7 +62,7 @@ mod tests {
     use crate::sim::bodies::kind;
     use crate::sim::integrators::method;
 
-    /// The growth on an undamped spring of 1 kg and ω = 6 rad/s, let go at 1 m: of its 18 J.
+    /// The growth rate of an undamped spring of 1 kg and ω = 6 rad/s, released at 1 m: 18 J.
     fn growth(id: &str, h: f64, seconds: f64) -> Result<f64, StepFailure> {
         let build = kind("spring").unwrap().build;
         let mut spring =
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn energy_that_grows_as_the_map_says_shows_its_rate() {
+    fn the_trend_is_the_growth_rate_of_the_map() {
         // Each step multiplies the amplitude by √(1 + (h ω)⁴ / 4) under improved Euler.
         for h in [0.001_f64, 0.003] {
             let rate = libm::log(1.0 + (6.0 * h).powi(4) / 4.0) / h / 2.0;
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn energy_that_swings_and_comes_back_does_not_grow() {
+    fn an_oscillating_energy_has_no_trend() {
         for id in ["semi-implicit-euler", "velocity-verlet", "yoshida4", "newmark"] {
             let found = growth(id, 0.02, 10.0).unwrap();
             assert!(found.abs() < 1e-9, "{id}: {found}");

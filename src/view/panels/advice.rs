@@ -2,11 +2,11 @@
 
 use egui::{Grid, Label, Response, RichText, ScrollArea, Ui};
 
-use super::{QUIET, TEXT, WELL, tone};
+use super::{ink, tone};
 use crate::lab::number::{round, significant};
 use crate::lab::{
-    Advice, Advised, CRITERIA, Command, Lab, LaneSpec, MOST_ADVISED_SUBSTEPS, Meets, Met,
-    recommended,
+    Advice, CRITERIA, Command, CriterionMet, CriterionResult, Lab, LaneSpec, MOST_ADVISED_SUBSTEPS,
+    MethodAdvice, recommended,
 };
 
 /// What is written in a cell.
@@ -14,12 +14,12 @@ const CELLS: &str = "in each cell: use ×substeps · evaluations/s";
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let Some(advice) = lab.viewer().advice() else {
-        ui.label(RichText::new("judging every method …").color(QUIET));
+        ui.label(RichText::new("judging every method …").color(ink(ui).dim));
         return;
     };
     let best: Vec<Option<usize>> = (0..CRITERIA.len()).map(|i| best(advice, i)).collect();
     summary(ui, advice, &best);
-    line(ui, RichText::new(CELLS).size(10.5).color(QUIET));
+    line(ui, RichText::new(CELLS).size(10.5).color(ink(ui).dim));
     ScrollArea::both().auto_shrink(false).show(ui, |ui| {
         let columns = 2 + CRITERIA.len();
         let grid = Grid::new("advice").num_columns(columns).spacing([10.0, 2.0]);
@@ -43,7 +43,7 @@ fn best(advice: &Advice, criterion: usize) -> Option<usize> {
 }
 
 fn head(ui: &mut Ui, text: &str) -> Response {
-    ui.label(RichText::new(text).size(10.5).color(QUIET))
+    ui.label(RichText::new(text).size(10.5).color(ink(ui).dim))
 }
 
 /// A line above the table, which is cut off rather than to widen the panel.
@@ -53,29 +53,29 @@ fn line(ui: &mut Ui, text: RichText) {
 
 fn row(
     ui: &mut Ui,
-    advised: &Advised,
+    advised: &MethodAdvice,
     best: &[Option<usize>],
     index: usize,
     commands: &mut Vec<Command>,
 ) {
-    let Advised { spec, verdict, met } = advised;
-    ui.label(RichText::new(spec.method.name).color(tone(verdict.word)))
+    let MethodAdvice { spec, verdict, met } = advised;
+    ui.label(RichText::new(spec.method.name).color(tone(ui, verdict.outcome)))
         .on_hover_text(verdict.to_string());
     for ((met, best), criterion) in met.iter().zip(best).zip(&CRITERIA) {
         let met = match met {
-            Meets::With(met) => met,
-            Meets::No => {
+            CriterionResult::With(met) => met,
+            CriterionResult::No => {
                 let missed = format!("not with {MOST_ADVISED_SUBSTEPS} substeps");
-                ui.label(RichText::new("-").color(QUIET)).on_hover_text(missed);
+                ui.label(RichText::new("-").color(ink(ui).dim)).on_hover_text(missed);
                 continue;
             }
-            Meets::Unknown => {
-                ui.label(RichText::new("?").color(QUIET))
+            CriterionResult::Unknown => {
+                ui.label(RichText::new("?").color(ink(ui).dim))
                     .on_hover_text("not known: there is no truth, or it takes too much work");
                 continue;
             }
         };
-        let colour = if *best == Some(index) { WELL } else { TEXT };
+        let colour = if *best == Some(index) { ink(ui).good } else { ink(ui).text };
         let rate = whole(met.evaluations_per_s);
         let text = format!("use ×{} · {rate}/s", met.substeps);
         let used = ui.button(RichText::new(text).color(colour).size(11.5));
@@ -88,7 +88,7 @@ fn row(
 }
 
 /// What is behind a cell.
-fn told(met: &Met) -> String {
+fn told(met: &CriterionMet) -> String {
     format!(
         "use this: {} substep{} a tick, {} evaluations per simulated second; holds down to {} Hz, or {} × {}",
         met.substeps,
@@ -105,7 +105,7 @@ fn summary(ui: &mut Ui, advice: &Advice, best: &[Option<usize>]) {
     let done = advice.advised.len();
     if done < advice.wanted {
         let text = format!("judging every method: {done} of {} …", advice.wanted);
-        line(ui, RichText::new(text).color(QUIET));
+        line(ui, RichText::new(text).color(ink(ui).dim));
         return;
     }
     for (i, (criterion, best)) in CRITERIA.iter().zip(best).enumerate() {
@@ -118,7 +118,7 @@ fn summary(ui: &mut Ui, advice: &Advice, best: &[Option<usize>]) {
             None => format!("none with up to {MOST_ADVISED_SUBSTEPS} substeps"),
         };
         let text = format!("at {} Hz, {}: {what}", advice.tick_hz, criterion.name());
-        line(ui, RichText::new(text).color(TEXT));
+        line(ui, RichText::new(text).color(ink(ui).text));
     }
 }
 
@@ -136,6 +136,7 @@ mod tests {
     use super::*;
     use crate::lab::{Instrument, Scene};
     use crate::view::panels;
+    use crate::view::theme;
 
     /// Shows a frame of this size. Returns the stage and every text that is seen whole.
     fn frame(
@@ -163,14 +164,14 @@ mod tests {
     fn the_table_keeps_off_the_stage_and_its_last_column_can_be_reached() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         lab.apply(Command::Instrument(Instrument::Advice));
-        lab.think();
+        lab.analyse();
         assert_eq!(
             lab.viewer().advice().map(|advice| advice.advised.len()),
             lab.viewer().advice().map(|a| a.wanted)
         );
         for size in [[800.0, 600.0], [900.0, 600.0], [1024.0, 640.0], [1280.0, 720.0]] {
             let context = Context::default();
-            panels::dress(&context);
+            theme::dress(&context);
             let stage_to = size[0] * (1.0 - panels::INSTRUMENTS);
             for _ in 0..3 {
                 let (stage, texts) = frame(&context, &lab, size, Vec::new());

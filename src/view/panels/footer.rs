@@ -1,43 +1,118 @@
-//! The line under everything: what happened last, what to try next, and the keys.
+//! The line under everything: what happened last, or what to try next, and a few keys.
 
-use egui::{Align, Layout, RichText, Ui};
+use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
-use super::{ACCENT, QUIET, TEXT, colour};
-use crate::lab::Lab;
+use super::{ink, keycap, short};
 use crate::lab::number::round;
-use crate::lab::picture::palette;
+use crate::lab::{Command, Lab, Mode};
+use crate::view::theme::TYPE;
 
-pub(super) const HEIGHT: f32 = 26.0;
+pub(super) const HEIGHT: f32 = 32.0;
 
-/// From this width on, in points, the keys fit beside the hint.
-const ROOM_FOR_KEYS: f32 = 900.0;
+/// From this width on, in points, there are keys beside the hint.
+const ROOM_FOR_KEYS: f32 = 560.0;
+/// The room between two hints, in points.
+const GAP: f32 = 16.0;
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab) {
+/// A key, what it does, and the command.
+type KeyHint = (&'static str, String, Option<Command>);
+
+pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let width = ui.available_width();
+    let (sentence, is_hint) = sentence(lab);
+    let sentence = fitting(ui, &sentence, width);
+    let room_for_hint = keycap::line_width(ui, sentence) + GAP;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
         if lab.dropped() > 0 {
             let text = format!("{} ticks dropped", lab.dropped());
-            ui.label(RichText::new(text).color(colour(palette::ALARM)))
+            ui.label(RichText::new(text).color(ink(ui).bad))
                 .on_hover_text("the simulation fell behind real time and gave these up");
+            ui.add_space(GAP);
         } else if width >= ROOM_FOR_KEYS {
-            let part = |input, keys: &str, part: f64| {
-                let text = format!("{keys} {input} {} %  ", round(part * 100.0, 3));
-                if lab.race().takes(input) { text } else { String::new() }
-            };
-            let keys = format!(
-                "{}{}K kick  Space pause  E inspector  H all keys",
-                part("throttle", "↑ ↓", lab.race().throttle()),
-                part("rudder", "← →", lab.race().rudder()),
-            );
-            ui.label(RichText::new(keys).color(QUIET));
+            // From the right: the first are the last to go.
+            for hint in key_hints(lab) {
+                if ui.available_width() - width_of(ui, &hint) < room_for_hint {
+                    break;
+                }
+                show_hint(ui, hint, commands);
+            }
         }
+        let room = ui.available_width();
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            let (text, colour) = match (lab.viewer().notice.as_deref(), &lab.scene().hint) {
-                (Some(notice), _) => (notice, TEXT),
-                (None, Some(hint)) => (hint.as_str(), ACCENT),
-                (None, None) => (lab.scene().about.as_str(), QUIET),
-            };
-            ui.add(egui::Label::new(RichText::new(text).color(colour)).truncate());
+            let colour = if is_hint { ink(ui).text } else { ink(ui).dim };
+            keycap::line(ui, sentence, room, colour);
         });
     });
+}
+
+/// The notice, or else the hint, or else what the scene is about; and whether it is one of the first two.
+fn sentence(lab: &Lab) -> (String, bool) {
+    match (&lab.viewer().notice, lab.hint()) {
+        (Some(notice), _) => (notice.clone(), true),
+        (None, Some(hint)) => (hint, true),
+        (None, None) => (lab.scene().about.clone(), false),
+    }
+}
+
+/// As much of a sentence as this width takes: all of it, or what comes before a semicolon, or before a colon.
+fn fitting<'s>(ui: &Ui, sentence: &'s str, width: f32) -> &'s str {
+    let before = |sign: char| sentence.split(sign).next().unwrap_or_default();
+    let shorter = [sentence, before(';'), before(':')];
+    let fits = |words: &&str| keycap::line_width(ui, words) <= width;
+    shorter.into_iter().find(fits).unwrap_or(shorter[2])
+}
+
+/// The hints from right to left.
+fn key_hints(lab: &Lab) -> Vec<KeyHint> {
+    let hint = |key, what: &str, command| (key, what.to_owned(), Some(command));
+    let mut hints = vec![hint("H", "all keys", Command::ToggleHelp)];
+    let inputs =
+        [("throttle", "↑ ↓", lab.race().throttle()), ("rudder", "← →", lab.race().rudder())];
+    for (input, key, part) in inputs {
+        if lab.race().takes(input) {
+            hints.push((key, format!("{input} {} %", round(part * 100.0, 3)), None));
+        }
+    }
+    match lab.mode() {
+        Mode::Race => {
+            hints.push(hint("E", "inspector", Command::ToggleInspector));
+            hints.push(hint("V", "side by side", Command::ToggleArrangement));
+        }
+        Mode::Solo => {
+            hints.push(hint(",", "back", Command::TickBack));
+            hints.push(hint("C", "race", Command::ToggleRace));
+        }
+    }
+    let pause = if lab.running() { "pause" } else { "run" };
+    hints.push(hint("Space", pause, Command::TogglePause));
+    hints.push(hint("F2", "guide", Command::ToggleGuide));
+    hints
+}
+
+fn width_of(ui: &Ui, (key, what, _): &KeyHint) -> f32 {
+    keycap::line_width(ui, &format!("`{key}` {what}")) + GAP
+}
+
+/// Shows a hint. A click on it does what the key does.
+fn show_hint(ui: &mut Ui, hint: KeyHint, commands: &mut Vec<Command>) {
+    let size = vec2(width_of(ui, &hint), keycap::HEIGHT);
+    let (key, what, command) = hint;
+    let sense = if command.is_some() { Sense::click() } else { Sense::hover() };
+    let (rect, response) = ui.allocate_exact_size(size, sense);
+    response.widget_info(|| {
+        let role = if command.is_some() { egui::Role::Button } else { egui::Role::Label };
+        egui::WidgetInfo::labeled(role, true, format!("{what} ({key})"))
+    });
+    let lit = response.hovered() && command.is_some() || response.has_focus();
+    let (box_colour, colour) =
+        if lit { (ink(ui).accent, ink(ui).text) } else { (ink(ui).text, ink(ui).dim) };
+    let left = rect.left() + GAP;
+    let used = keycap::paint(ui, left, rect.center().y, key, box_colour);
+    let (text, _) = short(ui, &what, egui::FontId::proportional(TYPE), f32::INFINITY, colour);
+    let at = egui::pos2(left + used + 6.0, rect.center().y - text.size().y / 2.0);
+    ui.painter().galley(at, text, colour);
+    if response.clicked() {
+        commands.extend(command);
+    }
 }

@@ -1,37 +1,63 @@
 //! The help overlay: every key, from the one table of keys.
 
-use egui::{Align2, Grid, Order, RichText, ScrollArea, Ui, Window};
+use egui::scroll_area::ScrollBarVisibility;
+use egui::{Align2, Order, RichText, ScrollArea, Ui, Vec2, Window, vec2};
 
-use super::{ACCENT, QUIET};
-use crate::lab::{Command, KEYS};
+use super::{ink, keycap};
+use crate::lab::{Binding, Command, KEYS};
 
-/// What the names of the keys and the scroll bar take of the width, in points.
-const ROOM_FOR_KEYS: f32 = 130.0;
+/// From this width on, in points, the keys stand in two columns.
+const ROOM_FOR_TWO: f32 = 860.0;
+/// The width of a column, and of the keys in it.
+const COLUMN: f32 = 480.0;
+const KEY: f32 = 106.0;
+/// What a window has around its content.
+const AROUND: Vec2 = vec2(48.0, 110.0);
 
 pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
-    let screen = ui.ctx().content_rect();
+    let screen = ui.ctx().content_rect().size();
+    let columns = if screen.x >= ROOM_FOR_TWO { 2 } else { 1 };
+    let width = (COLUMN * columns as f32).min(screen.x - AROUND.x).max(0.0);
     let window = Window::new("Keys").order(Order::Foreground).collapsible(false).resizable(false);
-    let size = egui::vec2(600.0, 560.0).min(screen.size() - egui::vec2(24.0, 64.0));
-    window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).fixed_size(size.max(egui::Vec2::ZERO)).show(
-        ui.ctx(),
-        |ui| {
-            ScrollArea::vertical().show(ui, |ui| {
-                let room = (size.x - ROOM_FOR_KEYS).max(0.0);
-                let grid = Grid::new("keys").num_columns(2).spacing([18.0, 5.0]);
-                grid.max_col_width(room).show(ui, |ui| {
-                    for binding in KEYS {
-                        ui.label(RichText::new(binding.shown).monospace().color(ACCENT));
-                        ui.label(binding.about);
-                        ui.end_row();
-                    }
-                });
-                ui.add_space(6.0);
-                let note = "White is the truth; each method has its own colour and dash.";
-                ui.label(RichText::new(note).color(QUIET));
-                if ui.button("Close (Esc)").clicked() {
-                    commands.push(Command::ToggleHelp);
+    window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ui.ctx(), |ui| {
+        ui.set_width(width);
+        // A bar that is there whenever there is more to see.
+        ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
+        let list = ScrollArea::vertical()
+            .max_height((screen.y - AROUND.y).max(0.0))
+            .auto_shrink([false, true])
+            .scroll_bar_visibility(ScrollBarVisibility::VisibleWhenNeeded);
+        list.show(ui, |ui| {
+            ui.spacing_mut().item_spacing = vec2(10.0, 3.0);
+            let own = width / columns as f32 - 20.0;
+            ui.horizontal_top(|ui| {
+                for part in KEYS.chunks(KEYS.len().div_ceil(columns)) {
+                    ui.vertical(|ui| {
+                        ui.set_width(own);
+                        part.iter().for_each(|binding| row(ui, binding, own));
+                    });
                 }
             });
-        },
-    );
+        });
+        ui.add_space(4.0);
+        ui.horizontal(|ui| {
+            if ui.button("Close (Esc)").clicked() {
+                commands.push(Command::ToggleHelp);
+            }
+            let note = "The exact solution is white, black by day; each method has its own colour and dash.";
+            ui.add(egui::Label::new(RichText::new(note).color(ink(ui).dim)).truncate());
+        });
+    });
+}
+
+fn row(ui: &mut Ui, binding: &Binding, width: f32) {
+    ui.horizontal(|ui| {
+        let size = vec2(KEY, keycap::HEIGHT);
+        let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+        keycap::paint(ui, rect.left(), rect.center().y, binding.shown, ink(ui).accent);
+        ui.scope(|ui| {
+            ui.set_max_width((width - KEY - 12.0).max(0.0));
+            ui.add(egui::Label::new(binding.about).wrap());
+        });
+    });
 }

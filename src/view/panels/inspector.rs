@@ -7,7 +7,7 @@ use egui::{
 
 use self::number::Field;
 use self::rows::{Reach, Row, Spacing, Values, rows};
-use super::{ACCENT, QUIET, TEXT};
+use super::ink;
 use crate::lab::{Action, Acts, Command, Lab, edited_values};
 
 mod number;
@@ -27,6 +27,8 @@ const NAME_MOST: f32 = 150.0;
 const FEW_BODIES: usize = 3;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    ui.spacing_mut().interact_size.y = LINE;
+    ui.spacing_mut().button_padding.y = 1.0;
     ui.horizontal(|ui| {
         ui.label(RichText::new("Inspector").size(14.0).strong());
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -48,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         let bodies = &lab.scene().bodies;
         for (index, body) in bodies.iter().enumerate() {
             let is_open = bodies.len() <= FEW_BODIES || index == lab.display().body;
-            let title = RichText::new(&body.name).color(TEXT);
+            let title = RichText::new(&body.name).color(ink(ui).text);
             let header = CollapsingHeader::new(title).id_salt(("body", &body.name));
             header.default_open(is_open).show_unindented(ui, |ui| {
                 show_body(ui, lab, index, commands);
@@ -61,7 +63,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 fn section(ui: &mut Ui, title: &str, contents: impl FnOnce(&mut Ui)) {
-    let header = CollapsingHeader::new(RichText::new(title).color(TEXT)).default_open(true);
+    let header = CollapsingHeader::new(RichText::new(title).color(ink(ui).text)).default_open(true);
     header.show_unindented(ui, contents);
 }
 
@@ -70,7 +72,7 @@ fn show_body(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
     for row in rows(lab, body) {
         if row.parameter.acts != acts {
             acts = row.parameter.acts;
-            ui.label(RichText::new("from the next start").size(11.0).color(QUIET));
+            ui.label(RichText::new("from the next start").size(11.0).color(ink(ui).dim));
         }
         show_row(ui, lab, &row, commands);
     }
@@ -85,7 +87,7 @@ fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
         line(ui, &parameter.quantity(), &about, |ui, _| {
             let points = (lab.race().values(*body).len() - place) / 2;
             let text = format!("{points} points, as the scene has them");
-            ui.add(Label::new(RichText::new(text).color(QUIET)).truncate());
+            ui.add(Label::new(RichText::new(text).color(ink(ui).dim)).truncate());
         });
         return;
     };
@@ -153,7 +155,7 @@ fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2
         let layout = Layout::left_to_right(Align::Center);
         ui.allocate_ui_with_layout(vec2(name_width, LINE), layout, |ui| {
             ui.set_min_size(vec2(name_width, LINE));
-            let label = Label::new(RichText::new(name).color(TEXT)).truncate();
+            let label = Label::new(RichText::new(name).color(ink(ui).text)).truncate();
             ui.add(label).on_hover_text(about);
         });
         let room = width - name_width - ui.spacing().item_spacing.x;
@@ -167,7 +169,7 @@ fn restore(ui: &mut Ui, is_changed: bool, about: &str, name: &str, then: impl Fn
         ui.allocate_exact_size(vec2(RESTORE, LINE), egui::Sense::hover());
         return;
     }
-    let text = RichText::new("↺").color(ACCENT);
+    let text = RichText::new("↺").color(ink(ui).accent);
     let button = ui.add_sized([RESTORE, LINE], Button::new(text).frame(false));
     let name = format!("restore {name}");
     button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
@@ -204,11 +206,12 @@ mod tests {
     use super::*;
     use crate::lab::{SCENES, Scene};
     use crate::view::panels;
+    use crate::view::theme;
 
     /// Every text that is seen in a frame that is high enough for all of the inspector.
     fn texts(lab: &Lab) -> Vec<String> {
         let context = egui::Context::default();
-        panels::dress(&context);
+        theme::dress(&context);
         let mut texts = Vec::new();
         let screen_rect = Some(Rect::from_min_size(egui::Pos2::ZERO, vec2(1280.0, 3000.0)));
         // A header learns in the first frame how high it is.

@@ -1,23 +1,32 @@
 //! The panels round the stage: they read the lab and return commands, and touch nothing.
 
-use egui::{Color32, CornerRadius, Frame, Margin, Rect, Stroke, Ui};
+use std::sync::Arc;
 
-pub(super) use super::plot::colour;
-use crate::lab::picture::palette;
-use crate::lab::{Command, Lab, Severity, Word};
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{Color32, FontId, Frame, Galley, Margin, Rect, TextFormat, Ui};
+
+use super::theme::{Ink, colour, ink, ink_of, strong_font};
+use crate::lab::{Command, Lab, Outcome, Severity};
 
 mod advice;
-mod axes;
+mod cost;
 mod footer;
+mod guide;
 mod help;
 mod inspector;
 mod instruments;
+mod keycap;
 mod lanes;
+mod one_step;
 mod opening;
+mod plot_area;
 mod ranges;
+mod stability_map;
 mod timeline;
 mod top_bar;
 mod tracks;
+
+pub(super) use instruments::{csv, svg};
 
 /// What a frame shows beside the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,6 +36,8 @@ pub enum Panels {
     Shown,
     /// Nothing: the stage fills the frame.
     Off,
+    /// The instrument alone, which fills the frame.
+    Instrument,
 }
 
 /// Below these sizes, in points, a panel gives its room to the stage.
@@ -51,16 +62,20 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
     let mut commands = Vec::new();
     let size = ui.max_rect().size();
     if size.y >= HEIGHT_FOR_TOP_BAR {
-        let panel = egui::Panel::top("top bar").exact_size(top_bar::HEIGHT).frame(frame(PANEL));
+        let panel =
+            egui::Panel::top("top bar").exact_size(top_bar::HEIGHT).frame(frame(ink(ui).panel));
         panel.show(ui, |ui| top_bar::show(ui, lab, &mut commands));
     }
     if size.y >= HEIGHT_FOR_FOOTER {
-        let panel = egui::Panel::bottom("footer").exact_size(footer::HEIGHT).frame(frame(PANEL));
-        panel.show(ui, |ui| footer::show(ui, lab));
+        let panel =
+            egui::Panel::bottom("footer").exact_size(footer::HEIGHT).frame(frame(ink(ui).panel));
+        panel.show(ui, |ui| footer::show(ui, lab, &mut commands));
     }
     if size.y >= HEIGHT_FOR_LANES {
         let height = lanes::height(lab).min(size.y * 0.4);
-        let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame(PANEL));
+        // Without a margin: a row reaches from edge to edge.
+        let frame = Frame::new().fill(ink(ui).panel);
+        let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame);
         panel.show(ui, |ui| lanes::show(ui, lab, &mut commands));
     }
     if size.y >= HEIGHT_FOR_TIMELINE {
@@ -68,14 +83,25 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
             true => timeline::HEIGHT,
             false => timeline::HEIGHT_OF_TRACK,
         };
-        let frame = frame(PANEL).inner_margin(Margin::symmetric(8, 1));
+        let frame = frame(ink(ui).panel).inner_margin(Margin::symmetric(8, 1));
         let panel = egui::Panel::bottom("timeline").exact_size(height).frame(frame);
         panel.show(ui, |ui| timeline::show(ui, lab, &mut commands));
     }
     if size.x >= WIDTH_FOR_INSTRUMENTS {
-        let width = size.x * INSTRUMENTS;
-        let panel = egui::Panel::right("instruments").exact_size(width).frame(frame(BACKDROP));
-        panel.show(ui, |ui| beside_the_stage(ui, lab, &mut commands));
+        let width = if lab.display().enlarged { size.x } else { size.x * INSTRUMENTS };
+        let panel =
+            egui::Panel::right("instruments").exact_size(width).frame(frame(ink(ui).background));
+        panel.show(ui, |ui| {
+            // The panel is as wide as what is in it.
+            ui.set_min_size(ui.available_size());
+            beside_the_stage(ui, lab, &mut commands);
+        });
+    }
+    if let Some(tour) = lab.viewer().tour() {
+        let height = guide::HEIGHT.min(ui.available_height() * 0.6);
+        let frame = Frame::new().fill(ink(ui).panel).inner_margin(Margin::symmetric(14, 8));
+        let panel = egui::Panel::bottom("guide").exact_size(height).frame(frame);
+        panel.show(ui, |ui| guide::show(ui, tour, &mut commands));
     }
     let stage = ui.available_rect_before_wrap();
     if lab.display().help {
@@ -87,10 +113,17 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
     (commands, stage)
 }
 
+/// Shows the instrument alone.
+pub(super) fn show_instrument(ui: &mut Ui, lab: &Lab) {
+    let frame = Frame::new().fill(ink(ui).background).inner_margin(Margin::symmetric(8, 4));
+    let panel = egui::CentralPanel::default_margins().frame(frame);
+    panel.show(ui, |ui| instruments::show(ui, lab, &mut Vec::new()));
+}
+
 /// The instruments; with the inspector open they keep the upper part, where there is room for both.
 fn beside_the_stage(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let height = ui.available_height();
-    if !lab.display().inspector {
+    if !lab.display().inspector || lab.display().enlarged {
         instruments::show(ui, lab, commands);
     } else if height < HEIGHT_FOR_INSPECTOR_BELOW {
         inspector::show(ui, lab, commands);
@@ -103,85 +136,25 @@ fn beside_the_stage(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     }
 }
 
-pub(super) const BACKDROP: Color32 = Color32::from_rgb(8, 14, 23);
-const PANEL: Color32 = Color32::from_rgb(16, 26, 40);
-const RAISED: Color32 = Color32::from_rgb(29, 44, 65);
-const HOVERED: Color32 = Color32::from_rgb(38, 58, 85);
-const PRESSED: Color32 = Color32::from_rgb(46, 74, 108);
-pub(super) const TEXT: Color32 = Color32::from_rgb(206, 218, 232);
-pub(super) const QUIET: Color32 = Color32::from_rgb(138, 156, 180);
-const WELL: Color32 = Color32::from_rgb(122, 204, 164);
-const DOUBTFUL: Color32 = Color32::from_rgb(230, 190, 110);
-pub(super) const ACCENT: Color32 = Color32::from_rgb(86, 180, 233);
-
-/// The look of every widget: a night chart. Set once for each context.
-pub(super) fn dress(ctx: &egui::Context) {
-    ctx.set_theme(egui::Theme::Dark);
-    let mut fonts = egui::FontDefinitions::default();
-    if let Some(fallback) = fonts.families.get(&egui::FontFamily::Monospace).cloned()
-        && let Some(faces) = fonts.families.get_mut(&egui::FontFamily::Proportional)
-    {
-        // The proportional face lacks arrows and raised signs.
-        faces.extend(fallback);
-    }
-    ctx.set_fonts(fonts);
-    ctx.all_styles_mut(|style| {
-        // The same input makes the same frame, whenever it is drawn.
-        style.animation_time = 0.0;
-        style.visuals.text_cursor.blink = false;
-        style.spacing.item_spacing = egui::vec2(6.0, 3.0);
-        style.spacing.button_padding = egui::vec2(6.0, 2.0);
-        for (text_style, size) in [
-            (egui::TextStyle::Body, 12.5),
-            (egui::TextStyle::Button, 12.5),
-            (egui::TextStyle::Monospace, 12.0),
-            (egui::TextStyle::Small, 10.5),
-            (egui::TextStyle::Heading, 16.0),
-        ] {
-            if let Some(font) = style.text_styles.get_mut(&text_style) {
-                font.size = size;
-            }
-        }
-        let visuals = &mut style.visuals;
-        visuals.panel_fill = PANEL;
-        visuals.window_fill = PANEL;
-        visuals.extreme_bg_color = BACKDROP;
-        visuals.override_text_color = Some(TEXT);
-        visuals.selection.bg_fill = Color32::from_rgb(38, 76, 110);
-        visuals.selection.stroke = Stroke::new(1.0, ACCENT);
-        visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, RAISED);
-        visuals.widgets.inactive.weak_bg_fill = RAISED;
-        visuals.widgets.inactive.bg_fill = RAISED;
-        for (widget, fill) in [
-            (&mut visuals.widgets.hovered, HOVERED),
-            (&mut visuals.widgets.active, PRESSED),
-            (&mut visuals.widgets.open, RAISED),
-        ] {
-            widget.weak_bg_fill = fill;
-            widget.bg_fill = fill;
-            widget.bg_stroke = Stroke::new(1.0, ACCENT.gamma_multiply(0.6));
-        }
-        for widget in [
-            &mut visuals.widgets.inactive,
-            &mut visuals.widgets.hovered,
-            &mut visuals.widgets.active,
-            &mut visuals.widgets.open,
-        ] {
-            widget.corner_radius = CornerRadius::same(4);
-        }
-    });
-}
-
 fn frame(fill: Color32) -> Frame {
     Frame::new().fill(fill).inner_margin(Margin::symmetric(8, 4))
 }
 
+/// Words in one line of this width, with an ellipsis where they do not fit, and whether they fit.
+fn short(ui: &Ui, words: &str, font: FontId, room: f32, colour: Color32) -> (Arc<Galley>, bool) {
+    let mut job = LayoutJob::single_section(words.to_owned(), TextFormat::simple(font, colour));
+    job.wrap = TextWrapping::truncate_at_width(room.max(0.0));
+    let galley = ui.painter().layout_job(job);
+    let is_whole = !galley.elided;
+    (galley, is_whole)
+}
+
 /// The colour of a verdict.
-fn tone(word: Word) -> Color32 {
+fn tone(ui: &Ui, word: Outcome) -> Color32 {
     match word.severity() {
-        Severity::Fine => WELL,
-        Severity::Doubtful => DOUBTFUL,
-        Severity::Bad => colour(palette::ALARM),
-        Severity::Unknown => QUIET,
+        Severity::Fine => ink(ui).good,
+        Severity::Doubtful => ink(ui).warn,
+        Severity::Bad => ink(ui).bad,
+        Severity::Unknown => ink(ui).dim,
     }
 }

@@ -3,12 +3,11 @@
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{
-    Align2, Context, Id, Key, Order, RichText, ScrollArea, TextEdit, TextStyle, TextWrapMode, Ui,
-    Window,
+    Align2, Context, Id, Key, Label, Order, RichText, ScrollArea, TextEdit, TextStyle,
+    TextWrapMode, Ui, Window,
 };
 
-use super::{QUIET, colour};
-use crate::lab::picture::palette;
+use super::ink;
 use crate::lab::{Command, Dialog, Lab};
 
 /// The width of a path that can be read without scrolling, in points.
@@ -16,7 +15,7 @@ const WIDTH: f32 = 460.0;
 
 pub(super) fn show(ui: &Ui, lab: &Lab, dialog: &Dialog, commands: &mut Vec<Command>) {
     match dialog {
-        Dialog::Path => path(ui, lab, commands),
+        Dialog::Path { refused } => path(ui, lab, refused.as_deref(), commands),
         Dialog::Mistakes { file, report } => mistakes(ui, file, report, commands),
     }
     if ui.input(|input| input.key_pressed(Key::Escape)) {
@@ -25,11 +24,15 @@ pub(super) fn show(ui: &Ui, lab: &Lab, dialog: &Dialog, commands: &mut Vec<Comma
 }
 
 fn window(title: &str) -> Window<'_> {
-    Window::new(title).order(Order::Foreground).collapsible(false).resizable(false)
+    Window::new(title)
+        .id(Id::unique(title))
+        .order(Order::Foreground)
+        .collapsible(false)
+        .resizable(false)
 }
 
 /// A field that has the focus as long as it is there: what is typed is meant for it.
-fn path(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn path(ui: &Ui, lab: &Lab, refused: Option<&str>, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
     let width = WIDTH.min(ctx.content_rect().width() - 40.0).max(40.0);
     window("Open a scene file").anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
@@ -37,8 +40,8 @@ fn path(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
         let id = Id::unique("path of a scene file");
         let is_new = !ui.memory(|memory| memory.has_focus(id));
         if is_new {
-            // What was typed last time can be amended, or typed over.
-            select(ctx, id, 0);
+            // What was typed last time can be edited or typed over; what was refused is edited at its end.
+            select(ctx, id, if refused.is_some() { usize::MAX } else { 0 });
             ui.memory_mut(|memory| memory.request_focus(id));
         }
         let typed = lab.viewer().typed_path();
@@ -59,7 +62,12 @@ fn path(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
             commands.push(Command::OpenTypedPath);
         }
         let keys = "Enter opens, Tab completes, Esc closes. Or drop a file onto the window.";
-        ui.label(RichText::new(keys).color(QUIET));
+        ui.label(RichText::new(keys).color(ink(ui).dim));
+        if let Some(report) = refused {
+            ui.separator();
+            let room = egui::vec2(width, ctx.content_rect().height() - 240.0);
+            report_within(ui, lab.viewer().typed_path(), report, room);
+        }
     });
 }
 
@@ -71,28 +79,93 @@ fn select(ctx: &Context, id: Id, from: usize) {
     state.store(ctx, id);
 }
 
-/// The report, as the command line prints it.
+/// The report, as the command line prints it, in a window of its own.
 fn mistakes(ui: &Ui, file: &str, report: &str, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
     let room = ctx.content_rect().size() - egui::vec2(60.0, 120.0);
     let title = format!("{file} cannot be opened");
     window(&title).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
         let font = TextStyle::Monospace.resolve(ui.style());
-        let text = ui.painter().layout_no_wrap(report.to_owned(), font, QUIET);
+        let text = ui.painter().layout_no_wrap(report.to_owned(), font, ink(ui).dim);
         ui.set_min_width(text.size().x.min(room.x).max(0.0));
-        let scroll = ScrollArea::both().max_width(room.x.max(0.0)).max_height(room.y.max(0.0));
-        scroll.show(ui, |ui| {
-            ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-            for line in report.lines() {
-                let is_of_file = line.starts_with(file) || line.starts_with("error");
-                let text = RichText::new(line).monospace();
-                let alarm = colour(palette::ALARM);
-                ui.label(if is_of_file { text.color(alarm) } else { text });
-            }
-        });
+        report_within(ui, file, report, room);
         ui.add_space(4.0);
         if ui.button("Close (Esc)").clicked() {
             commands.push(Command::CloseDialog);
         }
     });
+}
+
+/// Writes a report into this room, scrolled where it is larger: messages are wrapped, lines of the file are not, as
+/// what is marked in them would lose its mark.
+fn report_within(ui: &mut Ui, file: &str, report: &str, room: egui::Vec2) {
+    let room = room.max(egui::Vec2::ZERO);
+    ScrollArea::both().max_width(room.x).max_height(room.y).show(ui, |ui| {
+        for line in report.lines() {
+            let is_of_file = line.starts_with(file) || line.starts_with("error");
+            let text = RichText::new(line).monospace();
+            let text = if is_of_file { text.color(ink(ui).bad) } else { text };
+            if is_quoted(line) {
+                ui.add(Label::new(text).wrap_mode(TextWrapMode::Extend));
+            } else {
+                // A scroll area as such has no right edge to wrap at.
+                ui.scope(|ui| {
+                    ui.set_max_width(room.x);
+                    ui.add(Label::new(text).wrap());
+                });
+            }
+        }
+    });
+}
+
+/// Whether a line of a report shows a line of the file, or marks a place in it.
+fn is_quoted(line: &str) -> bool {
+    let after_number = line.trim_start_matches(|c: char| c == ' ' || c.is_ascii_digit());
+    after_number.starts_with('|')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Scene;
+
+    /// The size of the only window over the lab, in points.
+    fn size_of_dialog(lab: &Lab, title: &str) -> egui::Vec2 {
+        let ctx = Context::default();
+        let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0));
+        for _ in 0..3 {
+            let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
+            let mut output = ctx.run_ui(input, |ui| {
+                show(ui, lab, lab.viewer().dialog().unwrap(), &mut Vec::new());
+            });
+            output.textures_delta.clear();
+        }
+        let area = ctx.memory(|memory| memory.area_rect(Id::unique(title)));
+        area.expect("the dialog is open").size()
+    }
+
+    #[test]
+    fn a_long_message_is_wrapped_and_a_quoted_line_is_not() {
+        let message = |words: usize| format!("a.toml:1:1: {}", "words ".repeat(words));
+        let shown = |report: String| {
+            let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+            lab.show_mistakes(std::path::Path::new("a.toml"), report);
+            size_of_dialog(&lab, "a.toml cannot be opened")
+        };
+        let [short, long] = [8, 80].map(|words| shown(message(words)));
+        assert!(long.x <= 800.0 && long.y > short.y + 20.0, "{short:?} {long:?}");
+        let quoted = shown(format!("{}\n1 | {}", message(8), "words ".repeat(80)));
+        assert!(quoted.x <= 800.0 && quoted.y < long.y, "{quoted:?} {long:?}");
+        assert!(is_quoted("  |      ^^^") && is_quoted(" 12 | a = 1") && !is_quoted("a | b"));
+    }
+
+    #[test]
+    fn the_field_shows_why_a_path_is_refused() {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        lab.apply(Command::AskForPath);
+        let before = size_of_dialog(&lab, "Open a scene file");
+        lab.refuse_typed_path(std::path::Path::new("a.toml"), "error: none ".repeat(40));
+        let after = size_of_dialog(&lab, "Open a scene file");
+        assert!(after.y > before.y + 40.0 && after.x <= before.x + 20.0, "{before:?} {after:?}");
+    }
 }

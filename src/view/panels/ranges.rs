@@ -2,6 +2,7 @@
 //! and bends no axis.
 
 use super::tracks::Track;
+use crate::view::axis_scale::AxisScale;
 
 /// Errors below this are round-off: the plot's floor, as a power of ten.
 const FLOOR: f64 = -17.0;
@@ -9,6 +10,9 @@ const FLOOR: f64 = -17.0;
 const HEALTHY_SHARE: f64 = 25.0;
 /// And of more than this is lost.
 const LOST_SHARE: f64 = 300.0;
+/// A drift (%) of more than this is lost, and one below is rounding.
+const LOST_DRIFT: f64 = 1e4;
+const LEAST_DRIFT: f64 = 1e-9;
 /// The least half range of an axis, against the values on it: a body that has not moved yet is shown with labels no
 /// longer than when it has.
 const NARROWEST: f64 = 0.02;
@@ -21,13 +25,28 @@ pub(super) fn around_truth(
     healthy: f64,
 ) -> (f64, f64) {
     let (low, high) = range(truth).unwrap_or((-1.0, 1.0));
-    let half = ((high - low) / 2.0).max(NARROWEST * high.abs().max(low.abs())).max(1e-300);
+    let far = high.abs().max(low.abs());
+    let half = if far > 0.0 { ((high - low) / 2.0).max(NARROWEST * far) } else { 1.0 };
     let middle = (low + high) / 2.0;
     let near = |value: &f64| (value - middle).abs() <= healthy * half;
     let all = lanes.iter().flat_map(|lane| lane.along(axis)).filter(near);
     let (low, high) = range(all.chain([low, high])).unwrap_or((low, high));
     let pad = (0.12 * (high - low)).max(half - (high - low) / 2.0);
     (low - pad, high + pad)
+}
+
+/// The range of the truth along an axis, and of the lanes that are nowhere more than `healthy` times as far out.
+pub(super) fn around_orbit(
+    truth: impl Iterator<Item = f64> + Clone,
+    lanes: &[Track],
+    axis: usize,
+    healthy: f64,
+) -> (f64, f64) {
+    let (low, high) = range(truth).unwrap_or((-1.0, 1.0));
+    let (half, middle) = ((high - low) / 2.0, (low + high) / 2.0);
+    let near = |lane: &&Track| lane.along(axis).all(|y| (y - middle).abs() <= healthy * half);
+    let lanes = lanes.iter().filter(near).flat_map(|lane| lane.along(axis));
+    around_truth(lanes.chain([low, high]), &[], axis, healthy)
 }
 
 /// The decades that hold the errors, up to ten times the size of what they are errors of: beyond that a
@@ -47,6 +66,24 @@ pub(super) fn of_shares(lanes: &[Track]) -> (f64, f64) {
     let values = healthy.flat_map(|lane| lane.along(1));
     let all = || lanes.iter().flat_map(|lane| lane.along(1)).filter(|y| y.abs() <= LOST_SHARE);
     padded(range(values).or_else(|| range(all())))
+}
+
+/// The drift (%) up to which a symmetric scale is even: just below the drift of the lane that drifts least.
+pub(super) fn linear_drift(lanes: &[Track]) -> f64 {
+    let most = |lane: &Track| lane.along(1).map(f64::abs).fold(0.0, f64::max);
+    let least = lanes.iter().map(most).filter(|&drift| drift > 0.0).fold(f64::INFINITY, f64::min);
+    if least.is_finite() {
+        libm::pow(10.0, libm::floor(libm::log10(least))).clamp(LEAST_DRIFT, 0.1)
+    } else {
+        0.1
+    }
+}
+
+/// The range of drifts placed on a symmetric scale: zero, and all lanes that are not lost.
+pub(super) fn of_drift(lanes: &[Track], scale: AxisScale) -> (f64, f64) {
+    let lost = scale.place(LOST_DRIFT);
+    let all = lanes.iter().flat_map(|lane| lane.along(1)).filter(|y| y.abs() <= lost);
+    padded(range(all))
 }
 
 /// The range of all values, and of zero: of a count or a sum.
@@ -75,7 +112,7 @@ mod tests {
 
     fn lanes(lab: &Lab, metric: &str) -> Vec<Track> {
         let index = METRICS.iter().position(|listed| listed.id == metric).unwrap();
-        Track::of(lab, |s| [s.t, s.metrics[index]])
+        Track::of(lab, 0, |s| [s.t, s.metrics[index]])
     }
 
     #[test]
@@ -97,7 +134,7 @@ mod tests {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         lab.apply(Command::ToggleRace);
         (0..600).for_each(|_| lab.tick());
-        let tracks = Track::of(&lab, |s| [s.t, s.q]);
+        let tracks = Track::of(&lab, 0, |s| [s.t, s.q]);
         let truth = || lab.past().truth_curves()[0].samples().map(|s| s.q);
         let (low, high) = around_truth(truth(), &tracks, 1, 1.6);
         assert!((-2.1..-1.1).contains(&low) && (1.1..2.1).contains(&high), "{low} to {high}");

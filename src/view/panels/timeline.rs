@@ -11,7 +11,7 @@ use egui_plot::GridInput;
 
 use self::marks::{Context, Group, Sign, grouped};
 use self::span::Span;
-use super::{ACCENT, BACKDROP, QUIET, RAISED, TEXT};
+use super::{Ink, ink};
 use crate::lab::{Command, Event, Lab, Mode, TimeScale};
 use crate::view::ticks;
 
@@ -58,10 +58,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let grab = Rect::from_x_y_ranges(along.expand(MARGIN / 2.0), room.y_range());
     let response = ui.interact(grab, id, Sense::click_and_drag());
     let span = viewed(ui, lab, &times, &response, along);
-    let track = Track { y, along, span, times: &times };
+    let track = Track { y, along, span, times: &times, ink: ink(ui) };
 
     seek(ui, lab, &response, &track, commands);
-    let context = Context { scene: lab.scene(), start: lab.timeline().start(), times: &times };
+    let context = Context {
+        scene: lab.scene(),
+        start: lab.timeline().start(),
+        times: &times,
+        ink: track.ink,
+    };
     let in_view = |x: f32| along.expand(1.0).contains(x);
     let end = lab.timeline().end();
     let end = lab.timeline().is_in_past().then(|| context.end(end));
@@ -78,7 +83,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     handle(&painter, &track, lab.race().tick(), response.has_focus());
     if room.width() >= ROOM_FOR_WORDS {
         let at = pos2(room.left(), y);
-        painter.text(at, Align2::LEFT_CENTER, "Timeline", FontId::proportional(11.5), QUIET);
+        painter.text(at, Align2::LEFT_CENTER, "Timeline", FontId::proportional(11.5), ink(ui).dim);
     }
     beside(ui, lab, Rect::from_min_max(pos2(along.max + MARGIN, room.top()), room.max), commands);
     tooltip(ui, response, &track, &groups);
@@ -100,6 +105,7 @@ struct Track<'a> {
     along: Rangef,
     span: Span,
     times: &'a TimeScale,
+    ink: &'static Ink,
 }
 
 impl Track<'_> {
@@ -182,37 +188,41 @@ fn numbers(painter: &Painter, track: &Track<'_>, bottom: f32) {
     for mark in marks {
         let x = track.span.x(mark.value, track.along);
         let top = track.y + 0.5 * THICKNESS;
-        painter.vline(x, Rangef::new(top + 1.0, top + 4.0), Stroke::new(1.0, QUIET));
+        painter.vline(x, Rangef::new(top + 1.0, top + 4.0), Stroke::new(1.0, track.ink.dim));
         let unit = if mark.value == last { "s" } else { "" };
         let text = ticks::linear_label(mark, &(from_s..=to_s), unit);
         let at = pos2(x, bottom);
-        painter.text(at, Align2::CENTER_BOTTOM, text, FontId::proportional(10.5), QUIET);
+        painter.text(at, Align2::CENTER_BOTTOM, text, FontId::proportional(10.5), track.ink.dim);
     }
 }
 
 /// The track: what was run up to the present in the colours of the methods, what was run beyond it in grey.
 fn fill(painter: &Painter, lab: &Lab, events: &[Event], track: &Track<'_>) {
     let round = 0.5 * THICKNESS;
-    painter.rect_filled(track.piece(track.along.min, track.along.max), round, RAISED);
+    painter.rect_filled(track.piece(track.along.min, track.along.max), round, track.ink.raised);
     let [present, end] = [lab.race().tick(), lab.timeline().end()].map(|tick| track.x(tick));
-    painter.rect_filled(track.piece(track.along.min, end), round, QUIET.gamma_multiply(0.45));
+    painter.rect_filled(
+        track.piece(track.along.min, end),
+        round,
+        track.ink.dim.gamma_multiply(0.45),
+    );
     let lane = lab.selected().lane_number;
-    let colours = marks::colours(lane, events, lab.timeline().start());
+    let colours = marks::colours(lane, events, lab.timeline().start(), track.ink);
     for (i, (from, colour)) in colours.iter().enumerate() {
         let to = colours.get(i + 1).map_or(present, |(tick, _)| track.x(*tick)).min(present);
         let piece = track.piece(track.x(*from), to);
         if piece.width() > 0.0 {
             let corners = if i == 0 { round } else { 0.0 };
-            painter.rect_filled(piece, corners, strength(*colour, lab.mode()));
+            painter.rect_filled(piece, corners, strength(*colour, lab.mode(), track.ink));
         }
     }
 }
 
 /// A race is of many colours: that of the selected lane is kept back.
-fn strength(colour: Color32, mode: Mode) -> Color32 {
+fn strength(colour: Color32, mode: Mode, ink: &Ink) -> Color32 {
     match mode {
         Mode::Solo => colour,
-        Mode::Race => BACKDROP.lerp_to_gamma(colour, 0.8),
+        Mode::Race => ink.background.lerp_to_gamma(colour, 0.8),
     }
 }
 
@@ -222,7 +232,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
     let mark = group.shown();
     let colour = mark.colour;
     let centre = pos2(x, foot - 6.0);
-    let rim = Stroke::new(1.0, BACKDROP);
+    let rim = Stroke::new(1.0, track.ink.background);
     let polygon = |points: &[[f32; 2]]| {
         let points = points.iter().map(|&[dx, dy]| centre + vec2(dx, dy)).collect();
         painter.add(Shape::convex_polygon(points, colour, rim));
@@ -243,7 +253,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
         }
         Sign::Rate => polygon(&[[-4.5, 3.5], [0.0, -4.5], [4.5, 3.5]]),
         Sign::Place => {
-            painter.circle(centre, 3.6, BACKDROP, Stroke::new(1.8, colour));
+            painter.circle(centre, 3.6, track.ink.background, Stroke::new(1.8, colour));
         }
         Sign::Kick => polygon(&[[0.0, -5.2], [4.4, 0.0], [0.0, 5.2], [-4.4, 0.0]]),
         Sign::Switch => {
@@ -254,7 +264,7 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
     if group.marks.len() > 1 {
         let at = centre + vec2(if mark.sign == Sign::Halt { 8.5 } else { 5.5 }, -1.0);
         let count = group.marks.len().to_string();
-        painter.text(at, Align2::LEFT_CENTER, count, FontId::proportional(9.0), TEXT);
+        painter.text(at, Align2::LEFT_CENTER, count, FontId::proportional(9.0), track.ink.text);
     }
 }
 
@@ -265,8 +275,12 @@ fn handle(painter: &Painter, track: &Track<'_>, present: u64, has_focus: bool) {
         return;
     }
     let centre = pos2(x, track.y);
-    let rim = if has_focus { Stroke::new(2.5, ACCENT) } else { Stroke::new(2.0, BACKDROP) };
-    painter.circle(centre, 6.0, Color32::WHITE, rim);
+    let rim = if has_focus {
+        Stroke::new(2.5, track.ink.accent)
+    } else {
+        Stroke::new(2.0, track.ink.background)
+    };
+    painter.circle(centre, 6.0, track.ink.exact, rim);
 }
 
 /// The *undo* button, and the memory that the past takes.
@@ -277,7 +291,7 @@ fn beside(ui: &mut Ui, lab: &Lab, room: Rect, commands: &mut Vec<Command>) {
     if is_told && room.height() > HEIGHT_OF_TRACK {
         let text = memory(timeline.bytes(), timeline.limit());
         let at = room.right_bottom();
-        ui.painter().text(at, Align2::RIGHT_BOTTOM, text, FontId::proportional(10.5), QUIET);
+        ui.painter().text(at, Align2::RIGHT_BOTTOM, text, FontId::proportional(10.5), ink(ui).dim);
     }
     if timeline.can_undo() {
         let size = vec2(UNDO - 6.0, 18.0).min(room.size());
@@ -301,7 +315,7 @@ fn memory(bytes: usize, limit: usize) -> String {
 fn tooltip(ui: &Ui, response: Response, track: &Track<'_>, groups: &[Group]) {
     let Some(Pos2 { x, .. }) = response.hover_pos() else { return };
     let x = track.along.clamp(x);
-    let line = Stroke::new(1.0, TEXT.gamma_multiply(0.5));
+    let line = Stroke::new(1.0, ink(ui).text.gamma_multiply(0.5));
     ui.painter().vline(x, Rangef::new(track.y - 12.0, track.y + 4.0), line);
     response.on_hover_ui_at_pointer(|ui| {
         let near = |group: &&Group| (-6.0..=MARKS_APART - 6.0).contains(&(x - group.x));
@@ -323,6 +337,7 @@ mod tests {
     use super::*;
     use crate::lab::Scene;
     use crate::view::panels;
+    use crate::view::theme;
 
     const SIZE: Vec2 = vec2(1280.0, 720.0);
 
@@ -346,7 +361,7 @@ mod tests {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         (0..600).for_each(|_| lab.tick());
         let context = Context::default();
-        panels::dress(&context);
+        theme::dress(&context);
         let height =
             SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&lab) - HEIGHT + TRACK_Y;
         let along = Rangef::new(8.0 + NAME, SIZE.x - 8.0 - MEMORY - MARGIN);

@@ -1,41 +1,33 @@
 //! The top bar: what runs, how fast, and where time has got to.
 
-use egui::{Align, Button, ComboBox, Label, Layout, RichText, Ui};
+use egui::{
+    Align, Button, ComboBox, Frame, Label, Layout, RichText, Sense, TextWrapMode, Ui, vec2,
+};
 
-use super::{ACCENT, QUIET};
-use crate::lab::{Command, Lab, Mode, Pace, SPEED_LADDER, TICK_LADDER};
+use super::ink;
+use crate::lab::{Command, Lab, Mode, Pace, SCENES, SPEED_LADDER, Scene, TICK_LADDER};
+use crate::view::theme::{TYPE, strong_font};
 
-pub(super) const HEIGHT: f32 = 34.0;
+pub(super) const HEIGHT: f32 = 40.0;
 
 /// Widths of the bar, in points, at which more of it fits.
 const ROOM_FOR_MENUS: f32 = 600.0;
-const ROOM_FOR_LADDERS: f32 = 840.0;
+const ROOM_FOR_BACK: f32 = 700.0;
+const ROOM_FOR_WORDS: f32 = 960.0;
 const ROOM_FOR_PACE: f32 = 1100.0;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
         scene_menu(ui, lab, commands);
-        transport(ui, lab, commands);
-        let (text, hover) = match lab.mode() {
-            Mode::Solo => ("Race all", "race every method from the start line (C)"),
-            Mode::Race => ("Solo", "fly the selected lane alone (C)"),
-        };
-        button(ui, text, hover, Command::ToggleRace, commands);
-        if width >= ROOM_FOR_LADDERS {
-            ui.separator();
-            ui.label(RichText::new("speed").color(QUIET));
-            button(ui, "−", "slower (-)", Command::SpeedDown, commands);
+        transport(ui, lab, width >= ROOM_FOR_BACK, commands);
+        if width >= ROOM_FOR_MENUS {
+            word(ui, width, "speed");
             speed_menu(ui, lab, commands);
-            button(ui, "+", "faster (=)", Command::SpeedUp, commands);
-            ui.label(RichText::new("  tick rate").color(QUIET));
-            button(ui, "[", "lower tick rate ([)", Command::TickRateDown, commands);
-            tick_rate_menu(ui, lab, commands);
-            button(ui, "]", "higher tick rate (])", Command::TickRateUp, commands);
-        } else if width >= ROOM_FOR_MENUS {
-            speed_menu(ui, lab, commands);
+            word(ui, width, "tick rate");
             tick_rate_menu(ui, lab, commands);
         }
+        modes(ui, lab, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             button(ui, "?", "help (H)", Command::ToggleHelp, commands);
             if width >= ROOM_FOR_MENUS {
@@ -46,19 +38,36 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
                 ui.separator();
             }
             let race = lab.race();
-            let time = format!("t = {:.3} s · tick {}", race.t(), race.tick());
-            ui.add(Label::new(RichText::new(time).monospace()).truncate());
+            let time = match width >= ROOM_FOR_WORDS {
+                true => format!("t = {:.3} s · tick {}", race.t(), race.tick()),
+                false => format!("{:.3} s", race.t()),
+            };
+            ui.add(Label::new(RichText::new(time).font(strong_font(TYPE))).truncate());
         });
     });
 }
 
+fn word(ui: &mut Ui, width: f32, word: &str) {
+    if width >= ROOM_FOR_WORDS {
+        ui.label(RichText::new(format!("  {word}")).color(ink(ui).dim));
+    }
+}
+
+/// Each scene by its name, with its title beside it.
 fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let name = lab.scene_name();
-    let menu = ComboBox::from_id_salt("scene").selected_text(&name).width(86.0);
+    let menu = ComboBox::from_id_salt("scene").selected_text(&name).width(92.0).height(480.0);
     let response = menu.show_ui(ui, |ui| {
-        for (place, name) in lab.shelf().names().enumerate() {
-            let is_open = lab.shelf().open() == Some(place);
-            if ui.selectable_label(is_open, name).clicked() {
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+        for (place, name) in lab.scene_list().names().enumerate() {
+            let is_open = lab.scene_list().open() == Some(place);
+            let title = SCENES.get(place).and_then(|scene| Scene::built_in(scene.name));
+            let title = title.map(|scene| scene.title).unwrap_or_default();
+            let mut line = egui::text::LayoutJob::default();
+            let part = |font, colour| egui::TextFormat::simple(font, colour);
+            line.append(&name, 0.0, part(strong_font(TYPE), ink(ui).text));
+            line.append(&title, 12.0, part(egui::FontId::proportional(TYPE), ink(ui).dim));
+            if ui.selectable_label(is_open, line).clicked() {
                 commands.push(Command::Scene(place));
             }
         }
@@ -70,18 +79,57 @@ fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     });
 }
 
-fn transport(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn transport(ui: &mut Ui, lab: &Lab, has_back: bool, commands: &mut Vec<Command>) {
     button(ui, "⏮", "restart (Home)", Command::Restart, commands);
+    if has_back {
+        button(ui, "◀", "one tick back (,)", Command::TickBack, commands);
+    }
     let (sign, hover) =
         if lab.running() { ("⏸", "pause (Space)") } else { ("▶", "run (Space)") };
     button(ui, sign, hover, Command::TogglePause, commands);
     button(ui, "⏭", "one tick forward (.)", Command::TickForward, commands);
 }
 
+/// Solo or race: two halves of one control.
+fn modes(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    ui.add_space(4.0);
+    let frame = Frame::new().fill(ink(ui).raised).corner_radius(6.0);
+    frame.show(ui, |ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        for (mode, name, about) in [
+            (Mode::Solo, "Solo", "fly one method, and switch it in flight (C)"),
+            (Mode::Race, "Race", "race every method from the start line (C)"),
+        ] {
+            let is_chosen = lab.mode() == mode;
+            let font =
+                || if is_chosen { strong_font(TYPE) } else { egui::FontId::proportional(TYPE) };
+            let text = ui.painter().layout_no_wrap(name.into(), font(), ink(ui).text);
+            let size = vec2(text.size().x + 24.0, 26.0);
+            let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+            response.widget_info(|| {
+                egui::WidgetInfo::selected(egui::Role::RadioButton, true, is_chosen, name)
+            });
+            if is_chosen {
+                ui.painter().rect_filled(rect, 6.0, ink(ui).accent);
+            } else if response.hovered() || response.has_focus() {
+                let stroke = egui::Stroke::new(1.0, ink(ui).accent);
+                ui.painter().rect_stroke(rect, 6.0, stroke, egui::StrokeKind::Inside);
+            }
+            let colour = if is_chosen { ink(ui).on_accent } else { ink(ui).text };
+            let at = rect.center();
+            ui.painter().text(at, egui::Align2::CENTER_CENTER, name, font(), colour);
+            if response.on_hover_text(about).clicked() && !is_chosen {
+                commands.push(Command::ToggleRace);
+            }
+        }
+    });
+}
+
 fn speed_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let percent = lab.clock().speed_percent();
-    let text = RichText::new(format!("{:>3}×", multiple(percent))).monospace();
-    ComboBox::from_id_salt("speed").selected_text(text).width(48.0).show_ui(ui, |ui| {
+    let text = RichText::new(format!("{}×", multiple(percent)));
+    let menu = ComboBox::from_id_salt("speed").selected_text(text).width(54.0).height(400.0);
+    let response = menu.show_ui(ui, |ui| {
         for rung in SPEED_LADDER {
             let text = format!("{}× real time", multiple(rung));
             if ui.selectable_label(rung == percent, text).clicked() {
@@ -89,6 +137,7 @@ fn speed_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             }
         }
     });
+    response.response.on_hover_text("simulated seconds per second (- and =)");
 }
 
 fn multiple(percent: u32) -> String {
@@ -102,30 +151,32 @@ fn multiple(percent: u32) -> String {
 
 fn tick_rate_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let tick_hz = lab.clock().tick_hz();
-    let text = RichText::new(format!("{tick_hz:>4} Hz")).monospace();
-    ComboBox::from_id_salt("tick rate").selected_text(text).width(64.0).show_ui(ui, |ui| {
+    let text = RichText::new(format!("{tick_hz} Hz"));
+    let menu = ComboBox::from_id_salt("tick rate").selected_text(text).width(72.0).height(480.0);
+    let response = menu.show_ui(ui, |ui| {
         for rung in TICK_LADDER {
             if ui.selectable_label(rung == tick_hz, format!("{rung} Hz")).clicked() {
                 commands.push(Command::TickHz(rung));
             }
         }
     });
+    response.response.on_hover_text("ticks per simulated second ([ and ])");
 }
 
 fn pace(ui: &mut Ui, lab: &Lab) {
     // Paused, no frame is drawn but for an event, and no time goes by.
     if !lab.running() {
-        ui.label(RichText::new("paused").color(ACCENT));
+        ui.label(RichText::new("paused").color(ink(ui).accent));
         return;
     }
     let text = match lab.viewer().pace {
         Some(Pace::Measured { frames_per_second, real_time_factor }) => {
-            format!("{frames_per_second:5.1} fps · {real_time_factor:.2}× real time")
+            format!("{frames_per_second:.0} fps · {real_time_factor:.2}× real time")
         }
         Some(Pace::Unknown) => return,
         None => "scripted time".into(),
     };
-    ui.label(RichText::new(text).monospace().color(QUIET))
+    ui.label(RichText::new(text).color(ink(ui).dim))
         .on_hover_text("frames drawn per second · simulated seconds per second");
 }
 

@@ -5,9 +5,8 @@ use std::ops::RangeInclusive;
 
 use egui_plot::PlotBounds;
 
-use super::colour;
-use crate::lab::picture::palette;
-use crate::lab::{Lab, Sample};
+use super::ink_of;
+use crate::lab::{Entrant, Lab, Mode, Sample};
 use crate::view::curves::{Curve, Dots};
 use crate::view::plot::{Arrow, Drawing, Switch};
 
@@ -24,24 +23,37 @@ struct Point {
 
 /// The samples of one lane, oldest first.
 #[derive(Debug)]
-pub(super) struct Track(Vec<Point>);
+pub(super) struct Track {
+    points: Vec<Point>,
+    /// The method of the lane now, by its place on the list.
+    pub(super) entry: usize,
+    /// Whether it is drawn in front: the lane in solo mode, or the selected lane of a race.
+    pub(super) is_front: bool,
+    /// What of the lane it is, where several tracks are of one lane; else empty.
+    pub(super) part: &'static str,
+    /// Drawn length and gap in points, where it is not the method's.
+    dash: Option<[f32; 2]>,
+    /// How much of its colour it has.
+    strength: f32,
+}
 
 /// What is drawn of a lane that comes back into the plot: nothing, until it has stayed for this part of
 /// the time in view. A swing that grows for ever passes the plot time and again.
 const RETURNED: f64 = 0.1;
 
 impl Track {
-    /// A track for each lane, of `place` of its samples; those that are not finite are left out.
-    pub(super) fn of(lab: &Lab, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Self> {
-        Self::of_points(lab, |s| {
+    /// A track for each lane, of `place` of its samples of the body; those that are not finite are left out. The one in
+    /// front is the last.
+    pub(super) fn of(lab: &Lab, body: usize, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Self> {
+        Self::of_points(lab, body, |s| {
             let at = place(s);
             Point { t: s.t, entry: s.entry, at, swept: [at[1]; 2] }
         })
     }
 
-    /// A track for each lane, of its first coordinate over time, with all that it comes to between samples.
-    pub(super) fn of_coordinate(lab: &Lab) -> Vec<Self> {
-        Self::of_points(lab, |s| Point {
+    /// A track for each lane, of the body's first coordinate over time, with all that it comes to between samples.
+    pub(super) fn of_coordinate(lab: &Lab, body: usize) -> Vec<Self> {
+        Self::of_points(lab, body, |s| Point {
             t: s.t,
             entry: s.entry,
             at: [s.t, s.q],
@@ -49,39 +61,80 @@ impl Track {
         })
     }
 
-    fn of_points(lab: &Lab, point: impl Fn(&Sample) -> Point) -> Vec<Self> {
-        let tracks = lab.plotted().map(|(_, history)| {
-            let points = history.samples().map(&point);
-            Self(points.filter(|point| point.at.iter().all(|x| x.is_finite())).collect())
-        });
-        tracks.collect()
+    fn of_points(lab: &Lab, body: usize, point: impl Fn(&Sample) -> Point) -> Vec<Self> {
+        let front = lab.selected().lane_number;
+        let track = |(place, lane): (usize, &Entrant)| {
+            let points = lab.past().histories(place)[body].samples().map(&point);
+            Self {
+                points: points.filter(|point| point.at.iter().all(|x| x.is_finite())).collect(),
+                entry: lane.entry,
+                is_front: lane.lane_number == front,
+                part: "",
+                dash: None,
+                strength: 1.0,
+            }
+        };
+        let lanes = lab.race().entrants().iter().enumerate();
+        let mut tracks: Vec<Self> = lanes.map(track).collect();
+        tracks.sort_by_key(|track| track.is_front);
+        tracks
+    }
+
+    /// The same track as a part of its lane, with a dash of its own, and so much of its colour.
+    pub(super) fn into_part(self, part: &'static str, dash: [f32; 2], strength: f32) -> Self {
+        Self { part, dash: Some(dash), strength, ..self }
+    }
+
+    /// The method that flew the lane at time `t` (s), and where it was, between samples on the line through them.
+    pub(super) fn at(&self, t: f64) -> Option<(usize, [f64; 2])> {
+        let after = self.points.partition_point(|point| point.t < t);
+        let to = self.points.get(after)?;
+        let Some(from) = after.checked_sub(1).map(|before| self.points[before]) else {
+            return (to.t == t).then_some((to.entry, to.at));
+        };
+        let part = if to.t > from.t { (t - from.t) / (to.t - from.t) } else { 1.0 };
+        Some((to.entry, [0, 1].map(|axis| from.at[axis] + part * (to.at[axis] - from.at[axis]))))
+    }
+
+    /// When the lane was sampled, the method that flew it, and where it was, oldest first.
+    pub(super) fn places(&self) -> impl Iterator<Item = (f64, usize, [f64; 2])> {
+        self.points.iter().map(|point| (point.t, point.entry, point.at))
+    }
+
+    /// The methods that flew it, in order.
+    pub(super) fn flown(&self) -> impl Iterator<Item = usize> {
+        self.points.chunk_by(|a, b| a.entry == b.entry).map(|run| run[0].entry)
     }
 
     /// Keeps the last `count` samples.
     pub(super) fn keep_latest(&mut self, count: usize) {
-        self.0.drain(..self.0.len().saturating_sub(count));
+        self.points.drain(..self.points.len().saturating_sub(count));
     }
 
     /// The values along an axis, with those between samples.
     pub(super) fn along(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
         let ends = move |point: &Point| if axis == 1 { point.swept } else { [point.at[axis]; 2] };
-        self.0.iter().flat_map(ends)
+        self.points.iter().flat_map(ends)
     }
 
     /// The times of the first and the last sample, in seconds.
     pub(super) fn times(&self) -> Option<(f64, f64)> {
-        Some((self.0.first()?.t, self.0.last()?.t))
+        Some((self.points.first()?.t, self.points.last()?.t))
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.points.is_empty()
     }
 }
+
+/// How much of its colour a lane of a race has that is not selected, and by how much its curve is thinner, in points.
+const DIM: f32 = 0.62;
+const THINNER: f32 = 1.0;
 
 /// How tracks are drawn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
-    /// The width of a curve, in points.
+    /// The width of the curve in front, in points.
     pub(super) width: f32,
     pub(super) dots: Dots,
     /// Which axes a lane can leave the plot by: not by that of time, along which the plot follows.
@@ -92,13 +145,19 @@ pub(super) struct Look {
 pub(super) fn drawing(lab: &Lab, tracks: &[Track], bounds: &PlotBounds, look: Look) -> Drawing {
     let mut drawing = Drawing::default();
     for track in tracks {
-        add(&mut drawing, lab, &track.0, bounds, look);
+        add(&mut drawing, lab, track, bounds, look);
     }
     drawing
 }
 
-fn add(drawing: &mut Drawing, lab: &Lab, points: &[Point], bounds: &PlotBounds, look: Look) {
-    let rgba = |point: &Point| colour(palette::style(lab.entries()[point.entry].method).0);
+fn add(drawing: &mut Drawing, lab: &Lab, track: &Track, bounds: &PlotBounds, look: Look) {
+    let points = &track.points[..];
+    let is_dim = lab.mode() == Mode::Race && !track.is_front;
+    let is_thin = is_dim || track.strength < 1.0;
+    let width = if is_thin { look.width - THINNER } else { look.width };
+    let style = |point: &Point| ink_of(lab.display().theme).style(&lab.entries()[point.entry]);
+    let rgba =
+        |point: &Point| style(point).0.gamma_multiply(if is_dim { DIM } else { track.strength });
     // A body that had halted has no samples from there to the switch.
     for pair in points.windows(2).filter(|pair| pair[0].entry != pair[1].entry) {
         drawing.switches.push(Switch { at: pair[1].at, colour: rgba(&pair[1]) });
@@ -122,8 +181,8 @@ fn add(drawing: &mut Drawing, lab: &Lab, points: &[Point], bounds: &PlotBounds, 
             let newest = &run[run.len() - 1];
             Curve {
                 colour: rgba(newest),
-                width: look.width,
-                dash: palette::style(lab.entries()[newest.entry].method).1,
+                width,
+                dash: track.dash.unwrap_or(style(newest).1),
                 dots: look.dots,
                 points: run.iter().map(|point| point.at).collect(),
                 swept: run.iter().map(|point| point.swept).collect(),
@@ -188,12 +247,12 @@ mod tests {
     const LOOK: Look = Look { width: 1.0, dots: Dots::None, bounded: [false, true] };
 
     fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
-        colour(palette::style(lab.entries()[entry].method).0)
+        ink_of(lab.display().theme).style(&lab.entries()[entry]).0
     }
 
     fn drawn(lab: &Lab, low: f64, high: f64) -> Drawing {
         let bounds = PlotBounds::from_min_max([0.0, low], [20.0, high]);
-        drawing(lab, &Track::of(lab, |s| [s.t, s.q]), &bounds, LOOK)
+        drawing(lab, &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, LOOK)
     }
 
     fn tick(lab: &mut Lab, ticks: u32) {
@@ -211,7 +270,8 @@ mod tests {
         let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
         let colours: Vec<_> = curves.iter().map(|curve| curve.colour).collect();
         assert_eq!(colours, flown.map(|(entry, _)| colour_of(&lab, entry)));
-        let dashes = flown.map(|(entry, _)| palette::style(lab.entries()[entry].method).1);
+        let dashes =
+            flown.map(|(entry, _)| ink_of(lab.display().theme).style(&lab.entries()[entry]).1);
         assert!(curves.iter().map(|curve| curve.dash).eq(dashes));
         for (before, after) in curves.iter().zip(&curves[1..]) {
             assert_eq!(before.points.last(), after.points.first(), "one line");

@@ -2,7 +2,7 @@ use egui::{Modifiers, pos2};
 
 use super::*;
 use crate::lab::picture::{Whose, compose};
-use crate::lab::{Held, Scene};
+use crate::lab::{HeldBody, Scene};
 
 /// A lab with a stage, and the pointer over it.
 struct Table {
@@ -32,7 +32,7 @@ impl Table {
     /// Where the body of the first cell is, in points of the frame.
     fn body(&self) -> Pos2 {
         let picture = self.picture();
-        let grip = picture.cells[0].grips.iter().find(|grip| grip.whose == Whose::Lane);
+        let grip = picture.cells[0].grips.iter().find(|grip| grip.whose != Whose::Truth);
         Pos2::from(grip.unwrap().at) + STAGE.min.to_vec2()
     }
 
@@ -68,7 +68,7 @@ impl Table {
         self.frame(vec![button(at, false, shift)])
     }
 
-    fn held(&self) -> Option<&Held> {
+    fn held(&self) -> Option<&HeldBody> {
         self.lab.viewer().held()
     }
 }
@@ -174,6 +174,7 @@ fn a_click_changes_nothing_but_the_lane_that_is_selected() {
     assert_eq!(table.lab.race().state_hash(), hash);
     assert!(table.held().is_none());
     table.lab.apply(Command::ToggleRace);
+    table.lab.apply(Command::ToggleArrangement);
     let third = table.picture().cells[2].clone();
     let at = Pos2::from(third.rect.min) + STAGE.min.to_vec2() + vec2(5.0, 5.0);
     table.press(at);
@@ -185,6 +186,7 @@ fn a_click_changes_nothing_but_the_lane_that_is_selected() {
 fn in_a_race_any_lanes_body_can_be_thrown_and_all_go_on_from_there() {
     let mut table = Table::new("orbit");
     table.lab.apply(Command::ToggleRace);
+    table.lab.apply(Command::ToggleArrangement);
     (0..40).for_each(|_| table.lab.tick());
     let last = table.picture().cells.last().unwrap().clone();
     let at = Pos2::from(last.grips[0].at) + STAGE.min.to_vec2();
@@ -197,6 +199,32 @@ fn in_a_race_any_lanes_body_can_be_thrown_and_all_go_on_from_there() {
     assert!(race.entrants().iter().all(|e| e.lane.bodies()[0].stepper.q() == place));
     let row = table.lab.timeline().session().journal().rows().last().unwrap();
     assert!(matches!(&row.action, Action::Place { q, .. } if q[..] == *place));
+}
+
+#[test]
+fn over_each_other_a_click_on_a_lanes_body_brings_it_to_the_front() {
+    let mut table = Table::new("orbit");
+    table.lab.apply(Command::ToggleRace);
+    (0..40).for_each(|_| table.lab.tick());
+    let cell = table.picture().cells[0].clone();
+    assert_eq!((table.picture().cells.len(), cell.entry), (1, table.lab.active()));
+    let other = cell.grips.iter().find_map(|grip| match grip.whose {
+        Whose::Lane { entry, .. } if cell.grip_at(grip.at) == Some(grip) && entry != cell.entry => {
+            Some((entry, grip.at))
+        }
+        _ => None,
+    });
+    let (entry, at) = other.expect("lanes part on an orbit");
+    let at = Pos2::from(at) + STAGE.min.to_vec2();
+    table.press(at);
+    table.release(at, false);
+    assert_eq!(table.lab.active(), entry);
+    assert_eq!(table.picture().cells[0].entry, entry);
+    // On the empty sea it changes nothing.
+    let sea = STAGE.max - vec2(8.0, 8.0);
+    table.press(sea);
+    table.release(sea, false);
+    assert_eq!(table.lab.active(), entry);
 }
 
 #[test]
@@ -218,7 +246,7 @@ fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_f
     ]);
     // It turns smoothly, over some frames.
     (0..40).for_each(|_| _ = table.frame(Vec::new()));
-    let zoom = table.lab.display().lens(0).zoom();
+    let zoom = table.lab.display().zoom_pan(0).zoom();
     assert!((1.1..2.0).contains(&zoom), "{zoom}");
     assert!(under(&table, at).distance(before) < 1e-4);
 
@@ -233,10 +261,12 @@ fn the_wheel_zooms_about_the_pointer_a_drag_of_the_sea_pans_and_a_double_click_f
         table.press(to);
         table.release(to, false);
     }
-    assert_eq!(table.lab.display().lens(0), Lens::default());
-    table.lab.apply(Command::Lens { body: 0, lens: Lens::default().zoomed(2.0, [0.0; 2]) });
+    assert_eq!(table.lab.display().zoom_pan(0), ZoomPan::default());
+    table
+        .lab
+        .apply(Command::ZoomPan { body: 0, zoom_pan: ZoomPan::default().zoomed(2.0, [0.0; 2]) });
     table.lab.apply(Command::Restart);
-    assert_eq!(table.lab.display().lens(0).zoom(), 2.0);
+    assert_eq!(table.lab.display().zoom_pan(0).zoom(), 2.0);
     table.lab.apply(Command::NextScene);
-    assert_eq!(table.lab.display().lens(0), Lens::default());
+    assert_eq!(table.lab.display().zoom_pan(0), ZoomPan::default());
 }

@@ -22,17 +22,17 @@ fn lab(text: &str) -> Lab {
 fn a_file_stays_on_the_list_and_does_not_pass_for_a_built_in_scene() {
     let mut lab = lab(text("ship"));
     assert!(lab.title().starts_with("Regatta - ship.toml - "), "{}", lab.title());
-    assert_eq!(lab.shelf().open(), Some(SCENES.len()));
+    assert_eq!(lab.scene_list().open(), Some(SCENES.len()));
     lab.apply(Command::NextScene);
     assert!(lab.title().starts_with("Regatta - harbour - "), "{}", lab.title());
     lab.apply(Command::PreviousScene);
     assert!(lab.title().starts_with("Regatta - ship.toml - "), "{}", lab.title());
     lab.apply(Command::PreviousScene);
-    assert_eq!(lab.shelf().open(), Some(SCENES.len() - 1));
+    assert_eq!(lab.scene_list().open(), Some(SCENES.len() - 1));
     for _ in 0..=SCENES.len() {
         lab.apply(Command::NextScene);
     }
-    assert_eq!(lab.shelf().open(), Some(SCENES.len() - 1), "round");
+    assert_eq!(lab.scene_list().open(), Some(SCENES.len() - 1), "round");
 }
 
 #[test]
@@ -43,18 +43,43 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
     let mut old = lab(before);
     old.apply(Command::ToggleRace);
     old.apply(Command::Pick(2));
-    old.apply(Command::Lens { body: 0, lens: crate::lab::Lens::default().zoomed(2.0, [0.0; 2]) });
+    old.apply(Command::ZoomPan {
+        body: 0,
+        zoom_pan: crate::lab::ZoomPan::default().zoomed(2.0, [0.0; 2]),
+    });
     (0..50).for_each(|_| old.tick());
     old.apply(Command::Act(Action::Kick(1.0)));
+    let kicked = old.race().state_hash();
     old.reload_file(Path::new(PATH), scene(&after));
-    assert_eq!(old.viewer().notice.as_deref(), Some("ship.toml changed: run again to tick 50"));
+    assert_eq!(
+        old.viewer().notice.as_deref(),
+        Some(
+            "ship.toml changed: run again to tick 50, without what was done by hand: \
+             Ctrl Z brings back the old run"
+        )
+    );
     assert_eq!((old.mode(), old.active()), (Mode::Race, 2));
-    assert_eq!(old.display().lens(0).zoom(), 2.0);
+    assert_eq!(old.display().zoom_pan(0).zoom(), 2.0);
 
     let mut new = lab(&after);
     new.apply(Command::ToggleRace);
     (0..50).for_each(|_| new.tick());
     assert_eq!(old.race().state_hash(), new.race().state_hash());
+    old.apply(Command::Undo);
+    assert_eq!(old.race().state_hash(), kicked);
+}
+
+#[test]
+fn a_file_that_changes_in_comments_only_leaves_the_run_and_its_journal_alone() {
+    let mut lab = lab(text("spring"));
+    (0..50).for_each(|_| lab.tick());
+    lab.apply(Command::Act(Action::Kick(1.0)));
+    let (hash, rows) = (lab.race().state_hash(), lab.race().journal().rows().len());
+    lab.reload_file(Path::new(PATH), scene(&format!("# A remark.\n{}", text("spring"))));
+    let notice = "ship.toml changed in nothing that runs: the run goes on";
+    assert_eq!(lab.viewer().notice.as_deref(), Some(notice));
+    assert_eq!(lab.race().state_hash(), hash);
+    assert_eq!((lab.race().tick(), lab.race().journal().rows().len()), (50, rows));
 }
 
 #[test]
@@ -85,6 +110,36 @@ fn a_rate_that_nobody_chose_follows_the_file_and_one_that_was_chosen_stays() {
         lab.reload_file(Path::new(PATH), scene(&after));
         assert_eq!(lab.race().tick_hz(), rate);
     }
+}
+
+#[test]
+fn a_path_that_is_refused_stays_in_its_field_with_the_reason_until_it_is_edited() {
+    let mut lab = lab(text("spring"));
+    let refused = |lab: &Lab| match lab.viewer().dialog() {
+        Some(Dialog::Path { refused }) => refused.clone(),
+        other => panic!("{other:?}"),
+    };
+    lab.apply(Command::AskForPath);
+    lab.apply(Command::TypePath("boat/none.toml".into()));
+    assert_eq!(lab.apply(Command::OpenTypedPath), Some(crate::lab::DriverRequest::OpenTypedPath));
+    lab.refuse_typed_path(Path::new("boat/none.toml"), "no such file".into());
+    assert_eq!(lab.viewer().typed_path(), "boat/none.toml");
+    assert_eq!(refused(&lab).as_deref(), Some("no such file"));
+    lab.apply(Command::TypePath("boat/none.toml".into()));
+    assert!(refused(&lab).is_some());
+    lab.apply(Command::TypePath("boat/non.toml".into()));
+    assert_eq!(refused(&lab), None);
+    lab.open_file(Path::new(PATH), scene(text("ship")));
+    assert_eq!(lab.viewer().dialog(), None);
+}
+
+#[test]
+fn a_file_that_goes_and_comes_back_is_told_by_its_name() {
+    let mut lab = lab(text("spring"));
+    lab.file_is_gone(Path::new(PATH));
+    assert!(lab.viewer().notice.as_deref().unwrap().starts_with("ship.toml is gone: "));
+    lab.file_is_back(Path::new(PATH));
+    assert_eq!(lab.viewer().notice.as_deref(), Some("ship.toml is back, unchanged"));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Outline, Pull};
+use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::Chain;
 
@@ -20,16 +20,16 @@ impl Drawn for Chain {
         let mut last = self.place_of(0, 0.0);
         for (j, &x) in (1..).zip(q.iter().chain([&0.0])) {
             let next = self.place_of(j, x);
-            outline.line(last, next, 0.7);
+            outline.marks.push(Mark::Rod { from: last, to: next });
             last = next;
         }
         for end in [self.place_of(0, 0.0), last] {
-            outline.line(end - half_wall, end + half_wall, 2.0);
+            outline.marks.push(Mark::Wall { from: end - half_wall, to: end + half_wall });
         }
         let radius = bead(self, q.len());
         for (j, &x) in (1..).zip(q) {
             let at = self.place_of(j, x);
-            outline.taper(at, radius, at, radius);
+            outline.marks.push(Mark::Disc { centre: at, radius });
         }
     }
 

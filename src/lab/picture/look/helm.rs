@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Drawn, Framing, Handle, Outline, Pull};
+use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::Helm;
 
@@ -15,7 +15,7 @@ const LENGTH_M: f64 = 0.15 * WIDTH_M;
 impl Drawn for Helm {
     fn draw(&self, q: &DVec3, outline: &mut Outline) {
         let bow = DVec2::new(libm::cos(q.z), libm::sin(q.z));
-        outline.hull(bow, LENGTH_M);
+        outline.marks.push(Mark::Hull { bow, length: LENGTH_M });
     }
 
     fn framing(&self) -> Framing {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Outline, Pull};
+use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::{Ellipse, Orbit};
 
@@ -18,8 +18,8 @@ impl Drawn for Orbit {
     fn draw(&self, _q: &DVec2, outline: &mut Outline) {
         let unit = unit(self);
         let (centre, at) = (DVec2::ZERO, outline.at);
-        outline.taper(centre, 0.075 * unit, centre, 0.075 * unit);
-        outline.taper(at, SATELLITE * unit, at, SATELLITE * unit);
+        outline.marks.push(Mark::Anchor { centre, radius: 0.075 * unit });
+        outline.marks.push(Mark::Disc { centre: at, radius: SATELLITE * unit });
     }
 
     fn framing(&self) -> Framing {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Outline, Pull};
+use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::{Body, Pendulum};
 
@@ -14,9 +14,9 @@ const BOB: f64 = 0.12;
 impl Drawn for Pendulum {
     fn draw(&self, _theta: &f64, outline: &mut Outline) {
         let (pivot, bob, unit) = (DVec2::ZERO, outline.at, self.length);
-        outline.line(pivot, bob, 1.4);
-        outline.taper(pivot, 0.035 * unit, pivot, 0.035 * unit);
-        outline.taper(bob, BOB * unit, bob, BOB * unit);
+        outline.marks.push(Mark::Rod { from: pivot, to: bob });
+        outline.marks.push(Mark::Anchor { centre: pivot, radius: 0.035 * unit });
+        outline.marks.push(Mark::Disc { centre: bob, radius: BOB * unit });
     }
 
     fn framing(&self) -> Framing {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Outline, Pull};
+use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::Ship;
 
@@ -11,11 +11,11 @@ const LENGTH_M: f64 = 9.0;
 
 impl Drawn for Ship {
     fn draw(&self, _s: &f64, outline: &mut Outline) {
-        outline.hull(DVec2::X, LENGTH_M);
+        outline.marks.push(Mark::Hull { bow: DVec2::X, length: LENGTH_M });
     }
 
     fn framing(&self) -> Framing {
-        Framing::Follow { width_m: 60.0, height_m: 9.0, wake_s: 3.0 }
+        Framing::Follow { width_m: 38.0, height_m: 9.0, wake_s: 3.0 }
     }
 
     fn handles(&self, s: &f64) -> Vec<Handle> {

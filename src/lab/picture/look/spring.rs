@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Outline, Pull};
+use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::Spring;
 
@@ -18,12 +18,7 @@ const HALF_BLOCK: f64 = 0.16;
 
 impl Drawn for Spring {
     fn draw(&self, _x: &f64, outline: &mut Outline) {
-        let unit = amplitude(self);
-        let wall = DVec2::new(-1.9 * unit, 0.0);
-        let half = HALF_BLOCK * unit;
-        outline.line(wall - DVec2::Y * 0.45 * unit, wall + DVec2::Y * 0.45 * unit, 2.0);
-        outline.coil(wall, outline.at - DVec2::X * half, 9, 0.14 * unit);
-        outline.block(outline.at, DVec2::X, half);
+        outline.marks.push(Mark::Sprung);
     }
 
     fn framing(&self) -> Framing {

@@ -1,11 +1,11 @@
-//! Drifts and kicks in turn, by which the higher symplectic methods are composed.
+//! Composition of drifts and kicks, for higher-order symplectic methods.
 
 use crate::sim::system::{State, System, Vector};
 
 /// For each `(c, d)` of `stages` a drift `q += c h v` and a kick `v += d h a`, then the `last` drift.
 ///
-/// Time passes with the drifts, and a kick takes the velocity as it finds it: forces that depend on
-/// velocity cost the composition its order.
+/// Time advances with the drifts, and a kick uses the current velocity: forces that depend on velocity
+/// reduce the order.
 #[inline]
 pub(in crate::sim::integrators) fn compose<S: System>(
     system: &S,

@@ -1,5 +1,5 @@
-//! Explicit Runge-Kutta pairs: two solutions of neighbouring orders from the same stages, of which the
-//! better is kept and the difference is the error.
+//! Embedded Runge-Kutta pairs: two solutions of neighbouring orders from the same stages. The more
+//! accurate one is kept, and their difference is the error estimate.
 
 use std::marker::PhantomData;
 
@@ -9,18 +9,18 @@ use crate::sim::integrators::integrator::Integrator;
 use crate::sim::integrators::tolerance::Tolerance;
 use crate::sim::system::{State, System, Vector};
 
-/// The tableau of a pair of `N` stages whose last stage is the kept solution, so that its slope is the
-/// first of the next step.
+/// The tableau of a pair of `N` stages. The last stage is at the kept solution, so that its slope is
+/// the first of the next step.
 pub trait Pair<const N: usize>: Send + 'static {
     /// The order of the kept solution.
     const ORDER: u32;
-    /// The stages' times, in parts of the step.
+    /// The times of the stages, as fractions of the step.
     const C: [f64; N];
-    /// The stages' weights; the last row is the kept solution.
+    /// The weights of the stages; the last row gives the kept solution.
     const A: [[f64; N]; N];
-    /// The kept solution's weights less those of the other.
+    /// The weights of the kept solution minus those of the other.
     const E: [f64; N];
-    /// What is allowed where nobody says otherwise.
+    /// The default tolerance.
     const TOLERANCE: Tolerance;
 }
 
@@ -38,7 +38,7 @@ pub struct EmbeddedPair<V, P, const N: usize> {
 }
 
 impl<V: Vector, P: Pair<N>, const N: usize> EmbeddedPair<V, P, N> {
-    /// The method with a tolerance other than its card's.
+    /// The method with a tolerance that overrides its card's.
     pub fn with_tolerance(like: &V, tolerance: Tolerance) -> Self {
         let mut zero = State { q: like.clone(), v: like.clone() };
         zero.q.components_mut().fill(0.0);
@@ -77,20 +77,20 @@ impl<S: System, P: Pair<N>, const N: usize> Integrator<S> for EmbeddedPair<S::Ve
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         let Self { step_size, k, stage, error, zero, .. } = self;
-        let mut cover = step_size.cover(h);
-        if !cover.continues_the_last() {
+        let mut progress = step_size.begin_tick(h);
+        if !progress.continues_the_last() {
             system.derivative(t, y, &mut k[0]);
         }
-        while !cover.is_over() {
-            let (t, h) = (t + cover.gone(), cover.trial()?);
+        while !progress.is_finished() {
+            let (t, h) = (t + progress.elapsed(), progress.trial()?);
             for i in 1..N {
                 let (known, next) = k.split_at_mut(i);
-                weigh(stage, y, h, &P::A[i], known);
+                weighted_sum(stage, y, h, &P::A[i], known);
                 system.derivative(t + h * P::C[i], stage, &mut next[0]);
             }
-            weigh(error, zero, 1.0, &P::E, k);
-            let error = cover.error(h, error, y);
-            if cover.accepts(error, |error| steady_factor(error, P::ORDER)) {
+            weighted_sum(error, zero, 1.0, &P::E, k);
+            let error = progress.error(h, error, y);
+            if progress.accepts(error, |error| steady_factor(error, P::ORDER)) {
                 y.assign(stage);
                 k.swap(0, N - 1);
             }
@@ -109,7 +109,13 @@ impl<S: System, P: Pair<N>, const N: usize> Integrator<S> for EmbeddedPair<S::Ve
 
 /// `sum = y + h Σ weights k`.
 #[inline(always)]
-fn weigh<V: Vector>(sum: &mut State<V>, y: &State<V>, h: f64, weights: &[f64], k: &[State<V>]) {
+fn weighted_sum<V: Vector>(
+    sum: &mut State<V>,
+    y: &State<V>,
+    h: f64,
+    weights: &[f64],
+    k: &[State<V>],
+) {
     sum.assign(y);
     for (weight, k) in weights.iter().zip(k) {
         if *weight != 0.0 {

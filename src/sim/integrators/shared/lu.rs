@@ -1,10 +1,9 @@
-//! Linear equations: Gaussian elimination with partial pivoting, in storage that is made once.
+//! LU factorisation with partial pivoting, in storage allocated once.
 //!
-//! Written out because nalgebra allocates in every factorisation of a size not known to the compiler, and
-//! faer would be many times the size of this whole layer; a body has few coordinates, and this is forty
-//! lines.
+//! Written out because nalgebra allocates in every factorisation of dynamic size, and faer would be
+//! many times the size of this layer.
 
-/// A square matrix and, after [`Lu::factor`], its triangular factors in the same place.
+/// A square matrix, replaced by its triangular factors in [`Lu::factor`].
 #[derive(Clone)]
 pub(super) struct Lu {
     size: usize,
@@ -19,17 +18,17 @@ impl Lu {
         Self { size, entries: vec![0.0; size * size], swaps: vec![0; size] }
     }
 
-    /// The memory that it takes beyond its own size, in bytes.
+    /// Memory on the heap, in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
         size_of_val(&self.entries[..]) + size_of_val(&self.swaps[..])
     }
 
-    /// A column of the matrix, to be written before it is factored.
+    /// A column of the matrix, to be filled before factoring.
     pub(super) fn column_mut(&mut self, j: usize) -> &mut [f64] {
         &mut self.entries[j * self.size..][..self.size]
     }
 
-    /// Factors the matrix. One that is singular gives solutions that are not finite.
+    /// Factors the matrix. A singular matrix gives solutions that are not finite.
     pub(super) fn factor(&mut self) {
         let Self { size, entries, swaps } = self;
         for k in 0..*size {
@@ -50,7 +49,7 @@ impl Lu {
             for right in rest.chunks_exact_mut(*size) {
                 right.swap(k, largest);
                 let factor = right[k];
-                // Chains and nets are mostly zeros.
+                // The matrices of chains are sparse.
                 if factor != 0.0 {
                     for (entry, below) in right[k + 1..].iter_mut().zip(&column[k + 1..]) {
                         *entry -= factor * below;

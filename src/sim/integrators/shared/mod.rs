@@ -1,4 +1,4 @@
-//! What several methods are made of.
+//! Building blocks shared by several methods.
 
 pub(super) mod composition;
 pub(super) mod embedded_pair;

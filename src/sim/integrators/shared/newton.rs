@@ -1,10 +1,10 @@
 //! Newton's iteration for the accelerations at the stages of an implicit method.
 //!
-//! The coordinates and velocities of a stage are sums of what is known before and of the accelerations
-//! sought, so that these are all there is to solve for. Their derivatives come by differences, once a
-//! step, and again where that turns out too coarse. The iteration goes on to round-off, because a method
-//! that keeps a quantity keeps it only as well as its equations are solved. Where it does not converge, the
-//! solution is followed from a shorter step.
+//! Coordinates and velocities of a stage are sums of known terms and of the accelerations, which are
+//! therefore the only unknowns. The Jacobian is taken by finite differences once per step, and again if
+//! convergence is slow. The iteration continues to round-off, because a method conserves a quantity
+//! only as well as its equations are solved. If it does not converge, the solution is continued from a
+//! shorter step.
 
 use crate::sim::integrators::failure::StepFailure;
 use crate::sim::system::{State, System, Vector};
@@ -16,8 +16,8 @@ mod curve;
 mod iteration;
 
 impl<V: Vector> Newton<V, 1> {
-    /// Carries `y` to the solution of `Y = y + c f(t, Y)`.
-    pub(in crate::sim::integrators) fn backward(
+    /// Replaces `y` by the solution of `Y = y + c f(t, Y)`.
+    pub(in crate::sim::integrators) fn backward_euler(
         &mut self,
         system: &impl System<Vector = V>,
         t: f64,
@@ -34,7 +34,7 @@ impl<V: Vector> Newton<V, 1> {
 }
 
 impl<V: Vector, const S: usize> Newton<V, S> {
-    /// Finds the accelerations.
+    /// Solves for the accelerations at the stages.
     pub(in crate::sim::integrators) fn solve(
         &mut self,
         system: &impl System<Vector = V>,
@@ -43,7 +43,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         for a in &mut self.a {
             a.components_mut().fill(0.0);
         }
-        if self.iterate(system, stages) || self.follow(system, stages) {
+        if self.iterate(system, stages) || self.solve_by_continuation(system, stages) {
             return Ok(());
         }
         Err(StepFailure::NewtonFailed { limit: MAX_ITERATIONS })

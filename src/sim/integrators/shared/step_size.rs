@@ -1,40 +1,41 @@
-//! How an adaptive method covers a tick: which substep it tries, whether it keeps it, and what it tries
-//! next. The step is carried from tick to tick.
+//! Step size control of an adaptive method: which substep of a tick it tries, whether it accepts it,
+//! and what it tries next. The step size is carried from tick to tick.
 //!
-//! The error of a substep is held against the tolerance as it is, not divided by the step: as all pairs
-//! here keep the better of their two solutions, the error for each second is then proportional to the
-//! tolerance, and a method of order p takes `tolerance^(-1/p)` substeps.
+//! The error of a substep is compared with the tolerance as it is, not divided by the step. All pairs
+//! here propagate the better of their two solutions, so that the error per second is proportional to
+//! the tolerance, and a method of order p takes `tolerance^(-1/p)` substeps.
 
 use super::last_step::LastStep;
 use crate::sim::integrators::failure::StepFailure;
 use crate::sim::integrators::tolerance::Tolerance;
 use crate::sim::system::{State, Vector};
 
-/// Aims below the tolerance, so that the next attempt is rarely rejected.
+/// Aims below the tolerance, so that few attempts are rejected.
 const SAFETY: f64 = 0.9;
-/// The least and the most by which one attempt changes the step.
+/// The smallest and the largest change of the step in one attempt.
 const FACTORS: (f64, f64) = (0.2, 5.0);
-/// A step that could grow by less is left as it is, which saves a power; larger, and the step is shorter
-/// than it need be.
-const WORTH_WHILE: f64 = 1.25;
-/// So is one whose error is at most this part of what is allowed; larger, and the next is often rejected.
-const COMFORTABLE: f64 = 0.8;
-/// Attempts in one tick. Usual ticks take 1 to 50; without a limit a force that jumps would hang.
+/// A step that could grow by less than this keeps its size, which saves a power. If larger, steps stay
+/// shorter than necessary.
+const LEAST_GROWTH: f64 = 1.25;
+/// A step keeps its size up to this error, relative to the tolerance. If larger, the next step is often
+/// rejected.
+const LARGEST_STEADY_ERROR: f64 = 0.8;
+/// The largest number of attempts in one tick. Usual ticks take 1 to 50; without a limit a
+/// discontinuous force would never end.
 const MAX_ATTEMPTS: u32 = 10_000;
 
-/// What the step is to be multiplied by, where `root` is the error in units of what is allowed, to the
-/// power 1 / p.
+/// The factor for the next step; `root` is the error relative to the tolerance, to the power 1 / p.
 #[inline]
 pub(in crate::sim::integrators) fn factor(root: f64) -> f64 {
     let factor = (SAFETY / root).clamp(FACTORS.0, FACTORS.1);
     if factor.is_nan() { FACTORS.0 } else { factor }
 }
 
-/// As [`factor`] for an error of the order p, but 1 where the step is good and could hardly grow.
+/// As [`factor`] for an error of order p, but 1 if the step is accepted and could hardly grow.
 #[inline]
 pub(in crate::sim::integrators) fn steady_factor(error: f64, order: u32) -> f64 {
-    let steady = (0..order).fold(1.0, |product, _| product * (SAFETY / WORTH_WHILE));
-    if (steady..=COMFORTABLE).contains(&error) {
+    let steady = (0..order).fold(1.0, |product, _| product * (SAFETY / LEAST_GROWTH));
+    if (steady..=LARGEST_STEADY_ERROR).contains(&error) {
         1.0
     } else {
         factor(libm::pow(error, 1.0 / f64::from(order)))
@@ -45,9 +46,9 @@ pub(in crate::sim::integrators) fn steady_factor(error: f64, order: u32) -> f64 
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct StepSize {
     pub(in crate::sim::integrators) tolerance: Tolerance,
-    /// The last tick.
+    /// The length of the last tick.
     last_step: LastStep,
-    /// The substep to try first in a tick that continues the last.
+    /// The first substep to try in a tick of the same length.
     next: f64,
     accepted: u64,
     rejected: u64,
@@ -72,18 +73,18 @@ impl StepSize {
         *self = Self::new(self.tolerance);
     }
 
-    /// Sets out to cover a tick of `h`: first by the substep carried from the last tick, or, where that was of
-    /// another length, in one substep.
+    /// Begins a tick of `h`: with the substep carried from the last tick, or with a single substep if
+    /// that tick had another length.
     #[inline]
-    pub(in crate::sim::integrators) fn cover(&mut self, h: f64) -> Cover<'_> {
+    pub(in crate::sim::integrators) fn begin_tick(&mut self, h: f64) -> TickProgress<'_> {
         let continues = self.last_step.is_continued_by(h);
         let carried = if continues { self.next } else { h };
-        Cover { size: self, continues, h, left: h, carried, trial: h, attempts: 0 }
+        TickProgress { size: self, continues, h, left: h, carried, trial: h, attempts: 0 }
     }
 }
 
-/// A tick on the way to its end.
-pub(in crate::sim::integrators) struct Cover<'a> {
+/// The progress through a tick.
+pub(in crate::sim::integrators) struct TickProgress<'a> {
     size: &'a mut StepSize,
     continues: bool,
     h: f64,
@@ -93,8 +94,8 @@ pub(in crate::sim::integrators) struct Cover<'a> {
     attempts: u32,
 }
 
-impl Cover<'_> {
-    /// Whether what was carried from the last tick fits this one.
+impl TickProgress<'_> {
+    /// Whether memory from the last tick is valid in this one.
     #[inline]
     pub(in crate::sim::integrators) fn continues_the_last(&self) -> bool {
         self.continues
@@ -114,16 +115,16 @@ impl Cover<'_> {
 
     /// The time from the start of the tick to the start of the substep.
     #[inline]
-    pub(in crate::sim::integrators) fn gone(&self) -> f64 {
+    pub(in crate::sim::integrators) fn elapsed(&self) -> f64 {
         self.h - self.left
     }
 
     #[inline]
-    pub(in crate::sim::integrators) fn is_over(&self) -> bool {
+    pub(in crate::sim::integrators) fn is_finished(&self) -> bool {
         self.left == 0.0
     }
 
-    /// The error of the substep just tried, in units of what is allowed.
+    /// The error of the last attempt, relative to the tolerance.
     #[inline]
     pub(in crate::sim::integrators) fn error<V: Vector>(
         &self,
@@ -131,11 +132,11 @@ impl Cover<'_> {
         error: &State<V>,
         y: &State<V>,
     ) -> f64 {
-        self.size.tolerance.measure(h, error, y)
+        self.size.tolerance.relative_error(h, error, y)
     }
 
-    /// Whether a substep with this error is kept. `factor` says what to multiply the step by, where that
-    /// is asked for: one cut short by the end of the tick tells nothing about the next.
+    /// Accepts or rejects a substep with this error. `factor` gives the factor for the next step; it is
+    /// not used after a substep cut short by the end of the tick.
     #[inline]
     pub(in crate::sim::integrators) fn accepts(
         &mut self,
@@ -149,7 +150,7 @@ impl Cover<'_> {
                 self.carried *= factor(error);
             }
             self.left -= self.trial;
-            if self.is_over() {
+            if self.is_finished() {
                 self.size.next = self.carried;
                 self.size.last_step.end(self.h);
             }

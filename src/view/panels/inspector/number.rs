@@ -4,8 +4,7 @@ use std::cell::RefCell;
 
 use egui::{DragValue, Id, Response, RichText, Ui, Vec2};
 
-use super::super::colour;
-use crate::lab::picture::palette;
+use super::super::ink;
 
 /// What one point of a drag changes, as a part of the number.
 const SPEED: f64 = 0.004;
@@ -82,7 +81,7 @@ impl Field<'_> {
     /// Says under the field with this id what was wrong with what was typed last.
     pub(super) fn show_fault(id: Id, ui: &mut Ui) {
         if let Some(fault) = ui.data(|data| data.get_temp::<String>(id)) {
-            ui.label(RichText::new(fault).size(11.0).color(colour(palette::ALARM)));
+            ui.label(RichText::new(fault).size(11.0).color(ink(ui).bad));
         }
     }
 }

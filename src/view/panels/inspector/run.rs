@@ -4,12 +4,11 @@ use egui::{ComboBox, Id, RichText, Ui, vec2};
 
 use super::number::Field;
 use super::{LINE, RESTORE, line, restore};
-use crate::lab::picture::palette;
 use crate::lab::{
     Action, Command, Entrant, LEAST_SECONDS, Lab, LaneSpec, MOST_SECONDS, MOST_SUBSTEPS,
     MOST_TICK_HZ, Mode, TOLERANCES,
 };
-use crate::view::panels::{TEXT, colour};
+use crate::view::panels::ink;
 
 /// The widths of the fields of a lane, in points.
 const SUBSTEPS: f32 = 44.0;
@@ -28,7 +27,7 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
     let lane = entrant.lane_number;
     let spec = lab.entries()[entrant.entry];
     let ids = ["substeps", "tolerance"].map(|field| ui.scope_id().with((lane, field)));
-    let number = RichText::new(lane.to_string()).color(colour(palette::style(spec.method).0));
+    let number = RichText::new(lane.to_string()).color(ink(ui).style(&spec).0);
     ui.add_sized([LANE, LINE], egui::Label::new(number.strong()));
     let gap = ui.spacing().item_spacing.x;
     let width = ui.available_width() - SUBSTEPS - TOLERANCE - RESTORE - 4.0 * gap;
@@ -79,7 +78,7 @@ fn show_methods(
 ) {
     let present = lab.entries()[entrant.entry];
     let menu = ComboBox::from_id_salt(("method", entrant.lane_number)).width(width).truncate();
-    let menu = menu.selected_text(RichText::new(present.method.name).color(TEXT));
+    let menu = menu.selected_text(RichText::new(present.method.name).color(ink(ui).text));
     menu.show_ui(ui, |ui| {
         for (entry, spec) in lab.entries().iter().enumerate() {
             let is_present = entry == entrant.entry;

@@ -2,9 +2,8 @@
 
 use egui::Color32;
 
-use super::super::{ACCENT, DOUBTFUL, QUIET, TEXT, WELL, colour};
+use super::super::Ink;
 use crate::lab::number::round;
-use crate::lab::picture::palette;
 use crate::lab::{Action, Event, EventKind, LaneSpec, Mode, Race, Scene, Source, TimeScale};
 
 /// The sign of a mark. Of several in one place the last of this list is drawn.
@@ -60,12 +59,13 @@ pub(super) struct Context<'a> {
     /// The race as it started.
     pub(super) start: &'a Race,
     pub(super) times: &'a TimeScale,
+    pub(super) ink: &'static Ink,
 }
 
 impl Context<'_> {
     /// The marks of these events, by tick.
     pub(super) fn marks(&self, events: &[Event]) -> Vec<Mark> {
-        let (mut mode, alarm) = (self.start.mode(), colour(palette::ALARM));
+        let (mut mode, alarm) = (self.start.mode(), self.ink.bad);
         let mark = |event: &Event| {
             let (sign, colour, what) = match &event.kind {
                 EventKind::Done(action, source) => {
@@ -93,11 +93,11 @@ impl Context<'_> {
     /// The mark of the last tick that was reached.
     pub(super) fn end(&self, tick: u64) -> Mark {
         let text = format!("{}: nothing was run beyond it", moment(tick, self.times));
-        Mark { tick, sign: Sign::End, colour: TEXT, text }
+        Mark { tick, sign: Sign::End, colour: self.ink.text, text }
     }
 
     fn of_action(&self, action: &Action, mode: Mode) -> (Sign, Color32, String) {
-        let of = |spec: &LaneSpec| colour(palette::style(spec.method).0);
+        let of = |spec: &LaneSpec| self.ink.style(spec).0;
         let percent = |part: f64| format!("{} %", round(100.0 * part, 3));
         match *action {
             Action::Method(method) => {
@@ -120,31 +120,39 @@ impl Context<'_> {
                 (Sign::Switch, of(&spec), format!("{what} in lane {lane}"))
             }
             Action::Solo { lane } => {
-                (Sign::Switch, TEXT, format!("lane {lane} goes on without the others"))
+                (Sign::Switch, self.ink.text, format!("lane {lane} goes on without the others"))
             }
             Action::Substeps { lane, substeps } => {
                 let s = if substeps == 1 { "" } else { "s" };
-                (Sign::Edit, ACCENT, format!("{substeps} substep{s} in lane {lane}"))
+                (Sign::Edit, self.ink.accent, format!("{substeps} substep{s} in lane {lane}"))
             }
             Action::Tolerance { lane, tolerance } => {
                 let what = format!("tolerance {} in lane {lane}", round(tolerance, 3));
-                (Sign::Edit, ACCENT, what)
+                (Sign::Edit, self.ink.accent, what)
             }
             Action::Set { body, parameter, value } => {
                 let body = &self.scene.bodies[body];
                 let parameter = &body.kind.parameters[parameter];
                 let quantity = format!("{} of {}", parameter.quantity(), body.name);
                 let value = format!("{} {}", round(value, 5), parameter.unit);
-                (Sign::Edit, ACCENT, format!("{quantity} = {}", value.trim_end()))
+                (Sign::Edit, self.ink.accent, format!("{quantity} = {}", value.trim_end()))
             }
-            Action::TickHz(tick_hz) => (Sign::Rate, TEXT, format!("{tick_hz} Hz")),
-            Action::Throttle(part) => (Sign::Input, QUIET, format!("throttle {}", percent(part))),
-            Action::Rudder(part) => (Sign::Input, QUIET, format!("rudder {}", percent(part))),
-            Action::Kick(1.0) => (Sign::Kick, DOUBTFUL, "kick".into()),
-            Action::Kick(times) => (Sign::Kick, DOUBTFUL, format!("kick ×{}", round(times, 3))),
-            Action::Place { body, .. } => {
-                (Sign::Place, WELL, format!("{} is put in its place", self.scene.bodies[body].name))
+            Action::TickHz(tick_hz) => (Sign::Rate, self.ink.text, format!("{tick_hz} Hz")),
+            Action::Throttle(part) => {
+                (Sign::Input, self.ink.dim, format!("throttle {}", percent(part)))
             }
+            Action::Rudder(part) => {
+                (Sign::Input, self.ink.dim, format!("rudder {}", percent(part)))
+            }
+            Action::Kick(1.0) => (Sign::Kick, self.ink.warn, "kick".into()),
+            Action::Kick(times) => {
+                (Sign::Kick, self.ink.warn, format!("kick ×{}", round(times, 3)))
+            }
+            Action::Place { body, .. } => (
+                Sign::Place,
+                self.ink.good,
+                format!("{} is put in its place", self.scene.bodies[body].name),
+            ),
         }
     }
 
@@ -177,10 +185,15 @@ pub(super) fn grouped(marks: Vec<Mark>, x: impl Fn(&Mark) -> f32, apart: f32) ->
 }
 
 /// The colours of the methods that a lane was under, each from a tick on; the first from the start.
-pub(super) fn colours(lane: usize, events: &[Event], start: &Race) -> Vec<(u64, Color32)> {
-    let of = |spec: &LaneSpec| colour(palette::style(spec.method).0);
+pub(super) fn colours(
+    lane: usize,
+    events: &[Event],
+    start: &Race,
+    ink: &Ink,
+) -> Vec<(u64, Color32)> {
+    let of = |spec: &LaneSpec| ink.style(spec).0;
     let entrant = start.entrants().iter().find(|entrant| entrant.lane_number == lane);
-    let first = entrant.map_or(QUIET, |entrant| of(&start.list()[entrant.entry]));
+    let first = entrant.map_or(ink.dim, |entrant| of(&start.list()[entrant.entry]));
     let mut mode = start.mode();
     let mut colours = vec![(0, first)];
     for event in events {
@@ -202,11 +215,13 @@ pub(super) fn colours(lane: usize, events: &[Event], start: &Race) -> Vec<(u64, 
 mod tests {
     use super::*;
     use crate::lab::{Command, Lab};
+    use crate::view::theme::ink_of;
 
     fn marks(lab: &Lab) -> Vec<Mark> {
         let timeline = lab.timeline();
         let (start, times) = (timeline.start(), &timeline.times());
-        Context { scene: lab.scene(), start, times }.marks(&timeline.events())
+        let ink = ink_of(lab.display().theme);
+        Context { scene: lab.scene(), start, times, ink }.marks(&timeline.events())
     }
 
     fn texts(lab: &Lab) -> Vec<String> {
@@ -260,7 +275,7 @@ mod tests {
 
     #[test]
     fn marks_that_would_touch_are_one_with_the_sign_that_matters_most() {
-        let mark = |tick, sign| Mark { tick, sign, colour: TEXT, text: tick.to_string() };
+        let mark = |tick, sign| Mark { tick, sign, colour: Color32::WHITE, text: tick.to_string() };
         let marks = vec![
             mark(0, Sign::Kick),
             mark(3, Sign::Halt),
@@ -278,12 +293,13 @@ mod tests {
     #[test]
     fn the_track_has_the_colours_of_the_methods_in_force() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        let of = |lab: &Lab, entry: usize| colour(palette::style(lab.entries()[entry].method).0);
+        let of =
+            |lab: &Lab, entry: usize| ink_of(lab.display().theme).style(&lab.entries()[entry]).0;
         run(&mut lab, 20);
         lab.apply(Command::Pick(3));
         run(&mut lab, 20);
         let timeline = lab.timeline();
-        let found = colours(1, &timeline.events(), timeline.start());
+        let found = colours(1, &timeline.events(), timeline.start(), ink_of(lab.display().theme));
         assert_eq!(found, [(0, of(&lab, 0)), (20, of(&lab, 3))]);
     }
 }

@@ -1,151 +1,160 @@
-//! Where Newton's iteration does not find the accelerations of a step: they are followed there from a step
-//! of which they are known.
+//! Continuation, for steps at which Newton's iteration does not converge: the solution is followed from
+//! a step of length zero, at which it is known.
 //!
-//! With the weights α and β multiplied by λ, the equations are solved at λ = 0 by the force at what is known
-//! before, and at λ = 1 they are those of the step. The solutions between are a curve, which turns back
-//! where two of them meet; counted by its length (Keller, *Numerical solution of bifurcation and nonlinear
-//! eigenvalue problems*, 1977), it is followed round such folds. If the force is bounded and smooth, the
-//! curve cannot end before it reaches λ = 1.
+//! The weights α and β are multiplied by λ. At λ = 0 the solution is the force at the known terms;
+//! at λ = 1 it is that of the step. The solutions in between form a curve, which turns back at folds,
+//! where two solutions meet. Parametrised by arc length (Keller, *Numerical solution of bifurcation and
+//! nonlinear eigenvalue problems*, 1977), it is followed through such folds. If the force is bounded
+//! and smooth, the curve cannot end before λ = 1.
 
 use super::curve::Curve;
 use super::iteration::{Newton, Stages, components, largest};
 use crate::sim::system::{System, Vector};
 
-/// The longest stretches of three attempts: with longer ones the curve is left for another nearby, which may
-/// lead nowhere, with shorter ones it takes longer.
-const LONGEST: [f64; 3] = [0.25, 0.05, 0.01];
-/// The shortest stretch: a force that is no smooth function of the state at this scale is given up.
-const SHORTEST: f64 = 1e-7;
-/// How a stretch grows after it has been corrected onto the curve, and shrinks where it cannot be.
-const FACTORS: (f64, f64) = (1.5, 0.3);
-/// The most stretches of an attempt: a curve of ten folds takes some hundred.
-const MOST_STRETCHES: u32 = 1000;
-/// The most corrections of one.
+/// The longest arc length of a step, in each of three attempts: longer steps can jump to a nearby curve
+/// that leads nowhere, shorter ones take longer.
+const LONGEST_STEPS: [f64; 3] = [0.25, 0.05, 0.01];
+/// The shortest arc length of a step: a force that is not smooth at this scale is given up.
+const SHORTEST_STEP: f64 = 1e-7;
+/// The factors by which a step grows if it converged, and shrinks if it did not.
+const STEP_FACTORS: (f64, f64) = (1.5, 0.3);
+/// The largest number of steps of an attempt.
+const MOST_STEPS: u32 = 1000;
+/// The largest number of corrector iterations of a step.
 const MOST_CORRECTIONS: u32 = 6;
-/// The last correction: the curve need only be followed, and its end is solved to round-off.
-const CORRECTED: f64 = 1e-6;
-/// The part of λ by which the slope along it is taken.
-const NUDGE: f64 = 1e-6;
+/// The size of the last correction. It can be coarse, because the end of the curve is solved to
+/// round-off.
+const CORRECTOR_TOLERANCE: f64 = 1e-6;
+/// The change of λ for the derivative with respect to it.
+const LAMBDA_DIFFERENCE: f64 = 1e-6;
 
 impl<V: Vector, const S: usize> Newton<V, S> {
-    /// Solves the equations, and returns whether it did.
+    /// Solves the equations. Returns whether it succeeded.
     #[cold]
-    pub(super) fn follow(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) -> bool {
-        LONGEST.iter().any(|&longest| self.follow_by(system, stages, longest))
+    pub(super) fn solve_by_continuation(
+        &mut self,
+        system: &impl System<Vector = V>,
+        stages: &Stages<S>,
+    ) -> bool {
+        LONGEST_STEPS.iter().any(|&longest| self.continue_by(system, stages, longest))
     }
 
-    /// The same by stretches of no more than `longest`, in units of λ, and of the force for accelerations.
-    fn follow_by(
+    /// Follows the curve by steps of at most `longest`, in units of λ, and of the force for
+    /// accelerations.
+    fn continue_by(
         &mut self,
         system: &impl System<Vector = V>,
         stages: &Stages<S>,
         longest: f64,
     ) -> bool {
-        // Where the weights are 0, the force is what it is at any accelerations.
+        // At λ = 0 the force does not depend on the accelerations.
         self.a.iter_mut().for_each(|a| a.components_mut().fill(0.0));
-        let Self { known, a, found, stage, curve, .. } = self;
-        stages.scaled(0.0).evaluate(system, known, a, stage, found);
-        let force = largest(components(found));
+        let Self { known, a, evaluated, stage, curve, .. } = self;
+        stages.scaled(0.0).evaluate(system, known, a, stage, evaluated);
+        let force = largest(components(evaluated));
         if !force.is_finite() {
             return false;
         }
-        for (a, found) in a.iter_mut().zip(found.iter()) {
-            a.assign(found);
+        for (a, evaluated) in a.iter_mut().zip(evaluated.iter()) {
+            a.assign(evaluated);
         }
         curve.scale = force.max(f64::MIN_POSITIVE);
         curve.lambda = 0.0;
         curve.tangent.fill(0.0);
         curve.tangent_lambda = 1.0;
 
-        let mut reach = longest;
-        for _ in 0..MOST_STRETCHES {
-            self.aim(system, stages);
+        let mut step = longest;
+        for _ in 0..MOST_STEPS {
+            self.update_tangent(system, stages);
             let Self { a, curve, .. } = self;
-            for (from, a) in curve.from.iter_mut().zip(components(a)) {
-                *from = *a;
+            for (start, a) in curve.start.iter_mut().zip(components(a)) {
+                *start = *a;
             }
             let begun = curve.lambda;
-            if self.stretch(system, stages, reach) {
-                // Its only place at λ = 0 is the first: below that, it is another curve.
+            if self.predict_and_correct(system, stages, step) {
+                // The curve has only its start at λ = 0; with λ < 0 this is another curve.
                 if self.curve.lambda < 0.0 {
                     return false;
                 }
                 if self.curve.lambda < 1.0 {
-                    reach = (FACTORS.0 * reach).min(longest);
+                    step = (STEP_FACTORS.0 * step).min(longest);
                     continue;
                 }
-                // Where the chord passes λ = 1 the end is near.
+                // The chord crosses λ = 1 close to the solution.
                 let part = (1.0 - begun) / (self.curve.lambda - begun);
                 let rows = self.a.iter_mut().flat_map(V::components_mut);
-                for (a, from) in rows.zip(&self.curve.from) {
-                    *a = from + part * (*a - from);
+                for (a, start) in rows.zip(&self.curve.start) {
+                    *a = start + part * (*a - start);
                 }
                 if self.iterate(system, stages) {
                     return true;
                 }
             }
             let rows = self.a.iter_mut().flat_map(V::components_mut);
-            for (a, from) in rows.zip(&self.curve.from) {
-                *a = *from;
+            for (a, start) in rows.zip(&self.curve.start) {
+                *a = *start;
             }
             self.curve.lambda = begun;
-            reach *= FACTORS.1;
-            if reach < SHORTEST {
+            step *= STEP_FACTORS.1;
+            if step < SHORTEST_STEP {
                 return false;
             }
         }
         false
     }
 
-    /// Turns the tangent to the curve at the present place, onwards.
-    fn aim(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) {
-        self.look(system, stages);
-        let Curve { scale, side, tangent, tangent_lambda, .. } = &mut self.curve;
-        let along = dot(side, tangent) / (*scale * *scale) + *tangent_lambda;
-        let length = (dot(side, side) / (*scale * *scale) + 1.0).sqrt().copysign(along);
-        for (tangent, side) in tangent.iter_mut().zip(side) {
-            *tangent = *side / length;
+    /// Computes the tangent at the current point, in the direction of travel.
+    fn update_tangent(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) {
+        self.linearise_on_curve(system, stages);
+        let Curve { scale, slope_by_lambda, tangent, tangent_lambda, .. } = &mut self.curve;
+        let along = dot(slope_by_lambda, tangent) / (*scale * *scale) + *tangent_lambda;
+        let length = (dot(slope_by_lambda, slope_by_lambda) / (*scale * *scale) + 1.0)
+            .sqrt()
+            .copysign(along);
+        for (tangent, slope_by_lambda) in tangent.iter_mut().zip(slope_by_lambda) {
+            *tangent = *slope_by_lambda / length;
         }
         *tangent_lambda = 1.0 / length;
     }
 
-    /// Goes on by `reach` along the tangent and from there across it back to the curve; returns whether it
-    /// got there.
-    fn stretch(
+    /// One step: predicts along the tangent by `step`, then corrects perpendicular to it. Returns
+    /// whether it converged to the curve.
+    fn predict_and_correct(
         &mut self,
         system: &impl System<Vector = V>,
         stages: &Stages<S>,
-        reach: f64,
+        step: f64,
     ) -> bool {
         let Self { a, curve, .. } = self;
         let rows = a.iter_mut().flat_map(V::components_mut);
         for (a, tangent) in rows.zip(&curve.tangent) {
-            *a += reach * tangent;
+            *a += step * tangent;
         }
-        curve.lambda += reach * curve.tangent_lambda;
+        curve.lambda += step * curve.tangent_lambda;
         let mut last = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
-            self.look(system, stages);
-            self.subtract();
-            self.matrix.solve(&mut self.missing);
-            let Self { a, missing, curve, .. } = self;
-            let Curve { lambda, scale, side, tangent, tangent_lambda, .. } = curve;
+            self.linearise_on_curve(system, stages);
+            self.compute_residual();
+            self.jacobian.solve(&mut self.residual);
+            let Self { a, residual, curve, .. } = self;
+            let Curve { lambda, scale, slope_by_lambda, tangent, tangent_lambda, .. } = curve;
             let unit = *scale * *scale;
-            let across = dot(tangent, side) / unit + *tangent_lambda;
-            let more = -dot(tangent, missing) / unit / across;
+            let across = dot(tangent, slope_by_lambda) / unit + *tangent_lambda;
+            let more = -dot(tangent, residual) / unit / across;
             let mut size = more.abs();
-            let rows = a.iter_mut().flat_map(V::components_mut).zip(missing.iter()).zip(side);
-            for ((a, missing), side) in rows {
-                let correction = missing + more * *side;
+            let rows =
+                a.iter_mut().flat_map(V::components_mut).zip(residual.iter()).zip(slope_by_lambda);
+            for ((a, residual), slope_by_lambda) in rows {
+                let correction = residual + more * *slope_by_lambda;
                 *a += correction;
                 size = size.max(correction.abs() / *scale);
             }
             *lambda += more;
-            // Written so that a NaN is no way on. Longer than the stretch, it leads to another curve.
-            if !(size < last && size <= reach) {
+            // Written so that a NaN fails. A correction longer than the step leads to another curve.
+            if !(size < last && size <= step) {
                 return false;
             }
-            if size <= CORRECTED {
+            if size <= CORRECTOR_TOLERANCE {
                 return true;
             }
             last = size;
@@ -153,23 +162,25 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         false
     }
 
-    /// Writes the force and the matrix at the present place, and how the solution moves with λ.
-    fn look(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) {
+    /// Evaluates the force, the Jacobian and the derivative of the solution with respect to λ at the
+    /// current point.
+    fn linearise_on_curve(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) {
         let lambda = self.curve.lambda;
         let here = stages.scaled(lambda);
         {
-            let Self { known, a, found, stage, .. } = self;
-            here.evaluate(system, known, a, stage, found);
+            let Self { known, a, evaluated, stage, .. } = self;
+            here.evaluate(system, known, a, stage, evaluated);
         }
-        self.linearise(system, &here, stages);
-        let Self { known, a, found, nudged, stage, curve, matrix, .. } = self;
-        curve.scale = curve.scale.max(largest(components(found)));
-        stages.scaled(lambda + NUDGE).evaluate(system, known, a, stage, nudged);
-        let rows = components(nudged).zip(components(found));
-        for (side, (nudged, found)) in curve.side.iter_mut().zip(rows) {
-            *side = (nudged - found) / NUDGE;
+        self.factor_jacobian(system, &here, stages);
+        let Self { known, a, evaluated, perturbed, stage, curve, jacobian, .. } = self;
+        curve.scale = curve.scale.max(largest(components(evaluated)));
+        stages.scaled(lambda + LAMBDA_DIFFERENCE).evaluate(system, known, a, stage, perturbed);
+        let rows = components(perturbed).zip(components(evaluated));
+        for (slope_by_lambda, (perturbed, evaluated)) in curve.slope_by_lambda.iter_mut().zip(rows)
+        {
+            *slope_by_lambda = (perturbed - evaluated) / LAMBDA_DIFFERENCE;
         }
-        matrix.solve(&mut curve.side);
+        jacobian.solve(&mut curve.slope_by_lambda);
     }
 }
 

@@ -1,18 +1,18 @@
-//! A place on the curve along which a solution is followed.
+//! The curve of solutions that continuation follows.
 
-/// The place on the curve and its direction.
+/// The current point on the curve and its tangent.
 #[derive(Clone, Debug)]
 pub(super) struct Curve {
     pub(super) lambda: f64,
-    /// What the accelerations are measured in: the largest that the force made of them.
+    /// The unit of accelerations: the largest force found on the curve.
     pub(super) scale: f64,
-    /// How the solution moves with λ, as the matrix says.
-    pub(super) side: Vec<f64>,
-    /// The direction of unit length, accelerations in units of `scale`, and λ.
+    /// The derivative of the solution with respect to λ.
+    pub(super) slope_by_lambda: Vec<f64>,
+    /// The unit tangent: accelerations in units of `scale`, and λ.
     pub(super) tangent: Vec<f64>,
     pub(super) tangent_lambda: f64,
-    /// The accelerations at the beginning of a stretch.
-    pub(super) from: Vec<f64>,
+    /// The accelerations at the start of a step.
+    pub(super) start: Vec<f64>,
 }
 
 impl Curve {
@@ -21,16 +21,16 @@ impl Curve {
         Self {
             lambda: 0.0,
             scale: 1.0,
-            side: zeros(),
+            slope_by_lambda: zeros(),
             tangent: zeros(),
             tangent_lambda: 1.0,
-            from: zeros(),
+            start: zeros(),
         }
     }
 
-    /// The memory that it takes beyond its own size, in bytes.
+    /// Memory on the heap, in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
-        let vectors = [&self.side, &self.tangent, &self.from];
+        let vectors = [&self.slope_by_lambda, &self.tangent, &self.start];
         vectors.into_iter().map(|vector| size_of_val(&vector[..])).sum()
     }
 }

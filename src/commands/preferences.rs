@@ -1,0 +1,150 @@
+//! What the window remembers from one run to the next: the scene, the theme and the window's size.
+//!
+//! They are in `window.toml` in the folder that the system has for a program's settings, under `XDG_CONFIG_HOME` on
+//! Linux. A file that cannot be understood is ignored, with a line on standard error.
+
+use std::path::{Path, PathBuf};
+
+use directories::ProjectDirs;
+use toml::de::{DeTable, DeValue};
+
+use super::terminal::tell;
+use crate::lab::Lab;
+use crate::lab::palette::Theme;
+
+/// The name of the file.
+const FILE_NAME: &str = "window.toml";
+
+/// What is remembered.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Preferences {
+    /// The scene that was open last: a built-in one's name, or a file's path.
+    pub(super) scene: Option<PathBuf>,
+    /// The theme that a person has chosen.
+    pub(super) theme: Option<Theme>,
+    /// The size of the window in points.
+    pub(super) size: Option<[u32; 2]>,
+}
+
+impl Preferences {
+    /// What the file says; nothing where there is none.
+    pub(super) fn load() -> Self {
+        let Some(path) = path() else { return Self::default() };
+        let Ok(text) = std::fs::read_to_string(&path) else { return Self::default() };
+        Self::parse(&text).unwrap_or_else(|why| {
+            tell(&format!("{} is ignored: {why}", path.display()));
+            Self::default()
+        })
+    }
+
+    /// Writes the file. Where that is not possible, nothing is remembered.
+    pub(super) fn save(&self) {
+        let Some(path) = path() else { return };
+        let write = |path: &Path| {
+            let folder = path.parent().unwrap_or(path);
+            std::fs::create_dir_all(folder)?;
+            // Whole or not at all, as another window may close at the same time.
+            let mut file = tempfile::NamedTempFile::new_in(folder)?;
+            std::io::Write::write_all(&mut file, self.to_text().as_bytes())?;
+            file.persist(path).map_err(|error| error.error)
+        };
+        if let Err(error) = write(&path) {
+            log::info!("cannot write {}: {error}", path.display());
+        }
+    }
+
+    fn parse(text: &str) -> Result<Self, String> {
+        let table = DeTable::parse(text).map_err(|error| error.message().to_owned())?;
+        let mut preferences = Self::default();
+        for (key, value) in table.get_ref() {
+            let key: &str = key.get_ref();
+            let wrong = || format!("its {key} cannot be understood");
+            match (key, value.get_ref()) {
+                ("scene", DeValue::String(scene)) => {
+                    preferences.scene = Some(PathBuf::from(&**scene));
+                }
+                ("theme", DeValue::String(theme)) => {
+                    preferences.theme = Some(match &**theme {
+                        "dark" => Theme::Dark,
+                        "light" => Theme::Light,
+                        _ => return Err(wrong()),
+                    });
+                }
+                ("width" | "height", DeValue::Integer(points)) => {
+                    let points: u32 = points.as_str().parse().map_err(|_| wrong())?;
+                    if !(100..=20_000).contains(&points) {
+                        return Err(wrong());
+                    }
+                    let size = preferences.size.get_or_insert([1280, 720]);
+                    size[usize::from(key == "height")] = points;
+                }
+                ("scene" | "theme" | "width" | "height", _) => return Err(wrong()),
+                // Of a newer program.
+                _ => {}
+            }
+        }
+        Ok(preferences)
+    }
+
+    fn to_text(&self) -> String {
+        let scene = self.scene.as_deref().and_then(Path::to_str);
+        // A path with a quotation mark or a line break is not worth the trouble.
+        let scene = scene.filter(|scene| !scene.contains(['\'', '\n', '\r']));
+        let theme = self.theme.map(|theme| if theme == Theme::Dark { "dark" } else { "light" });
+        [
+            scene.map(|scene| format!("scene = '{scene}'\n")),
+            theme.map(|theme| format!("theme = '{theme}'\n")),
+            self.size.map(|[width, height]| format!("width = {width}\nheight = {height}\n")),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+}
+
+/// The open scene of a lab, as it is remembered: a name, or an absolute path.
+pub(super) fn scene_of(lab: &Lab) -> Option<PathBuf> {
+    match lab.scene_list().open_path() {
+        Some(path) => path.canonicalize().ok(),
+        None => Some(lab.scene_name().into()),
+    }
+}
+
+fn path() -> Option<PathBuf> {
+    Some(ProjectDirs::from("", "", "regatta")?.config_dir().join(FILE_NAME))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_remembered_is_read_as_it_was_written() {
+        for preferences in [
+            Preferences::default(),
+            Preferences { size: Some([800, 600]), ..Preferences::default() },
+            Preferences {
+                scene: Some("C:\\a \"b\"\\c.toml".into()),
+                theme: Some(Theme::Light),
+                size: Some([1920, 1080]),
+            },
+        ] {
+            assert_eq!(Preferences::parse(&preferences.to_text()), Ok(preferences));
+        }
+    }
+
+    #[test]
+    fn a_broken_file_is_refused_and_a_newer_one_is_read() {
+        for (text, why) in [
+            ("theme = 'blue'", "its theme cannot be understood"),
+            ("scene = 5", "its scene cannot be understood"),
+            ("width = 99999999999", "its width cannot be understood"),
+            ("height = 0", "its height cannot be understood"),
+        ] {
+            assert_eq!(Preferences::parse(text), Err(why.into()), "{text}");
+        }
+        assert!(Preferences::parse("scene = ").is_err());
+        let known = Preferences { theme: Some(Theme::Dark), ..Preferences::default() };
+        assert_eq!(Preferences::parse("theme = 'dark'\nscale = 2"), Ok(known));
+    }
+}

@@ -1,0 +1,84 @@
+//! The frequency error of a lane, from the times at which it crosses its centre.
+
+use super::run::Run;
+use super::truth::{BodyTruth, Swing};
+
+/// The relative frequency error of a lane, positive if it is too fast: over all its turns and over each half of them.
+pub(super) struct FrequencyError {
+    pub(super) error: f64,
+    halves: [f64; 2],
+    /// The uncertainty of the error, from interpolating between ticks.
+    blur: f64,
+}
+
+impl FrequencyError {
+    /// Whether the error is constant and larger than its uncertainty.
+    pub(super) fn is_steady(&self) -> bool {
+        let least = (0.005 * self.error.abs()).max(2.5e-5);
+        let [a, b] = self.halves;
+        self.blur <= least && (a - b).abs() <= 2.0 * least
+    }
+}
+
+/// The frequency error of a run; `None` if it has too few turns.
+pub(super) fn frequency_error(truth: &BodyTruth, run: &Run) -> Option<FrequencyError> {
+    let swing = truth.swing.as_ref()?;
+    let h = run.horizon_s / run.series.len().max(1) as f64;
+    let level = truth.centres[swing.coordinate];
+    let lane = crossings(&run.series, level);
+    let count = lane.len().min(swing.crossings.len());
+    if count < 3 {
+        return None;
+    }
+    let error = |from: usize, to: usize| {
+        let exact = swing.crossings[to] - swing.crossings[from];
+        exact / (h * (lane[to].at - lane[from].at)) - 1.0
+    };
+    let middle = count / 2;
+    let span = lane[count - 1].at - lane[0].at;
+    Some(FrequencyError {
+        error: error(0, count - 1),
+        halves: [error(0, middle), error(middle, count - 1)],
+        blur: (lane[0].blur + lane[count - 1].blur) / span,
+    })
+}
+
+/// Where a series crosses a level upwards, counted in samples.
+struct Crossing {
+    at: f64,
+    /// The uncertainty of `at`.
+    blur: f64,
+}
+
+fn crossings(series: &[f64], level: f64) -> Vec<Crossing> {
+    let passes = |k: &usize| series[*k] < level && series[k + 1] >= level;
+    (1..series.len().saturating_sub(2))
+        .filter(passes)
+        .map(|k| {
+            let y: [f64; 4] = std::array::from_fn(|i| series[k - 1 + i] - level);
+            let straight = y[1] / (y[1] - y[2]);
+            let (mut low, mut high) = (0.0, 1.0);
+            for _ in 0..40 {
+                let middle = (low + high) / 2.0;
+                if cubic(&y, middle) < 0.0 { low = middle } else { high = middle }
+            }
+            Crossing { at: (k + 1) as f64 + low, blur: 0.2 * (low - straight).abs() }
+        })
+        .collect()
+}
+
+/// The cubic through values at -1, 0, 1 and 2, evaluated at `s`.
+fn cubic(y: &[f64; 4], s: f64) -> f64 {
+    let [a, b, c, d] = y;
+    -s * (s - 1.0) * (s - 2.0) / 6.0 * a + (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0 * b
+        - (s + 1.0) * s * (s - 2.0) / 2.0 * c
+        + (s + 1.0) * s * (s - 1.0) / 6.0 * d
+}
+
+impl Swing {
+    /// The mean time from one crossing to the next, in seconds.
+    pub(super) fn period(&self) -> f64 {
+        let turns = self.crossings.len() - 1;
+        (self.crossings[turns] - self.crossings[0]) / turns as f64
+    }
+}

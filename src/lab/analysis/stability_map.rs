@@ -1,0 +1,275 @@
+//! The stability map: for each method the tick rates and the values of a parameter at which it is stable on a body.
+//!
+//! A method is stable on a linear body if it is stable on each of its normal modes, and each of those is a spring. A
+//! nonlinear body is linearised about rest. A method that chooses its own steps has no region: no tick rate bounds it.
+
+use contour::{Corners, contour};
+
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::scene::SceneBody;
+use crate::sim::bodies::{Kind, kind};
+use crate::sim::stability::{NormalMode, Stability, Tick, modes_about_rest, normal_modes};
+use crate::sim::{Solver, Stepper};
+
+mod contour;
+
+/// The tick rates of a map in Hz: those of the keys. A present rate outside widens the map.
+const RATES_HZ: [f64; 2] = [2.0, 1000.0];
+/// A map reaches over this many powers of ten of the parameter.
+const DECADES: f64 = 5.0;
+/// The values of a parameter that is 0 in the scene, which says nothing of its size.
+const FROM_NOTHING: [f64; 2] = [0.01, 1000.0];
+/// Points at which a method is tried, along the rates and along the values. Boundaries between them are bisected, so
+/// that more points only find narrower regions.
+const CORNERS: [usize; 2] = [37, 33];
+
+/// A map that is wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapRequest {
+    /// The body's place in the scene.
+    pub body: usize,
+    /// The place of the mapped parameter among those of the body's kind.
+    pub parameter: usize,
+    /// The methods, with their places on the list.
+    pub specs: Vec<(usize, LaneSpec)>,
+    /// The present tick rate.
+    pub tick_hz: u32,
+    /// The present parameters of the body.
+    pub(in crate::lab) values: Vec<f64>,
+    /// The rates at the left and at the right end, in Hz.
+    pub rates_hz: [f64; 2],
+    /// The values of the parameter at the lower and at the upper end.
+    pub range: [f64; 2],
+}
+
+impl MapRequest {
+    pub(in crate::lab) fn new(
+        (body, parameter): (usize, usize),
+        opened: &SceneBody,
+        values: &[f64],
+        tick_hz: u32,
+        specs: Vec<(usize, LaneSpec)>,
+    ) -> Self {
+        let [slowest, fastest] = RATES_HZ;
+        Self {
+            body,
+            parameter,
+            specs,
+            tick_hz,
+            values: values.to_vec(),
+            rates_hz: [slowest.min(f64::from(tick_hz)), fastest.max(f64::from(tick_hz))],
+            range: range(opened.values[parameter], values[parameter]),
+        }
+    }
+
+    /// The present value of the mapped parameter.
+    pub fn value(&self) -> f64 {
+        self.values[self.parameter]
+    }
+
+    /// Whether both have the same regions: the present point does not change them.
+    fn has_regions_of(&self, other: &Self) -> bool {
+        let fixed = |request: &Self| {
+            let mut fixed = request.clone();
+            fixed.tick_hz = 0;
+            fixed.values[fixed.parameter] = 0.0;
+            fixed
+        };
+        fixed(self) == fixed(other)
+    }
+}
+
+/// Whole powers of ten around the value that the scene has, and around the present one.
+fn range(opened: f64, present: f64) -> [f64; 2] {
+    let [low, high] = if opened > 0.0 {
+        let low = libm::pow(10.0, (libm::log10(opened) - 1.5).round());
+        [low, low * libm::pow(10.0, DECADES)]
+    } else {
+        FROM_NOTHING
+    };
+    if present <= 0.0 {
+        return [low, high];
+    }
+    let decade = |round: fn(f64) -> f64| libm::pow(10.0, round(libm::log10(present)));
+    [low.min(decade(libm::floor)), high.max(decade(libm::ceil))]
+}
+
+/// Where a method is stable. Points are the common logarithms of the rate in Hz and of the parameter's value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// How much of the map it covers.
+    pub coverage: Coverage,
+    /// Convex polygons that cover it.
+    pub pieces: Vec<Vec<[f64; 2]>>,
+    /// Its boundary, as lines through these points.
+    pub boundary: Vec<Vec<[f64; 2]>>,
+}
+
+/// How much of a map a region covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coverage {
+    /// All of it.
+    Everywhere,
+    /// None of it.
+    Nowhere,
+    /// A part of it.
+    Part,
+    /// The method chooses its own steps, so that no tick rate bounds it.
+    OwnSteps,
+}
+
+/// What a method does at the present point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Here {
+    /// It is stable.
+    Stable,
+    /// It grows: the swing doubles in this many seconds.
+    Doubles(f64),
+    /// The method chooses its own steps.
+    OwnSteps,
+}
+
+/// A map, as far as it has been found.
+#[derive(Clone, Debug)]
+pub struct StabilityMap {
+    /// What it is a map of.
+    pub request: MapRequest,
+    /// The regions of the leading methods of the request.
+    pub regions: Vec<Region>,
+    /// What each method of the request does at the present point; empty until it is known.
+    pub here: Vec<Here>,
+    /// Whether the body can be mapped: it is linear, or it can be linearised about rest.
+    pub is_possible: bool,
+    /// Whether the body is linear, so that the map holds at any amplitude.
+    pub is_linear: bool,
+}
+
+/// A map being computed, method by method.
+pub(super) struct MapWork {
+    kind: &'static Kind,
+    map: StabilityMap,
+    /// The normal modes at each value along the map.
+    rows: Vec<Vec<NormalMode>>,
+}
+
+impl MapWork {
+    pub(super) fn new(kind: &'static Kind, request: MapRequest) -> Self {
+        let body = (kind.build)(&request.values, Solver::Truth);
+        let map = StabilityMap {
+            regions: Vec::new(),
+            here: Vec::new(),
+            is_possible: modes(&*body).is_some(),
+            is_linear: body.is_linear(),
+            request,
+        };
+        Self { kind, map, rows: Vec::new() }
+    }
+
+    /// Replaces the request. Regions that answer the new one too are kept.
+    pub(super) fn set_request(&mut self, request: MapRequest) {
+        if !request.has_regions_of(&self.map.request) {
+            *self = Self::new(self.kind, request);
+        } else if request != self.map.request {
+            self.map.request = request;
+            self.map.here.clear();
+        }
+    }
+
+    /// Whether it maps the body of `request`.
+    pub(super) fn is_of_body(&self, request: &MapRequest) -> bool {
+        self.map.request.body == request.body
+    }
+
+    pub(super) fn map(&self) -> StabilityMap {
+        self.map.clone()
+    }
+
+    pub(super) fn is_done(&self) -> bool {
+        let wanted = self.map.request.specs.len();
+        !self.map.is_possible || self.map.here.len() == wanted && self.map.regions.len() == wanted
+    }
+
+    /// Finds what each method does at the present point, or else the next region.
+    pub(super) fn advance(&mut self) {
+        let request = &self.map.request;
+        if self.is_done() {
+            return;
+        }
+        if self.map.here.len() < request.specs.len() {
+            let modes = self.modes_at(request.value()).unwrap_or_default();
+            let hz = f64::from(request.tick_hz);
+            self.map.here = request.specs.iter().map(|(_, spec)| here(spec, &modes, hz)).collect();
+        } else if let Some((_, spec)) = request.specs.get(self.map.regions.len()) {
+            let spec = *spec;
+            let region = if chooses_steps(&spec) {
+                Region { coverage: Coverage::OwnSteps, pieces: vec![], boundary: vec![] }
+            } else {
+                self.region(&spec)
+            };
+            self.map.regions.push(region);
+        }
+    }
+
+    fn region(&mut self, spec: &LaneSpec) -> Region {
+        let MapRequest { rates_hz, range, .. } = &self.map.request;
+        let corners = Corners::new(CORNERS, [rates_hz, range].map(|ends| ends.map(libm::log10)));
+        if self.rows.is_empty() {
+            let row = |j| self.modes_at(libm::pow(10.0, corners.at([0, j])[1])).unwrap_or_default();
+            self.rows = (0..CORNERS[1]).map(row).collect();
+        }
+        let stable = |modes: &[NormalMode], x: f64| {
+            let hz = libm::pow(10.0, x);
+            modes.iter().all(|mode| stability(spec, mode, hz).is_some_and(|s| s.is_bounded()))
+        };
+        contour(
+            &corners,
+            |[i, j]| stable(&self.rows[j], corners.at([i, j])[0]),
+            |x, j| stable(&self.rows[j], x),
+            |[x, y]| stable(&self.modes_at(libm::pow(10.0, y)).unwrap_or_default(), x),
+        )
+    }
+
+    /// The modes of the body with this value of the mapped parameter, the fastest first.
+    fn modes_at(&self, value: f64) -> Option<Vec<NormalMode>> {
+        let MapRequest { values, parameter, .. } = &self.map.request;
+        let mut values = values.clone();
+        values[*parameter] = value;
+        let mut modes = modes(&*(self.kind.build)(&values, Solver::Truth))?;
+        modes.sort_by(|a, b| b.omega_squared.total_cmp(&a.omega_squared));
+        Some(modes)
+    }
+}
+
+/// The modes of a linear body, or of small deviations from rest.
+fn modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
+    if body.is_linear() { normal_modes(body) } else { modes_about_rest(body) }
+}
+
+fn chooses_steps(spec: &LaneSpec) -> bool {
+    spec.method.tolerance.is_some() || !spec.method.keeps_time
+}
+
+/// The stability of a method on a mode, which is that on a spring of its frequency and damping. `None` if the method
+/// fails.
+fn stability(spec: &LaneSpec, mode: &NormalMode, hz: f64) -> Option<Stability> {
+    let values = [1.0, mode.omega_squared, mode.damping_per_s, 1.0, 0.0, 1.0];
+    let spring = (kind("spring").expect("a kind of body").build)(&values, Solver::Truth);
+    // The map of a tick is a power of that of a step, in which the mode turns less.
+    let tick = Tick { t: 0.0, h: 1.0 / hz / f64::from(spec.substeps), substeps: 1 };
+    Stability::of(&*spring, spec.solver(), tick).ok()
+}
+
+fn here(spec: &LaneSpec, modes: &[NormalMode], hz: f64) -> Here {
+    if chooses_steps(spec) {
+        return Here::OwnSteps;
+    }
+    let growths = modes.iter().map(|mode| match stability(spec, mode, hz) {
+        Some(stability) => stability.doubling_s().unwrap_or(f64::INFINITY),
+        None => 0.0,
+    });
+    let doubling_s = growths.fold(f64::INFINITY, f64::min);
+    if doubling_s.is_finite() { Here::Doubles(doubling_s) } else { Here::Stable }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,208 @@
+use super::*;
+use crate::lab::scene::Scene;
+use crate::sim::integrators::{METHODS, Method, method};
+
+/// The map of a spring of 1 kg over its stiffness, with this damping.
+fn spring(damping: f64, ids: &[&str]) -> StabilityMap {
+    let specs = ids.iter().map(|id| LaneSpec::plain(method(id).unwrap()));
+    map([1.0, 90.0, damping, 1.0, 0.0, 3.0], 1, specs.collect())
+}
+
+fn map(values: [f64; 6], parameter: usize, specs: Vec<LaneSpec>) -> StabilityMap {
+    let kind = kind("spring").unwrap();
+    let opened = SceneBody { name: "spring".into(), kind, values: values.to_vec() };
+    let specs = specs.into_iter().enumerate().collect();
+    let request = MapRequest::new((0, parameter), &opened, &values, 20, specs);
+    let mut work = MapWork::new(kind, request);
+    while !work.is_done() {
+        work.advance();
+    }
+    work.map()
+}
+
+/// Whether the point of this rate and value is in one of the pieces.
+fn holds(region: &Region, hz: f64, value: f64) -> bool {
+    let [x, y] = [hz, value].map(libm::log10);
+    region.pieces.iter().any(|piece| {
+        let next = piece.iter().cycle().skip(1);
+        piece
+            .iter()
+            .zip(next)
+            .all(|(a, b)| (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]) >= 0.0)
+    })
+}
+
+/// That the region is where `is_stable` says, on both sides of its boundary: at points that agree with those a
+/// hundredth further in every direction.
+fn assert_region(region: &Region, what: &str, is_stable: impl Fn(f64, f64) -> bool) {
+    let (mut stable, mut unstable) = (0, 0);
+    for i in 0..60 {
+        for j in 0..60 {
+            let hz = libm::pow(10.0, 0.31 + 2.68 * f64::from(i) / 59.0);
+            let k = libm::pow(10.0, 0.01 + 4.98 * f64::from(j) / 59.0);
+            let wanted = is_stable(hz, k);
+            let is_clear = [0.99, 1.01]
+                .iter()
+                .all(|a| [0.98, 1.02].iter().all(|b| is_stable(hz * a, k * b) == wanted));
+            if is_clear {
+                assert_eq!(holds(region, hz, k), wanted, "{what} at {hz} Hz, k = {k}");
+                *(if wanted { &mut stable } else { &mut unstable }) += 1;
+            }
+        }
+    }
+    assert!(stable > 300 && unstable > 300, "{what}: {stable} stable, {unstable} not");
+}
+
+#[test]
+fn the_regions_of_an_undamped_spring_end_at_the_limits_of_the_cards() {
+    let map = spring(0.0, &["semi-implicit-euler", "rk4", "yoshida4", "explicit-euler"]);
+    for (region, (_, spec)) in map.regions.iter().zip(&map.request.specs).take(3) {
+        let limit = spec.method.stability_limit.unwrap();
+        assert_region(region, spec.method.id, |hz, k| k.sqrt() / hz < limit);
+        assert_eq!(region.boundary.len(), 1, "{}", spec.method.id);
+        for [x, y] in &region.boundary[0] {
+            let z = libm::pow(10.0, y / 2.0 - x);
+            assert!((z / limit - 1.0).abs() < 1e-3, "{}: ω h = {z}, not {limit}", spec.method.id);
+        }
+    }
+    assert_eq!(map.regions[3].coverage, Coverage::Nowhere);
+}
+
+#[test]
+fn no_method_is_stable_again_far_beyond_its_limit() {
+    // Up to 5000 rad in a tick.
+    let limited = METHODS.iter().filter(|method| {
+        method.tolerance.is_none() && method.stability_limit.is_some_and(|limit| limit >= 1.0)
+    });
+    let specs: Vec<LaneSpec> = limited.map(LaneSpec::plain).collect();
+    let map = map([1.0, 1e4, 0.0, 1.0, 0.0, 3.0], 1, specs);
+    for (region, (_, spec)) in map.regions.iter().zip(&map.request.specs) {
+        let limit = spec.method.stability_limit.unwrap();
+        for [x, y] in region.boundary.iter().flatten() {
+            let z = libm::pow(10.0, y / 2.0 - x);
+            let is_limit = (z / limit - 1.0).abs() < 1e-3;
+            // A composition of kicks and drifts may have a narrow window beyond.
+            let is_window = spec.method.symplectic && is_end_of_window(spec.method, z);
+            assert!(is_limit || is_window, "{}: ω h = {z}, not {limit}", spec.method.id);
+        }
+    }
+}
+
+/// Whether near `z = ω h` the trace of the step comes to 2, within and beyond which an area-preserving map is stable and
+/// not.
+fn is_end_of_window(method: &'static Method, z: f64) -> bool {
+    let traces = (-40..=40).map(|i| {
+        let h = z * (1.0 + 5e-5 * f64::from(i));
+        let trace: f64 = (0..2)
+            .map(|j| {
+                let values = [1.0, 1.0, 0.0, 1.0, 0.0, 1.0];
+                let solver = Solver::Method(method);
+                let mut spring = (kind("spring").unwrap().build)(&values, solver);
+                let unit = [f64::from(1 - j), f64::from(j)];
+                spring.set(0.0, &unit[..1], &unit[1..]);
+                spring.advance(0.0, h, 1).unwrap();
+                if j == 0 { spring.q()[0] } else { spring.v()[0] }
+            })
+            .sum();
+        trace.abs()
+    });
+    let traces: Vec<f64> = traces.collect();
+    traces.iter().any(|&trace| trace < 2.0) && traces.iter().any(|&trace| trace > 2.0)
+}
+
+#[test]
+fn explicit_euler_needs_damping_and_no_more_than_it_can_follow() {
+    for damping in [1.0, 40.0] {
+        let map = spring(damping, &["explicit-euler"]);
+        // The conditions of Jury on the step [[1, h], [-k h, 1 - c h]].
+        assert_region(&map.regions[0], "explicit Euler", |hz, k| {
+            let h = 1.0 / hz;
+            k * h < damping && 4.0 - 2.0 * damping * h + k * h * h > 0.0
+        });
+    }
+}
+
+#[test]
+fn implicit_methods_are_stable_everywhere() {
+    let ids = ["implicit-euler", "implicit-midpoint", "newmark", "bdf2", "gauss-legendre-4"];
+    for damping in [0.0, 1.0] {
+        let map = spring(damping, &ids);
+        for (region, id) in map.regions.iter().zip(ids) {
+            assert_eq!(region.coverage, Coverage::Everywhere, "{id}, c = {damping}");
+        }
+        assert!(map.here.iter().all(|here| *here == Here::Stable), "{:?}", map.here);
+    }
+}
+
+#[test]
+fn a_boundary_across_the_rates_is_found_too() {
+    // Up goes the damping, which hardly matters to semi-implicit Euler until it is large.
+    let specs = vec![LaneSpec::plain(method("semi-implicit-euler").unwrap())];
+    let map = map([1.0, 1e4, 0.0, 1.0, 0.0, 3.0], 2, specs);
+    let lowest = map.regions[0].boundary.iter().flatten().min_by(|a, b| a[1].total_cmp(&b[1]));
+    let hz = libm::pow(10.0, lowest.unwrap()[0]);
+    assert!((hz / 50.0 - 1.0).abs() < 0.01, "{hz} Hz, not ω / 2");
+}
+
+#[test]
+fn substeps_move_the_boundary() {
+    let rk4 = method("rk4").unwrap();
+    let specs = vec![LaneSpec { substeps: 3, ..LaneSpec::plain(rk4) }];
+    let map = map([1.0, 90.0, 0.0, 1.0, 0.0, 3.0], 1, specs);
+    for [x, y] in map.regions[0].boundary.iter().flatten() {
+        let z = libm::pow(10.0, y / 2.0 - x) / 3.0;
+        assert!((z / rk4.stability_limit.unwrap() - 1.0).abs() < 1e-3, "ω h = {z}");
+    }
+}
+
+#[test]
+fn what_a_method_does_at_the_present_point_is_known() {
+    let map = spring(1.0, &["explicit-euler", "rk4", "adaptive-euler"]);
+    // Each step of explicit Euler multiplies the amplitude by √(1 - c h + k h²).
+    let h = 1.0 / 20.0;
+    let wanted = 2.0_f64.ln() * h / (0.5 * libm::log(1.0 - h + 90.0 * h * h));
+    let Here::Doubles(seconds) = map.here[0] else { panic!("{:?}", map.here) };
+    assert!((seconds / wanted - 1.0).abs() < 1e-9, "{seconds}, not {wanted}");
+    assert_eq!(map.here[1..], [Here::Stable, Here::OwnSteps]);
+    assert_eq!(map.regions[2].coverage, Coverage::OwnSteps);
+}
+
+#[test]
+fn the_present_point_changes_no_region() {
+    let specs = vec![(0, LaneSpec::plain(&METHODS[0]))];
+    let scene = Scene::built_in("harbour").unwrap();
+    let opened = &scene.bodies[1];
+    let request = |k: f64, c: f64, tick_hz: u32| {
+        let mut values = opened.values.clone();
+        (values[1], values[2]) = (k, c);
+        MapRequest::new((1, 1), opened, &values, tick_hz, specs.clone())
+    };
+    let mut work = MapWork::new(opened.kind, request(90.0, 1.0, 20));
+    while !work.is_done() {
+        work.advance();
+    }
+    work.set_request(request(700.0, 1.0, 60));
+    assert_eq!((work.map.regions.len(), work.map.here.len()), (1, 0));
+    work.set_request(request(700.0, 2.0, 60));
+    assert_eq!(work.map.regions.len(), 0);
+    assert_eq!(range(90.0, 90.0), [1.0, 1e5]);
+    assert_eq!(range(90.0, 2e5), [1.0, 1e6]);
+    assert_eq!(range(0.0, 0.0), FROM_NOTHING);
+}
+
+#[test]
+fn a_body_without_rest_has_no_map_and_a_pendulum_has_that_of_its_small_swings() {
+    for (name, is_possible) in [("orbit", false), ("pendulum", true), ("chain", true)] {
+        let scene = Scene::built_in(name).unwrap();
+        let body = &scene.bodies[0];
+        let (place, _) = body.kind.parameter(body.kind.leading).unwrap();
+        let specs = vec![(0, LaneSpec::plain(method("semi-implicit-euler").unwrap()))];
+        let request = MapRequest::new((0, place), body, &body.values, 60, specs);
+        let mut work = MapWork::new(body.kind, request);
+        while !work.is_done() {
+            work.advance();
+        }
+        assert_eq!(work.map.is_possible, is_possible, "{name}");
+        assert_eq!(work.map.regions.len(), usize::from(is_possible), "{name}");
+    }
+}

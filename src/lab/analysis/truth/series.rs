@@ -1,0 +1,125 @@
+//! The true states of one body at the ticks of one rate, and the inputs at those ticks.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex};
+
+use super::BodyTruth;
+use crate::lab::analysis::survey::TimedInput;
+use crate::lab::lane::check;
+use crate::sim::integrators::StepFailure;
+use crate::sim::{Solver, Stepper};
+
+/// The most products of the exact flow for one series: less than a second of work.
+const MOST_SERIES_PRODUCTS: u64 = 500_000_000;
+
+/// The most values that are cached, some ten megabytes. A full cache is cleared.
+const MOST_KEPT: usize = 1 << 20;
+
+/// The cached series by tick rate in Hz.
+pub(in crate::lab::analysis) type TruthSeriesByRate = Mutex<HashMap<u32, Arc<TruthSeries>>>;
+
+/// The true states at the ticks of one rate.
+pub(in crate::lab::analysis) struct TruthSeries {
+    /// The components after each tick, tick after tick.
+    values: Vec<f64>,
+    components: usize,
+    /// The largest error of the truth up to each tick, in amplitudes.
+    gaps: Vec<f64>,
+    pub(in crate::lab::analysis) failure: Option<StepFailure>,
+    /// Whether the series was not computed because it would take too much work.
+    pub(in crate::lab::analysis) is_too_much: bool,
+}
+
+impl TruthSeries {
+    /// The components after `tick` ticks, from 1; `None` after the truth has failed.
+    pub(in crate::lab::analysis) fn at(&self, tick: u64) -> Option<&[f64]> {
+        let from = (tick as usize - 1) * self.components;
+        self.values.get(from..from + self.components)
+    }
+
+    /// The largest error of the truth up to `tick` ticks, in amplitudes; infinite after the truth has failed.
+    pub(in crate::lab::analysis) fn gap(&self, tick: u64) -> f64 {
+        self.gaps.get(tick as usize - 1).copied().unwrap_or(f64::INFINITY)
+    }
+}
+
+impl BodyTruth {
+    /// Applies to `stepper`, which has made `tick` ticks at this rate, the inputs that are due then.
+    pub(in crate::lab::analysis) fn apply_inputs(
+        &self,
+        stepper: &mut dyn Stepper,
+        tick: u64,
+        tick_hz: u32,
+    ) {
+        let hz = f64::from(tick_hz);
+        let due = |input: &&TimedInput| (input.t * hz - ON_TIME).ceil().max(0.0) as u64 == tick;
+        for TimedInput { input, .. } in self.inputs.iter().filter(due) {
+            input.apply_to(stepper, tick as f64 / hz);
+        }
+    }
+
+    /// The largest error of the truth up to this moment, in amplitudes, at the ticks of this rate.
+    pub(in crate::lab::analysis) fn gap(&self, seconds: f64, tick_hz: u32) -> f64 {
+        self.series(tick_hz).gap(ticks(seconds, tick_hz).max(1))
+    }
+
+    /// The true states at the ticks of this rate, up to the horizon.
+    pub(in crate::lab::analysis) fn series(&self, tick_hz: u32) -> Arc<TruthSeries> {
+        let kept = |series_by_rate: &HashMap<u32, Arc<TruthSeries>>| {
+            series_by_rate.get(&tick_hz).map(Arc::clone)
+        };
+        if let Some(series) = kept(&self.series_by_rate.lock().expect("no thread panics with it")) {
+            return series;
+        }
+        let series = Arc::new(self.follow(tick_hz));
+        let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");
+        let held: usize = series_by_rate.values().map(|series| series.values.len()).sum();
+        if held + series.values.len() > MOST_KEPT {
+            series_by_rate.clear();
+        }
+        series_by_rate.insert(tick_hz, Arc::clone(&series));
+        series
+    }
+
+    fn follow(&self, tick_hz: u32) -> TruthSeries {
+        let mut body = self.start(Solver::Truth);
+        let (n, hz) = (body.q().len(), f64::from(tick_hz));
+        let mut series = TruthSeries {
+            values: Vec::new(),
+            components: 2 * n,
+            gaps: Vec::new(),
+            failure: None,
+            is_too_much: false,
+        };
+        let mut gap: f64 = 0.0;
+        let ticks = ticks(self.horizon_s, tick_hz);
+        if ticks.saturating_mul((n * n) as u64) > MOST_SERIES_PRODUCTS {
+            series.is_too_much = true;
+            return series;
+        }
+        for tick in 0..ticks {
+            self.apply_inputs(&mut *body, tick, tick_hz);
+            let advanced = body.advance(tick as f64 / hz, 1.0 / hz, 1);
+            if let Err(failure) = advanced.and_then(|()| check(&*body, self.coordinates())) {
+                series.failure = Some(failure);
+                break;
+            }
+            series.values.extend(body.q().iter().chain(body.v()));
+            let off = body.truth_error().unwrap_or([0.0; 2]);
+            for (i, amplitude) in self.amplitudes.iter().enumerate() {
+                let part = off[i / n] / amplitude;
+                gap = if part <= gap { gap } else { part };
+            }
+            series.gaps.push(gap);
+        }
+        series
+    }
+}
+
+/// The part of a tick by which an input may come late: its time is rounded.
+const ON_TIME: f64 = 1e-6;
+
+/// The number of whole ticks of this rate in `seconds`.
+pub(in crate::lab::analysis) fn ticks(seconds: f64, tick_hz: u32) -> u64 {
+    (seconds * f64::from(tick_hz) + ON_TIME).floor() as u64
+}

@@ -1,0 +1,304 @@
+//! Computes verdicts and advice in small steps, so that it can run on another thread than the race: an
+//! [`AnalysisRequest`] goes there, and [`Findings`] come back.
+
+use std::sync::Arc;
+
+use super::advice::{Adviser, CRITERIA, CriterionResult, MethodAdvice};
+use super::judge::Judge;
+use super::stability_map::{MapRequest, MapWork, StabilityMap};
+use super::verdict::Verdict;
+use crate::lab::intervention::Interventions;
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::scene::Scene;
+use crate::sim::integrators::METHODS;
+
+/// The verdicts and the advice that a lab wants. Two requests of one [`Lab`](crate::lab::Lab) are equal if they have the
+/// same answer.
+#[derive(Clone, Debug)]
+pub struct AnalysisRequest {
+    pub(in crate::lab) scene: Arc<Scene>,
+    /// The lanes to judge.
+    pub(in crate::lab) entries: Vec<LaneSpec>,
+    pub(in crate::lab) tick_hz: u32,
+    /// What has changed in the run that is judged.
+    pub(in crate::lab) by_hand: Interventions,
+    /// Whether advice is wanted.
+    pub(in crate::lab) advice: bool,
+    /// The stability map, if it is wanted.
+    pub(in crate::lab) map: Option<MapRequest>,
+}
+
+impl PartialEq for AnalysisRequest {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_of(&other.scene)
+            && self.entries == other.entries
+            && self.tick_hz == other.tick_hz
+            && self.by_hand == other.by_hand
+            && self.advice == other.advice
+            && self.map == other.map
+    }
+}
+
+impl AnalysisRequest {
+    /// Whether it is about this instance of the scene: an equal copy is another scene.
+    pub(in crate::lab) fn is_of(&self, scene: &Arc<Scene>) -> bool {
+        Arc::ptr_eq(&self.scene, scene)
+    }
+}
+
+/// The verdicts and the advice found so far.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    pub(in crate::lab) request: AnalysisRequest,
+    /// The last verdict on each method of the list. It may be of an earlier request about the same scene.
+    pub(in crate::lab) verdicts: Vec<Option<Verdict>>,
+    pub(in crate::lab) advice: Option<Advice>,
+    pub(in crate::lab) map: Option<StabilityMap>,
+    /// Whether the request is answered in full.
+    pub(in crate::lab) complete: bool,
+}
+
+impl Findings {
+    /// Whether they answer `request` in full.
+    pub(in crate::lab) fn answer(&self, request: &AnalysisRequest) -> bool {
+        self.complete && self.request == *request
+    }
+}
+
+/// The advice on every method on a scene.
+#[derive(Clone, Debug)]
+pub struct Advice {
+    /// The requested rate in Hz.
+    pub tick_hz: u32,
+    /// The horizon in simulated seconds.
+    pub horizon_s: f64,
+    /// The number of methods to judge.
+    pub wanted: usize,
+    /// The advice on the methods judged so far.
+    pub advised: Vec<MethodAdvice>,
+}
+
+/// Works on one request at a time.
+pub struct AnalysisWorker {
+    request: AnalysisRequest,
+    judge: Option<Judge>,
+    verdicts: Vec<Option<Verdict>>,
+    /// The number of leading verdicts that answer the present request.
+    judged: usize,
+    advising: Option<AdviceInProgress>,
+    /// The last map that was wanted.
+    mapping: Option<MapWork>,
+}
+
+/// Advice being computed, method by method and criterion by criterion.
+struct AdviceInProgress {
+    adviser: Adviser,
+    advised: Vec<MethodAdvice>,
+    /// The results for the present method.
+    met: Vec<CriterionResult>,
+}
+
+impl AdviceInProgress {
+    /// Tests one more criterion.
+    fn advance(&mut self) {
+        let Some(method) = METHODS.get(self.advised.len()) else { return };
+        let spec = LaneSpec::plain(method);
+        if let Some(&criterion) = CRITERIA.get(self.met.len()) {
+            self.met.push(self.adviser.meets(spec, criterion));
+        } else {
+            let met = std::mem::take(&mut self.met).try_into().expect("each criterion was tested");
+            self.advised.push(MethodAdvice { spec, verdict: self.adviser.verdict(spec), met });
+        }
+    }
+
+    fn is_done(&self) -> bool {
+        self.advised.len() == METHODS.len()
+    }
+}
+
+impl AnalysisWorker {
+    /// A worker on `request`.
+    pub fn new(request: AnalysisRequest) -> Self {
+        let verdicts = vec![None; request.entries.len()];
+        Self { request, judge: None, verdicts, judged: 0, advising: None, mapping: None }
+    }
+
+    /// Replaces the request. Results that answer the new one too are kept.
+    pub fn set_request(&mut self, request: AnalysisRequest) {
+        if !request.is_of(&self.request.scene) {
+            *self = Self::new(request);
+            return;
+        }
+        let is_same_run = request.by_hand == self.request.by_hand;
+        if !is_same_run {
+            self.judge = None;
+        }
+        if !is_same_run || request.tick_hz != self.request.tick_hz {
+            self.judged = 0;
+            self.advising = None;
+        }
+        if request.entries != self.request.entries {
+            self.judged = 0;
+        }
+        if let (Some(work), Some(wanted)) = (&mut self.mapping, &request.map) {
+            if work.is_of_body(wanted) {
+                work.set_request(wanted.clone());
+            } else {
+                self.mapping = None;
+            }
+        }
+        self.request = request;
+    }
+
+    /// Does one step: finds a region of the map, computes a missing verdict or, if none is missing, tests a criterion for
+    /// the advice. Returns whether there is more to do.
+    pub fn work(&mut self) -> bool {
+        let AnalysisRequest { scene, by_hand, entries, tick_hz, advice, map } = &self.request;
+        if let Some(wanted) = map
+            && !self.is_mapped()
+        {
+            // Before the verdicts, because it takes less time than one of them may.
+            let new = || MapWork::new(scene.bodies[wanted.body].kind, wanted.clone());
+            self.mapping.get_or_insert_with(new).advance();
+        } else if let Some(&spec) = entries.get(self.judged) {
+            let judge =
+                self.judge.get_or_insert_with(|| Judge::new(&by_hand.applied_to(scene), 1.0));
+            let verdict = judge.verdict(spec, *tick_hz);
+            self.verdicts[self.judged] = Some(verdict.starting_at(by_hand.starts_at_s()));
+            self.judged += 1;
+        } else if *advice {
+            let advising = self.advising.get_or_insert_with(|| AdviceInProgress {
+                adviser: Adviser::new(&by_hand.applied_to(scene), 1.0, *tick_hz),
+                advised: Vec::new(),
+                met: Vec::new(),
+            });
+            advising.advance();
+        }
+        !self.is_done()
+    }
+
+    /// Does all steps.
+    pub fn finish(mut self) -> Findings {
+        while self.work() {}
+        self.findings()
+    }
+
+    /// Whether the map is found, if it is wanted.
+    fn is_mapped(&self) -> bool {
+        self.request.map.is_none() || self.mapping.as_ref().is_some_and(MapWork::is_done)
+    }
+
+    fn is_done(&self) -> bool {
+        let advised = self.advising.as_ref().is_some_and(AdviceInProgress::is_done);
+        let judged = self.judged == self.request.entries.len();
+        judged && self.is_mapped() && (advised || !self.request.advice)
+    }
+
+    /// The findings so far.
+    pub fn findings(&self) -> Findings {
+        let advice = self.advising.as_ref().filter(|_| self.request.advice);
+        let advice = advice.map(|AdviceInProgress { adviser, advised, .. }| Advice {
+            tick_hz: adviser.tick_hz(),
+            horizon_s: adviser.judge().horizon_s(),
+            wanted: METHODS.len(),
+            advised: advised.clone(),
+        });
+        Findings {
+            request: self.request.clone(),
+            verdicts: self.verdicts.clone(),
+            advice,
+            map: self.mapping.as_ref().filter(|_| self.request.map.is_some()).map(MapWork::map),
+            complete: self.is_done(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{Action, Race};
+
+    fn request(name: &str) -> AnalysisRequest {
+        let scene = Arc::new(Scene::built_in(name).unwrap());
+        let entries = scene.method_list();
+        AnalysisRequest {
+            scene,
+            entries,
+            tick_hz: 60,
+            by_hand: Interventions::default(),
+            advice: false,
+            map: None,
+        }
+    }
+
+    /// Works to the end. Returns the number of verdicts computed, and their texts.
+    fn answer(worker: &mut AnalysisWorker, request: &AnalysisRequest) -> (usize, Vec<String>) {
+        worker.set_request(request.clone());
+        let before = worker.judged;
+        while worker.work() {}
+        let findings = worker.findings();
+        assert!(findings.complete && findings.request == *request);
+        let verdicts = findings.verdicts.iter().map(|found| found.as_ref().unwrap().to_string());
+        (findings.verdicts.len() - before, verdicts.collect())
+    }
+
+    #[test]
+    fn each_verdict_is_found_once_until_the_rate_the_run_or_the_scene_changes() {
+        let first = request("harbour");
+        let mut worker = AnalysisWorker::new(first.clone());
+        let (count, fine) = answer(&mut worker, &first);
+        assert_eq!(count, METHODS.len());
+        assert_eq!(answer(&mut worker, &first), (0, fine.clone()));
+        let (count, coarse) =
+            answer(&mut worker, &AnalysisRequest { tick_hz: 20, ..first.clone() });
+        assert_eq!(count, METHODS.len());
+        assert!(coarse != fine);
+        let mut race = Race::of(&first.scene);
+        race.act(Action::Throttle(0.5), &mut ());
+        let by_hand = Interventions::in_race(&race);
+        let slower = AnalysisRequest { tick_hz: 20, by_hand, ..first.clone() };
+        assert_eq!(answer(&mut worker, &slower).0, METHODS.len());
+        assert_eq!(answer(&mut worker, &first), (METHODS.len(), fine));
+        assert_eq!(answer(&mut worker, &request("spring")).0, METHODS.len());
+    }
+
+    #[test]
+    fn a_verdict_is_on_the_substeps_of_its_lane() {
+        let plain = request("stiff");
+        let mut worker = AnalysisWorker::new(plain.clone());
+        let (_, once) = answer(&mut worker, &plain);
+        let mut finer = plain.clone();
+        let lane = finer.entries.iter_mut().find(|spec| spec.method.id == "rk4").unwrap();
+        lane.substeps = 8;
+        let (count, finer) = answer(&mut worker, &finer);
+        assert_eq!(count, METHODS.len());
+        let changed: Vec<_> = (0..once.len()).filter(|&i| once[i] != finer[i]).collect();
+        let rk4 = plain.entries.iter().position(|spec| spec.method.id == "rk4").unwrap();
+        assert_eq!(changed, [rk4]);
+        assert!(finer[rk4].starts_with("accurate"), "{}", finer[rk4]);
+    }
+
+    #[test]
+    fn a_verdict_at_another_rate_stands_until_it_is_computed_again() {
+        let first = request("spring");
+        let mut worker = AnalysisWorker::new(first.clone());
+        answer(&mut worker, &first);
+        worker.set_request(AnalysisRequest { tick_hz: 20, ..first });
+        assert!(worker.findings().verdicts.iter().all(Option::is_some));
+        assert!(!worker.findings().complete);
+    }
+
+    #[test]
+    fn advice_is_computed_in_small_steps_and_only_on_request() {
+        let unasked = request("spring");
+        let mut worker = AnalysisWorker::new(unasked.clone());
+        answer(&mut worker, &unasked);
+        assert!(worker.findings().advice.is_none());
+        worker.set_request(AnalysisRequest { advice: true, ..unasked });
+        let bits = 1 + (0..).take_while(|_| worker.work()).count();
+        assert!((3..2000).contains(&bits), "{bits} times");
+        let advice = worker.findings().advice.unwrap();
+        assert_eq!([advice.advised.len(), advice.wanted], [METHODS.len(); 2]);
+        assert!(worker.findings().complete);
+    }
+}

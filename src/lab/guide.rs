@@ -1,0 +1,128 @@
+//! The guide: the chapter in stops. Each stop opens a scene, asks for a prediction and for a key, and answers when the
+//! person has done it. And the hints under the stage, which lead on after the scene's own.
+//!
+//! What the stops claim is measured by `tests/guide.rs`.
+
+use super::display::{Display, Interpolation};
+use super::key::Key;
+use super::race::{Mode, Race};
+
+mod hints;
+mod stops;
+
+pub(super) use hints::Hints;
+pub use stops::STOPS;
+
+/// A stop of the guide.
+#[derive(Debug)]
+pub struct Stop {
+    /// What it is about.
+    pub title: &'static str,
+    /// The built-in scene that it opens.
+    pub scene: &'static str,
+    /// The method that it opens the scene with, by its id.
+    pub method: &'static str,
+    /// Ticks per second.
+    pub tick_hz: u32,
+    /// Solo or a race.
+    pub mode: Mode,
+    /// What happens here, and the question. Keys stand between backticks.
+    pub question: &'static str,
+    /// The predictions to choose from.
+    pub choices: &'static [&'static str],
+    /// The right one, by its place.
+    pub right: usize,
+    /// Which key to press.
+    pub task: &'static str,
+    /// The keys that do the task.
+    pub keys: &'static [Key],
+    /// When it is done.
+    pub goal: Goal,
+    /// What the person has seen.
+    pub answer: &'static str,
+}
+
+/// What a person has to bring about at a stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// The lane flies this method.
+    Method(&'static str),
+    /// The ticks have at least this rate, in Hz.
+    TickHzFrom(u32),
+    /// The ticks have at most this rate, in Hz.
+    TickHzTo(u32),
+    /// Time runs at this many percent of real time or more.
+    SpeedFrom(u32),
+    /// Time stands still.
+    Paused,
+    /// All methods race.
+    Race,
+    /// Bodies are drawn so between ticks.
+    Interpolation(Interpolation),
+}
+
+/// What a lab is doing, as far as a goal asks.
+pub(super) struct Situation<'a> {
+    pub(super) race: &'a Race,
+    pub(super) method: &'static str,
+    pub(super) speed_percent: u32,
+    pub(super) is_running: bool,
+    pub(super) display: &'a Display,
+}
+
+impl Goal {
+    pub(super) fn is_met(self, now: &Situation<'_>) -> bool {
+        match self {
+            Goal::Method(id) => now.method == id,
+            Goal::TickHzFrom(hz) => now.race.tick_hz() >= hz,
+            Goal::TickHzTo(hz) => now.race.tick_hz() <= hz,
+            Goal::SpeedFrom(percent) => now.speed_percent >= percent,
+            Goal::Paused => !now.is_running,
+            Goal::Race => now.race.mode() == Mode::Race,
+            Goal::Interpolation(wanted) => now.display.interpolation == wanted,
+        }
+    }
+}
+
+/// A person's way through the stops.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tour {
+    stop: usize,
+    guess: Option<usize>,
+    is_done: bool,
+}
+
+impl Tour {
+    /// At this stop, with nothing done there.
+    pub(super) fn at(stop: usize) -> Self {
+        Self { stop: stop.min(STOPS.len() - 1), ..Self::default() }
+    }
+
+    /// The stop.
+    pub fn stop(&self) -> &'static Stop {
+        &STOPS[self.stop]
+    }
+    /// The stop's place, from 0.
+    pub fn place(&self) -> usize {
+        self.stop
+    }
+    /// The prediction, by its place among the choices.
+    pub fn guess(&self) -> Option<usize> {
+        self.guess
+    }
+    /// Whether the task is done.
+    pub fn is_done(&self) -> bool {
+        self.is_done
+    }
+
+    pub(super) fn predict(&mut self, choice: usize) {
+        if !self.is_done && choice < self.stop().choices.len() {
+            self.guess = Some(choice);
+        }
+    }
+
+    /// Notes that the task is done if it is. Once done, it stays so.
+    pub(super) fn look(&mut self, now: &Situation<'_>) {
+        self.is_done |= self.stop().goal.is_met(now);
+    }
+}

@@ -1,0 +1,182 @@
+//! The hint under the stage. The scene's own asks for its first key; when that is pressed, the hints lead on through
+//! what the program can do.
+
+use crate::lab::analysis::Outcome;
+use crate::lab::command::{Command, KEYS};
+use crate::lab::instrument::Instrument;
+use crate::lab::key::Key;
+
+/// What a hint after the scene's own asks for.
+struct Lead {
+    /// The sentence. Keys stand between backticks.
+    text: &'static str,
+    is_done_by: fn(&Command) -> bool,
+}
+
+static LEADS: [Lead; 6] = [
+    Lead {
+        text: "Press `Home` to see it from the start.",
+        is_done_by: |command| matches!(command, Command::Restart | Command::ToggleRace),
+    },
+    Lead {
+        text: "Press `C` to race all methods against the exact solution, in white.",
+        is_done_by: |command| matches!(command, Command::ToggleRace),
+    },
+    Lead {
+        text: "Hold `,` to go back in time, tick by tick. `Space` goes on from there.",
+        is_done_by: |command| {
+            matches!(command, Command::TickBack | Command::SecondBack | Command::Seek(_))
+        },
+    },
+    Lead {
+        text: "Press `T` for the next instrument: errors, energy, phase.",
+        is_done_by: |command| matches!(command, Command::NextInstrument | Command::Instrument(_)),
+    },
+    Lead {
+        text: "Press `[` and `]` to change the tick rate: who survives a coarse one?",
+        is_done_by: |command| {
+            matches!(command, Command::TickRateUp | Command::TickRateDown | Command::TickHz(_))
+        },
+    },
+    Lead {
+        text: "Press `F2` for the guide through the chapter, or `N` for the next scene.",
+        is_done_by: |command| {
+            matches!(command, Command::ToggleGuide | Command::NextScene | Command::Scene(_))
+        },
+    },
+];
+
+/// The place of the lead that names the instruments.
+const INSTRUMENTS: usize = 3;
+
+/// Which hints a person has followed.
+#[derive(Clone, Debug, Default)]
+pub(in crate::lab) struct Hints {
+    /// That of the open scene.
+    scene: bool,
+    leads: [bool; LEADS.len()],
+}
+
+impl Hints {
+    /// For a scene that has just been opened.
+    pub(in crate::lab) fn of_next_scene(&self) -> Self {
+        Self { scene: false, leads: self.leads }
+    }
+
+    /// Notes what a command does of what the hints ask for. `hint` is the scene's.
+    pub(in crate::lab) fn see(&mut self, command: &Command, hint: Option<&str>) {
+        self.scene |= hint.and_then(asked).is_some_and(|asked| asked.contains(&command));
+        for (done, lead) in self.leads.iter_mut().zip(&LEADS) {
+            *done |= (lead.is_done_by)(command);
+        }
+    }
+
+    /// The present hint: the scene's, or else the first that was not followed. `flown` is the name of the method and the
+    /// outcome of its verdict.
+    pub(in crate::lab) fn text(
+        &self,
+        hint: Option<&str>,
+        (method, outcome): (&str, Option<Outcome>),
+    ) -> Option<String> {
+        if let Some(hint) = hint.filter(|_| !self.scene) {
+            return Some(hint.to_owned());
+        }
+        let next = self.leads.iter().position(|done| !done)?;
+        if next == 0 && hint.is_some() {
+            return Some(format!("{method} {}. {}", reaction(outcome), LEADS[0].text));
+        }
+        let has_map = Instrument::all().any(|instrument| instrument.name().contains("tability"));
+        if next == INSTRUMENTS && has_map {
+            return Some("Press `T` until the stability map is there, and drag its cross.".into());
+        }
+        Some(LEADS[next].text.to_owned())
+    }
+}
+
+/// What a method does, in words that follow its name.
+fn reaction(outcome: Option<Outcome>) -> &'static str {
+    match outcome {
+        Some(Outcome::Rounding | Outcome::Accurate) => "keeps to the exact motion",
+        Some(Outcome::OutOfPhase) => "stays bounded, a little out of step",
+        Some(Outcome::LosesEnergy) => "loses energy",
+        Some(Outcome::GainsEnergy) => "gains energy",
+        Some(Outcome::GaveUp | Outcome::BlewUp) => "is lost",
+        Some(Outcome::NotJudged | Outcome::NoTruth) | None => "has taken over",
+    }
+}
+
+/// The commands of the first key that a hint names.
+fn asked(hint: &str) -> Option<Vec<&'static Command>> {
+    let name = hint.split('`').nth(1)?;
+    let bound = KEYS.iter().flat_map(|binding| binding.keys);
+    let commands = bound.filter(|(key, _)| is_named(*key, name)).map(|(_, command)| command);
+    let commands: Vec<_> = commands.collect();
+    (!commands.is_empty()).then_some(commands)
+}
+
+/// Whether people call a key so.
+fn is_named(key: Key, name: &str) -> bool {
+    let sign = |sign: char| name.chars().eq(sign.to_uppercase());
+    match key {
+        Key::Digit(digit) => name == digit.to_string(),
+        Key::Sign(letter) => sign(letter),
+        Key::ShiftSign(letter) => {
+            name.strip_prefix("Shift ").is_some_and(|n| n.chars().eq(letter.to_uppercase()))
+        }
+        Key::ControlSign(letter) => {
+            name.strip_prefix("Ctrl ").is_some_and(|n| n.chars().eq(letter.to_uppercase()))
+        }
+        Key::Function(number) => name == format!("F{number}"),
+        Key::Space => name == "Space",
+        Key::Up => name == "↑",
+        Key::Down => name == "↓",
+        Key::Left => name == "←",
+        Key::Right => name == "→",
+        Key::Home => name == "Home",
+        Key::Enter => name == "Enter",
+        Key::Escape => name == "Esc",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{SCENES, Scene};
+
+    #[test]
+    fn the_hint_of_every_scene_asks_for_a_key_of_the_table() {
+        for scene in SCENES {
+            let hint = Scene::built_in(scene.name).unwrap().hint.expect("a hint");
+            assert!(asked(&hint).is_some(), "{}: {hint}", scene.name);
+            assert_eq!(hint.matches('`').count() % 2, 0, "{hint}");
+        }
+        for lead in &LEADS {
+            let commands = asked(lead.text).expect("a key of the table");
+            assert!(commands.iter().any(|command| (lead.is_done_by)(command)), "{}", lead.text);
+        }
+    }
+
+    #[test]
+    fn hints_lead_on_when_they_are_followed_and_in_any_order() {
+        let hint = Some("It grows. Press `2`.");
+        let mut hints = Hints::default();
+        let flown = ("Semi-implicit Euler", Some(Outcome::OutOfPhase));
+        let text = |hints: &Hints| hints.text(hint, flown).unwrap_or_default();
+        assert_eq!(text(&hints), "It grows. Press `2`.");
+        hints.see(&Command::TickBack, hint);
+        assert_eq!(text(&hints), "It grows. Press `2`.");
+        hints.see(&Command::Pick(1), hint);
+        assert!(text(&hints).starts_with("Semi-implicit Euler stays bounded"), "{}", text(&hints));
+        assert!(text(&hints).contains("`Home`"));
+        hints.see(&Command::Restart, hint);
+        assert!(text(&hints).contains("`C`"));
+        hints.see(&Command::ToggleRace, hint);
+        assert!(text(&hints).contains("`T`"), "going back was done before");
+        let next = hints.of_next_scene();
+        assert_eq!(text(&next), "It grows. Press `2`.");
+        hints.see(&Command::NextInstrument, hint);
+        hints.see(&Command::TickRateUp, hint);
+        hints.see(&Command::NextScene, hint);
+        assert_eq!(hints.text(hint, flown), None);
+    }
+}

@@ -1,0 +1,170 @@
+//! The instruments beside the stage: one table from which the tabs, the keys and the tests are made.
+
+/// An instrument: what the panel beside the stage shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Instrument {
+    /// Every body's first coordinate over time.
+    Motion,
+    /// The chosen metric over time.
+    Error,
+    /// Kinetic, potential and total energy, and the drift of every lane.
+    Energy,
+    /// Velocity over coordinate.
+    Phase,
+    /// What a tick of each lane costs.
+    Cost,
+    /// The tick rates and the values of a parameter at which each method is stable.
+    StabilityMap,
+    /// What the selected method does in the next tick.
+    OneStep,
+    /// Advice on methods and rates.
+    Advice,
+}
+
+/// The two rows of tabs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InstrumentRow {
+    /// What the run does.
+    Watch,
+    /// Why it does it.
+    Explain,
+}
+
+/// One line of the table of instruments.
+#[derive(Debug)]
+pub struct InstrumentCard {
+    /// The instrument.
+    pub instrument: Instrument,
+    /// The row of its tab.
+    pub row: InstrumentRow,
+    /// The text of its tab.
+    pub name: &'static str,
+    /// What it measures, and how to read it.
+    pub about: &'static str,
+}
+
+use InstrumentRow::{Explain, Watch};
+
+/// Every instrument, in the order of the tabs.
+pub static INSTRUMENTS: &[InstrumentCard] = &[
+    InstrumentCard {
+        instrument: Instrument::Motion,
+        row: Watch,
+        name: "Motion",
+        about: "Where every body is over time. A method that follows the exact curve is right; one that swings wider \
+                gains energy, one that slides sideways is out of phase.",
+    },
+    InstrumentCard {
+        instrument: Instrument::Error,
+        row: Watch,
+        name: "Error",
+        about: "How far each method is from the exact solution, on a logarithmic scale: one mark up is a larger error by \
+                a power of ten. A straight climb is exponential growth.",
+    },
+    InstrumentCard {
+        instrument: Instrument::Energy,
+        row: Watch,
+        name: "Energy",
+        about: "Kinetic, potential and total energy, and the energy each method has gained or lost. The exact total is \
+                a level line.",
+    },
+    InstrumentCard {
+        instrument: Instrument::Phase,
+        row: Watch,
+        name: "Phase portrait",
+        about: "Velocity against position. A motion that repeats is a closed loop; a spiral outwards gains energy, a \
+                spiral inwards loses it.",
+    },
+    InstrumentCard {
+        instrument: Instrument::Cost,
+        row: Watch,
+        name: "Cost",
+        about: "What a tick of each lane costs: evaluations of the force, and in the window the time they take, also as \
+                a share of a frame at 60 Hz.",
+    },
+    InstrumentCard {
+        instrument: Instrument::StabilityMap,
+        row: Explain,
+        name: "Stability map",
+        about: "Where each method is stable: tick rates across, a parameter of the body up. Drag the cross to change \
+                both values.",
+    },
+    InstrumentCard {
+        instrument: Instrument::OneStep,
+        row: Explain,
+        name: "One step",
+        about: "What the selected method does in its next tick: where it evaluates the force, what slope it finds there, \
+                where it lands, and where the exact solution lands.",
+    },
+    InstrumentCard {
+        instrument: Instrument::Advice,
+        row: Explain,
+        name: "Advice",
+        about: "Which method meets which demand at this tick rate, and how many evaluations per second it takes.",
+    },
+];
+
+impl InstrumentRow {
+    /// Both rows, from the top.
+    pub const ALL: [InstrumentRow; 2] = [Watch, Explain];
+
+    /// The word before its tabs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Watch => "Watch",
+            Explain => "Explain",
+        }
+    }
+}
+
+impl Instrument {
+    /// Every instrument, in the order of the tabs.
+    pub fn all() -> impl DoubleEndedIterator<Item = Instrument> + Clone {
+        INSTRUMENTS.iter().map(|card| card.instrument)
+    }
+
+    /// Its line of the table.
+    pub fn card(self) -> &'static InstrumentCard {
+        let card = INSTRUMENTS.iter().find(|card| card.instrument == self);
+        card.expect("every instrument has a line in the table")
+    }
+
+    /// The text of its tab.
+    pub fn name(self) -> &'static str {
+        self.card().name
+    }
+
+    /// The instrument so many tabs further on, cyclically.
+    pub(super) fn beside(self, step: isize) -> Self {
+        let count = INSTRUMENTS.len() as isize;
+        let place = Self::all().position(|instrument| instrument == self).unwrap_or(0) as isize;
+        INSTRUMENTS[(place + step).rem_euclid(count) as usize].instrument
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_row_has_instruments_together_and_each_says_what_it_is() {
+        for pair in INSTRUMENTS.windows(2) {
+            assert!(pair[0].row == pair[1].row || pair[0].row == Watch);
+        }
+        for card in INSTRUMENTS {
+            assert!(card.about.len() > 40 && card.about.ends_with('.'), "{}", card.name);
+            assert_eq!(card.instrument.name(), card.name);
+        }
+    }
+
+    #[test]
+    fn next_and_previous_go_round() {
+        let mut instrument = Instrument::Motion;
+        for _ in INSTRUMENTS {
+            assert_eq!(instrument.beside(1).beside(-1), instrument);
+            instrument = instrument.beside(1);
+        }
+        assert_eq!(instrument, Instrument::Motion);
+        assert_eq!(Instrument::Motion.beside(-1), Instrument::Advice);
+    }
+}

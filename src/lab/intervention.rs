@@ -1,0 +1,73 @@
+//! The changes to a run by which it is judged, and the scene that a run so changed continues.
+
+use std::sync::Arc;
+
+use super::action::Action;
+use super::journal::{JournalRow, Source};
+use super::race::{JudgedBody, JudgedStart, Race};
+use super::scene::{Scene, Scripted};
+
+/// What a person has changed in a run by its present tick, and the parameters that its script has set by then.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Interventions {
+    /// The state at which a body was last placed or kicked.
+    judged_start: Option<Arc<JudgedStart>>,
+    /// The last action on the throttle, on the rudder and on each parameter.
+    settings: Vec<Action>,
+}
+
+impl Interventions {
+    /// The changes in `race`. A parameter that the script has set is in force like one that a person has set; what the
+    /// script does to throttle, rudder and state is part of the motion that is judged.
+    pub(super) fn in_race(race: &Race) -> Self {
+        let mut settings: Vec<Action> = Vec::new();
+        let is_in_force = |row: &&JournalRow| {
+            row.source == Source::Hand || matches!(row.action, Action::Set { .. })
+        };
+        for row in race.journal().rows()[..race.done()].iter().filter(is_in_force).rev() {
+            let acts_on_bodies =
+                matches!(row.action, Action::Throttle(_) | Action::Rudder(_) | Action::Set { .. });
+            let control = row.action.control();
+            if acts_on_bodies && settings.iter().all(|later| later.control() != control) {
+                settings.push(row.action.clone());
+            }
+        }
+        Self { judged_start: race.judged_start().cloned(), settings }
+    }
+
+    /// The time of the run at which the scene begins that it is [applied to](Self::applied_to), in seconds.
+    pub(super) fn starts_at_s(&self) -> f64 {
+        self.judged_start.as_ref().map_or(0.0, |start| start.t)
+    }
+
+    /// The run as a scene of its own, from where a body was last placed or kicked by hand, or else from the start.
+    /// Parameters that have been set, and a throttle and a rudder that were set by hand, have their last values from the
+    /// beginning, and the script does not set them.
+    pub(super) fn applied_to(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        let mut at_start = Vec::new();
+        if let Some(judged_start) = &self.judged_start {
+            scene.tick_hz = judged_start.tick_hz;
+            scene.script.retain(|scripted| scripted.tick > judged_start.tick);
+            scene.script.iter_mut().for_each(|scripted| scripted.tick -= judged_start.tick);
+            at_start.push(Action::Throttle(judged_start.throttle));
+            at_start.push(Action::Rudder(judged_start.rudder));
+            for (body, JudgedBody { values, q, v }) in judged_start.bodies.iter().enumerate() {
+                scene.bodies[body].values.clone_from(values);
+                at_start.push(Action::Place { body, q: q.clone(), v: v.clone() });
+            }
+        }
+        for setting in &self.settings {
+            scene.script.retain(|scripted| scripted.action.control() != setting.control());
+            match *setting {
+                Action::Set { body, parameter, value } => {
+                    scene.bodies[body].values[parameter] = value;
+                }
+                _ => at_start.push(setting.clone()),
+            }
+        }
+        let at_start = at_start.into_iter().map(|action| Scripted { tick: 0, action });
+        scene.script.splice(0..0, at_start);
+        scene
+    }
+}

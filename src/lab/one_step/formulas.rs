@@ -1,0 +1,147 @@
+//! The formulas of the methods, for people: `f(t, y) = (v, a(t, q, v))` on the state `y = (q, v)`.
+
+/// How a method is written.
+#[derive(Clone, Copy, Debug)]
+pub struct Formula {
+    /// The id of the method.
+    pub method: &'static str,
+    /// The formula, line by line, with ′ on what holds at the end of the step.
+    pub lines: &'static [&'static str],
+    /// The weights of the evaluations in `y′ = y + h Σ w k`; empty if the method is no such sum.
+    pub weights: &'static [f64],
+}
+
+const fn formula(
+    method: &'static str,
+    lines: &'static [&'static str],
+    weights: &'static [f64],
+) -> Formula {
+    Formula { method, lines, weights }
+}
+
+/// The formula of each method.
+pub const FORMULAS: &[Formula] = &[
+    formula("explicit-euler", &["y′ = y + h f(t, y)"], &[1.0]),
+    formula(
+        "midpoint",
+        &["k₁ = f(t, y)", "k₂ = f(t + ½h, y + ½h k₁)", "y′ = y + h k₂"],
+        &[0.0, 1.0],
+    ),
+    formula(
+        "improved-euler",
+        &["k₁ = f(t, y)", "k₂ = f(t + h, y + h k₁)", "y′ = y + ½h (k₁ + k₂)"],
+        &[0.5, 0.5],
+    ),
+    formula(
+        "ssp-rk3",
+        &[
+            "k₁ = f(t, y)",
+            "k₂ = f(t + h, y + h k₁)",
+            "k₃ = f(t + ½h, y + ¼h (k₁ + k₂))",
+            "y′ = y + h (k₁ + k₂ + 4 k₃) / 6",
+        ],
+        &[1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
+    ),
+    formula(
+        "rk4",
+        &[
+            "k₁ = f(t, y)",
+            "k₂ = f(t + ½h, y + ½h k₁)",
+            "k₃ = f(t + ½h, y + ½h k₂)",
+            "k₄ = f(t + h, y + h k₃)",
+            "y′ = y + h (k₁ + 2 k₂ + 2 k₃ + k₄) / 6",
+        ],
+        &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
+    ),
+    formula("adams-bashforth-2", &["f = f(t, y), g = f(t − h, y₋₁)", "y′ = y + ½h (3 f − g)"], &[]),
+    formula("semi-implicit-euler", &["v′ = v + h a(t, q, v)", "q′ = q + h v′"], &[]),
+    formula(
+        "velocity-verlet",
+        &["v½ = v + ½h a", "q′ = q + h v½", "a′ = a(t + h, q′, v½ + ½h a)", "v′ = v½ + ½h a′"],
+        &[],
+    ),
+    formula(
+        "position-verlet",
+        &["q½ = q + ½h v", "v′ = v + h a(t + ½h, q½, v)", "q′ = q½ + ½h v′"],
+        &[],
+    ),
+    formula("stormer-verlet", &["q′ = 2 q − q₋₁ + h² a", "v′ = (q′ − q) / h + ½h a′"], &[]),
+    formula(
+        "yoshida4",
+        &[
+            "drifts of θ/2, (1−θ)/2, (1−θ)/2, θ/2",
+            "between them kicks of θ, 1−2θ, θ",
+            "θ = 1 / (2 − ∛2)",
+        ],
+        &[],
+    ),
+    formula(
+        "pefrl",
+        &[
+            "drifts of ξ, χ, 1−2(χ+ξ), χ, ξ",
+            "between them kicks of (1−2λ)/2, λ, λ, (1−2λ)/2",
+            "ξ = 0.1786, λ = −0.2123, χ = −0.0663",
+        ],
+        &[],
+    ),
+    formula(
+        "adaptive-euler",
+        &[
+            "k₁ = f(t, y), k₂ = f(t + ½h, y + ½h k₁)",
+            "error = ½h |k₁ − k₂|",
+            "y′ = y + h k₂ if the error is small",
+        ],
+        &[],
+    ),
+    formula(
+        "bogacki-shampine-32",
+        &[
+            "k₂ = f(t + ½h, y + ½h k₁)",
+            "k₃ = f(t + ¾h, y + ¾h k₂)",
+            "y′ = y + h (2 k₁ + 3 k₂ + 4 k₃) / 9",
+            "k₄ = f(t + h, y′), for the error",
+        ],
+        &[],
+    ),
+    formula(
+        "dormand-prince-54",
+        &[
+            "kᵢ = f(t + cᵢ h, y + h Σ aᵢⱼ kⱼ), i = 1 … 7",
+            "y′ = y + h Σ a₇ⱼ kⱼ",
+            "error = h Σ eᵢ kᵢ",
+        ],
+        &[],
+    ),
+    formula("implicit-euler", &["y′ = y + h f(t + h, y′)"], &[]),
+    formula("implicit-midpoint", &["m = y + ½h f(t + ½h, m)", "y′ = 2 m − y"], &[]),
+    formula(
+        "newmark",
+        &["q′ = q + h v + ¼h² (a + a′)", "v′ = v + ½h (a + a′)", "a′ = a(t + h, q′, v′)"],
+        &[],
+    ),
+    formula("bdf2", &["y′ = y + ⅓ (y − y₋₁) + ⅔h f(t + h, y′)"], &[]),
+    formula(
+        "gauss-legendre-4",
+        &["Yᵢ = y + h Σ aᵢⱼ f(t + cᵢ h, Yⱼ)", "y′ = y + ½h (f(Y₁) + f(Y₂))"],
+        &[],
+    ),
+    formula(
+        "improved-euler-as-printed",
+        &["k₁ = a(t, q, v), k₂ = a(t + h, q, v + h k₁)", "v′ = v + ½h (k₁ + k₂)", "q′ = q + h v′"],
+        &[],
+    ),
+    formula(
+        "rk4-as-printed",
+        &[
+            "k₁ … k₄ of the velocity alone, at q",
+            "v′ = v + h (k₁ + 2 k₂ + 2 k₃ + k₄) / 6",
+            "q′ = q + h v′",
+        ],
+        &[],
+    ),
+    formula(
+        "adaptive-euler-as-printed",
+        &["e = |v₁ − v₂|, of one step and of two halves", "h shrinks to h √(tolerance / e)"],
+        &[],
+    ),
+];

@@ -1,0 +1,106 @@
+use super::*;
+use crate::lab::command::Command;
+use crate::lab::scene::Scene;
+use crate::sim::integrators::METHODS;
+
+/// A lab under a method, after some ticks.
+fn lab(scene: &str, method: &str, ticks: u64) -> Lab {
+    let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+    let entry = lab.entries().iter().position(|spec| spec.method.id == method).unwrap();
+    lab.apply(Command::Pick(entry));
+    (0..ticks).for_each(|_| lab.tick());
+    lab
+}
+
+fn near(found: [f64; 2], wanted: [f64; 2]) -> bool {
+    found.iter().zip(wanted).all(|(a, b)| (a - b).abs() <= 1e-12 * (1.0 + b.abs()))
+}
+
+#[test]
+fn runge_kutta_4_evaluates_at_the_places_of_the_textbook() {
+    let step = lab("spring", "rk4", 7).one_step().unwrap();
+    let h = 1.0 / 60.0;
+    let omega_squared = std::f64::consts::TAU * std::f64::consts::TAU;
+    let f = |[x, v]: [f64; 2]| [v, -omega_squared * x];
+    let along = |h: f64, k: [f64; 2]| [step.from[0] + h * k[0], step.from[1] + h * k[1]];
+    let k1 = f(step.from);
+    let k2 = f(along(h / 2.0, k1));
+    let k3 = f(along(h / 2.0, k2));
+    let at = [step.from, along(h / 2.0, k1), along(h / 2.0, k2), along(h, k3)];
+    assert_eq!(step.evaluations.len(), 4);
+    for (i, evaluation) in step.evaluations.iter().enumerate() {
+        assert!((evaluation.when - [0.0, 0.5, 0.5, 1.0][i]).abs() < 1e-12, "{evaluation:?}");
+        assert!(near(evaluation.at, at[i]), "{i}: {evaluation:?}");
+        assert!(near(evaluation.slope, f(at[i])), "{i}: {evaluation:?}");
+    }
+    assert_eq!((step.tick, step.h), (7, h));
+    let exact = step.exact_landing().unwrap();
+    let turn = std::f64::consts::TAU * h;
+    let wanted =
+        step.from[0] * libm::cos(turn) + step.from[1] / std::f64::consts::TAU * libm::sin(turn);
+    assert!((exact[0] - wanted).abs() < 1e-9, "{exact:?}, not {wanted}");
+}
+
+#[test]
+fn every_method_lands_where_the_run_goes_to_the_bit_and_does_not_disturb_it() {
+    for scene in ["spring", "chain", "pendulum", "orbit"] {
+        for method in METHODS {
+            let mut lab = lab(scene, method.id, 5);
+            let before: Vec<u64> = lab.race().lane_hashes().collect();
+            let evaluations = lab.race().entrants()[0].lane.evaluations();
+            let step = lab.one_step().unwrap();
+            let counted = lab.evaluations_of_next_tick(0);
+            assert_eq!(lab.race().lane_hashes().collect::<Vec<_>>(), before, "{}", method.id);
+            lab.tick();
+            let lane = &lab.race().entrants()[0].lane;
+            let stepper = &lane.bodies()[0].stepper;
+            let bits = |at: [f64; 2]| at.map(f64::to_bits);
+            let landed = [stepper.q()[0], stepper.v()[0]];
+            assert_eq!(step.landing.map(bits), Some(bits(landed)), "{} on {scene}", method.id);
+            assert_eq!(step.evaluations.len() as u64, lane.evaluations() - evaluations);
+            assert_eq!(step.evaluations.len() as u64, counted, "{} on {scene}", method.id);
+        }
+    }
+}
+
+#[test]
+fn every_method_has_one_formula_and_its_weights_lead_to_the_landing() {
+    assert_eq!(FORMULAS.len(), METHODS.len());
+    let mut chains = 0;
+    for (method, formula) in METHODS.iter().zip(FORMULAS) {
+        assert_eq!(method.id, formula.method);
+        let step = lab("spring", method.id, 3).one_step().unwrap();
+        assert_eq!(step.chain.is_empty(), formula.weights.is_empty(), "{}", method.id);
+        if let Some(&end) = step.chain.last() {
+            assert!(near(end, step.landing.unwrap()), "{}: {end:?}", method.id);
+            chains += 1;
+        }
+    }
+    assert_eq!(chains, 5);
+}
+
+#[test]
+fn a_halted_body_has_no_next_step() {
+    let lab = lab("stiff", "explicit-euler", 400);
+    assert!(lab.race().entrants()[0].lane.halted().is_some());
+    assert_eq!(lab.one_step(), None);
+}
+
+#[test]
+fn the_time_of_a_tick_is_the_least_of_its_runs_and_a_halted_lane_has_none() {
+    use std::cell::Cell;
+    let spring = lab("spring", "rk4", 1);
+    let lane = &spring.race().entrants()[0].lane;
+    let (reading, step) = (Cell::new(0), Cell::new(900));
+    // Each run takes 100 ns less than the one before.
+    let clock = || {
+        reading.set(reading.get() + step.get());
+        step.set(step.get() - 50);
+        reading.get()
+    };
+    let start = (1, 1.0 / 60.0, 1.0 / 60.0);
+    assert_eq!(lane.ns_per_tick(start, 10, 3, clock), Some(65.0));
+    let stiff = lab("stiff", "explicit-euler", 300);
+    let lane = &stiff.race().entrants()[0].lane;
+    assert_eq!(lane.ns_per_tick(start, 400, 1, || 0), None);
+}

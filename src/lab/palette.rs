@@ -1,0 +1,288 @@
+//! The colours of the night chart and of the day chart, and the second cue that tells one method from another.
+//!
+//! Method colours begin with those of Okabe and Ito, which people with any kind of colour vision can tell apart,
+//! made lighter for the dark stage and darker for the light one.
+
+use std::sync::LazyLock;
+
+use crate::sim::integrators::{METHODS, Method};
+
+/// A colour: red, green, blue and alpha, sRGB, alpha not multiplied in.
+pub type Rgba = [u8; 4];
+
+/// A dark or a light chart.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Theme {
+    /// A sea chart by night.
+    #[default]
+    Dark,
+    /// A paper chart by day.
+    Light,
+}
+
+impl Theme {
+    /// Its colours.
+    pub fn palette(self) -> &'static Palette {
+        match self {
+            Theme::Dark => &DARK,
+            Theme::Light => &LIGHT,
+        }
+    }
+
+    /// The other theme.
+    pub fn other(self) -> Self {
+        match self {
+            Theme::Dark => Theme::Light,
+            Theme::Light => Theme::Dark,
+        }
+    }
+
+    /// The colour of a method's evaluation of the force, by its number from 0.
+    pub fn evaluation(self, number: usize) -> Rgba {
+        let [orange, blue, pink, yellow, green, amber, violet] = self.palette().methods;
+        [green, blue, yellow, pink, orange, violet, amber][number % 7]
+    }
+
+    /// The colour of a method, and its dash pattern as the second cue: drawn length and gap in points, a
+    /// gap of 0 being solid.
+    pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
+        let index = METHODS.iter().position(|listed| listed == method).unwrap_or(0);
+        let (colour, dash) = STYLES[index];
+        (self.palette().methods[colour], DASHES[dash])
+    }
+}
+
+/// The colours of a theme.
+#[derive(Debug)]
+pub struct Palette {
+    /// Behind everything.
+    pub background: Rgba,
+    /// A panel.
+    pub panel: Rgba,
+    /// A control, a selected row.
+    pub raised: Rgba,
+    /// A line between panels, the border of a control.
+    pub line: Rgba,
+    /// Behind the curves of a plot.
+    pub plot: Rgba,
+    /// The grid of a plot.
+    pub grid: Rgba,
+    /// Text.
+    pub text: Rgba,
+    /// Quiet text.
+    pub dim: Rgba,
+    /// Hover, focus, a kick, a cross to drag.
+    pub accent: Rgba,
+    /// Text on a field of the accent.
+    pub on_accent: Rgba,
+    /// The sea at the top of the stage and at its bottom.
+    pub sea: [Rgba; 2],
+    /// Waves, depth contours, distance marks.
+    pub chart: Rgba,
+    /// The quay, and its edge.
+    pub quay: [Rgba; 2],
+    /// The exact solution.
+    pub exact: Rgba,
+    /// What went wrong.
+    pub bad: Rgba,
+    /// What to be careful about.
+    pub warn: Rgba,
+    /// What is right.
+    pub good: Rgba,
+    /// Of methods.
+    methods: [Rgba; 7],
+}
+
+const fn rgb(hex: u32) -> Rgba {
+    [(hex >> 16) as u8, (hex >> 8) as u8, hex as u8, 255]
+}
+
+static DARK: Palette = Palette {
+    background: rgb(0x0A1119),
+    panel: rgb(0x0E1823),
+    raised: rgb(0x182635),
+    line: rgb(0x24364A),
+    plot: rgb(0x0A131D),
+    grid: rgb(0x1A2A3A),
+    text: rgb(0xE8EEF4),
+    dim: rgb(0xA3B4C4),
+    accent: rgb(0xE8BC6A),
+    on_accent: rgb(0x0E1823),
+    sea: [rgb(0x0F2536), rgb(0x0A1825)],
+    chart: rgb(0x8FB2CC),
+    quay: [rgb(0x1B2530), rgb(0x4A5B6B)],
+    exact: rgb(0xFFFFFF),
+    bad: rgb(0xFF7A70),
+    warn: rgb(0xF0C050),
+    good: rgb(0x5FD6A4),
+    methods: [
+        rgb(0xFF8242),
+        rgb(0x5BB8F0),
+        rgb(0xD58CC0),
+        rgb(0xF2E24B),
+        rgb(0x2BCB9B),
+        rgb(0xE69F00),
+        rgb(0xADA4FF),
+    ],
+};
+
+static LIGHT: Palette = Palette {
+    background: rgb(0xE9E3D4),
+    panel: rgb(0xF8F4E9),
+    raised: rgb(0xEAE3D0),
+    line: rgb(0xC9BFA6),
+    plot: rgb(0xFDFBF4),
+    grid: rgb(0xDED6C2),
+    text: rgb(0x1B2733),
+    dim: rgb(0x4E5B66),
+    accent: rgb(0x7A4F00),
+    on_accent: rgb(0xFFFFFF),
+    sea: [rgb(0xE3EFF2), rgb(0xCFE2E9)],
+    chart: rgb(0x3F6C86),
+    quay: [rgb(0xD9D0BB), rgb(0x8C8270)],
+    exact: rgb(0x0B1016),
+    bad: rgb(0xA8221B),
+    warn: rgb(0x7A5200),
+    good: rgb(0x00663F),
+    methods: [
+        rgb(0x9A3C06),
+        rgb(0x085A93),
+        rgb(0x923570),
+        rgb(0x645800),
+        rgb(0x00694A),
+        rgb(0x7A4F00),
+        rgb(0x4A3FA8),
+    ],
+};
+
+/// Drawn length and gap in points. Five patterns against seven colours: no two of the first 35 methods
+/// share both.
+const DASHES: [[f32; 2]; 5] = [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0]];
+
+/// The methods that the chapter and its scenes race, with the places of their colours and dashes.
+const CLASSICS: [(&str, usize, usize); 6] = [
+    ("explicit-euler", 0, 0),
+    ("semi-implicit-euler", 1, 1),
+    ("implicit-euler", 2, 2),
+    ("improved-euler", 3, 3),
+    ("rk4", 4, 4),
+    ("adaptive-euler", 5, 0),
+];
+
+/// The places of the warm colours, which are much alike on the light chart.
+const WARM: [usize; 3] = [0, 3, 5];
+
+/// Whether two colours could be taken for each other.
+fn are_alike(a: usize, b: usize) -> bool {
+    a == b || WARM.contains(&a) && WARM.contains(&b)
+}
+
+/// The places of each method's colour and dash. No method has a colour like that of a neighbour in the table.
+static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
+    let classic = |method: &Method| {
+        let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
+        found.map(|&(_, colour, dash)| (colour, dash))
+    };
+    let all = (0..).map(|n| (n % DARK.methods.len(), n % DASHES.len()));
+    let mut free: Vec<(usize, usize)> = all.take(DARK.methods.len() * DASHES.len()).collect();
+    free.retain(|style| !METHODS.iter().filter_map(classic).any(|taken| taken == *style));
+    let mut styles: Vec<(usize, usize)> = Vec::new();
+    for (i, method) in METHODS.iter().enumerate() {
+        let beside = [styles.last().copied(), METHODS.get(i + 1).and_then(classic)];
+        let differs = |style: &(usize, usize)| {
+            beside.iter().flatten().all(|other| !are_alike(other.0, style.0))
+        };
+        let style = classic(method).unwrap_or_else(|| {
+            let place = free.iter().position(differs).unwrap_or(0);
+            free.remove(place)
+        });
+        styles.push(style);
+    }
+    styles
+});
+
+/// A colour between two, at this part of the way from the first to the second; opaque.
+pub fn mixed(from: Rgba, to: Rgba, part: f32) -> Rgba {
+    let mix = |i: usize| {
+        f32::from(from[i]) + part.clamp(0.0, 1.0) * (f32::from(to[i]) - f32::from(from[i]))
+    };
+    [mix(0) as u8, mix(1) as u8, mix(2) as u8, 255]
+}
+
+/// The same colour, less opaque.
+pub fn faded([r, g, b, a]: Rgba, part: f32) -> Rgba {
+    [r, g, b, (f32::from(a) * part.clamp(0.0, 1.0)) as u8]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance, as the Web Content Accessibility Guidelines 2.1 define it.
+    fn luminance(colour: Rgba) -> f64 {
+        let linear = |i: usize| {
+            let part = f64::from(colour[i]) / 255.0;
+            if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2)
+    }
+
+    fn contrast(a: Rgba, b: Rgba) -> f64 {
+        let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
+        a.max(b) / a.min(b)
+    }
+
+    #[test]
+    fn text_stands_out_from_what_it_is_written_on_in_both_themes() {
+        for theme in [Theme::Dark, Theme::Light] {
+            let palette = theme.palette();
+            let surfaces = [
+                palette.background,
+                palette.panel,
+                palette.raised,
+                palette.plot,
+                palette.sea[0],
+                palette.sea[1],
+            ];
+            let texts = [
+                palette.text,
+                palette.dim,
+                palette.accent,
+                palette.bad,
+                palette.warn,
+                palette.good,
+            ];
+            for surface in surfaces {
+                for text in texts.iter().chain(&palette.methods) {
+                    let contrast = contrast(*text, surface);
+                    assert!(contrast >= 4.5, "{theme:?}: {text:?} on {surface:?}: {contrast:.2}");
+                }
+            }
+            assert!(contrast(palette.on_accent, palette.accent) >= 4.5);
+        }
+        assert!((contrast(rgb(0xFFFFFF), rgb(0)) - 21.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn methods_differ_in_colour_or_dash_and_neighbours_in_colour() {
+        let distance =
+            |a: Rgba, b: Rgba| (0..3).map(|i| u32::from(a[i].abs_diff(b[i])).pow(2)).sum::<u32>();
+        for (i, style) in STYLES.iter().enumerate() {
+            assert!(!STYLES[..i].contains(style), "{}", METHODS[i].id);
+        }
+        for theme in [Theme::Dark, Theme::Light] {
+            for pair in METHODS.windows(2) {
+                let [a, b] = [&pair[0], &pair[1]].map(|method| theme.style(method).0);
+                assert!(distance(a, b) > 40 * 40, "{} and {}: {a:?} {b:?}", pair[0].id, pair[1].id);
+            }
+            for lanes in [
+                ["explicit-euler", "semi-implicit-euler"],
+                ["semi-implicit-euler", "implicit-euler"],
+            ] {
+                let [a, b] =
+                    lanes.map(|id| theme.style(crate::sim::integrators::method(id).unwrap()).0);
+                assert!(distance(a, b) > 60 * 60, "{lanes:?}");
+            }
+        }
+    }
+}

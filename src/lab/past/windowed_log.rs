@@ -1,0 +1,164 @@
+//! Records in order, of which a window is shown that ends at the present or at a moment in the past.
+
+use std::collections::{VecDeque, vec_deque};
+
+/// A bounded sequence of records, of which a window is shown. Allocated once.
+///
+/// Records are numbered from the run's start. While a run is in its past, the records of its future stay after the window,
+/// and an equal record that is [pushed](WindowedLog::push) again is not stored again.
+#[derive(Debug)]
+pub(super) struct WindowedLog<T> {
+    kept: VecDeque<T>,
+    /// The most records shown.
+    window: usize,
+    /// The most records kept.
+    capacity: usize,
+    /// The number of the oldest record kept.
+    first: u64,
+    /// The number after the newest record shown.
+    end: u64,
+}
+
+impl<T: PartialEq> WindowedLog<T> {
+    /// An empty log that shows the newest `window` records and keeps `spare` more.
+    pub(super) fn new(window: usize, spare: usize) -> Self {
+        let capacity = window + spare;
+        Self { kept: VecDeque::with_capacity(capacity), window, capacity, first: 0, end: 0 }
+    }
+
+    /// How many are shown.
+    pub(super) fn len(&self) -> usize {
+        self.window.min((self.end - self.first) as usize)
+    }
+
+    /// The records shown, oldest first.
+    pub(super) fn shown(&self) -> vec_deque::Iter<'_, T> {
+        self.range(0)
+    }
+
+    /// The records shown, but for the `skipped` oldest.
+    pub(super) fn range(&self, skipped: usize) -> vec_deque::Iter<'_, T> {
+        let end = (self.end - self.first) as usize;
+        self.kept.range(end - self.len() + skipped..end)
+    }
+
+    /// The newest record shown.
+    pub(super) fn newest(&self) -> Option<&T> {
+        self.shown().next_back()
+    }
+
+    /// Adds the next record. Never allocates.
+    pub(super) fn push(&mut self, record: T) {
+        let next = (self.end - self.first) as usize;
+        if self.kept.get(next) == Some(&record) {
+            self.end += 1;
+            return;
+        }
+        self.forget_future();
+        if self.kept.len() == self.capacity {
+            self.kept.pop_front();
+            self.first += 1;
+        }
+        self.kept.push_back(record);
+        self.end += 1;
+    }
+
+    /// Removes the newest record shown from the window; the next record replaces it.
+    pub(super) fn pop(&mut self) {
+        self.end = self.first.max(self.end.saturating_sub(1));
+    }
+
+    /// The end of the window: the number after the newest record shown.
+    pub(super) fn mark(&self) -> u64 {
+        self.end
+    }
+
+    /// Whether all records of the window that ends at `mark` are kept.
+    pub(super) fn keeps(&self, mark: u64) -> bool {
+        let oldest = mark.saturating_sub(self.window as u64);
+        self.first <= oldest && mark <= self.first + self.kept.len() as u64
+    }
+
+    /// Whether a run repeated from `from` will have filled the window that ends at `mark`.
+    pub(super) fn fills(&self, from: u64, mark: u64) -> bool {
+        from + self.window as u64 <= mark || self.keeps(mark) && self.first <= from
+    }
+
+    /// Ends the window at `mark`. If the records there are not kept, the log is empty from there.
+    pub(super) fn rewind(&mut self, mark: u64) {
+        if !(self.first..=self.first + self.kept.len() as u64).contains(&mark) {
+            self.kept.clear();
+            self.first = mark;
+        }
+        self.end = mark;
+    }
+
+    /// Drops the records after the window.
+    pub(super) fn forget_future(&mut self) {
+        self.kept.truncate((self.end - self.first) as usize);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(log: &WindowedLog<u32>) -> Vec<u32> {
+        log.shown().copied().collect()
+    }
+
+    fn filled(to: u32) -> WindowedLog<u32> {
+        let mut log = WindowedLog::new(3, 2);
+        (0..to).for_each(|n| log.push(n));
+        log
+    }
+
+    #[test]
+    fn the_newest_records_are_shown_and_older_ones_are_kept_for_going_back() {
+        let mut log = filled(9);
+        assert_eq!((shown(&log), log.mark(), log.newest()), (vec![6, 7, 8], 9, Some(&8)));
+        assert!(log.keeps(9) && log.keeps(7) && !log.keeps(6) && !log.keeps(10));
+        log.rewind(7);
+        assert_eq!(shown(&log), [4, 5, 6]);
+        log.push(7);
+        log.push(8);
+        assert_eq!(shown(&log), [6, 7, 8]);
+        assert_eq!(log.range(1).copied().collect::<Vec<_>>(), [7, 8]);
+    }
+
+    #[test]
+    fn a_record_that_differs_from_the_recorded_one_begins_another_future() {
+        let mut log = filled(9);
+        log.rewind(7);
+        log.push(70);
+        assert_eq!((shown(&log), log.keeps(9)), (vec![5, 6, 70], false));
+        log.push(8);
+        assert_eq!(shown(&log), [6, 70, 8]);
+        log.rewind(8);
+        log.forget_future();
+        assert!(!log.keeps(9) && log.keeps(8));
+    }
+
+    #[test]
+    fn a_window_that_is_not_kept_is_filled_again_from_far_enough_back() {
+        let mut log = filled(100);
+        assert!(!log.keeps(50) && log.fills(47, 50) && !log.fills(48, 50) && !log.fills(0, 2));
+        log.rewind(47);
+        assert_eq!((shown(&log), log.mark()), (vec![], 47));
+        (47..50).for_each(|n| log.push(n));
+        assert_eq!((shown(&log), log.mark()), (vec![47, 48, 49], 50));
+        // The kept records end before the start of the repetition.
+        assert!(log.fills(49, 50) && !log.fills(50, 51));
+    }
+
+    #[test]
+    fn what_is_popped_is_replaced() {
+        let mut log = filled(2);
+        log.pop();
+        log.push(10);
+        assert_eq!(shown(&log), [0, 10]);
+        let mut empty: WindowedLog<u32> = WindowedLog::new(3, 0);
+        empty.pop();
+        assert_eq!((empty.len(), empty.mark(), empty.newest()), (0, 0, None));
+    }
+}

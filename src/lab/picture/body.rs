@@ -1,0 +1,162 @@
+//! A body in front, behind, or exact: how each part of its outline is drawn.
+
+use super::coil::{Span, coil, silhouette};
+use super::hull::{self, Berth};
+use super::mass::{self, Coat};
+use super::sketch::{Camera, SOLID, line, path};
+use super::{Align, Label, Mark, Outline, Picture, Shape};
+use crate::lab::palette::{Palette, faded, mixed};
+
+/// An outline as one camera sees it.
+#[derive(Clone, Copy)]
+pub(super) struct Seen<'a> {
+    pub(super) outline: &'a Outline,
+    pub(super) camera: &'a Camera,
+    pub(super) palette: &'static Palette,
+}
+
+impl Seen<'_> {
+    fn span(&self) -> Span {
+        let quay = self.camera.points(glam::DVec2::new(self.camera.quay_m, 0.0))[0];
+        Span { quay, block: self.camera.points(self.outline.at), size: self.camera.block }
+    }
+
+    fn berth(&self, bow: glam::DVec2, length: f64) -> Berth {
+        Berth {
+            at: self.camera.points(self.outline.at),
+            bow: [bow.x as f32, -bow.y as f32],
+            length: self.camera.length(length),
+        }
+    }
+
+    /// What does not move, of a body that is not seen.
+    pub(super) fn still(&self, shapes: &mut Vec<Shape>) {
+        let is_still = |mark: &&Mark| matches!(mark, Mark::Wall { .. } | Mark::Anchor { .. });
+        let marks = self.outline.marks.iter().filter(is_still).copied().collect();
+        let outline = Outline { marks, at: self.outline.at };
+        let nothing = Coat { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
+        Seen { outline: &outline, ..*self }.carried(shapes, nothing);
+    }
+
+    /// Writes a lane's number on its body, if that is one thing and has room.
+    pub(super) fn number(&self, picture: &mut Picture, number: usize) {
+        let mut sizes = self.outline.marks.iter().filter_map(|mark| match *mark {
+            Mark::Sprung => Some(0.42 * self.camera.block),
+            Mark::Disc { radius, .. } => Some(1.1 * self.camera.length(radius)),
+            Mark::Hull { .. } | Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rod { .. } => None,
+        });
+        let (Some(size), None) = (sizes.next().filter(|size| *size >= 9.0), sizes.next()) else {
+            return;
+        };
+        picture.labels.push(Label {
+            at: self.camera.points(self.outline.at),
+            align: Align::Centre,
+            size: size.min(26.0),
+            colour: [16, 24, 32, 255],
+            is_strong: true,
+            halo: [0; 4],
+            text: number.to_string(),
+        });
+    }
+
+    /// What carries the body: springs, rods, and what does not move. It is drawn below the exact solution.
+    pub(super) fn carried(&self, shapes: &mut Vec<Shape>, coat: Coat) {
+        let (camera, clip) = (self.camera, self.camera.rect);
+        let still = mixed(self.palette.chart, self.palette.sea[1], 0.35);
+        for mark in &self.outline.marks {
+            match *mark {
+                Mark::Wall { from, to } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    shapes.push(line(ends[0], ends[1], 5.0, still, clip));
+                }
+                Mark::Rod { from, to } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    shapes.push(line(
+                        ends[0],
+                        ends[1],
+                        2.6,
+                        mixed(coat.colour, self.palette.text, 0.3),
+                        clip,
+                    ));
+                }
+                Mark::Sprung => coil(shapes, self.span(), self.palette, clip),
+                Mark::Anchor { centre, radius } => {
+                    mass::ball(shapes, camera.points(centre), camera.length(radius), still, clip);
+                }
+                Mark::Disc { .. } | Mark::Hull { .. } => {}
+            }
+        }
+    }
+
+    /// The body itself, in front of everything.
+    pub(super) fn front(&self, shapes: &mut Vec<Shape>, coat: Coat) {
+        let (camera, clip) = (self.camera, self.camera.rect);
+        for mark in &self.outline.marks {
+            match *mark {
+                Mark::Disc { centre, radius } => {
+                    mass::ball(
+                        shapes,
+                        camera.points(centre),
+                        camera.length(radius),
+                        coat.colour,
+                        clip,
+                    );
+                }
+                Mark::Sprung => {
+                    mass::block(shapes, self.span().block, camera.block, coat.colour, clip);
+                }
+                Mark::Hull { bow, length } => {
+                    hull::ship(shapes, self.berth(bow, length), coat.colour, self.palette, clip);
+                }
+                Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rod { .. } => {}
+            }
+        }
+    }
+
+    /// A lane behind, hollow: what tells where it is, and nothing of what does not move.
+    pub(super) fn behind(&self, shapes: &mut Vec<Shape>, coat: Coat) {
+        let (camera, clip) = (self.camera, self.camera.rect);
+        for mark in &self.outline.marks {
+            match *mark {
+                Mark::Rod { from, to } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    shapes.push(path(ends, 1.4, faded(coat.colour, 0.7), coat.dash, clip));
+                }
+                Mark::Disc { centre, radius } => {
+                    let radius = camera.length(radius);
+                    mass::hollow_disc(shapes, camera.points(centre), radius, coat, clip);
+                }
+                Mark::Sprung => {
+                    mass::hollow_block(shapes, self.span().block, camera.block, coat, clip);
+                }
+                Mark::Hull { bow, length } => {
+                    hull::hollow(shapes, self.berth(bow, length), coat, clip);
+                }
+                Mark::Wall { .. } | Mark::Anchor { .. } => {}
+            }
+        }
+    }
+
+    /// The exact solution: one line round it.
+    pub(super) fn ghost(&self, shapes: &mut Vec<Shape>) {
+        let (camera, clip, palette) = (self.camera, self.camera.rect, self.palette);
+        for mark in &self.outline.marks {
+            match *mark {
+                Mark::Rod { from, to } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    shapes.push(path(ends, 3.6, faded(palette.sea[1], 0.6), SOLID, clip));
+                    shapes.push(path(ends, 1.4, faded(palette.exact, 0.8), SOLID, clip));
+                }
+                Mark::Disc { centre, radius } => {
+                    let radius = camera.length(radius);
+                    mass::ghost_disc(shapes, camera.points(centre), radius, palette, clip);
+                }
+                Mark::Sprung => silhouette(shapes, self.span(), palette, clip),
+                Mark::Hull { bow, length } => {
+                    hull::ghost(shapes, self.berth(bow, length), palette, clip);
+                }
+                Mark::Wall { .. } | Mark::Anchor { .. } => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! A coil spring between the quay and a block: a wire round a drum, seen from the side.
+
+use std::f32::consts::{PI, TAU};
+
+use super::sketch::{SOLID, fill, path, ring, rounded};
+use super::{Rect, Rgba, Shape};
+use crate::lab::palette::{Palette, faded};
+
+/// Turns of the wire. They stay as many; the pitch stretches.
+const TURNS: u16 = 13;
+/// The radius of the drum, and the straight wire at either end, in blocks.
+const RADIUS: f32 = 0.35;
+const LEAD: f32 = 0.09;
+/// Points of half a turn.
+const PIECES: u16 = 7;
+/// Metal in the shade, in the light, and where it gleams.
+const METAL: [Rgba; 3] = [[111, 132, 150, 255], [185, 199, 211, 255], [240, 246, 250, 255]];
+/// Below this length a spring is not drawn, in points: its block is at the quay or beyond.
+const LEAST: f32 = 6.0;
+
+/// Where a spring is, in points.
+#[derive(Clone, Copy)]
+pub(super) struct Span {
+    pub(super) quay: f32,
+    /// The middle of the block.
+    pub(super) block: [f32; 2],
+    /// The side of the block.
+    pub(super) size: f32,
+}
+
+impl Span {
+    /// Where the wire begins to turn and where it ends.
+    fn ends(self) -> Option<(f32, f32)> {
+        let lead = LEAD * self.size;
+        let (from, to) = (self.quay + lead, self.block[0] - self.size / 2.0 - lead);
+        (to - from >= LEAST).then_some((from, to))
+    }
+
+    /// A point of the wire, which has made this turn, in radians.
+    fn wire(self, (from, to): (f32, f32), angle: f32) -> [f32; 2] {
+        let (pitch, radius) = ((to - from) / f32::from(TURNS), RADIUS * self.size);
+        let lean = (0.22 * pitch).min(0.34 * radius);
+        let x = from + pitch * angle / TAU + lean * libm::sinf(angle);
+        [x, self.block[1] - radius * libm::cosf(angle)]
+    }
+}
+
+/// The spring, in metal.
+pub(super) fn coil(shapes: &mut Vec<Shape>, span: Span, palette: &Palette, clip: Rect) {
+    let Some(ends) = span.ends() else { return };
+    let thick = (span.size / 60.0).clamp(0.25, 1.0);
+    let dark = faded(palette.background, 0.75);
+    let y = span.block[1];
+    for (from, to) in [(span.quay, ends.0), (ends.1, span.block[0])] {
+        shapes.push(path([[from, y], [to, y]], 5.0 * thick, METAL[0], SOLID, clip));
+    }
+    let half = |turn: u16, back: bool| {
+        let first = f32::from(turn) * TAU + if back { PI } else { 0.0 };
+        (0..=PIECES).map(move |i| span.wire(ends, first + PI * f32::from(i) / f32::from(PIECES)))
+    };
+    let mut layer = |back: bool, width: f32, colour: Rgba| {
+        for turn in 0..TURNS {
+            shapes.push(path(half(turn, back), width * thick, colour, SOLID, clip));
+        }
+    };
+    layer(true, 6.0, dark);
+    layer(true, 3.8, METAL[0]);
+    layer(false, 6.8, dark);
+    layer(false, 4.2, METAL[1]);
+    layer(false, 1.5, METAL[2]);
+}
+
+/// The silhouette of a spring and its block, in one line round both.
+pub(super) fn silhouette(shapes: &mut Vec<Shape>, span: Span, palette: &Palette, clip: Rect) {
+    let half = span.size / 2.0 + 1.5;
+    let [x, y] = span.block;
+    let block = rounded([x - half, y - half], [x + half, y + half], 0.15 * span.size);
+    let dark = faded(palette.sea[1], 0.6);
+    let exact = faded(palette.exact, 0.95);
+    let veil = faded(palette.exact, 0.12);
+    shapes.push(fill(&block, veil, clip));
+    let mut round = block;
+    if let Some((from, _)) = span.ends() {
+        let (edge, swell) = (RADIUS * span.size + 3.0, 0.05 * span.size);
+        let left = from - 2.0;
+        let right = x - half;
+        shapes.push(fill(
+            &[[left, y - edge], [right, y - edge], [right, y + edge], [left, y + edge]],
+            veil,
+            clip,
+        ));
+        let scallop = |i: u16, side: f32| {
+            let part = f32::from(i) / f32::from(4 * TURNS);
+            let bulge = libm::fabsf(libm::sinf(PI * f32::from(i) / 4.0));
+            [left + part * (right - left), y + side * (edge - swell + swell * bulge)]
+        };
+        // The corners of the block begin at its upper right and go round to its upper left.
+        let upper = (0..=4 * TURNS).map(|i| scallop(i, -1.0));
+        let lower = (0..=4 * TURNS).rev().map(|i| scallop(i, 1.0));
+        let (right_side, left_side) = round.split_at(round.len() / 2);
+        let (below, above) = left_side.split_at(left_side.len() / 2);
+        round = [above, right_side, below].concat();
+        round.extend(lower);
+        round.extend(upper);
+    }
+    shapes.push(ring(&round, 4.0, dark, SOLID, clip));
+    shapes.push(ring(&round, 1.8, exact, SOLID, clip));
+}

@@ -1,0 +1,217 @@
+//! The numbers of lanes: a flag over each body behind, and a badge at the edge for each that left the stage.
+
+use glam::DVec2;
+
+use super::sketch::{Camera, SOLID, fill, line, ring, rounded};
+use super::{Align, Label, Picture, Rect, Rgba};
+use crate::lab::number::{significant, superscript};
+use crate::lab::palette::{Palette, faded, mixed};
+
+/// The height of a flag and its least width, and the least gap between two, in points.
+const FLAG: f32 = 18.0;
+const GAP: f32 = 3.0;
+/// With more flags than this, those that point at places nearer than this to each other, in points, become one.
+const MANY: usize = 8;
+const NEAR: f32 = 9.0;
+/// The most numbers on one flag.
+const MOST_NUMBERS: usize = 3;
+/// How often flags are pushed apart, for each of them.
+const PUSHES: usize = 3;
+/// The height of a badge, and the width of one with a number and without.
+const BADGE: f32 = 24.0;
+const WIDE_BADGE: f32 = 92.0;
+const NARROW_BADGE: f32 = 26.0;
+/// From this value on, places are told as powers of ten.
+const FAR_AWAY: f64 = 1e4;
+
+/// A lane's number at a place of the stage.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flag {
+    /// What it points at, in points.
+    pub(super) at: [f32; 2],
+    pub(super) number: usize,
+    pub(super) colour: Rgba,
+}
+
+/// Flags over these places, within `room`, pushed apart where they would cover each other. Of many, those that point at one place share
+/// one.
+pub(super) fn flags(
+    picture: &mut Picture,
+    flags: &[Flag],
+    lift: f32,
+    palette: &Palette,
+    (room, clip): (Rect, Rect),
+) {
+    let mut shared: Vec<Vec<Flag>> = Vec::new();
+    for flag in flags {
+        let is_near =
+            |other: &Vec<Flag>| (0..2).all(|i| (other[0].at[i] - flag.at[i]).abs() < NEAR);
+        match shared.iter_mut().find(|other| flags.len() > MANY && is_near(other)) {
+            Some(other) => other.push(*flag),
+            None => shared.push(vec![*flag]),
+        }
+    }
+    let half = FLAG / 2.0;
+    let [(left, right), (top, bottom)] = [0, 1].map(|axis| {
+        let least = room.min[axis] + half;
+        (least, (room.max[axis] - half).max(least))
+    });
+    let over = |flags: &Vec<Flag>| {
+        let [x, y] = flags[0].at;
+        [x.clamp(left, right), (y - lift - half).clamp(top, bottom)]
+    };
+    let widths: Vec<f32> = shared.iter().map(|flags| width(flags)).collect();
+    let mut places: Vec<[f32; 2]> = shared.iter().map(over).collect();
+    for _ in 0..PUSHES * places.len() {
+        for first in 0..places.len() {
+            for second in first + 1..places.len() {
+                push_apart(&mut places, &widths, [first, second], (left, right));
+            }
+        }
+    }
+    for ((flags, [x, y]), width) in shared.iter().zip(places).zip(widths) {
+        let colour = if flags.len() == 1 { flags[0].colour } else { palette.dim };
+        let foot = [flags[0].at[0], flags[0].at[1] - lift + 6.0];
+        picture.shapes.push(line([x, y + half], foot, 1.4, colour, clip));
+        board(picture, [x, y], width, (text(flags), colour), palette, clip);
+    }
+}
+
+/// Pushes two flags apart along the row that they share, if they do.
+fn push_apart(
+    places: &mut [[f32; 2]],
+    widths: &[f32],
+    [first, second]: [usize; 2],
+    (left, right): (f32, f32),
+) {
+    let [a, b] = [places[first], places[second]];
+    let (low, high) = if a[0] <= b[0] { (first, second) } else { (second, first) };
+    let apart = (widths[first] + widths[second]) / 2.0 + GAP;
+    let lack = apart - (a[0] - b[0]).abs();
+    if lack > 0.0 && (a[1] - b[1]).abs() < FLAG + GAP {
+        places[low][0] = (places[low][0] - lack / 2.0).max(left);
+        places[high][0] = (places[high][0] + lack / 2.0).min(right);
+    }
+}
+
+/// What stands on the flag of some lanes.
+fn text(flags: &[Flag]) -> String {
+    let numbers = flags.iter().map(|flag| flag.number.to_string());
+    match flags.len() {
+        0..=MOST_NUMBERS => numbers.collect::<Vec<_>>().join(" "),
+        many => format!("{many} lanes"),
+    }
+}
+
+fn width(flags: &[Flag]) -> f32 {
+    let letters = text(flags).chars().count();
+    (FLAG - 9.0 + 8.0 * letters as f32).max(FLAG)
+}
+
+/// Words in a box.
+fn board(
+    picture: &mut Picture,
+    [x, y]: [f32; 2],
+    width: f32,
+    (text, colour): (String, Rgba),
+    palette: &Palette,
+    clip: Rect,
+) {
+    let [wide, high] = [width / 2.0, FLAG / 2.0];
+    let shape = rounded([x - wide, y - high], [x + wide, y + high], 0.22 * FLAG);
+    picture.shapes.push(fill(&shape, faded(palette.panel, 0.94), clip));
+    picture.shapes.push(ring(&shape, 1.5, colour, SOLID, clip));
+    picture.labels.push(Label {
+        at: [x, y],
+        align: Align::Centre,
+        size: 0.68 * FLAG,
+        colour,
+        is_strong: true,
+        halo: [0; 4],
+        text,
+    });
+}
+
+/// A lane whose body is drawn beyond the edge of its cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lost {
+    pub(super) flag: Flag,
+    /// Where the body is at the present tick, in metres.
+    pub(super) place: DVec2,
+}
+
+/// Badges at the edges of a cell, one below the other, for the lanes that left it. Returns what they leave free.
+pub(super) fn badges(
+    picture: &mut Picture,
+    camera: &Camera,
+    lost: &[Lost],
+    top: f32,
+    palette: &Palette,
+) -> Rect {
+    let clip = camera.rect;
+    let mut free = clip;
+    let (width, height) = (clip.max[0] - clip.min[0], clip.max[1] - clip.min[1]);
+    for is_right in [false, true] {
+        let middle = (clip.min[0] + clip.max[0]) / 2.0;
+        let side = |badge: &&Lost| (camera.points(badge.place)[0] > middle) == is_right;
+        let of_side: Vec<&Lost> = lost.iter().filter(side).collect();
+        let rows = ((height - top) / (BADGE + 3.0)).max(1.0) as usize;
+        let is_wide = of_side.len() <= rows && width > 3.0 * WIDE_BADGE;
+        let wide = if is_wide { WIDE_BADGE } else { NARROW_BADGE };
+        let taken = of_side.len().div_ceil(rows) as f32 * (wide + 8.0);
+        match is_right {
+            true => free.max[0] -= taken,
+            false => free.min[0] += taken,
+        }
+        for (i, badge) in of_side.into_iter().enumerate() {
+            let inset = (i / rows) as f32 * (wide + 8.0) + 6.0;
+            let y = clip.min[1] + top + (i % rows) as f32 * (BADGE + 3.0);
+            let tip = if is_right { clip.max[0] - inset } else { clip.min[0] + inset };
+            let inwards = if is_right { -1.0 } else { 1.0 };
+            let far = tip + inwards * wide;
+            let middle = y + BADGE / 2.0;
+            let shoulder = tip + inwards * 9.0;
+            let shape =
+                [[tip, middle], [shoulder, y], [far, y], [far, y + BADGE], [shoulder, y + BADGE]];
+            picture.shapes.push(fill(&shape, faded(palette.panel, 0.94), clip));
+            picture.shapes.push(ring(&shape, 1.6, badge.flag.colour, SOLID, clip));
+            let at = [if is_wide { far - inwards * 14.0 } else { (far + shoulder) / 2.0 }, middle];
+            let (colour, dark) =
+                (badge.flag.colour, mixed(palette.background, [0, 0, 0, 255], 0.2));
+            let half = 7.5;
+            let digit = rounded([at[0] - half, at[1] - half], [at[0] + half, at[1] + half], 3.0);
+            picture.shapes.push(fill(&digit, colour, clip));
+            let mut write = |at, size, colour, text| {
+                let halo = [0; 4];
+                picture.labels.push(Label {
+                    at,
+                    align: Align::Centre,
+                    size,
+                    colour,
+                    is_strong: true,
+                    halo,
+                    text,
+                });
+            };
+            write(at, 12.0, dark, badge.flag.number.to_string());
+            if is_wide {
+                let middle_of_text = (far - inwards * 24.0 + shoulder) / 2.0;
+                write([middle_of_text, middle], 12.5, palette.text, told(camera, badge));
+            }
+        }
+    }
+    free
+}
+
+/// How far a body is, along the way on which it left.
+fn told(camera: &Camera, lost: &Lost) -> String {
+    let Rect { min, max } = camera.rect;
+    let at = camera.points(lost.place);
+    let axis = (0..2).find(|&axis| at[axis] < min[axis] || at[axis] > max[axis]).unwrap_or(0);
+    let value = [lost.place.x, lost.place.y][axis];
+    if value.abs() < FAR_AWAY {
+        return format!("{} m", significant(value, 3));
+    }
+    let sign = if value < 0.0 { "−" } else { "" };
+    format!("{sign}10{} m", superscript(libm::floor(libm::log10(value.abs())) as i32))
+}

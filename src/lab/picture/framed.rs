@@ -1,0 +1,126 @@
+//! What a camera shows of a body's world: the room that the true motion takes, and in solo the lane's too.
+
+use glam::DVec2;
+
+use super::moment::{Moment, turns};
+use super::sketch::Camera;
+use super::{Framing, Rect};
+use crate::lab::race::Entrant;
+
+/// The head of a cell that a body with a fixed camera leaves to the caption, in points.
+const HEAD: f64 = 36.0;
+/// How wide the quay is that springs are moored to, as a part of the cell, and at most in points.
+const QUAY: f32 = 0.07;
+const WIDEST_QUAY: f32 = 56.0;
+/// The side of a block as a part of its cell's height, and its least and its greatest in points.
+const BLOCK: f32 = 0.31;
+const BLOCKS: (f32, f32) = (12.0, 88.0);
+/// How much further than the true one a lane's swing may be for the camera to show it, in solo.
+const MOST_SWING: f64 = 2.3;
+
+/// What a camera fits into its cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    pub(super) framing: Framing,
+    /// Where the camera looks that follows its body, in metres.
+    pub(super) followed: DVec2,
+    /// How far a body goes from what its camera looks at, along x and along y, in metres.
+    pub(super) reach_m: DVec2,
+    pub(super) turns: bool,
+}
+
+impl View {
+    /// Half the width that a chart recorder shows, in metres.
+    pub(super) fn recorded_m(&self) -> Option<f64> {
+        match self.framing {
+            Framing::Recorder { half_width_m } => Some(half_width_m.max(1.1 * self.reach_m.x)),
+            Framing::Follow { .. } | Framing::Fixed { .. } => None,
+        }
+    }
+
+    /// Makes room for how far a lane swings, which is alone on the stage: some times further than the truth.
+    pub(super) fn widened(mut self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> Self {
+        if let Framing::Recorder { half_width_m } = self.framing {
+            let samples = moment.history(lane, body).samples();
+            let furthest = samples.map(|s| s.at.x.abs()).filter(|x| x.is_finite());
+            let furthest = furthest.fold(0.0, f64::max);
+            let usual = half_width_m.max(self.reach_m.x);
+            self.reach_m.x = self.reach_m.x.max(furthest.min(MOST_SWING * usual));
+        }
+        self
+    }
+}
+
+/// The width of the quay at the left of a cell, in points.
+pub(super) fn quay_width(cell: Rect) -> f32 {
+    (QUAY * cell.size()[0] as f32).min(WIDEST_QUAY)
+}
+
+impl Moment<'_> {
+    /// The camera of a cell that shows the body at this place of the scene, zoomed and panned as a person has it.
+    pub(super) fn camera(&self, rect: Rect, index: usize, view: &View) -> Camera {
+        self.fitted(rect, view).through(self.lab.display().zoom_pan(index))
+    }
+
+    fn fitted(&self, rect: Rect, view: &View) -> Camera {
+        let [width, height] = rect.size();
+        let middle = [0, 1].map(|i| (rect.min[i] + rect.max[i]) / 2.0);
+        let plain = Camera {
+            rect,
+            centre_m: DVec2::ZERO,
+            at: middle,
+            points_per_metre: 1.0,
+            paper: 0.0,
+            block: (BLOCK * height as f32).clamp(BLOCKS.0, BLOCKS.1),
+            quay_m: 0.0,
+        };
+        match view.framing {
+            Framing::Follow { width_m, height_m, .. } => {
+                let centre_m = if self.lab.display().motion {
+                    view.followed
+                } else {
+                    // In pages, so that nothing but the ship moves.
+                    let (page, leaf) = (0.6 * width_m, 0.5 * height_m);
+                    let x = (libm::floor(view.followed.x / page) + 0.5) * page;
+                    DVec2::new(x, libm::round(view.followed.y / leaf) * leaf)
+                };
+                // On a straight course some way ahead of the middle leaves room for the wake.
+                let ahead = if view.turns { 0.0 } else { 0.1 };
+                let at = [middle[0] + ahead * width as f32, middle[1] + 0.06 * height as f32];
+                let points_per_metre = (width / width_m).min(height / height_m);
+                Camera { centre_m, at, points_per_metre, ..plain }
+            }
+            Framing::Recorder { half_width_m } => {
+                let half_width_m = view.recorded_m().unwrap_or(half_width_m);
+                let quay = quay_width(rect);
+                let half = (width as f32 - quay) / 2.0;
+                let head = (HEAD as f32).min(0.22 * height as f32);
+                let at = [rect.min[0] + quay + half, rect.min[1] + head + 0.55 * plain.block];
+                let points_per_metre = f64::from(half) / (1.03 * half_width_m);
+                let paper = f64::from(rect.max[1] - at[1]);
+                let quay_m = -f64::from(half) / points_per_metre;
+                Camera { at, points_per_metre, paper, quay_m, ..plain }
+            }
+            Framing::Fixed { centre_m, half_m, .. } => {
+                let half_m = half_m.max(1.05 * view.reach_m);
+                let head = HEAD.min(height / 4.0);
+                let at = [middle[0], middle[1] + head as f32 / 2.0];
+                let points_per_metre = (width / half_m.x).min((height - head) / half_m.y) / 2.0;
+                Camera { centre_m, at, points_per_metre, ..plain }
+            }
+        }
+    }
+
+    /// The width and height, in metres, of what is to be seen of a body that is alone in its scene and
+    /// moves both across and up. Other bodies move along rows.
+    pub(super) fn shape(&self, view: &View) -> Option<DVec2> {
+        let [body] = self.lab.race().truth().bodies() else { return None };
+        match view.framing {
+            Framing::Fixed { half_m, .. } => Some(half_m),
+            Framing::Follow { width_m, height_m, .. } if turns(body) => {
+                Some(DVec2::new(width_m, height_m))
+            }
+            Framing::Follow { .. } | Framing::Recorder { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! A ship from above: a hull with a deck, hatches and a house.
+
+use std::f32::consts::FRAC_PI_2;
+
+use super::mass::Coat;
+use super::sketch::{SOLID, disc, fill, line, path, ring, rounded, shaded};
+use super::{Rect, Rgba, Shape};
+use crate::lab::palette::{Palette, faded, mixed};
+
+const WHITE: Rgba = [255, 255, 255, 255];
+const BLACK: Rgba = [0, 0, 0, 255];
+/// Planks of the deck, in the light and in the shade.
+const DECK: [Rgba; 2] = [[236, 220, 184, 255], [206, 186, 146, 255]];
+const HATCH: Rgba = [138, 160, 112, 255];
+/// The beam of a ship as a part of its length.
+const BEAM: f32 = 0.26;
+/// Hulls shorter than this, in points, are drawn without a house.
+const ROOM_FOR_HOUSE: f32 = 70.0;
+
+/// Where a ship is and how it lies, in points.
+#[derive(Clone, Copy)]
+pub(super) struct Berth {
+    pub(super) at: [f32; 2],
+    /// The direction of the bow, of length 1, y down.
+    pub(super) bow: [f32; 2],
+    pub(super) length: f32,
+}
+
+impl Berth {
+    /// A place on the ship: so far from its middle to the bow and to starboard, in lengths.
+    fn place(self, ahead: f32, aside: f32) -> [f32; 2] {
+        let [bx, by] = self.bow;
+        let (ahead, aside) = (ahead * self.length, aside * self.length);
+        [self.at[0] + ahead * bx - aside * by, self.at[1] + ahead * by + aside * bx]
+    }
+
+    /// The corners of the hull, drawn in by this many points.
+    fn hull(self, inset: f32) -> Vec<[f32; 2]> {
+        const PIECES: u8 = 22;
+        let inset = inset / self.length;
+        let half = BEAM / 2.0;
+        let width = |part: f32| {
+            let stern = (part / 0.1).min(1.0);
+            let bow = ((part - 0.5) / 0.5).max(0.0);
+            let fullness = libm::powf(libm::sinf(stern * FRAC_PI_2), 0.5);
+            half * (0.55 + 0.45 * fullness) * fullness.max(0.4) * (1.0 - libm::powf(bow, 2.1))
+        };
+        let side = |sign: f32| {
+            (0..=PIECES).map(move |i| {
+                let part = f32::from(i) / f32::from(PIECES);
+                let ahead = (part - 0.5) * (1.0 - 2.0 * inset);
+                (ahead, sign * (width(part) - inset).max(0.0))
+            })
+        };
+        let corners = side(-1.0).chain(side(1.0).rev());
+        corners.map(|(ahead, aside)| self.place(ahead, aside)).collect()
+    }
+
+    fn block(self, (from, to): (f32, f32), half: f32, radius: f32) -> Vec<[f32; 2]> {
+        let corners = rounded([from, -half], [to, half], radius);
+        corners.into_iter().map(|[ahead, aside]| self.place(ahead, aside)).collect()
+    }
+}
+
+/// The ship itself.
+pub(super) fn ship(
+    shapes: &mut Vec<Shape>,
+    berth: Berth,
+    colour: Rgba,
+    palette: &Palette,
+    clip: Rect,
+) {
+    let part = (berth.length / 150.0).clamp(0.2, 2.0);
+    // Water that the bow throws aside.
+    for (out, alpha) in [(7.0, 0.16), (3.5, 0.28)] {
+        let crest: Vec<[f32; 2]> = berth.hull(-out * part);
+        let bow = crest.len() / 2;
+        let reach = crest.len() / 5;
+        shapes.push(path(
+            crest[bow - reach..bow + reach].iter().copied(),
+            3.0 * part,
+            faded(palette.chart, 2.0 * alpha),
+            SOLID,
+            clip,
+        ));
+    }
+    let shadow = Berth { at: [berth.at[0] + 2.0 * part, berth.at[1] + 4.0 * part], ..berth };
+    shapes.push(fill(&shadow.hull(-2.0 * part), faded(BLACK, 0.22), clip));
+    let hull = berth.hull(0.0);
+    shapes.push(fill(&hull, mixed(colour, BLACK, 0.08), clip));
+    shapes.push(ring(&hull, (1.6 * part).max(0.8), mixed(colour, BLACK, 0.5), SOLID, clip));
+    if berth.length < ROOM_FOR_HOUSE {
+        return;
+    }
+    let deck = berth.hull(5.5 * part);
+    let plank = |[_, y]: [f32; 2]| {
+        let low = (y - berth.at[1]) / (BEAM * berth.length) + 0.5;
+        mixed(DECK[0], DECK[1], low)
+    };
+    shapes.push(shaded(&deck, plank, clip));
+    for seam in -4..=4_i8 {
+        let aside = f32::from(seam) * 0.022;
+        let ends = 0.42 - 0.06 * libm::fabsf(f32::from(seam)) - 0.02;
+        let ends = (-0.43, ends.max(0.1));
+        let seam = [berth.place(ends.0, aside), berth.place(ends.1, aside)];
+        shapes.push(line(seam[0], seam[1], 0.6 * part, faded(BLACK, 0.16), clip));
+    }
+    shapes.push(ring(&deck, 1.0 * part, faded(BLACK, 0.35), SOLID, clip));
+    for from in [0.03, 0.135] {
+        let hatch = berth.block((from, from + 0.085), 0.05, 0.008);
+        shapes.push(fill(&hatch, HATCH, clip));
+        shapes.push(ring(&hatch, 1.0 * part, mixed(HATCH, BLACK, 0.5), SOLID, clip));
+    }
+    let house = berth.block((-0.36, -0.1), 0.078, 0.02);
+    shapes.push(fill(&berth.block((-0.35, -0.075), 0.085, 0.02), faded(BLACK, 0.25), clip));
+    shapes.push(fill(&house, [222, 230, 236, 255], clip));
+    shapes.push(ring(&house, 1.2 * part, [70, 84, 98, 255], SOLID, clip));
+    let bridge = berth.block((-0.13, -0.085), 0.092, 0.012);
+    shapes.push(fill(&bridge, [96, 122, 144, 255], clip));
+    shapes.push(ring(&bridge, 1.0 * part, [40, 52, 64, 255], SOLID, clip));
+    let funnel = berth.place(-0.26, 0.0);
+    shapes.push(disc(funnel, 0.045 * berth.length, [36, 44, 54, 255], clip));
+    shapes.push(disc(funnel, 0.034 * berth.length, colour, clip));
+    shapes.push(disc(funnel, 0.015 * berth.length, [20, 24, 30, 255], clip));
+    let stem = [berth.place(0.33, 0.0), berth.place(0.45, 0.0)];
+    shapes.push(line(stem[0], stem[1], 1.2 * part, faded(WHITE, 0.6), clip));
+}
+
+/// The outline of a ship of a lane behind.
+pub(super) fn hollow(shapes: &mut Vec<Shape>, berth: Berth, coat: Coat, clip: Rect) {
+    let hull = berth.hull(0.0);
+    shapes.push(fill(&hull, faded(coat.colour, coat.fill), clip));
+    shapes.push(ring(&hull, 1.8, coat.colour, coat.dash, clip));
+}
+
+/// The outline of the exact ship.
+pub(super) fn ghost(shapes: &mut Vec<Shape>, berth: Berth, palette: &Palette, clip: Rect) {
+    let hull = berth.hull(-2.0);
+    shapes.push(fill(&hull, faded(palette.exact, 0.12), clip));
+    shapes.push(ring(&hull, 4.0, faded(palette.sea[1], 0.6), SOLID, clip));
+    shapes.push(ring(&hull, 1.8, faded(palette.exact, 0.95), SOLID, clip));
+}

@@ -1,0 +1,139 @@
+//! The scenes that a person can open: the built-in scenes, then the opened files.
+
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+
+use super::scene::{SCENES, Scene};
+
+/// The list of scenes, and which of them is open.
+#[derive(Clone, Debug)]
+pub struct SceneList {
+    files: Vec<SceneFile>,
+    /// The place of the open scene; `None` if it is not on the list.
+    open: Option<usize>,
+}
+
+/// A scene that was read from a file.
+#[derive(Clone, Debug)]
+pub(super) struct SceneFile {
+    /// As it was given.
+    path: PathBuf,
+    /// The scene as last read without errors.
+    pub(super) scene: Scene,
+    /// The errors of the file's present text, if it has any.
+    pub(super) mistakes: Option<String>,
+}
+
+impl SceneFile {
+    /// Its path, for people.
+    pub(super) fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+}
+
+impl SceneList {
+    /// The built-in scenes, of which the one with the name of `scene` is open.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let open = SCENES.iter().position(|built_in| built_in.name == scene.name);
+        Self { files: Vec::new(), open }
+    }
+
+    /// The number of scenes.
+    pub(super) fn count(&self) -> usize {
+        SCENES.len() + self.files.len()
+    }
+
+    /// The place of the open scene, if it is in the list.
+    pub fn open(&self) -> Option<usize> {
+        self.open
+    }
+
+    /// The names of all scenes. A file's name includes its extension; several files of one name are listed by path.
+    pub fn names(&self) -> impl Iterator<Item = String> {
+        let built_in = SCENES.iter().map(|scene| scene.name.to_owned());
+        built_in.chain(self.files.iter().map(|file| self.file_name(&file.path)))
+    }
+
+    /// The name under which the file at `path` is listed, if it is.
+    pub(super) fn name_of(&self, path: &Path) -> Option<String> {
+        self.paths().any(|listed| listed == path).then(|| self.file_name(path))
+    }
+
+    fn file_name(&self, path: &Path) -> String {
+        let namesakes = self.files.iter().filter(|file| file.path.file_name() == path.file_name());
+        let name = path.file_name().filter(|name| namesakes.count() < 2 && has_ending(name));
+        name.unwrap_or(path.as_os_str()).display().to_string()
+    }
+
+    /// The path of the open scene, if it was read from a file.
+    pub fn open_path(&self) -> Option<&Path> {
+        Some(&self.file(self.open?)?.path)
+    }
+
+    /// The paths of all files, in the order in which they were first opened.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.files.iter().map(|file| &*file.path)
+    }
+
+    pub(super) fn file(&self, place: usize) -> Option<&SceneFile> {
+        self.files.get(place.checked_sub(SCENES.len())?)
+    }
+
+    /// The scene at this place, as its file has it.
+    pub(super) fn scene(&self, place: usize) -> Scene {
+        let built_in = || Scene::built_in(SCENES[place].name).expect("a name of SCENES");
+        self.file(place).map_or_else(built_in, |file| file.scene.clone())
+    }
+
+    pub(super) fn set_open(&mut self, place: usize) {
+        self.open = Some(place);
+    }
+
+    /// Puts the scene of a file on the list, or replaces the file's earlier scene. Returns its place.
+    pub(super) fn put(&mut self, path: &Path, scene: Scene) -> usize {
+        let file = SceneFile { path: path.to_owned(), scene, mistakes: None };
+        match self.files.iter().position(|known| known.path == path) {
+            Some(place) => {
+                self.files[place] = file;
+                SCENES.len() + place
+            }
+            None => {
+                self.files.push(file);
+                self.count() - 1
+            }
+        }
+    }
+
+    /// Records the errors of a file on the list.
+    pub(super) fn mark(&mut self, path: &Path, mistakes: String) {
+        if let Some(file) = self.files.iter_mut().find(|file| file.path == path) {
+            file.mistakes = Some(mistakes);
+        }
+    }
+}
+
+fn has_ending(name: &OsStr) -> bool {
+    Path::new(name).extension().is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_never_has_the_name_of_a_built_in_scene_nor_of_another_file() {
+        let ship = Scene::built_in("ship").unwrap();
+        let mut scene_list = SceneList::of(&ship);
+        assert_eq!(scene_list.names().nth(scene_list.open().unwrap()).unwrap(), "ship");
+        let place = scene_list.put(Path::new("a/ship.toml"), ship.clone());
+        assert_eq!(scene_list.names().nth(place).unwrap(), "ship.toml");
+        assert_eq!(place, SCENES.len());
+        let other = scene_list.put(Path::new("b/ship.toml"), ship.clone());
+        let bare = scene_list.put(Path::new("c/ship"), ship.clone());
+        let names: Vec<String> = scene_list.names().skip(SCENES.len()).collect();
+        assert_eq!(names, ["a/ship.toml", "b/ship.toml", "c/ship"]);
+        assert_eq!((other, bare), (place + 1, place + 2));
+        assert_eq!(scene_list.put(Path::new("a/ship.toml"), ship), place, "it keeps its place");
+        assert_eq!(scene_list.count(), SCENES.len() + 3);
+    }
+}

@@ -1,0 +1,95 @@
+//! The zoom and the pan of a body's cell of the stage.
+
+/// The least and the greatest zoom: from a body that has left the frame far behind, to its last pixels.
+pub const ZOOMS: (f64, f64) = (1.0 / 8.0, 64.0);
+
+/// The largest distance of the view's middle from the middle of the fitted frame, in frames: the extent of the view at
+/// the least zoom, so that everything visible can be zoomed in on.
+const FARTHEST: f64 = 4.5;
+
+/// A zoom and a pan relative to the frame that the camera fits. They are in units of the frame, so that they do not depend
+/// on the size of the window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ZoomPan {
+    /// How many times larger than fitted, within [`ZOOMS`].
+    zoom: f64,
+    /// The place in the middle of the view: across and down from the middle of the fitted frame, in its widths and
+    /// heights.
+    centre: [f64; 2],
+}
+
+impl Default for ZoomPan {
+    /// The whole frame, as the camera fits it.
+    fn default() -> Self {
+        Self { zoom: 1.0, centre: [0.0; 2] }
+    }
+}
+
+impl ZoomPan {
+    /// How many times larger than fitted.
+    pub fn zoom(&self) -> f64 {
+        self.zoom
+    }
+
+    /// The place in the view of a place of the fitted frame. Both are across and down from the middle, in widths and
+    /// heights.
+    pub fn seen(&self, place: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|i| self.zoom * (place[i] - self.centre[i]))
+    }
+
+    /// Zooms in by the factor `times`; the place shown at `about` stays there.
+    pub fn zoomed(self, times: f64, about: [f64; 2]) -> Self {
+        let zoom = (self.zoom * times).clamp(ZOOMS.0, ZOOMS.1);
+        let centre = [0, 1].map(|i| self.centre[i] + about[i] / self.zoom - about[i] / zoom);
+        Self { zoom, centre: centre.map(within_reach) }
+    }
+
+    /// Pans by so many widths and heights of the frame.
+    pub fn panned(self, by: [f64; 2]) -> Self {
+        let centre = [0, 1].map(|i| within_reach(self.centre[i] - by[i] / self.zoom));
+        Self { centre, ..self }
+    }
+}
+
+fn within_reach(centre: f64) -> f64 {
+    centre.clamp(-FARTHEST, FARTHEST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_under_the_pointer_stays_there_while_zooming() {
+        let mut zoom_pan = ZoomPan::default().panned([0.2, -0.1]);
+        for (times, about) in [(1.3, [0.3, -0.4]), (5.0, [-0.5, 0.5]), (0.1, [0.1, 0.2])] {
+            let place = [0, 1].map(|i| zoom_pan.centre[i] + about[i] / zoom_pan.zoom);
+            zoom_pan = zoom_pan.zoomed(times, about);
+            for (seen, about) in zoom_pan.seen(place).into_iter().zip(about) {
+                assert!((seen - about).abs() < 1e-12, "{times} about {about}: {seen}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_pan_moves_what_is_seen_by_as_much_at_every_zoom() {
+        for times in [0.2, 1.0, 30.0] {
+            let zoom_pan = ZoomPan::default().zoomed(times, [0.1, 0.3]);
+            let (before, after) =
+                (zoom_pan.seen([0.0; 2]), zoom_pan.panned([0.25, -0.125]).seen([0.0; 2]));
+            assert!((after[0] - before[0] - 0.25).abs() < 1e-12);
+            assert!((after[1] - before[1] + 0.125).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn zoom_and_pan_have_bounds() {
+        let about = [0.4, 0.4];
+        assert_eq!(ZoomPan::default().zoomed(1e9, about).zoom(), 64.0);
+        assert_eq!(ZoomPan::default().zoomed(1e-9, about).zoom(), 0.125);
+        let far = ZoomPan::default().panned([-100.0, 100.0]);
+        assert_eq!(far.seen([FARTHEST, -FARTHEST]), [0.0; 2]);
+        let there_and_back = ZoomPan::default().zoomed(2.0, about).zoomed(0.5, about);
+        assert_eq!(there_and_back, ZoomPan::default());
+    }
+}

@@ -1,0 +1,130 @@
+//! The trait that every body implements, and the inputs a body can get.
+
+use glam::DVec2;
+
+use super::parameter::{self, ParameterOf};
+use super::system::{State, System, Vector};
+
+/// Something that moves by an equation of motion.
+pub trait Body: System + Clone + Send + 'static {
+    /// The parameters of this kind of body. Its card lists their descriptions as
+    /// [`Kind::parameters`](super::bodies::Kind::parameters).
+    const PARAMETERS: &'static [ParameterOf<Self>] = &[];
+
+    /// Returns the body with these values of its [parameters](Body::PARAMETERS), in order: one value
+    /// per parameter, and two per point of a curve.
+    ///
+    /// If the number of values is wrong, or if no body of this kind can be built from them: see
+    /// [`Kind::check`](super::bodies::Kind::check).
+    fn with_parameters(mut self, values: &[f64]) -> Self {
+        parameter::write(&mut self, Self::PARAMETERS, values);
+        self.prepare();
+        self
+    }
+
+    /// Recomputes fields derived from the parameters. Called after parameters are written.
+    fn prepare(&mut self) {}
+
+    /// Memory on the heap, in bytes.
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+
+    /// The state at tick 0.
+    fn start(&self) -> State<Self::Vector>;
+
+    /// The exact flow over `dt` (s) under constant input. Returns `None` for all arguments if the body
+    /// has no closed form; its truth is then a reference solution.
+    fn exact(&self, dt: f64, from: &State<Self::Vector>) -> Option<State<Self::Vector>>;
+
+    /// Overwrites `to` with [`Body::exact`], and returns whether there is a closed form. A body with
+    /// coordinates on the heap overrides this so that it does not allocate.
+    fn exact_into(
+        &self,
+        dt: f64,
+        from: &State<Self::Vector>,
+        to: &mut State<Self::Vector>,
+    ) -> bool {
+        let flown = self.exact(dt, from);
+        flown.is_some_and(|state| {
+            *to = state;
+            true
+        })
+    }
+
+    /// A bound on the rounding error of [`Body::exact`] over `dt` from `from` to `to`, for exact
+    /// arguments: of a coordinate and of a velocity.
+    fn exact_error(
+        &self,
+        _dt: f64,
+        _from: &State<Self::Vector>,
+        _to: &State<Self::Vector>,
+    ) -> [f64; 2] {
+        [f64::INFINITY; 2]
+    }
+
+    /// Whether the acceleration is a linear function of coordinates and velocities, apart from a
+    /// constant.
+    fn is_linear(&self) -> bool {
+        false
+    }
+
+    /// Whether this coordinate is an angle, so that a full turn leaves the body unchanged.
+    fn is_angle(&self, _coordinate: usize) -> bool {
+        false
+    }
+
+    /// The index of the smooth piece of the force law at this state. A reference solution ends a step
+    /// at each boundary between pieces, so that no step contains a corner.
+    fn piece(&self, _state: &State<Self::Vector>) -> usize {
+        0
+    }
+
+    /// Signed distances from a state to the boundary with the piece before and with the piece after,
+    /// scaled to the order of 1. A distance is negative if the state is beyond that boundary by more
+    /// than rounding.
+    fn distances_to_ends(&self, _piece: usize, _state: &State<Self::Vector>) -> [f64; 2] {
+        [f64::INFINITY; 2]
+    }
+
+    /// The acceleration by this piece of the force law, continued smoothly beyond its boundaries.
+    #[inline]
+    fn acceleration_on(
+        &self,
+        _piece: usize,
+        t: f64,
+        q: &Self::Vector,
+        v: &Self::Vector,
+        a: &mut Self::Vector,
+    ) {
+        self.acceleration(t, q, v, a);
+    }
+
+    /// The conserved energy in joules; `None` if no energy is conserved.
+    fn energy(&self, state: &State<Self::Vector>) -> Option<f64>;
+
+    /// The kinetic part of [`Body::energy`], in joules: the energy less that of the body at rest in the
+    /// same place. A body with coordinates on the heap overrides this so that it does not allocate.
+    fn kinetic_energy(&self, state: &State<Self::Vector>) -> Option<f64> {
+        let mut still = state.clone();
+        still.v.components_mut().fill(0.0);
+        Some(self.energy(state)? - self.energy(&still)?)
+    }
+
+    /// Applies an input to the body or its state at once. Returns whether this kind of body accepts it.
+    fn input(&mut self, input: Input, state: &mut State<Self::Vector>) -> bool;
+
+    /// The position of the body in metres, to which the camera, trails and arrows refer.
+    fn place(&self, q: &Self::Vector) -> DVec2;
+}
+
+/// An input from a person or a script.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Input {
+    /// Sets the thrust to this fraction of full thrust, -1 to 1.
+    Throttle(f64),
+    /// Sets the rudder to this fraction of its full angle, from -1 (hard right) to 1 (hard left).
+    Rudder(f64),
+    /// Adds an impulse: this multiple of the body's own kick.
+    Kick(f64),
+}

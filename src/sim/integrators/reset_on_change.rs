@@ -1,0 +1,71 @@
+//! A method that detects changes of its state by the caller.
+
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use super::tolerance::Tolerance;
+use crate::sim::system::{State, System, Vector};
+
+/// A method that is [reset](Integrator::reset) if it is given a state other than it returned.
+pub(super) struct ResetOnChange<I, V> {
+    method: I,
+    returned: State<V>,
+}
+
+impl<I, V: Vector> ResetOnChange<I, V> {
+    #[inline]
+    fn advance<S: System<Vector = V>>(
+        &mut self,
+        state: &mut State<V>,
+        advance: impl FnOnce(&mut I, &mut State<V>) -> Result<(), StepFailure>,
+    ) -> Result<(), StepFailure>
+    where
+        I: Integrator<S>,
+    {
+        let same = |a: &V, b: &V| a.components() == b.components();
+        if !(same(&state.q, &self.returned.q) && same(&state.v, &self.returned.v)) {
+            self.method.reset();
+        }
+        let done = advance(&mut self.method, state);
+        self.returned.assign(state);
+        done
+    }
+}
+
+impl<S: System, I: Integrator<S>> Integrator<S> for ResetOnChange<I, S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { method: I::new(like), returned: State { q: like.clone(), v: like.clone() } }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        state: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        self.advance::<S>(state, |method, state| method.step(system, t, h, state))
+    }
+
+    fn steps(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        n: u32,
+        state: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        self.advance::<S>(state, |method, state| method.steps(system, t, h, n, state))
+    }
+
+    fn reset(&mut self) {
+        self.method.reset();
+    }
+
+    fn set_tolerance(&mut self, tolerance: Tolerance) {
+        self.method.set_tolerance(tolerance);
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.method.heap_bytes()
+    }
+}

@@ -1,0 +1,271 @@
+//! The parameters of a body: one description each, shared by the scene file, the help, the sliders and
+//! the body itself.
+//!
+//! The file of a body lists its parameters once, as [`ParameterOf`] that body: each with the field of
+//! the struct that holds its value. A [`Kind`](super::bodies::Kind) has the same list as plain
+//! [`Parameter`]s, for code that does not know the struct.
+
+use std::fmt;
+
+/// The largest magnitude of a body's parameter; products in the force laws overflow beyond it.
+pub const LARGEST: f64 = 1e15;
+
+/// The largest number of points of a curve, enough for one typed by hand.
+pub const MOST_POINTS: usize = 64;
+
+/// One key of a body's table in a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameter {
+    /// The key, unit included.
+    pub key: &'static str,
+    /// What it is.
+    pub about: &'static str,
+    /// The symbol of the unit that ends the key, such as `N/m`; empty if the key names none.
+    pub unit: &'static str,
+    /// The default; `None` if the scene must give a value.
+    pub default: Option<f64>,
+    /// The allowed values.
+    pub range: Range,
+    /// When a change takes effect on a moving body.
+    pub acts: Acts,
+}
+
+impl Parameter {
+    /// Its name in words: the key without the unit.
+    pub fn quantity(&self) -> String {
+        let end = unit(self.key).0;
+        self.key.strip_suffix(end).unwrap_or(self.key).replace('_', " ")
+    }
+}
+
+/// When a change of a parameter takes effect on a moving body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Acts {
+    /// At once: it changes the forces, or the size of a kick.
+    AtOnce,
+    /// At the next start: it is part of the initial state, or a count or a curve.
+    AtStart,
+}
+
+impl Acts {
+    /// Its name in output.
+    pub fn id(self) -> &'static str {
+        match self {
+            Acts::AtOnce => "at-once",
+            Acts::AtStart => "at-start",
+        }
+    }
+}
+
+/// The values a parameter may take. All are finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// Greater than 0 and at most this.
+    Positive(f64),
+    /// From 0 to this.
+    NonNegative(f64),
+    /// From minus this to this.
+    Within(f64),
+    /// Whole numbers from 1 to this.
+    Count(u32),
+    /// A curve of 2 to [`MOST_POINTS`] points `[x, y]` with rising x, each number from minus
+    /// [`LARGEST`] to that. Only a kind's last parameter can be one.
+    Curve {
+        /// The unit of x.
+        x: &'static str,
+        /// The unit of y.
+        y: &'static str,
+    },
+    /// From the first number to the second.
+    Between(f64, f64),
+}
+
+impl Range {
+    /// Greater than 0.
+    pub const POSITIVE: Self = Self::Positive(LARGEST);
+    /// 0 or more.
+    pub const NON_NEGATIVE: Self = Self::NonNegative(LARGEST);
+    /// Any sign, or 0.
+    pub const ANY: Self = Self::Within(LARGEST);
+
+    /// Whether `value` is in the range; for a curve, whether it can be a coordinate of a point.
+    pub fn contains(self, value: f64) -> bool {
+        match self {
+            Range::Positive(most) => value > 0.0 && value <= most,
+            Range::NonNegative(most) => value >= 0.0 && value <= most,
+            Range::Within(most) => value >= -most && value <= most,
+            Range::Count(most) => value >= 1.0 && value <= f64::from(most) && value.fract() == 0.0,
+            Range::Curve { .. } => Range::Within(LARGEST).contains(value),
+            Range::Between(least, most) => value >= least && value <= most,
+        }
+    }
+}
+
+impl fmt::Display for Range {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let is_plain = |x: f64| x == 0.0 || (1e-4..1e9).contains(&x.abs());
+        let short = |x: f64| if is_plain(x) { format!("{x}") } else { format!("{x:e}") };
+        match *self {
+            Range::Positive(most) => write!(f, "greater than 0 and at most {}", short(most)),
+            Range::NonNegative(most) => write!(f, "from 0 to {}", short(most)),
+            Range::Within(most) => write!(f, "from {} to {}", short(-most), short(most)),
+            Range::Count(most) => write!(f, "whole, from 1 to {most}"),
+            Range::Curve { x, y } => {
+                write!(f, "2 to {MOST_POINTS} points [{x}, {y}] in rising order")
+            }
+            Range::Between(least, most) => write!(f, "from {} to {}", short(least), short(most)),
+        }
+    }
+}
+
+/// An error in the values of several parameters together. Messages are in lower case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The key of the value to change.
+    pub key: &'static str,
+    /// What is wrong.
+    pub what: String,
+    /// How to fix it.
+    pub remedy: String,
+}
+
+/// A parameter of bodies of type `B`, with the field that holds its value.
+pub struct ParameterOf<B> {
+    parameter: Parameter,
+    slot: Slot<B>,
+}
+
+/// The field of a body that holds a parameter's value.
+enum Slot<B> {
+    Number(fn(&mut B) -> &mut f64),
+    Count(fn(&mut B) -> &mut usize),
+    /// Writes the points.
+    Curve(fn(&mut B, &[[f64; 2]])),
+}
+
+impl<B> ParameterOf<B> {
+    const fn new(key: &'static str, range: Range, acts: Acts, slot: Slot<B>) -> Self {
+        let unit = unit(key).1;
+        let parameter = Parameter { key, about: "", unit, default: None, range, acts };
+        Self { parameter, slot }
+    }
+
+    /// A number without a default that acts at once.
+    pub const fn number(key: &'static str, range: Range, field: fn(&mut B) -> &mut f64) -> Self {
+        Self::new(key, range, Acts::AtOnce, Slot::Number(field))
+    }
+
+    /// A whole number from 1 to `most`, without a default, that acts at the start.
+    pub const fn count(key: &'static str, most: u32, field: fn(&mut B) -> &mut usize) -> Self {
+        Self::new(key, Range::Count(most), Acts::AtStart, Slot::Count(field))
+    }
+
+    /// A curve through points in the units `x` and `y`, without a default, that acts at the start.
+    /// `write` stores points in rising order in the body.
+    pub const fn curve(
+        key: &'static str,
+        [x, y]: [&'static str; 2],
+        write: fn(&mut B, &[[f64; 2]]),
+    ) -> Self {
+        Self::new(key, Range::Curve { x, y }, Acts::AtStart, Slot::Curve(write))
+    }
+
+    /// Sets the description.
+    pub const fn about(mut self, about: &'static str) -> Self {
+        self.parameter.about = about;
+        self
+    }
+
+    /// Sets a default, so that a scene may omit the parameter.
+    pub const fn or(mut self, default: f64) -> Self {
+        self.parameter.default = Some(default);
+        self
+    }
+
+    /// Makes the number part of the initial state: it acts at the start.
+    pub const fn at_start(mut self) -> Self {
+        self.parameter.acts = Acts::AtStart;
+        self
+    }
+
+    /// The field of a parameter that acts at once; `None` for other parameters.
+    pub(super) fn acting_at_once(&self) -> Option<fn(&mut B) -> &mut f64> {
+        match self.slot {
+            Slot::Number(field) if self.parameter.acts == Acts::AtOnce => Some(field),
+            Slot::Number(_) | Slot::Count(_) | Slot::Curve(_) => None,
+        }
+    }
+
+    /// Writes the first of `values`, or all of them for a curve, and returns the rest.
+    fn write<'v>(&self, body: &mut B, values: &'v [f64]) -> &'v [f64] {
+        let first = || values.split_first().expect("a body is given a value for each parameter");
+        match self.slot {
+            Slot::Number(field) => *field(body) = *first().0,
+            Slot::Count(field) => *field(body) = *first().0 as usize,
+            Slot::Curve(write) => {
+                write(body, values.as_chunks().0);
+                return &[];
+            }
+        }
+        first().1
+    }
+}
+
+/// Writes `values`, in the order of `parameters`, into the fields of `body`. A curve uses all remaining
+/// values.
+pub(super) fn write<B>(body: &mut B, parameters: &[ParameterOf<B>], values: &[f64]) {
+    let left = parameters.iter().fold(values, |values, parameter| parameter.write(body, values));
+    assert!(left.is_empty(), "values without a parameter: {left:?}");
+}
+
+/// The descriptions of these parameters, without the fields.
+pub(super) const fn descriptions<B, const N: usize>(of: &[ParameterOf<B>; N]) -> [Parameter; N] {
+    let mut parameters = [of[0].parameter; N];
+    let mut n = 1;
+    while n < N {
+        parameters[n] = of[n].parameter;
+        n += 1;
+    }
+    parameters
+}
+
+/// Suffixes of keys and the symbols of the units they name. A suffix comes before any shorter suffix
+/// that ends it.
+const UNITS: [(&str, &str); 13] = [
+    ("_kg_m2", "kg·m²"),
+    ("_n_s_per_m", "N·s/m"),
+    ("_n_per_m", "N/m"),
+    ("_n_m_s", "N·m·s"),
+    ("_n_s", "N·s"),
+    ("_m3_per_s2", "m³/s²"),
+    ("_m_per_s2", "m/s²"),
+    ("_m_per_s", "m/s"),
+    ("_rad_per_s", "rad/s"),
+    ("_rad", "rad"),
+    ("_kg", "kg"),
+    ("_n", "N"),
+    ("_m", "m"),
+];
+
+/// The unit suffix of a key and its symbol; both empty if the key names no unit.
+const fn unit(key: &str) -> (&'static str, &'static str) {
+    let mut n = 0;
+    while n < UNITS.len() {
+        let (end, symbol) = UNITS[n];
+        if ends_with(key.as_bytes(), end.as_bytes()) {
+            return (end, symbol);
+        }
+        n += 1;
+    }
+    ("", "")
+}
+
+const fn ends_with(mut text: &[u8], mut end: &[u8]) -> bool {
+    while let [rest @ .., last] = end {
+        match text {
+            [before @ .., letter] if *letter == *last => (text, end) = (before, rest),
+            _ => return false,
+        }
+    }
+    true
+}

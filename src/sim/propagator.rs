@@ -1,0 +1,103 @@
+//! What advances a body, a method or a truth, and how it reacts when the body jumps.
+//!
+//! # When something jumps
+//!
+//! Memory carried from step to step is valid only while the motion is smooth. Each kind of jump is
+//! detected in one place:
+//!
+//! - The *state or the forces* jump when the body is placed, given an input or edited. A stepper owns
+//!   its body and state, and makes every such change within [`Propagator::jump`]. A method is
+//!   [reset](Integrator::reset) there. The exact flow starts again from the new state and keeps the
+//!   error of the old one, which it computes with the body as it was before the change.
+//! - The *length of the step* is an argument of every step. A method with memory compares it with the
+//!   length of its last step, so nobody has to announce a change.
+//! - A state *outside a stepper* can be changed by any caller. The method that
+//!   [`integrator`](super::integrators::integrator) returns therefore compares the state with the one
+//!   it returned last, and resets itself if they differ. A stepper skips this comparison, which would
+//!   cost time at every tick.
+
+use super::body::Body;
+use super::integrators::{Integrator, StepFailure};
+use super::system::{Counted, State};
+
+/// A method or a truth that advances bodies of type `B`.
+pub(super) trait Propagator<B: Body>: Clone + Send + 'static {
+    /// Advances `state` from `t` to `t + h` (s). A method takes `substeps` equal steps; a truth ignores
+    /// them.
+    fn advance(
+        &mut self,
+        body: &Counted<B>,
+        t: f64,
+        h: f64,
+        substeps: u32,
+        state: &mut State<B::Vector>,
+    ) -> Result<(), StepFailure>;
+
+    /// Lets `change` modify the body or its state at time `t` (s), and restarts from the result. If
+    /// `change` returns `false`, it has modified nothing and the propagator keeps its memory. Returns
+    /// what `change` returns.
+    fn jump(
+        &mut self,
+        jump: Jump,
+        t: f64,
+        body: &mut B,
+        state: &mut State<B::Vector>,
+        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
+    ) -> bool;
+
+    /// As [`Stepper::truth_error`](super::Stepper::truth_error), at the current `state`.
+    fn truth_error(&self, _body: &Counted<B>, _state: &State<B::Vector>) -> Option<[f64; 2]> {
+        None
+    }
+
+    /// Memory in bytes, without its own size and that of its coordinate vectors.
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+}
+
+/// How the state after a jump relates to the state before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Jump {
+    /// Not at all: the body is put into a state that is known exactly.
+    Placed,
+    /// An input or an edit changes the current state or the forces: the error before the jump remains.
+    Pushed,
+}
+
+/// A method from the table.
+#[derive(Clone)]
+pub(super) struct MethodPropagator<I>(pub(super) I);
+
+impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Propagator<B> for MethodPropagator<I> {
+    #[inline]
+    fn advance(
+        &mut self,
+        body: &Counted<B>,
+        t: f64,
+        h: f64,
+        substeps: u32,
+        state: &mut State<B::Vector>,
+    ) -> Result<(), StepFailure> {
+        self.0.steps(body, t, h, substeps, state)
+    }
+
+    fn jump(
+        &mut self,
+        _jump: Jump,
+        _t: f64,
+        body: &mut B,
+        state: &mut State<B::Vector>,
+        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
+    ) -> bool {
+        let is_changed = change(body, state);
+        if is_changed {
+            self.0.reset();
+        }
+        is_changed
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.0.heap_bytes()
+    }
+}

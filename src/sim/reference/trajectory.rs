@@ -1,0 +1,277 @@
+//! A numerical solution in double-double precision, and its step size control.
+
+use super::extrapolation::Extrapolation;
+use crate::sim::body::Body;
+use crate::sim::double_double::{DoubleDouble, TWO_PI};
+use crate::sim::system::{State, Vector};
+
+/// A step accepted with at most this many columns was too short: the next is twice as long.
+const FEW_COLUMNS: usize = 6;
+
+/// The factor that shortens a rejected step.
+const REJECTED_FACTOR: f64 = 0.25;
+
+/// The largest magnitude of an angle before full turns are removed: slightly more than half a turn, so
+/// that a motion about half a turn does not alternate.
+const LARGEST_ANGLE: f64 = 3.3;
+
+/// How close a step must end to the boundary of a piece of the force law, relative to its distance. The
+/// error of the state is of second order in this.
+const BOUNDARY_TOLERANCE: f64 = 1e-9;
+
+/// The largest number of attempts to end a step at a boundary; the search converges superlinearly.
+const MOST_SEARCH_STEPS: u32 = 60;
+
+/// A boundary crossed by less than this within a step, and crossed back, is ignored: the error is far
+/// smaller, because the two forces agree at the corner.
+const IGNORED_CROSSING: f64 = 1e-9;
+
+/// How often a step is halved if it leaves its piece and comes back to it.
+const MOST_HALVINGS: u32 = 8;
+
+/// How a trajectory chooses its steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StepControl {
+    /// Steps as long as the tolerance allows.
+    Long,
+    /// At least two steps of unequal length per call, with a larger tolerance, so that rounding and
+    /// truncation errors differ from those of the other solution.
+    Uneven,
+}
+
+impl StepControl {
+    /// The tolerance of a step, as in [`Extrapolation::attempt`].
+    fn tolerance(self) -> f64 {
+        match self {
+            StepControl::Long => 1e-14,
+            StepControl::Uneven => 4e-14,
+        }
+    }
+}
+
+/// The largest fraction of the remaining time for an uneven first step.
+const FIRST_UNEVEN_STEP: f64 = 0.57;
+
+/// The budget of evaluations is exhausted.
+#[derive(Debug)]
+pub(super) struct BudgetExhausted;
+
+#[derive(Clone, Debug)]
+pub(super) struct Trajectory<V> {
+    /// The current state, angles without full turns.
+    at: State<V>,
+    /// The low half of `at` in double-double precision.
+    low: State<V>,
+    /// The full turns of each coordinate, whole numbers.
+    turns: V,
+    /// The step to try next; `None` for all the remaining time.
+    step: Option<f64>,
+    /// The current piece of the force law.
+    piece: usize,
+    control: StepControl,
+}
+
+impl<V: Vector> Trajectory<V> {
+    pub(super) fn new(like: &State<V>, control: StepControl) -> Self {
+        let state = like.clone();
+        Self {
+            at: state.clone(),
+            low: state.clone(),
+            turns: state.q,
+            step: None,
+            piece: 0,
+            control,
+        }
+    }
+
+    /// Starts at `state`, taken as exact.
+    pub(super) fn begin<B: Body<Vector = V>>(&mut self, body: &B, state: &State<V>) {
+        self.at.assign(state);
+        for half in [&mut self.low.q, &mut self.low.v, &mut self.turns] {
+            half.components_mut().fill(0.0);
+        }
+        self.step = None;
+        self.unwind(body);
+        self.piece = body.piece(&self.at);
+    }
+
+    /// Starts at the state of `other` plus `offset`.
+    pub(super) fn begin_beside<B: Body<Vector = V>>(
+        &mut self,
+        body: &B,
+        other: &Self,
+        offset: &State<V>,
+    ) {
+        self.at.assign(&other.at);
+        self.low.assign(&other.low);
+        self.turns.assign(&other.turns);
+        self.add(offset);
+        self.step = None;
+        self.piece = body.piece(&self.at);
+    }
+
+    /// Writes the current state, rounded once.
+    pub(super) fn write(&self, to: &mut State<V>) {
+        to.assign(&self.at);
+        let rows = self.at.q.components().iter().zip(self.low.q.components());
+        let rows = rows.zip(self.turns.components()).zip(to.q.components_mut());
+        for (((high, low), turns), to) in rows.filter(|((_, turns), _)| **turns != 0.0) {
+            *to = (DoubleDouble { high: *high, low: *low } + TWO_PI * *turns).high;
+        }
+    }
+
+    /// Writes the difference of this trajectory from `other`.
+    pub(super) fn subtract(&self, other: &Self, to: &mut State<V>) {
+        to.assign(&self.at);
+        to.add_scaled(-1.0, &other.at);
+        to.add_scaled(1.0, &self.low);
+        to.add_scaled(-1.0, &other.low);
+        to.q.add_scaled(TWO_PI.high, &self.turns);
+        to.q.add_scaled(-TWO_PI.high, &other.turns);
+    }
+
+    /// Advances from `t` to exactly `t + h` (s) while `work` has used fewer than `budget` evaluations.
+    pub(super) fn advance<B: Body<Vector = V>>(
+        &mut self,
+        body: &B,
+        t: f64,
+        h: f64,
+        work: &mut Extrapolation<V>,
+        budget: u64,
+    ) -> Result<(), BudgetExhausted> {
+        self.unwind(body);
+        let mut carried = self.step.map_or(h, |step| step.copysign(h));
+        let mut left = h;
+        let mut halvings = 0;
+        let tolerance = self.control.tolerance();
+        work.begin(body, self.piece, t, &self.at);
+        while work.evaluations < budget {
+            let is_first = left.abs() > 0.5 * h.abs();
+            let most = if self.control == StepControl::Uneven && is_first {
+                FIRST_UNEVEN_STEP * left
+            } else {
+                left
+            };
+            let trial = if carried.abs() < most.abs() { carried } else { most };
+            let from = t + (h - left);
+            let Some(columns) = work.attempt(body, self.piece, from, trial, &self.at, tolerance)
+            else {
+                carried = REJECTED_FACTOR * trial;
+                continue;
+            };
+            let mut stepped = trial;
+            if let Some(side) = self.crossed_side(body, work) {
+                let begun = body.distances_to_ends(self.piece, &self.at)[side];
+                let ended = body.distances_to_ends(self.piece, work.end(&self.at))[side];
+                // Already beyond the boundary and moving away: change the piece without a step.
+                let part = if begun < 0.0 {
+                    0.0
+                } else {
+                    let Some(part) =
+                        self.find_boundary(body, work, from, trial, side, [begun, ended])
+                    else {
+                        carried = REJECTED_FACTOR * trial;
+                        continue;
+                    };
+                    part
+                };
+                stepped = part * trial;
+                if part > 0.0 {
+                    self.add(work.added());
+                }
+                self.piece = if side == 0 { self.piece - 1 } else { self.piece + 1 };
+            } else if work.least_distances.iter().any(|&distance| distance < -IGNORED_CROSSING)
+                && halvings < MOST_HALVINGS
+            {
+                halvings += 1;
+                carried = trial / 2.0;
+                continue;
+            } else {
+                self.add(work.added());
+                // A step cut short by the end of the call gives no information about the next one.
+                if trial == carried && columns <= FEW_COLUMNS {
+                    carried *= 2.0;
+                }
+                if trial == left {
+                    self.step = Some(carried);
+                    return Ok(());
+                }
+            }
+            halvings = 0;
+            left -= stepped;
+            work.begin(body, self.piece, t + (h - left), &self.at);
+        }
+        Err(BudgetExhausted)
+    }
+
+    /// The boundary beyond which the last attempt ends, unless it started further beyond.
+    fn crossed_side<B: Body<Vector = V>>(
+        &self,
+        body: &B,
+        work: &mut Extrapolation<V>,
+    ) -> Option<usize> {
+        let begun = body.distances_to_ends(self.piece, &self.at);
+        let ended = body.distances_to_ends(self.piece, work.end(&self.at));
+        (0..2).find(|&side| ended[side] < 0.0 && ended[side] < begun[side])
+    }
+
+    /// The fraction of the step `h` at which the boundary on `side` is reached, given the distances at
+    /// both ends of the step: the Illinois variant of regula falsi. The last attempt is then the step
+    /// to the boundary.
+    fn find_boundary<B: Body<Vector = V>>(
+        &self,
+        body: &B,
+        work: &mut Extrapolation<V>,
+        t: f64,
+        h: f64,
+        side: usize,
+        [begun, ended]: [f64; 2],
+    ) -> Option<f64> {
+        let near = BOUNDARY_TOLERANCE * (begun + ended.abs());
+        let (mut inner, mut outer) = ((0.0, begun), (1.0, ended));
+        let mut part = 1.0;
+        for _ in 0..MOST_SEARCH_STEPS {
+            part = inner.0 + (outer.0 - inner.0) * (inner.1 / (inner.1 - outer.1));
+            work.attempt(body, self.piece, t, part * h, &self.at, self.control.tolerance())?;
+            let distance = body.distances_to_ends(self.piece, work.end(&self.at))[side];
+            if distance.abs() <= near || part == inner.0 || part == outer.0 {
+                break;
+            }
+            if distance < 0.0 {
+                outer = (part, distance);
+                inner.1 /= 2.0;
+            } else {
+                inner = (part, distance);
+                outer.1 /= 2.0;
+            }
+        }
+        Some(part)
+    }
+
+    fn add(&mut self, what: &State<V>) {
+        let each = |at: &mut V, low: &mut V, what: &V| {
+            let rows = at.components_mut().iter_mut().zip(low.components_mut());
+            for ((at, low), what) in rows.zip(what.components()) {
+                let sum = DoubleDouble::sum(*at, *what);
+                let sum = DoubleDouble::sum(sum.high, sum.low + *low);
+                (*at, *low) = (sum.high, sum.low);
+            }
+        };
+        each(&mut self.at.q, &mut self.low.q, &what.q);
+        each(&mut self.at.v, &mut self.low.v, &what.v);
+    }
+
+    /// Removes full turns from angles.
+    fn unwind<B: Body<Vector = V>>(&mut self, body: &B) {
+        let rows = self.at.q.components_mut().iter_mut().zip(self.low.q.components_mut());
+        let rows = rows.zip(self.turns.components_mut()).enumerate();
+        for (i, ((at, low), turns)) in rows {
+            if body.is_angle(i) && at.abs() > LARGEST_ANGLE {
+                let more = libm::rint(*at / TWO_PI.high);
+                let left = DoubleDouble { high: *at, low: *low } - TWO_PI * more;
+                (*at, *low) = (left.high, left.low);
+                *turns += more;
+            }
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! No text of a frame is cut off, elided, or written over another, at any usual size of the window.
+
+use egui::{Context, Pos2, RawInput, Rect, Shape, Vec2, vec2};
+
+use super::frame::write;
+use super::{panels, theme};
+use crate::lab::palette::Theme;
+use crate::lab::picture::compose;
+use crate::lab::{Arrangement, Command, Lab, SCENES, Scene};
+
+/// Sizes of windows in points: the first is the least, the last has four times the usual pixels.
+const SIZES: [Vec2; 4] =
+    [vec2(800.0, 600.0), vec2(1280.0, 720.0), vec2(1920.0, 1080.0), vec2(3840.0, 2160.0)];
+
+/// A text of a frame.
+struct Text {
+    rect: Rect,
+    clip: Rect,
+    words: String,
+    is_elided: bool,
+}
+
+/// Every text of a frame of this size, as the third frame of a window has it.
+fn texts(lab: &Lab, size: Vec2) -> Vec<Text> {
+    let context = Context::default();
+    theme::dress(&context);
+    theme::show_theme(&context, lab.display().theme);
+    let growth = theme::growth(size.into());
+    let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size / growth));
+    let mut texts = Vec::new();
+    for _ in 0..3 {
+        let input = RawInput { screen_rect, ..RawInput::default() };
+        let mut output = context.run_ui(input, |ui| {
+            let (_, stage) = panels::show(ui, lab);
+            let painter = ui.painter().with_clip_rect(stage);
+            let picture = compose(lab, stage.size().into());
+            picture.labels.iter().for_each(|label| write(&painter, stage, label));
+        });
+        output.textures_delta.clear();
+        texts.clear();
+        output.shapes.iter().for_each(|shape| collect(&shape.shape, shape.clip_rect, &mut texts));
+    }
+    texts
+}
+
+fn collect(shape: &Shape, clip: Rect, texts: &mut Vec<Text>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, texts)),
+        Shape::Text(text) if !text.galley.text().trim().is_empty() => texts.push(Text {
+            // What is inked of it, without the room above and below.
+            rect: text.galley.mesh_bounds.translate(text.pos.to_vec2()),
+            clip,
+            words: text.galley.text().to_owned(),
+            is_elided: text.galley.elided,
+        }),
+        _ => {}
+    }
+}
+
+/// What cannot be read in a frame.
+fn faults(lab: &Lab, size: Vec2) -> Vec<String> {
+    let texts = texts(lab, size);
+    assert!(texts.len() > 20, "{}", texts.len());
+    let mut faults = Vec::new();
+    // What is scrolled out of sight is not in the frame; a row at the edge is cut by purpose.
+    let seen = |text: &&Text| text.clip.intersects(text.rect.shrink(1.0));
+    let texts: Vec<&Text> = texts.iter().filter(seen).collect();
+    for (i, text) in texts.iter().enumerate() {
+        if text.is_elided {
+            faults.push(format!("{:?} is elided", text.words));
+        }
+        let (left, right) = (text.clip.left() - 1.0, text.clip.right() + 1.0);
+        if text.rect.left() < left || text.rect.right() > right {
+            faults
+                .push(format!("{:?} is cut off at {:?} by {:?}", text.words, text.rect, text.clip));
+        }
+        let mine = text.rect.shrink(0.75).intersect(text.clip);
+        for other in &texts[..i] {
+            let theirs = other.rect.shrink(0.75).intersect(other.clip);
+            let is_halo =
+                other.words == text.words && other.rect.center().distance(text.rect.center()) < 3.0;
+            if mine.intersects(theirs) && mine.is_positive() && theirs.is_positive() && !is_halo {
+                faults.push(format!("{:?} is over {:?} at {:?}", text.words, other.words, mine));
+            }
+        }
+    }
+    faults
+}
+
+/// A lab on the scene of this name, some seconds after its start.
+fn run(name: &str, race: bool) -> Lab {
+    started(Scene::built_in(name).expect("a built-in scene"), race)
+}
+
+/// The same in a race of all methods.
+fn race_of_all(name: &str) -> Lab {
+    let mut scene = Scene::built_in(name).expect("a built-in scene");
+    scene.lanes = Lab::new(scene.clone()).entries().to_vec();
+    started(scene, true)
+}
+
+fn started(scene: Scene, race: bool) -> Lab {
+    let mut lab = Lab::new(scene);
+    if race {
+        lab.apply(Command::ToggleRace);
+    }
+    let ticks = 4 * lab.race().tick_hz();
+    (0..ticks).for_each(|_| lab.tick());
+    lab.analyse();
+    lab
+}
+
+#[track_caller]
+fn assert_legible(lab: &Lab, what: &str) {
+    let mut all = Vec::new();
+    for size in SIZES {
+        all.extend(faults(lab, size).into_iter().map(|fault| format!("{what}, {size}: {fault}")));
+    }
+    assert!(all.is_empty(), "\n{}", all.join("\n"));
+}
+
+#[test]
+fn every_text_of_every_scene_can_be_read_alone_and_racing() {
+    for scene in SCENES {
+        for race in [false, true] {
+            assert_legible(&run(scene.name, race), &format!("{}, race {race}", scene.name));
+        }
+    }
+}
+
+#[test]
+fn every_text_can_be_read_with_all_methods_racing_in_both_arrangements() {
+    for name in ["harbour", "orbit"] {
+        let mut lab = race_of_all(name);
+        assert_eq!(lab.display().arrangement, Arrangement::Overlay);
+        assert_legible(&lab, &format!("all methods on {name}"));
+        lab.apply(Command::ToggleArrangement);
+        for size in &SIZES[1..] {
+            let faults = faults(&lab, *size);
+            assert!(faults.is_empty(), "{name} side by side, {size}:\n{}", faults.join("\n"));
+        }
+    }
+}
+
+#[test]
+fn every_text_can_be_read_in_the_light_theme_and_with_the_help_and_the_inspector_open() {
+    for command in [Command::ToggleTheme, Command::ToggleHelp, Command::ToggleInspector] {
+        let mut lab = run("harbour", false);
+        lab.apply(command.clone());
+        assert_eq!(lab.display().theme == Theme::Light, command == Command::ToggleTheme);
+        if command == Command::ToggleHelp {
+            // The overlay lies over what is below it on purpose: only what is elided or cut is a fault.
+            for size in SIZES {
+                let faults = faults(&lab, size);
+                let cut: Vec<_> =
+                    faults.iter().filter(|fault| !fault.contains(" is over ")).collect();
+                assert!(cut.is_empty(), "help, {size}: {cut:?}");
+            }
+        } else {
+            assert_legible(&lab, &format!("{command:?}"));
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! Frames without a window: the frame renderer on a texture. Captures, screenshots and tests use it.
+
+use super::{Figure, FrameRenderer, Gpu, GpuError, Offscreen, Panels, Readback, ReadbackError};
+use crate::lab::Lab;
+
+/// Draws a lab into memory.
+pub struct OffscreenRenderer {
+    gpu: Gpu,
+    renderer: FrameRenderer,
+    canvas: Offscreen,
+    readback: Readback,
+    scale: f32,
+}
+
+impl OffscreenRenderer {
+    /// A renderer on `gpu` for frames of `size_px` pixels, with `scale` pixels per point.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`], [`GpuError::Empty`] or [`GpuError::OutOfMemory`].
+    pub fn new(gpu: Gpu, size_px: [u32; 2], scale: f32) -> Result<Self, GpuError> {
+        let canvas = Offscreen::new(&gpu, size_px)?;
+        let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+        Ok(Self { gpu, renderer, canvas, readback: Readback::default(), scale })
+    }
+
+    /// Shows or hides the panels, which are shown by default.
+    pub fn with_panels(self, shown: Panels) -> Self {
+        Self { renderer: self.renderer.with_panels(shown), ..self }
+    }
+
+    /// Whether panels are drawn.
+    pub fn panels(&self) -> Panels {
+        self.renderer.panels()
+    }
+
+    /// Name, backend and driver of the adapter.
+    pub fn adapter(&self) -> &wgpu::AdapterInfo {
+        &self.gpu.info
+    }
+
+    /// Width and height of the frames, in pixels.
+    pub fn size_px(&self) -> [u32; 2] {
+        self.canvas.size_px
+    }
+
+    /// Draws a frame and replaces `rgba` by its pixels, top row first. No frame may be in flight.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`] where the device does not give the frame back.
+    pub fn draw(&mut self, lab: &Lab, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
+        self.submit(lab)?;
+        self.collect(rgba)
+    }
+
+    /// Submits a frame to the device, and does not wait for it.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`] where the device is lost.
+    pub fn submit(&mut self, lab: &Lab) -> Result<(), ReadbackError> {
+        let Self { gpu, renderer, canvas, readback, scale } = self;
+        let input = egui::RawInput { time: Some(lab.race().t()), ..Default::default() };
+        // Without a pointer there are no commands.
+        let (_, output) = renderer.draw(gpu, &canvas.view, canvas.size_px, *scale, input, lab);
+        readback.begin(gpu, output.drawing, &canvas.texture)
+    }
+
+    /// The number of frames submitted and not yet collected.
+    pub fn in_flight(&self) -> usize {
+        self.readback.pending()
+    }
+
+    /// Waits for the first frame in flight, and replaces `rgba` by its pixels, top row first.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`] where the device does not give the frame back.
+    ///
+    /// # Panics
+    /// If no frame is in flight.
+    pub fn collect(&mut self, rgba: &mut Vec<u8>) -> Result<(), ReadbackError> {
+        self.readback.finish(&self.gpu, rgba)
+    }
+
+    /// Draws a diagram and replaces `rgba` by its pixels, top row first.
+    ///
+    /// # Errors
+    /// A [`ReadbackError`] where the device does not give the picture back.
+    pub fn draw_figure(
+        &mut self,
+        figure: &Figure,
+        rgba: &mut Vec<u8>,
+    ) -> Result<(), ReadbackError> {
+        let Self { gpu, renderer, canvas, readback, scale } = self;
+        let drawing = renderer.draw_figure(gpu, &canvas.view, canvas.size_px, *scale, figure);
+        readback.read(gpu, drawing, &canvas.texture, rgba)
+    }
+}

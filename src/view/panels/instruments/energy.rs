@@ -1,0 +1,63 @@
+//! The energies of the selected lane and of the exact solution, and the energy that every lane has gained.
+
+use super::super::ranges;
+use super::super::tracks::{Look, Track};
+use super::error;
+use super::motion::healthy;
+use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
+use crate::lab::{Energies, Lab, METRICS};
+use crate::view::axis_scale::AxisScale;
+use crate::view::curves::Dots;
+use crate::view::plot::SwitchMark;
+
+/// An energy: its name, its dash, how much of its colour it has, and how it is found.
+type Part = (&'static str, [f32; 2], f32, fn(Energies) -> f64);
+
+/// The total, and what it is the sum of.
+const PARTS: [Part; 3] = [
+    ("potential", [2.0, 3.0], 0.5, Energies::potential_j),
+    ("kinetic", [8.0, 4.0], 0.5, |energies| energies.kinetic_j),
+    ("total", [1.0, 0.0], 1.0, |energies| energies.total_j),
+];
+
+pub(super) fn sheet(lab: &Lab) -> Sheet {
+    let body = lab.display().body;
+    let drift = METRICS.iter().position(|metric| metric.id == "energy_drift");
+    let drift = drift.map(|place| {
+        error::plot(lab, body, place, "Energy gained, share of what is exchanged".into())
+    });
+    let energies = energies(lab, body);
+    let conserves = !energies.exact.iter().all(|line| line.times.is_empty());
+    // Why there is no drift is said only where there is no energy either.
+    let drift = drift.filter(|plot| plot.nothing.is_none() || !conserves);
+    let plots = conserves.then_some(energies).into_iter().chain(drift).collect();
+    Sheet { title: "Energy".into(), plots }
+}
+
+fn energies(lab: &Lab, body: usize) -> PlotModel {
+    let energy = |(part, dash, strength, of): Part| {
+        let tracks = Track::of(lab, body, |s| [s.t, s.energies.map_or(f64::NAN, of)]);
+        tracks
+            .into_iter()
+            .filter(|track| track.is_front)
+            .map(move |t| t.into_part(part, dash, strength))
+    };
+    let exact = PARTS.map(|(part, dash, strength, of)| {
+        ExactLine::of(lab, body, |s| Some([s.t, of(s.energies?)])).into_part(part, dash, strength)
+    });
+    let tracks: Vec<Track> = PARTS.into_iter().flat_map(energy).collect();
+    let range = exact.iter().flat_map(|line| line.along(1));
+    let y = ranges::around_truth(range, &tracks, 1, healthy(lab));
+    PlotModel {
+        id: format!("energies of {body}"),
+        title: "total solid, kinetic dashed, potential dotted".into(),
+        body,
+        axes: [PlotAxis::time(), PlotAxis::new("energy", "J", AxisScale::Linear)],
+        fit: over_time(lab, y),
+        tracks,
+        look: Look { width: FRONT, dots: Dots::None, bounded: [false, true] },
+        exact: exact.into(),
+        switch_mark: SwitchMark::Line,
+        nothing: None,
+    }
+}

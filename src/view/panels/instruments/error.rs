@@ -1,0 +1,78 @@
+//! The chosen metric of the chosen body over time: an error, or a count.
+
+use super::super::ranges;
+use super::super::tracks::{Look, Track};
+use super::sheet::{FRONT, PlotAxis, PlotModel, Sheet, over_time};
+use crate::lab::{Lab, METRICS, Metric, Scale};
+use crate::view::axis_scale::AxisScale;
+use crate::view::curves::Dots;
+use crate::view::plot::SwitchMark;
+
+/// Said where every error is zero, which has no logarithm.
+pub(super) const NO_ERROR: &str =
+    "No error: every method shown is on the exact curve to the last bit.";
+
+/// The metrics to choose from, by their places in [`METRICS`]: all that the energy instrument does not show.
+pub(super) fn choices() -> impl Iterator<Item = usize> {
+    (0..METRICS.len()).filter(|&place| METRICS[place].id != "energy_drift")
+}
+
+pub(super) fn sheet(lab: &Lab) -> Sheet {
+    let (body, place) = (lab.display().body, lab.display().metric);
+    let metric = &METRICS[place];
+    let name = capitalised(&lab.scene().bodies[body].name);
+    Sheet { title: capitalised(metric.name), plots: vec![plot(lab, body, place, name)] }
+}
+
+/// A plot of a metric of a body.
+pub(super) fn plot(lab: &Lab, body: usize, place: usize, title: String) -> PlotModel {
+    let metric = &METRICS[place];
+    let truth = &lab.race().truth().bodies()[body];
+    let unit = metric.unit.on(&truth.coordinates[0]);
+    let values = Track::of(lab, body, |s| [s.t, s.metrics[place]]);
+    let scale = scale(metric, &values);
+    let tracks = Track::of(lab, body, |s| [s.t, scale.place(s.metrics[place])]);
+    let y = match (metric.scale, &*unit) {
+        (Scale::Log, _) => {
+            let truth = lab.past().truth_curves()[body].samples();
+            let size = truth.map(|s| s.q.abs().max(s.v.abs()));
+            ranges::of_decades(&tracks, size.fold(0.0, f64::max))
+        }
+        (Scale::Linear, _) if matches!(scale, AxisScale::SymLog(_)) => {
+            ranges::of_drift(&tracks, scale)
+        }
+        (Scale::Linear, "%") => ranges::of_shares(&tracks),
+        (Scale::Linear, _) => ranges::from_zero(&tracks),
+    };
+    let is_empty = tracks.iter().all(Track::is_empty);
+    let has_values = values.iter().any(|track| !track.is_empty());
+    let nothing = if has_values { NO_ERROR } else { metric.absent };
+    PlotModel {
+        id: format!("{} of {body}", metric.id),
+        title,
+        body,
+        axes: [PlotAxis::time(), PlotAxis::new(metric.name, &unit, scale)],
+        fit: over_time(lab, y),
+        tracks,
+        look: Look { width: FRONT, dots: Dots::SparseAlongX, bounded: [false, true] },
+        exact: Vec::new(),
+        switch_mark: SwitchMark::Line,
+        nothing: is_empty.then(|| nothing.to_owned()),
+    }
+}
+
+fn scale(metric: &Metric, values: &[Track]) -> AxisScale {
+    match metric.scale {
+        Scale::Log => AxisScale::Log,
+        Scale::Linear if metric.id == "energy_drift" => {
+            AxisScale::SymLog(ranges::linear_drift(values))
+        }
+        Scale::Linear => AxisScale::Linear,
+    }
+}
+
+/// A name at the start of a sentence.
+pub(super) fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}

@@ -1,0 +1,158 @@
+//! The crosshair of a plot, and the values of all curves beside it: where the pointer is, else now.
+
+use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
+use egui_plot::PlotBounds;
+
+use super::super::ink;
+use super::layout::{Cell, WORDS};
+use super::sheet::Readout;
+use crate::lab::Lab;
+use crate::view::plot::on_screen;
+use crate::view::theme::strong_font;
+
+/// The width of the crosshair and the radius of the dots on the curves, in points.
+const CROSSHAIR: f32 = 1.4;
+const DOT: f32 = 3.6;
+/// The height of a value beside the plot, in points.
+const LINE: f32 = 15.5;
+
+/// The moment (s) that a pointer is at: along the axis of time, else that of the nearest point of a curve.
+pub(super) fn time_at(cell: &Cell<'_>, bounds: &PlotBounds, at: Pos2) -> Option<f64> {
+    if cell.plot.is_over_time() {
+        let part = f64::from((at.x - cell.frame.left()) / cell.frame.width());
+        return Some(bounds.min()[0] + part * (bounds.max()[0] - bounds.min()[0]));
+    }
+    let exact = cell.plot.exact.iter();
+    let exact = exact.flat_map(|line| line.times.iter().copied().zip(line.curve.points.clone()));
+    let lanes = cell.plot.tracks.iter().flat_map(|track| track.places());
+    let lanes = lanes.map(|(t, _, point)| (t, point));
+    let away = |point: [f64; 2]| on_screen(cell.frame, bounds, point).distance_sq(at);
+    let near = lanes.chain(exact).map(|(t, point)| (away(point), t));
+    near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, t)| t)
+}
+
+/// Shows the values at the moment `t` (s) with a crosshair there, or without one those of now. `has_tag` is whether the
+/// time is written above the plot.
+pub(super) fn show(
+    ui: &Ui,
+    lab: &Lab,
+    cell: &Cell<'_>,
+    bounds: &PlotBounds,
+    t: Option<f64>,
+    has_tag: bool,
+) {
+    let (frame, now) = (cell.frame, lab.race().t());
+    let is_over_time = cell.plot.is_over_time();
+    let readouts = cell.plot.readouts(lab, t.unwrap_or(now));
+    let painter = ui.painter();
+    if is_over_time && (bounds.min()[0]..bounds.max()[0]).contains(&now) {
+        let x = on_screen(frame, bounds, [now, 0.0]).x;
+        let ends = [pos2(x, frame.top()), pos2(x, frame.bottom())];
+        let dim = Stroke::new(1.0, ink(ui).dim);
+        painter.extend(Shape::dashed_line(&ends, dim, 2.0, 3.0));
+    }
+    if let Some(t) = t {
+        let inside = painter.with_clip_rect(frame.expand(DOT));
+        let line = Stroke::new(CROSSHAIR, ink(ui).accent);
+        if is_over_time {
+            inside.vline(on_screen(frame, bounds, [t, 0.0]).x, frame.y_range(), line);
+        }
+        for readout in &readouts {
+            let at = on_screen(frame, bounds, readout.at);
+            if frame.contains(at) {
+                inside.circle_filled(at, DOT, readout.colour);
+                inside.circle_stroke(at, DOT, Stroke::new(1.0, ink(ui).plot));
+            }
+        }
+        if has_tag {
+            let x = match is_over_time {
+                true => on_screen(frame, bounds, [t, 0.0]).x,
+                false => frame.center().x,
+            };
+            time_tag(ui, frame, x, &format!("t = {} s", decimals(t, bounds, is_over_time)));
+        }
+    }
+    if cell.right > frame.right() {
+        values(ui, cell, bounds, readouts);
+    }
+}
+
+/// A time in as many decimals as the zoom tells apart.
+fn decimals(t: f64, bounds: &PlotBounds, is_over_time: bool) -> String {
+    let wide = if is_over_time { bounds.max()[0] - bounds.min()[0] } else { 10.0 };
+    let decimals = (2.5 - libm::log10(wide)).ceil().clamp(2.0, 9.0) as usize;
+    format!("{t:.decimals$}")
+}
+
+/// The time at `x`, above the plot.
+fn time_tag(ui: &Ui, frame: Rect, x: f32, text: &str) {
+    let (painter, ink) = (ui.painter(), ink(ui));
+    let words = painter.layout_no_wrap(text.to_owned(), strong_font(WORDS), ink.on_accent);
+    let size = words.size() + vec2(14.0, 5.0);
+    let least = frame.left() + size.x / 2.0;
+    let middle = x.clamp(least, (frame.right() - size.x / 2.0).max(least));
+    let tag = Rect::from_center_size(pos2(middle, frame.top() - size.y / 2.0 - 1.0), size);
+    painter.rect_filled(tag, 4.0, ink.accent);
+    painter.galley(tag.min + vec2(7.0, 2.5), words, ink.on_accent);
+}
+
+/// Writes the values beside the plot, each near its curve and none over another.
+fn values(ui: &Ui, cell: &Cell<'_>, bounds: &PlotBounds, mut readouts: Vec<Readout>) {
+    let frame = cell.frame;
+    let lines = |readout: &Readout| -> Vec<String> {
+        let axes = cell.plot.axes.iter().zip(readout.at);
+        let shown = axes.skip(usize::from(cell.plot.is_over_time()));
+        shown.map(|(axis, place)| axis.number(place)).collect()
+    };
+    let most = ((frame.height() + 10.0) / LINE).floor().max(1.0) as usize;
+    // Those in front, where not all fit.
+    let each = if cell.plot.is_over_time() { 1 } else { 2 };
+    if readouts.len() * each > most {
+        readouts.retain(|readout| readout.is_front);
+    }
+    readouts.sort_by(|a, b| b.at[1].total_cmp(&a.at[1]));
+    let heights = readouts
+        .iter()
+        .map(|readout| on_screen(frame, bounds, readout.at).y.clamp(frame.top(), frame.bottom()));
+    let places = spread(heights.collect(), LINE * each as f32, frame.bottom());
+    for (readout, y) in readouts.iter().zip(places) {
+        let font = match readout.is_front {
+            true => strong_font(WORDS),
+            false => FontId::proportional(WORDS),
+        };
+        let name = pos2(frame.right() + 8.0, y);
+        let write = |at: Pos2, align: Align2, text: &str| {
+            ui.painter().text(at, align, text, font.clone(), readout.colour);
+        };
+        write(name, Align2::LEFT_CENTER, &readout.name);
+        for (line, text) in (0..).zip(lines(readout)) {
+            let at = pos2(cell.right, y + LINE * line as f32);
+            write(at, Align2::RIGHT_CENTER, &text);
+        }
+    }
+}
+
+/// Heights at least `apart` from each other, in the same order, the last at most `lowest`.
+fn spread(mut heights: Vec<f32>, apart: f32, lowest: f32) -> Vec<f32> {
+    for i in 1..heights.len() {
+        heights[i] = heights[i].max(heights[i - 1] + apart);
+    }
+    let mut below = lowest + apart;
+    for height in heights.iter_mut().rev() {
+        *height = height.min(below - apart);
+        below = *height;
+    }
+    heights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_keep_their_order_and_their_distance() {
+        assert_eq!(spread(vec![0.0, 1.0, 50.0], 10.0, 60.0), [0.0, 10.0, 50.0]);
+        assert_eq!(spread(vec![58.0, 59.0, 60.0], 10.0, 60.0), [40.0, 50.0, 60.0]);
+        assert_eq!(spread(Vec::new(), 10.0, 60.0), [0.0; 0]);
+    }
+}

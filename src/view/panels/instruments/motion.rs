@@ -1,0 +1,56 @@
+//! Every body's first coordinate over time, under all lanes and exactly.
+
+use super::super::ranges;
+use super::super::tracks::{Look, Track};
+use super::error::capitalised;
+use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
+use crate::lab::{Lab, Mode};
+use crate::view::axis_scale::AxisScale;
+use crate::view::curves::Dots;
+use crate::view::plot::SwitchMark;
+
+/// A lane this many times further out than the truth no longer stretches the axes; and where it is alone,
+/// squeezes nothing but the truth, and is looked at for how it grows.
+const HEALTHY: f64 = 1.6;
+const HEALTHY_ALONE: f64 = 4.0;
+
+pub(super) fn sheet(lab: &Lab) -> Sheet {
+    let bodies = 0..lab.scene().bodies.len();
+    let title = if bodies.len() > 1 { "Motion of every body" } else { "Motion" };
+    Sheet { title: title.into(), plots: bodies.map(|body| plot(lab, body)).collect() }
+}
+
+fn plot(lab: &Lab, body: usize) -> PlotModel {
+    let truth = &lab.race().truth().bodies()[body];
+    let coordinate = &truth.coordinates[0];
+    let tracks = Track::of_coordinate(lab, body);
+    let exact = ExactLine::of_coordinate(lab, body);
+    let y = ranges::around_truth(exact.along(1), &tracks, 1, healthy(lab));
+    let name = capitalised(&lab.scene().bodies[body].name);
+    PlotModel {
+        id: format!("motion of {body}"),
+        title: match truth.halted() {
+            Some(_) => format!("{name}, no exact solution"),
+            None => name,
+        },
+        body,
+        axes: [
+            PlotAxis::time(),
+            PlotAxis::new(coordinate.name, coordinate.unit, AxisScale::Linear),
+        ],
+        fit: over_time(lab, y),
+        tracks,
+        look: Look { width: FRONT, dots: Dots::SparseAlongX, bounded: [false, true] },
+        exact: vec![exact],
+        switch_mark: SwitchMark::Line,
+        nothing: None,
+    }
+}
+
+/// How many times further out than the truth a lane still stretches the axes.
+pub(super) fn healthy(lab: &Lab) -> f64 {
+    match lab.mode() {
+        Mode::Solo => HEALTHY_ALONE,
+        Mode::Race => HEALTHY,
+    }
+}

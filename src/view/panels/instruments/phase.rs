@@ -1,0 +1,46 @@
+//! Velocity over coordinate, for the last turns of every lane and of the exact solution.
+
+use egui_plot::PlotBounds;
+
+use super::super::ranges;
+use super::super::tracks::{Look, Track};
+use super::error::capitalised;
+use super::motion::healthy;
+use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet};
+use crate::lab::Lab;
+use crate::view::axis_scale::AxisScale;
+use crate::view::curves::Dots;
+use crate::view::plot::SwitchMark;
+
+/// Samples in a phase portrait: a few turns, and each still to be told from the next.
+const SAMPLES: usize = 360;
+
+pub(super) fn sheet(lab: &Lab) -> Sheet {
+    let body = lab.display().body;
+    let mut tracks = Track::of(lab, body, |s| [s.q, s.v]);
+    tracks.iter_mut().for_each(|lane| lane.keep_latest(SAMPLES));
+    // As much of the exact solution as of the lanes that still move.
+    let newest = tracks.iter().filter_map(Track::times).max_by(|a, b| a.1.total_cmp(&b.1));
+    let since_s = newest.map_or(f64::NEG_INFINITY, |(first, _)| first);
+    let exact = ExactLine::of(lab, body, |s| (s.t >= since_s).then_some([s.q, s.v]));
+    let [x, y] =
+        [0, 1].map(|axis| ranges::around_orbit(exact.along(axis), &tracks, axis, healthy(lab)));
+    let coordinate = &lab.race().truth().bodies()[body].coordinates[0];
+    let velocity_unit = format!("{}/s", coordinate.unit);
+    let plot = PlotModel {
+        id: format!("phase portrait of {body}"),
+        title: capitalised(&lab.scene().bodies[body].name),
+        body,
+        axes: [
+            PlotAxis::new(coordinate.name, coordinate.unit, AxisScale::Linear),
+            PlotAxis::new(coordinate.velocity, &velocity_unit, AxisScale::Linear),
+        ],
+        fit: PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]),
+        tracks,
+        look: Look { width: FRONT, dots: Dots::Sparse, bounded: [true; 2] },
+        exact: vec![exact],
+        switch_mark: SwitchMark::Ring,
+        nothing: None,
+    };
+    Sheet { title: "Phase portrait".into(), plots: vec![plot] }
+}

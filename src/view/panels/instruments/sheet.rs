@@ -1,0 +1,245 @@
+//! What an instrument shows, before it is drawn: plots over each other with one axis along. The window draws it, and what
+//! is copied or saved is made from it.
+
+use egui::Color32;
+use egui_plot::PlotBounds;
+
+use super::super::ink_of;
+use super::super::tracks::{self, Look, Track};
+use crate::lab::number::significant;
+use crate::lab::{Lab, LaneBody, Mode, TruthCurve, TruthSample};
+use crate::view::axis_scale::AxisScale;
+use crate::view::curves::{Curve, Dots};
+use crate::view::plot::{Drawing, SwitchMark};
+
+/// The width in points of the curve in front, and of the exact curve drawn over it: a lane that keeps to the truth is
+/// seen on both sides of it.
+pub(super) const FRONT: f32 = 2.8;
+pub(super) const EXACT: f32 = 1.3;
+
+/// An instrument of plots.
+pub(super) struct Sheet {
+    pub(super) title: String,
+    pub(super) plots: Vec<PlotModel>,
+}
+
+/// A plot of lanes and the exact solution.
+pub(super) struct PlotModel {
+    /// Names it among all plots of a scene, for its zoom.
+    pub(super) id: String,
+    pub(super) title: String,
+    /// The body, by its place in the scene.
+    pub(super) body: usize,
+    /// Along, and up.
+    pub(super) axes: [PlotAxis; 2],
+    /// What is in view unless a person has zoomed.
+    pub(super) fit: PlotBounds,
+    /// The one in front last.
+    pub(super) tracks: Vec<Track>,
+    pub(super) look: Look,
+    pub(super) exact: Vec<ExactLine>,
+    pub(super) switch_mark: SwitchMark,
+    /// Why there is nothing to show, in place of the plot.
+    pub(super) nothing: Option<String>,
+}
+
+/// An axis of a plot.
+pub(super) struct PlotAxis {
+    pub(super) quantity: String,
+    /// Empty for a pure number.
+    pub(super) unit: String,
+    pub(super) scale: AxisScale,
+}
+
+/// A curve of the exact solution.
+pub(super) struct ExactLine {
+    pub(super) curve: Curve,
+    /// The time of each point, in seconds.
+    pub(super) times: Vec<f64>,
+    /// What of the solution it is, where there are several; else empty.
+    pub(super) part: &'static str,
+    /// Whether it is the first coordinate over time, which is known between the points too.
+    is_coordinate: bool,
+    samples: Vec<TruthSample>,
+}
+
+/// The value of one curve at a moment.
+pub(super) struct Readout {
+    pub(super) colour: Color32,
+    pub(super) is_front: bool,
+    /// The digit of the method's key, and what the curve is of its lane.
+    pub(super) name: String,
+    /// Where it lies in the plot.
+    pub(super) at: [f64; 2],
+}
+
+impl PlotAxis {
+    pub(super) fn new(quantity: &str, unit: &str, scale: AxisScale) -> Self {
+        Self { quantity: quantity.into(), unit: unit.into(), scale }
+    }
+
+    pub(super) fn time() -> Self {
+        Self::new("time t", "s", AxisScale::Linear)
+    }
+
+    /// The quantity with its unit.
+    pub(super) fn name(&self) -> String {
+        let Self { quantity, unit, .. } = self;
+        if unit.is_empty() { quantity.clone() } else { format!("{quantity}, {unit}") }
+    }
+
+    /// The value at a place, with its unit.
+    pub(super) fn number(&self, place: f64) -> String {
+        /// A longer number is told less precisely.
+        const LONGEST: usize = 7;
+        let value = self.scale.value(place);
+        let number = significant(value, 3);
+        let is_long = number.chars().count() > LONGEST;
+        let number = if is_long { significant(value, 1) } else { number };
+        if self.unit.is_empty() { number } else { format!("{number} {}", self.unit) }
+    }
+}
+
+impl ExactLine {
+    /// The exact solution of a body at the times for which `place` finds a point.
+    pub(super) fn of(
+        lab: &Lab,
+        body: usize,
+        place: impl Fn(&TruthSample) -> Option<[f64; 2]>,
+    ) -> Self {
+        let placed = samples(lab, body).filter_map(|sample| Some((sample.t, place(&sample)?)));
+        let (times, points) = placed.filter(|(_, at)| at.iter().all(|x| x.is_finite())).unzip();
+        let colour = ink_of(lab.display().theme).exact;
+        let dash = [1.0, 0.0];
+        let swept = Vec::new();
+        let curve = Curve { colour, width: EXACT, dash, dots: Dots::None, points, swept };
+        Self { curve, times, part: "", is_coordinate: false, samples: Vec::new() }
+    }
+
+    /// The first coordinate of a body over time.
+    pub(super) fn of_coordinate(lab: &Lab, body: usize) -> Self {
+        let line = Self::of(lab, body, |s| Some([s.t, s.q]));
+        let finite = samples(lab, body).filter(|s| s.t.is_finite() && s.q.is_finite());
+        let samples: Vec<TruthSample> = finite.collect();
+        let swept = samples.iter().map(|sample| sample.swept.ends()).collect();
+        Self { curve: Curve { swept, ..line.curve }, is_coordinate: true, samples, ..line }
+    }
+
+    /// The same line as a part of the solution, with a dash of its own, and so much of its colour.
+    pub(super) fn into_part(self, part: &'static str, dash: [f32; 2], strength: f32) -> Self {
+        let colour = self.curve.colour.gamma_multiply(strength);
+        Self { part, curve: Curve { dash, colour, ..self.curve }, ..self }
+    }
+
+    /// The curve with a point of its own in every column, where columns are narrower than samples are apart.
+    fn in_columns(&self, truth: &LaneBody, [from, to]: [f64; 2], columns: f32) -> Curve {
+        let wide = (to - from) / f64::from(columns.max(1.0));
+        let mut curve = self.curve.clone();
+        let in_view = |s: &&TruthSample| (from..=to).contains(&s.t);
+        let known = self.samples.iter().filter(in_view).count();
+        if known as f32 > columns || self.samples.is_empty() {
+            return curve;
+        }
+        let first = self.samples.partition_point(|s| s.t < from).saturating_sub(1);
+        let last = (self.samples.partition_point(|s| s.t <= to) + 1).min(self.samples.len());
+        let near = &self.samples[first..last];
+        curve.points = TruthCurve::finer(truth, near, wide);
+        curve.swept = Vec::new();
+        curve
+    }
+
+    /// The values along an axis, with those between samples.
+    pub(super) fn along(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
+        let swept = self.curve.swept.iter().flatten().filter(move |_| axis == 1);
+        self.curve.points.iter().map(move |point| point[axis]).chain(swept.copied())
+    }
+
+    /// Where it was at time `t` (s), on the line between samples.
+    pub(super) fn at(&self, t: f64) -> Option<[f64; 2]> {
+        let after = self.times.partition_point(|&time| time < t);
+        let (&to_s, to) = self.times.get(after).zip(self.curve.points.get(after))?;
+        let Some(before) = after.checked_sub(1) else { return (to_s == t).then_some(*to) };
+        let (from_s, from) = (self.times[before], self.curve.points[before]);
+        let part = if to_s > from_s { (t - from_s) / (to_s - from_s) } else { 1.0 };
+        Some([0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis])))
+    }
+}
+
+/// The recent past of the exact solution of a body, up to now.
+fn samples(lab: &Lab, body: usize) -> impl Iterator<Item = TruthSample> {
+    let (curve, t) = (&lab.past().truth_curves()[body], lab.race().t());
+    let truth = &lab.race().truth().bodies()[body];
+    let goes_on = truth.halted().is_none() && curve.samples().next_back().is_some_and(|s| s.t < t);
+    let present = goes_on.then(|| TruthCurve::present(truth, t));
+    curve.samples().copied().chain(present)
+}
+
+impl PlotModel {
+    /// Whether the axis along is time.
+    pub(super) fn is_over_time(&self) -> bool {
+        self.axes[0].unit == "s"
+    }
+
+    /// Everything in the plot with `bounds` in view on so many columns of pixels.
+    pub(super) fn drawing(&self, lab: &Lab, bounds: &PlotBounds, columns: f32) -> Drawing {
+        let mut healthy = *bounds;
+        healthy.merge(&self.fit);
+        let mut drawing = tracks::drawing(lab, &self.tracks, &healthy, self.look);
+        drawing.switch_mark = self.switch_mark;
+        let truth = &lab.race().truth().bodies()[self.body];
+        let curves = self.exact.iter().map(|line| match line.is_coordinate {
+            true => line.in_columns(truth, [bounds.min()[0], bounds.max()[0]], columns),
+            false => line.curve.clone(),
+        });
+        drawing.truth = curves.collect();
+        drawing
+    }
+
+    /// The values of all curves at time `t` (s).
+    pub(super) fn readouts(&self, lab: &Lab, t: f64) -> Vec<Readout> {
+        let ink = ink_of(lab.display().theme);
+        let lanes = self.tracks.iter().filter_map(|track| {
+            let (entry, at) = track.at(t)?;
+            let key = match lab.mode() {
+                Mode::Race => format!("{}", entry + 1),
+                Mode::Solo => String::new(),
+            };
+            Some(Readout {
+                colour: ink.style(&lab.entries()[entry]).0,
+                is_front: track.is_front,
+                name: joined(&key, track.part),
+                at,
+            })
+        });
+        let exact = self.exact.iter().filter_map(|line| {
+            let at = line.at(t)?;
+            let name = joined("", line.part);
+            Some(Readout { colour: ink.exact, is_front: true, name, at })
+        });
+        lanes.chain(exact).collect()
+    }
+}
+
+fn joined(key: &str, part: &str) -> String {
+    format!("{key} {part}").trim().to_owned()
+}
+
+/// The methods whose curves the plots show, by their places on the list.
+pub(super) fn methods_shown(sheet: &Sheet) -> Vec<usize> {
+    let tracks = sheet.plots.iter().flat_map(|plot| &plot.tracks);
+    let mut shown: Vec<usize> =
+        tracks.flat_map(|track| track.flown().chain([track.entry])).collect();
+    shown.sort_unstable();
+    shown.dedup();
+    shown
+}
+
+/// The time in view and the given range of values: at first a quarter of the scene, then half of it, then all that has
+/// passed in the scene's length.
+pub(super) fn over_time(lab: &Lab, (low, high): (f64, f64)) -> PlotBounds {
+    let span = lab.scene().seconds;
+    let now = lab.race().t();
+    let windows = [0.25, 0.5, 1.0].map(|part| part * span);
+    let end = windows.into_iter().find(|&end| now <= end).unwrap_or(now);
+    PlotBounds::from_min_max([(end - span).max(0.0), low], [end, high])
+}

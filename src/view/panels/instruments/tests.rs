@@ -1,0 +1,259 @@
+use egui::{
+    Context, Event, Modifiers, MouseWheelUnit, PointerButton, Pos2, RawInput, Rect, Shape,
+    TouchPhase, Vec2, vec2,
+};
+
+use super::error::NO_ERROR;
+use super::*;
+use crate::lab::{SCENES, Scene};
+use crate::view::panels;
+use crate::view::theme;
+
+/// Every text that can be seen in a frame of this size, with its place.
+fn texts(lab: &Lab, size: Vec2) -> Vec<(Rect, String)> {
+    let context = Context::default();
+    theme::dress(&context);
+    let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size));
+    let input = RawInput { screen_rect, ..RawInput::default() };
+    let mut output = context.run_ui(input, |ui| drop(panels::show(ui, lab)));
+    output.textures_delta.clear();
+    let mut texts = Vec::new();
+    for clipped in output.shapes {
+        collect(&clipped.shape, clipped.clip_rect, &mut texts);
+    }
+    texts
+}
+
+fn collect(shape: &Shape, clip: Rect, texts: &mut Vec<(Rect, String)>) {
+    match shape {
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| collect(shape, clip, texts)),
+        Shape::Text(text) => {
+            let rect = text.visual_bounding_rect();
+            if clip.expand(0.5).contains_rect(rect) {
+                texts.push((rect, text.galley.text().to_owned()));
+            }
+        }
+        _ => {}
+    }
+}
+
+fn is_number(text: &str) -> bool {
+    let digits = text.trim_start_matches(['\u{2212}', '+']);
+    digits.starts_with(|c: char| c.is_ascii_digit()) && !text.contains(' ')
+}
+
+fn assert_legible(lab: &Lab, what: &str) {
+    const SIZE: Vec2 = vec2(1280.0, 720.0);
+    let left = (1.0 - panels::INSTRUMENTS) * SIZE.x;
+    let texts = texts(lab, SIZE);
+    let here: Vec<_> = texts.iter().filter(|(rect, _)| rect.left() > left).collect();
+    let place = |wanted: &str| here.iter().find(|(_, text)| text == wanted).map(|(rect, _)| rect);
+    for card in INSTRUMENTS {
+        assert!(place(card.name).is_some(), "{what}: no tab {}", card.name);
+    }
+    let Some(sheet) = sheet_of(lab) else {
+        let words = here.iter().filter(|(_, text)| text.len() > 10).count();
+        assert!(words > 3, "{what}: {here:?}");
+        return;
+    };
+    let numbers: Vec<_> = here.iter().filter(|(_, text)| is_number(text)).collect();
+    for plot in &sheet.plots {
+        if let Some(why) = &plot.nothing {
+            assert!(place(why).is_some(), "{what}: {why}");
+            assert!(why == NO_ERROR || METRICS.iter().any(|metric| metric.absent == why));
+            continue;
+        }
+        let title = place(&plot.title).unwrap_or_else(|| panic!("{what}: {}", plot.title));
+        let up = place(&plot.axes[1].name()).unwrap_or_else(|| panic!("{what}: {here:?}"));
+        assert!(!title.intersects(*up), "{what}: {} and {}", plot.title, plot.axes[1].name());
+        let below = |top: f32| {
+            let others = sheet.plots.iter().filter_map(|plot| place(&plot.title));
+            let tops = others.map(|rect| rect.top()).filter(move |&other| other > top);
+            tops.fold(f32::INFINITY, f32::min)
+        };
+        let band = title.top() - 4.0..below(title.top() + 1.0);
+        let marks = numbers
+            .iter()
+            .filter(|(rect, _)| rect.right() <= title.left() && band.contains(&rect.center().y));
+        let marks: Vec<&str> = marks.map(|(_, text)| &**text).collect();
+        assert!(marks.len() >= 3, "{what}, {}: {marks:?}", plot.title);
+    }
+    if let Some(plot) = sheet.plots.iter().find(|plot| plot.nothing.is_none()) {
+        let along = place(&plot.axes[0].name()).unwrap_or_else(|| panic!("{what}: {here:?}"));
+        let row = along.top() - 20.0..along.top();
+        let marks = numbers.iter().filter(|(rect, _)| row.contains(&rect.center().y)).count();
+        assert!(marks >= 3, "{what}: {marks} marks along");
+    }
+}
+
+#[test]
+fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
+    for scene in SCENES {
+        let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
+        for mode in ["solo", "race"] {
+            for seconds in [0, 3] {
+                for _ in 0..60 * seconds {
+                    lab.advance(16_666_667);
+                }
+                for instrument in Instrument::all() {
+                    lab.apply(Command::Instrument(instrument));
+                    for body in 0..lab.scene().bodies.len() {
+                        lab.apply(Command::Body(body));
+                        let (scene, name) = (scene.name, instrument.name());
+                        let what = format!("{scene}, {mode}, {name}, {body}, {seconds} s");
+                        assert_legible(&lab, &what);
+                    }
+                }
+            }
+            lab.apply(Command::ToggleRace);
+        }
+    }
+}
+
+#[test]
+fn every_metric_can_be_looked_at() {
+    let offered = error::choices().count();
+    assert_eq!(offered + 1, METRICS.len(), "and the energy drift");
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    lab.apply(Command::ToggleRace);
+    (0..60).for_each(|_| lab.tick());
+    lab.apply(Command::Instrument(Instrument::Error));
+    for place in error::choices() {
+        lab.apply(Command::Metric(place));
+        assert_legible(&lab, METRICS[place].name);
+    }
+}
+
+#[test]
+fn a_truth_that_halted_is_not_said_to_be_shown() {
+    let text = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
+                [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\nkick_n_s = 1e15\n";
+    let mut lab = Lab::new(Scene::parse("kicked.toml", text).unwrap());
+    let says = |lab: &Lab, words: &str| {
+        texts(lab, vec2(1280.0, 720.0)).iter().any(|(_, text)| text.contains(words))
+    };
+    assert!(!says(&lab, "no exact solution"));
+    lab.apply(Command::Kick(1e30));
+    assert!(says(&lab, "no exact solution"));
+}
+
+/// A person at the plots of an instrument, which fill a frame.
+struct Person {
+    context: Context,
+    time: f64,
+}
+
+const FRAME: Vec2 = vec2(500.0, 420.0);
+
+impl Person {
+    fn new() -> Self {
+        let context = Context::default();
+        theme::dress(&context);
+        Self { context, time: 0.0 }
+    }
+
+    /// Shows a frame after these events. Returns every text in it and what was asked for.
+    fn frame(&mut self, lab: &Lab, events: Vec<Event>) -> (Vec<String>, Vec<Command>) {
+        self.time += 1.0 / 60.0;
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, FRAME));
+        let input = RawInput { screen_rect, events, time: Some(self.time), ..RawInput::default() };
+        let sheet = sheet_of(lab).unwrap();
+        let mut commands = Vec::new();
+        let mut output =
+            self.context.run_ui(input, |ui| chart::show(ui, lab, &sheet, &mut commands));
+        output.textures_delta.clear();
+        let mut texts = Vec::new();
+        for clipped in output.shapes {
+            collect(&clipped.shape, clipped.clip_rect, &mut texts);
+        }
+        (texts.into_iter().map(|(_, text)| text).collect(), commands)
+    }
+
+    fn click(&mut self, lab: &Lab, at: Pos2) -> Vec<Command> {
+        let button = |pressed| Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        self.frame(lab, vec![Event::PointerMoved(at)]);
+        let mut commands = self.frame(lab, vec![button(true)]).1;
+        commands.extend(self.frame(lab, vec![button(false)]).1);
+        commands
+    }
+}
+
+fn race_of_springs() -> Lab {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.apply(Command::ToggleRace);
+    (0..240).for_each(|_| lab.tick());
+    lab
+}
+
+#[test]
+fn a_pointer_reads_off_every_curve_at_its_time() {
+    let (lab, mut person) = (race_of_springs(), Person::new());
+    let (before, _) = person.frame(&lab, Vec::new());
+    assert!(!before.iter().any(|text| text.starts_with("t = ")), "{before:?}");
+    person.frame(&lab, vec![Event::PointerMoved(FRAME.to_pos2() / 2.0)]);
+    let (over, _) = person.frame(&lab, Vec::new());
+    assert!(over.iter().any(|text| text.starts_with("t = ")), "{over:?}");
+    let values = over.iter().filter(|text| text.ends_with(" m") && !text.contains(',')).count();
+    assert_eq!(values, lab.race().entrants().len() + 1, "{over:?}");
+}
+
+#[test]
+fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
+    let (lab, mut person) = (race_of_springs(), Person::new());
+    let at = FRAME.to_pos2() / 2.0;
+    let numbers = |person: &mut Person| -> Vec<String> {
+        let (texts, _) = person.frame(&lab, Vec::new());
+        texts.into_iter().filter(|text| is_number(text)).collect()
+    };
+    person.frame(&lab, vec![Event::PointerMoved(at)]);
+    let fitted = numbers(&mut person);
+    let wheel = Event::MouseWheel {
+        unit: MouseWheelUnit::Point,
+        source: egui::MouseWheelSource::Unknown,
+        delta: vec2(0.0, 200.0),
+        phase: TouchPhase::Move,
+        modifiers: Modifiers::NONE,
+    };
+    person.frame(&lab, vec![wheel]);
+    (0..40).for_each(|_| drop(person.frame(&lab, Vec::new())));
+    let zoomed = numbers(&mut person);
+    assert_ne!(zoomed, fitted);
+    let button = |pos: Pos2, pressed: bool| Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    let to = at + vec2(-150.0, 0.0);
+    person.frame(&lab, vec![button(at, true)]);
+    person.frame(&lab, vec![Event::PointerMoved(to)]);
+    person.frame(&lab, vec![button(to, false)]);
+    let panned = numbers(&mut person);
+    assert_ne!(panned, zoomed);
+    person.time += 1.0;
+    person.click(&lab, to);
+    person.click(&lab, to);
+    person.frame(&lab, vec![Event::PointerMoved(at)]);
+    assert_eq!(numbers(&mut person), fitted);
+}
+
+#[test]
+fn a_click_on_a_curve_selects_its_lane() {
+    let (lab, mut person) = (race_of_springs(), Person::new());
+    let sheet = sheet_of(&lab).unwrap();
+    let room = Rect::from_min_size(Pos2::ZERO, FRAME);
+    let cell = &layout::cells(&sheet, room, 40.0, 0)[0];
+    // Explicit Euler swings wider than all others.
+    let widest = lab.race().entrants().iter().find(|lane| lane.entry == 0).unwrap().entry;
+    let track = sheet.plots[0].tracks.iter().find(|track| track.entry == widest).unwrap();
+    let (_, _, at) = track.places().find(|(t, _, [_, y])| *t > 0.9 && *y > 1.2).unwrap();
+    let at = plot::on_screen(cell.frame, &cell.plot.fit, at);
+    let is_pick = |command: &Command| *command == Command::Pick(widest);
+    assert!(person.click(&lab, at).iter().any(is_pick));
+    assert!(person.click(&lab, cell.frame.right_bottom() - vec2(9.0, 9.0)).is_empty());
+}

@@ -1,0 +1,129 @@
+//! Keys drawn as boxes, and sentences with keys in them: a key stands between backticks.
+
+use egui::{Align2, Color32, FontId, Painter, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
+
+use super::{ink, short};
+use crate::view::theme::{TYPE, strong_font};
+
+/// The height of a box, the least room round its letter, and the room between it and a word, in points.
+pub(super) const HEIGHT: f32 = 22.0;
+const PADDING: f32 = 7.0;
+const GAP: f32 = 5.0;
+
+/// A piece of a sentence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Piece<'a> {
+    Words(&'a str),
+    Key(&'a str),
+}
+
+/// The words and the keys of a sentence.
+fn pieces(sentence: &str) -> impl Iterator<Item = Piece<'_>> {
+    let parts = sentence.split('`').enumerate().filter(|(_, part)| !part.trim().is_empty());
+    parts.map(|(i, part)| match i % 2 {
+        0 => Piece::Words(part.trim()),
+        _ => Piece::Key(part),
+    })
+}
+
+/// A sentence as it is read aloud: without the marks of its keys.
+pub(super) fn plain(sentence: &str) -> String {
+    sentence.replace('`', "")
+}
+
+/// The width of a key's box.
+fn width(painter: &Painter, key: &str) -> f32 {
+    let text = painter.layout_no_wrap(key.to_owned(), strong_font(TYPE), Color32::WHITE);
+    (text.size().x + 2.0 * PADDING).max(HEIGHT)
+}
+
+/// Draws a key's box with its left edge here, and returns its width.
+pub(super) fn paint(ui: &Ui, left: f32, middle: f32, key: &str, colour: Color32) -> f32 {
+    let width = width(ui.painter(), key);
+    let rect =
+        Rect::from_min_size(pos2(left, middle - HEIGHT / 2.0), vec2(width, HEIGHT)).shrink(0.5);
+    let stroke = Stroke::new(1.0, colour.gamma_multiply(0.8));
+    ui.painter().rect(rect, 5.0, ink(ui).raised, stroke, egui::StrokeKind::Inside);
+    ui.painter().text(rect.center(), Align2::CENTER_CENTER, key, strong_font(TYPE), colour);
+    width
+}
+
+/// The width of a sentence in one line.
+pub(super) fn line_width(ui: &Ui, sentence: &str) -> f32 {
+    let of = |piece| match piece {
+        Piece::Key(key) => width(ui.painter(), key) + GAP,
+        Piece::Words(words) => {
+            let font = FontId::proportional(TYPE);
+            ui.painter().layout_no_wrap(words.to_owned(), font, Color32::WHITE).size().x + GAP
+        }
+    };
+    pieces(sentence).map(of).sum()
+}
+
+/// Shows a sentence in one line of this width. What does not fit is left out behind an ellipsis, and the tooltip has all
+/// of it.
+pub(super) fn line(ui: &mut Ui, sentence: &str, room: f32, colour: Color32) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(room.max(0.0), HEIGHT), Sense::hover());
+    let spoken = plain(sentence);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &spoken));
+    let (mut x, middle) = (rect.left(), rect.center().y);
+    let mut is_whole = true;
+    for piece in pieces(sentence) {
+        let left = rect.right() - x;
+        match piece {
+            Piece::Key(key) if width(ui.painter(), key) <= left => {
+                x += paint(ui, x, middle, key, ink(ui).accent) + GAP;
+            }
+            Piece::Key(_) => is_whole = false,
+            Piece::Words(words) => {
+                let (text, whole) = short(ui, words, FontId::proportional(TYPE), left, colour);
+                is_whole &= whole;
+                let size = text.size();
+                ui.painter().galley(pos2(x, middle - size.y / 2.0), text, colour);
+                x += size.x + GAP;
+            }
+        }
+        if !is_whole {
+            break;
+        }
+    }
+    if is_whole { response } else { response.on_hover_text(spoken) }
+}
+
+/// Shows a sentence in as many lines as it needs.
+pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(4.0, 2.0);
+        for piece in pieces(sentence) {
+            match piece {
+                Piece::Key(key) => {
+                    let size = vec2(width(ui.painter(), key), HEIGHT - 2.0);
+                    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+                    paint(ui, rect.left(), rect.center().y, key, ink(ui).accent);
+                }
+                Piece::Words(words) => {
+                    ui.label(egui::RichText::new(words).color(colour));
+                }
+            }
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_stand_between_backticks() {
+        let found: Vec<Piece<'_>> = pieces("Press `2` to switch, then `Home`.").collect();
+        let expected = [
+            Piece::Words("Press"),
+            Piece::Key("2"),
+            Piece::Words("to switch, then"),
+            Piece::Key("Home"),
+            Piece::Words("."),
+        ];
+        assert_eq!(found, expected);
+        assert_eq!(plain("Press `2`."), "Press 2.");
+    }
+}

@@ -1,0 +1,125 @@
+//! A row of the table, and its numbers.
+
+use super::verdict::Said;
+use crate::lab::number::significant;
+use crate::lab::{Entrant, Lab, LaneBody, LaneSpec, METRICS, Mode};
+
+/// A method, or a body of the lane that is flown solo.
+pub(super) struct Row<'a> {
+    pub(super) lab: &'a Lab,
+    /// The method's place on the list.
+    pub(super) entry: usize,
+    pub(super) spec: &'a LaneSpec,
+    /// The lane that flies this method now.
+    pub(super) flown: Option<&'a Entrant>,
+    /// The body whose numbers are shown.
+    pub(super) body: usize,
+    /// Whether the row is of this body alone.
+    pub(super) is_of_body: bool,
+    /// Whether it is the first row of its method.
+    pub(super) is_first: bool,
+    pub(super) is_selected: bool,
+}
+
+impl<'a> Row<'a> {
+    /// The rows of the method on this place of the list.
+    pub(super) fn of_method(lab: &'a Lab, entry: usize, spec: &'a LaneSpec) -> Vec<Self> {
+        let flown = lab.race().entrants().iter().find(|entrant| entrant.entry == entry);
+        let shown = lab.display().body;
+        let count = lab.scene().bodies.len();
+        let is_active = entry == lab.active();
+        let is_of_body = lab.mode() == Mode::Solo && flown.is_some() && count > 1;
+        let row = |body: usize| Row {
+            lab,
+            entry,
+            spec,
+            flown,
+            body,
+            is_of_body,
+            is_first: !is_of_body || body == 0,
+            is_selected: is_active && (!is_of_body || body == shown),
+        };
+        match is_of_body {
+            true => (0..count).map(row).collect(),
+            false => vec![row(shown)],
+        }
+    }
+
+    /// What is said of it.
+    pub(super) fn said(&self) -> Option<Said> {
+        // A method that is not flown names the judged body in the column of bodies.
+        let is_named_beside = self.lab.mode() == Mode::Solo && self.lab.scene().bodies.len() > 1;
+        let verdict = self.lab.viewer().verdict(self.entry);
+        let body = match (self.is_of_body, is_named_beside) {
+            (true, _) => Some(self.body),
+            (false, true) => verdict.map(|verdict| verdict.body),
+            (false, false) => None,
+        };
+        Said::of(self.lab, self.entry, self.flown, body)
+    }
+
+    /// The body of the row, or else the one that the verdict is about.
+    pub(super) fn body_name(&self) -> Option<&'a str> {
+        let bodies = &self.lab.scene().bodies;
+        if self.is_of_body {
+            return Some(&bodies[self.body].name);
+        }
+        let verdict = self.lab.viewer().verdict(self.entry)?;
+        Some(&bodies.get(verdict.body)?.name)
+    }
+
+    /// The method's name with its substeps and its tolerance.
+    pub(super) fn method_name(&self) -> String {
+        let substeps = self.spec.substeps;
+        let times = if substeps > 1 { format!(" ×{substeps}") } else { String::new() };
+        let within = self.spec.tolerance.map(|tolerance| format!(" {tolerance:e}"));
+        format!("{}{times}{}", self.spec.method.name, within.unwrap_or_default())
+    }
+
+    fn flown_body(&self) -> Option<&'a LaneBody> {
+        Some(&self.flown?.lane.bodies()[self.body])
+    }
+
+    fn truth(&self) -> &'a LaneBody {
+        &self.lab.race().truth().bodies()[self.body]
+    }
+
+    /// A value with the unit of the body's first coordinate.
+    pub(super) fn in_unit(&self, value: f64) -> Option<String> {
+        Some(format!("{} {}", significant(value, 3), self.truth().coordinates[0].unit))
+    }
+
+    pub(super) fn position(&self) -> Option<f64> {
+        self.flown_body()?.stepper.q().first().copied()
+    }
+
+    pub(super) fn exact(&self) -> Option<f64> {
+        let truth = self.flown_body().map(|_| self.truth())?;
+        truth.halted().is_none().then(|| truth.stepper.q()[0])
+    }
+
+    /// What stands for an error where there is nothing to compare with.
+    pub(super) fn no_truth(&self) -> Option<String> {
+        let is_lost = self.flown.is_some() && self.truth().halted().is_some();
+        is_lost.then(|| "no truth".into())
+    }
+
+    /// A metric of the body, if it is flown.
+    pub(super) fn measure(&self, id: &str) -> Option<f64> {
+        let metric = METRICS.iter().find(|metric| metric.id == id)?;
+        (metric.measure)(self.flown_body()?, self.truth())
+    }
+
+    pub(super) fn evaluations(&self) -> Option<u64> {
+        Some(self.flown_body()?.stepper.evaluations())
+    }
+
+    /// Evaluations per tick: measured if it is flown, else those of its card.
+    pub(super) fn cost(&self) -> Option<f64> {
+        let ticks = self.lab.race().tick();
+        match self.evaluations().filter(|_| ticks > 0) {
+            Some(count) => Some(count as f64 / ticks as f64),
+            None => Some(f64::from(self.spec.method.evaluations? * self.spec.substeps)),
+        }
+    }
+}

@@ -1,0 +1,329 @@
+//! One step: what the selected method does in the next tick, in the phase plane of the displayed body.
+
+use egui::{
+    Align2, Color32, FontId, Grid, Label, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui,
+    Vec2, pos2, vec2,
+};
+use egui_plot::GridInput;
+
+use super::plot_area::{PlotArea, arrow, label};
+use super::{colour, ink, strong_font};
+use crate::lab::number::{round, significant};
+use crate::lab::{Lab, OneStep, Slope};
+use crate::view::ticks;
+
+/// Room for the numbers at the left of the plot and below it, in points.
+const LEFT: f32 = 62.0;
+const BELOW: f32 = 20.0;
+const NAME: f32 = 15.0;
+/// From this width on, in points, the table stands beside the plot; and the table's width there.
+const ROOM_BESIDE: f32 = 700.0;
+const TABLE: f32 = 380.0;
+/// The least part of the height that the plot takes above the table.
+const PLOT: f32 = 0.42;
+/// The height of a row of the table and of a line of the formula, in points.
+const ROW: f32 = 20.0;
+const FORMULA: f32 = 18.0;
+/// The radius of a state and of the badge of an evaluation, in points.
+const STATE: f32 = 5.0;
+const BADGE: f32 = 8.0;
+/// The length of the longest slope, as a part of the plot's diagonal.
+const SLOPE: f32 = 0.13;
+/// The most evaluations that are drawn: an implicit or an adaptive method may take hundreds.
+const MOST_DRAWN: usize = 12;
+/// How much wider the plot is than what it shows.
+const MARGIN: f64 = 0.16;
+
+pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
+    let Some(step) = lab.one_step() else {
+        let why = "No next step: the body has halted under this method.";
+        ui.label(RichText::new(why).color(ink(ui).dim));
+        return;
+    };
+    let top = ui.cursor().top();
+    head(ui, &step);
+    let height = (top + room.y - ui.cursor().top()).max(60.0);
+    if room.x >= ROOM_BESIDE {
+        ui.horizontal_top(|ui| {
+            plot(ui, lab, &step, vec2(room.x - TABLE, height));
+            ui.vertical(|ui| table(ui, lab, &step));
+        });
+    } else {
+        let plot_height = (height - table_height(&step)).max(PLOT * height);
+        plot(ui, lab, &step, vec2(room.x, plot_height));
+        table(ui, lab, &step);
+    }
+}
+
+fn head(ui: &mut Ui, step: &OneStep) {
+    let (name, from) = (step.spec.method.name, step.tick);
+    let title = format!("{name}: tick {from} to {}", from + 1);
+    let substeps = match step.spec.substeps {
+        1 => String::new(),
+        n => format!(", in {n} substeps"),
+    };
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(title).font(strong_font(13.0)));
+        let length = format!("h = {} s{substeps}", significant(step.h, 4));
+        ui.add(Label::new(RichText::new(length).color(ink(ui).dim)).truncate());
+    });
+}
+
+/// The evaluations that are drawn, each with its number and its colour.
+fn drawn<'s>(ui: &Ui, step: &'s OneStep) -> Vec<(usize, Color32, &'s Slope)> {
+    let theme = ink(ui).theme;
+    let numbered = step.evaluations.iter().enumerate().take(MOST_DRAWN);
+    numbered.map(|(i, slope)| (i + 1, colour(theme.evaluation(i)), slope)).collect()
+}
+
+/// The range along an axis of all that is drawn.
+fn range(step: &OneStep, axis: usize) -> [f64; 2] {
+    let evaluated = step.evaluations.iter().take(MOST_DRAWN).map(|slope| &slope.at);
+    let ends = std::iter::once(&step.from).chain(&step.landing);
+    let all = ends.chain(&step.exact).chain(&step.chain).chain(evaluated);
+    let values = all.map(|point| point[axis]).filter(|value| value.is_finite());
+    let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+        [low.min(value), high.max(value)]
+    });
+    let size = (high - low).max(1e-6 * low.abs().max(high.abs())).max(1e-30);
+    [low - MARGIN * size, high + MARGIN * size]
+}
+
+fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
+    let (whole, response) = ui.allocate_exact_size(size, Sense::hover());
+    let ink = ink(ui);
+    let rect = Rect::from_min_max(
+        pos2(whole.left() + LEFT, whole.top() + NAME),
+        pos2(whole.right() - 12.0, whole.bottom() - BELOW),
+    );
+    let area = PlotArea { rect, bounds: [0, 1].map(|axis| range(step, axis)) };
+    let painter = ui.painter_at(whole);
+    painter.rect_filled(rect, 0.0, ink.plot);
+    area.axes(&painter, ink, [&marks(&area, 0), &marks(&area, 1)]);
+    let coordinate = &lab.race().truth().bodies()[lab.display().body].coordinates[0];
+    let small = FontId::proportional(11.5);
+    let up = format!("velocity {}, {}/s", coordinate.velocity, coordinate.unit);
+    painter.text(whole.left_top(), Align2::LEFT_TOP, up, small.clone(), ink.dim);
+    let along = format!("{}, {}", coordinate.name, coordinate.unit);
+    painter.text(rect.right_top(), Align2::RIGHT_BOTTOM, along, small, ink.dim);
+
+    let painter = painter.with_clip_rect(rect);
+    let own = ink.style(&step.spec).0;
+    let exact: Vec<Pos2> = step.exact.iter().map(|point| area.at(*point)).collect();
+    painter.line(exact, Stroke::new(2.4, ink.exact));
+    let from = area.at(step.from);
+    let evaluations = drawn(ui, step);
+    for (_, colour, slope) in &evaluations {
+        let dotted = Stroke::new(1.4, colour.gamma_multiply(0.8));
+        painter.extend(egui::Shape::dashed_line(&[from, area.at(slope.at)], dotted, 2.0, 3.0));
+    }
+    chain(&painter, step, &area, &evaluations, own);
+    let reach = SLOPE * rect.size().length();
+    let longest = evaluations.iter().map(|(_, _, slope)| direction(&area, slope).length());
+    let longest = longest.filter(|length| length.is_finite()).fold(1e-30, f32::max);
+    for (_, colour, slope) in &evaluations {
+        let at = area.at(slope.at);
+        arrow(&painter, [at, at + direction(&area, slope) * (reach / longest)], 1.8, *colour);
+        painter.circle(at, 3.6, *colour, Stroke::new(1.2, ink.plot));
+    }
+    painter.circle(from, STATE, own, Stroke::new(1.6, ink.plot));
+    let mut taken = vec![from];
+    if let Some(exact) = step.exact_landing() {
+        painter.circle_stroke(area.at(exact), STATE + 2.0, Stroke::new(2.2, ink.exact));
+        taken.push(area.at(exact));
+    }
+    if let Some(landing) = step.landing {
+        painter.circle(area.at(landing), STATE, own, Stroke::new(1.6, ink.plot));
+        taken.push(area.at(landing));
+    }
+    for (number, colour, slope) in &evaluations {
+        let at = badge_place(area.at(slope.at), rect, &taken);
+        taken.push(at);
+        painter.line_segment([area.at(slope.at), at], Stroke::new(1.0, *colour));
+        badge(&painter, at, *number, [*colour, ink.background]);
+    }
+    let mut named: Vec<Pos2> = Vec::new();
+    let words = [
+        (Some(step.from), "state", ink.text),
+        (step.exact_landing(), "exact", ink.exact),
+        (step.landing, "lands here", own),
+    ];
+    for (point, text, colour) in words {
+        let Some(point) = point.map(|point| area.at(point)) else { continue };
+        let half = 3.5 * text.len() as f32;
+        let offsets = [vec2(0.0, 17.0), vec2(0.0, -17.0), vec2(0.0, 33.0), vec2(0.0, -33.0)];
+        let places = offsets.map(|offset| {
+            let inner = rect.shrink2(vec2(half + 4.0, 9.0));
+            if inner.is_positive() { inner.clamp(point + offset) } else { point + offset }
+        });
+        let is_free = |at: &&Pos2| {
+            let near = |other: &Pos2| {
+                (other.y - at.y).abs() < 14.0 && (other.x - at.x).abs() < half + 12.0
+            };
+            !taken.iter().any(near)
+                && !named.iter().any(|other| {
+                    (other.y - at.y).abs() < 14.0 && (other.x - at.x).abs() < 2.0 * half + 12.0
+                })
+        };
+        let at = *places.iter().find(is_free).unwrap_or(&places[0]);
+        label(&painter, (at, 0.0), text, [colour, ink.plot]);
+        named.push(at);
+    }
+    let about = format!("one step of {}", step.spec.method.name);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &about));
+}
+
+/// The weighted slopes one after the other, or where the landing is no such sum, one arrow to it.
+fn chain(
+    painter: &egui::Painter,
+    step: &OneStep,
+    area: &PlotArea,
+    evaluations: &[(usize, Color32, &Slope)],
+    own: Color32,
+) {
+    let Some(landing) = step.landing else { return };
+    if step.chain.is_empty() {
+        return arrow(
+            painter,
+            [area.at(step.from), area.at(landing)],
+            2.6,
+            own.gamma_multiply(0.7),
+        );
+    }
+    let weights = step.formula().map_or(&[][..], |formula| formula.weights);
+    let links = evaluations.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
+    for (ends, ((_, colour, _), _)) in step.chain.windows(2).zip(links) {
+        arrow(painter, [area.at(ends[0]), area.at(ends[1])], 4.5, *colour);
+    }
+}
+
+/// A slope on the screen, per second.
+fn direction(area: &PlotArea, slope: &Slope) -> Vec2 {
+    let [[x0, x1], [y0, y1]] = area.bounds;
+    let size = area.rect.size();
+    let [along, up] = slope.slope;
+    vec2((along / (x1 - x0)) as f32 * size.x, -(up / (y1 - y0)) as f32 * size.y)
+}
+
+/// A place beside a point where no other badge or state is.
+fn badge_place(at: Pos2, rect: Rect, taken: &[Pos2]) -> Pos2 {
+    let around = (0..24).map(|i| {
+        let (turn, ring) = ((i % 8) as f32, (i / 8) as f32);
+        let angle = (turn * 0.125 - 0.125) * std::f32::consts::TAU;
+        at + Vec2::angled(angle) * (19.0 + 12.0 * ring)
+    });
+    let is_free = |place: &Pos2| {
+        rect.shrink(BADGE + 1.0).contains(*place)
+            && taken.iter().all(|other| other.distance(*place) > 2.0 * BADGE + 1.0)
+    };
+    around.into_iter().find(is_free).unwrap_or(at + vec2(19.0, -19.0))
+}
+
+fn badge(painter: &egui::Painter, at: Pos2, number: usize, [colour, text]: [Color32; 2]) {
+    painter.circle_filled(at, BADGE, colour);
+    painter.text(at, Align2::CENTER_CENTER, number.to_string(), strong_font(11.0), text);
+}
+
+fn marks(area: &PlotArea, axis: usize) -> Vec<(f64, String)> {
+    let [low, high] = area.bounds[axis];
+    let room = if axis == 0 { area.rect.width() } else { area.rect.height() };
+    let base_step_size = ticks::FINEST * (high - low) / f64::from(room);
+    let apart = if axis == 0 { 64.0 } else { 26.0 };
+    let input = GridInput { bounds: (low, high), base_step_size };
+    let marks = ticks::linear(input, apart);
+    marks
+        .into_iter()
+        .map(|mark| (mark.value, ticks::linear_label(mark, &(low..=high), "")))
+        .collect()
+}
+
+/// The height of the table, in points.
+fn table_height(step: &OneStep) -> f32 {
+    let lines = step.formula().map_or(0, |formula| formula.lines.len());
+    let rows = step.evaluations.len().min(MOST_DRAWN) + 3;
+    FORMULA * lines as f32 + ROW * rows as f32 + 24.0
+}
+
+/// The formula, every evaluation in numbers, and where the tick ends.
+fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
+    let coordinate = &lab.race().truth().bodies()[lab.display().body].coordinates[0];
+    let (q, v) = (coordinate.name, coordinate.velocity);
+    ui.spacing_mut().item_spacing.y = 1.0;
+    ScrollArea::vertical().id_salt("one step").auto_shrink(false).show(ui, |ui| {
+        for line in step.formula().map_or(&[][..], |formula| formula.lines) {
+            ui.label(RichText::new(*line).size(13.5));
+        }
+        let grid = Grid::new("evaluations").num_columns(5).spacing([14.0, 1.0]).striped(true);
+        grid.min_row_height(ROW - 2.0).show(ui, |ui| {
+            let unit = coordinate.unit;
+            for head in [
+                String::new(),
+                "at".into(),
+                format!("{q}, {unit}"),
+                format!("{v}, {unit}/s"),
+                format!("a, {unit}/s²"),
+            ] {
+                ui.label(RichText::new(head).size(11.0).color(ink(ui).dim));
+            }
+            ui.end_row();
+            for (number, colour, slope) in drawn(ui, step) {
+                let (rect, _) = ui.allocate_exact_size(vec2(20.0, 18.0), Sense::hover());
+                badge(ui.painter(), rect.center(), number, [colour, ink(ui).background]);
+                ui.label(when(slope.when));
+                for value in [slope.at[0], slope.at[1], slope.slope[1]] {
+                    ui.label(signed(value));
+                }
+                ui.end_row();
+            }
+            for (name, point, colour) in [
+                ("lands at", step.landing, ink(ui).style(&step.spec).0),
+                ("exact", step.exact_landing(), ink(ui).exact),
+            ] {
+                ui.label("");
+                ui.label(RichText::new(name).color(colour));
+                for value in point.unwrap_or([f64::NAN; 2]) {
+                    ui.label(RichText::new(signed(value)).color(colour));
+                }
+                ui.label("");
+                ui.end_row();
+            }
+        });
+        ui.add(Label::new(RichText::new(words(step, coordinate.unit)).color(ink(ui).text)).wrap());
+    });
+}
+
+/// A part of the tick: `½ h`.
+fn when(part: f64) -> String {
+    let is = |wanted: f64| (part - wanted).abs() < 1e-9;
+    match part {
+        _ if is(0.0) => "t".into(),
+        _ if is(0.5) => "t + ½h".into(),
+        _ if is(1.0) => "t + h".into(),
+        part => format!("t + {}h", round(part, 3)),
+    }
+}
+
+fn signed(value: f64) -> String {
+    if !value.is_finite() {
+        return "-".into();
+    }
+    let sign = if value >= 0.0 { "+" } else { "" };
+    format!("{sign}{}", significant(value, 4))
+}
+
+/// How far the tick misses, and what is not drawn.
+fn words(step: &OneStep, unit: &str) -> String {
+    let mut words = match (step.landing, step.exact_landing()) {
+        (None, _) => "The method fails in this tick.".into(),
+        (_, None) => "The exact motion from this state is not known.".into(),
+        (Some(landing), Some(exact)) => {
+            let [q, v] = std::array::from_fn(|i| significant((landing[i] - exact[i]).abs(), 2));
+            format!("This tick alone misses the exact motion by {q} {unit} and {v} {unit}/s.")
+        }
+    };
+    let more = step.evaluations.len().saturating_sub(MOST_DRAWN);
+    if more > 0 {
+        words += &format!(" {more} more evaluations are not drawn.");
+    }
+    words
+}

@@ -1,0 +1,342 @@
+//! The stability map: where each method is stable, in the plane of the tick rate and of a parameter, and where the
+//! run is.
+
+use egui::{
+    Align2, Color32, ComboBox, FontId, Label, Pos2, Rect, RichText, Sense, Stroke, Ui, Vec2, pos2,
+    vec2,
+};
+
+use super::plot_area::{PlotArea, decades, label, mixed, polygon};
+use super::{colour, ink, strong_font};
+use crate::lab::{
+    Action, Command, Coverage, Lab, MapRequest, Parameter, StabilityMap, edited_values,
+};
+use crate::view::curves::{self, Curve, Dots};
+use words::{each_method, letter, point_in_words, sentence, short_sentence};
+
+mod words;
+
+/// Room for the numbers at the left, in points.
+const LEFT: f32 = 58.0;
+/// Room for the numbers below, and for an axis's name, in points.
+const BELOW: f32 = 18.0;
+const NAME: f32 = 19.0;
+/// From this height on, in points, there is room for all words.
+const ROOM_FOR_WORDS: f32 = 260.0;
+/// How opaque the water is where every method is stable.
+const DEEPEST: f32 = 0.7;
+/// The size of the cross, in points.
+const CROSS: f32 = 13.0;
+/// How far a boundary's label is from it, and from the middle of any other label or boundary, in points.
+const BESIDE: f32 = 10.0;
+const APART: f32 = 13.0;
+
+pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Command>) {
+    let top = ui.cursor().top();
+    let Some(place) = lab.mapped_parameter() else {
+        ui.label(
+            RichText::new("This body has no parameter that a map could show.").color(ink(ui).dim),
+        );
+        return;
+    };
+    head(ui, lab, place, commands);
+    let map = lab.viewer().stability_map();
+    let wanted = (lab.display().body, place);
+    let map = map.filter(|map| (map.request.body, map.request.parameter) == wanted);
+    let Some(map) = map else {
+        ui.label(RichText::new("Working out the map …").color(ink(ui).dim));
+        return;
+    };
+    if !map.is_possible {
+        let why = "No stability map: this body has no position of rest about which its forces could be \
+                   linearised. The lanes below say how each method does on the motion itself.";
+        ui.add(Label::new(RichText::new(why).color(ink(ui).dim)).wrap());
+        return;
+    }
+    let left = top + room.y - ui.cursor().top();
+    let words = match room.y >= ROOM_FOR_WORDS {
+        true => sentence(ui, lab, map, room.x),
+        false => short_sentence(ui, lab, map, room.x),
+    };
+    let size = vec2(room.x, (left - words.size().y - 6.0).max(40.0));
+    plot(ui, lab, map, size, commands);
+    ui.add(Label::new(words)).on_hover_text(each_method(map));
+}
+
+fn parameter(lab: &Lab, place: usize) -> &'static Parameter {
+    &lab.scene().bodies[lab.display().body].kind.parameters[place]
+}
+
+/// The title, and the menu of the parameters.
+fn head(ui: &mut Ui, lab: &Lab, place: usize, commands: &mut Vec<Command>) {
+    let body = &lab.scene().bodies[lab.display().body];
+    ui.horizontal(|ui| {
+        let title = RichText::new(format!("Stability: {} over", body.name));
+        ui.add(Label::new(title.font(strong_font(13.0))).truncate());
+        let name = |place: usize| {
+            let parameter = parameter(lab, place);
+            let (quantity, letter) = (parameter.quantity(), letter(parameter));
+            if letter == quantity { quantity } else { format!("{quantity} {letter}") }
+        };
+        let menu = ComboBox::from_id_salt("mapped parameter").selected_text(name(place));
+        let menu = menu.show_ui(ui, |ui| {
+            for other in lab.mappable_parameters() {
+                if ui.selectable_label(other == place, name(other)).clicked() {
+                    commands.push(Command::MapParameter(other));
+                }
+            }
+        });
+        let about = format!("parameter of the stability map: {}", name(place));
+        menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &about));
+    });
+}
+
+fn plot(ui: &mut Ui, lab: &Lab, map: &StabilityMap, size: Vec2, commands: &mut Vec<Command>) {
+    let (whole, _) = ui.allocate_exact_size(size, Sense::hover());
+    let (ink, painter) = (ink(ui), ui.painter_at(whole));
+    let has_names = size.y >= 150.0;
+    let names = if has_names { NAME } else { 4.0 };
+    let rect = Rect::from_min_max(
+        pos2(whole.left() + LEFT, whole.top() + names),
+        pos2(whole.right() - 18.0, whole.bottom() - BELOW - names),
+    );
+    let MapRequest { rates_hz, range, .. } = &map.request;
+    let area = PlotArea { rect, bounds: [rates_hz, range].map(|ends| ends.map(libm::log10)) };
+
+    painter.rect_filled(rect, 0.0, mixed(ink.plot, ink.accent, 0.14));
+    water(ui, map, &area);
+    let across = decades(area.bounds[0], rect.width(), 28.0);
+    let up = decades(area.bounds[1], rect.height(), 22.0);
+    area.axes(&painter, ink, [&across, &up]);
+    if has_names {
+        let parameter = parameter(lab, map.request.parameter);
+        let unit =
+            if parameter.unit.is_empty() { String::new() } else { format!(", {}", parameter.unit) };
+        let name = format!("{} {}{unit}", parameter.quantity(), letter(parameter));
+        let small = FontId::proportional(11.5);
+        painter.text(whole.left_top(), Align2::LEFT_TOP, name, small.clone(), ink.dim);
+        let below = pos2(rect.center().x, whole.bottom());
+        painter.text(below, Align2::CENTER_BOTTOM, "tick rate, Hz", small, ink.dim);
+    }
+    boundaries(ui, lab, map, &area);
+    cross(ui, lab, map, &area, commands);
+}
+
+/// The tint of the water: deeper where more methods are stable. A method that is stable everywhere tints nothing, so
+/// that land is where only such methods are.
+fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
+    let painter = ui.painter().with_clip_rect(area.rect);
+    let part: Vec<_> =
+        map.regions.iter().filter(|region| region.coverage == Coverage::Part).collect();
+    // As many layers as there are methods leave this much of the land.
+    let layer = 1.0 - (1.0 - DEEPEST).powf(1.0 / part.len().max(1) as f32);
+    let theme = ink(ui).theme;
+    let [sea, blue] = [theme.palette().sea[0], theme.evaluation(1)].map(colour);
+    let water = mixed(sea, blue, 0.3).gamma_multiply(layer);
+    for region in part {
+        for piece in &region.pieces {
+            painter.add(polygon(piece.iter().map(|point| area.at(*point)), water));
+        }
+    }
+    if !map.regions.is_empty() && map.regions.iter().all(|region| region.coverage != Coverage::Part)
+    {
+        let is_water = map.regions.iter().any(|region| region.coverage == Coverage::Everywhere);
+        if is_water {
+            painter.rect_filled(area.rect, 0.0, water);
+        }
+    }
+}
+
+/// Each method's boundary in its colour with its name beside it, the selected method's last.
+fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
+    let painter = ui.painter().with_clip_rect(area.rect);
+    let lines: Vec<(usize, Vec<Pos2>)> = map
+        .regions
+        .iter()
+        .zip(&map.request.specs)
+        .flat_map(|(region, (entry, _))| {
+            let line = |line: &Vec<[f64; 2]>| line.iter().map(|point| area.at(*point)).collect();
+            region.boundary.iter().map(move |points| (*entry, line(points)))
+        })
+        .collect();
+    let is_selected = |entry: usize| entry == lab.active();
+    let style = |entry: usize| ink(ui).style(&lab.entries()[entry]);
+    let mut order: Vec<&(usize, Vec<Pos2>)> = lines.iter().collect();
+    order.sort_by_key(|(entry, _)| is_selected(*entry));
+    for (entry, points) in &order {
+        let (colour, dash) = style(*entry);
+        let curve = |colour: Color32, width: f32, dash: [f32; 2]| Curve {
+            colour,
+            width,
+            dash,
+            dots: Dots::None,
+            points: Vec::new(),
+            swept: Vec::new(),
+        };
+        if is_selected(*entry) {
+            let glow = curve(colour.gamma_multiply(0.25), 7.0, [1.0, 0.0]);
+            curves::paint(&painter, points, &[], &glow);
+        }
+        let width = if is_selected(*entry) { 3.4 } else { 2.2 };
+        curves::paint(&painter, points, &[], &curve(colour, width, dash));
+    }
+    let mut taken: Vec<Pos2> =
+        cross_at(lab, map, area).map(|at| vec![at, at + vec2(50.0, 0.0)]).unwrap_or_default();
+    taken.extend(only_everywhere(ui, lab, map, area));
+    let mut named: Vec<usize> = Vec::new();
+    for (entry, points) in order.iter().rev() {
+        if named.contains(entry) {
+            continue;
+        }
+        let text = numbered(*entry, lab.entries()[*entry].method.name);
+        let others =
+            lines.iter().filter(|(other, _)| other != entry).flat_map(|(_, points)| points);
+        let others: Vec<Pos2> = others.copied().collect();
+        let width = 7.0 * text.chars().count() as f32;
+        if let Some((at, angle)) = label_place(points, width, area.rect, &taken, &others) {
+            let land = ink(ui).plot.gamma_multiply(0.8);
+            label(&painter, (at, angle), &text, [style(*entry).0, land]);
+            taken.extend(along(at, angle, width));
+            named.push(*entry);
+        }
+    }
+}
+
+/// The name of a method after the digit that picks it, if there is one.
+fn numbered(entry: usize, name: &str) -> String {
+    if entry < 9 { format!("{} {name}", entry + 1) } else { name.to_owned() }
+}
+
+/// Points along a label.
+fn along(at: Pos2, angle: f32, width: f32) -> impl Iterator<Item = Pos2> {
+    (-4..=4).map(move |i| at + Vec2::angled(angle) * (width * i as f32 / 8.0))
+}
+
+/// Where the label of a boundary stands: beside it, within `rect`, off the places that are `taken` and if possible off
+/// the `others`.
+fn label_place(
+    points: &[Pos2],
+    width: f32,
+    rect: Rect,
+    taken: &[Pos2],
+    others: &[Pos2],
+) -> Option<(Pos2, f32)> {
+    let inside: Vec<Pos2> = points.iter().copied().filter(|at| rect.contains(*at)).collect();
+    let candidates = [0.5, 0.62, 0.38, 0.74, 0.26, 0.85, 0.15].into_iter().flat_map(|part| {
+        let middle = (part * inside.len() as f32) as usize;
+        let reach = (inside.len() / 12).max(1);
+        let from = inside.get(middle.saturating_sub(reach)).copied();
+        let to = inside.get((middle + reach).min(inside.len().saturating_sub(1))).copied();
+        let place = from.zip(to).filter(|(from, to)| from != to).map(|(from, to)| {
+            let [from, to] = if from.x <= to.x { [from, to] } else { [to, from] };
+            let angle = (to - from).angle();
+            (from + (to - from) / 2.0, angle)
+        });
+        place.into_iter().flat_map(|(at, angle)| {
+            [-1.0, 1.0].map(|side| (at + Vec2::angled(angle).rot90() * (side * BESIDE), angle))
+        })
+    });
+    let places: Vec<(Pos2, f32)> = candidates
+        .filter(|(at, angle)| {
+            along(*at, *angle, width).all(|at| {
+                rect.shrink(7.0).contains(at)
+                    && taken.iter().all(|other| other.distance(at) >= APART)
+            })
+        })
+        .collect();
+    let is_clear = |(at, angle): &&(Pos2, f32)| {
+        along(*at, *angle, width).all(|at| others.iter().all(|other| other.distance(at) >= BESIDE))
+    };
+    places.iter().find(is_clear).or(places.first()).copied()
+}
+
+/// Names the methods that are stable everywhere. Returns the places along that.
+fn only_everywhere(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) -> Vec<Pos2> {
+    let found = map.regions.iter().zip(&map.request.specs);
+    let mut everywhere = found.filter(|(region, _)| region.coverage == Coverage::Everywhere);
+    let Some((_, (entry, spec))) = everywhere.next() else { return Vec::new() };
+    let more = everywhere.count();
+    let others = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let verb = if more > 0 { "are" } else { "is" };
+    let name = numbered(*entry, spec.method.name);
+    let text = format!("{name}{others} {verb} stable everywhere");
+    let (colour, _) = ink(ui).style(&lab.entries()[*entry]);
+    let painter = ui.painter().with_clip_rect(area.rect);
+    let at = area.rect.left_top() + vec2(8.0, 6.0);
+    let rect = painter.text(at, Align2::LEFT_TOP, text, strong_font(12.0), colour);
+    along(rect.center(), 0.0, rect.width()).collect()
+}
+
+/// Where the run is; a value below the map is at its lower end.
+fn cross_at(lab: &Lab, map: &StabilityMap, area: &PlotArea) -> Option<Pos2> {
+    let value = lab.race().values(map.request.body).get(map.request.parameter)?;
+    let hz = f64::from(lab.clock().tick_hz());
+    Some(area.rect.clamp(area.at([hz, value.max(f64::MIN_POSITIVE)].map(libm::log10))))
+}
+
+/// The cross, which sets the tick rate and the parameter when it is dragged.
+fn cross(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea, commands: &mut Vec<Command>) {
+    let Some(at) = cross_at(lab, map, area) else { return };
+    let response =
+        ui.interact(area.rect, ui.scope_id().with("you are here"), Sense::click_and_drag());
+    let (ink, painter) = (ink(ui), ui.painter().with_clip_rect(area.rect));
+    let place = map.request.parameter;
+    let value = lab.race().values(map.request.body)[place];
+    let here =
+        format!("you are here: {}", point_in_words(lab, place, lab.clock().tick_hz(), value));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &here));
+    if let Some(pointer) =
+        response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked())
+    {
+        go_to(lab, map, area.point(pointer), commands);
+    }
+    let is_lit = response.hovered() || response.dragged();
+    let response = response.on_hover_cursor(egui::CursorIcon::Crosshair);
+    if response.has_focus() {
+        painter.rect_stroke(area.rect, 0.0, Stroke::new(1.0, ink.accent), egui::StrokeKind::Inside);
+    }
+    let thin = Stroke::new(1.0, ink.accent.gamma_multiply(0.45));
+    for ends in [
+        [pos2(area.rect.left(), at.y), pos2(area.rect.right(), at.y)],
+        [pos2(at.x, area.rect.top()), pos2(at.x, area.rect.bottom())],
+    ] {
+        painter.extend(egui::Shape::dashed_line(&ends, thin, 2.0, 3.0));
+    }
+    let under = Stroke::new(5.0, ink.plot.gamma_multiply(0.8));
+    let over = Stroke::new(if is_lit { 2.6 } else { 2.0 }, ink.accent);
+    for stroke in [under, over] {
+        painter.circle_stroke(at, 0.7 * CROSS, stroke);
+        painter.line_segment([at - vec2(CROSS, 0.0), at + vec2(CROSS, 0.0)], stroke);
+        painter.line_segment([at - vec2(0.0, CROSS), at + vec2(0.0, CROSS)], stroke);
+    }
+    let galley = painter.layout_no_wrap("you are here".into(), strong_font(12.0), ink.on_accent);
+    let size = galley.size() + vec2(12.0, 6.0);
+    let is_left = at.x + CROSS + 6.0 + size.x > area.rect.right();
+    let left = if is_left { at.x - CROSS - 6.0 - size.x } else { at.x + CROSS + 6.0 };
+    let top = (at.y - size.y / 2.0).clamp(area.rect.top(), area.rect.bottom() - size.y);
+    let chip = Rect::from_min_size(pos2(left, top), size);
+    painter.rect_filled(chip, 4.0, ink.accent);
+    painter.galley(chip.min + vec2(6.0, 3.0), galley, ink.on_accent);
+}
+
+/// Sets the tick rate and the parameter to a point of the map.
+fn go_to(lab: &Lab, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut Vec<Command>) {
+    let (body, parameter) = (map.request.body, map.request.parameter);
+    let tick_hz = libm::pow(10.0, x).round().max(1.0) as u32;
+    if tick_hz != lab.clock().tick_hz() {
+        commands.push(Command::TickHz(tick_hz));
+    }
+    let value = to_three_digits(libm::pow(10.0, y));
+    let values = lab.race().values(body);
+    let kind = lab.scene().bodies[body].kind;
+    if value != values[parameter] && edited_values(kind, values, parameter, value).is_ok() {
+        commands.push(Command::Act(Action::Set { body, parameter, value }));
+    }
+}
+
+fn to_three_digits(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,117 @@
+//! The words beside the stability map.
+
+use std::sync::Arc;
+
+use egui::text::{LayoutJob, TextWrapping};
+use egui::{Color32, FontId, Galley, TextFormat, Ui};
+
+use crate::lab::number::round;
+use crate::lab::{Coverage, Here, Lab, MapRequest, Parameter, StabilityMap, duration};
+use crate::view::panels::{ink, strong_font};
+
+/// The letter of a parameter in the equation of motion, or else its name.
+pub(super) fn letter(parameter: &Parameter) -> String {
+    let first = parameter.about.split_once(',').map(|(first, _)| first);
+    let letter = first.filter(|first| first.chars().count() <= 2);
+    letter.map_or_else(|| parameter.quantity(), str::to_owned)
+}
+
+/// A point of the map: `20 Hz, k = 90 N/m`.
+pub(super) fn point_in_words(lab: &Lab, place: usize, tick_hz: u32, value: f64) -> String {
+    let parameter = super::parameter(lab, place);
+    let text =
+        format!("{tick_hz} Hz, {} = {} {}", letter(parameter), round(value, 3), parameter.unit);
+    text.trim_end().to_owned()
+}
+
+/// What the methods do at the present point, and what the map does not draw, wrapped to a width.
+pub(super) fn sentence(ui: &Ui, lab: &Lab, map: &StabilityMap, width: f32) -> Arc<Galley> {
+    let mut job = counted_job(ui, lab, map, 13.0);
+    let notes = " Drag the cross to change both values at once.".to_owned() + &notes(map);
+    append(&mut job, &notes, FontId::proportional(12.0), ink(ui).dim);
+    job.wrap.max_width = width;
+    ui.painter().layout_job(job)
+}
+
+/// What the methods do at the present point, in one line that is cut off at a width.
+pub(super) fn short_sentence(ui: &Ui, lab: &Lab, map: &StabilityMap, width: f32) -> Arc<Galley> {
+    let mut job = counted_job(ui, lab, map, 12.0);
+    job.wrap = TextWrapping::truncate_at_width(width);
+    ui.painter().layout_job(job)
+}
+
+fn counted_job(ui: &Ui, lab: &Lab, map: &StabilityMap, size: f32) -> LayoutJob {
+    let MapRequest { parameter, tick_hz, .. } = &map.request;
+    let here = point_in_words(lab, *parameter, *tick_hz, map.request.value());
+    let mut job = LayoutJob::default();
+    append(&mut job, &format!("{here}: "), strong_font(size), ink(ui).text);
+    let does = if map.here.is_empty() { "judging …".to_owned() } else { counted(map) };
+    append(&mut job, &does, FontId::proportional(size), ink(ui).text);
+    job
+}
+
+fn append(job: &mut LayoutJob, text: &str, font_id: FontId, color: Color32) {
+    job.append(text, 0.0, TextFormat { font_id, color, ..TextFormat::default() });
+}
+
+/// What each method does at the present point, line by line.
+pub(super) fn each_method(map: &StabilityMap) -> String {
+    let lines = map.request.specs.iter().zip(&map.here).map(|((_, spec), here)| {
+        let does = match here {
+            Here::Stable => "stable".into(),
+            Here::Doubles(seconds) => growth(*seconds),
+            Here::OwnSteps => "chooses its own steps".into(),
+        };
+        format!("{}: {does}", spec.method.name)
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn growth(seconds: f64) -> String {
+    if seconds > 0.0 {
+        format!("grows ×2 in {}", duration(seconds))
+    } else {
+        "fails at once".into()
+    }
+}
+
+/// How many methods are stable, and which grows fastest.
+pub(super) fn counted(map: &StabilityMap) -> String {
+    let bounded = map.here.iter().filter(|here| **here != Here::OwnSteps);
+    let (all, stable) = (bounded.clone().count(), bounded.filter(|h| **h == Here::Stable).count());
+    if stable == all && all > 1 {
+        return format!("all {all} methods are stable.");
+    }
+    let noun = if all == 1 { "method" } else { "methods" };
+    let verb = if stable == 1 { "is" } else { "are" };
+    let growing =
+        map.request.specs.iter().zip(&map.here).filter_map(|((_, spec), here)| match here {
+            Here::Doubles(seconds) => Some((spec.method.name, *seconds)),
+            Here::Stable | Here::OwnSteps => None,
+        });
+    let fastest = growing.min_by(|a, b| a.1.total_cmp(&b.1));
+    let fastest = fastest.map(|(name, seconds)| format!(" {name} {}.", growth(seconds)));
+    format!("{stable} of {all} {noun} {verb} stable.{}", fastest.unwrap_or_default())
+}
+
+/// What the map does not draw.
+pub(super) fn notes(map: &StabilityMap) -> String {
+    let named = |coverage: Coverage| {
+        let found = map.regions.iter().zip(&map.request.specs);
+        let of = found.filter(|(region, _)| region.coverage == coverage);
+        of.map(|(_, (_, spec))| spec.method.name).collect::<Vec<_>>()
+    };
+    let (nowhere, own) = (named(Coverage::Nowhere), named(Coverage::OwnSteps));
+    let mut notes = String::new();
+    if !nowhere.is_empty() {
+        notes += &format!(" Stable nowhere here: {}.", nowhere.join(", "));
+    }
+    if !own.is_empty() {
+        let verb = if own.len() == 1 { "chooses its" } else { "choose their" };
+        notes += &format!(" {} {verb} own steps: no tick rate bounds that.", own.join(", "));
+    }
+    if !map.is_linear {
+        notes += " The map holds for small motions about rest.";
+    }
+    notes
+}

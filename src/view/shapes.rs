@@ -1,0 +1,278 @@
+//! The shapes of a picture, in painting order: strokes, lines through points, and filled outlines.
+
+use egui::Rect;
+
+use super::gpu::Gpu;
+use super::lines::{Joint, LineMesh, shown};
+use super::place::Place;
+use super::strips::{Strip, Strips};
+use super::strokes::{StrokeKind, StrokePipeline};
+use super::theme::colour;
+use crate::lab::picture::{self, PathPoint, Shape};
+
+/// The dash pattern of what has no dashes.
+const SOLID: [f32; 2] = [1.0, 0.0];
+
+/// Draws a picture's shapes.
+#[derive(Debug)]
+pub(super) struct ShapeRenderer {
+    strokes: StrokePipeline,
+    strips: Strips,
+    draws: Vec<Draw>,
+}
+
+/// Shapes that follow each other and are drawn in the same way within one clip.
+#[derive(Debug)]
+struct Draw {
+    /// Left, top, width and height of what shows on the target.
+    scissor_px: [u32; 4],
+    what: Drawn,
+}
+
+#[derive(Debug)]
+enum Drawn {
+    Strokes(StrokeKind, std::ops::Range<u32>),
+    Strip(Strip),
+}
+
+/// What can be drawn together.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    Strokes(StrokeKind),
+    Lines { dash: [f32; 2] },
+}
+
+impl Way {
+    fn of(shape: &Shape) -> Self {
+        match shape {
+            Shape::Stroke(stroke) => Way::Strokes(StrokeKind::of(stroke)),
+            Shape::Path(path) if path.dash[1] > 0.0 => Way::Lines { dash: path.dash },
+            Shape::Path(_) | Shape::Fill(_) => Way::Lines { dash: SOLID },
+        }
+    }
+}
+
+fn clip(shape: &Shape) -> picture::Rect {
+    match shape {
+        Shape::Stroke(stroke) => stroke.clip,
+        Shape::Path(path) => path.clip,
+        Shape::Fill(fill) => fill.clip,
+    }
+}
+
+impl ShapeRenderer {
+    pub(super) fn new(
+        gpu: &Gpu,
+        layout: &wgpu::PipelineLayout,
+        format: wgpu::TextureFormat,
+    ) -> Self {
+        Self {
+            strokes: StrokePipeline::new(gpu, layout, format),
+            strips: Strips::new(gpu, layout, format),
+            draws: Vec::new(),
+        }
+    }
+
+    pub(super) fn upload(&mut self, gpu: &Gpu, shapes: &[Shape], place: &Place) {
+        self.draws.clear();
+        self.strips.clear();
+        self.strokes.clear();
+        let alike = |a: &Shape, b: &Shape| clip(a) == clip(b) && Way::of(a) == Way::of(b);
+        for run in shapes.chunk_by(alike) {
+            let scissor_px = place.scissor_px(clip(&run[0]));
+            if scissor_px[2] == 0 || scissor_px[3] == 0 {
+                continue;
+            }
+            let what = match Way::of(&run[0]) {
+                Way::Strokes(kind) => {
+                    let strokes = run.iter().filter_map(|shape| match shape {
+                        Shape::Stroke(stroke) => Some(stroke),
+                        Shape::Path(_) | Shape::Fill(_) => None,
+                    });
+                    Drawn::Strokes(kind, self.strokes.add(strokes))
+                }
+                Way::Lines { dash } => {
+                    let mut mesh = LineMesh::new(dash);
+                    run.iter().for_each(|shape| add(&mut mesh, shape, place));
+                    Drawn::Strip(self.strips.add(&mesh))
+                }
+            };
+            self.draws.push(Draw { scissor_px, what });
+        }
+        self.strips.upload(gpu);
+        self.strokes.upload(gpu);
+    }
+
+    pub(super) fn paint(&self, pass: &mut wgpu::RenderPass<'_>) {
+        for Draw { scissor_px: [left, top, width, height], what } in &self.draws {
+            pass.set_scissor_rect(*left, *top, *width, *height);
+            match what {
+                Drawn::Strokes(kind, quads) => self.strokes.draw(pass, *kind, quads.clone()),
+                Drawn::Strip(strip) => self.strips.draw(pass, strip),
+            }
+        }
+    }
+}
+
+fn add(mesh: &mut LineMesh, shape: &Shape, place: &Place) {
+    let window = clip(shape);
+    let window = Rect::from_min_max(window.min.into(), window.max.into());
+    match shape {
+        Shape::Stroke(_) => {}
+        Shape::Path(path) => {
+            let widest = path.points.iter().map(|point| point.radius).fold(0.0, f32::max);
+            // Half a pixel more for its blur.
+            let window = window.expand(widest + 0.5 / place.px_per_point);
+            for run in shown(path.points.iter().map(joint), window) {
+                mesh.add(&run, place.px_per_point);
+            }
+        }
+        Shape::Fill(fill) => {
+            let corners = fill.corners.iter().map(|&(at, rgba)| (at.into(), colour(rgba)));
+            mesh.fill(&corners.collect::<Vec<_>>(), place.px_per_point);
+        }
+    }
+}
+
+fn joint(point: &PathPoint) -> Joint {
+    Joint { at: point.at.into(), radius: point.radius, colour: colour(point.colour) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::picture::{self, Cap, Fill, Path, Picture, Stroke};
+    use crate::view::testing::{EVERYWHERE, Pixels, draw_picture, gpu_or_skip};
+
+    fn point(at: [f32; 2], radius: f32) -> PathPoint {
+        PathPoint { at, radius, colour: [255; 4] }
+    }
+
+    fn draw(gpu: &Gpu, points: &[PathPoint], clip: picture::Rect) -> Pixels {
+        let path = Path { points: points.to_vec(), dash: SOLID, clip };
+        draw_picture(
+            gpu,
+            [64, 64],
+            1.0,
+            &Picture { shapes: vec![Shape::Path(path)], ..Picture::default() },
+        )
+    }
+
+    #[test]
+    fn a_path_covers_its_own_pixels_and_no_others() {
+        let Some(gpu) = gpu_or_skip("a_path_covers_its_own_pixels_and_no_others") else { return };
+        let points = [[-5.0, 20.0], [40.0, 20.0], [69.0, 20.0]].map(|at| point(at, 2.0));
+        let pixels = draw(&gpu, &points, EVERYWHERE);
+        for y in 0..64 {
+            for x in 0..64 {
+                let expected = if (18..22).contains(&y) { 255 } else { 0 };
+                assert_eq!(pixels.at(x, y)[0], expected, "({x}, {y})");
+            }
+        }
+    }
+
+    #[test]
+    fn where_a_path_bends_nothing_is_drawn_twice() {
+        let Some(gpu) = gpu_or_skip("where_a_path_bends_nothing_is_drawn_twice") else { return };
+        let points = [[-5.0, 20.0], [30.0, 20.0], [69.0, 50.0]]
+            .map(|at| PathPoint { colour: [255, 255, 255, 128], ..point(at, 4.0) });
+        let pixels = draw(&gpu, &points, EVERYWHERE);
+        assert_eq!(pixels.rows.chunks_exact(4).map(|pixel| pixel[0]).max(), Some(128));
+    }
+
+    #[test]
+    fn nothing_is_drawn_outside_the_clip() {
+        let Some(gpu) = gpu_or_skip("nothing_is_drawn_outside_the_clip") else { return };
+        let clip = picture::Rect { min: [20.0, 30.0], max: [40.0, 34.0] };
+        let pixels = draw(&gpu, &[[-9e4, 32.0], [9e4, 32.0]].map(|at| point(at, 10.0)), clip);
+        assert_eq!(pixels.lit(), 20 * 4);
+        assert_eq!((pixels.at(20, 30)[0], pixels.at(39, 33)[0]), (255, 255));
+    }
+
+    #[test]
+    fn width_and_colour_run_from_point_to_point() {
+        let Some(gpu) = gpu_or_skip("width_and_colour_run_from_point_to_point") else { return };
+        let red = PathPoint { colour: [255, 0, 0, 255], ..point([0.0, 32.0], 2.0) };
+        let blue = PathPoint { colour: [0, 0, 255, 255], ..point([64.0, 32.0], 18.0) };
+        let pixels = draw(&gpu, &[red, blue], EVERYWHERE);
+        let reds = [1, 16, 32, 48, 62].map(|x| pixels.at(x, 32)[0]);
+        assert!(reds.is_sorted_by(|a, b| a > b), "{reds:?}");
+        assert!(reds[2].abs_diff(127) <= 3, "{reds:?}");
+        let width = |x| (0..64).filter(|&y| pixels.at(x, y)[..3] != [0, 0, 0]).count();
+        assert!((19..=22).contains(&width(32)), "{}", width(32));
+        assert!(width(8) < width(32) && width(32) < width(56));
+    }
+
+    #[test]
+    fn thin_paths_fade_in_proportion() {
+        let Some(gpu) = gpu_or_skip("thin_paths_fade_in_proportion") else { return };
+        for radius in [0.5, 0.25, 0.1] {
+            let points = [[-10.0, 32.2], [74.0, 32.2]].map(|at| point(at, radius));
+            let light = draw(&gpu, &points, EVERYWHERE).sum(0);
+            let expected = 64.0 * 2.0 * radius;
+            assert!((light / expected - 1.0).abs() < 0.05, "{radius}: {light}");
+        }
+    }
+
+    #[test]
+    fn a_fill_covers_its_own_pixels_and_blends_its_corners() {
+        let test = "a_fill_covers_its_own_pixels_and_blends_its_corners";
+        let Some(gpu) = gpu_or_skip(test) else { return };
+        let [black, white] = [[0, 0, 0, 255], [255; 4]];
+        let corners = vec![
+            ([10.0, 20.0], black),
+            ([50.0, 20.0], white),
+            ([50.0, 40.0], white),
+            ([10.0, 40.0], black),
+        ];
+        let fill = |corners| Shape::Fill(Fill { corners, clip: EVERYWHERE });
+        let drawn = |shape| {
+            draw_picture(
+                &gpu,
+                [64, 64],
+                1.0,
+                &Picture { shapes: vec![shape], ..Picture::default() },
+            )
+        };
+        let pixels = drawn(fill(corners.clone()));
+        assert!((0..64).all(|x| pixels.at(x, 18)[0] == 0 && pixels.at(x, 41)[0] == 0));
+        let row: Vec<u8> = [12, 20, 30, 40, 48].map(|x| pixels.at(x, 30)[0]).into();
+        assert!(row.is_sorted_by(|a, b| a < b) && row[2].abs_diff(128) < 5, "{row:?}");
+        let turned: Vec<_> = corners.iter().rev().copied().collect();
+        let difference = drawn(fill(turned)).sum(0) - pixels.sum(0);
+        assert!(
+            difference.abs() < 1.0,
+            "the direction of the corners does not matter: {difference}"
+        );
+        let solid = drawn(fill(corners.iter().map(|(at, _)| (*at, white)).collect()));
+        assert!((solid.sum(0) - 40.0 * 20.0).abs() < 2.0, "{}", solid.sum(0));
+    }
+
+    #[test]
+    fn later_shapes_lie_over_earlier_ones_of_every_kind() {
+        let test = "later_shapes_lie_over_earlier_ones_of_every_kind";
+        let Some(gpu) = gpu_or_skip(test) else { return };
+        let [red, green, blue] = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255]];
+        let stroke = Shape::Stroke(Stroke {
+            from: [10.0, 32.0],
+            to: [50.0, 32.0],
+            radii: [6.0; 2],
+            colour: red,
+            cap: Cap::Round,
+            clip: EVERYWHERE,
+        });
+        let points =
+            [[10.0, 32.0], [50.0, 32.0]].map(|at| PathPoint { at, radius: 6.0, colour: green });
+        let path = Shape::Path(Path { points: points.into(), dash: SOLID, clip: EVERYWHERE });
+        let corners = [[10.0, 26.0], [50.0, 26.0], [50.0, 38.0], [10.0, 38.0]];
+        let fill =
+            Shape::Fill(Fill { corners: corners.map(|at| (at, blue)).into(), clip: EVERYWHERE });
+        for last in 0..3 {
+            let mut shapes = vec![stroke.clone(), path.clone(), fill.clone()];
+            shapes.rotate_left(last);
+            let expected = [blue, red, green][last];
+            let picture = Picture { shapes, ..Picture::default() };
+            assert_eq!(draw_picture(&gpu, [64, 64], 1.0, &picture).at(30, 32), expected);
+        }
+    }
+}

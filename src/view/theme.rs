@@ -1,0 +1,220 @@
+//! What panels are painted with: the colours of the theme, the fonts, the size of type.
+
+use std::sync::LazyLock;
+
+use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, Ui};
+
+use crate::lab::LaneSpec;
+use crate::lab::palette::{Palette, Theme};
+use crate::lab::picture::Rgba;
+
+/// The colours of panels, as egui wants them.
+#[derive(Debug)]
+pub(super) struct Ink {
+    pub(super) background: Color32,
+    pub(super) panel: Color32,
+    pub(super) raised: Color32,
+    pub(super) line: Color32,
+    pub(super) plot: Color32,
+    pub(super) grid: Color32,
+    pub(super) text: Color32,
+    pub(super) dim: Color32,
+    pub(super) accent: Color32,
+    pub(super) on_accent: Color32,
+    pub(super) exact: Color32,
+    pub(super) bad: Color32,
+    pub(super) warn: Color32,
+    pub(super) good: Color32,
+    pub(super) theme: Theme,
+}
+
+impl Ink {
+    fn of(theme: Theme) -> Self {
+        let &Palette { background, panel, raised, line, plot, grid, text, dim, .. } =
+            theme.palette();
+        let &Palette { accent, on_accent, exact, bad, warn, good, .. } = theme.palette();
+        Self {
+            background: colour(background),
+            panel: colour(panel),
+            raised: colour(raised),
+            line: colour(line),
+            plot: colour(plot),
+            grid: colour(grid),
+            text: colour(text),
+            dim: colour(dim),
+            accent: colour(accent),
+            on_accent: colour(on_accent),
+            exact: colour(exact),
+            bad: colour(bad),
+            warn: colour(warn),
+            good: colour(good),
+            theme,
+        }
+    }
+
+    /// The colour and the dash pattern of a lane's method.
+    pub(super) fn style(&self, spec: &LaneSpec) -> (Color32, [f32; 2]) {
+        let (rgba, dash) = self.theme.style(spec.method);
+        (colour(rgba), dash)
+    }
+}
+
+static DARK: LazyLock<Ink> = LazyLock::new(|| Ink::of(Theme::Dark));
+static LIGHT: LazyLock<Ink> = LazyLock::new(|| Ink::of(Theme::Light));
+
+/// The colours of a theme.
+pub(super) fn ink_of(theme: Theme) -> &'static Ink {
+    match theme {
+        Theme::Dark => &DARK,
+        Theme::Light => &LIGHT,
+    }
+}
+
+/// The colours of the theme that a panel is shown in.
+pub(super) fn ink(ui: &Ui) -> &'static Ink {
+    ink_of(if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light })
+}
+
+pub(super) fn colour([r, g, b, a]: Rgba) -> Color32 {
+    Color32::from_rgba_unmultiplied(r, g, b, a)
+}
+
+/// The size of the type of panels at 1280×720, in points.
+pub(super) const TYPE: f32 = 13.0;
+/// The window at which type has that size, in points, and how much larger than there everything may become.
+const USUAL_SIZE: [f32; 2] = [1280.0, 720.0];
+const LARGEST: f32 = 2.0;
+
+/// How much larger everything is in a window of this size, in points, than at the usual one: type grows with the
+/// square root of the window, in steps of which none is seen as one.
+pub(super) fn growth(size: [f32; 2]) -> f32 {
+    let times = (size[0] / USUAL_SIZE[0]).min(size[1] / USUAL_SIZE[1]).max(1.0);
+    (8.0 * times.sqrt().min(LARGEST)).round() / 8.0
+}
+
+/// The family of words that stand out.
+pub(super) fn strong() -> FontFamily {
+    FontFamily::Name("strong".into())
+}
+
+/// Type of this size that stands out.
+pub(super) fn strong_font(size: f32) -> FontId {
+    FontId::new(size, strong())
+}
+
+/// The look of every widget. Set once for each context.
+pub(super) fn dress(context: &egui::Context) {
+    context.set_fonts(fonts());
+    for theme in [Theme::Dark, Theme::Light] {
+        let egui_theme = in_egui(theme);
+        let ink = Ink::of(theme);
+        context.style_mut_of(egui_theme, |style| dress_style(style, &ink));
+    }
+}
+
+/// Has the context show this theme.
+pub(super) fn show_theme(context: &egui::Context, theme: Theme) {
+    context.set_theme(in_egui(theme));
+}
+
+fn in_egui(theme: Theme) -> egui::Theme {
+    match theme {
+        Theme::Dark => egui::Theme::Dark,
+        Theme::Light => egui::Theme::Light,
+    }
+}
+
+/// Inter for all words and numbers, its figures of one width; what it lacks from egui's own fonts. Lines quoted from
+/// a file keep a fixed width.
+fn fonts() -> FontDefinitions {
+    let mut fonts = FontDefinitions::default();
+    let fallback: Vec<String> = [FontFamily::Proportional, FontFamily::Monospace]
+        .iter()
+        .flat_map(|family| fonts.families.get(family).into_iter().flatten().cloned())
+        .collect();
+    let inter: [(&str, FontFamily, &'static [u8]); 2] = [
+        ("Inter", FontFamily::Proportional, include_bytes!("../../assets/fonts/Inter-Regular.otf")),
+        ("Inter SemiBold", strong(), include_bytes!("../../assets/fonts/Inter-SemiBold.otf")),
+    ];
+    for (name, family, data) in inter {
+        fonts.font_data.insert(name.into(), FontData::from_static(data).into());
+        let faces = std::iter::once(name.to_owned()).chain(fallback.iter().cloned());
+        fonts.families.insert(family, faces.collect());
+    }
+    fonts
+}
+
+fn dress_style(style: &mut egui::Style, ink: &Ink) {
+    // The same input makes the same frame, whenever it is drawn.
+    style.animation_time = 0.0;
+    style.visuals.text_cursor.blink = false;
+    style.spacing.item_spacing = egui::vec2(6.0, 3.0);
+    style.spacing.button_padding = egui::vec2(8.0, 4.0);
+    style.spacing.interact_size.y = 24.0;
+    for (text_style, size) in [
+        (egui::TextStyle::Body, TYPE),
+        (egui::TextStyle::Button, TYPE),
+        (egui::TextStyle::Monospace, TYPE),
+        (egui::TextStyle::Small, 11.0),
+        (egui::TextStyle::Heading, 15.0),
+    ] {
+        if let Some(font) = style.text_styles.get_mut(&text_style) {
+            font.size = size;
+        }
+    }
+    let visuals = &mut style.visuals;
+    visuals.panel_fill = ink.panel;
+    visuals.window_fill = ink.panel;
+    visuals.window_stroke = Stroke::new(1.0, ink.line);
+    visuals.extreme_bg_color = ink.plot;
+    visuals.faint_bg_color = ink.raised;
+    visuals.override_text_color = Some(ink.text);
+    visuals.hyperlink_color = ink.accent;
+    visuals.selection.bg_fill = ink.accent.gamma_multiply(0.35);
+    visuals.selection.stroke = Stroke::new(1.0, ink.accent);
+    visuals.widgets.noninteractive.bg_stroke = Stroke::new(1.0, ink.line);
+    for (widget, fill, rim) in [
+        (&mut visuals.widgets.inactive, ink.raised, ink.line),
+        (&mut visuals.widgets.hovered, ink.raised, ink.accent),
+        (&mut visuals.widgets.active, ink.line, ink.accent),
+        (&mut visuals.widgets.open, ink.raised, ink.accent),
+    ] {
+        widget.weak_bg_fill = fill;
+        widget.bg_fill = fill;
+        widget.bg_stroke = Stroke::new(1.0, rim);
+        widget.fg_stroke = Stroke::new(1.0, ink.text);
+        widget.corner_radius = CornerRadius::same(6);
+        widget.expansion = 0.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn type_grows_with_the_window_and_never_shrinks() {
+        assert_eq!(growth([1280.0, 720.0]), 1.0);
+        assert_eq!(growth([800.0, 600.0]), 1.0);
+        assert_eq!(growth([1920.0, 720.0]), 1.0);
+        assert!((1.2..1.3).contains(&growth([1920.0, 1080.0])));
+        assert!((1.6..1.8).contains(&growth([3840.0, 2160.0])));
+        assert_eq!(growth([1e5, 1e5]), LARGEST);
+    }
+
+    #[test]
+    fn every_sign_of_the_project_is_in_a_font() {
+        let context = egui::Context::default();
+        dress(&context);
+        context.run_ui(egui::RawInput::default(), |_| {}).textures_delta.clear();
+        let signs = "−×°²³⁰⁴⁵⁶⁷⁸⁹⁻₀₁₂ωΔζλμ←↑→↓↺…·⏮⏸⏭▶◀▲◆▼●✓½¼×√≤≥";
+        context.fonts_mut(|fonts| {
+            for family in [FontFamily::Proportional, strong()] {
+                for sign in signs.chars() {
+                    let font = FontId::new(13.0, family.clone());
+                    assert!(fonts.has_glyph(&font, sign), "{sign} in {family:?}");
+                }
+            }
+        });
+    }
+}

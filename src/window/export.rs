@@ -1,0 +1,75 @@
+//! Copies the instrument's values, and saves the instrument as a picture, a drawing and a table.
+
+use std::path::{Path, PathBuf};
+
+use super::App;
+use super::new_file::write_new;
+use crate::lab::Lab;
+use crate::view::{Gpu, OffscreenRenderer, Panels, instrument_csv, instrument_svg, png};
+
+/// The size of the picture, in pixels, and its pixels per point.
+const SIZE_PX: [u32; 2] = [1920, 1200];
+const SCALE: f32 = 2.0;
+
+impl App {
+    /// Puts the values on the clipboard.
+    pub(super) fn copy_instrument(&mut self) {
+        let Some(canvas) = &mut self.canvas else { return };
+        self.lab.set_notice(match instrument_csv(&self.lab) {
+            Some(table) => {
+                let rows = table.lines().count().saturating_sub(1);
+                canvas.egui.set_clipboard_text(table);
+                format!("copied {rows} values as CSV")
+            }
+            None => "this instrument has no values to copy".into(),
+        });
+    }
+
+    /// Saves three files under new names.
+    pub(super) fn export_instrument(&mut self) {
+        if let Some(canvas) = &self.canvas {
+            let notice = save(&canvas.gpu, &self.lab);
+            self.lab.set_notice(notice);
+        }
+        self.stand_still();
+    }
+}
+
+/// Saves the files, and returns a notice with their names or the error.
+fn save(gpu: &Gpu, lab: &Lab) -> String {
+    match try_save(gpu, lab) {
+        Ok(paths) => {
+            let names = paths.map(|path| path.display().to_string());
+            format!("saved {}", names.join(", "))
+        }
+        Err(reason) => format!("nothing saved: {reason}"),
+    }
+}
+
+fn try_save(gpu: &Gpu, lab: &Lab) -> Result<[PathBuf; 3], String> {
+    let (Some(svg), Some(csv)) = (instrument_svg(lab), instrument_csv(lab)) else {
+        return Err("this instrument has no plots".into());
+    };
+    let mut rgba = Vec::new();
+    OffscreenRenderer::new(gpu.clone(), SIZE_PX, SCALE)
+        .map_err(|error| error.to_string())?
+        .with_panels(Panels::Instrument)
+        .draw(lab, &mut rgba)
+        .map_err(|error| error.to_string())?;
+    let name = name(lab);
+    let write = |ending: &str, bytes: &[u8]| {
+        write_new(Path::new(""), &name, ending, bytes)
+            .map_err(|error| format!("cannot write {name}.{ending} here: {error}"))
+    };
+    Ok([
+        write("png", &png::encode(SIZE_PX, &rgba))?,
+        write("svg", svg.as_bytes())?,
+        write("csv", csv.as_bytes())?,
+    ])
+}
+
+/// A file name, without its ending, that says what the files show.
+fn name(lab: &Lab) -> String {
+    let instrument = lab.display().instrument.name().to_lowercase().replace(' ', "-");
+    format!("regatta-{}-{instrument}-tick-{}", lab.scene().name, lab.race().tick())
+}

@@ -1,0 +1,198 @@
+//! The guide: every stop is done by its keys and by nothing less, and what it claims is so.
+
+use regatta::lab::{
+    Command, Goal, Judge, Lab, LaneSpec, Mode, Outcome, Race, SCENES, STOPS, Scene, Verdict,
+    command_for,
+};
+use regatta::sim::integrators::method;
+
+fn lab_at(stop: usize) -> Lab {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    lab.apply(Command::GoToStop(stop));
+    lab
+}
+
+fn is_done(lab: &Lab) -> bool {
+    lab.viewer().tour().expect("the guide is open").is_done()
+}
+
+#[test]
+fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
+    for (place, stop) in STOPS.iter().enumerate() {
+        let mut lab = lab_at(place);
+        let tour = lab.viewer().tour().unwrap();
+        assert_eq!((tour.place(), tour.guess(), tour.is_done()), (place, None, false));
+        assert_eq!(lab.scene().name, stop.scene, "{}", stop.title);
+        assert_eq!(lab.entries()[lab.active()].method.id, stop.method, "{}", stop.title);
+        assert_eq!((lab.clock().tick_hz(), lab.mode()), (stop.tick_hz, stop.mode));
+        assert_eq!((lab.race().tick(), lab.running()), (0, true));
+        (0..5).for_each(|_| lab.tick());
+        lab.apply(Command::Predict(stop.right));
+        assert!(!is_done(&lab), "{} is done before it begins", stop.title);
+        assert!(!stop.keys.is_empty());
+        for key in stop.keys {
+            let (command, _) = command_for(*key).expect("a key of the table");
+            lab.apply(command);
+        }
+        assert!(is_done(&lab), "{} is not done by its keys", stop.title);
+        assert_eq!(lab.viewer().tour().unwrap().guess(), Some(stop.right));
+        // The prediction was one.
+        lab.apply(Command::Predict(0));
+        assert_eq!(lab.viewer().tour().unwrap().guess(), Some(stop.right));
+    }
+}
+
+#[test]
+fn stops_name_scenes_and_methods_that_there_are_and_keys_between_pairs_of_backticks() {
+    for stop in STOPS {
+        assert!(SCENES.iter().any(|scene| scene.name == stop.scene), "{}", stop.scene);
+        assert!(method(stop.method).is_some(), "{}", stop.method);
+        assert!(stop.right < stop.choices.len() && stop.choices.len() > 1, "{}", stop.title);
+        if let Goal::Method(id) = stop.goal {
+            assert!(method(id).is_some(), "{id}");
+        }
+        for text in [stop.question, stop.task, stop.answer] {
+            assert_eq!(text.matches('`').count() % 2, 0, "{text}");
+        }
+        assert!(stop.task.contains('`'), "{} asks for no key", stop.title);
+    }
+}
+
+#[test]
+fn the_guide_closes_with_escape_and_opens_where_it_was_left() {
+    let mut lab = lab_at(3);
+    lab.apply(Command::NextScene);
+    assert_eq!(lab.viewer().tour().unwrap().place(), 3, "another scene leaves it open");
+    assert_eq!(lab.apply(Command::Escape), None);
+    assert!(lab.viewer().tour().is_none());
+    lab.apply(Command::ToggleGuide);
+    assert_eq!(lab.viewer().tour().unwrap().place(), 3);
+    assert_eq!(lab.scene().name, STOPS[3].scene);
+    lab.apply(Command::GoToStop(usize::MAX));
+    assert_eq!(lab.viewer().tour().unwrap().place(), STOPS.len() - 1);
+}
+
+#[test]
+fn a_task_done_in_another_scene_does_not_count() {
+    let place = STOPS.iter().position(|stop| stop.goal == Goal::Race).unwrap();
+    let mut lab = lab_at(place);
+    lab.apply(Command::NextScene);
+    lab.apply(Command::ToggleRace);
+    assert_eq!(lab.mode(), Mode::Race);
+    assert!(!is_done(&lab));
+}
+
+fn verdict(scene: &str, id: &str, tick_hz: u32) -> Verdict {
+    let judge = Judge::new(&Scene::built_in(scene).unwrap(), 1.0);
+    judge.verdict(LaneSpec::plain(method(id).unwrap()), tick_hz)
+}
+
+/// The ship's speed after 8.5 s under this method, its exact speed, and the evaluations made.
+fn ship(id: &str, tick_hz: u32) -> (f64, f64, u64) {
+    let mut scene = Scene::built_in("ship").unwrap();
+    scene.tick_hz = tick_hz;
+    let lane = LaneSpec::plain(method(id).unwrap());
+    let mut race = Race::new(&scene, [(0, lane)]);
+    race.run(u64::from(tick_hz) * 17 / 2);
+    let body = &race.entrants()[0].lane.bodies()[0];
+    let exact = race.truth().bodies()[0].stepper.v()[0];
+    (body.stepper.v()[0], exact, body.stepper.evaluations())
+}
+
+/// The error of the ship's speed after 8.5 s, in percent.
+fn error_percent(id: &str, tick_hz: u32) -> f64 {
+    let (speed, exact, _) = ship(id, tick_hz);
+    100.0 * (speed - exact) / exact
+}
+
+#[test]
+fn the_ship_reaches_20_m_per_s() {
+    let mut race = Race::of(&Scene::built_in("ship").unwrap());
+    race.run(120);
+    let speed = race.truth().bodies()[0].stepper.v()[0];
+    assert!((19.9..20.0).contains(&speed), "{speed}");
+}
+
+#[test]
+fn the_errors_on_the_ship_are_those_that_the_guide_names() {
+    let (speed, exact, _) = ship("explicit-euler", 2);
+    assert_eq!((format!("{speed:.2}"), format!("{exact:.2}")), ("11.64".into(), "11.45".into()));
+    let euler = error_percent("explicit-euler", 2);
+    assert!((1.55..1.65).contains(&euler), "{euler}");
+    // 8.4 s are whole ticks at 5 Hz, and 8.5 s at 2 Hz: nearly the same time.
+    let ratio = euler / error_percent("explicit-euler", 5);
+    assert!((2.3..2.8).contains(&ratio), "{ratio}");
+    let improved = error_percent("improved-euler", 2).abs();
+    assert!((0.025..0.035).contains(&improved), "{improved}");
+    assert!((50.0..70.0).contains(&(euler / improved)), "{}", euler / improved);
+    let rk4 = error_percent("rk4", 2).abs();
+    assert!((3e-6..5e-6).contains(&rk4), "{rk4}");
+}
+
+#[test]
+fn adaptive_euler_costs_more_on_the_ship_and_is_truer() {
+    let (plain, adaptive) = (ship("explicit-euler", 2), ship("adaptive-euler", 2));
+    assert!(adaptive.2 > 2 * plain.2, "{} {}", adaptive.2, plain.2);
+    assert!((adaptive.0 - adaptive.1).abs() < 0.1 * (plain.0 - plain.1).abs());
+}
+
+#[test]
+fn improved_euler_is_the_cheapest_within_a_hundredth_on_the_ship() {
+    let lanes = Scene::built_in("ship").unwrap().lanes;
+    let accurate = lanes.iter().map(|lane| lane.method).filter(|method| {
+        let verdict = verdict("ship", method.id, 2);
+        verdict.is_accurate()
+    });
+    let cheapest = accurate.min_by_key(|m| m.evaluations.unwrap_or(u32::MAX)).unwrap();
+    assert_eq!((cheapest.id, cheapest.evaluations), ("improved-euler", Some(2)));
+}
+
+#[test]
+fn the_ships_settle_at_half_the_step_only() {
+    let run = |tick_hz: u32, seconds: u64| -> Vec<f64> {
+        let mut scene = Scene::built_in("surge").unwrap();
+        scene.tick_hz = tick_hz;
+        let mut race = Race::of(&scene);
+        race.run(u64::from(tick_hz) * seconds);
+        let bodies = race.entrants()[0].lane.bodies().iter();
+        bodies.map(|body| (body.stepper.v()[0] - 20.0).abs()).collect()
+    };
+    let coarse = run(1, 30);
+    assert!(coarse[0] < 0.1 && (19.0..21.0).contains(&coarse[1]) && coarse[2] > 80.0, "{coarse:?}");
+    assert!(run(2, 30).iter().all(|off| *off < 1e-3));
+}
+
+#[test]
+fn the_verdicts_on_the_springs_are_those_that_the_guide_names() {
+    let outcome = |scene: &str, id: &str, hz: u32| verdict(scene, id, hz).outcome;
+    for hz in [60, 100, 1000] {
+        assert_eq!(outcome("spring", "explicit-euler", hz), Outcome::GainsEnergy, "{hz}");
+    }
+    let (at_60, at_100) =
+        (verdict("spring", "explicit-euler", 60), verdict("spring", "explicit-euler", 100));
+    assert!(at_100.doubles_in_s > at_60.doubles_in_s);
+    let held = verdict("spring", "semi-implicit-euler", 60);
+    assert_eq!(held.is_bounded, Some(true));
+    assert!(held.frequency_error.is_some_and(|error| error > 0.0), "a little too fast");
+    assert_eq!(verdict("stiff", "semi-implicit-euler", 60).is_bounded, Some(true));
+    assert_eq!(verdict("stiff", "semi-implicit-euler", 50).is_bounded, Some(true));
+    for hz in [49, 30] {
+        assert_eq!(outcome("stiff", "semi-implicit-euler", hz), Outcome::BlewUp);
+    }
+    for hz in [60, 30, 2] {
+        let implicit = verdict("stiff", "implicit-euler", hz);
+        assert_eq!(implicit.is_bounded, Some(true), "{hz}");
+    }
+    let implicit = verdict("stiff", "implicit-euler", 30);
+    assert_eq!(implicit.outcome, Outcome::LosesEnergy);
+    assert!(implicit.halves_in_s.is_some_and(|s| s < 0.2), "{:?}", implicit.halves_in_s);
+}
+
+#[test]
+fn runge_kutta_on_the_ship_comes_within_rounding_and_then_more_ticks_take_no_error_away() {
+    assert_eq!(verdict("ship", "rk4", 2).outcome, Outcome::Accurate);
+    assert_eq!(verdict("ship", "rk4", 30).outcome, Outcome::Rounding);
+    let [fine, finest] = [240, 10_000].map(|hz| error_percent("rk4", hz).abs());
+    // Truncation alone would be three million times smaller.
+    assert!(finest > 0.1 * fine, "{fine} {finest}");
+}

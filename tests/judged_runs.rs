@@ -1,0 +1,183 @@
+//! Verdicts are of the run on the stage: of the scene as it is edited, and from where a person last moved a body.
+
+use regatta::lab::{Action, Command, Judge, Lab, Scene, Scripted, Verdict};
+
+fn opened(name: &str) -> Lab {
+    Lab::new(Scene::built_in(name).unwrap())
+}
+
+/// The lab's verdict on each method of its list, with times that count from where the run is judged.
+fn verdicts(lab: &mut Lab) -> Vec<String> {
+    lab.analyse();
+    let of = |entry| {
+        let verdict = lab.viewer().verdict(entry).unwrap().clone();
+        Verdict { starts_at_s: 0.0, ..verdict }.to_string()
+    };
+    (0..lab.entries().len()).map(of).collect()
+}
+
+/// The time of the run at which the judged part begins, by the first verdict.
+fn starts_at_s(lab: &mut Lab) -> f64 {
+    lab.analyse();
+    lab.viewer().verdict(0).unwrap().starts_at_s
+}
+
+/// The judge's verdict on each method of the scene's list.
+fn verdicts_on(scene: &Scene) -> Vec<String> {
+    let judge = Judge::new(scene, 1.0);
+    let specs = scene.method_list();
+    specs.iter().map(|spec| judge.verdict(*spec, scene.tick_hz).to_string()).collect()
+}
+
+/// The place of the parameter with this key, of the first body.
+fn parameter(scene: &Scene, key: &str) -> usize {
+    scene.bodies[0].kind.parameter(key).unwrap().0
+}
+
+/// The scene with these parameters of its first body.
+fn with(mut scene: Scene, values: &[(&str, f64)]) -> Scene {
+    for (key, value) in values {
+        let place = parameter(&scene, key);
+        scene.bodies[0].values[place] = *value;
+    }
+    scene
+}
+
+/// The state of the first body in truth.
+fn truth(lab: &Lab) -> (f64, f64) {
+    let stepper = &lab.race().truth().bodies()[0].stepper;
+    (stepper.q()[0], stepper.v()[0])
+}
+
+#[test]
+fn an_edited_parameter_gives_the_verdicts_of_the_edited_body() {
+    let mut lab = opened("spring");
+    let before = verdicts(&mut lab);
+    (0..100).for_each(|_| lab.tick());
+    let stiffness = parameter(lab.scene(), "stiffness_n_per_m");
+    lab.apply(Command::Act(Action::Set { body: 0, parameter: stiffness, value: 10_000.0 }));
+    let stiff = with(Scene::built_in("spring").unwrap(), &[("stiffness_n_per_m", 10_000.0)]);
+    let after = verdicts(&mut lab);
+    assert_eq!(after, verdicts_on(&stiff));
+    assert_ne!(after, before);
+}
+
+#[test]
+fn a_parameter_set_by_hand_is_judged_without_the_scripts_changes_to_it() {
+    let mut scene = Scene::built_in("spring").unwrap();
+    let parameter = parameter(&scene, "stiffness_n_per_m");
+    let set = |value| Action::Set { body: 0, parameter, value };
+    scene.script.push(Scripted { tick: 300, action: set(4.0) });
+    let mut lab = Lab::new(scene.clone());
+    lab.apply(Command::Act(set(90.0)));
+    scene.script.clear();
+    let edited = with(scene, &[("stiffness_n_per_m", 90.0)]);
+    assert_eq!(verdicts(&mut lab), verdicts_on(&edited));
+}
+
+/// A spring whose damping the script sets from 4 to 60 at tick 60.
+fn damped_by_script() -> Scene {
+    let mut scene = with(Scene::built_in("spring").unwrap(), &[("damping_n_s_per_m", 4.0)]);
+    let parameter = parameter(&scene, "damping_n_s_per_m");
+    let action = Action::Set { body: 0, parameter, value: 60.0 };
+    scene.script = vec![Scripted { tick: 60, action }];
+    scene
+}
+
+#[test]
+fn a_parameter_set_by_the_script_is_judged_like_one_set_by_hand() {
+    let scene = damped_by_script();
+    let mut scripted = Lab::new(scene.clone());
+    let mut by_hand = Lab::new(Scene { script: Vec::new(), ..scene.clone() });
+    let before = verdicts(&mut scripted);
+    assert_ne!(before, verdicts(&mut by_hand), "the script is part of what is judged");
+    (0..61).for_each(|_| scripted.tick());
+    (0..60).for_each(|_| by_hand.tick());
+    by_hand.apply(Command::Act(scene.script[0].action.clone()));
+    let after = verdicts(&mut scripted);
+    assert_eq!(after, verdicts(&mut by_hand));
+    assert_ne!(after, before);
+    scripted.apply(Command::Seek(59));
+    assert_eq!(verdicts(&mut scripted), before);
+}
+
+#[test]
+fn growth_is_that_of_the_parameters_that_the_script_leaves_in_force() {
+    let damped = with(damped_by_script(), &[("damping_n_s_per_m", 60.0)]);
+    let edited = Scene { script: Vec::new(), ..damped };
+    let grows = |scene: &Scene| {
+        let verdicts = verdicts_on(scene).into_iter();
+        verdicts.map(|verdict| verdict.starts_with("gains energy")).collect::<Vec<_>>()
+    };
+    let grown = grows(&edited);
+    assert_eq!(grows(&damped_by_script()), grown);
+    assert!(grown.contains(&true) && grown.contains(&false));
+}
+
+#[test]
+fn a_body_placed_by_hand_is_judged_from_where_it_was_placed() {
+    let mut lab = opened("pendulum");
+    let before = verdicts(&mut lab);
+    (0..77).for_each(|_| lab.tick());
+    lab.apply(Command::Act(Action::Place { body: 0, q: [0.1].into(), v: [0.5].into() }));
+    let (theta, omega) = ("theta0_rad", "omega0_rad_per_s");
+    let placed = with(Scene::built_in("pendulum").unwrap(), &[(theta, 0.1), (omega, 0.5)]);
+    let after = verdicts(&mut lab);
+    assert_eq!(after, verdicts_on(&placed));
+    assert_ne!(after, before);
+    // Time that passes changes nothing; going back before the placement does, and forward again.
+    let question = lab.analysis_request();
+    lab.apply(Command::TickForward);
+    assert!(lab.analysis_request() == question);
+    lab.apply(Command::Seek(50));
+    assert_eq!(verdicts(&mut lab), before);
+    lab.apply(Command::Seek(78));
+    assert!(lab.analysis_request() == question);
+    lab.apply(Command::Restart);
+    assert_eq!(verdicts(&mut lab), before);
+}
+
+#[test]
+fn a_body_placed_at_rest_is_judged_at_rest() {
+    let mut lab = opened("spring");
+    lab.tick();
+    lab.apply(Command::Act(Action::Place { body: 0, q: [0.0].into(), v: [0.0].into() }));
+    for verdict in verdicts(&mut lab) {
+        assert!(verdict.starts_with("within rounding"), "{verdict}");
+    }
+}
+
+#[test]
+fn a_kicked_body_is_judged_from_its_true_state_after_the_kick() {
+    let mut lab = opened("spring");
+    (0..130).for_each(|_| lab.tick());
+    assert_eq!(starts_at_s(&mut lab), 0.0);
+    let (_, before) = truth(&lab);
+    lab.apply(Command::Kick(3.0));
+    let (x, v) = truth(&lab);
+    assert_ne!(v, before);
+    let kicked = Scene::built_in("spring").unwrap();
+    let kicked = with(kicked, &[("x0_m", x), ("v0_m_per_s", v)]);
+    assert_eq!(verdicts(&mut lab), verdicts_on(&kicked));
+    assert_eq!(starts_at_s(&mut lab), 130.0 / 60.0);
+}
+
+#[test]
+fn a_run_judged_from_a_placement_keeps_its_throttle_and_the_rest_of_the_script() {
+    let scripted = |ticks: &[(u64, f64)]| {
+        let row = |&(tick, part)| Scripted { tick, action: Action::Throttle(part) };
+        let script = ticks.iter().map(row).collect();
+        Scene { script, ..Scene::built_in("ship").unwrap() }
+    };
+    let hz = u64::from(scripted(&[]).tick_hz);
+    let mut lab = Lab::new(scripted(&[(hz, 0.5), (9 * hz, -0.25)]));
+    (0..2 * hz).for_each(|_| lab.tick());
+    lab.apply(Command::Act(Action::Place { body: 0, q: [10.0].into(), v: [3.0].into() }));
+    let rest = scripted(&[(0, 0.5), (7 * hz, -0.25)]);
+    let rest = with(rest, &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
+    assert_eq!(verdicts(&mut lab), verdicts_on(&rest));
+    // A throttle by hand holds from there on, and what the script had to come for it is gone.
+    lab.apply(Command::Throttle(0.8));
+    let by_hand = with(scripted(&[(0, 0.8)]), &[("s0_m", 10.0), ("v0_m_per_s", 3.0)]);
+    assert_eq!(verdicts(&mut lab), verdicts_on(&by_hand));
+}
