@@ -60,6 +60,10 @@ pub(super) struct PlayArgs {
     #[arg(long, value_name = "THEME", hide_possible_values = true)]
     theme: Option<ThemeName>,
 
+    /// Memory for rewinding a run: less makes long jumps slower [default: 64]
+    #[arg(long, value_name = "MB", value_parser = clap::value_parser!(u16).range(1..))]
+    rewind_mb: Option<u16>,
+
     /// Trails do not fade, and the camera does not glide
     #[arg(long)]
     reduced_motion: bool,
@@ -107,6 +111,9 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     };
     let mut lab = experiment.lab();
     lab.set_motion(!args.reduced_motion);
+    if let Some(mb) = args.rewind_mb {
+        lab.set_rewind_bytes(usize::from(mb) << 20);
+    }
     if let Some(theme) = args.theme.map(Theme::from).or(preferences.theme) {
         lab.choose_theme(theme);
     }

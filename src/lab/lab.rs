@@ -136,6 +136,10 @@ impl Lab {
         entries.enumerate().map(move |(place, entry)| (entry, &self.past().histories(place)[body]))
     }
 
+    /// Sets the memory in bytes that a run may take to be rewound; see [`Timeline`].
+    pub fn set_rewind_bytes(&mut self, bytes: usize) {
+        self.timeline.set_limit(bytes);
+    }
     /// Sets whether trails fade and the camera follows smoothly.
     pub fn set_motion(&mut self, motion: bool) {
         self.viewer.display.motion = motion;

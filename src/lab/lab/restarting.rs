@@ -19,7 +19,7 @@ pub(super) struct RunBefore {
 impl Lab {
     /// Begins the run again with the present settings. The run so far is lost unless it was [kept](Self::keep_run).
     pub(super) fn restart(&mut self) {
-        self.timeline = Timeline::new(self.start.session());
+        self.timeline = Timeline::with_limit(self.start.session(), self.timeline.limit());
         self.before_discard = None;
         self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
         self.viewer.notice = None;
@@ -46,7 +46,7 @@ impl Lab {
         {
             return;
         }
-        let timeline = Timeline::new(self.start.session());
+        let timeline = Timeline::with_limit(self.start.session(), self.timeline.limit());
         self.run_before = Some(Box::new(RunBefore {
             start: self.start.clone(),
             timeline: std::mem::replace(&mut self.timeline, timeline),

@@ -128,6 +128,10 @@ impl Timeline {
     pub fn limit(&self) -> usize {
         self.limit
     }
+    /// Sets the memory that snapshots may take, in bytes; it holds from the next snapshot on.
+    pub fn set_limit(&mut self, limit: usize) {
+        self.limit = limit;
+    }
     /// Whether there is a discarded future to bring back.
     pub fn can_undo(&self) -> bool {
         self.undone.is_some()
