@@ -3,7 +3,8 @@
 
 use super::error::Cause;
 use super::frame_folder::names::MOST_FRAMES;
-use crate::lab::{Clock, Lab, Observer};
+use crate::lab::pacing::LONGEST_FRAME_MS;
+use crate::lab::{Lab, Observer};
 
 /// The usual frames per simulated second: smooth enough for every scene, at half the files and half the time of 60.
 pub(super) const FPS: u32 = 30;
@@ -60,7 +61,7 @@ impl Schedule {
     /// observer.
     pub(super) fn advance(self, lab: &mut Lab, frame: u32, observer: &mut impl Observer) {
         let Some(before) = frame.checked_sub(1) else { return };
-        let longest = u64::from(Clock::LONGEST_FRAME_MS) * 1_000_000;
+        let longest = u64::from(LONGEST_FRAME_MS) * 1_000_000;
         let mut left = self.time_ns(frame) - self.time_ns(before);
         // In stretches that the clock accepts without dropping ticks.
         while left > 0 {

@@ -4,25 +4,18 @@
 //! percentage of real time divides it without a remainder being rounded away: a day at 60 Hz is
 //! 5 184 000 ticks however the day is cut into frames.
 
-/// One tick in nanoseconds × hertz × percent.
-const TICK: u128 = 1_000_000_000 * 100;
+use super::pacing::{Accumulator, Due, LONGEST_FRAME_MS, most_ticks};
 
-/// The ticks that a frame has to simulate.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Due {
-    /// Ticks to step now.
-    pub ticks: u32,
-    /// Ticks dropped because the frame was longer than the cap: the simulation falls behind real time.
-    pub dropped: u64,
-}
+/// One tick in nanoseconds × hertz × percent.
+const TICK: i128 = 1_000_000_000 * 100;
 
 /// Turns real time into ticks.
 #[derive(Clone, Debug)]
 pub struct Clock {
     tick_hz: u32,
     speed_percent: u32,
-    /// Less than one [`TICK`].
-    owed: u128,
+    /// It holds less than one [`TICK`].
+    accumulator: Accumulator,
 }
 
 impl Clock {
@@ -30,9 +23,6 @@ impl Clock {
     pub const TICK_HZ: std::ops::RangeInclusive<u32> = 1..=10_000;
     /// The speeds a clock can run at, in percent of real time.
     pub const SPEED_PERCENT: std::ops::RangeInclusive<u32> = 1..=10_000;
-    /// The longest real time for which one frame catches up: 15 ticks at 60 Hz. With a longer one a slow machine falls
-    /// further behind each frame; with a shorter one a hitch shows as slow motion.
-    pub const LONGEST_FRAME_MS: u32 = 250;
 
     /// A clock at full speed that owes nothing.
     ///
@@ -40,7 +30,7 @@ impl Clock {
     /// If the rate is not in [`Clock::TICK_HZ`].
     pub fn new(tick_hz: u32) -> Self {
         assert!(Self::TICK_HZ.contains(&tick_hz), "the caller checks the tick rate");
-        Self { tick_hz, speed_percent: 100, owed: 0 }
+        Self { tick_hz, speed_percent: 100, accumulator: Accumulator::default() }
     }
 
     /// The tick rate in Hz.
@@ -65,36 +55,30 @@ impl Clock {
             percent.clamp(*Self::SPEED_PERCENT.start(), *Self::SPEED_PERCENT.end());
     }
 
-    /// The most ticks per frame: those of [`Clock::LONGEST_FRAME_MS`], and at least one.
+    /// The most ticks per frame: those of 250 ms, and at least one.
     pub fn most_ticks(&self) -> u32 {
-        let per_second = u64::from(self.tick_hz) * u64::from(self.speed_percent);
-        let most = (per_second * u64::from(Self::LONGEST_FRAME_MS)).div_ceil(100 * 1000);
-        u32::try_from(most).expect("at most 10 000 Hz at a hundredfold speed")
+        most_ticks(u64::from(self.tick_hz) * u64::from(self.speed_percent), LONGEST_FRAME_MS)
     }
 
     /// Adds a frame of `frame_ns` nanoseconds and returns the ticks that are due. A negative duration counts as 0.
     pub fn advance(&mut self, frame_ns: i64) -> Due {
-        let frame_ns = u128::from(frame_ns.max(0).unsigned_abs());
-        self.owed += frame_ns * u128::from(self.tick_hz) * u128::from(self.speed_percent);
-        let whole = u64::try_from(self.owed / TICK).expect("2^63 ns at 10^4 Hz and 10^4 % fit");
-        self.owed %= TICK;
-        let ticks = u64::from(self.most_ticks()).min(whole);
-        Due { ticks: ticks as u32, dropped: whole - ticks }
+        let rate = i128::from(self.tick_hz) * i128::from(self.speed_percent);
+        self.accumulator.advance(i128::from(frame_ns.max(0)) * rate, TICK, self.most_ticks())
     }
 
     /// How far real time is into the next tick, in [0, 1).
     pub fn alpha(&self) -> f64 {
-        self.owed as f64 / TICK as f64
+        self.accumulator.owed() as f64 / TICK as f64
     }
 
     /// [`Clock::alpha`] as an exact fraction: numerator and denominator, the latter always the same.
     pub fn alpha_fraction(&self) -> (u64, u64) {
-        (self.owed as u64, TICK as u64)
+        (self.accumulator.owed() as u64, TICK as u64)
     }
 
     /// Sets the owed time to 0.
     pub fn restart(&mut self) {
-        self.owed = 0;
+        self.accumulator.clear();
     }
 }
 

@@ -287,7 +287,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "I",
-        about: "drawing between ticks: raw / linear / Hermite",
+        about: "drawing between ticks: raw / linear / Hermite / extrapolated",
         keys: &[(Key::Sign('i'), Command::NextInterpolation)],
         repeats: false,
     },

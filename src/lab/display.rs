@@ -1,30 +1,9 @@
 //! How a lab is displayed, and what it requests of its driver.
 
 use super::instrument::Instrument;
+use super::interpolation::Interpolation;
 use super::palette::Theme;
 use super::zoom_pan::ZoomPan;
-
-/// How a body is drawn between two ticks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interpolation {
-    /// The state of the last tick, unchanged.
-    Raw,
-    /// A straight line between the last two ticks.
-    Linear,
-    /// A cubic through the states and velocities of the last two ticks.
-    Hermite,
-}
-
-impl Interpolation {
-    /// The name for people.
-    pub fn name(self) -> &'static str {
-        match self {
-            Interpolation::Raw => "raw",
-            Interpolation::Linear => "linear",
-            Interpolation::Hermite => "Hermite",
-        }
-    }
-}
 
 /// How the lanes of a race share the stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

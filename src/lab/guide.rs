@@ -3,7 +3,8 @@
 //!
 //! What the stops claim is measured by `tests/guide.rs`.
 
-use super::display::{Display, Interpolation};
+use super::display::Display;
+use super::interpolation::Interpolation;
 use super::key::Key;
 use super::race::{Mode, Race};
 

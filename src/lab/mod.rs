@@ -15,6 +15,7 @@ mod extent;
 mod guide;
 mod held;
 mod instrument;
+mod interpolation;
 mod intervention;
 mod journal;
 mod key;
@@ -26,6 +27,7 @@ mod metrics;
 mod notices;
 pub mod number;
 mod one_step;
+pub mod pacing;
 pub mod palette;
 mod past;
 pub mod picture;
@@ -45,13 +47,14 @@ pub use analysis::{
     MOST_ADVISED_SUBSTEPS, MOST_WORK, MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome,
     Region, RunFailure, Severity, StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
 };
-pub use clock::{Clock, Due};
+pub use clock::Clock;
 pub use command::{Binding, Command, KEYS, SPEED_LADDER, TICK_LADDER, command_for};
-pub use display::{Arrangement, Display, DriverRequest, Interpolation, Pace};
+pub use display::{Arrangement, Display, DriverRequest, Pace};
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub use guide::{Goal, STOPS, Stop, Tour};
 pub use held::HeldBody;
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
+pub use interpolation::Interpolation;
 pub use journal::{Journal, JournalRow, Source};
 pub use key::Key;
 pub use lab::Lab;

@@ -1,10 +1,11 @@
 //! What a person looks at. It does not change a run and is not part of one.
 
 use super::analysis::{Advice, Findings, StabilityMap, Verdict};
-use super::display::{Arrangement, Display, Interpolation, Pace};
+use super::display::{Arrangement, Display, Pace};
 use super::guide::{Hints, Tour};
 use super::held::HeldBody;
 use super::instrument::Instrument;
+use super::interpolation::Interpolation;
 use super::lane_spec::LaneSpec;
 use super::palette::Theme;
 
@@ -128,11 +129,7 @@ impl Viewer {
 
     /// Switches to the next way of drawing between ticks, and shows its name.
     pub(super) fn next_interpolation(&mut self) {
-        self.display.interpolation = match self.display.interpolation {
-            Interpolation::Raw => Interpolation::Linear,
-            Interpolation::Linear => Interpolation::Hermite,
-            Interpolation::Hermite => Interpolation::Raw,
-        };
+        self.display.interpolation = self.display.interpolation.next();
         let name = self.display.interpolation.name();
         self.notice = Some(format!("drawing between ticks: {name}"));
     }

@@ -1,7 +1,7 @@
 //! The stops, in the order of the chapter.
 
 use super::{Goal, Stop};
-use crate::lab::display::Interpolation;
+use crate::lab::interpolation::Interpolation;
 use crate::lab::key::Key;
 use crate::lab::race::Mode;
 

@@ -2,8 +2,8 @@
 
 use super::Lab;
 use crate::lab::action::Action;
-use crate::lab::clock::Due;
 use crate::lab::notices::Notices;
+use crate::lab::pacing::Due;
 use crate::lab::race::{Mode, Observer};
 use crate::lab::session::Timeline;
 

@@ -2,8 +2,8 @@
 
 use super::Lab;
 use crate::lab::command::Command;
-use crate::lab::display::Interpolation;
 use crate::lab::guide::{Hints, Situation, Stop, Tour};
+use crate::lab::interpolation::Interpolation;
 use crate::lab::race::Mode;
 use crate::lab::scene::SCENES;
 

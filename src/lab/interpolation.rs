@@ -1,0 +1,90 @@
+//! How a body is drawn between two ticks.
+
+use super::lane::LaneBody;
+
+/// How a body is drawn between two ticks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// The state of the last tick, unchanged.
+    Raw,
+    /// A straight line between the last two ticks.
+    Linear,
+    /// A cubic through the states and velocities of the last two ticks.
+    Hermite,
+    /// The last tick, carried on by its velocity.
+    Extrapolated,
+}
+
+impl Interpolation {
+    /// Every way, in the order in which the window goes through them.
+    pub const ALL: [Self; 4] = [Self::Raw, Self::Linear, Self::Hermite, Self::Extrapolated];
+
+    /// The name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Interpolation::Raw => "raw",
+            Interpolation::Linear => "linear",
+            Interpolation::Hermite => "Hermite",
+            Interpolation::Extrapolated => "extrapolated",
+        }
+    }
+
+    /// The way after this one, and after the last the first.
+    pub fn next(self) -> Self {
+        let place = Self::ALL.iter().position(|&way| way == self).expect("all are listed");
+        Self::ALL[(place + 1) % Self::ALL.len()]
+    }
+
+    /// The moment that is shown, in ticks from the last one, at the part `alpha` of the next.
+    pub fn shown(self, alpha: f64) -> f64 {
+        match self {
+            Interpolation::Raw => 0.0,
+            Interpolation::Linear | Interpolation::Hermite => alpha - 1.0,
+            Interpolation::Extrapolated => alpha,
+        }
+    }
+
+    /// The coordinates of a body at the part `alpha` of a tick of `h` seconds.
+    pub fn coordinates(self, body: &LaneBody, alpha: f64, h: f64) -> Vec<f64> {
+        let (q0, v0) = (&body.previous_q, &body.previous_v);
+        let (q1, v1) = (body.stepper.q(), body.stepper.v());
+        let each = |f: &dyn Fn(usize) -> f64| (0..q1.len()).map(f).collect();
+        match self {
+            Interpolation::Raw => q1.to_vec(),
+            Interpolation::Linear => each(&|i| q0[i] + (q1[i] - q0[i]) * alpha),
+            Interpolation::Hermite => each(&|i| hermite(alpha, h, [q0[i], q1[i]], [v0[i], v1[i]])),
+            Interpolation::Extrapolated => each(&|i| q1[i] + alpha * h * v1[i]),
+        }
+    }
+}
+
+/// The cubic through `q` at both ends of a tick of `h` seconds with the velocities `v` there, at the part `alpha` of it.
+fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
+    let (a, b) = (alpha, 1.0 - alpha);
+    let ends = b * b * (1.0 + 2.0 * a) * q[0] + a * a * (1.0 + 2.0 * b) * q[1];
+    ends + h * a * b * (b * v[0] - a * v[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hermite_cubic_passes_its_ends_with_their_slopes_and_keeps_a_parabola() {
+        let (q, v) = (|t: f64| 3.0 + 2.0 * t - t * t, |t: f64| 2.0 - 2.0 * t);
+        for alpha in [0.0, 0.25, 0.5, 0.75, 1.0] {
+            let h = 0.5;
+            let shown = hermite(alpha, h, [q(1.0), q(1.5)], [v(1.0), v(1.5)]);
+            assert!((shown - q(1.0 + alpha * h)).abs() < 1e-15, "at {alpha}: {shown}");
+        }
+    }
+
+    #[test]
+    fn the_ways_are_gone_through_in_a_circle() {
+        let mut way = Interpolation::Raw;
+        for expected in Interpolation::ALL.iter().skip(1).chain([&Interpolation::Raw]) {
+            way = way.next();
+            assert_eq!(way, *expected);
+        }
+    }
+}

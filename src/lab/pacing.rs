@@ -1,0 +1,27 @@
+//! Game loops: what a loop does to motion, apart from the method that steps it.
+//!
+//! A [`FrameTrace`] says for each [`Frame`] when it began and when its picture was displayed. A [`Policy`] sees what a game
+//! sees, the duration of the last frame, and answers with steps and the moment to show; [`POLICIES`] is the table of them.
+//! A [`PacedLane`] steps bodies by a policy, frame by frame. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
+
+mod accumulator;
+mod frame;
+mod paced_lane;
+mod pacer;
+mod patterns;
+mod policies;
+mod policy;
+mod time_base;
+mod trace;
+
+pub(super) use accumulator::most_ticks;
+pub use accumulator::{Accumulator, Due};
+pub use frame::Frame;
+pub use paced_lane::PacedLane;
+pub use pacer::Pacer;
+
+pub use patterns::{TRACES, TraceCard, steady_trace, trace_card};
+pub use policies::{LONGEST_FRAME_MS, POLICIES, policy};
+pub use policy::{Policy, PolicyCard, Snippet, Steps};
+pub use time_base::{RefreshRate, TimeBase};
+pub use trace::{FrameTrace, Frames};

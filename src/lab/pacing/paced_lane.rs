@@ -1,0 +1,63 @@
+//! A scene's bodies under one method, stepped by a game loop.
+
+use super::pacer::Pacer;
+use super::policy::Steps;
+use crate::lab::lane::Lane;
+
+/// A lane in a game loop.
+#[derive(Clone)]
+pub struct PacedLane {
+    pacer: Pacer,
+    lane: Lane,
+    steps: u64,
+    /// The length of the last step in seconds, a tick at the start.
+    last_step_s: f64,
+}
+
+impl PacedLane {
+    /// A lane at its start in a loop before its first frame.
+    pub fn new(pacer: Pacer, lane: Lane) -> Self {
+        let last_step_s = pacer.base().seconds(pacer.base().tick());
+        Self { pacer, lane, steps: 0, last_step_s }
+    }
+
+    /// The loop.
+    pub fn pacer(&self) -> &Pacer {
+        &self.pacer
+    }
+    /// The bodies.
+    pub fn lane(&self) -> &Lane {
+        &self.lane
+    }
+    /// The steps made.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Makes the steps of a frame; `duration_ns` is that of the last frame in nanoseconds. Calls `before_step` with the
+    /// number of steps made and the time in seconds before each.
+    pub fn frame(
+        &mut self,
+        duration_ns: i64,
+        mut before_step: impl FnMut(u64, f64, &mut Lane),
+    ) -> Steps {
+        let from = self.pacer.simulated();
+        let steps = self.pacer.frame(duration_ns);
+        let base = self.pacer.base();
+        let edge = |i: u32| from + steps.span * i128::from(i) / i128::from(steps.count.max(1));
+        for i in 0..steps.count {
+            let (t, h) = (base.seconds(edge(i)), base.seconds(edge(i + 1) - edge(i)));
+            before_step(self.steps, t, &mut self.lane);
+            self.lane.tick(self.steps, t, h);
+            self.steps += 1;
+            self.last_step_s = h;
+        }
+        steps
+    }
+
+    /// The coordinates of the body at this place of the scene as the picture shows them.
+    pub fn drawn(&self, body: usize) -> Vec<f64> {
+        let drawing = self.pacer.card().drawing;
+        drawing.coordinates(&self.lane.bodies()[body], self.pacer.alpha(), self.last_step_s)
+    }
+}

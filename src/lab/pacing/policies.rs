@@ -1,0 +1,136 @@
+//! The table of rules.
+
+use super::policy::PolicyCard;
+use crate::lab::interpolation::Interpolation;
+use fixed::Fixed;
+use lockstep::Lockstep;
+use semi_fixed::SemiFixed;
+use variable::Variable;
+
+mod fixed;
+mod lockstep;
+mod semi_fixed;
+mod variable;
+
+pub use fixed::LONGEST_FRAME_MS;
+
+/// The longest step of a clamped frame, in milliseconds, times three.
+const LONGEST_STEP_MS_3: i64 = 100;
+
+/// A fixed tick drawn at the last one; the cards of the other ways of drawing it differ in that.
+const FIXED: PolicyCard = PolicyCard {
+    id: "fixed",
+    name: "Fixed",
+    formula: "owed += dt; while owed ≥ H: tick, owed −= H; show the last tick",
+    constants: "at most the ticks of 250 ms in a frame; the others are dropped",
+    odd_frames: "no time: no tick; 10 s: the ticks of 250 ms, the rest dropped",
+    users: "Unity (50 Hz, frame at most 1/3 s), Bevy (64 Hz, 250 ms), MonoGame (60 Hz, 500 ms), Godot (60 Hz, 8 ticks), Doom 3 BFG (50 ms)",
+    source: "G. Fiedler, \"Fix Your Timestep!\", 2004",
+    drawing: Interpolation::Raw,
+    has_fixed_tick: true,
+    snippets: &[],
+    build: |base| Box::new(Fixed::new(base)),
+};
+
+/// Every rule of a game loop, from the simplest on.
+pub static POLICIES: &[PolicyCard] = &[
+    PolicyCard {
+        id: "variable",
+        name: "Variable",
+        formula: "one step of dt",
+        constants: "",
+        odd_frames: "no time: no step; 10 s: one step of 10 s",
+        users: "LÖVE, and many small games",
+        source: "LÖVE's love.run: update(dt)",
+        drawing: Interpolation::Raw,
+        has_fixed_tick: false,
+        snippets: &[],
+        build: |_| Box::new(Variable { longest: None }),
+    },
+    PolicyCard {
+        id: "lockstep",
+        name: "Lockstep",
+        formula: "one tick a frame, however long it was",
+        constants: "",
+        odd_frames: "any: one tick",
+        users: "the samples of Box2D and Rapier",
+        source: "Box2D's sample application",
+        drawing: Interpolation::Raw,
+        has_fixed_tick: true,
+        snippets: &[],
+        build: |base| Box::new(Lockstep { tick: base.tick() }),
+    },
+    PolicyCard {
+        id: "clamped-variable",
+        name: "Clamped variable",
+        formula: "one step of min(dt, longest)",
+        constants: "longest step 1/30 s; the rest of a frame is dropped",
+        odd_frames: "no time: no step; 10 s: one step of 1/30 s, the rest dropped",
+        users: "bevy_rapier (TimestepMode::Variable), Unreal without substeps (1/30 s)",
+        source: "Unreal's MaxPhysicsDeltaTime",
+        drawing: Interpolation::Raw,
+        has_fixed_tick: false,
+        snippets: &[],
+        build: |base| {
+            Box::new(Variable {
+                longest: Some(base.nanoseconds(LONGEST_STEP_MS_3 * 1_000_000) / 3),
+            })
+        },
+    },
+    PolicyCard {
+        id: "semi-fixed",
+        name: "Semi-fixed",
+        formula: "n = min(⌈dt / H⌉, 6) steps of dt / n",
+        constants: "at most 6 steps in a frame",
+        odd_frames: "no time: no step; 10 s: 6 steps of 10/6 s",
+        users: "Unreal with substeps (60 Hz, at most 6), Quake III's player (66 ms)",
+        source: "G. Fiedler, \"Fix Your Timestep!\", 2004; Unreal's physics substepping",
+        drawing: Interpolation::Raw,
+        has_fixed_tick: false,
+        snippets: &[],
+        build: |base| Box::new(SemiFixed { tick: base.tick() }),
+    },
+    FIXED,
+    PolicyCard {
+        id: "fixed-linear",
+        name: "Fixed, linear",
+        formula: "fixed; show q₀ + α (q₁ − q₀) of the last two ticks",
+        users: "Unity, Godot and Avian as an option; Source shows its 15 ms ticks 0.1 s late",
+        drawing: Interpolation::Linear,
+        ..FIXED
+    },
+    PolicyCard {
+        id: "fixed-hermite",
+        name: "Fixed, Hermite",
+        formula: "fixed; show the cubic through both last ticks and their velocities",
+        users: "Avian as an option; this program's window by default",
+        source: "Avian's TransformHermiteEasing",
+        drawing: Interpolation::Hermite,
+        ..FIXED
+    },
+    PolicyCard {
+        id: "fixed-extrapolated",
+        name: "Fixed, extrapolated",
+        formula: "fixed; show q₁ + α H v₁",
+        users: "Unity and Avian as an option",
+        source: "Unity's Rigidbody.interpolation = Extrapolate",
+        drawing: Interpolation::Extrapolated,
+        ..FIXED
+    },
+    PolicyCard {
+        id: "slow-down",
+        name: "Slow down",
+        formula: "fixed with at most one tick a frame; time lost is never caught up",
+        constants: "one tick a frame; the others are dropped",
+        odd_frames: "no time: no tick; 10 s: one tick, the rest dropped",
+        users: "Factorio (60 updates a second)",
+        source: "Factorio Friday Facts",
+        build: |base| Box::new(Fixed::with_most_ticks(base, 1)),
+        ..FIXED
+    },
+];
+
+/// The rule with this id.
+pub fn policy(id: &str) -> Option<&'static PolicyCard> {
+    POLICIES.iter().find(|card| card.id == id)
+}

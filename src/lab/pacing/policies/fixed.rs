@@ -1,0 +1,56 @@
+//! Whole ticks from an accumulator: the loop of "Fix Your Timestep!", and of Regatta's own window.
+
+use crate::lab::pacing::accumulator::{Accumulator, most_ticks};
+use crate::lab::pacing::policy::{Policy, Steps};
+use crate::lab::pacing::time_base::TimeBase;
+
+/// The longest real time for which one frame catches up, in milliseconds: 15 ticks at 60 Hz. With a longer one a slow
+/// machine falls further behind each frame; with a shorter one a hitch shows as slow motion.
+pub const LONGEST_FRAME_MS: u32 = 250;
+
+/// An accumulator that gives whole ticks.
+#[derive(Clone, Copy)]
+pub(super) struct Fixed {
+    tick: i128,
+    most_ticks: u32,
+    accumulator: Accumulator,
+}
+
+impl Fixed {
+    /// At most the ticks of [`LONGEST_FRAME_MS`] in a frame.
+    pub(super) fn new(base: TimeBase) -> Self {
+        let most = most_ticks(100 * u64::from(base.tick_hz()), LONGEST_FRAME_MS);
+        Self::with_most_ticks(base, most)
+    }
+
+    /// At most this many ticks in a frame.
+    pub(super) fn with_most_ticks(base: TimeBase, most_ticks: u32) -> Self {
+        Self { tick: base.tick(), most_ticks, accumulator: Accumulator::default() }
+    }
+
+    /// Forgets the time owed, and returns it.
+    pub(super) fn clear(&mut self) -> i128 {
+        let owed = self.accumulator.owed();
+        self.accumulator.clear();
+        owed
+    }
+}
+
+impl Policy for Fixed {
+    fn frame(&mut self, duration: i128) -> Steps {
+        let due = self.accumulator.advance(duration, self.tick, self.most_ticks);
+        Steps {
+            count: due.ticks,
+            span: i128::from(due.ticks) * self.tick,
+            dropped: i128::from(due.dropped) * self.tick,
+        }
+    }
+
+    fn owed(&self) -> i128 {
+        self.accumulator.owed()
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Policy> {
+        Box::new(*self)
+    }
+}

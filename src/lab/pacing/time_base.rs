@@ -1,0 +1,196 @@
+//! The unit of time in which a nanosecond, a tick and a refresh of the display are whole numbers.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// Nanoseconds in a second.
+const SECOND_NS: i128 = 1_000_000_000;
+
+/// The rate at which a display shows pictures: a fraction, since 59.94 Hz is none of a whole number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RefreshRate {
+    numerator: u32,
+    denominator: u32,
+}
+
+impl RefreshRate {
+    /// The rates in Hz that a display can have here.
+    pub const HZ: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
+
+    /// `numerator / denominator` in Hz.
+    ///
+    /// # Panics
+    /// If it is not in [`RefreshRate::HZ`].
+    pub const fn new(numerator: u32, denominator: u32) -> Self {
+        assert!(denominator > 0 && numerator >= denominator && numerator / 1000 <= denominator);
+        Self { numerator, denominator }
+    }
+
+    /// The rate whose refresh takes `period_ns` nanoseconds, or the nearest in [`RefreshRate::HZ`].
+    pub fn of_period(period_ns: i64) -> Self {
+        let period_ns = period_ns.clamp(1_000_000, 1_000_000_000) as u32;
+        Self::new(SECOND_NS as u32, period_ns)
+    }
+
+    /// The rate in Hz.
+    pub fn hz(self) -> f64 {
+        f64::from(self.numerator) / f64::from(self.denominator)
+    }
+
+    /// When refresh `n` begins, in nanoseconds from the first, rounded up: the moment at which a clock in nanoseconds first
+    /// sees it.
+    pub fn refresh_ns(self, n: u64) -> i64 {
+        let ns = (i128::from(n) * i128::from(self.denominator) * SECOND_NS)
+            .div_euclid_up(i128::from(self.numerator));
+        i64::try_from(ns).unwrap_or(i64::MAX)
+    }
+}
+
+/// Division that rounds up.
+trait DivUp {
+    fn div_euclid_up(self, by: Self) -> Self;
+}
+
+impl DivUp for i128 {
+    fn div_euclid_up(self, by: Self) -> Self {
+        -(-self).div_euclid(by)
+    }
+}
+
+impl fmt::Display for RefreshRate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let hundredths = (self.hz() * 100.0).round() / 100.0;
+        write!(f, "{hundredths}")
+    }
+}
+
+impl FromStr for RefreshRate {
+    type Err = String;
+
+    /// Reads a decimal with at most six digits after the point, such as `59.94`.
+    fn from_str(written: &str) -> Result<Self, String> {
+        const MILLION: u32 = 1_000_000;
+        let rate = written.parse::<f64>().ok().filter(|hz| Self::HZ.contains(hz));
+        let Some(hz) = rate else {
+            let (least, most) = (Self::HZ.start(), Self::HZ.end());
+            return Err(format!("give a refresh rate from {least} to {most} Hz, such as 59.94"));
+        };
+        let millionths = (hz * f64::from(MILLION)).round() as u32;
+        let common = greatest_common_divisor(millionths, MILLION);
+        Ok(Self::new(millionths / common, MILLION / common))
+    }
+}
+
+fn greatest_common_divisor(mut a: u32, mut b: u32) -> u32 {
+    while b > 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+/// The unit of time of one loop: a nanosecond divided by the tick rate and by the numerator of the refresh rate.
+///
+/// In it a nanosecond, a tick and a refresh are whole, so that days of frames add up without a rounding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TimeBase {
+    tick_hz: u32,
+    refresh: RefreshRate,
+}
+
+impl TimeBase {
+    /// The unit for a tick rate in Hz and a display.
+    ///
+    /// # Panics
+    /// If the tick rate is 0.
+    pub fn new(tick_hz: u32, refresh: RefreshRate) -> Self {
+        assert!(tick_hz > 0, "the caller checks the tick rate");
+        Self { tick_hz, refresh }
+    }
+
+    /// The tick rate in Hz.
+    pub fn tick_hz(&self) -> u32 {
+        self.tick_hz
+    }
+    /// The display's nominal rate.
+    pub fn refresh_rate(&self) -> RefreshRate {
+        self.refresh
+    }
+    /// The length of a tick.
+    pub fn tick(&self) -> i128 {
+        SECOND_NS * i128::from(self.refresh.numerator)
+    }
+    /// The time between two refreshes of the display.
+    pub fn refresh(&self) -> i128 {
+        SECOND_NS * i128::from(self.refresh.denominator) * i128::from(self.tick_hz)
+    }
+    /// A time in nanoseconds.
+    pub fn nanoseconds(&self, ns: i64) -> i128 {
+        i128::from(ns) * i128::from(self.tick_hz) * i128::from(self.refresh.numerator)
+    }
+
+    /// A time in seconds: of n whole ticks to the bit n divided by the tick rate.
+    pub fn seconds(&self, time: i128) -> f64 {
+        let tick = self.tick();
+        let part = time.rem_euclid(tick) as f64 / tick as f64;
+        (time.div_euclid(tick) as f64 + part) / f64::from(self.tick_hz)
+    }
+
+    /// A time in milliseconds.
+    pub fn milliseconds(&self, time: i128) -> f64 {
+        time as f64 / self.nanoseconds(1_000_000) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_nanosecond_a_tick_and_a_refresh_are_whole_and_fit() {
+        for rate in ["1", "59.94", "60", "74.973", "144", "239.76", "1000"] {
+            let refresh: RefreshRate = rate.parse().unwrap();
+            assert_eq!(
+                refresh.to_string().parse::<f64>().unwrap(),
+                (refresh.hz() * 100.0).round() / 100.0
+            );
+            for tick_hz in [1, 7, 60, 10_000] {
+                let base = TimeBase::new(tick_hz, refresh);
+                assert_eq!(base.tick() * i128::from(tick_hz), base.nanoseconds(1_000_000_000));
+                let day = 86_400_i128 * i128::from(tick_hz) * base.tick();
+                assert_eq!(day, base.nanoseconds(86_400_000_000_000));
+                assert_eq!(base.seconds(day), 86_400.0);
+                assert_eq!(base.milliseconds(day), 86_400_000.0);
+                let seconds = base.seconds(base.refresh());
+                assert!((seconds * refresh.hz() - 1.0).abs() < 1e-14, "{rate} Hz: {seconds} s");
+            }
+        }
+    }
+
+    #[test]
+    fn whole_ticks_are_the_seconds_of_a_race_to_the_bit() {
+        let base = TimeBase::new(49, RefreshRate::of_period(16_683_333));
+        for n in 0..1000 {
+            assert_eq!(base.seconds(n * base.tick()), n as f64 / 49.0);
+        }
+        assert_eq!(base.seconds(base.tick()), 1.0 / 49.0);
+    }
+
+    #[test]
+    fn the_nanosecond_of_a_refresh_is_never_before_it() {
+        let rate = RefreshRate::new(60, 1);
+        let base = TimeBase::new(60, rate);
+        for n in 0..1000 {
+            let late = base.nanoseconds(rate.refresh_ns(n)) - i128::from(n) * base.refresh();
+            assert!((0..base.nanoseconds(1)).contains(&late), "refresh {n}: {late}");
+        }
+    }
+
+    #[test]
+    fn a_refresh_rate_is_read_exactly_or_refused() {
+        assert_eq!("59.94".parse(), Ok(RefreshRate::new(2997, 50)));
+        for bad in ["", "0", "-60", "0.5", "1000.1", "nan", "inf", "60 Hz"] {
+            let error = bad.parse::<RefreshRate>().unwrap_err();
+            assert_eq!(error, "give a refresh rate from 1 to 1000 Hz, such as 59.94", "{bad}");
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! The frames that a game has to make: when each begins, and when its picture is displayed.
+
+use std::sync::Arc;
+
+use super::frame::Frame;
+use super::time_base::RefreshRate;
+
+/// The frames of a game on a display, by name.
+#[derive(Clone)]
+pub struct FrameTrace {
+    name: String,
+    refresh: RefreshRate,
+    source: Source,
+}
+
+/// Where frames come from.
+#[derive(Clone)]
+enum Source {
+    /// A list, which ends.
+    Recorded(Arc<[Frame]>),
+    /// A pattern without end.
+    Pattern(Box<dyn Pattern>),
+}
+
+/// A pattern of frames without end.
+pub(super) trait Pattern: Send {
+    /// The next frame. `steps` is the number of steps that the game made in the one before.
+    fn next(&mut self, steps: u32) -> Frame;
+
+    /// A copy with its memory.
+    fn boxed_clone(&self) -> Box<dyn Pattern>;
+}
+
+impl Clone for Box<dyn Pattern> {
+    fn clone(&self) -> Self {
+        self.boxed_clone()
+    }
+}
+
+impl FrameTrace {
+    /// The trace that these frames make, in order, on a display of this nominal rate.
+    pub fn recorded(name: impl Into<String>, refresh: RefreshRate, frames: Vec<Frame>) -> Self {
+        Self { name: name.into(), refresh, source: Source::Recorded(frames.into()) }
+    }
+
+    /// The trace of a pattern at its start.
+    pub(super) fn of_pattern(
+        name: impl Into<String>,
+        refresh: RefreshRate,
+        pattern: impl Pattern + 'static,
+    ) -> Self {
+        Self { name: name.into(), refresh, source: Source::Pattern(Box::new(pattern)) }
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+    /// The nominal rate of its display.
+    pub fn refresh(&self) -> RefreshRate {
+        self.refresh
+    }
+    /// Its frames from the first on.
+    pub fn frames(&self) -> Frames {
+        Frames { source: self.source.clone(), next: 0 }
+    }
+}
+
+/// The frames of a trace, one after the other.
+#[derive(Clone)]
+pub struct Frames {
+    source: Source,
+    next: usize,
+}
+
+impl Frames {
+    /// The next frame; `None` at the end of a recording. `steps` is the number of steps that the game made in the frame
+    /// before, on which it depends where a step takes long.
+    pub fn next(&mut self, steps: u32) -> Option<Frame> {
+        match &mut self.source {
+            Source::Recorded(frames) => {
+                let frame = frames.get(self.next).copied();
+                self.next += 1;
+                frame
+            }
+            Source::Pattern(pattern) => Some(pattern.next(steps)),
+        }
+    }
+}
