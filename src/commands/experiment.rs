@@ -176,6 +176,14 @@ pub(super) fn seconds(written: &str) -> Result<f64, String> {
     }
 }
 
+/// A positive number of seconds on the command line.
+pub(super) fn some_seconds(written: &str) -> Result<f64, String> {
+    match seconds(written)? {
+        0.0 => Err("give more than 0 seconds".into()),
+        seconds => Ok(seconds),
+    }
+}
+
 /// A range of whole numbers, for the command line's parser.
 pub(super) fn range_of(range: std::ops::RangeInclusive<u32>) -> std::ops::RangeInclusive<i64> {
     i64::from(*range.start())..=i64::from(*range.end())

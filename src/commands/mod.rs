@@ -14,6 +14,7 @@ mod advise;
 mod capture;
 mod chapter;
 mod completions;
+mod game_loop;
 mod list;
 mod play;
 mod sweep;
@@ -22,6 +23,7 @@ mod verify;
 
 mod experiment;
 mod scene_file;
+mod trace_source;
 
 mod clip;
 mod fingerprint;
@@ -37,9 +39,11 @@ mod sheet;
 mod state_log;
 
 mod error;
+mod file_names;
 mod interrupt;
 mod jobs;
 mod output;
+mod plot;
 mod stopwatch;
 mod terminal;
 
@@ -48,6 +52,7 @@ use capture::CaptureArgs;
 use chapter::ChapterArgs;
 use completions::CompletionsArgs;
 pub use error::{Cause, Error};
+use game_loop::LoopArgs;
 use list::ListArgs;
 use play::PlayArgs;
 use sweep::SweepArgs;
@@ -64,6 +69,7 @@ Examples:
   regatta capture --scene spring --race --out clip
   regatta advise --scene stiff
   regatta sweep --scene spring --plot spring.png > spring.csv
+  regatta loop --trace steady-144 --policy fixed --policy fixed-linear
   regatta chapter --out figures
   regatta verify clip
   regatta list methods
@@ -89,6 +95,7 @@ enum Command {
     Trace(TraceArgs),
     Advise(AdviseArgs),
     Sweep(SweepArgs),
+    Loop(LoopArgs),
     Chapter(ChapterArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
@@ -106,6 +113,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Trace(args) => trace::run(&args),
         Command::Advise(args) => advise::run(&args),
         Command::Sweep(args) => sweep::run(&args),
+        Command::Loop(args) => game_loop::run(&args),
         Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args, &mut Cli::command()),

@@ -9,6 +9,8 @@ pub(super) mod picture_format;
 pub(super) mod table;
 
 pub(super) use atomic_file::{AtomicFile, Older, final_name, sync_directory, write_whole};
-pub(super) use atomic_output::{AtomicOutput, OutputError, Place, STDOUT, print, write_text};
+pub(super) use atomic_output::{
+    AtomicOutput, OutputError, Place, STDOUT, finish, print, write_text,
+};
 pub(super) use directory_lock::{DirectoryLock, is_lock};
 pub(super) use file_error::FileError;

@@ -1,30 +1,26 @@
 //! `regatta sweep`: every method at every tick rate on every scene, as a tidy table and as diagrams.
 
-use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 use serde_json::json;
 
 use super::error::Error;
-use super::experiment::{self, MethodParser, SceneParser, range_of};
+use super::experiment::{MethodParser, SceneParser, range_of, some_seconds};
+use super::file_names::{check_picture_name, row_format};
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{self, Column, RowFormat};
-use super::output::{AtomicOutput, Older, OutputError, Place, STDOUT};
+use super::output::{AtomicOutput, Older, Place, STDOUT, finish};
+use super::plot::Plot;
 use super::scene_file::{self, SceneFileError};
-use super::terminal::tell;
 use crate::lab::{Clock, SCENES, Scene};
 use crate::sim::integrators::{METHODS, Method};
 
 mod diagrams;
-mod file_names;
 mod grid;
-mod plot;
 mod round_off;
 
-use file_names::{check_picture_name, row_format};
 use grid::{Grid, Row, Swept};
-use plot::Plot;
 
 const ABOUT: &str = "\
 One row for each scene, body, method and tick rate, in that order whatever the number of threads:
@@ -120,25 +116,6 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
         finish(output, &png, &format!("a picture of {width}x{height}"))?;
     }
     Ok(written?)
-}
-
-/// Writes the bytes and reports on standard error what a file now holds.
-fn finish(mut output: AtomicOutput, bytes: &[u8], what: &str) -> Result<(), OutputError> {
-    let written = output.write_all(bytes).map_err(|error| output.failed(error));
-    let (name, is_file) = (output.name(), matches!(output, AtomicOutput::File { .. }));
-    written.and_then(|()| output.close())?;
-    if is_file {
-        tell(&format!("wrote {what}: {name}"));
-    }
-    Ok(())
-}
-
-/// A positive number of seconds on the command line.
-fn some_seconds(written: &str) -> Result<f64, String> {
-    match experiment::seconds(written)? {
-        0.0 => Err("give more than 0 seconds".into()),
-        seconds => Ok(seconds),
-    }
 }
 
 impl SweepArgs {

@@ -5,18 +5,26 @@
 //! A [`PacedLane`] steps bodies by a policy, frame by frame. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
 
 mod accumulator;
+mod advice;
 mod frame;
+mod loop_run;
+mod metrics;
 mod paced_lane;
 mod pacer;
 mod patterns;
 mod policies;
 mod policy;
+mod scripted_truth;
 mod time_base;
 mod trace;
+mod trace_file;
 
 pub(super) use accumulator::most_ticks;
 pub use accumulator::{Accumulator, Due};
+pub use advice::advised_loop;
 pub use frame::Frame;
+pub use loop_run::LoopRun;
+pub use metrics::{FrameRecord, PACING_METRICS, PacingMetric, PacingReport};
 pub use paced_lane::PacedLane;
 pub use pacer::Pacer;
 
@@ -25,3 +33,4 @@ pub use policies::{LONGEST_FRAME_MS, POLICIES, policy};
 pub use policy::{Policy, PolicyCard, Snippet, Steps};
 pub use time_base::{RefreshRate, TimeBase};
 pub use trace::{FrameTrace, Frames};
+pub use trace_file::{TraceFileError, read as read_traces};

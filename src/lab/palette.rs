@@ -46,8 +46,12 @@ impl Theme {
     /// The colour of a method, and its dash pattern as the second cue: drawn length and gap in points, a
     /// gap of 0 being solid.
     pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
-        let index = METHODS.iter().position(|listed| listed == method).unwrap_or(0);
-        let (colour, dash) = STYLES[index];
+        self.numbered_style(METHODS.iter().position(|listed| listed == method).unwrap_or(0))
+    }
+
+    /// The colour and the dash pattern of the thing with this number among others, from 0: neighbours differ.
+    pub fn numbered_style(self, number: usize) -> (Rgba, [f32; 2]) {
+        let (colour, dash) = STYLES[number % STYLES.len()];
         (self.palette().methods[colour], DASHES[dash])
     }
 }

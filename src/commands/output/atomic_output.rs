@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use super::atomic_file::{AtomicFile, Older};
 use super::file_error::FileError;
 use crate::commands::error::{Cause, Error};
+use crate::commands::terminal::tell;
 
 /// The path that means standard output.
 pub(crate) const STDOUT: &str = "-";
@@ -209,6 +210,21 @@ pub(crate) fn write_text(place: Place<'_>, text: &str) -> Result<(), OutputError
     let mut output = AtomicOutput::open_for_text(place)?;
     output.write_all(text.as_bytes()).map_err(|error| output.failed(error))?;
     output.close()
+}
+
+/// Writes the bytes and reports on standard error what a file now holds.
+pub(crate) fn finish(
+    mut output: AtomicOutput,
+    bytes: &[u8],
+    what: &str,
+) -> Result<(), OutputError> {
+    let written = output.write_all(bytes).map_err(|error| output.failed(error));
+    let (name, is_file) = (output.name(), matches!(output, AtomicOutput::File { .. }));
+    written.and_then(|()| output.close())?;
+    if is_file {
+        tell(&format!("wrote {what}: {name}"));
+    }
+    Ok(())
 }
 
 /// Begins a file at `path`. If that is a link, the file it leads to is written and the link stays.

@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use super::grid::{Row, Swept};
-use super::plot::columns;
 use super::round_off::{self, ErrorCurve, Width};
+use crate::commands::plot::columns;
 use crate::lab::number::round;
 use crate::lab::palette::Theme;
 use crate::sim::integrators::Method;

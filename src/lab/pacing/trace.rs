@@ -60,6 +60,14 @@ impl FrameTrace {
     pub fn refresh(&self) -> RefreshRate {
         self.refresh
     }
+    /// Whether it ends.
+    pub fn ends(&self) -> bool {
+        matches!(self.source, Source::Recorded(_))
+    }
+    /// The same frames on a display of another nominal rate.
+    pub fn on(self, refresh: RefreshRate) -> Self {
+        Self { refresh, ..self }
+    }
     /// Its frames from the first on.
     pub fn frames(&self) -> Frames {
         Frames { source: self.source.clone(), next: 0 }

@@ -1,0 +1,309 @@
+//! `regatta loop`: what a game loop does to motion, over the frames of a display.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+
+use super::error::{Cause, Error};
+use super::experiment::{MethodParser, SceneParser, range_of, some_seconds};
+use super::file_names::{check_picture_name, row_format};
+use super::interrupt::{Interrupted, watch_for_interrupt};
+use super::output::table::{self, Column, RowFormat};
+use super::output::{AtomicOutput, Older, Place, STDOUT, finish, print};
+use super::plot::Plot;
+use super::scene_file;
+use super::terminal::tell;
+use super::trace_source::{TraceParser, traces};
+use crate::lab::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate, policy};
+use crate::lab::{Clock, LaneSpec, Scene, nearest};
+use crate::sim::integrators::Method;
+
+mod advice;
+mod diagram;
+mod measured;
+
+use measured::{Measured, measure};
+
+const ABOUT: &str = "\
+One row for each trace and policy, in the order asked for:
+  policy, trace, tick_hz
+  frames                  frames made, displayed or not
+  animation_error_rms_ms  change of the moment shown minus change of the moment of display, from frame to
+  animation_error_max_ms  frame: judder (PresentMon's term)
+  repeated_percent        displayed frames that show the same moment again
+  double_percent          displayed frames that show two ticks or more at once and run ahead of the display
+  latency_mean_ms         moment of display minus moment shown
+  latency_max_ms
+  dropped_ms              real time given up
+  owed_max_ms             the most real time neither simulated nor given up
+  position_error_rms      distance from the exact solution at the moment of display, in amplitudes (half
+                          the range), of the worst body
+  ticks                   steps made, of whatever length
+  evaluations             of the bodies' accelerations
+
+--frames writes one line for each frame, policy and trace; q is the first coordinate of the scene's first
+body as the picture shows it. A trace from a file begins with its first row; a row that was never displayed
+steps the game and shows nothing. A file of several programs gives a trace for each.
+
+Examples:
+  regatta loop > loops.csv
+  regatta loop --trace steady-144 --policy fixed --policy fixed-linear
+  regatta loop --display-hz 90 --plot loops.png
+  regatta loop --trace capture.csv --tick-hz 50
+  regatta loop --show fixed-linear --language c#";
+
+/// Measure what game loops do to motion on a display
+#[derive(Debug, Args)]
+#[command(after_help = ABOUT)]
+pub(super) struct LoopArgs {
+    /// A policy (`regatta list policies`); give several to compare them [default: all]
+    #[arg(long = "policy", value_name = "ID", value_parser = known_policy)]
+    policies: Vec<&'static PolicyCard>,
+
+    /// A built-in trace (`regatta list traces`), or else a CSV file of PresentMon, OCAT, CapFrameX or
+    /// FrameView; give several to go through them [default: all built-in traces]
+    #[arg(long = "trace", value_name = "ID|FILE", value_parser = TraceParser)]
+    #[arg(hide_possible_values = true)]
+    traces: Vec<PathBuf>,
+
+    /// Ticks per second, 1 to 10000 [default: the scene's]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
+    tick_hz: Option<u32>,
+
+    /// The refresh rate of the display in Hz, 1 to 1000 [default: the trace's; without --trace, an even
+    /// display of this rate]
+    #[arg(long, value_name = "N")]
+    display_hz: Option<RefreshRate>,
+
+    /// A built-in scene (`regatta list scenes`), or else the path of a scene file
+    #[arg(long, value_name = "NAME|FILE", default_value = "spring", value_parser = SceneParser)]
+    #[arg(hide_possible_values = true)]
+    scene: PathBuf,
+
+    /// The integrator of the bodies (`regatta list methods`)
+    #[arg(long, value_name = "ID", default_value = "rk4", value_parser = MethodParser)]
+    #[arg(hide_possible_values = true)]
+    method: &'static Method,
+
+    /// Length of each run in seconds of real time; a trace from a file may end before [default: the
+    /// scene's, and the whole of a file]
+    #[arg(long, value_name = "S", value_parser = some_seconds, allow_negative_numbers = true)]
+    seconds: Option<f64>,
+
+    /// The largest mean latency in ms of the policy that is advised
+    #[arg(long, value_name = "MS", default_value_t = 20.0, value_parser = latency)]
+    #[arg(allow_negative_numbers = true)]
+    latency_ms: f64,
+
+    /// How to write the rows: csv or json [default: by the ending of --out, else csv]
+    #[arg(long, value_name = "FORMAT", hide_possible_values = true)]
+    format: Option<RowFormat>,
+
+    /// The file to write the rows to, or - for standard output
+    #[arg(long, value_name = "FILE", default_value = STDOUT)]
+    out: PathBuf,
+
+    /// Write a line of CSV for each frame into FILE, or - for standard output
+    #[arg(long, value_name = "FILE")]
+    frames: Option<PathBuf>,
+
+    /// Draw the moment shown against the moment of display, and a ranking, as PNG into FILE
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+
+    /// Replace the files that are there
+    #[arg(long)]
+    force: bool,
+
+    /// Print this policy as source, to be taken into a game, and do nothing else
+    #[arg(long, value_name = "ID", value_parser = known_policy)]
+    show: Option<&'static PolicyCard>,
+
+    /// The language of --show: rust, c++ or c#
+    #[arg(long, value_name = "LANGUAGE", default_value = "rust", requires = "show")]
+    language: String,
+}
+
+/// A mistake in the request.
+#[derive(Debug, thiserror::Error)]
+enum LoopError {
+    #[error("{policy} is not written out in {asked}; give --language {}", .known.join(" or "))]
+    NoSnippet { policy: &'static str, asked: String, known: Vec<&'static str> },
+    #[error("rows and frames would go to the same place; give another --out or --frames")]
+    SamePlace,
+}
+
+impl Cause for LoopError {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
+
+pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
+    if let Some(card) = args.show {
+        return Ok(print(snippet(card, &args.language)?)?);
+    }
+    let (scene, _) = scene_file::load(&args.scene)?;
+    let scene = Scene { tick_hz: args.tick_hz.unwrap_or(scene.tick_hz), ..scene };
+    let traces = traces(&args.traces, args.display_hz)?;
+    let format = row_format(&args.out, args.format)?;
+    if let Some(plot) = &args.plot {
+        check_picture_name(plot, &args.out)?;
+    }
+    if args.frames.as_ref() == Some(&args.out) {
+        return Err(LoopError::SamePlace.into());
+    }
+    let interrupted = watch_for_interrupt();
+    // Before the first run: a refusal should not come late.
+    let older = if args.force { Older::Replace } else { Older::Keep };
+    let place = |path, option| Place { path, option, older };
+    let out = AtomicOutput::open_for_text(place(&args.out, "--out"))?;
+    let frames = args.frames.as_deref().map(|path| place(path, "--frames"));
+    let mut frames = frames.map(AtomicOutput::open_for_text).transpose()?;
+    let plot = args.plot.as_deref().map(|path| Plot::open(place(path, "--plot"), diagram::CHARTS));
+    let plot = plot.transpose()?;
+
+    if let Some(frames) = &mut frames {
+        frames.write_all(FRAME_COLUMNS.as_bytes()).map_err(|error| frames.failed(error))?;
+    }
+    let mut rows = Vec::new();
+    for trace in &traces {
+        let from = rows.len();
+        for card in args.policies() {
+            if interrupted.load(std::sync::atomic::Ordering::Relaxed) {
+                return Err(Interrupted::NothingWritten.into());
+            }
+            let spec = LaneSpec::plain(args.method);
+            let mut lines = String::new();
+            let each = frames.is_some().then_some(&mut lines);
+            rows.push(measure(&scene, spec, card, trace, args.until_ns(&scene, trace), each));
+            if let Some(frames) = &mut frames {
+                frames.write_all(lines.as_bytes()).map_err(|error| frames.failed(error))?;
+            }
+        }
+        advice::tell_of(&rows[from..], args.latency_ms);
+    }
+    let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
+    finish(out, table::rows(format, COLUMNS, &rows).as_bytes(), &what)?;
+    if let Some(frames) = frames {
+        let name = frames.name();
+        frames.close()?;
+        if name != STDOUT {
+            tell(&format!("wrote the frames: {name}"));
+        }
+    }
+    if let Some(plot) = plot {
+        let (output, [width, height], png) = plot.draw(&diagram::figure(&scene, &rows))?;
+        finish(output, &png, &format!("a picture of {width}x{height}"))?;
+    }
+    Ok(())
+}
+
+impl LoopArgs {
+    /// The policies asked for, each once.
+    fn policies(&self) -> Vec<&'static PolicyCard> {
+        let mut policies: Vec<&'static PolicyCard> = Vec::new();
+        let all: Vec<&'static PolicyCard> = POLICIES.iter().collect();
+        for &card in if self.policies.is_empty() { &all } else { &self.policies } {
+            if !policies.contains(&card) {
+                policies.push(card);
+            }
+        }
+        policies
+    }
+
+    /// When a run of a trace ends, in nanoseconds.
+    fn until_ns(&self, scene: &Scene, trace: &FrameTrace) -> i64 {
+        match self.seconds {
+            None if trace.ends() => i64::MAX,
+            seconds => (seconds.unwrap_or(scene.seconds) * 1e9).round() as i64,
+        }
+    }
+}
+
+/// The source of a policy in a language.
+fn snippet(card: &'static PolicyCard, language: &str) -> Result<&'static str, LoopError> {
+    let found = card.snippets.iter().find(|snippet| snippet.language == language);
+    found.map(|snippet| snippet.source).ok_or_else(|| LoopError::NoSnippet {
+        policy: card.id,
+        asked: language.into(),
+        known: card.snippets.iter().map(|snippet| snippet.language).collect(),
+    })
+}
+
+/// The columns of the rows; the measured ones are those of the table of metrics.
+const COLUMNS: &[Column<Measured>] = &[
+    Column { key: "policy", heading: None, value: |row| json!(row.card.id) },
+    Column { key: "trace", heading: None, value: |row| json!(row.trace) },
+    Column { key: "tick_hz", heading: None, value: |row| json!(row.tick_hz) },
+    Column { key: "frames", heading: None, value: |row| json!(row.report.frames) },
+    Column {
+        key: "animation_error_rms_ms",
+        heading: None,
+        value: |row| json!(row.report.animation_error_rms_ms),
+    },
+    Column {
+        key: "animation_error_max_ms",
+        heading: None,
+        value: |row| json!(row.report.animation_error_max_ms),
+    },
+    Column {
+        key: "repeated_percent",
+        heading: None,
+        value: |row| json!(row.report.repeated_percent),
+    },
+    Column { key: "double_percent", heading: None, value: |row| json!(row.report.double_percent) },
+    Column {
+        key: "latency_mean_ms",
+        heading: None,
+        value: |row| json!(row.report.latency_mean_ms),
+    },
+    Column { key: "latency_max_ms", heading: None, value: |row| json!(row.report.latency_max_ms) },
+    Column { key: "dropped_ms", heading: None, value: |row| json!(row.report.dropped_ms) },
+    Column { key: "owed_max_ms", heading: None, value: |row| json!(row.report.owed_max_ms) },
+    Column {
+        key: "position_error_rms",
+        heading: None,
+        value: |row| json!(row.report.position_error_rms),
+    },
+    Column { key: "ticks", heading: None, value: |row| json!(row.report.ticks) },
+    Column { key: "evaluations", heading: None, value: |row| json!(row.report.evaluations) },
+];
+
+/// The columns of `--frames`.
+const FRAME_COLUMNS: &str =
+    "trace,policy,frame,began_ms,displayed_ms,shown_ms,ticks,dropped_ms,q\n";
+
+fn known_policy(id: &str) -> Result<&'static PolicyCard, String> {
+    policy(id).ok_or_else(|| {
+        let spellings = POLICIES.iter().flat_map(|card| [(card.id, card.id), (card.name, card.id)]);
+        match nearest(id, spellings) {
+            Some(id) => {
+                format!("no such policy; did you mean {id}? `regatta list policies` names all")
+            }
+            None => "no such policy. `regatta list policies` names all".into(),
+        }
+    })
+}
+
+fn latency(written: &str) -> Result<f64, String> {
+    let latency = written.parse::<f64>().ok().filter(|ms| (0.0..=10_000.0).contains(ms));
+    latency.ok_or_else(|| "give 0 to 10000 ms".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::pacing::PACING_METRICS;
+
+    #[test]
+    fn the_columns_are_the_metrics_of_a_single_run_in_their_order() {
+        let columns = COLUMNS.iter().skip(3).map(|column| column.key);
+        let metrics = PACING_METRICS.iter().map(|metric| metric.id);
+        // It takes a second run.
+        assert!(columns.eq(metrics.filter(|id| *id != "state_difference")));
+    }
+}

@@ -1,0 +1,52 @@
+//! What `regatta loop` says below its rows: which policy to take, and which motion depends on the frame rate.
+
+use super::measured::Measured;
+use crate::commands::terminal::tell;
+use crate::lab::number::round;
+use crate::lab::pacing::{PacingReport, PolicyCard, advised_loop};
+
+/// A difference of the motion that is worth a word, in amplitudes.
+const NOTED: f64 = 1e-9;
+
+/// Tells which of the policies measured on one trace to take.
+pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
+    let Some(first) = rows.first() else { return };
+    let trace =
+        format!("{} ({} Hz display, {} Hz ticks)", first.trace, first.refresh, first.tick_hz);
+    let measured: Vec<(&'static PolicyCard, PacingReport)> =
+        rows.iter().map(|row| (row.card, row.report.clone())).collect();
+    match advised_loop(&measured, latency_ms) {
+        Some(place) => tell(&format!("{trace}: take {}", words(&rows[place]))),
+        None => tell(&format!(
+            "{trace}: none of these policies is as fast at any frame rate with a mean latency of {latency_ms} ms or \
+             less; try more policies, or a larger --latency-ms"
+        )),
+    }
+    let depends = rows.iter().filter_map(|row| {
+        let difference = row.report.state_difference.filter(|difference| *difference > NOTED)?;
+        Some(format!("{} by {}", row.card.id, round(difference, 2)))
+    });
+    let depends: Vec<String> = depends.collect();
+    if !depends.is_empty() {
+        let listed = depends.join(", ");
+        tell(&format!(
+            "  at half the frame rate the motion ends elsewhere, in amplitudes: {listed}"
+        ));
+    }
+}
+
+/// A policy with what was measured and its constants.
+fn words(row: &Measured) -> String {
+    let ms =
+        |value: Option<f64>| value.map_or("unknown".into(), |ms| format!("{} ms", round(ms, 3)));
+    let error = ms(row.report.animation_error_rms_ms);
+    let latency = ms(row.report.latency_mean_ms);
+    let constants = match row.card.constants {
+        "" => String::new(),
+        constants => format!("; {constants}"),
+    };
+    format!(
+        "{}: animation error {error} RMS, latency {latency} in the mean{constants}",
+        row.card.id
+    )
+}

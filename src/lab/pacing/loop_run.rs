@@ -1,0 +1,153 @@
+//! A scene in a game loop over the frames of a trace.
+
+use super::frame::Frame;
+use super::metrics::{FrameRecord, PacingMeter, PacingReport};
+use super::paced_lane::PacedLane;
+use super::pacer::Pacer;
+use super::policy::{PolicyCard, Steps};
+use super::scripted_truth::ScriptedTruth;
+use super::time_base::TimeBase;
+use super::trace::{FrameTrace, Frames};
+use crate::lab::action::Action;
+use crate::lab::lane::Lane;
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::scene::Scene;
+
+/// A scene under one method in one loop, frame by frame.
+///
+/// The first frame starts the clock and shows the start; each later frame makes the steps that the loop decides on. The
+/// scene's script acts before the first step at or after its time.
+///
+/// ```
+/// use regatta::lab::pacing::{LoopRun, policy, trace_card, RefreshRate};
+/// use regatta::lab::{LaneSpec, Scene};
+/// use regatta::sim::integrators::method;
+///
+/// let scene = Scene::built_in("spring").expect("a built-in scene");
+/// let rk4 = LaneSpec::plain(method("rk4").expect("a built-in method"));
+/// let trace = trace_card("steady-144").expect("a built-in trace").trace(RefreshRate::new(60, 1));
+/// let mut run = LoopRun::new(&scene, rk4, policy("fixed").expect("a built-in policy"), &trace);
+/// while run.next_frame().is_some_and(|frame| frame.frame.began_ns < 10_000_000_000) {}
+/// // At 144 Hz seven frames in twelve show the same 60 Hz tick again.
+/// assert!((run.report().repeated_percent.expect("there were frames") - 58.33).abs() < 0.1);
+/// ```
+#[derive(Clone)]
+pub struct LoopRun {
+    lane: PacedLane,
+    truth: ScriptedTruth,
+    frames: Frames,
+    meter: PacingMeter,
+    last: Option<(Frame, Steps)>,
+    script: Vec<(f64, Action)>,
+    done: usize,
+    /// One frame in so many is made; the others are left out.
+    stride: u32,
+}
+
+impl LoopRun {
+    /// The run before its first frame, at the scene's tick rate.
+    pub fn new(
+        scene: &Scene,
+        spec: LaneSpec,
+        card: &'static PolicyCard,
+        trace: &FrameTrace,
+    ) -> Self {
+        let base = TimeBase::new(scene.tick_hz, trace.refresh());
+        let lane = Lane::new(scene, spec.solver(), spec.substeps);
+        let script = scene.script.iter().map(|scripted| {
+            (scripted.tick as f64 / f64::from(scene.tick_hz), scripted.action.clone())
+        });
+        let script: Vec<_> = script.collect();
+        Self {
+            lane: PacedLane::new(Pacer::new(card, base), lane),
+            truth: ScriptedTruth::new(scene, script.clone()),
+            frames: trace.frames(),
+            meter: PacingMeter::default(),
+            last: None,
+            script,
+            done: 0,
+            stride: 1,
+        }
+    }
+
+    /// The run of the same game at half the frame rate: every second frame is left out.
+    fn at_half_the_rate(self) -> Self {
+        Self { stride: 2, ..self }
+    }
+
+    /// The bodies in the loop.
+    pub fn lane(&self) -> &PacedLane {
+        &self.lane
+    }
+
+    /// Makes the next frame; `None` where the trace has ended.
+    pub fn next_frame(&mut self) -> Option<FrameRecord> {
+        let steps_before = self.last.map_or(0, |(_, steps)| steps.count);
+        let mut frame = self.frames.next(steps_before)?;
+        for _ in 1..if self.last.is_some() { self.stride } else { 1 } {
+            frame = self.frames.next(0)?;
+        }
+        let steps = match self.last {
+            None => Steps::default(),
+            Some((last, _)) => {
+                let (script, done) = (&self.script, &mut self.done);
+                self.lane.frame(frame.began_ns - last.began_ns, |step, t, lane| {
+                    while let Some((_, action)) = script.get(*done).filter(|(at, _)| *at <= t) {
+                        lane.act(step, t, action);
+                        *done += 1;
+                    }
+                })
+            }
+        };
+        self.last = Some((frame, steps));
+        let pacer = self.lane.pacer();
+        let animation_error_ms = self.meter.frame(frame, pacer);
+        if let Some(displayed_ns) = frame.displayed_ns {
+            self.truth.compare(displayed_ns as f64 / 1e9, &self.lane);
+        }
+        let base = pacer.base();
+        Some(FrameRecord {
+            number: self.meter.frames() - 1,
+            frame,
+            shown_ms: base.milliseconds(pacer.shown()),
+            steps,
+            dropped_ms: base.milliseconds(steps.dropped),
+            animation_error_ms,
+        })
+    }
+
+    /// Makes frames up to the first that begins at `until_ns` or later, and returns when the last one began.
+    pub fn run_until(&mut self, until_ns: i64, mut seen: impl FnMut(&Self, &FrameRecord)) -> i64 {
+        while self.began_ns() < until_ns || self.last.is_none() {
+            let Some(record) = self.next_frame() else { break };
+            seen(self, &record);
+        }
+        self.began_ns()
+    }
+
+    /// When the last frame began; 0 before the first.
+    fn began_ns(&self) -> i64 {
+        self.last.map_or(0, |(frame, _)| frame.began_ns)
+    }
+
+    /// Runs on to `until_ns`, and returns what was seen with the [difference](PacingReport::state_difference) to the same
+    /// game at half the frame rate.
+    pub fn measure(mut self, until_ns: i64, seen: impl FnMut(&Self, &FrameRecord)) -> PacingReport {
+        let mut half = self.clone().at_half_the_rate();
+        let end_ns = half.run_until(until_ns, |_, _| {});
+        self.run_until(until_ns, seen);
+        let report = self.report();
+        self.run_until(end_ns, |_, _| {});
+        let state_difference = self.truth.distance(self.lane.lane(), half.lane.lane());
+        let [simulated, at_half] = [&self, &half].map(|run| run.lane.pacer().simulated());
+        let time_difference = self.lane.pacer().base().milliseconds(simulated - at_half);
+        PacingReport { state_difference, time_difference_ms: Some(time_difference), ..report }
+    }
+
+    /// What was seen so far.
+    pub fn report(&self) -> PacingReport {
+        let (steps, evaluations) = (self.lane.steps(), self.lane.lane().evaluations());
+        let report = self.meter.report(self.lane.pacer(), steps, evaluations);
+        PacingReport { position_error_rms: self.truth.position_error_rms(), ..report }
+    }
+}
