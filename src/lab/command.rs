@@ -8,6 +8,7 @@ use super::held::HeldBody;
 use super::instrument::Instrument;
 use super::key::Key;
 use super::lane_spec::LaneSpec;
+use super::loop_lab::LoopCommand;
 use super::zoom_pan::ZoomPan;
 use crate::sim::integrators::Method;
 
@@ -29,6 +30,8 @@ pub enum Command {
     PreviousMethod,
     /// Solo to race, from the start line; race to solo, with the selected lane as it is.
     ToggleRace,
+    /// Opens or leaves the loop lab, or changes it.
+    Loop(LoopCommand),
     /// Runs or pauses.
     TogglePause,
     /// Pauses and goes one tick forward.
@@ -289,6 +292,12 @@ pub static KEYS: &[Binding] = &[
         shown: "I",
         about: "drawing between ticks: raw / linear / Hermite / extrapolated",
         keys: &[(Key::Sign('i'), Command::NextInterpolation)],
+        repeats: false,
+    },
+    Binding {
+        shown: "L",
+        about: "loop lab: one motion under every game loop",
+        keys: &[(Key::Sign('l'), Command::Loop(LoopCommand::ToggleLab))],
         repeats: false,
     },
     Binding {

@@ -17,6 +17,8 @@ pub enum Instrument {
     StabilityMap,
     /// What the selected method does in the next tick.
     OneStep,
+    /// What game loops show, and what this program's own loop does.
+    Loop,
     /// Advice on methods and rates.
     Advice,
 }
@@ -95,6 +97,13 @@ pub static INSTRUMENTS: &[InstrumentCard] = &[
         name: "One step",
         about: "What the selected method does in its next tick: where it evaluates the force, what slope it finds there, \
                 where it lands, and where the exact solution lands.",
+    },
+    InstrumentCard {
+        instrument: Instrument::Loop,
+        row: Explain,
+        name: "Loop",
+        about: "In the loop lab, the moments that each game loop shows against the moments of display: a level step is a \
+                repeated frame. Elsewhere, the frame times and ticks of this window's own loop.",
     },
     InstrumentCard {
         instrument: Instrument::Advice,

@@ -3,6 +3,7 @@
 use super::clock::Clock;
 use super::display::{Display, Pace};
 use super::lane_spec::LaneSpec;
+use super::loop_lab::LoopLab;
 use super::palette::Theme;
 use super::past::{History, Past};
 use super::race::{Entrant, Mode, Race};
@@ -16,6 +17,7 @@ mod apply;
 mod driving;
 mod findings;
 mod guiding;
+mod looping;
 mod opening;
 mod restarting;
 
@@ -30,6 +32,8 @@ pub struct Lab {
     pub(super) running: bool,
     pub(super) dropped: u64,
     pub(super) viewer: Viewer,
+    /// The open loop lab.
+    pub(super) loop_lab: Option<LoopLab>,
     /// The settings that an undo restores.
     before_discard: Option<BeforeDiscard>,
     /// The run before the last restart of the scene.
@@ -57,6 +61,7 @@ impl Lab {
             dropped: 0,
             viewer: Viewer::new(timeline.session().race().entrants()[0].lane_number),
             timeline,
+            loop_lab: None,
             before_discard: None,
             run_before: None,
             start,
@@ -103,6 +108,10 @@ impl Lab {
     /// The clock.
     pub fn clock(&self) -> &Clock {
         &self.clock
+    }
+    /// The open loop lab; `None` in solo and in a race.
+    pub fn loop_lab(&self) -> Option<&LoopLab> {
+        self.loop_lab.as_ref()
     }
     /// Whether it is not paused.
     pub fn running(&self) -> bool {
@@ -174,6 +183,9 @@ impl Lab {
 
     /// The window's title: people and tests read it.
     pub fn title(&self) -> String {
+        if let Some(loops) = &self.loop_lab {
+            return self.title_of_loops(loops);
+        }
         let race = if self.mode() == Mode::Race { "race: " } else { "" };
         let tick = self.race().tick();
         let paused = if self.running { String::new() } else { format!(" (paused, tick {tick})") };

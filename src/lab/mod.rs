@@ -23,6 +23,8 @@ mod key;
 mod lab;
 mod lane;
 mod lane_spec;
+mod live_loop;
+mod loop_lab;
 mod metrics;
 mod notices;
 pub mod number;
@@ -60,6 +62,10 @@ pub use key::Key;
 pub use lab::Lab;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use lane_spec::LaneSpec;
+pub use live_loop::{LiveFrame, LiveLoop};
+pub use loop_lab::{
+    LoopCommand, LoopFrame, LoopLab, LoopLane, LoopVerdict, MOST_ON_STAGE, SLOWNESS,
+};
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use one_step::{FORMULAS, Formula, OneStep, Slope};
 pub use past::{

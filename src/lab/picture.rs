@@ -15,6 +15,7 @@ mod grasp;
 mod hull;
 mod layout;
 mod look;
+mod loop_stage;
 mod mass;
 mod moment;
 mod outline;

@@ -7,6 +7,7 @@ use super::held::HeldBody;
 use super::instrument::Instrument;
 use super::interpolation::Interpolation;
 use super::lane_spec::LaneSpec;
+use super::live_loop::LiveLoop;
 use super::palette::Theme;
 
 /// A dialog over the window.
@@ -40,6 +41,8 @@ pub struct Viewer {
     pub tick_times: Vec<(LaneSpec, Option<f64>)>,
     /// The latest message, such as a screenshot's file name.
     pub notice: Option<String>,
+    /// The last frames of the lab's own loop.
+    pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
     /// The lanes before equal cost was switched on; `None` while it is off.
     pub(super) before_equal_cost: Option<Vec<LaneSpec>>,
@@ -79,6 +82,7 @@ impl Viewer {
             pace: None,
             tick_times: Vec::new(),
             notice: None,
+            live: LiveLoop::default(),
             findings: None,
             before_equal_cost: None,
             held: None,

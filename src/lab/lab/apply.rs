@@ -6,6 +6,7 @@ use crate::lab::command::{Command, SPEED_LADDER, TICK_LADDER};
 use crate::lab::display::DriverRequest;
 use crate::lab::equal_cost::equal_cost;
 use crate::lab::lane_spec::LaneSpec;
+use crate::lab::loop_lab::LoopCommand;
 use crate::lab::metrics::METRICS;
 use crate::lab::race::{ActionResult, Mode};
 use crate::lab::viewer::Dialog;
@@ -20,7 +21,8 @@ impl Lab {
         request
     }
 
-    fn carry_out(&mut self, command: Command) -> Option<DriverRequest> {
+    pub(super) fn carry_out(&mut self, command: Command) -> Option<DriverRequest> {
+        let Some(command) = self.carry_out_in_loop_lab(command) else { return None };
         let race = self.race();
         match command {
             Command::Act(action) => self.act(action),
@@ -71,6 +73,9 @@ impl Lab {
                     self.viewer.notice = None;
                 }
             },
+            Command::Loop(LoopCommand::ToggleLab) => self.open_loop_lab(),
+            // The loop lab is closed.
+            Command::Loop(_) => {}
             Command::TogglePause => self.running = !self.running,
             Command::TickForward => self.step_by(1),
             Command::TickBack => self.step_by(-1),

@@ -2,6 +2,7 @@
 
 use super::Lab;
 use crate::lab::action::Action;
+use crate::lab::live_loop::LiveFrame;
 use crate::lab::notices::Notices;
 use crate::lab::pacing::Due;
 use crate::lab::race::{Mode, Observer};
@@ -25,6 +26,11 @@ impl Lab {
 
     fn advance_by(&mut self, frame_ns: i64, last: u64, observer: &mut impl Observer) -> Due {
         if !self.time_runs() {
+            self.viewer.live.jump();
+            return Due::default();
+        }
+        if let Some(loops) = &mut self.loop_lab {
+            loops.advance(frame_ns);
             return Due::default();
         }
         // A tick rate that the script sets at this tick applies to the time from here on.
@@ -42,7 +48,17 @@ impl Lab {
             self.timeline.show_present();
         }
         self.dropped += due.dropped;
+        self.note_frame(frame_ns, due);
         due
+    }
+
+    fn note_frame(&mut self, duration_ns: i64, due: Due) {
+        let (alpha, h) = (self.clock.alpha(), self.race().last_step_s());
+        let shown_s = self.race().t() + h * self.display().interpolation.shown(alpha);
+        let speed = f64::from(self.clock.speed_percent()) / 100.0;
+        let Due { ticks, dropped } = due;
+        let frame = LiveFrame { duration_ns, ticks, dropped, animation_error_ms: 0.0 };
+        self.viewer.live.add(frame, shown_s, speed);
     }
 
     /// Performs the actions at this tick, and steps to the next.

@@ -23,6 +23,7 @@ impl Lab {
         self.before_discard = None;
         self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
         self.viewer.notice = None;
+        self.viewer.live.jump();
         self.viewer.held = None;
         self.clock.set_tick_hz(self.start.tick_hz);
         self.clock.restart();

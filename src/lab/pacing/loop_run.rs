@@ -80,6 +80,11 @@ impl LoopRun {
         &self.lane
     }
 
+    /// The exact coordinates of the body at this place of the scene at the moment of the last displayed frame.
+    pub fn exact(&self, body: usize) -> &[f64] {
+        self.truth.q(body)
+    }
+
     /// Makes the next frame; `None` where the trace has ended.
     pub fn next_frame(&mut self) -> Option<FrameRecord> {
         let steps_before = self.last.map_or(0, |(_, steps)| steps.count);

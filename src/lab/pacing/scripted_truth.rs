@@ -68,6 +68,11 @@ impl ScriptedTruth {
         }
     }
 
+    /// The exact coordinates of a body.
+    pub(super) fn q(&self, body: usize) -> &[f64] {
+        self.lane.bodies()[body].stepper.q()
+    }
+
     /// The largest distance between the bodies of two lanes, in amplitudes.
     pub(super) fn distance(&self, one: &Lane, other: &Lane) -> Option<f64> {
         let bodies = one.bodies().iter().zip(other.bodies()).zip(&self.errors);

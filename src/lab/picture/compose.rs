@@ -10,7 +10,7 @@ use super::layout::{bands, grid, mosaic};
 use super::mass::Coat;
 use super::moment::Moment;
 use super::sketch::{Camera, line, path};
-use super::{Cell, Framing, Look, Picture, Rect, Rgba, Whose, captions, chart};
+use super::{Cell, Framing, Look, Picture, Rect, Rgba, Whose, captions, chart, loop_stage};
 use crate::lab::palette::faded;
 use crate::lab::race::Entrant;
 use crate::lab::{Arrangement, Lab, Mode, ZoomPan};
@@ -39,6 +39,9 @@ const ALIKE: f64 = 5.0;
 
 /// The picture of the lab on a stage of `size` points.
 pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
+    if let Some(loops) = lab.loop_lab() {
+        return loop_stage::compose(lab, loops, size);
+    }
     let moment = Moment::of(lab);
     let mut picture = Picture::default();
     let stage = Rect { min: [0.0; 2], max: size };

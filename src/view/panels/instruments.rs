@@ -5,7 +5,7 @@
 
 use egui::{Button, Color32, ComboBox, FontId, Label, RichText, Sense, Stroke, Ui, vec2};
 
-use super::{advice, cost, ink, one_step, stability_map};
+use super::{advice, cost, ink, loops, one_step, stability_map};
 use crate::lab::{
     Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS, Mode,
 };
@@ -51,6 +51,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         Instrument::Cost => cost::show(ui, lab, room),
         Instrument::StabilityMap => stability_map::show(ui, lab, room, commands),
         Instrument::OneStep => one_step::show(ui, lab, room),
+        Instrument::Loop => loops::show(ui, lab, room, commands),
         Instrument::Advice => advice::show(ui, lab, commands),
     }
 }
@@ -62,9 +63,11 @@ fn sheet_of(lab: &Lab) -> Option<Sheet> {
         Instrument::Error => Some(error::sheet(lab)),
         Instrument::Energy => Some(energy::sheet(lab)),
         Instrument::Phase => Some(phase::sheet(lab)),
-        Instrument::Cost | Instrument::StabilityMap | Instrument::OneStep | Instrument::Advice => {
-            None
-        }
+        Instrument::Cost
+        | Instrument::StabilityMap
+        | Instrument::OneStep
+        | Instrument::Loop
+        | Instrument::Advice => None,
     }
 }
 

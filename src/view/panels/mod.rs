@@ -17,6 +17,7 @@ mod inspector;
 mod instruments;
 mod keycap;
 mod lanes;
+mod loops;
 mod one_step;
 mod opening;
 mod plot_area;

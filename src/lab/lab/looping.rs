@@ -1,0 +1,157 @@
+//! The loop lab as a mode of the lab: opening and leaving it, and what commands do in it.
+
+use super::Lab;
+use crate::lab::command::{Command, TICK_LADDER};
+use crate::lab::instrument::Instrument;
+use crate::lab::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
+use crate::lab::pacing::FrameTrace;
+use crate::sim::integrators::{METHODS, Method, method};
+
+/// The method of the body at first: none that adds much of its own.
+const METHOD_AT_FIRST: &str = "rk4";
+
+impl Lab {
+    /// Opens the loop lab with the displayed body.
+    pub(super) fn open_loop_lab(&mut self) {
+        let method = method(METHOD_AT_FIRST).expect("a built-in method");
+        let body = self.display().body;
+        let mut loops = LoopLab::new(self.scene(), body, method);
+        loops.offer(self.viewer.live.trace());
+        self.loop_lab = Some(loops);
+        self.viewer.display.instrument = Instrument::Loop;
+        self.viewer.display.inspector = false;
+        self.viewer.held = None;
+        self.viewer.notice = None;
+        self.running = true;
+    }
+
+    /// Opens the loop lab, if it is closed, on the first of these traces.
+    pub fn open_traces(&mut self, traces: Vec<FrameTrace>) {
+        if self.loop_lab.is_none() {
+            self.open_loop_lab();
+        }
+        if let Some(loops) = &mut self.loop_lab
+            && !traces.is_empty()
+        {
+            loops.add_traces(traces);
+        }
+    }
+
+    /// Carries out a command on the open loop lab. Returns the command if it is one for the rest of the lab.
+    pub(super) fn carry_out_in_loop_lab(&mut self, command: Command) -> Option<Command> {
+        let Some(loops) = &mut self.loop_lab else { return Some(command) };
+        let tick_hz = loops.scene().tick_hz;
+        let slowness = loops.slowness();
+        match command {
+            Command::Loop(command) => self.change_loop_lab(command),
+            Command::ToggleRace => {
+                self.loop_lab = None;
+                return Some(command);
+            }
+            Command::Pick(place) => loops.select(place),
+            Command::ToggleArrangement => {
+                loops.choose_trace((loops.trace() + 1) % loops.traces().len());
+            }
+            Command::Restart => loops.seek(0),
+            Command::TickForward => self.step_loops(1),
+            Command::TickBack => self.step_loops(-1),
+            Command::SecondForward => self.step_loops(i64::from(tick_hz)),
+            Command::SecondBack => self.step_loops(-i64::from(tick_hz)),
+            Command::NextMethod => loops.set_method(method_beside(loops, 1)),
+            Command::PreviousMethod => loops.set_method(method_beside(loops, METHODS.len() - 1)),
+            Command::Method(method) => loops.set_method(method),
+            Command::TickHz(tick_hz) => loops.set_tick_hz(tick_hz),
+            Command::TickRateUp => {
+                let higher = TICK_LADDER.iter().find(|&&hz| hz > tick_hz);
+                higher.into_iter().for_each(|&hz| loops.set_tick_hz(hz));
+            }
+            Command::TickRateDown => {
+                let lower = TICK_LADDER.iter().rfind(|&&hz| hz < tick_hz);
+                lower.into_iter().for_each(|&hz| loops.set_tick_hz(hz));
+            }
+            Command::SpeedUp => {
+                loops.set_slowness(
+                    *SLOWNESS.iter().rfind(|&&rung| rung < slowness).unwrap_or(&slowness),
+                );
+            }
+            Command::SpeedDown => {
+                loops.set_slowness(
+                    *SLOWNESS.iter().find(|&&rung| rung > slowness).unwrap_or(&slowness),
+                );
+            }
+            Command::Scene(_) | Command::NextScene | Command::PreviousScene | Command::Body(_) => {
+                let kept = (loops.trace(), loops.slowness());
+                self.loop_lab = None;
+                self.carry_out(command);
+                self.open_loop_lab();
+                if let Some(loops) = &mut self.loop_lab {
+                    loops.choose_trace(kept.0);
+                    loops.set_slowness(kept.1);
+                }
+            }
+            Command::Act(_)
+            | Command::Fly(_)
+            | Command::Throttle(_)
+            | Command::ThrottleUp
+            | Command::ThrottleDown
+            | Command::Rudder(_)
+            | Command::RudderLeft
+            | Command::RudderRight
+            | Command::Kick(_)
+            | Command::Undo
+            | Command::Hold(_)
+            | Command::ToggleEqualCost
+            | Command::NextInterpolation
+            | Command::ToggleInspector
+            | Command::Seek(_) => {
+                self.set_notice("not in the loop lab: L leaves it");
+            }
+            other => return Some(other),
+        }
+        None
+    }
+
+    fn change_loop_lab(&mut self, command: LoopCommand) {
+        let Some(loops) = &mut self.loop_lab else { return };
+        match command {
+            LoopCommand::ToggleLab => {
+                self.loop_lab = None;
+                self.viewer.notice = None;
+                if self.display().instrument == Instrument::Loop {
+                    self.viewer.display.instrument = Instrument::Motion;
+                }
+            }
+            LoopCommand::Select(place) => loops.select(place),
+            LoopCommand::ToggleOnStage(place) => loops.toggle(place),
+            LoopCommand::Trace(place) => loops.choose_trace(place),
+            LoopCommand::Slowness(slowness) => loops.set_slowness(slowness),
+            LoopCommand::Seek(now_ns) => {
+                loops.seek(now_ns);
+                self.running = false;
+            }
+        }
+    }
+
+    fn step_loops(&mut self, frames: i64) {
+        self.running = false;
+        if let Some(loops) = &mut self.loop_lab {
+            loops.step(frames);
+        }
+    }
+
+    pub(super) fn title_of_loops(&self, loops: &LoopLab) -> String {
+        let trace = loops.traces()[loops.trace()].name();
+        let paused = if self.running { "" } else { " (paused)" };
+        format!(
+            "Regatta - {} - loop lab: {} - {trace} - {} Hz{paused}",
+            self.scene_name(),
+            loops.selected_card().name,
+            loops.scene().tick_hz,
+        )
+    }
+}
+
+fn method_beside(loops: &LoopLab, step: usize) -> &'static Method {
+    let place = METHODS.iter().position(|method| method == loops.method()).unwrap_or(0);
+    &METHODS[(place + step) % METHODS.len()]
+}

@@ -1,0 +1,398 @@
+//! The loop lab: one body under one method in every game loop, over the same frames, in slow motion.
+//!
+//! Frames are few, so that all of them are made when something is chosen: going back and forth is looking them up.
+
+use std::sync::Arc;
+
+use super::lane::LaneBody;
+use super::lane_spec::LaneSpec;
+use super::pacing::{
+    FrameTrace, LoopRun, POLICIES, PacingReport, PolicyCard, RefreshRate, TRACES, TraceCard,
+};
+use super::scene::Scene;
+use crate::sim::Solver;
+use crate::sim::integrators::Method;
+
+mod words;
+
+pub use words::LoopVerdict;
+
+/// The policies on the stage at first: the raw loop, the usual remedy, and the one that also heals timer noise.
+const AT_FIRST: [&str; 3] = ["fixed", "fixed-linear", "whole-refresh"];
+/// The traces that come first: one that makes raw ticks flip between none and two, and a display for which they are too
+/// few.
+const TRACES_AT_FIRST: [&str; 2] = ["edge", "steady-144"];
+/// The most policies on the stage.
+pub const MOST_ON_STAGE: usize = 4;
+/// How many times slower than real time it can be played; a monitor adds its own judder to what is faster.
+pub const SLOWNESS: [u32; 6] = [1, 2, 4, 8, 16, 32];
+/// How slow it is at first.
+const SLOWNESS_AT_FIRST: u32 = 8;
+/// The longest run, in seconds of the display.
+const LONGEST_S: f64 = 20.0;
+/// The display of a trace that has none of its own.
+const DISPLAY: RefreshRate = RefreshRate::new(60, 1);
+
+/// A change of the loop lab.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoopCommand {
+    /// Opens it, or leaves it.
+    ToggleLab,
+    /// Selects the loop at this place of [`POLICIES`], and brings it on the stage.
+    Select(usize),
+    /// Takes the loop at this place off the stage, or brings it on.
+    ToggleOnStage(usize),
+    /// Chooses the trace at this place.
+    Trace(usize),
+    /// Plays this many times slower than real time.
+    Slowness(u32),
+    /// Goes to this moment of the display, in nanoseconds.
+    Seek(i64),
+}
+
+/// A body in every loop.
+pub struct LoopLab {
+    /// With one body and without a script.
+    scene: Arc<Scene>,
+    method: &'static Method,
+    /// The body at its start, for how it looks.
+    body: LaneBody,
+    traces: Vec<FrameTrace>,
+    trace: usize,
+    lanes: Vec<LoopLane>,
+    /// The range of the exact first coordinate.
+    range: [f64; 2],
+    on_stage: Vec<usize>,
+    selected: usize,
+    now_ns: i64,
+    end_ns: i64,
+    slowness: u32,
+}
+
+/// The body in one loop: all its frames.
+pub struct LoopLane {
+    card: &'static PolicyCard,
+    frames: Vec<LoopFrame>,
+    report: PacingReport,
+}
+
+/// A displayed frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoopFrame {
+    /// When it is displayed, in nanoseconds.
+    pub displayed_ns: i64,
+    /// The simulated moment that it shows, in milliseconds.
+    pub shown_ms: f64,
+    /// The steps made for it, with those for frames before that were not displayed.
+    pub ticks: u32,
+    /// The animation error in milliseconds; 0 for the first.
+    pub animation_error_ms: f64,
+    /// The coordinates of the body as it shows them.
+    pub q: Box<[f64]>,
+    /// The exact coordinates at the moment of display.
+    pub exact: Box<[f64]>,
+}
+
+impl LoopFrame {
+    /// How far the moment shown is behind the display, in milliseconds.
+    pub fn latency_ms(&self) -> f64 {
+        self.displayed_ns as f64 / 1e6 - self.shown_ms
+    }
+}
+
+impl LoopLane {
+    fn new(
+        scene: &Scene,
+        method: &'static Method,
+        card: &'static PolicyCard,
+        trace: &FrameTrace,
+    ) -> Self {
+        let mut frames: Vec<LoopFrame> = Vec::new();
+        let mut ticks = 0;
+        let until_ns = (scene.seconds.min(LONGEST_S) * 1e9) as i64;
+        let run = LoopRun::new(scene, LaneSpec::plain(method), card, trace);
+        let report = run.measure(until_ns, |run, record| {
+            ticks += record.steps.count;
+            let Some(displayed_ns) = record.frame.displayed_ns else { return };
+            frames.push(LoopFrame {
+                displayed_ns,
+                shown_ms: record.shown_ms,
+                ticks: std::mem::take(&mut ticks),
+                animation_error_ms: record.animation_error_ms.unwrap_or_default(),
+                q: run.lane().drawn(0).into(),
+                exact: run.exact(0).into(),
+            });
+        });
+        Self { card, frames, report }
+    }
+
+    /// Its policy.
+    pub fn card(&self) -> &'static PolicyCard {
+        self.card
+    }
+    /// The frames that are displayed, in order.
+    pub fn frames(&self) -> &[LoopFrame] {
+        &self.frames
+    }
+    /// What is seen over all frames.
+    pub fn report(&self) -> &PacingReport {
+        &self.report
+    }
+    /// The place of the frame that the display holds at `now_ns`.
+    pub fn frame_at(&self, now_ns: i64) -> Option<usize> {
+        self.frames.partition_point(|frame| frame.displayed_ns <= now_ns).checked_sub(1)
+    }
+}
+
+impl LoopLab {
+    /// The body at this place of a scene under a method, in all loops, at the start.
+    pub fn new(scene: &Scene, body: usize, method: &'static Method) -> Self {
+        let bodies = vec![scene.bodies[body].clone()];
+        let scene = Arc::new(Scene { bodies, script: Vec::new(), ..scene.clone() });
+        let mut cards: Vec<&TraceCard> = TRACES.iter().collect();
+        cards.sort_by_key(|card| {
+            let first = TRACES_AT_FIRST.iter().position(|id| *id == card.id);
+            first.unwrap_or(TRACES_AT_FIRST.len())
+        });
+        let places =
+            AT_FIRST.iter().filter_map(|id| POLICIES.iter().position(|card| card.id == *id));
+        let of_scene = &scene.bodies[0];
+        let mut lab = Self {
+            body: LaneBody::new(of_scene.kind, &of_scene.values, Solver::Method(method)),
+            scene: Arc::clone(&scene),
+            method,
+            traces: cards.into_iter().map(|card| card.trace(DISPLAY)).collect(),
+            trace: 0,
+            lanes: Vec::new(),
+            range: [0.0; 2],
+            selected: 0,
+            on_stage: places.collect(),
+            now_ns: 0,
+            end_ns: 0,
+            slowness: SLOWNESS_AT_FIRST,
+        };
+        lab.selected = lab.on_stage[0];
+        lab.make();
+        lab
+    }
+
+    /// Makes all frames again.
+    fn make(&mut self) {
+        let trace = &self.traces[self.trace];
+        let lane = |card| LoopLane::new(&self.scene, self.method, card, trace);
+        self.lanes = POLICIES.iter().map(lane).collect();
+        let ends = self.lanes.iter().filter_map(|lane| Some(lane.frames.last()?.displayed_ns));
+        self.end_ns = ends.max().unwrap_or_default();
+        self.now_ns = self.now_ns.min(self.end_ns);
+        let exact = self.lanes.iter().flat_map(|lane| &lane.frames).map(|frame| frame.exact[0]);
+        self.range = exact.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], q| {
+            [least.min(q), most.max(q)]
+        });
+    }
+
+    /// The scene, with the one body.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+    /// The method of the body.
+    pub fn method(&self) -> &'static Method {
+        self.method
+    }
+    /// The body at its start.
+    pub fn body(&self) -> &LaneBody {
+        &self.body
+    }
+    /// The least and the greatest value of the exact first coordinate.
+    pub fn range(&self) -> [f64; 2] {
+        self.range
+    }
+    /// The traces that can be chosen: the built-in ones, then those that were opened.
+    pub fn traces(&self) -> &[FrameTrace] {
+        &self.traces
+    }
+    /// The place of the chosen trace.
+    pub fn trace(&self) -> usize {
+        self.trace
+    }
+    /// The body in every loop, in the order of [`POLICIES`].
+    pub fn lanes(&self) -> &[LoopLane] {
+        &self.lanes
+    }
+    /// The places of the lanes on the stage, from top to bottom.
+    pub fn on_stage(&self) -> &[usize] {
+        &self.on_stage
+    }
+    /// The place of the selected lane.
+    pub fn selected(&self) -> usize {
+        self.selected
+    }
+    /// The moment of the display, in nanoseconds.
+    pub fn now_ns(&self) -> i64 {
+        self.now_ns
+    }
+    /// The last moment, in nanoseconds.
+    pub fn end_ns(&self) -> i64 {
+        self.end_ns
+    }
+    /// How many times slower than real time it is played.
+    pub fn slowness(&self) -> u32 {
+        self.slowness
+    }
+
+    /// Chooses the trace at this place, from its start.
+    pub fn choose_trace(&mut self, place: usize) {
+        self.trace = place.min(self.traces.len() - 1);
+        self.now_ns = 0;
+        self.make();
+    }
+
+    /// Adds a trace to choose from, if there is one.
+    pub(super) fn offer(&mut self, trace: Option<FrameTrace>) {
+        self.traces.extend(trace);
+    }
+
+    /// Adds traces, and chooses the first of them.
+    pub fn add_traces(&mut self, traces: Vec<FrameTrace>) {
+        let place = self.traces.len();
+        self.traces.extend(traces);
+        self.choose_trace(place);
+    }
+
+    /// Chooses the tick rate, in Hz.
+    pub fn set_tick_hz(&mut self, tick_hz: u32) {
+        self.scene = Arc::new(Scene { tick_hz, ..(*self.scene).clone() });
+        self.make();
+    }
+
+    /// Chooses the method.
+    pub fn set_method(&mut self, method: &'static Method) {
+        self.method = method;
+        self.make();
+    }
+
+    /// Sets how many times slower than real time it is played.
+    pub fn set_slowness(&mut self, slowness: u32) {
+        self.slowness = slowness.clamp(SLOWNESS[0], SLOWNESS[SLOWNESS.len() - 1]);
+    }
+
+    /// Selects the lane at this place, and brings it on the stage.
+    pub fn select(&mut self, place: usize) {
+        if place >= self.lanes.len() {
+            return;
+        }
+        self.selected = place;
+        if !self.on_stage.contains(&place) {
+            if self.on_stage.len() == MOST_ON_STAGE {
+                self.on_stage.remove(0);
+            }
+            self.on_stage.push(place);
+            self.on_stage.sort_unstable();
+        }
+    }
+
+    /// Takes the lane at this place off the stage, or brings it on; one stays.
+    pub fn toggle(&mut self, place: usize) {
+        match self.on_stage.iter().position(|&shown| shown == place) {
+            Some(_) if self.on_stage.len() == 1 => {}
+            Some(shown) => {
+                self.on_stage.remove(shown);
+                self.selected = self.on_stage[0];
+            }
+            None => self.select(place),
+        }
+    }
+
+    /// Goes on by `real_ns` nanoseconds of real time; at the end it begins again.
+    pub fn advance(&mut self, real_ns: i64) {
+        self.now_ns += real_ns.max(0) / i64::from(self.slowness);
+        if self.now_ns > self.end_ns {
+            self.now_ns = 0;
+        }
+    }
+
+    /// Goes to a moment of the display, in nanoseconds.
+    pub fn seek(&mut self, now_ns: i64) {
+        self.now_ns = now_ns.clamp(0, self.end_ns);
+    }
+
+    /// Goes by so many frames of the selected lane.
+    pub fn step(&mut self, frames: i64) {
+        let frames_of = &self.lanes[self.selected].frames;
+        let at = self.lanes[self.selected].frame_at(self.now_ns).unwrap_or_default() as i64;
+        let place = (at + frames).clamp(0, frames_of.len().max(1) as i64 - 1);
+        if let Some(frame) = frames_of.get(place as usize) {
+            self.now_ns = frame.displayed_ns;
+        }
+    }
+
+    /// The selected policy's card.
+    pub fn selected_card(&self) -> &'static PolicyCard {
+        self.lanes[self.selected].card
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::pacing::policy;
+    use crate::sim::integrators::method;
+
+    fn lab() -> LoopLab {
+        LoopLab::new(&Scene::built_in("spring").unwrap(), 0, method("rk4").unwrap())
+    }
+
+    #[test]
+    fn it_opens_where_raw_ticks_judder_and_whole_refreshes_do_not() {
+        let lab = lab();
+        assert_eq!(lab.traces()[lab.trace()].name(), "edge");
+        let error = |id: &str| {
+            let lane = lab.lanes().iter().find(|lane| lane.card().id == id).unwrap();
+            lane.report().animation_error_rms_ms.unwrap()
+        };
+        assert!((11.0..12.6).contains(&error("fixed")), "{}", error("fixed"));
+        assert!(error("whole-refresh") < 1e-6, "{}", error("whole-refresh"));
+        let on_stage = lab.on_stage().iter().map(|&place| lab.lanes()[place].card().id);
+        assert!(on_stage.eq(AT_FIRST));
+        assert_eq!(lab.selected_card(), policy("fixed").unwrap());
+    }
+
+    #[test]
+    fn a_display_holds_a_frame_until_the_next() {
+        let mut lab = lab();
+        lab.step(3);
+        let lane = &lab.lanes()[lab.selected()];
+        let at = lane.frame_at(lab.now_ns()).unwrap();
+        assert_eq!(at, 3);
+        assert_eq!(lane.frame_at(lane.frames()[4].displayed_ns - 1), Some(3));
+        assert_eq!(lane.frame_at(-1), None);
+        lab.step(-100);
+        assert_eq!(lab.now_ns(), 0);
+    }
+
+    #[test]
+    fn it_plays_slowly_and_begins_again_at_its_end() {
+        let mut lab = lab();
+        lab.advance(80_000_000);
+        assert_eq!(lab.now_ns(), 10_000_000);
+        lab.seek(i64::MAX);
+        assert_eq!(lab.now_ns(), lab.end_ns());
+        lab.advance(80_000_000);
+        assert_eq!(lab.now_ns(), 0);
+    }
+
+    #[test]
+    fn the_stage_holds_one_to_four_lanes_in_the_order_of_the_table() {
+        let mut lab = lab();
+        for place in [0, 1, 2, 99] {
+            lab.select(place);
+        }
+        assert_eq!(lab.on_stage().len(), MOST_ON_STAGE);
+        assert!(lab.on_stage().is_sorted() && lab.on_stage().contains(&lab.selected()));
+        for place in 0..POLICIES.len() {
+            if lab.on_stage().contains(&place) {
+                lab.toggle(place);
+            }
+        }
+        assert_eq!(lab.on_stage().len(), 1);
+    }
+}
