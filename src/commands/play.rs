@@ -8,7 +8,7 @@ use annotate_snippets::Renderer;
 use clap::Args;
 
 use super::error::{Cause, Error};
-use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName};
+use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
 use super::interrupt::Interrupted;
 use super::output::{AtomicOutput, Older, Place};
@@ -17,6 +17,7 @@ use super::recording::Recording;
 use super::schedule::{FPS, Schedule, frames_in};
 use super::terminal::tell;
 use super::{clip, scene_file, state_log};
+use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
 use crate::lab::{Lab, RecordingTooLong};
 use crate::view::Panels;
@@ -42,6 +43,11 @@ pub(super) struct PlayArgs {
     /// Race all methods of the scene at once
     #[arg(long)]
     race: bool,
+
+    /// Open the loop lab on this built-in trace, edge if none is named
+    #[arg(long = "loop", value_name = "TRACE", conflicts_with = "race")]
+    #[arg(num_args = 0..=1, default_missing_value = "edge", value_parser = known_trace)]
+    loop_trace: Option<&'static TraceCard>,
 
     /// Close at the tick nearest to this many simulated seconds [default: never]
     #[arg(long, value_name = "S", value_parser = experiment::seconds)]
@@ -109,6 +115,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         Some(opened) => opened,
         None => (args.experiment.load(lineup)?, args.experiment.clone()),
     };
+    let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let mut lab = experiment.lab();
     lab.set_motion(!args.reduced_motion);
     if let Some(mb) = args.rewind_mb {
