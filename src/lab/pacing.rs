@@ -13,6 +13,7 @@ mod policies;
 mod policy;
 mod time_base;
 mod trace;
+pub mod trace_file;
 
 pub(super) use accumulator::most_ticks;
 pub use accumulator::{Accumulator, Due};
