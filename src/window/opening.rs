@@ -3,7 +3,7 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::lab::pacing::read_traces;
+use crate::lab::pacing::trace_file;
 use crate::lab::{Command, Lab, SCENES, Scene};
 
 /// Reads a scene file and returns its scene and its text, or the error report that the command line would print.
@@ -44,7 +44,7 @@ fn open_trace(lab: &mut Lab, path: &Path) -> Result<(), String> {
     let bytes =
         std::fs::read(path).map_err(|error| format!("error: cannot read {shown}: {error}"))?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let traces = read_traces(&name, &String::from_utf8_lossy(&bytes));
+    let traces = trace_file::read(&name, &String::from_utf8_lossy(&bytes));
     lab.open_traces(traces.map_err(|error| format!("error: {shown}: {error}"))?);
     Ok(())
 }
