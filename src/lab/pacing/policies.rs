@@ -3,14 +3,22 @@
 use super::policy::PolicyCard;
 use crate::lab::interpolation::Interpolation;
 use fixed::Fixed;
+use hysteresis::Hysteresis;
 use lockstep::Lockstep;
+use median::Median;
 use semi_fixed::SemiFixed;
+use snapped::Snapped;
 use variable::Variable;
+use whole_refresh::WholeRefresh;
 
 mod fixed;
+mod hysteresis;
 mod lockstep;
+mod median;
 mod semi_fixed;
+mod snapped;
 mod variable;
+mod whole_refresh;
 
 pub use fixed::LONGEST_FRAME_MS;
 
@@ -118,10 +126,58 @@ pub static POLICIES: &[PolicyCard] = &[
         ..FIXED
     },
     PolicyCard {
+        id: "snapped",
+        name: "Snapped",
+        formula: "dt near m R becomes m R; fixed with the mean of the last 4; linear",
+        constants: "near is within 0.2 ms, m ≤ 8; a frame of more than 8 ticks counts as one; with more than 8 ticks owed all are dropped. What snapping adds or takes is not paid back",
+        odd_frames: "no time: the mean runs out in 3 frames; 10 s: counts as one tick, the rest dropped",
+        users: "T. Glaiel's games",
+        source: "T. Glaiel, \"How to make your game run at 60fps\", 2019",
+        drawing: Interpolation::Linear,
+        build: |base| Box::new(Snapped::new(base)),
+        ..FIXED
+    },
+    PolicyCard {
+        id: "whole-refresh",
+        name: "Whole refreshes",
+        formula: "n = max(1, ⌊(dt + debt) / R⌉), debt += dt − n R; fixed with n R; linear",
+        constants: "n = 0 once dt + debt ≤ −R/2, against a display that frames do not wait for; at most the ticks of 250 ms in a frame",
+        odd_frames: "no time: one refresh, then none; 10 s: the ticks of 250 ms, the rest dropped",
+        users: "Godot (delta smoothing, 3.4 and 4) and F. Force's engine, each in its own form",
+        source: "F. Force, \"Time Delta Smoothing\"; Godot's DeltaSmoother",
+        drawing: Interpolation::Linear,
+        build: |base| Box::new(WholeRefresh::new(base)),
+        ..FIXED
+    },
+    PolicyCard {
+        id: "hysteresis",
+        name: "Hysteresis",
+        formula: "fixed, but as many ticks as in the last 12 frames while −H/2 ≤ owed < 3H/2",
+        constants: "12 frames, half a tick; at most 8 ticks in a frame, the others are dropped",
+        odd_frames: "no time: at most one tick early, then none; 10 s: 8 ticks, the rest dropped",
+        users: "Godot (physics_jitter_fix = 0.5)",
+        source: "Godot's MainTimerSync",
+        build: |base| Box::new(Hysteresis::new(base)),
+        ..FIXED
+    },
+    PolicyCard {
+        id: "median",
+        name: "Median",
+        formula: "m = mean of the last 11 dt without the 2 longest and 2 shortest; e += (m − e) / 4; one step of e + debt / 16; debt += dt − step",
+        constants: "11, 2, 1/4 and 1/16 are ours",
+        odd_frames: "no time: steps run out within 10 frames; 10 s: a sixteenth of what is missing each frame, in long steps",
+        users: "BitSquid, now Autodesk Stingray, in its own form",
+        source: "BitSquid's blog, \"Time Step Smoothing\", 2010",
+        drawing: Interpolation::Raw,
+        has_fixed_tick: false,
+        snippets: &[],
+        build: |base| Box::new(Median::new(base)),
+    },
+    PolicyCard {
         id: "slow-down",
         name: "Slow down",
         formula: "fixed with at most one tick a frame; time lost is never caught up",
-        constants: "one tick a frame; the others are dropped",
+        constants: "one tick a frame; the others are dropped: on a 60 Hz display any timer noise costs a quarter of the speed",
         odd_frames: "no time: no tick; 10 s: one tick, the rest dropped",
         users: "Factorio (60 updates a second)",
         source: "Factorio Friday Facts",
