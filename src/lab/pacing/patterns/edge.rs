@@ -8,8 +8,9 @@ use crate::lab::pacing::trace::Pattern;
 /// The seed of the noise: one whose noise is near 0 in the mean, so that it adds no latency.
 pub(super) const SEED: u64 = 4;
 
-/// The most by which a frame begins early or late: what a sleeping thread is woken off by.
-const MOST_NS: i64 = 500_000;
+/// The most by which a frame begins early or late: what a sleeping thread is woken off by. Below half the shortest refresh,
+/// 1 ms, so that each frame begins after the one before.
+const MOST_NS: i64 = 499_999;
 
 /// Frame n begins at refresh n plus noise, the first without; it is displayed at refresh n, by design also where that is
 /// before it began, so that the mean latency is that of the loop alone.
@@ -30,9 +31,7 @@ impl Edge {
 impl Pattern for Edge {
     fn next(&mut self, _steps: u32) -> Frame {
         let at = self.refresh.refresh_ns(self.next);
-        // Below half a refresh, so that each frame begins after the one before.
-        let most = MOST_NS.min(self.refresh.refresh_ns(1) / 2 - 1);
-        let off = if self.next == 0 { 0 } else { self.noise.up_to(2 * most) - most };
+        let off = if self.next == 0 { 0 } else { self.noise.up_to(2 * MOST_NS) - MOST_NS };
         self.next += 1;
         Frame { began_ns: at + off, displayed_ns: Some(at) }
     }
