@@ -1,6 +1,6 @@
 //! The table of rules.
 
-use super::policy::PolicyCard;
+use super::policy::{PolicyCard, Snippet};
 use crate::lab::interpolation::Interpolation;
 use fixed::Fixed;
 use hysteresis::Hysteresis;
@@ -25,6 +25,16 @@ pub use fixed::LONGEST_FRAME_MS;
 /// The longest step of a clamped frame, in milliseconds, times three.
 const LONGEST_STEP_MS_3: i64 = 100;
 
+/// The loop with this id in each of these languages.
+macro_rules! snippets {
+    ($id:literal: $($language:literal $ending:literal),+) => {
+        &[$(Snippet {
+            language: $language,
+            source: include_str!(concat!("../../../assets/loops/", $id, ".", $ending)),
+        }),+]
+    };
+}
+
 /// A fixed tick drawn at the last one; the cards of the other ways of drawing it differ in that.
 const FIXED: PolicyCard = PolicyCard {
     id: "fixed",
@@ -36,7 +46,7 @@ const FIXED: PolicyCard = PolicyCard {
     source: "G. Fiedler, \"Fix Your Timestep!\", 2004",
     drawing: Interpolation::Raw,
     has_fixed_tick: true,
-    snippets: &[],
+    snippets: snippets!("fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
     build: |base| Box::new(Fixed::new(base)),
 };
 
@@ -52,7 +62,7 @@ pub static POLICIES: &[PolicyCard] = &[
         source: "LÖVE's love.run: update(dt)",
         drawing: Interpolation::Raw,
         has_fixed_tick: false,
-        snippets: &[],
+        snippets: snippets!("variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
         build: |_| Box::new(Variable { longest: None }),
     },
     PolicyCard {
@@ -65,7 +75,7 @@ pub static POLICIES: &[PolicyCard] = &[
         source: "Box2D's sample application",
         drawing: Interpolation::Raw,
         has_fixed_tick: true,
-        snippets: &[],
+        snippets: snippets!("lockstep": "rust" "rs"),
         build: |base| Box::new(Lockstep { tick: base.tick() }),
     },
     PolicyCard {
@@ -78,7 +88,7 @@ pub static POLICIES: &[PolicyCard] = &[
         source: "Unreal's MaxPhysicsDeltaTime",
         drawing: Interpolation::Raw,
         has_fixed_tick: false,
-        snippets: &[],
+        snippets: snippets!("clamped-variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
         build: |base| {
             Box::new(Variable {
                 longest: Some(base.nanoseconds(LONGEST_STEP_MS_3 * 1_000_000) / 3),
@@ -95,7 +105,7 @@ pub static POLICIES: &[PolicyCard] = &[
         source: "G. Fiedler, \"Fix Your Timestep!\", 2004; Unreal's physics substepping",
         drawing: Interpolation::Raw,
         has_fixed_tick: false,
-        snippets: &[],
+        snippets: snippets!("semi-fixed": "rust" "rs", "c++" "hpp", "c#" "cs"),
         build: |base| Box::new(SemiFixed { tick: base.tick() }),
     },
     FIXED,
@@ -105,6 +115,7 @@ pub static POLICIES: &[PolicyCard] = &[
         formula: "fixed; show q₀ + α (q₁ − q₀) of the last two ticks",
         users: "Unity, Godot and Avian as an option; Source shows its 15 ms ticks 0.1 s late",
         drawing: Interpolation::Linear,
+        snippets: snippets!("fixed-linear": "rust" "rs", "c++" "hpp", "c#" "cs"),
         ..FIXED
     },
     PolicyCard {
@@ -114,6 +125,7 @@ pub static POLICIES: &[PolicyCard] = &[
         users: "Avian as an option; this program's window by default",
         source: "Avian's TransformHermiteEasing",
         drawing: Interpolation::Hermite,
+        snippets: snippets!("fixed-hermite": "rust" "rs", "c++" "hpp"),
         ..FIXED
     },
     PolicyCard {
@@ -123,6 +135,7 @@ pub static POLICIES: &[PolicyCard] = &[
         users: "Unity and Avian as an option",
         source: "Unity's Rigidbody.interpolation = Extrapolate",
         drawing: Interpolation::Extrapolated,
+        snippets: snippets!("fixed-extrapolated": "rust" "rs", "c++" "hpp", "c#" "cs"),
         ..FIXED
     },
     PolicyCard {
@@ -134,6 +147,7 @@ pub static POLICIES: &[PolicyCard] = &[
         users: "T. Glaiel's games",
         source: "T. Glaiel, \"How to make your game run at 60fps\", 2019",
         drawing: Interpolation::Linear,
+        snippets: snippets!("snapped": "rust" "rs"),
         build: |base| Box::new(Snapped::new(base)),
         ..FIXED
     },
@@ -146,6 +160,7 @@ pub static POLICIES: &[PolicyCard] = &[
         users: "Godot (delta smoothing, 3.4 and 4) and F. Force's engine, each in its own form",
         source: "F. Force, \"Time Delta Smoothing\"; Godot's DeltaSmoother",
         drawing: Interpolation::Linear,
+        snippets: snippets!("whole-refresh": "rust" "rs", "c++" "hpp", "c#" "cs"),
         build: |base| Box::new(WholeRefresh::new(base)),
         ..FIXED
     },
@@ -157,6 +172,7 @@ pub static POLICIES: &[PolicyCard] = &[
         odd_frames: "no time: at most one tick early, then none; 10 s: 8 ticks, the rest dropped",
         users: "Godot (physics_jitter_fix = 0.5)",
         source: "Godot's MainTimerSync",
+        snippets: snippets!("hysteresis": "rust" "rs"),
         build: |base| Box::new(Hysteresis::new(base)),
         ..FIXED
     },
@@ -170,7 +186,7 @@ pub static POLICIES: &[PolicyCard] = &[
         source: "BitSquid's blog, \"Time Step Smoothing\", 2010",
         drawing: Interpolation::Raw,
         has_fixed_tick: false,
-        snippets: &[],
+        snippets: snippets!("median": "rust" "rs"),
         build: |base| Box::new(Median::new(base)),
     },
     PolicyCard {
@@ -181,6 +197,7 @@ pub static POLICIES: &[PolicyCard] = &[
         odd_frames: "no time: no tick; 10 s: one tick, the rest dropped",
         users: "Factorio (60 updates a second)",
         source: "Factorio Friday Facts",
+        snippets: snippets!("slow-down": "rust" "rs", "c++" "hpp"),
         build: |base| Box::new(Fixed::with_most_ticks(base, 1)),
         ..FIXED
     },
