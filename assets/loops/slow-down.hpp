@@ -19,10 +19,11 @@ public:
     // The ticks to make now. A clock that went back counts as no time.
     int frame(std::int64_t duration_ns) {
         owed += std::max<std::int64_t>(duration_ns, 0) * tick_hz;
-        const int due = static_cast<int>(owed / second_ns);
-        owed %= second_ns;
-        // The others are never caught up: the game slows down instead.
-        return std::min(due, 1);
+        const int due = owed >= second_ns ? 1 : 0;
+        // One tick is kept, so that timer noise costs nothing; the others are never caught up: the game slows down
+        // instead.
+        owed = std::min(owed - due * second_ns, second_ns);
+        return due;
     }
 
 private:

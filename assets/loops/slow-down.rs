@@ -28,9 +28,9 @@ impl GameLoop {
     pub fn frame(&mut self, duration_ns: i64) -> i64 {
         // A clock that went back counts as no time.
         self.owed += duration_ns.max(0) * self.tick_hz;
-        let due = self.owed / SECOND_NS;
-        self.owed %= SECOND_NS;
-        // The others are never caught up: the game slows down instead.
-        due.min(1)
+        let due = i64::from(self.owed >= SECOND_NS);
+        // One tick is kept, so that timer noise costs nothing; the others are never caught up: the game slows down instead.
+        self.owed = (self.owed - due * SECOND_NS).min(SECOND_NS);
+        due
     }
 }

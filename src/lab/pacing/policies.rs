@@ -7,6 +7,7 @@ use hysteresis::Hysteresis;
 use lockstep::Lockstep;
 use median::Median;
 use semi_fixed::SemiFixed;
+use slow_down::SlowDown;
 use snapped::Snapped;
 use variable::Variable;
 use whole_refresh::WholeRefresh;
@@ -16,6 +17,7 @@ mod hysteresis;
 mod lockstep;
 mod median;
 mod semi_fixed;
+mod slow_down;
 mod snapped;
 mod variable;
 mod whole_refresh;
@@ -193,12 +195,12 @@ pub static POLICIES: &[PolicyCard] = &[
         id: "slow-down",
         name: "Slow down",
         formula: "fixed with at most one tick a frame; time lost is never caught up",
-        constants: "one tick a frame; the others are dropped: on a 60 Hz display any timer noise costs a quarter of the speed",
-        odd_frames: "no time: no tick; 10 s: one tick, the rest dropped",
+        constants: "one tick a frame, and one more is kept; the others are dropped",
+        odd_frames: "no time: no tick, or the one kept; 10 s: one tick, one kept, the rest dropped",
         users: "Factorio (60 updates a second)",
         source: "Factorio Friday Facts",
         snippets: snippets!("slow-down": "rust" "rs", "c++" "hpp"),
-        build: |base| Box::new(Fixed::with_most_ticks(base, 1)),
+        build: |base| Box::new(SlowDown::new(base.tick())),
         ..FIXED
     },
 ];
