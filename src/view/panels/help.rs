@@ -48,7 +48,9 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
                 commands.push(Command::ToggleHelp);
             }
             let note = "The exact solution is white, black by day; each method has its own colour and dash.";
-            ui.add(egui::Label::new(RichText::new(note).color(ink(ui).dim)).truncate());
+            if columns == 2 {
+                ui.add(egui::Label::new(RichText::new(note).color(ink(ui).dim)).truncate());
+            }
         });
     });
 }
