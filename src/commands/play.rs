@@ -124,6 +124,9 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     if let Some(theme) = args.theme.map(Theme::from).or(preferences.theme) {
         lab.choose_theme(theme);
     }
+    if let Some(percent) = preferences.scale_percent {
+        lab.choose_scale(percent);
+    }
     // Before the run, which could otherwise turn out impossible to save.
     let record = args.record.as_deref().map(|path| {
         let older = if args.force { Older::Replace } else { Older::Keep };
@@ -147,7 +150,8 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
             let theme = lab.chosen_theme().filter(|_| args.theme.is_none());
             let scene = if is_own { preferences.scene } else { preferences::scene_of(&lab) };
             let (theme, size) = (theme.or(preferences.theme), size.or(preferences.size));
-            Preferences { scene, theme, size }.save();
+            let scale_percent = Some(lab.display().scale_percent);
+            Preferences { scene, theme, scale_percent, size }.save();
             (lab, interrupted)
         }
     };

@@ -2,9 +2,9 @@
 //! what the program can do.
 
 use crate::lab::analysis::Outcome;
-use crate::lab::command::{Command, KEYS};
+use crate::lab::command::Command;
 use crate::lab::instrument::Instrument;
-use crate::lab::key::Key;
+use crate::lab::key::{KEYS, Key};
 
 /// What a hint after the scene's own asks for.
 struct Lead {
