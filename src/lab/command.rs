@@ -144,6 +144,8 @@ pub enum Command {
     ToggleGuide,
     /// Opens this stop of the guide, from 0.
     GoToStop(usize),
+    /// Opens the next stop of the guide, if the guide is open and has one.
+    NextStop,
     /// Predicts this choice of the guide's stop, from 0.
     Predict(usize),
     /// Releases the held body, else closes the overlay, else the guide, else shrinks the
@@ -227,7 +229,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Ctrl Z",
-        about: "bring back the future that an action in the past discarded",
+        about: "bring back a future that an action in the past discarded, or else the run before a restart",
         keys: &[(Key::ControlSign('z'), Command::Undo)],
         repeats: false,
     },
@@ -361,6 +363,12 @@ pub static KEYS: &[Binding] = &[
         shown: "F2",
         about: "guide: the chapter in stops, each with a prediction and a key to press",
         keys: &[(Key::Function(2), Command::ToggleGuide)],
+        repeats: false,
+    },
+    Binding {
+        shown: "Page Down",
+        about: "next stop of the guide, while it is open",
+        keys: &[(Key::PageDown, Command::NextStop)],
         repeats: false,
     },
     Binding {

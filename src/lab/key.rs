@@ -23,6 +23,8 @@ pub enum Key {
     Right,
     /// Home.
     Home,
+    /// Page Down.
+    PageDown,
     /// Enter, or Return.
     Enter,
     /// Escape.
