@@ -15,6 +15,7 @@ mod grasp;
 mod hull;
 mod layout;
 mod look;
+mod loupe;
 mod mass;
 mod moment;
 mod outline;
