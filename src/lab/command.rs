@@ -149,6 +149,8 @@ pub enum Command {
     ToggleGuide,
     /// Opens this stop of the guide, from 0.
     GoToStop(usize),
+    /// Opens the next stop of the guide, if the guide is open and has one.
+    NextStop,
     /// Predicts this choice of the guide's stop, from 0.
     Predict(usize),
     /// Releases the held body, else closes the overlay, else the guide, else shrinks the

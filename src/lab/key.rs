@@ -27,6 +27,8 @@ pub enum Key {
     Right,
     /// Home.
     Home,
+    /// Page Down.
+    PageDown,
     /// Enter, or Return.
     Enter,
     /// Escape.
@@ -105,7 +107,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Ctrl Z",
-        about: "bring back the future that an action in the past discarded",
+        about: "bring back a future that an action in the past discarded, or else the run before a restart",
         keys: &[(Key::ControlSign('z'), Command::Undo)],
         repeats: false,
     },

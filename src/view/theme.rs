@@ -113,6 +113,16 @@ pub(super) fn strong_font(size: f32) -> FontId {
     FontId::new(size, strong())
 }
 
+/// Upright serif type of this size, for figures and words in formulas.
+pub(super) fn formula_font(size: f32) -> FontId {
+    FontId::new(size, FontFamily::Name("formula".into()))
+}
+
+/// Serif italic of this size, for quantities in formulas.
+pub(super) fn quantity_font(size: f32) -> FontId {
+    FontId::new(size, FontFamily::Name("quantity".into()))
+}
+
 /// The look of every widget. Set once for each context.
 pub(super) fn dress(context: &egui::Context) {
     context.set_fonts(fonts());
@@ -138,7 +148,8 @@ fn in_egui(theme: Theme) -> egui::Theme {
     }
 }
 
-/// Inter for all words and numbers, its figures of one width; what it lacks from egui's own fonts. Lines quoted from
+/// Inter for all words and numbers, its figures of one width; a serif for formulas; what they lack from Inter and from
+/// egui's own fonts. Lines quoted from
 /// a file keep a fixed width.
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
@@ -154,6 +165,15 @@ fn fonts() -> FontDefinitions {
         fonts.font_data.insert(name.into(), FontData::from_static(data).into());
         let faces = std::iter::once(name.to_owned()).chain(fallback.iter().cloned());
         fonts.families.insert(family, faces.collect());
+    }
+    let formula: [(&str, FontId, &'static [u8]); 2] = [
+        ("Formula", formula_font(TYPE), include_bytes!("../../assets/fonts/Formula-Regular.otf")),
+        ("Quantity", quantity_font(TYPE), include_bytes!("../../assets/fonts/Formula-Italic.otf")),
+    ];
+    for (name, font, data) in formula {
+        fonts.font_data.insert(name.into(), FontData::from_static(data).into());
+        let faces = [name, "Inter"].into_iter().map(str::to_owned).chain(fallback.iter().cloned());
+        fonts.families.insert(font.family, faces.collect());
     }
     fonts
 }
@@ -205,6 +225,7 @@ fn dress_style(style: &mut egui::Style, ink: &Ink) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::FORMULAS;
 
     #[test]
     fn type_grows_with_the_window_and_never_shrinks() {
@@ -244,6 +265,11 @@ mod tests {
                     let font = FontId::new(13.0, family.clone());
                     assert!(fonts.has_glyph(&font, sign), "{sign} in {family:?}");
                 }
+            }
+            let formulas = FORMULAS.iter().flat_map(|formula| formula.lines);
+            for sign in formulas.flat_map(|line| line.chars()) {
+                assert!(fonts.has_glyph(&formula_font(13.0), sign), "{sign} in formulas");
+                assert!(fonts.has_glyph(&quantity_font(13.0), sign), "{sign} in formulas");
             }
         });
     }

@@ -5,6 +5,7 @@ use crate::lab::action::Action;
 use crate::lab::command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 use crate::lab::display::DriverRequest;
 use crate::lab::equal_cost::equal_cost;
+use crate::lab::guide::STOPS;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::loop_lab::LoopCommand;
 use crate::lab::metrics::METRICS;
@@ -146,6 +147,12 @@ impl Lab {
             Command::Escape if self.viewer.display.help => self.viewer.display.help = false,
             Command::ToggleGuide => self.toggle_guide(),
             Command::GoToStop(place) => self.go_to_stop(place),
+            Command::NextStop => {
+                let next = self.viewer.tour.as_ref().map(|tour| tour.place() + 1);
+                next.filter(|place| *place < STOPS.len())
+                    .into_iter()
+                    .for_each(|place| self.go_to_stop(place));
+            }
             Command::Predict(choice) => {
                 self.viewer.tour.iter_mut().for_each(|tour| tour.predict(choice));
             }
