@@ -77,7 +77,7 @@ impl Lab {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::command::command_for;
+    use crate::lab::key::command_for;
     use crate::lab::{Key, Scene};
 
     #[test]
