@@ -302,6 +302,8 @@ fn a_body_off_the_stage_is_told_of_by_its_place_at_the_tick_however_it_is_drawn(
         // The scale bar is the last of them.
         metres.collect::<Vec<f64>>()[0]
     };
+    // Solo, the camera makes room for it.
+    lab.apply(Command::ToggleRace);
     for _ in 0..20 {
         lab.advance(250_000_000);
     }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::error::Error;
-use super::experiment::{self, ExperimentArgs, Lineup, ThemeName};
+use super::error::{Cause, Error};
+use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
 use super::frame_folder::names::MOST_FRAMES;
 use super::frame_folder::{Existing, FrameFolder};
 use super::movie::{self, MovieFormat};
@@ -15,6 +15,7 @@ use super::output::{AtomicOutput, Older, OutputError, Place};
 use super::recording::Recording;
 use super::schedule::{FPS, MOST_FPS, Schedule, frames_in};
 use super::{clip, sheet, state_log};
+use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
 use crate::view::Panels;
 
@@ -38,6 +39,11 @@ pub(super) struct CaptureArgs {
     /// Race all methods of the scene at once
     #[arg(long)]
     race: bool,
+
+    /// Show the loop lab over this built-in trace, edge if none is named, at an eighth of real time
+    #[arg(long = "loop", value_name = "TRACE", conflicts_with = "race")]
+    #[arg(num_args = 0..=1, default_missing_value = "edge", value_parser = known_trace)]
+    loop_trace: Option<&'static TraceCard>,
 
     /// The directory for frame-000000.png and so on, created if necessary; in formats other than png a
     /// file, or - for standard output
@@ -109,11 +115,26 @@ const SHEET_COLUMNS: u32 = 6;
 /// The longest side of a frame in pixels: what nearly every adapter can draw on.
 const LONGEST_SIDE_PX: u32 = 8192;
 
+/// A sheet has a row for each method, and the loop lab has one method.
+#[derive(Debug, thiserror::Error)]
+#[error("a sheet shows methods and not loops; give --loop another format")]
+struct LoopSheet;
+
+impl Cause for LoopSheet {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
+
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     let format = PictureFormat::of(&args.out, args.format)?;
     let everyone = args.race || format == PictureFormat::Sheet && args.experiment.names_no_method();
     let lineup = if everyone { Lineup::Everyone } else { Lineup::Solo };
+    if args.loop_trace.is_some() && format == PictureFormat::Sheet {
+        return Err(LoopSheet.into());
+    }
     let experiment = args.experiment.load(lineup)?;
+    let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let fps = args.fps.unwrap_or(format.or_sheet(FPS, SHEET_FPS));
     format.check(args.resume, fps)?;
     let frames = match (args.frames, args.seconds) {

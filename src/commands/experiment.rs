@@ -7,6 +7,7 @@ use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::scene_file::{self, SceneFileError};
+use crate::lab::pacing::{TRACES, TraceCard, trace_card};
 use crate::lab::palette::Theme;
 use crate::lab::{
     Clock, Command, Lab, LaneSpec, MOST_SECONDS, SCENES, Scene, lanes_that_race, nearest,
@@ -52,6 +53,8 @@ pub(super) struct Experiment {
     /// The first method named.
     pub(super) selected: Option<&'static Method>,
     pub(super) lineup: Lineup,
+    /// The trace on which the loop lab is open, if it is.
+    pub(super) loop_trace: Option<&'static TraceCard>,
 }
 
 impl ExperimentArgs {
@@ -63,7 +66,8 @@ impl ExperimentArgs {
             0 | 1 => lineup,
             _ => Lineup::Everyone,
         };
-        Ok(Experiment { scene, text, selected: self.methods.first().copied(), lineup })
+        let selected = self.methods.first().copied();
+        Ok(Experiment { scene, text, selected, lineup, loop_trace: None })
     }
 
     /// Reads a scene, and applies the other options to it if it is the one that was given.
@@ -147,8 +151,19 @@ impl Experiment {
             lab.apply(Command::Restart);
         }
         lab.begin_hints();
+        if let Some(card) = self.loop_trace {
+            lab.open_loop_lab_on(card.id);
+        }
         lab
     }
+}
+
+/// The built-in trace of this id, for the command line's parser.
+pub(super) fn known_trace(id: &str) -> Result<&'static TraceCard, String> {
+    trace_card(id).ok_or_else(|| match nearest(id, TRACES.iter().map(|card| (card.id, card.id))) {
+        Some(id) => format!("no such trace; did you mean {id}? `regatta list traces` names all"),
+        None => "no such trace. `regatta list traces` names all".into(),
+    })
 }
 
 /// A theme on the command line.

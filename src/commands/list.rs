@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use super::error::Error;
 use super::output::print;
 use super::output::table::{self, Column, TableFormat};
+use crate::lab::pacing::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use crate::lab::{Binding, KEYS, METRICS, Metric, SCENES, Scale, Scene};
 use crate::sim::bodies::{BODIES, Coordinate, Kind, Parameter};
 use crate::sim::integrators::{METHODS, Method};
@@ -16,12 +17,12 @@ Examples:
   regatta list bodies                  the tables and keys of a scene file
   regatta list methods --format json   with everything on a method's card";
 
-/// List the scenes, methods, bodies, metrics or keys
+/// List the scenes, methods, bodies, metrics, policies, traces or keys
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct ListArgs {
     /// What to list
-    #[arg(value_name = "scenes|methods|bodies|metrics|keys")]
+    #[arg(value_name = "scenes|methods|bodies|metrics|policies|traces|keys")]
     what: Listing,
 
     /// The format: text or json
@@ -39,6 +40,10 @@ enum Listing {
     Bodies,
     /// What `trace --metrics` writes
     Metrics,
+    /// The game loops, for `loop --policy`
+    Policies,
+    /// The frame traces, for `loop --trace`
+    Traces,
     /// The keys of the window
     Keys,
 }
@@ -54,6 +59,8 @@ pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
         Listing::Bodies if args.format == TableFormat::Text => bodies_with_keys(),
         Listing::Bodies => write(BODY, BODIES, args.format),
         Listing::Metrics => write(METRIC, METRICS, args.format),
+        Listing::Policies => write(POLICY, POLICIES, args.format),
+        Listing::Traces => write(TRACE, TRACES, args.format),
         Listing::Keys => write(KEY, KEYS, args.format),
     };
     Ok(print(&listing)?)
@@ -179,6 +186,33 @@ const METRIC: &[Column<Metric>] = &[
         },
     },
     Column { key: "about", heading: Some("ABOUT"), value: |metric| json!(metric.about) },
+];
+
+const POLICY: &[Column<PolicyCard>] = &[
+    Column { key: "id", heading: Some("ID"), value: |policy| json!(policy.id) },
+    Column { key: "name", heading: None, value: |policy| json!(policy.name) },
+    Column { key: "formula", heading: Some("RULE"), value: |policy| json!(policy.formula) },
+    Column { key: "constants", heading: None, value: |policy| json!(policy.constants) },
+    Column { key: "odd_frames", heading: None, value: |policy| json!(policy.odd_frames) },
+    Column { key: "drawing", heading: Some("DRAWING"), value: |p| json!(p.drawing.name()) },
+    Column { key: "has_fixed_tick", heading: Some("FIXED"), value: |p| json!(p.has_fixed_tick) },
+    Column { key: "users", heading: None, value: |policy| json!(policy.users) },
+    Column { key: "source", heading: None, value: |policy| json!(policy.source) },
+    Column {
+        key: "languages",
+        heading: None,
+        value: |policy| policy.snippets.iter().map(|snippet| snippet.language).collect(),
+    },
+];
+
+const TRACE: &[Column<TraceCard>] = &[
+    Column { key: "id", heading: Some("ID"), value: |trace| json!(trace.id) },
+    Column {
+        key: "display_hz",
+        heading: Some("DISPLAY"),
+        value: |trace| json!(trace.refresh.map(RefreshRate::hz)),
+    },
+    Column { key: "about", heading: Some("ABOUT"), value: |trace| json!(trace.about) },
 ];
 
 const KEY: &[Column<Binding>] = &[

@@ -13,7 +13,7 @@
 //!     wrote it, stands for the scene's opening method.
 //!   - `tick_hz` at the start, `frames` asked for, `fps`, `size` in pixels, `scale` in pixels a point,
 //!     whether there are `panels`, whether there is `motion`, the `theme`
-//!     where it is `light`, and `mark_every`, in ticks.
+//!     where it is `light`, the trace of the `loop` lab where that is shown, and `mark_every`, in ticks.
 //! - `settings_hash`: the hash of `settings` as JSON without spaces.
 //! - `adapter`: the graphics adapter: `name`, `driver`, `driver_info`, `backend`, `kind`.
 //! - `complete`: `false` if the capture was interrupted.
@@ -67,6 +67,9 @@ pub struct Settings {
     pub scene: SceneText,
     pub lanes: Vec<LaneEntry>,
     pub race: bool,
+    /// The trace on which the loop lab is shown.
+    #[serde(default, rename = "loop", skip_serializing_if = "Option::is_none")]
+    pub loop_trace: Option<String>,
     pub selected: Option<String>,
     pub tick_hz: u32,
     pub frames: u32,

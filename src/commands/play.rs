@@ -8,7 +8,7 @@ use annotate_snippets::Renderer;
 use clap::Args;
 
 use super::error::{Cause, Error};
-use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName};
+use super::experiment::{self, Experiment, ExperimentArgs, Lineup, ThemeName, known_trace};
 use super::frame_folder::FrameFolder;
 use super::interrupt::Interrupted;
 use super::output::{AtomicOutput, Older, Place};
@@ -17,6 +17,7 @@ use super::recording::Recording;
 use super::schedule::{FPS, Schedule, frames_in};
 use super::terminal::tell;
 use super::{clip, scene_file, state_log};
+use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
 use crate::lab::{Lab, RecordingTooLong};
 use crate::view::Panels;
@@ -42,6 +43,11 @@ pub(super) struct PlayArgs {
     /// Race all methods of the scene at once
     #[arg(long)]
     race: bool,
+
+    /// Open the loop lab on this built-in trace, edge if none is named
+    #[arg(long = "loop", value_name = "TRACE", conflicts_with = "race")]
+    #[arg(num_args = 0..=1, default_missing_value = "edge", value_parser = known_trace)]
+    loop_trace: Option<&'static TraceCard>,
 
     /// Close at the tick nearest to this many simulated seconds [default: never]
     #[arg(long, value_name = "S", value_parser = experiment::seconds)]
@@ -109,6 +115,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         Some(opened) => opened,
         None => (args.experiment.load(lineup)?, args.experiment.clone()),
     };
+    let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let mut lab = experiment.lab();
     lab.set_motion(!args.reduced_motion);
     if let Some(mb) = args.rewind_mb {
@@ -116,6 +123,9 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     }
     if let Some(theme) = args.theme.map(Theme::from).or(preferences.theme) {
         lab.choose_theme(theme);
+    }
+    if let Some(percent) = preferences.scale_percent {
+        lab.choose_scale(percent);
     }
     // Before the run, which could otherwise turn out impossible to save.
     let record = args.record.as_deref().map(|path| {
@@ -140,7 +150,8 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
             let theme = lab.chosen_theme().filter(|_| args.theme.is_none());
             let scene = if is_own { preferences.scene } else { preferences::scene_of(&lab) };
             let (theme, size) = (theme.or(preferences.theme), size.or(preferences.size));
-            Preferences { scene, theme, size }.save();
+            let scale_percent = Some(lab.display().scale_percent);
+            Preferences { scene, theme, scale_percent, size }.save();
             (lab, interrupted)
         }
     };

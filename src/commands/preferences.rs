@@ -1,4 +1,4 @@
-//! What the window remembers from one run to the next: the scene, the theme and the window's size.
+//! What the window remembers from one run to the next: the scene, the theme, the size of type and that of the window.
 //!
 //! They are in `window.toml` in the folder that the system has for a program's settings, under `XDG_CONFIG_HOME` on
 //! Linux. A file that cannot be understood is ignored, with a line on standard error.
@@ -9,8 +9,8 @@ use directories::ProjectDirs;
 use toml::de::{DeTable, DeValue};
 
 use super::terminal::tell;
-use crate::lab::Lab;
 use crate::lab::palette::Theme;
+use crate::lab::{Lab, SCALE_LADDER};
 
 /// The name of the file.
 const FILE_NAME: &str = "window.toml";
@@ -22,6 +22,8 @@ pub(super) struct Preferences {
     pub(super) scene: Option<PathBuf>,
     /// The theme that a person has chosen.
     pub(super) theme: Option<Theme>,
+    /// The size of type and panels in percent of the usual one.
+    pub(super) scale_percent: Option<u32>,
     /// The size of the window in points.
     pub(super) size: Option<[u32; 2]>,
 }
@@ -70,6 +72,14 @@ impl Preferences {
                         _ => return Err(wrong()),
                     });
                 }
+                ("scale_percent", DeValue::Integer(percent)) => {
+                    let percent: u32 = percent.as_str().parse().map_err(|_| wrong())?;
+                    let [least, .., most] = SCALE_LADDER;
+                    if !(least..=most).contains(&percent) {
+                        return Err(wrong());
+                    }
+                    preferences.scale_percent = Some(percent);
+                }
                 ("width" | "height", DeValue::Integer(points)) => {
                     let points: u32 = points.as_str().parse().map_err(|_| wrong())?;
                     if !(100..=20_000).contains(&points) {
@@ -78,7 +88,9 @@ impl Preferences {
                     let size = preferences.size.get_or_insert([1280, 720]);
                     size[usize::from(key == "height")] = points;
                 }
-                ("scene" | "theme" | "width" | "height", _) => return Err(wrong()),
+                ("scene" | "theme" | "scale_percent" | "width" | "height", _) => {
+                    return Err(wrong());
+                }
                 // Of a newer program.
                 _ => {}
             }
@@ -94,6 +106,7 @@ impl Preferences {
         [
             scene.map(|scene| format!("scene = '{scene}'\n")),
             theme.map(|theme| format!("theme = '{theme}'\n")),
+            self.scale_percent.map(|percent| format!("scale_percent = {percent}\n")),
             self.size.map(|[width, height]| format!("width = {width}\nheight = {height}\n")),
         ]
         .into_iter()
@@ -126,6 +139,7 @@ mod tests {
             Preferences {
                 scene: Some("C:\\a \"b\"\\c.toml".into()),
                 theme: Some(Theme::Light),
+                scale_percent: Some(125),
                 size: Some([1920, 1080]),
             },
         ] {
@@ -139,12 +153,14 @@ mod tests {
             ("theme = 'blue'", "its theme cannot be understood"),
             ("scene = 5", "its scene cannot be understood"),
             ("width = 99999999999", "its width cannot be understood"),
+            ("scale_percent = 0", "its scale_percent cannot be understood"),
+            ("scale_percent = 1.5", "its scale_percent cannot be understood"),
             ("height = 0", "its height cannot be understood"),
         ] {
             assert_eq!(Preferences::parse(text), Err(why.into()), "{text}");
         }
         assert!(Preferences::parse("scene = ").is_err());
         let known = Preferences { theme: Some(Theme::Dark), ..Preferences::default() };
-        assert_eq!(Preferences::parse("theme = 'dark'\nscale = 2"), Ok(known));
+        assert_eq!(Preferences::parse("theme = 'dark'\nvolume = 2"), Ok(known));
     }
 }

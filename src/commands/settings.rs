@@ -1,6 +1,6 @@
 //! Converts an experiment and a recording to the settings of a manifest, and back.
 
-use super::experiment::{Experiment, Lineup};
+use super::experiment::{Experiment, Lineup, known_trace};
 use super::fingerprint::fingerprint;
 use super::frame_folder::names::{MOST_FRAMES, frame_name};
 use super::manifest::{FrameEntry, LaneEntry, Manifest, SceneText, Settings};
@@ -30,6 +30,7 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
         },
         lanes: scene.lanes.iter().map(lane).collect(),
         race: experiment.lineup == Lineup::Everyone,
+        loop_trace: experiment.loop_trace.map(|card| card.id.to_owned()),
         selected: Some(experiment.opening_method().id.to_owned()),
         tick_hz: scene.tick_hz,
         frames: recording.schedule.frames,
@@ -90,6 +91,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         text: text.clone(),
         selected: settings.selected.as_deref().map(known).transpose()?,
         lineup: if settings.race { Lineup::Everyone } else { Lineup::Solo },
+        loop_trace: settings.loop_trace.as_deref().map(known_trace).transpose()?,
     };
     let recording = Recording {
         schedule: Schedule { frames: settings.frames, fps: settings.fps },

@@ -50,7 +50,13 @@ pub(super) fn draw(
         let mut scene = experiment.scene.clone();
         scene.lanes = vec![lane];
         let text = experiment.text.clone();
-        let alone = Experiment { scene, text, selected: Some(lane.method), lineup: Lineup::Solo };
+        let alone = Experiment {
+            scene,
+            text,
+            selected: Some(lane.method),
+            lineup: Lineup::Solo,
+            loop_trace: None,
+        };
         let mut lab = recording.lab(&alone);
         for column in 0..columns {
             if interrupted.load(Ordering::Relaxed) {

@@ -9,9 +9,8 @@ use clap::builder::{PossibleValue, TypedValueParser};
 
 use super::error::Cause;
 use crate::lab::nearest;
-use crate::lab::pacing::{
-    FrameTrace, RefreshRate, TRACES, TraceFileError, read_traces, steady_trace, trace_card,
-};
+use crate::lab::pacing::trace_file::{self, TraceFileError};
+use crate::lab::pacing::{FrameTrace, RefreshRate, TRACES, steady_trace, trace_card};
 
 /// The refresh rate of a trace that any display will do for.
 const USUAL: RefreshRate = RefreshRate::new(60, 1);
@@ -97,7 +96,7 @@ fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, T
         _ => TraceError::Unreadable { path: path.into(), source },
     })?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let traces = read_traces(&name, &String::from_utf8_lossy(&bytes))
+    let traces = trace_file::read(&name, &String::from_utf8_lossy(&bytes))
         .map_err(|source| TraceError::Invalid { path: path.into(), source })?;
     Ok(match display {
         Some(display) => traces.into_iter().map(|trace| trace.on(display)).collect(),

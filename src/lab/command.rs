@@ -1,12 +1,8 @@
-//! All commands of a person, and their keys.
-//!
-//! Keyboard, panels, scene scripts and tests all make the same [`Command`]s; [`KEYS`] is the one table
-//! from which the window, the help overlay and `regatta list keys` are made.
+//! All commands of a person. Keyboard, panels, scene scripts and tests all make the same [`Command`]s.
 
 use super::action::Action;
 use super::held::HeldBody;
 use super::instrument::Instrument;
-use super::key::Key;
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopCommand;
 use super::zoom_pan::ZoomPan;
@@ -99,6 +95,12 @@ pub enum Command {
     ToggleArrangement,
     /// The dark theme or the light one.
     ToggleTheme,
+    /// The next larger size of type and panels of [`SCALE_LADDER`].
+    ScaleUp,
+    /// The next smaller size of type and panels of [`SCALE_LADDER`].
+    ScaleDown,
+    /// The usual size of type and panels.
+    UsualScale,
     /// Shows this instrument.
     Instrument(Instrument),
     /// Shows this parameter of the displayed body on the stability map, by its place.
@@ -147,6 +149,8 @@ pub enum Command {
     ToggleGuide,
     /// Opens this stop of the guide, from 0.
     GoToStop(usize),
+    /// Opens the next stop of the guide, if the guide is open and has one.
+    NextStop,
     /// Predicts this choice of the guide's stop, from 0.
     Predict(usize),
     /// Releases the held body, else closes the overlay, else the guide, else shrinks the
@@ -160,240 +164,9 @@ pub const TICK_LADDER: [u32; 13] = [2, 5, 10, 15, 20, 30, 49, 50, 60, 100, 120, 
 /// The speeds of the keys `-` and `=`, in percent of real time.
 pub const SPEED_LADDER: [u32; 6] = [25, 50, 100, 200, 400, 1600];
 
-/// One line of the key table.
-#[derive(Debug)]
-pub struct Binding {
-    /// As the help shows it.
-    pub shown: &'static str,
-    /// What it does, for people.
-    pub about: &'static str,
-    /// The keys, each with what it does.
-    pub keys: &'static [(Key, Command)],
-    /// Whether holding the key repeats it.
-    pub repeats: bool,
-}
+/// The sizes of type and panels of the keys `Ctrl +` and `Ctrl −`, in percent of the usual one: type is legible from the
+/// smallest on, and the panels fit a screen of 1920 × 1080 up to the largest.
+pub const SCALE_LADDER: [u32; 8] = [75, 90, 100, 110, 125, 150, 175, 200];
 
-/// Every key.
-pub static KEYS: &[Binding] = &[
-    Binding {
-        shown: "1 … 9, 0",
-        about: "solo: switch the bodies to that method, in flight; race: select that lane",
-        keys: &[
-            (Key::Digit(1), Command::Pick(0)),
-            (Key::Digit(2), Command::Pick(1)),
-            (Key::Digit(3), Command::Pick(2)),
-            (Key::Digit(4), Command::Pick(3)),
-            (Key::Digit(5), Command::Pick(4)),
-            (Key::Digit(6), Command::Pick(5)),
-            (Key::Digit(7), Command::Pick(6)),
-            (Key::Digit(8), Command::Pick(7)),
-            (Key::Digit(9), Command::Pick(8)),
-            (Key::Digit(0), Command::Pick(9)),
-        ],
-        repeats: false,
-    },
-    Binding {
-        shown: "M, Shift M",
-        about: "next, previous method",
-        keys: &[
-            (Key::Sign('m'), Command::NextMethod),
-            (Key::ShiftSign('m'), Command::PreviousMethod),
-        ],
-        repeats: false,
-    },
-    Binding {
-        shown: "C",
-        about: "solo / race of all methods",
-        keys: &[(Key::Sign('c'), Command::ToggleRace)],
-        repeats: false,
-    },
-    Binding {
-        shown: "Space",
-        about: "run / pause",
-        keys: &[(Key::Space, Command::TogglePause)],
-        repeats: false,
-    },
-    Binding {
-        shown: ", .",
-        about: "one tick back, forward",
-        keys: &[(Key::Sign(','), Command::TickBack), (Key::Sign('.'), Command::TickForward)],
-        repeats: true,
-    },
-    Binding {
-        shown: "Shift , .",
-        about: "one second back, forward",
-        keys: &[
-            (Key::ShiftSign(','), Command::SecondBack),
-            (Key::ShiftSign('.'), Command::SecondForward),
-        ],
-        repeats: true,
-    },
-    Binding {
-        shown: "Ctrl Z",
-        about: "bring back the future that an action in the past discarded",
-        keys: &[(Key::ControlSign('z'), Command::Undo)],
-        repeats: false,
-    },
-    Binding {
-        shown: "Home",
-        about: "restart",
-        keys: &[(Key::Home, Command::Restart)],
-        repeats: false,
-    },
-    Binding {
-        shown: "[ ]",
-        about: "tick rate down, up",
-        keys: &[(Key::Sign('['), Command::TickRateDown), (Key::Sign(']'), Command::TickRateUp)],
-        repeats: true,
-    },
-    Binding {
-        shown: "- =",
-        about: "speed down, up: ¼× to 16×",
-        keys: &[(Key::Sign('-'), Command::SpeedDown), (Key::Sign('='), Command::SpeedUp)],
-        repeats: true,
-    },
-    Binding {
-        shown: "↑ ↓",
-        about: "throttle (ship, helm)",
-        keys: &[(Key::Up, Command::ThrottleUp), (Key::Down, Command::ThrottleDown)],
-        repeats: true,
-    },
-    Binding {
-        shown: "← →",
-        about: "rudder (helm)",
-        keys: &[(Key::Left, Command::RudderLeft), (Key::Right, Command::RudderRight)],
-        repeats: true,
-    },
-    Binding {
-        shown: "K",
-        about: "kick: an impulse at the next tick",
-        keys: &[(Key::Sign('k'), Command::Kick(1.0))],
-        repeats: false,
-    },
-    Binding {
-        shown: "N, B",
-        about: "next, previous scene",
-        keys: &[(Key::Sign('n'), Command::NextScene), (Key::Sign('b'), Command::PreviousScene)],
-        repeats: false,
-    },
-    Binding {
-        shown: "O",
-        about: "open a scene file; or drop one onto the window",
-        keys: &[(Key::Sign('o'), Command::AskForPath)],
-        repeats: false,
-    },
-    Binding {
-        shown: "G",
-        about: "exact ghost on / off",
-        keys: &[(Key::Sign('g'), Command::ToggleGhost)],
-        repeats: false,
-    },
-    Binding {
-        shown: "I",
-        about: "drawing between ticks: raw / linear / Hermite / extrapolated",
-        keys: &[(Key::Sign('i'), Command::NextInterpolation)],
-        repeats: false,
-    },
-    Binding {
-        shown: "L",
-        about: "loop lab: one motion under every game loop",
-        keys: &[(Key::Sign('l'), Command::Loop(LoopCommand::ToggleLab))],
-        repeats: false,
-    },
-    Binding {
-        shown: "V",
-        about: "race: lanes over each other / side by side",
-        keys: &[(Key::Sign('v'), Command::ToggleArrangement)],
-        repeats: false,
-    },
-    Binding {
-        shown: "F3",
-        about: "light / dark theme",
-        keys: &[(Key::Function(3), Command::ToggleTheme)],
-        repeats: false,
-    },
-    Binding {
-        shown: "T, Shift T",
-        about: "next, previous instrument",
-        keys: &[
-            (Key::Sign('t'), Command::NextInstrument),
-            (Key::ShiftSign('t'), Command::PreviousInstrument),
-        ],
-        repeats: false,
-    },
-    Binding {
-        shown: "Enter",
-        about: "enlarge the instrument over the stage",
-        keys: &[(Key::Enter, Command::ToggleEnlarged)],
-        repeats: false,
-    },
-    Binding {
-        shown: "Ctrl C, Ctrl E",
-        about: "copy the instrument's values; save it as PNG, SVG and CSV",
-        keys: &[
-            (Key::ControlSign('c'), Command::CopyInstrument),
-            (Key::ControlSign('e'), Command::ExportInstrument),
-        ],
-        repeats: false,
-    },
-    Binding {
-        shown: "E",
-        about: "inspector: parameters, methods and rates, edited while it runs",
-        keys: &[(Key::Sign('e'), Command::ToggleInspector)],
-        repeats: false,
-    },
-    Binding {
-        shown: "P, F12",
-        about: "screenshot; the file's name is shown",
-        keys: &[(Key::Sign('p'), Command::Screenshot), (Key::Function(12), Command::Screenshot)],
-        repeats: false,
-    },
-    Binding {
-        shown: "F5, Ctrl S",
-        about: "save the run as a scene file; its name is shown",
-        keys: &[(Key::Function(5), Command::Record), (Key::ControlSign('s'), Command::Record)],
-        repeats: false,
-    },
-    Binding {
-        shown: "X",
-        about: "equal cost of all lanes on / off: cheap lanes get more substeps",
-        keys: &[(Key::Sign('x'), Command::ToggleEqualCost)],
-        repeats: false,
-    },
-    Binding {
-        shown: "F11",
-        about: "full screen",
-        keys: &[(Key::Function(11), Command::ToggleFullScreen)],
-        repeats: false,
-    },
-    Binding {
-        shown: "F2",
-        about: "guide: the chapter in stops, each with a prediction and a key to press",
-        keys: &[(Key::Function(2), Command::ToggleGuide)],
-        repeats: false,
-    },
-    Binding {
-        shown: "H, F1, ?",
-        about: "help",
-        keys: &[
-            (Key::Sign('h'), Command::ToggleHelp),
-            (Key::Function(1), Command::ToggleHelp),
-            (Key::Sign('?'), Command::ToggleHelp),
-        ],
-        repeats: false,
-    },
-    Binding {
-        shown: "Esc",
-        about: "let go of a body, close the overlay, the guide, the instrument, the inspector, or quit",
-        keys: &[(Key::Escape, Command::Escape)],
-        repeats: false,
-    },
-];
-
-/// What `key` does, if anything.
-pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
-    KEYS.iter().find_map(|binding| {
-        let (_, command) = binding.keys.iter().find(|(bound, _)| *bound == key)?;
-        Some((command.clone(), binding))
-    })
-}
+/// The size of type and panels that nobody chose, in percent.
+pub const USUAL_SCALE_PERCENT: u32 = 100;

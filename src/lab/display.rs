@@ -36,6 +36,8 @@ pub struct Display {
     pub arrangement: Arrangement,
     /// A dark or a light chart.
     pub theme: Theme,
+    /// The size of type and panels in percent of the usual one, as a person chose it.
+    pub scale_percent: u32,
     /// Whether the help overlay is open.
     pub help: bool,
     /// Whether the inspector is open.

@@ -11,7 +11,7 @@ use super::race::{Mode, Race};
 mod hints;
 mod stops;
 
-pub(super) use hints::Hints;
+pub(super) use hints::{Hints, suits_race};
 pub use stops::STOPS;
 
 /// A stop of the guide.

@@ -1,4 +1,8 @@
-//! The keys that commands are bound to.
+//! The keys that commands are bound to: [`KEYS`] is the one table from which the window, the help overlay and
+//! `regatta list keys` are made.
+
+use super::command::Command;
+use super::loop_lab::LoopCommand;
 
 /// A key as this layer knows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,10 +27,262 @@ pub enum Key {
     Right,
     /// Home.
     Home,
+    /// Page Down.
+    PageDown,
     /// Enter, or Return.
     Enter,
     /// Escape.
     Escape,
     /// A function key.
     Function(u8),
+}
+
+/// One line of the key table.
+#[derive(Debug)]
+pub struct Binding {
+    /// As the help shows it.
+    pub shown: &'static str,
+    /// What it does, for people.
+    pub about: &'static str,
+    /// The keys, each with what it does.
+    pub keys: &'static [(Key, Command)],
+    /// Whether holding the key repeats it.
+    pub repeats: bool,
+}
+
+/// Every key.
+pub static KEYS: &[Binding] = &[
+    Binding {
+        shown: "1 … 9, 0",
+        about: "solo: switch the bodies to that method, in flight; race: select that lane",
+        keys: &[
+            (Key::Digit(1), Command::Pick(0)),
+            (Key::Digit(2), Command::Pick(1)),
+            (Key::Digit(3), Command::Pick(2)),
+            (Key::Digit(4), Command::Pick(3)),
+            (Key::Digit(5), Command::Pick(4)),
+            (Key::Digit(6), Command::Pick(5)),
+            (Key::Digit(7), Command::Pick(6)),
+            (Key::Digit(8), Command::Pick(7)),
+            (Key::Digit(9), Command::Pick(8)),
+            (Key::Digit(0), Command::Pick(9)),
+        ],
+        repeats: false,
+    },
+    Binding {
+        shown: "M, Shift M",
+        about: "next, previous method",
+        keys: &[
+            (Key::Sign('m'), Command::NextMethod),
+            (Key::ShiftSign('m'), Command::PreviousMethod),
+        ],
+        repeats: false,
+    },
+    Binding {
+        shown: "C",
+        about: "solo / race of all methods",
+        keys: &[(Key::Sign('c'), Command::ToggleRace)],
+        repeats: false,
+    },
+    Binding {
+        shown: "Space",
+        about: "run / pause",
+        keys: &[(Key::Space, Command::TogglePause)],
+        repeats: false,
+    },
+    Binding {
+        shown: ", .",
+        about: "one tick back, forward",
+        keys: &[(Key::Sign(','), Command::TickBack), (Key::Sign('.'), Command::TickForward)],
+        repeats: true,
+    },
+    Binding {
+        shown: "Shift , .",
+        about: "one second back, forward",
+        keys: &[
+            (Key::ShiftSign(','), Command::SecondBack),
+            (Key::ShiftSign('.'), Command::SecondForward),
+        ],
+        repeats: true,
+    },
+    Binding {
+        shown: "Ctrl Z",
+        about: "bring back a future that an action in the past discarded, or else the run before a restart",
+        keys: &[(Key::ControlSign('z'), Command::Undo)],
+        repeats: false,
+    },
+    Binding {
+        shown: "Home",
+        about: "restart",
+        keys: &[(Key::Home, Command::Restart)],
+        repeats: false,
+    },
+    Binding {
+        shown: "[ ]",
+        about: "tick rate down, up",
+        keys: &[(Key::Sign('['), Command::TickRateDown), (Key::Sign(']'), Command::TickRateUp)],
+        repeats: true,
+    },
+    Binding {
+        shown: "- =",
+        about: "speed down, up: ¼× to 16×",
+        keys: &[(Key::Sign('-'), Command::SpeedDown), (Key::Sign('='), Command::SpeedUp)],
+        repeats: true,
+    },
+    Binding {
+        shown: "↑ ↓",
+        about: "throttle (ship, helm)",
+        keys: &[(Key::Up, Command::ThrottleUp), (Key::Down, Command::ThrottleDown)],
+        repeats: true,
+    },
+    Binding {
+        shown: "← →",
+        about: "rudder (helm)",
+        keys: &[(Key::Left, Command::RudderLeft), (Key::Right, Command::RudderRight)],
+        repeats: true,
+    },
+    Binding {
+        shown: "K",
+        about: "kick: an impulse at the next tick",
+        keys: &[(Key::Sign('k'), Command::Kick(1.0))],
+        repeats: false,
+    },
+    Binding {
+        shown: "N, B",
+        about: "next, previous scene",
+        keys: &[(Key::Sign('n'), Command::NextScene), (Key::Sign('b'), Command::PreviousScene)],
+        repeats: false,
+    },
+    Binding {
+        shown: "O",
+        about: "open a scene file; or drop one onto the window",
+        keys: &[(Key::Sign('o'), Command::AskForPath)],
+        repeats: false,
+    },
+    Binding {
+        shown: "G",
+        about: "exact ghost on / off",
+        keys: &[(Key::Sign('g'), Command::ToggleGhost)],
+        repeats: false,
+    },
+    Binding {
+        shown: "I",
+        about: "drawing between ticks: raw / linear / Hermite / extrapolated",
+        keys: &[(Key::Sign('i'), Command::NextInterpolation)],
+        repeats: false,
+    },
+    Binding {
+        shown: "L",
+        about: "loop lab: one motion under every game loop",
+        keys: &[(Key::Sign('l'), Command::Loop(LoopCommand::ToggleLab))],
+        repeats: false,
+    },
+    Binding {
+        shown: "V",
+        about: "race: lanes over each other / side by side; loop lab: the next display",
+        keys: &[(Key::Sign('v'), Command::ToggleArrangement)],
+        repeats: false,
+    },
+    Binding {
+        shown: "F3",
+        about: "light / dark theme",
+        keys: &[(Key::Function(3), Command::ToggleTheme)],
+        repeats: false,
+    },
+    Binding {
+        shown: "Ctrl + − 0",
+        about: "text and panels larger, smaller, as usual",
+        keys: &[
+            (Key::ControlSign('+'), Command::ScaleUp),
+            // The same key unshifted.
+            (Key::ControlSign('='), Command::ScaleUp),
+            (Key::ControlSign('-'), Command::ScaleDown),
+            (Key::ControlSign('0'), Command::UsualScale),
+        ],
+        repeats: true,
+    },
+    Binding {
+        shown: "T, Shift T",
+        about: "next, previous instrument",
+        keys: &[
+            (Key::Sign('t'), Command::NextInstrument),
+            (Key::ShiftSign('t'), Command::PreviousInstrument),
+        ],
+        repeats: false,
+    },
+    Binding {
+        shown: "Enter",
+        about: "enlarge the instrument over the stage",
+        keys: &[(Key::Enter, Command::ToggleEnlarged)],
+        repeats: false,
+    },
+    Binding {
+        shown: "Ctrl C, Ctrl E",
+        about: "copy the instrument's values; save it as PNG, SVG and CSV",
+        keys: &[
+            (Key::ControlSign('c'), Command::CopyInstrument),
+            (Key::ControlSign('e'), Command::ExportInstrument),
+        ],
+        repeats: false,
+    },
+    Binding {
+        shown: "E",
+        about: "inspector: parameters, methods and rates, edited while it runs",
+        keys: &[(Key::Sign('e'), Command::ToggleInspector)],
+        repeats: false,
+    },
+    Binding {
+        shown: "P, F12",
+        about: "screenshot; the file's name is shown",
+        keys: &[(Key::Sign('p'), Command::Screenshot), (Key::Function(12), Command::Screenshot)],
+        repeats: false,
+    },
+    Binding {
+        shown: "F5, Ctrl S",
+        about: "save the run as a scene file; its name is shown",
+        keys: &[(Key::Function(5), Command::Record), (Key::ControlSign('s'), Command::Record)],
+        repeats: false,
+    },
+    Binding {
+        shown: "X",
+        about: "equal cost of all lanes on / off: cheap lanes get more substeps",
+        keys: &[(Key::Sign('x'), Command::ToggleEqualCost)],
+        repeats: false,
+    },
+    Binding {
+        shown: "F11",
+        about: "full screen",
+        keys: &[(Key::Function(11), Command::ToggleFullScreen)],
+        repeats: false,
+    },
+    Binding {
+        shown: "F2",
+        about: "guide: the chapter in stops, each with a prediction and a key to press",
+        keys: &[(Key::Function(2), Command::ToggleGuide)],
+        repeats: false,
+    },
+    Binding {
+        shown: "H, F1, ?",
+        about: "help",
+        keys: &[
+            (Key::Sign('h'), Command::ToggleHelp),
+            (Key::Function(1), Command::ToggleHelp),
+            (Key::Sign('?'), Command::ToggleHelp),
+        ],
+        repeats: false,
+    },
+    Binding {
+        shown: "Esc",
+        about: "let go of a body, close the overlay, the guide, the instrument, the inspector, or quit",
+        keys: &[(Key::Escape, Command::Escape)],
+        repeats: false,
+    },
+];
+
+/// What `key` does, if anything.
+pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
+    KEYS.iter().find_map(|binding| {
+        let (_, command) = binding.keys.iter().find(|(bound, _)| *bound == key)?;
+        Some((command.clone(), binding))
+    })
 }

@@ -1,6 +1,7 @@
 //! The lab: a run with its past, the clock that drives it, and its display. Commands come in; state goes out.
 
 use super::clock::Clock;
+use super::command::SCALE_LADDER;
 use super::display::{Display, Pace};
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopLab;
@@ -167,6 +168,11 @@ impl Lab {
     /// The theme that a person has chosen; `None` while it follows the system's.
     pub fn chosen_theme(&self) -> Option<Theme> {
         self.viewer.theme_is_chosen.then_some(self.viewer.display.theme)
+    }
+    /// Shows type and panels at this size in percent, within the bounds of [`SCALE_LADDER`].
+    pub fn choose_scale(&mut self, percent: u32) {
+        let [least, .., most] = SCALE_LADDER;
+        self.viewer.display.scale_percent = percent.clamp(least, most);
     }
     /// Sets the pace that the driver has measured.
     pub fn set_pace(&mut self, pace: Pace) {

@@ -114,14 +114,15 @@ impl LaneBody {
     }
 
     /// How well the true motion is known, for people: `exact`, or the present error of the reference in the units of
-    /// the coordinates.
+    /// the coordinates, if it has one yet.
     pub fn truth_in_words(&self) -> String {
         let id = self.kind.truth.id();
         match (self.kind.truth, self.stepper.truth_error()) {
             (Truth::Exact, _) | (_, None) => id.into(),
+            // Of a body that starts at 0 nothing is rounded yet.
+            (Truth::Reference, Some([0.0, _])) => id.into(),
             (Truth::Reference, Some([error, _])) if error.is_finite() => {
-                // At the start it is exact.
-                let exponent = libm::ceil(libm::log10(error.max(f64::MIN_POSITIVE))) as i32;
+                let exponent = libm::ceil(libm::log10(error)) as i32;
                 format!("{id} to 10{}", superscript(exponent))
             }
             (Truth::Reference, Some(_)) => format!("{id} lost"),

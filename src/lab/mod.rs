@@ -50,7 +50,7 @@ pub use analysis::{
     Region, RunFailure, Severity, StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
 };
 pub use clock::Clock;
-pub use command::{Binding, Command, KEYS, SPEED_LADDER, TICK_LADDER, command_for};
+pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 pub use display::{Arrangement, Display, DriverRequest, Pace};
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub use guide::{Goal, STOPS, Stop, Tour};
@@ -58,7 +58,7 @@ pub use held::HeldBody;
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
 pub use interpolation::Interpolation;
 pub use journal::{Journal, JournalRow, Source};
-pub use key::Key;
+pub use key::{Binding, KEYS, Key, command_for};
 pub use lab::Lab;
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use lane_spec::LaneSpec;

@@ -29,6 +29,17 @@ pub fn round(value: f64, digits: usize) -> String {
     }
 }
 
+/// How many times a distance is to be enlarged to fill `room`: 1, 2 or 5 times a power of ten; `None` if it fills half
+/// of it already, or is nothing but rounding.
+pub fn enlargement(distance: f64, room: f64) -> Option<f64> {
+    /// A distance that is not seen at this many times its size is rounding.
+    const MOST: f64 = 1e10;
+    let most = room / distance;
+    let decade = libm::pow(10.0, libm::floor(libm::log10(most)));
+    let times = [5.0, 2.0, 1.0].into_iter().map(|n| n * decade).find(|times| *times <= most)?;
+    (2.0..=MOST).contains(&times).then_some(times)
+}
+
 /// A whole number in raised figures.
 pub fn superscript(exponent: i32) -> String {
     let raise = |c: char| match c {
@@ -44,6 +55,17 @@ pub fn superscript(exponent: i32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_enlargement_is_round_and_fills_the_room() {
+        for (distance, times) in
+            [(0.02, Some(1000.0)), (0.004, Some(5000.0)), (8.0, Some(2.0)), (11.0, None)]
+        {
+            assert_eq!(enlargement(distance, 20.0), times, "{distance}");
+        }
+        assert_eq!((enlargement(0.0, 20.0), enlargement(1e-12, 20.0)), (None, None));
+        assert_eq!((enlargement(f64::NAN, 20.0), enlargement(f64::INFINITY, 20.0)), (None, None));
+    }
 
     #[test]
     fn numbers_keep_their_significant_digits() {

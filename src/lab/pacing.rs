@@ -17,7 +17,7 @@ mod policy;
 mod scripted_truth;
 mod time_base;
 mod trace;
-mod trace_file;
+pub mod trace_file;
 
 pub(super) use accumulator::most_ticks;
 pub use accumulator::{Accumulator, Due};
@@ -33,4 +33,3 @@ pub use policies::{LONGEST_FRAME_MS, POLICIES, policy};
 pub use policy::{Policy, PolicyCard, Snippet, Steps};
 pub use time_base::{RefreshRate, TimeBase};
 pub use trace::{FrameTrace, Frames};
-pub use trace_file::{TraceFileError, read as read_traces};

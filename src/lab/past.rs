@@ -20,6 +20,10 @@ pub use swept_range::SweptRange;
 use truth_curve::TruthMark;
 pub use truth_curve::{TruthCurve, TruthSample};
 
+/// A motion has only begun for this part of the duration shown: two swings of the harbour's 1 Hz spring. Its first
+/// samples would make axes too narrow for it.
+const BEGUN: f64 = 0.1;
+
 /// The recent past of a race.
 pub struct Past {
     /// One for each body, for each lane.
@@ -30,6 +34,8 @@ pub struct Past {
     truth_curves: Vec<TruthCurve>,
     /// The duration of the histories in seconds.
     span_s: f64,
+    /// When a body was last placed or a parameter last set, in seconds; before the start if neither was done.
+    changed_s: f64,
 }
 
 /// The end of the recorded past at some tick, to which it can be [rewound](Past::rewind).
@@ -38,6 +44,7 @@ pub(super) struct PastMark {
     /// By lane number and body.
     histories: Box<[(usize, Box<[HistoryMark]>)]>,
     truth_curves: Box<[TruthMark]>,
+    changed_s: f64,
 }
 
 impl PastMark {
@@ -60,6 +67,7 @@ impl Past {
             lanes: race.entrants().iter().map(|entrant| entrant.lane_number).collect(),
             truth_curves: bodies.iter().map(|body| TruthCurve::new(body, span_s)).collect(),
             span_s,
+            changed_s: f64::NEG_INFINITY,
         };
         past.sample(race);
         past
@@ -73,6 +81,18 @@ impl Past {
     /// The recent past of the truth, one curve for each body.
     pub fn truth_curves(&self) -> &[TruthCurve] {
         &self.truth_curves
+    }
+
+    /// Since when (s) the motion is one: since a body was last placed or a parameter last set, or since before the start.
+    pub fn changed_s(&self) -> f64 {
+        self.changed_s
+    }
+
+    /// The time (s) from which on the past tells at `t` how far bodies swing: the last [change](Self::changed_s), or
+    /// before the start while the motion after it has only begun.
+    pub fn swing_since_s(&self, t: f64) -> f64 {
+        let has_begun = t - self.changed_s < BEGUN * self.span_s;
+        if has_begun { f64::NEG_INFINITY } else { self.changed_s }
     }
 
     /// The true coordinates and velocities of the body at this place of the scene within the last tick of `race`; `part`
@@ -138,6 +158,7 @@ impl Past {
         PastMark {
             histories: rows.collect(),
             truth_curves: self.truth_curves.iter().map(TruthCurve::mark).collect(),
+            changed_s: self.changed_s,
         }
     }
 
@@ -157,6 +178,7 @@ impl Past {
 
     /// Goes back to a mark, or forward to one in the recorded future: that of the present of `race`.
     pub(super) fn rewind(&mut self, mark: &PastMark, race: &Race) {
+        self.changed_s = mark.changed_s;
         self.leave_with(race);
         for (number, marks) in &mark.histories {
             if !self.lanes.contains(number) {
@@ -226,12 +248,14 @@ impl Observer for Past {
                 self.truth_curves.iter_mut().for_each(|curve| curve.bend(input));
             }
             Action::Set { .. } => {
+                self.changed_s = race.t();
                 self.keep_corner(race);
                 self.truth_curves.iter_mut().for_each(TruthCurve::change);
             }
             Action::Place { body, .. } => {
-                self.keep_corner(race);
+                self.changed_s = race.t();
                 let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
+                self.truth_curves[*body].jump(t, truth);
                 for (entrant, histories) in race.entrants().iter().zip(&mut self.histories) {
                     let placed = &entrant.lane.bodies()[*body];
                     let sample = Sample::new(t, entrant.entry, placed, truth);

@@ -16,6 +16,7 @@ mod hull;
 mod layout;
 mod look;
 mod loop_stage;
+mod loupe;
 mod mass;
 mod moment;
 mod outline;

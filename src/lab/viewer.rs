@@ -1,6 +1,7 @@
 //! What a person looks at. It does not change a run and is not part of one.
 
 use super::analysis::{Advice, Findings, StabilityMap, Verdict};
+use super::command::USUAL_SCALE_PERCENT;
 use super::display::{Arrangement, Display, Pace};
 use super::guide::{Hints, Tour};
 use super::held::HeldBody;
@@ -73,6 +74,7 @@ impl Viewer {
                 mapped_parameter: None,
                 arrangement: Arrangement::Overlay,
                 theme: Theme::Dark,
+                scale_percent: USUAL_SCALE_PERCENT,
                 help: false,
                 inspector: false,
                 motion: true,
@@ -136,6 +138,12 @@ impl Viewer {
         self.display.interpolation = self.display.interpolation.next();
         let name = self.display.interpolation.name();
         self.notice = Some(format!("drawing between ticks: {name}"));
+    }
+
+    /// Shows type and panels at this size, and tells which.
+    pub(super) fn show_scale(&mut self, percent: u32) {
+        self.display.scale_percent = percent;
+        self.notice = Some(format!("text and panels at {percent} %"));
     }
 
     /// Shows the lanes of a race in the other arrangement, and tells which.

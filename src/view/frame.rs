@@ -81,7 +81,7 @@ impl FrameRenderer {
         lab: &Lab,
     ) -> (Vec<Command>, FrameOutput) {
         let mut commands = Vec::new();
-        theme::show_theme(&self.context, lab.display().theme);
+        theme::show(&self.context, lab.display(), size_px.map(|side| side as f32 / scale));
         let shown = self.shown;
         let mut touch = std::mem::take(&mut self.touch);
         let output = self.draw_with(gpu, target, size_px, scale, input, |ui| {
@@ -116,6 +116,7 @@ impl FrameRenderer {
         scale: f32,
         figure: &Figure,
     ) -> Option<wgpu::CommandBuffer> {
+        self.context.set_zoom_factor(growth(size_px.map(|side| side as f32 / scale)));
         let mut draw = || {
             self.draw_with(gpu, target, size_px, scale, egui::RawInput::default(), |ui| {
                 figure::show(ui, figure);
@@ -143,7 +144,6 @@ impl FrameRenderer {
         mut show: impl FnMut(&mut egui::Ui) -> Option<Stage>,
     ) -> FrameOutput {
         let mut stage = None;
-        self.context.set_zoom_factor(growth(size_px.map(|side| side as f32 / scale)));
         let input = self.sized(gpu, size_px, scale, input);
         let mut output = self.context.run_ui(input, |ui| {
             stage = show(ui);

@@ -6,7 +6,7 @@ use super::frame::write;
 use super::{panels, theme};
 use crate::lab::palette::Theme;
 use crate::lab::picture::compose;
-use crate::lab::{Arrangement, Command, Instrument, Lab, LoopCommand, SCENES, Scene};
+use crate::lab::{Arrangement, Command, Instrument, Lab, LoopCommand, SCALE_LADDER, SCENES, Scene};
 
 /// Sizes of windows in points: the first is the least, the last has four times the usual pixels.
 const SIZES: [Vec2; 4] =
@@ -24,9 +24,9 @@ struct Text {
 fn texts(lab: &Lab, size: Vec2) -> Vec<Text> {
     let context = Context::default();
     theme::dress(&context);
-    theme::show_theme(&context, lab.display().theme);
-    let growth = theme::growth(size.into());
-    let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size / growth));
+    theme::show(&context, lab.display(), size.into());
+    let zoom = theme::zoom(size.into(), lab.display().scale_percent);
+    let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size / zoom));
     let mut texts = Vec::new();
     for _ in 0..3 {
         let input = RawInput { screen_rect, ..RawInput::default() };
@@ -138,6 +138,17 @@ fn every_text_can_be_read_with_all_methods_racing_in_both_arrangements() {
         for size in &SIZES[1..] {
             let faults = faults(&lab, *size);
             assert!(faults.is_empty(), "{name} side by side, {size}:\n{}", faults.join("\n"));
+        }
+    }
+}
+
+#[test]
+fn every_text_can_be_read_at_every_size_of_type() {
+    for scale_percent in SCALE_LADDER {
+        let labs = [("harbour", race_of_all("harbour")), ("stiff", run("stiff", false))];
+        for (name, mut lab) in labs {
+            lab.choose_scale(scale_percent);
+            assert_legible(&lab, &format!("{name} at {scale_percent} %"));
         }
     }
 }

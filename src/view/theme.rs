@@ -4,9 +4,9 @@ use std::sync::LazyLock;
 
 use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, Ui};
 
-use crate::lab::LaneSpec;
 use crate::lab::palette::{Palette, Theme};
 use crate::lab::picture::Rgba;
+use crate::lab::{Display, LaneSpec};
 
 /// The colours of panels, as egui wants them.
 #[derive(Debug)]
@@ -92,6 +92,17 @@ pub(super) fn growth(size: [f32; 2]) -> f32 {
     (8.0 * times.sqrt().min(LARGEST)).round() / 8.0
 }
 
+/// The least window in which every text can be read at the usual size of type, in points.
+const LEAST_ROOM: [f32; 2] = [800.0, 480.0];
+
+/// How much larger everything is in a window of this size, in points, than at the usual one, where a person has chosen this
+/// size of type and panels in percent. A window that is too small for the choice shows the largest that fits.
+pub(super) fn zoom(size: [f32; 2], percent: u32) -> f32 {
+    let grown = growth(size);
+    let largest = (size[0] / LEAST_ROOM[0]).min(size[1] / LEAST_ROOM[1]);
+    (grown * percent as f32 / 100.0).min(largest.max(grown))
+}
+
 /// The family of words that stand out.
 pub(super) fn strong() -> FontFamily {
     FontFamily::Name("strong".into())
@@ -102,9 +113,21 @@ pub(super) fn strong_font(size: f32) -> FontId {
     FontId::new(size, strong())
 }
 
+/// Upright serif type of this size, for figures and words in formulas.
+pub(super) fn formula_font(size: f32) -> FontId {
+    FontId::new(size, FontFamily::Name("formula".into()))
+}
+
+/// Serif italic of this size, for quantities in formulas.
+pub(super) fn quantity_font(size: f32) -> FontId {
+    FontId::new(size, FontFamily::Name("quantity".into()))
+}
+
 /// The look of every widget. Set once for each context.
 pub(super) fn dress(context: &egui::Context) {
     context.set_fonts(fonts());
+    // The keys for the size of type are ours.
+    context.options_mut(|options| options.zoom_with_keyboard = false);
     for theme in [Theme::Dark, Theme::Light] {
         let egui_theme = in_egui(theme);
         let ink = Ink::of(theme);
@@ -112,9 +135,10 @@ pub(super) fn dress(context: &egui::Context) {
     }
 }
 
-/// Has the context show this theme.
-pub(super) fn show_theme(context: &egui::Context, theme: Theme) {
-    context.set_theme(in_egui(theme));
+/// Has the context show the theme and the size of type of a display, in a window of this size in points.
+pub(super) fn show(context: &egui::Context, display: &Display, size: [f32; 2]) {
+    context.set_theme(in_egui(display.theme));
+    context.set_zoom_factor(zoom(size, display.scale_percent));
 }
 
 fn in_egui(theme: Theme) -> egui::Theme {
@@ -124,7 +148,8 @@ fn in_egui(theme: Theme) -> egui::Theme {
     }
 }
 
-/// Inter for all words and numbers, its figures of one width; what it lacks from egui's own fonts. Lines quoted from
+/// Inter for all words and numbers, its figures of one width; a serif for formulas; what they lack from Inter and from
+/// egui's own fonts. Lines quoted from
 /// a file keep a fixed width.
 fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::default();
@@ -140,6 +165,15 @@ fn fonts() -> FontDefinitions {
         fonts.font_data.insert(name.into(), FontData::from_static(data).into());
         let faces = std::iter::once(name.to_owned()).chain(fallback.iter().cloned());
         fonts.families.insert(family, faces.collect());
+    }
+    let formula: [(&str, FontId, &'static [u8]); 2] = [
+        ("Formula", formula_font(TYPE), include_bytes!("../../assets/fonts/Formula-Regular.otf")),
+        ("Quantity", quantity_font(TYPE), include_bytes!("../../assets/fonts/Formula-Italic.otf")),
+    ];
+    for (name, font, data) in formula {
+        fonts.font_data.insert(name.into(), FontData::from_static(data).into());
+        let faces = [name, "Inter"].into_iter().map(str::to_owned).chain(fallback.iter().cloned());
+        fonts.families.insert(font.family, faces.collect());
     }
     fonts
 }
@@ -191,6 +225,7 @@ fn dress_style(style: &mut egui::Style, ink: &Ink) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::FORMULAS;
 
     #[test]
     fn type_grows_with_the_window_and_never_shrinks() {
@@ -200,6 +235,22 @@ mod tests {
         assert!((1.2..1.3).contains(&growth([1920.0, 1080.0])));
         assert!((1.6..1.8).contains(&growth([3840.0, 2160.0])));
         assert_eq!(growth([1e5, 1e5]), LARGEST);
+    }
+
+    #[test]
+    fn a_chosen_size_of_type_holds_as_far_as_the_window_has_room() {
+        for (size, percent, expected) in [
+            ([1280.0, 720.0], 100, 1.0),
+            ([1280.0, 720.0], 75, 0.75),
+            ([1280.0, 720.0], 150, 1.5),
+            ([1280.0, 720.0], 200, 1.5),
+            ([800.0, 600.0], 200, 1.0),
+            ([400.0, 300.0], 200, 1.0),
+            ([1920.0, 1080.0], 150, 1.875),
+            ([1920.0, 1080.0], 200, 2.25),
+        ] {
+            assert_eq!(zoom(size, percent), expected, "{size:?} at {percent} %");
+        }
     }
 
     #[test]
@@ -214,6 +265,11 @@ mod tests {
                     let font = FontId::new(13.0, family.clone());
                     assert!(fonts.has_glyph(&font, sign), "{sign} in {family:?}");
                 }
+            }
+            let formulas = FORMULAS.iter().flat_map(|formula| formula.lines);
+            for sign in formulas.flat_map(|line| line.chars()) {
+                assert!(fonts.has_glyph(&formula_font(13.0), sign), "{sign} in formulas");
+                assert!(fonts.has_glyph(&quantity_font(13.0), sign), "{sign} in formulas");
             }
         });
     }

@@ -3,6 +3,7 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
+use crate::lab::pacing::trace_file;
 use crate::lab::{Command, Lab, SCENES, Scene};
 
 /// Reads a scene file and returns its scene and its text, or the error report that the command line would print.
@@ -18,6 +19,10 @@ pub struct SceneFiles {
 
 /// Opens the scene file at `path` and returns its path and text. If it cannot be opened, a dialog says why.
 pub(super) fn open(lab: &mut Lab, read: &ReadScene, path: &Path) -> Option<(PathBuf, String)> {
+    if is_trace(path) {
+        open_trace(lab, path).unwrap_or_else(|report| lab.show_mistakes(path, report));
+        return None;
+    }
     let path = known(lab, path);
     match open_listed(lab, read, &path) {
         Ok(text) => Some((path, text)),
@@ -26,6 +31,22 @@ pub(super) fn open(lab: &mut Lab, read: &ReadScene, path: &Path) -> Option<(Path
             None
         }
     }
+}
+
+/// Whether a file's name says that it holds a trace of frames.
+fn is_trace(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
+}
+
+/// Opens the loop lab on the traces in a CSV file.
+fn open_trace(lab: &mut Lab, path: &Path) -> Result<(), String> {
+    let shown = path.display();
+    let bytes =
+        std::fs::read(path).map_err(|error| format!("error: cannot read {shown}: {error}"))?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let traces = trace_file::read(&name, &String::from_utf8_lossy(&bytes));
+    lab.open_traces(traces.map_err(|error| format!("error: {shown}: {error}"))?);
+    Ok(())
 }
 
 fn open_listed(lab: &mut Lab, read: &ReadScene, path: &Path) -> Result<String, String> {
@@ -45,6 +66,13 @@ pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene) -> Option<(PathBuf, St
         }
         None => {
             let path = known(lab, &from_home(&typed));
+            if is_trace(&path) {
+                match open_trace(lab, &path) {
+                    Ok(()) => _ = lab.apply(Command::CloseDialog),
+                    Err(report) => lab.refuse_typed_path(&path, report),
+                }
+                return None;
+            }
             match open_listed(lab, read, &path) {
                 Ok(text) => Some((path, text)),
                 Err(report) => {

@@ -149,13 +149,27 @@ impl Desk {
     #[track_caller]
     pub(crate) fn next_screenshot(&self) -> (u64, RgbaImage) {
         until("a screenshot", || {
-            let path = self.display.picture()?;
+            let path = self.display.file("png")?;
             // Until it is written to its end it cannot be read.
             let image = image::open(&path).ok()?.to_rgba8();
             let (_, rest) = path.to_str()?.rsplit_once("-tick-")?;
             let tick = rest.strip_suffix(".png")?.parse().unwrap();
             std::fs::remove_file(path).unwrap();
             Some((tick, image))
+        })
+    }
+
+    /// Has the program record its run, and returns the recording.
+    #[track_caller]
+    pub(crate) fn recording(&self) -> String {
+        self.press("F5");
+        until("a recording", || {
+            let path = self.display.file("toml")?;
+            // Its last line has no more to come.
+            let text = std::fs::read_to_string(&path).unwrap();
+            let is_whole = text.ends_with('\n');
+            is_whole.then(|| std::fs::remove_file(path).unwrap())?;
+            Some(text)
         })
     }
 
@@ -322,9 +336,10 @@ impl Display {
         if output.status.success() { Ok(said) } else { Err(format!("{words}: {complaint}")) }
     }
 
-    fn picture(&self) -> Option<PathBuf> {
+    /// The first file in the folder with this extension.
+    fn file(&self, wanted: &str) -> Option<PathBuf> {
         let mut files = self.folder.path().read_dir().unwrap().map(|file| file.unwrap().path());
-        files.find(|path| path.extension().is_some_and(|extension| extension == "png"))
+        files.find(|path| path.extension().is_some_and(|extension| extension == wanted))
     }
 }
 

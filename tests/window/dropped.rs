@@ -58,7 +58,7 @@ impl Source<'_> {
 
 /// Drags a file over the window and drops it there.
 #[track_caller]
-fn drop_file(desk: &Desk, path: &Path) {
+pub(crate) fn drop_file(desk: &Desk, path: &Path) {
     let (connection, target) = desk.connect();
     let root = connection.setup().roots[0].root;
     let window = connection.generate_id().unwrap();

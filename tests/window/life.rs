@@ -135,7 +135,11 @@ fn the_scene_that_was_open_last_opens_again_unless_another_is_asked_for() {
     desk.press("n");
     desk.titled("Regatta - ship - Explicit Euler - 2 Hz");
     desk.resize(900, 640);
+    desk.press("space");
+    desk.titled("Regatta - ship - Explicit Euler - 2 Hz (paused)");
+    desk.press_and_see("ctrl+plus");
     desk.quit();
+    let remembered = config.path().join("regatta/window.toml");
     for (arguments, title) in [
         ("--scene spring", "Regatta - spring - Explicit Euler - 60 Hz"),
         ("--seconds 60", "Regatta - harbour - Explicit Euler - 60 Hz"),
@@ -145,8 +149,10 @@ fn the_scene_that_was_open_last_opens_again_unless_another_is_asked_for() {
         desk.titled(title);
         assert_eq!(desk.sight().dimensions(), (900, 640), "{arguments}");
         desk.quit();
+        let text = std::fs::read_to_string(&remembered).unwrap();
+        assert!(text.contains("scale_percent = 110\n"), "{text}");
     }
-    std::fs::write(config.path().join("regatta/window.toml"), "theme = 5").unwrap();
+    std::fs::write(&remembered, "theme = 5").unwrap();
     let Some(mut desk) = Desk::open_with(test, "", &variables) else { return };
     desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
     desk.program.says("window.toml is ignored: its theme cannot be understood").unwrap();

@@ -16,4 +16,6 @@ mod random;
 mod shape;
 mod time_travel;
 mod touch;
+mod twin;
 mod wayland;
+mod widgets;

@@ -103,6 +103,8 @@ pub struct Region {
     pub pieces: Vec<Vec<[f64; 2]>>,
     /// Its boundary, as lines through these points.
     pub boundary: Vec<Vec<[f64; 2]>>,
+    /// The ω h of a tick at the boundary, where the method's card tells it: nothing on the map may be damped.
+    pub limit: Option<f64>,
 }
 
 /// How much of a map a region covers.
@@ -202,7 +204,8 @@ impl MapWork {
         } else if let Some((_, spec)) = request.specs.get(self.map.regions.len()) {
             let spec = *spec;
             let region = if chooses_steps(&spec) {
-                Region { coverage: Coverage::OwnSteps, pieces: vec![], boundary: vec![] }
+                let coverage = Coverage::OwnSteps;
+                Region { coverage, pieces: vec![], boundary: vec![], limit: None }
             } else {
                 self.region(&spec)
             };
@@ -221,12 +224,15 @@ impl MapWork {
             let hz = libm::pow(10.0, x);
             modes.iter().all(|mode| stability(spec, mode, hz).is_some_and(|s| s.is_bounded()))
         };
-        contour(
+        let region = contour(
             &corners,
             |[i, j]| stable(&self.rows[j], corners.at([i, j])[0]),
             |x, j| stable(&self.rows[j], x),
             |[x, y]| stable(&self.modes_at(libm::pow(10.0, y)).unwrap_or_default(), x),
-        )
+        );
+        let is_undamped = self.rows.iter().flatten().all(NormalMode::is_conserved);
+        let of_step = spec.method.stability_limit.filter(|limit| is_undamped && *limit > 0.0);
+        Region { limit: of_step.map(|limit| limit * f64::from(spec.substeps)), ..region }
     }
 
     /// The modes of the body with this value of the mapped parameter, the fastest first.

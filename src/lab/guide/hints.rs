@@ -2,9 +2,9 @@
 //! what the program can do.
 
 use crate::lab::analysis::Outcome;
-use crate::lab::command::{Command, KEYS};
+use crate::lab::command::Command;
 use crate::lab::instrument::Instrument;
-use crate::lab::key::Key;
+use crate::lab::key::{KEYS, Key};
 
 /// What a hint after the scene's own asks for.
 struct Lead {
@@ -93,6 +93,16 @@ impl Hints {
     }
 }
 
+/// Whether what a hint asks for makes sense in a race: there a digit switches nothing, and `C` has been pressed.
+pub(in crate::lab) fn suits_race(hint: &str) -> bool {
+    let is_of_solo = |command: &&Command| {
+        let is_pick = matches!(command, Command::Pick(_) | Command::Method(_));
+        let is_next = matches!(command, Command::NextMethod | Command::PreviousMethod);
+        is_pick || is_next || matches!(command, Command::ToggleRace)
+    };
+    !asked(hint).is_some_and(|commands| commands.iter().any(is_of_solo))
+}
+
 /// What a method does, in words that follow its name.
 fn reaction(outcome: Option<Outcome>) -> &'static str {
     match outcome {
@@ -133,6 +143,7 @@ fn is_named(key: Key, name: &str) -> bool {
         Key::Left => name == "←",
         Key::Right => name == "→",
         Key::Home => name == "Home",
+        Key::PageDown => name == "Page Down",
         Key::Enter => name == "Enter",
         Key::Escape => name == "Esc",
     }
@@ -154,6 +165,22 @@ mod tests {
             let commands = asked(lead.text).expect("a key of the table");
             assert!(commands.iter().any(|command| (lead.is_done_by)(command)), "{}", lead.text);
         }
+    }
+
+    #[test]
+    fn in_a_race_no_hint_asks_for_what_only_solo_does() {
+        use crate::lab::Lab;
+        for scene in SCENES {
+            let mut lab = Lab::new(Scene::built_in(scene.name).unwrap());
+            let solo = lab.hint().expect("a hint");
+            lab.apply(Command::ToggleRace);
+            lab.begin_hints();
+            let hint = lab.hint().expect("a lead");
+            assert!(suits_race(&hint), "{}: {hint}", scene.name);
+            lab.apply(Command::ToggleRace);
+            assert!(lab.hint().is_some(), "{}: {solo}", scene.name);
+        }
+        assert!(suits_race("Press `[`.") && !suits_race("Press `2`."));
     }
 
     #[test]

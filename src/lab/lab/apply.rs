@@ -2,9 +2,10 @@
 
 use super::{BeforeDiscard, Lab};
 use crate::lab::action::Action;
-use crate::lab::command::{Command, SPEED_LADDER, TICK_LADDER};
+use crate::lab::command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 use crate::lab::display::DriverRequest;
 use crate::lab::equal_cost::equal_cost;
+use crate::lab::guide::STOPS;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::loop_lab::LoopCommand;
 use crate::lab::metrics::METRICS;
@@ -101,6 +102,17 @@ impl Lab {
                 self.viewer.theme_is_chosen = true;
                 self.viewer.display.theme = self.viewer.display.theme.other();
             }
+            Command::ScaleUp => {
+                let scale = self.viewer.display.scale_percent;
+                let larger = SCALE_LADDER.iter().find(|&&percent| percent > scale);
+                larger.into_iter().for_each(|&percent| self.viewer.show_scale(percent));
+            }
+            Command::ScaleDown => {
+                let scale = self.viewer.display.scale_percent;
+                let smaller = SCALE_LADDER.iter().rfind(|&&percent| percent < scale);
+                smaller.into_iter().for_each(|&percent| self.viewer.show_scale(percent));
+            }
+            Command::UsualScale => self.viewer.show_scale(USUAL_SCALE_PERCENT),
             Command::Instrument(instrument) => self.viewer.display.instrument = instrument,
             Command::MapParameter(parameter) => {
                 let display = &mut self.viewer.display;
@@ -135,6 +147,12 @@ impl Lab {
             Command::Escape if self.viewer.display.help => self.viewer.display.help = false,
             Command::ToggleGuide => self.toggle_guide(),
             Command::GoToStop(place) => self.go_to_stop(place),
+            Command::NextStop => {
+                let next = self.viewer.tour.as_ref().map(|tour| tour.place() + 1);
+                next.filter(|place| *place < STOPS.len())
+                    .into_iter()
+                    .for_each(|place| self.go_to_stop(place));
+            }
             Command::Predict(choice) => {
                 self.viewer.tour.iter_mut().for_each(|tour| tour.predict(choice));
             }

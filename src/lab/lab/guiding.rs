@@ -2,7 +2,7 @@
 
 use super::Lab;
 use crate::lab::command::Command;
-use crate::lab::guide::{Hints, Situation, Stop, Tour};
+use crate::lab::guide::{Hints, STOPS, Situation, Stop, Tour, suits_race};
 use crate::lab::interpolation::Interpolation;
 use crate::lab::race::Mode;
 use crate::lab::scene::SCENES;
@@ -11,13 +11,18 @@ impl Lab {
     /// What to try next: the scene's own hint, then what follows on it. Keys stand between backticks.
     pub fn hint(&self) -> Option<String> {
         if let Some(tour) = &self.viewer.tour {
-            let next = "Go on with Next in the guide, or press `Esc` to close it.";
+            let is_last = tour.place() + 1 == STOPS.len();
+            let next = match is_last {
+                true => "That was the last stop. Press `Esc` to close the guide.",
+                false => "Press `Page Down` for the next stop, or `Esc` to close the guide.",
+            };
             return Some(if tour.is_done() { next } else { tour.stop().task }.to_owned());
         }
         let entry = self.active();
         let outcome = self.viewer.verdict(entry).map(|verdict| verdict.outcome);
         let flown = (self.entries()[entry].method.name, outcome);
-        self.viewer.hints.text(self.scene().hint.as_deref(), flown)
+        let suits = |hint: &&str| self.mode() == Mode::Solo || suits_race(hint);
+        self.viewer.hints.text(self.scene().hint.as_deref().filter(suits), flown)
     }
 
     /// Shows the hints from the first one again: for a driver that has set up the lab by commands.
@@ -66,5 +71,25 @@ impl Lab {
             });
         }
         self.viewer.tour = Some(tour);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::command::command_for;
+    use crate::lab::{Key, Scene};
+
+    #[test]
+    fn a_key_goes_to_the_next_stop_of_the_open_guide_and_stays_at_the_last() {
+        let (next, _) = command_for(Key::PageDown).expect("a key of the table");
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        lab.apply(next.clone());
+        assert!(lab.viewer.tour.is_none(), "the guide is closed");
+        lab.apply(Command::ToggleGuide);
+        for place in (1..STOPS.len()).chain([STOPS.len() - 1]) {
+            lab.apply(next.clone());
+            assert_eq!(lab.viewer.tour.as_ref().map(Tour::place), Some(place));
+        }
     }
 }

@@ -25,6 +25,16 @@ impl Lab {
         self.running = true;
     }
 
+    /// Opens the loop lab on the trace of this name, if there is one.
+    pub fn open_loop_lab_on(&mut self, trace: &str) {
+        self.open_loop_lab();
+        if let Some(loops) = &mut self.loop_lab
+            && let Some(place) = loops.traces().iter().position(|known| known.name() == trace)
+        {
+            loops.choose_trace(place);
+        }
+    }
+
     /// Opens the loop lab, if it is closed, on the first of these traces.
     pub fn open_traces(&mut self, traces: Vec<FrameTrace>) {
         if self.loop_lab.is_none() {

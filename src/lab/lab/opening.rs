@@ -162,6 +162,7 @@ impl Lab {
         lab.viewer.left_at = self.viewer.left_at;
         lab.clock.set_speed_percent(self.clock.speed_percent());
         lab.running = self.running;
+        lab.timeline.set_limit(self.timeline.limit());
         lab.restart();
         let file = lab.scene_list.file(place);
         let mistakes = file.and_then(|file| Some((file.name(), file.mistakes.clone()?)));

@@ -57,6 +57,14 @@ impl Lab {
         }));
     }
 
+    /// What an undo brings back now, for people; `None` if there is nothing.
+    pub fn undoes(&self) -> Option<&'static str> {
+        if self.timeline.can_undo() {
+            return Some("bring back the future that an action in the past discarded");
+        }
+        self.run_before.is_some().then_some("bring back the run before a restart")
+    }
+
     /// Exchanges the run with the one before the restart, if there is one: another undo exchanges them again.
     pub(super) fn bring_back_run(&mut self) {
         let Some(mut run) = self.run_before.take() else { return };

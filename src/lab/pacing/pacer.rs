@@ -53,7 +53,8 @@ impl Pacer {
         steps
     }
 
-    /// How far the picture is from the last tick to the next, in [0, 1); 0 under a rule that has no ticks.
+    /// How far the picture is from the last tick to the next: in [0, 1] where it is drawn between them, in [-1/2, 3/2) under
+    /// `hysteresis`, and 0 under a rule that has no ticks.
     pub fn alpha(&self) -> f64 {
         self.policy.owed() as f64 / self.base.tick() as f64
     }

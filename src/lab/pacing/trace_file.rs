@@ -1,10 +1,121 @@
-//! Stub.
+//! Traces from the logs of frame-time tools: PresentMon, OCAT, CapFrameX and FrameView write a row for each frame.
+//!
+//! A log can hold several streams of frames, from several programs and windows; each is a trace of its own. The first row
+//! of a stream starts its clock. From then on a frame begins `MsBetweenPresents` after the one before, and is displayed
+//! `MsBetweenDisplayChange` after the last one displayed. The two clocks have no common origin in these columns, so that a
+//! frame's display may lie before its beginning: differences within each clock count, not their offset.
+
+mod columns;
+mod error;
+mod milliseconds;
+mod stream;
+
+use std::collections::{HashMap, HashSet};
+
+use csv::StringRecord;
+
 use super::trace::FrameTrace;
-/// Stub.
-#[derive(Debug, thiserror::Error)]
-#[error("not yet")]
-pub struct TraceFileError;
-/// Stub.
-pub fn read(_name: &str, _text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
-    Err(TraceFileError)
+use columns::Columns;
+use error::Fault;
+use stream::Stream;
+
+pub use error::TraceFileError;
+
+/// Reads the streams of a log in order of their first rows. A lone stream is called `name`, several are called `name`, a
+/// colon and their program, with its process and a number where these are needed to tell them apart.
+///
+/// # Errors
+/// If the text is not such a log; the message calls it `name`.
+pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
+    let at = |line, fault| TraceFileError { name: name.into(), line, fault };
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let (before, table) = split_remarks(text);
+    let mut rows = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .delimiter(delimiter(table))
+        .from_reader(table.as_bytes());
+    let mut row = StringRecord::new();
+    let mut next = |row: &mut StringRecord| -> Option<u64> {
+        let is_row = rows.read_record(row).expect("text in memory, and rows of any length");
+        is_row.then(|| before + row.position().expect("just read").line())
+    };
+
+    let header_line = next(&mut row).ok_or_else(|| at(1, Fault::Empty))?;
+    let columns = Columns::find(&row).map_err(|fault| at(header_line, fault))?;
+
+    let (mut streams, mut numbers) = (Vec::<Stream>::new(), HashMap::<String, usize>::new());
+    let mut key = String::new();
+    while let Some(line) = next(&mut row) {
+        let cells = columns.read(&row).map_err(|fault| at(line, fault))?;
+        key.clear();
+        key.extend([cells.application, "\n", cells.process, "\n", cells.swap_chain]);
+        let number = match numbers.get(&key) {
+            Some(&number) => number,
+            None => {
+                numbers.insert(key.clone(), streams.len());
+                streams.push(Stream::new(&cells));
+                streams.len() - 1
+            }
+        };
+        streams[number].push(&cells).map_err(|fault| at(line, fault))?;
+    }
+    if streams.is_empty() {
+        return Err(at(header_line, Fault::NoRows));
+    }
+    let names = names(name, &streams);
+    Ok(names.into_iter().zip(streams).map(|(name, stream)| stream.into_trace(name)).collect())
+}
+
+/// The number of lines before the table, and the table: CapFrameX writes remarks that begin with `//` first.
+fn split_remarks(text: &str) -> (u64, &str) {
+    let (mut lines, mut rest) = (0, text);
+    while rest.starts_with("//") {
+        lines += 1;
+        rest = rest.split_once('\n').map_or("", |(_, after)| after);
+    }
+    (lines, rest)
+}
+
+/// What separates the cells: where a comma is the decimal sign, tools write semicolons.
+fn delimiter(table: &str) -> u8 {
+    let header = table.lines().find(|line| !line.is_empty()).unwrap_or_default();
+    let count = |separator: &u8| header.bytes().filter(|byte| byte == separator).count();
+    // Of equal counts the last is taken: the comma.
+    [b'\t', b';', b','].into_iter().max_by_key(count).expect("three")
+}
+
+/// A name for each stream, none twice.
+fn names(name: &str, streams: &[Stream]) -> Vec<String> {
+    if streams.len() == 1 {
+        return vec![name.into()];
+    }
+    let mut programs = HashMap::<&str, usize>::new();
+    for stream in streams {
+        *programs.entry(stream.application()).or_default() += 1;
+    }
+    let mut taken = HashSet::new();
+    let mut labels = HashMap::<String, usize>::new();
+    let unique = |stream: &Stream| {
+        let (program, process) = (stream.application(), stream.process());
+        let known: Vec<&str> = [program, process].into_iter().filter(|s| !s.is_empty()).collect();
+        let alone = programs[program] == 1 && !program.is_empty();
+        let label = match known[..] {
+            [] => "stream".to_owned(),
+            _ if alone => program.to_owned(),
+            _ => known.join("-"),
+        };
+        let count = labels.entry(label.clone()).or_default();
+        loop {
+            *count += 1;
+            let numbered = match *count {
+                1 => format!("{name}:{label}"),
+                n => format!("{name}:{label}-{n}"),
+            };
+            if taken.insert(numbered.clone()) {
+                return numbered;
+            }
+        }
+    };
+    streams.iter().map(unique).collect()
 }

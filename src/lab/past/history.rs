@@ -119,6 +119,17 @@ impl History {
         self.samples.range(skipped.min(self.samples.len())).chain(present)
     }
 
+    /// The samples from time `t` (s) on, oldest first; where the body was put elsewhere at that time, from there.
+    pub fn since(&self, t: f64) -> Samples<'_> {
+        let mut is_put = false;
+        let later = self.samples().rev().take_while(|sample| {
+            let is_later = sample.t >= t && !is_put;
+            is_put |= sample.t == t && sample.jumped;
+            is_later
+        });
+        self.after(self.samples().count() - later.count())
+    }
+
     /// The samples split at switches of method, oldest run first. A run ends at the switch and the next one begins there; if
     /// it begins later, the body had halted and then resumed.
     pub fn runs(&self) -> impl Iterator<Item = Run<'_>> {
@@ -322,6 +333,19 @@ mod tests {
         history.pass(9.0);
         history.jump(sample(3.0, 1));
         assert_eq!(swept(&history)[5], [0.0; 2], "nothing leads to where it was put");
+    }
+
+    #[test]
+    fn what_is_since_a_placement_begins_where_the_body_was_put() {
+        let mut history = flown(0);
+        history.end_run(Sample { q: 5.0, ..sample(2.5, 0) });
+        history.jump(Sample { q: 1.0, ..sample(2.5, 0) });
+        history.record(sample(3.0, 0));
+        history.record_passing(sample(3.5, 0));
+        let since = |t: f64| history.since(t).map(|sample| sample.q).collect::<Vec<_>>();
+        assert_eq!(since(2.5), [1.0, 0.0, 0.0]);
+        assert_eq!(since(2.0), [0.0, 5.0, 1.0, 0.0, 0.0]);
+        assert_eq!((since(3.5).len(), since(9.0).len(), since(-1.0).len()), (1, 0, 7));
     }
 
     #[test]

@@ -47,13 +47,16 @@ pub struct TruthSample {
     pub at: DVec2,
     /// Its energies, if it conserves energy.
     pub energies: Option<Energies>,
+    /// Whether the body was put here, so that no path leads from the sample before.
+    pub jumped: bool,
 }
 
 impl TruthSample {
     fn of(t: f64, stepper: &dyn Stepper) -> Self {
         let q = stepper.q()[0];
+        let (swept, at) = (SweptRange::at(q), stepper.place());
         let energies = Energies::of(stepper);
-        Self { t, q, swept: SweptRange::at(q), v: stepper.v()[0], at: stepper.place(), energies }
+        Self { t, q, swept, v: stepper.v()[0], at, energies, jumped: false }
     }
 
     fn is_finite(&self) -> bool {
@@ -102,6 +105,17 @@ impl TruthCurve {
     /// The samples, oldest first: at every point of the grid, and on both sides of an input.
     pub fn samples(&self) -> vec_deque::Iter<'_, TruthSample> {
         self.samples.shown()
+    }
+
+    /// The samples from time `t` (s) on, oldest first; where the body was put elsewhere at that time, from there.
+    pub fn since(&self, t: f64) -> vec_deque::Iter<'_, TruthSample> {
+        let mut is_put = false;
+        let later = self.samples().rev().take_while(|sample| {
+            let is_later = sample.t >= t && !is_put;
+            is_put |= sample.t == t && sample.jumped;
+            is_later
+        });
+        self.samples.range(self.samples.len() - later.count())
     }
 
     /// The present of the true body `truth`, at time `t` (s): the curve's end, wherever the grid is.
@@ -191,6 +205,11 @@ impl TruthCurve {
     /// corner. Never allocates.
     pub(super) fn keep(&mut self, t: f64, truth: &LaneBody) {
         self.push(TruthSample::of(t, &*truth.stepper));
+    }
+
+    /// Keeps the present of `truth`, at time `t`, where the body was put. Never allocates.
+    pub(super) fn jump(&mut self, t: f64, truth: &LaneBody) {
+        self.push(TruthSample { jumped: true, ..TruthSample::of(t, &*truth.stepper) });
     }
 
     /// Takes notice of an input that was given to the truth.

@@ -226,9 +226,11 @@ impl Chip {
         let furthest = |samples: &mut dyn Iterator<Item = f64>| {
             samples.map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max)
         };
-        let samples = moment.history(entrant, index).samples();
+        let past = moment.lab.past();
+        let since_s = past.changed_s();
+        let samples = moment.history(entrant, index).since(since_s);
         let lane = furthest(&mut samples.map(|sample| sample.q));
-        let samples = moment.lab.past().truth_curves()[index].samples();
+        let samples = past.truth_curves()[index].since(since_s);
         let exact = furthest(&mut samples.map(|sample| sample.q));
         let unit = moment.lab.race().truth().bodies()[index].coordinates[0].unit;
         let how_far = |reach: f64| format!("{} {unit}", significant(reach, 2));

@@ -3,14 +3,15 @@
 use glam::DVec2;
 
 use super::body::Seen;
-use super::flags::{Flag, Lost, badges, flags};
+use super::flags::{Flag, Lost, badges, flags, row_width};
 use super::framed::{View, quay_width};
 use super::ghost::Ghost;
 use super::layout::{bands, grid, mosaic};
+use super::loupe::Near;
 use super::mass::Coat;
 use super::moment::Moment;
 use super::sketch::{Camera, line, path};
-use super::{Cell, Framing, Look, Picture, Rect, Rgba, Whose, captions, chart, loop_stage};
+use super::{Cell, Framing, Look, Picture, Rect, Rgba, Whose, captions, chart, loop_stage, loupe};
 use crate::lab::palette::faded;
 use crate::lab::race::Entrant;
 use crate::lab::{Arrangement, Lab, Mode, ZoomPan};
@@ -211,6 +212,7 @@ impl Band<'_> {
         let behind = self.lanes.iter().filter(|lane| !self.is_front(lane));
         let mut flagged: Vec<Flag> = Vec::new();
         let mut lost: Vec<Lost> = Vec::new();
+        let mut near: Vec<Near> = Vec::new();
         let mut cell = Cell {
             rect: camera.rect,
             lane: self.front.lane_number,
@@ -242,6 +244,7 @@ impl Band<'_> {
                 }
                 continue;
             }
+            near.push(Near::of(moment, lane, index, colour));
             if !is_front {
                 seen.behind(&mut picture.shapes, coat);
                 flagged.push(flag);
@@ -273,6 +276,12 @@ impl Band<'_> {
         };
         let room = badges(picture, camera, &lost, 30.0, palette);
         flags(picture, &flagged, lift, palette, (room, camera.rect));
+        if shows_ghost {
+            let half = row_width(flagged.len()) / 2.0 + camera.block;
+            let [x, y] = camera.points(ghost.outline.at);
+            let busy = Rect { min: [x - half, y - 2.0 * lift], max: [x + half, y + half] };
+            loupe::draw(picture, moment, camera, &near, (room, busy));
+        }
         let is_alone = self.lanes.len() == 1;
         let says_beside =
             is_alone && (lab.mode() == Mode::Solo || self.front.lane.bodies().len() == 1);

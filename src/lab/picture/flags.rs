@@ -77,6 +77,11 @@ pub(super) fn flags(
     }
 }
 
+/// The width of a row of flags over one place, in points.
+pub(super) fn row_width(count: usize) -> f32 {
+    (FLAG + GAP) * count.min(MANY) as f32
+}
+
 /// Pushes two flags apart along the row that they share, if they do.
 fn push_apart(
     places: &mut [[f32; 2]],

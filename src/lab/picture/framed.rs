@@ -15,8 +15,10 @@ const WIDEST_QUAY: f32 = 56.0;
 /// The side of a block as a part of its cell's height, and its least and its greatest in points.
 const BLOCK: f32 = 0.31;
 const BLOCKS: (f32, f32) = (12.0, 88.0);
-/// How much further than the true one a lane's swing may be for the camera to show it, in solo.
+/// How much further than the true one a lane's motion may be for the camera to show it, in solo: along a chart
+/// recorder, and where the body moves both across and up.
 const MOST_SWING: f64 = 2.3;
+const MOST_ROOM: f64 = 5.0;
 
 /// What a camera fits into its cell.
 #[derive(Clone, Copy, Debug)]
@@ -38,14 +40,24 @@ impl View {
         }
     }
 
-    /// Makes room for how far a lane swings, which is alone on the stage: some times further than the truth.
+    /// Makes room for how far a lane goes, which is alone on the stage: some times further than the truth.
     pub(super) fn widened(mut self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> Self {
-        if let Framing::Recorder { half_width_m } = self.framing {
-            let samples = moment.history(lane, body).samples();
-            let furthest = samples.map(|s| s.at.x.abs()).filter(|x| x.is_finite());
-            let furthest = furthest.fold(0.0, f64::max);
-            let usual = half_width_m.max(self.reach_m.x);
-            self.reach_m.x = self.reach_m.x.max(furthest.min(MOST_SWING * usual));
+        let since_s = moment.lab.past().swing_since_s(moment.lab.race().t());
+        let furthest = |centre_m: DVec2| {
+            let samples = moment.history(lane, body).since(since_s);
+            let places = samples.map(|s| (s.at - centre_m).abs()).filter(|at| at.is_finite());
+            places.fold(DVec2::ZERO, DVec2::max)
+        };
+        match self.framing {
+            Framing::Recorder { half_width_m } => {
+                let most = MOST_SWING * half_width_m.max(self.reach_m.x);
+                self.reach_m.x = self.reach_m.x.max(furthest(DVec2::ZERO).x.min(most));
+            }
+            Framing::Fixed { centre_m, half_m, .. } => {
+                let most = MOST_ROOM * half_m.max(self.reach_m);
+                self.reach_m = self.reach_m.max(furthest(centre_m).min(most));
+            }
+            Framing::Follow { .. } => {}
         }
         self
     }
@@ -121,6 +133,30 @@ impl Moment<'_> {
                 Some(DVec2::new(width_m, height_m))
             }
             Framing::Follow { .. } | Framing::Recorder { .. } => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lab::picture::compose;
+    use crate::lab::{Command, Lab, Scene};
+
+    #[test]
+    fn an_orbit_that_leaves_the_true_one_is_followed_in_solo() {
+        for (is_race, is_seen) in [(false, true), (true, false)] {
+            let mut lab = Lab::new(Scene::built_in("orbit").unwrap());
+            lab.apply(Command::Pick(0));
+            if is_race {
+                lab.apply(Command::ToggleRace);
+            }
+            (0..9 * lab.race().tick_hz()).for_each(|_| lab.tick());
+            let picture = compose(&lab, [800.0, 440.0]);
+            let camera = &picture.cells[0].camera;
+            let place = lab.race().entrants()[0].lane.bodies()[0].stepper.place();
+            let truth = lab.race().truth().bodies()[0].stepper.place();
+            assert!(camera.rect.contains(camera.points(truth)));
+            assert_eq!(camera.rect.contains(camera.points(place)), is_seen, "{place}");
         }
     }
 }

@@ -35,7 +35,8 @@ impl Ghost {
             Framing::Follow { .. } | Framing::Recorder { .. } => DVec2::ZERO,
             Framing::Fixed { centre_m, .. } => centre_m,
         };
-        let reach_m = curve.samples().map(|s| (s.at - centre_m).abs());
+        let since_s = remembered.swing_since_s(race.t());
+        let reach_m = curve.since(since_s).map(|s| (s.at - centre_m).abs());
         let reach_m = reach_m.fold(DVec2::ZERO, DVec2::max);
         let view = View { framing, followed: outline.at, reach_m, turns: turns(body) };
         Self { view, q, outline }
@@ -64,11 +65,10 @@ fn past(
     colour: Rgba,
 ) -> impl Iterator<Item = Place> + Clone {
     let mut newer: Option<&TruthSample> = None;
-    // Where the body was put elsewhere there are two places at one time.
-    let unbroken = curve.samples().rev().take_while(move |sample| {
-        let newer = newer.replace(sample);
-        newer.is_none_or(|newer| newer.t != sample.t || newer.at == sample.at)
-    });
+    let unbroken = curve
+        .samples()
+        .rev()
+        .take_while(move |sample| newer.replace(sample).is_none_or(|newer| !newer.jumped));
     let samples = unbroken.skip_while(move |sample| sample.t >= t);
     let moments = samples.map(move |sample| Place { age: t - sample.t, at: sample.at, colour });
     let now = Place { age: 0.0, at, colour };

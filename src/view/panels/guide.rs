@@ -37,10 +37,15 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
             if ui.button("Close").on_hover_text("close the guide (Esc)").clicked() {
                 commands.push(Command::ToggleGuide);
             }
-            let next = Button::new("Next");
+            let key = RichText::new("Page Down").size(11.0).color(ink(ui).dim);
+            let next = Button::new("Next").right_text(key);
             let next = if tour.is_done() { next.selected(true) } else { next };
-            if ui.add_enabled(place + 1 < count, next).clicked() {
-                commands.push(Command::GoToStop(place + 1));
+            let next = ui.add_enabled(place + 1 < count, next);
+            next.widget_info(|| {
+                egui::WidgetInfo::labeled(egui::Role::Button, place + 1 < count, "Next")
+            });
+            if next.clicked() {
+                commands.push(Command::NextStop);
             }
             if ui.add_enabled(place > 0, Button::new("Back")).clicked() {
                 commands.push(Command::GoToStop(place - 1));

@@ -23,8 +23,11 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
         ui.set_width(width);
         // A bar that is there whenever there is more to see.
         ui.spacing_mut().scroll = egui::style::ScrollStyle::solid();
+        let height = (screen.y - AROUND.y).max(0.0);
         let list = ScrollArea::vertical()
-            .max_height((screen.y - AROUND.y).max(0.0))
+            .max_height(height)
+            // At once: the window would else grow to it over frames, and paused there are no more.
+            .min_scrolled_height(height)
             .auto_shrink([false, true])
             .scroll_bar_visibility(ScrollBarVisibility::VisibleWhenNeeded);
         list.show(ui, |ui| {
@@ -45,7 +48,9 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
                 commands.push(Command::ToggleHelp);
             }
             let note = "The exact solution is white, black by day; each method has its own colour and dash.";
-            ui.add(egui::Label::new(RichText::new(note).color(ink(ui).dim)).truncate());
+            if columns == 2 {
+                ui.add(egui::Label::new(RichText::new(note).color(ink(ui).dim)).truncate());
+            }
         });
     });
 }

@@ -40,6 +40,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
                 named(ui, Button::new("↺ Restore all"), "everything as the scene has it")
             });
             if all.inner.clicked() {
+                Field::forget_faults(ui);
                 commands.extend(restoring);
             }
         });

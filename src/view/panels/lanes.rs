@@ -3,8 +3,8 @@
 
 use egui::{Align2, FontId, Id, Pos2, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
-use super::{ink, keycap, short};
-use crate::lab::{Command, Lab, Mode};
+use super::{formula, ink, keycap, short};
+use crate::lab::{Command, FORMULAS, Lab, Mode};
 use crate::view::plot;
 use crate::view::theme::{TYPE, strong_font};
 
@@ -229,6 +229,10 @@ fn tooltip(response: Response, row: &Row<'_>, said: Option<&str>) -> Response {
         let method = row.spec.method;
         ui.label(egui::RichText::new(row.method_name()).font(strong_font(TYPE)));
         ui.label(method.about);
+        let formula = FORMULAS.iter().find(|formula| formula.method == method.id);
+        for line in formula.map_or(&[][..], |formula| formula.lines) {
+            ui.label(formula::job(line, 16.0, ink(ui).text));
+        }
         if let Some(said) = said {
             ui.label(format!("At {} Hz: {said}.", row.lab.clock().tick_hz()));
         }
@@ -260,4 +264,68 @@ pub(super) fn offset_to_follow(ui: &Ui, id: Id, selected: usize, rows: usize) ->
     // From the top, as long as the row is in sight there: a race shows its lanes.
     let offset = if bottom <= room { 0.0 } else { bottom - (ROW + room) / 2.0 };
     (known != Some(selected)).then(|| offset.clamp(0.0, hidden))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Scene;
+
+    fn race() -> Lab {
+        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        lab.apply(Command::ToggleRace);
+        (0..60).for_each(|_| lab.tick());
+        lab.analyse();
+        lab
+    }
+
+    fn entries(lab: &Lab, order: Order) -> Vec<usize> {
+        sorted(lab, order).iter().map(|row| row.entry).collect()
+    }
+
+    #[test]
+    fn without_an_order_rows_are_in_that_of_the_keys() {
+        let lab = race();
+        assert!(entries(&lab, None).into_iter().eq(0..lab.entries().len()));
+    }
+
+    #[test]
+    fn every_column_sorts_all_rows_both_ways_and_those_without_a_value_last() {
+        let lab = race();
+        let all: Vec<usize> = (0..lab.entries().len()).collect();
+        for (by, column) in COLUMNS.iter().enumerate() {
+            for is_reversed in [false, true] {
+                let rows = sorted(&lab, Some((by, is_reversed)));
+                let mut found: Vec<usize> = rows.iter().map(|row| row.entry).collect();
+                found.sort_unstable();
+                assert_eq!(found, all, "{}", column.head);
+                let ranks: Vec<Rank> = rows.iter().map(column.rank).collect();
+                let nothing = ranks.iter().position(|rank| *rank == Rank::Nothing);
+                let (ranked, rest) = ranks.split_at(nothing.unwrap_or(ranks.len()));
+                assert!(rest.iter().all(|rank| *rank == Rank::Nothing), "{}", column.head);
+                let is_in_order = |pair: &[Rank]| match is_reversed {
+                    true => pair[0] >= pair[1],
+                    false => pair[0] <= pair[1],
+                };
+                assert!(ranked.windows(2).all(is_in_order), "{}: {ranked:?}", column.head);
+            }
+        }
+        let error = COLUMNS.iter().position(|column| column.head == "error").unwrap();
+        let by_error = entries(&lab, Some((error, false)));
+        assert_ne!(by_error, entries(&lab, None), "some lane is worse than the next");
+    }
+
+    #[test]
+    fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
+        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        lab.apply(Command::Pick(1));
+        lab.tick();
+        let bodies = lab.scene().bodies.len();
+        for (by, column) in COLUMNS.iter().enumerate() {
+            let rows = sorted(&lab, Some((by, true)));
+            let first = rows.iter().position(|row| row.is_of_body).expect("the flown lane");
+            let of_lane = rows[first..first + bodies].iter();
+            assert!(of_lane.map(|row| row.body).eq(0..bodies), "{}", column.head);
+        }
+    }
 }

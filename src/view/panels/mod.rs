@@ -11,6 +11,7 @@ use crate::lab::{Command, Lab, Outcome, Severity};
 mod advice;
 mod cost;
 mod footer;
+mod formula;
 mod guide;
 mod help;
 mod inspector;

@@ -6,9 +6,11 @@ use egui::{
 };
 
 use super::plot_area::{PlotArea, arrow, label};
-use super::{colour, ink, strong_font};
+use super::{colour, formula, ink, strong_font};
 use crate::lab::number::{round, significant};
 use crate::lab::{Lab, OneStep, Slope};
+
+mod loupe;
 
 /// Room for the numbers at the left of the plot and below it, in points.
 const LEFT: f32 = 62.0;
@@ -21,7 +23,7 @@ const TABLE: f32 = 380.0;
 const PLOT: f32 = 0.42;
 /// The height of a row of the table and of a line of the formula, in points.
 const ROW: f32 = 20.0;
-const FORMULA: f32 = 18.0;
+const FORMULA: f32 = 20.0;
 /// The radius of a state and of the badge of an evaluation, in points.
 const STATE: f32 = 5.0;
 const BADGE: f32 = 8.0;
@@ -167,6 +169,9 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
         label(&painter, (at, 0.0), text, [colour, ink.plot]);
         named.push(at);
     }
+    let states = evaluations.iter().map(|(_, _, slope)| area.at(slope.at));
+    let taken: Vec<Pos2> = taken.into_iter().chain(named).chain(states).collect();
+    loupe::show(&painter, &area, step, &taken, (ink, own));
     let about = format!("one step of {}", step.spec.method.name);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &about));
 }
@@ -236,7 +241,7 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
     ui.spacing_mut().item_spacing.y = 1.0;
     ScrollArea::vertical().id_salt("one step").auto_shrink(false).show(ui, |ui| {
         for line in step.formula().map_or(&[][..], |formula| formula.lines) {
-            ui.label(RichText::new(*line).size(13.5));
+            ui.label(formula::job(line, 16.0, ink(ui).text));
         }
         let grid = Grid::new("evaluations").num_columns(5).spacing([14.0, 1.0]).striped(true);
         grid.min_row_height(ROW - 2.0).show(ui, |ui| {

@@ -35,6 +35,15 @@ impl PlotArea {
         pos2(self.rect.left() + x * self.rect.width(), self.rect.bottom() - y * self.rect.height())
     }
 
+    /// The lengths on the screen of a difference between two points: to the right and up.
+    pub(super) fn lengths(&self, difference: [f64; 2]) -> [f64; 2] {
+        let size = [self.rect.width(), self.rect.height()].map(f64::from);
+        std::array::from_fn(|axis| {
+            let [low, high] = self.bounds[axis];
+            difference[axis] / (high - low) * size[axis]
+        })
+    }
+
     /// The point of the plane at a place on the screen, which is moved into the rectangle.
     pub(super) fn point(&self, at: Pos2) -> [f64; 2] {
         let at = self.rect.clamp(at);

@@ -2,12 +2,13 @@
 //! run is.
 
 use egui::{
-    Align2, Color32, ComboBox, FontId, Label, Pos2, Rect, RichText, Sense, Stroke, Ui, Vec2, pos2,
-    vec2,
+    Align2, Color32, ComboBox, EventFilter, FontId, Id, Key, Label, Pos2, Rect, RichText, Sense,
+    Stroke, Ui, Vec2, pos2, vec2,
 };
 
 use super::plot_area::{PlotArea, decades, label, mixed, polygon};
 use super::{colour, ink, strong_font};
+use crate::lab::number::round;
 use crate::lab::{
     Action, Command, Coverage, Lab, MapRequest, Parameter, StabilityMap, edited_values,
 };
@@ -25,8 +26,12 @@ const NAME: f32 = 19.0;
 const ROOM_FOR_WORDS: f32 = 260.0;
 /// How opaque the water is where every method is stable.
 const DEEPEST: f32 = 0.7;
+/// What the cross is known by.
+const CROSS_ID: &str = "cross of the stability map";
 /// The size of the cross, in points.
 const CROSS: f32 = 13.0;
+/// So many steps of an arrow key are a factor of ten of the parameter.
+const STEPS_OF_DECADE: f64 = 20.0;
 /// How far a boundary's label is from it, and from the middle of any other label or boundary, in points.
 const BESIDE: f32 = 10.0;
 const APART: f32 = 13.0;
@@ -147,7 +152,7 @@ fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
     }
 }
 
-/// Each method's boundary in its colour with its name beside it, the selected method's last.
+/// Each method's boundary in its colour with its name and its limit beside it, the selected method's last.
 fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
     let painter = ui.painter().with_clip_rect(area.rect);
     let lines: Vec<(usize, Vec<Pos2>)> = map
@@ -188,18 +193,29 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
         if named.contains(entry) {
             continue;
         }
-        let text = numbered(*entry, lab.entries()[*entry].method.name);
+        let name = numbered(*entry, lab.entries()[*entry].method.name);
+        let with_limit = limit(map, *entry).map(|limit| format!("{name}: {limit}"));
         let others =
             lines.iter().filter(|(other, _)| other != entry).flat_map(|(_, points)| points);
         let others: Vec<Pos2> = others.copied().collect();
-        let width = 7.0 * text.chars().count() as f32;
-        if let Some((at, angle)) = label_place(points, width, area.rect, &taken, &others) {
-            let land = ink(ui).plot.gamma_multiply(0.8);
-            label(&painter, (at, angle), &text, [style(*entry).0, land]);
-            taken.extend(along(at, angle, width));
-            named.push(*entry);
+        // The name alone where there is no room for both.
+        for text in with_limit.into_iter().chain([name]) {
+            let width = 7.0 * text.chars().count() as f32;
+            if let Some((at, angle)) = label_place(points, width, area.rect, &taken, &others) {
+                let land = ink(ui).plot.gamma_multiply(0.8);
+                label(&painter, (at, angle), &text, [style(*entry).0, land]);
+                taken.extend(along(at, angle, width));
+                named.push(*entry);
+                break;
+            }
         }
     }
+}
+
+/// The limit of a method on the map, as a formula: `ω h < 2`.
+fn limit(map: &StabilityMap, entry: usize) -> Option<String> {
+    let place = map.request.specs.iter().position(|(listed, _)| *listed == entry)?;
+    Some(format!("ω h < {}", round(map.regions.get(place)?.limit?, 4)))
 }
 
 /// The name of a method after the digit that picks it, if there is one.
@@ -277,18 +293,28 @@ fn cross_at(lab: &Lab, map: &StabilityMap, area: &PlotArea) -> Option<Pos2> {
 /// The cross, which sets the tick rate and the parameter when it is dragged.
 fn cross(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea, commands: &mut Vec<Command>) {
     let Some(at) = cross_at(lab, map, area) else { return };
-    let response =
-        ui.interact(area.rect, ui.scope_id().with("you are here"), Sense::click_and_drag());
+    let response = ui.interact(area.rect, Id::unique(CROSS_ID), Sense::click_and_drag());
     let (ink, painter) = (ink(ui), ui.painter().with_clip_rect(area.rect));
     let place = map.request.parameter;
     let value = lab.race().values(map.request.body)[place];
-    let here =
-        format!("you are here: {}", point_in_words(lab, place, lab.clock().tick_hz(), value));
+    let here = format!(
+        "you are here, arrow keys move it: {}",
+        point_in_words(lab, place, lab.clock().tick_hz(), value)
+    );
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &here));
     if let Some(pointer) =
         response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked())
     {
         go_to(lab, map, area.point(pointer), commands);
+    }
+    if response.has_focus() {
+        let filter = EventFilter {
+            horizontal_arrows: true,
+            vertical_arrows: true,
+            ..EventFilter::default()
+        };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+        step(ui, lab, map, commands);
     }
     let is_lit = response.hovered() || response.dragged();
     let response = response.on_hover_cursor(egui::CursorIcon::Crosshair);
@@ -319,14 +345,33 @@ fn cross(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea, commands: &mut
     painter.galley(chip.min + vec2(6.0, 3.0), galley, ink.on_accent);
 }
 
+/// Moves the cross by the arrow keys: along the ladder of tick rates, and by equal factors of the parameter.
+fn step(ui: &Ui, lab: &Lab, map: &StabilityMap, commands: &mut Vec<Command>) {
+    let pressed = |key| ui.input(|input| input.num_presses(key));
+    commands.extend((0..pressed(Key::ArrowLeft)).map(|_| Command::TickRateDown));
+    commands.extend((0..pressed(Key::ArrowRight)).map(|_| Command::TickRateUp));
+    let up = pressed(Key::ArrowUp) as f64 - pressed(Key::ArrowDown) as f64;
+    if up != 0.0 {
+        let [low, high] = map.request.range;
+        let present = lab.race().values(map.request.body)[map.request.parameter];
+        let value = present.max(low) * libm::pow(10.0, up / STEPS_OF_DECADE);
+        set(lab, map, value.clamp(low, high), commands);
+    }
+}
+
 /// Sets the tick rate and the parameter to a point of the map.
 fn go_to(lab: &Lab, map: &StabilityMap, [x, y]: [f64; 2], commands: &mut Vec<Command>) {
-    let (body, parameter) = (map.request.body, map.request.parameter);
     let tick_hz = libm::pow(10.0, x).round().max(1.0) as u32;
     if tick_hz != lab.clock().tick_hz() {
         commands.push(Command::TickHz(tick_hz));
     }
-    let value = to_three_digits(libm::pow(10.0, y));
+    set(lab, map, libm::pow(10.0, y), commands);
+}
+
+/// Sets the parameter to three digits of a value.
+fn set(lab: &Lab, map: &StabilityMap, value: f64, commands: &mut Vec<Command>) {
+    let (body, parameter) = (map.request.body, map.request.parameter);
+    let value = to_three_digits(value);
     let values = lab.race().values(body);
     let kind = lab.scene().bodies[body].kind;
     if value != values[parameter] && edited_values(kind, values, parameter, value).is_ok() {

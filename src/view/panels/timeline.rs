@@ -96,7 +96,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 fn margins(lab: &Lab, width: f32) -> [f32; 2] {
     match width >= ROOM_FOR_WORDS {
         true => [NAME, MEMORY + MARGIN],
-        false if lab.timeline().can_undo() => [MARGIN, UNDO + MARGIN],
+        false if lab.undoes().is_some() => [MARGIN, UNDO + MARGIN],
         false => [MARGIN; 2],
     }
 }
@@ -164,8 +164,11 @@ fn seek(ui: &Ui, lab: &Lab, response: &Response, track: &Track<'_>, commands: &m
     let name = format!("timeline, at tick {present}");
     response.widget_info(|| egui::WidgetInfo::slider(true, lab.race().t(), &name));
     let is_pressed = response.is_pointer_button_down_on();
-    // A press that is over before the next frame is only seen by its end.
-    if (is_pressed || response.clicked() || response.drag_stopped())
+    // A press that is over before the next frame is only seen by its end. An end without anything new goes nowhere: a key
+    // of the same frame has gone on from there.
+    let is_new = ui.input(|i| i.pointer.any_pressed() || i.pointer.delta() != Vec2::ZERO);
+    let has_ended = response.clicked() || response.drag_stopped();
+    if (is_pressed || has_ended && is_new)
         && let Some(pointer) = response.interact_pointer_pos()
     {
         let tick = track.tick(track.along.clamp(pointer.x)).min(lab.timeline().end());
@@ -296,12 +299,13 @@ fn beside(ui: &mut Ui, lab: &Lab, room: Rect, commands: &mut Vec<Command>) {
         let at = room.right_bottom();
         ui.painter().text(at, Align2::RIGHT_BOTTOM, text, FontId::proportional(10.5), ink(ui).dim);
     }
-    if timeline.can_undo() {
+    if let Some(brings_back) = lab.undoes() {
         let size = vec2(UNDO - 6.0, 18.0).min(room.size());
         let rect = Rect::from_min_size(pos2(room.right() - size.x, room.top() + 1.0), size);
-        let button = ui.put(rect, egui::Button::new(egui::RichText::new("Undo").size(11.0)));
-        let about = "bring back the future that an action in the past discarded (Ctrl Z)";
-        button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, about));
+        let button =
+            ui.put(rect, egui::Button::new(egui::RichText::new("Undo").size(11.0)).small());
+        let about = format!("{brings_back} (Ctrl Z)");
+        button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
         if button.on_hover_text(about).clicked() {
             commands.push(Command::Undo);
         }
@@ -334,57 +338,4 @@ fn tooltip(ui: &Ui, response: Response, track: &Track<'_>, groups: &[Group]) {
 }
 
 #[cfg(test)]
-mod tests {
-    use egui::{Context, Event as Input, Modifiers, PointerButton, RawInput};
-
-    use super::*;
-    use crate::lab::Scene;
-    use crate::view::panels;
-    use crate::view::theme;
-
-    const SIZE: Vec2 = vec2(1280.0, 720.0);
-
-    /// What a frame of [`SIZE`] with these events asks for.
-    fn frame(context: &Context, lab: &Lab, events: Vec<Input>) -> Vec<Command> {
-        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, SIZE));
-        let input = RawInput { screen_rect, events, ..RawInput::default() };
-        let mut commands = Vec::new();
-        let mut output = context.run_ui(input, |ui| commands.extend(panels::show(ui, lab).0));
-        output.textures_delta.clear();
-        commands
-    }
-
-    fn press(pos: Pos2, pressed: bool) -> Input {
-        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
-        Input::PointerButton { pos, button, pressed, modifiers }
-    }
-
-    #[test]
-    fn a_press_on_the_track_goes_to_the_tick_there_and_a_drag_follows() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        (0..600).for_each(|_| lab.tick());
-        let context = Context::default();
-        theme::dress(&context);
-        let height =
-            SIZE.y - panels::footer::HEIGHT - panels::lanes::height(&lab) - HEIGHT + TRACK_Y;
-        let along = Rangef::new(8.0 + NAME, SIZE.x - 8.0 - MEMORY - MARGIN);
-        let whole = Span::whole(lab.scene().seconds, 10.0);
-        let at = |seconds: f64| pos2(whole.x(seconds, along), height);
-        frame(&context, &lab, vec![Input::PointerMoved(at(2.5))]);
-        let pressed = frame(&context, &lab, vec![press(at(2.5), true)]);
-        assert_eq!(pressed, [Command::Seek(150)]);
-        let dragged = frame(&context, &lab, vec![Input::PointerMoved(at(4.0))]);
-        assert_eq!(dragged, [Command::Seek(240)]);
-        // Nothing was run beyond its end.
-        let dragged = frame(&context, &lab, vec![Input::PointerMoved(at(19.0))]);
-        assert_eq!(dragged, [Command::Seek(600)]);
-        lab.apply(Command::Seek(600));
-        assert_eq!(frame(&context, &lab, vec![press(at(19.0), false)]), []);
-    }
-
-    #[test]
-    fn memory_is_told_in_megabytes() {
-        assert_eq!(memory(13_002_342, 64 << 20), "12.4 of 64 MB");
-        assert_eq!(memory(0, 1 << 20), "0.0 of 1 MB");
-    }
-}
+mod tests;

@@ -1,6 +1,7 @@
 //! The lanes as curves of a plot: every piece in the colour of the method that flew it, and nothing of a
 //! lane that has left the plot.
 
+use std::borrow::Cow;
 use std::ops::RangeInclusive;
 
 use egui_plot::PlotBounds;
@@ -19,10 +20,12 @@ struct Point {
     at: [f64; 2],
     /// The least and the greatest height on the way there.
     swept: [f64; 2],
+    /// Whether the body was put there, so that no path leads from the point before.
+    jumped: bool,
 }
 
 /// The samples of one lane, oldest first.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Track {
     points: Vec<Point>,
     /// The method of the lane now, by its place on the list.
@@ -47,7 +50,7 @@ impl Track {
     pub(super) fn of(lab: &Lab, body: usize, place: impl Fn(&Sample) -> [f64; 2]) -> Vec<Self> {
         Self::of_points(lab, body, |s| {
             let at = place(s);
-            Point { t: s.t, entry: s.entry, at, swept: [at[1]; 2] }
+            Point { t: s.t, entry: s.entry, at, swept: [at[1]; 2], jumped: s.jumped }
         })
     }
 
@@ -58,6 +61,7 @@ impl Track {
             entry: s.entry,
             at: [s.t, s.q],
             swept: s.swept.ends(),
+            jumped: s.jumped,
         })
     }
 
@@ -117,6 +121,23 @@ impl Track {
         self.points.iter().flat_map(ends)
     }
 
+    /// The tracks that an axis is fitted to: without what was before a body was put elsewhere or a parameter changed, but
+    /// for the moments after that.
+    pub(super) fn fitted<'t>(lab: &Lab, tracks: &'t [Self]) -> Cow<'t, [Self]> {
+        let since_s = lab.past().swing_since_s(lab.race().t());
+        if since_s == f64::NEG_INFINITY {
+            return Cow::Borrowed(tracks);
+        }
+        Cow::Owned(tracks.iter().map(|track| track.since(since_s)).collect())
+    }
+
+    /// The track from time `t` (s) on; where the body was put elsewhere at that time, from there.
+    fn since(&self, t: f64) -> Self {
+        let later = self.points.partition_point(|point| point.t < t);
+        let put = self.points.iter().rposition(|point| point.t == t && point.jumped);
+        Self { points: self.points[put.unwrap_or(later)..].to_vec(), ..*self }
+    }
+
     /// The times of the first and the last sample, in seconds.
     pub(super) fn times(&self) -> Option<(f64, f64)> {
         Some((self.points.first()?.t, self.points.last()?.t))
@@ -173,8 +194,8 @@ fn add(drawing: &mut Drawing, lab: &Lab, track: &Track, bounds: &PlotBounds, loo
     for stay in stays(points, within, RETURNED * lab.scene().seconds) {
         let (first, last) = stay.into_inner();
         // To the edge on both sides, and not across a switch on the way in.
-        let enters = first > 0 && points[first - 1].entry == points[first].entry;
-        let leaves = last + 1 < points.len();
+        let enters = first > 0 && goes_on(&points[first - 1], &points[first]);
+        let leaves = points.get(last + 1).is_some_and(|next| !next.jumped);
         let piece = first - usize::from(enters)..=last + usize::from(leaves);
         is_drawn[piece.clone()].fill(true);
         drawing.curves.extend(runs(&points[piece]).map(|run| {
@@ -195,7 +216,7 @@ fn add(drawing: &mut Drawing, lab: &Lab, track: &Track, bounds: &PlotBounds, loo
     }
     // A method of whose flight nothing shows has an arrow where it ended.
     let mut end = 0;
-    for run in points.chunk_by(|a, b| a.entry == b.entry) {
+    for run in points.chunk_by(goes_on) {
         let start = end;
         end += run.len();
         let newest = &points[end - 1];
@@ -206,8 +227,13 @@ fn add(drawing: &mut Drawing, lab: &Lab, track: &Track, bounds: &PlotBounds, loo
     }
 }
 
+/// Whether the lane went from one sample to the next under one method.
+fn goes_on(from: &Point, to: &Point) -> bool {
+    from.entry == to.entry && !to.jumped
+}
+
 /// The ranges of samples that are within, but for short visits of a lane that has left: what begins at
-/// the start, or with another method, or lasts.
+/// the start, or with another method, or where the body was put, or lasts.
 fn stays(
     points: &[Point],
     within: impl Fn(&Point) -> bool,
@@ -218,7 +244,7 @@ fn stays(
     while let Some(first) = (next..points.len()).find(|&i| within(&points[i])) {
         let outside = (first..points.len()).find(|&i| !within(&points[i]));
         let last = outside.unwrap_or(points.len()) - 1;
-        let begins = first == 0 || points[first - 1].entry != points[first].entry;
+        let begins = first == 0 || !goes_on(&points[first - 1], &points[first]);
         if begins || points[last].t - points[first].t >= least_s {
             stays.push(first..=last);
         }
@@ -227,14 +253,14 @@ fn stays(
     stays
 }
 
-/// The parts flown by one method each; each begins where the one before ends, unless the body had halted there and was
-/// taken up again elsewhere.
+/// The parts flown by one method each; each begins where the one before ends, unless the body was put elsewhere or had
+/// halted there and was taken up again later.
 fn runs(points: &[Point]) -> impl Iterator<Item = &[Point]> {
     let mut start = 0;
-    points.chunk_by(|a, b| a.entry == b.entry).map(move |run| {
+    points.chunk_by(goes_on).map(move |run| {
         let first: usize = start;
         start += run.len();
-        let meets = first > 0 && points[first - 1].t == points[first].t;
+        let meets = first > 0 && points[first - 1].t == points[first].t && !points[first].jumped;
         &points[first - usize::from(meets)..start]
     })
 }
@@ -242,7 +268,7 @@ fn runs(points: &[Point]) -> impl Iterator<Item = &[Point]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::{Command, Scene};
+    use crate::lab::{Action, Command, Scene};
 
     const LOOK: Look = Look { width: 1.0, dots: Dots::None, bounded: [false, true] };
 
@@ -318,11 +344,26 @@ mod tests {
         let points: Vec<Point> = (0..100)
             .map(|i| {
                 let y = if (20..30).contains(&i) || i == 35 { 9.0 } else { 0.0 };
-                Point { t: f64::from(i), entry: 0, at: [f64::from(i), y], swept: [y; 2] }
+                let at = [f64::from(i), y];
+                Point { t: f64::from(i), entry: 0, at, swept: [y; 2], jumped: false }
             })
             .collect();
         let found = stays(&points, |point| point.at[1] < 1.0, 10.0);
         assert_eq!(found, [0..=19, 36..=99]);
+    }
+
+    #[test]
+    fn no_stroke_leads_to_where_a_body_was_put() {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        tick(&mut lab, 60);
+        lab.apply(Command::Act(Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() }));
+        tick(&mut lab, 60);
+        let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
+        assert_eq!((curves.len(), arrows.len(), switches.len()), (2, 0, 0));
+        assert_eq!(curves[0].points.last().map(|at| at[0]), Some(1.0));
+        assert_eq!(curves[1].points[0], [1.0, 0.5]);
+        let since = Track::of(&lab, 0, |s| [s.t, s.q])[0].since(1.0);
+        assert_eq!(since.points[0].at, [1.0, 0.5], "where it was before is not of it");
     }
 
     #[test]

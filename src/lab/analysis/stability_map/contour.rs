@@ -100,7 +100,7 @@ pub(super) fn contour(
     };
     let lines = chains(segments).into_iter();
     let boundary = lines.map(|line| line.into_iter().map(|side| crossings[&side]).collect());
-    Region { coverage, pieces, boundary: boundary.collect() }
+    Region { coverage, pieces, boundary: boundary.collect(), limit: None }
 }
 
 /// Where the condition changes between `from`, where it is `holds`, and `to`.

@@ -164,3 +164,17 @@ fn a_broken_file_shows_its_mistakes_and_the_run_goes_on() {
     lab.reload_failed(Path::new(PATH), "boat/ship.toml:1:1: no".into());
     assert!(!shown(&lab));
 }
+
+#[test]
+fn the_memory_for_rewinding_is_that_of_every_scene_that_is_opened() {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    lab.set_rewind_bytes(1 << 20);
+    lab.apply(Command::NextScene);
+    assert_eq!(lab.timeline().limit(), 1 << 20);
+    lab.open_file(Path::new(PATH), scene(text("stiff")));
+    assert_eq!(lab.timeline().limit(), 1 << 20);
+    for _ in 0..20_000 {
+        lab.tick();
+        assert!(lab.timeline().bytes() <= 1 << 20, "{}", lab.timeline().bytes());
+    }
+}

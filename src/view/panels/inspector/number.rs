@@ -11,6 +11,14 @@ const SPEED: f64 = 0.004;
 /// And what it changes at least, so that a drag gets away from 0.
 const LEAST_SPEED: f64 = 1e-4;
 
+/// What was wrong with what was typed last in a field.
+#[derive(Clone)]
+struct Fault {
+    text: String,
+    /// The number that the field had then, and kept.
+    value: f64,
+}
+
 /// A number as a field shows it.
 pub(super) struct Field<'a> {
     /// Tells it from all others.
@@ -69,20 +77,29 @@ impl Field<'_> {
                 Err(wrong) => *fault.borrow_mut() = Some(wrong),
             }
         }
-        let fault = fault.into_inner();
-        if let Some(fault) = fault {
+        if let Some(text) = fault.into_inner() {
+            let fault = Fault { text, value: self.value };
             ui.data_mut(|data| data.insert_temp(self.id, fault));
-        } else if taken.is_some() || response.gained_focus() {
-            ui.data_mut(|data| data.remove::<String>(self.id));
+        } else {
+            let known = ui.data(|data| data.get_temp::<Fault>(self.id));
+            let is_over = known.is_some_and(|fault| fault.value != self.value);
+            if taken.is_some() || response.gained_focus() || is_over {
+                ui.data_mut(|data| data.remove::<Fault>(self.id));
+            }
         }
         (response, taken)
     }
 
     /// Says under the field with this id what was wrong with what was typed last.
     pub(super) fn show_fault(id: Id, ui: &mut Ui) {
-        if let Some(fault) = ui.data(|data| data.get_temp::<String>(id)) {
-            ui.label(RichText::new(fault).size(11.0).color(ink(ui).bad));
+        if let Some(fault) = ui.data(|data| data.get_temp::<Fault>(id)) {
+            ui.label(RichText::new(fault.text).size(11.0).color(ink(ui).bad));
         }
+    }
+
+    /// Forgets what was wrong in all fields.
+    pub(super) fn forget_faults(ui: &Ui) {
+        ui.data_mut(|data| data.remove_by_type::<Fault>());
     }
 }
 
@@ -132,6 +149,30 @@ mod tests {
             let typed = parsed(shown, "N/m").expect("a number");
             assert!((typed - value).abs() <= 1e-5 * value.abs(), "{typed}");
         }
+    }
+
+    #[test]
+    fn a_fault_is_over_when_the_number_changes_or_all_are_forgotten() {
+        let context = egui::Context::default();
+        let id = Id::unique("field");
+        let told = |value: f64, then: fn(&Ui)| {
+            let mut output = context.run_ui(egui::RawInput::default(), |ui| {
+                then(ui);
+                let field = Field { id, value, unit: "", name: "number", is_whole: false };
+                field.show(ui, Vec2::splat(50.0), |_| Ok(()));
+            });
+            output.textures_delta.clear();
+            context.data(|data| data.get_temp::<Fault>(id)).is_some()
+        };
+        let fail = || {
+            let fault = Fault { text: "`x` is not a number".into(), value: 1.0 };
+            context.data_mut(|data| data.insert_temp(id, fault));
+        };
+        fail();
+        assert!(told(1.0, |_| ()));
+        assert!(!told(2.0, |_| ()), "it was restored");
+        fail();
+        assert!(!told(1.0, Field::forget_faults));
     }
 
     #[test]

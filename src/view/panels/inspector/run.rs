@@ -27,8 +27,9 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
     let lane = entrant.lane_number;
     let spec = lab.entries()[entrant.entry];
     let ids = ["substeps", "tolerance"].map(|field| ui.scope_id().with((lane, field)));
-    let number = RichText::new(lane.to_string()).color(ink(ui).style(&spec).0);
-    ui.add_sized([LANE, LINE], egui::Label::new(number.strong()));
+    let number = number(lab, entrant);
+    let digits = RichText::new(number.to_string()).color(ink(ui).style(&spec).0);
+    ui.add_sized([LANE, LINE], egui::Label::new(digits.strong()));
     let gap = ui.spacing().item_spacing.x;
     let width = ui.available_width() - SUBSTEPS - TOLERANCE - RESTORE - 4.0 * gap;
     show_methods(ui, lab, entrant, width.max(60.0), commands);
@@ -36,7 +37,7 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
         id: ids[0],
         value: f64::from(spec.substeps),
         unit: "×",
-        name: &format!("substeps of lane {lane}"),
+        name: &format!("substeps of lane {number}"),
         is_whole: true,
     };
     let (response, entered) =
@@ -50,7 +51,7 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
                 id: ids[1],
                 value: spec.tolerance.unwrap_or(card.absolute_v),
                 unit: "",
-                name: &format!("tolerance of lane {lane}"),
+                name: &format!("tolerance of lane {number}"),
                 is_whole: false,
             };
             let (response, entered) = tolerance.show(ui, vec2(TOLERANCE, LINE), |value| {
@@ -63,10 +64,18 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
     }
     let opened = opened(lab, entrant);
     let about = format!("{} again, as the scene has it", opened.method.name);
-    restore(ui, spec != opened, &about, &format!("lane {lane}"), || {
+    restore(ui, spec != opened, &about, &format!("lane {number}"), || {
         commands.push(act(Action::Lane { lane, spec: opened }));
     });
     ids
+}
+
+/// The number that a lane goes by: in solo that of the method's key, which follows every switch.
+fn number(lab: &Lab, entrant: &Entrant) -> usize {
+    match lab.mode() {
+        Mode::Solo => entrant.entry + 1,
+        Mode::Race => entrant.lane_number,
+    }
 }
 
 fn show_methods(
@@ -183,6 +192,19 @@ fn within(name: &str, value: f64, (least, most): (f64, f64), unit: &str) -> Resu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::Scene;
+
+    #[test]
+    fn in_solo_the_number_beside_the_method_follows_a_switch() {
+        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        lab.apply(Command::Pick(2));
+        assert_eq!(number(&lab, lab.selected()), 3);
+        lab.apply(Command::Method(lab.entries()[7].method));
+        assert_eq!(number(&lab, lab.selected()), 8);
+        lab.apply(Command::ToggleRace);
+        let is_of_lane = |entrant: &Entrant| number(&lab, entrant) == entrant.lane_number;
+        assert!(lab.race().entrants().iter().all(is_of_lane));
+    }
 
     #[test]
     fn what_cannot_be_is_refused_with_what_can() {

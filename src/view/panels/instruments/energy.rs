@@ -46,8 +46,8 @@ fn energies(lab: &Lab, body: usize) -> PlotModel {
         ExactLine::of(lab, body, |s| Some([s.t, of(s.energies?)])).into_part(part, dash, strength)
     });
     let tracks: Vec<Track> = PARTS.into_iter().flat_map(energy).collect();
-    let range = exact.iter().flat_map(|line| line.along(1));
-    let y = ranges::around_truth(range, &tracks, 1, healthy(lab));
+    let range = exact.iter().flat_map(|line| line.fitted(lab, 1));
+    let y = ranges::around_truth(range, &Track::fitted(lab, &tracks), 1, healthy(lab));
     PlotModel {
         id: format!("energies of {body}"),
         title: "total solid, kinetic dashed, potential dotted".into(),

@@ -32,17 +32,18 @@ pub(super) fn plot(lab: &Lab, body: usize, place: usize, title: String) -> PlotM
     let values = Track::of(lab, body, |s| [s.t, s.metrics[place]]);
     let scale = scale(metric, &values);
     let tracks = Track::of(lab, body, |s| [s.t, scale.place(s.metrics[place])]);
+    let fitted = Track::fitted(lab, &tracks);
     let y = match (metric.scale, &*unit) {
         (Scale::Log, _) => {
             let truth = lab.past().truth_curves()[body].samples();
             let size = truth.map(|s| s.q.abs().max(s.v.abs()));
-            ranges::of_decades(&tracks, size.fold(0.0, f64::max))
+            ranges::of_decades(&fitted, size.fold(0.0, f64::max))
         }
         (Scale::Linear, _) if matches!(scale, AxisScale::SymLog(_)) => {
-            ranges::of_drift(&tracks, scale)
+            ranges::of_drift(&fitted, scale)
         }
-        (Scale::Linear, "%") => ranges::of_shares(&tracks),
-        (Scale::Linear, _) => ranges::from_zero(&tracks),
+        (Scale::Linear, "%") => ranges::of_shares(&fitted),
+        (Scale::Linear, _) => ranges::from_zero(&fitted),
     };
     let is_empty = tracks.iter().all(Track::is_empty);
     let has_values = values.iter().any(|track| !track.is_empty());

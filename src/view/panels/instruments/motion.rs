@@ -25,7 +25,8 @@ fn plot(lab: &Lab, body: usize) -> PlotModel {
     let coordinate = &truth.coordinates[0];
     let tracks = Track::of_coordinate(lab, body);
     let exact = ExactLine::of_coordinate(lab, body);
-    let y = ranges::around_truth(exact.along(1), &tracks, 1, healthy(lab));
+    let y =
+        ranges::around_truth(exact.fitted(lab, 1), &Track::fitted(lab, &tracks), 1, healthy(lab));
     let name = capitalised(&lab.scene().bodies[body].name);
     PlotModel {
         id: format!("motion of {body}"),

@@ -23,8 +23,9 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
     let newest = tracks.iter().filter_map(Track::times).max_by(|a, b| a.1.total_cmp(&b.1));
     let since_s = newest.map_or(f64::NEG_INFINITY, |(first, _)| first);
     let exact = ExactLine::of(lab, body, |s| (s.t >= since_s).then_some([s.q, s.v]));
-    let [x, y] =
-        [0, 1].map(|axis| ranges::around_orbit(exact.along(axis), &tracks, axis, healthy(lab)));
+    let fitted = Track::fitted(lab, &tracks);
+    let [x, y] = [0, 1]
+        .map(|axis| ranges::around_orbit(exact.fitted(lab, axis), &fitted, axis, healthy(lab)));
     let coordinate = &lab.race().truth().bodies()[body].coordinates[0];
     let velocity_unit = format!("{}/s", coordinate.unit);
     let plot = PlotModel {

@@ -1,6 +1,8 @@
 //! What an instrument shows, before it is drawn: plots over each other with one axis along. The window draws it, and what
 //! is copied or saved is made from it.
 
+use std::ops::Range;
+
 use egui::Color32;
 use egui_plot::PlotBounds;
 
@@ -58,6 +60,8 @@ pub(super) struct ExactLine {
     pub(super) times: Vec<f64>,
     /// What of the solution it is, where there are several; else empty.
     pub(super) part: &'static str,
+    /// The points at which the body was put elsewhere, by their places: no path leads to them.
+    jumps: Vec<usize>,
     /// Whether it is the first coordinate over time, which is known between the points too.
     is_coordinate: bool,
     samples: Vec<TruthSample>,
@@ -107,13 +111,23 @@ impl ExactLine {
         body: usize,
         place: impl Fn(&TruthSample) -> Option<[f64; 2]>,
     ) -> Self {
-        let placed = samples(lab, body).filter_map(|sample| Some((sample.t, place(&sample)?)));
-        let (times, points) = placed.filter(|(_, at)| at.iter().all(|x| x.is_finite())).unzip();
+        let (mut times, mut points, mut jumps) = (Vec::new(), Vec::new(), Vec::new());
+        let mut has_jumped = false;
+        for sample in samples(lab, body) {
+            has_jumped |= sample.jumped;
+            let at = place(&sample).filter(|at| at.iter().all(|x| x.is_finite()));
+            let Some(at) = at else { continue };
+            if std::mem::take(&mut has_jumped) {
+                jumps.push(points.len());
+            }
+            times.push(sample.t);
+            points.push(at);
+        }
         let colour = ink_of(lab.display().theme).exact;
         let dash = [1.0, 0.0];
         let swept = Vec::new();
         let curve = Curve { colour, width: EXACT, dash, dots: Dots::None, points, swept };
-        Self { curve, times, part: "", is_coordinate: false, samples: Vec::new() }
+        Self { curve, times, part: "", jumps, is_coordinate: false, samples: Vec::new() }
     }
 
     /// The first coordinate of a body over time.
@@ -131,27 +145,49 @@ impl ExactLine {
         Self { part, curve: Curve { dash, colour, ..self.curve }, ..self }
     }
 
-    /// The curve with a point of its own in every column, where columns are narrower than samples are apart.
-    fn in_columns(&self, truth: &LaneBody, [from, to]: [f64; 2], columns: f32) -> Curve {
-        let wide = (to - from) / f64::from(columns.max(1.0));
-        let mut curve = self.curve.clone();
-        let in_view = |s: &&TruthSample| (from..=to).contains(&s.t);
-        let known = self.samples.iter().filter(in_view).count();
-        if known as f32 > columns || self.samples.is_empty() {
-            return curve;
-        }
-        let first = self.samples.partition_point(|s| s.t < from).saturating_sub(1);
-        let last = (self.samples.partition_point(|s| s.t <= to) + 1).min(self.samples.len());
-        let near = &self.samples[first..last];
-        curve.points = TruthCurve::finer(truth, near, wide);
-        curve.swept = Vec::new();
-        curve
+    /// The curve from jump to jump, for a plot that has these times in view on so many columns of pixels.
+    fn curves(&self, truth: &LaneBody, view: [f64; 2], columns: f32) -> Vec<Curve> {
+        let starts = [0].iter().chain(&self.jumps);
+        let ends = self.jumps.iter().copied().chain([self.curve.points.len()]);
+        let pieces = starts.zip(ends).map(|(&start, end)| start..end);
+        pieces
+            .filter(|piece| !piece.is_empty())
+            .map(|piece| self.piece(piece, truth, view, columns))
+            .collect()
     }
 
-    /// The values along an axis, with those between samples.
-    pub(super) fn along(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
-        let swept = self.curve.swept.iter().flatten().filter(move |_| axis == 1);
-        self.curve.points.iter().map(move |point| point[axis]).chain(swept.copied())
+    /// A piece of the curve without a jump, with a point of its own in every column where columns are narrower than
+    /// samples are apart and more is known than the points.
+    fn piece(
+        &self,
+        piece: Range<usize>,
+        truth: &LaneBody,
+        [from, to]: [f64; 2],
+        columns: f32,
+    ) -> Curve {
+        let samples = self.samples.get(piece.clone()).unwrap_or_default();
+        let known = samples.iter().filter(|s| (from..=to).contains(&s.t)).count();
+        if !self.is_coordinate || known as f32 > columns {
+            let swept = self.curve.swept.get(piece.clone()).unwrap_or_default().to_vec();
+            return Curve { points: self.curve.points[piece].to_vec(), swept, ..self.curve };
+        }
+        let wide = (to - from) / f64::from(columns.max(1.0));
+        let first = samples.partition_point(|s| s.t < from).saturating_sub(1);
+        let last = (samples.partition_point(|s| s.t <= to) + 1).min(samples.len());
+        let points = TruthCurve::finer(truth, &samples[first..last], wide);
+        Curve { points, swept: Vec::new(), ..self.curve }
+    }
+
+    /// The values along an axis that it is fitted to, with those between samples: since a body was put elsewhere or a
+    /// parameter changed, but for the moments after that.
+    pub(super) fn fitted(&self, lab: &Lab, axis: usize) -> impl Iterator<Item = f64> + Clone {
+        let since_s = lab.past().swing_since_s(lab.race().t());
+        let later = self.times.partition_point(|&t| t < since_s);
+        let put = self.jumps.iter().rfind(|&&jump| self.times[jump] == since_s);
+        let first = put.copied().unwrap_or(later);
+        let swept = self.curve.swept.iter().skip(first).flatten().filter(move |_| axis == 1);
+        let points = self.curve.points[first..].iter();
+        points.map(move |point| point[axis]).chain(swept.copied())
     }
 
     /// Where it was at time `t` (s), on the line between samples.
@@ -187,10 +223,8 @@ impl PlotModel {
         let mut drawing = tracks::drawing(lab, &self.tracks, &healthy, self.look);
         drawing.switch_mark = self.switch_mark;
         let truth = &lab.race().truth().bodies()[self.body];
-        let curves = self.exact.iter().map(|line| match line.is_coordinate {
-            true => line.in_columns(truth, [bounds.min()[0], bounds.max()[0]], columns),
-            false => line.curve.clone(),
-        });
+        let view = [bounds.min()[0], bounds.max()[0]];
+        let curves = self.exact.iter().flat_map(|line| line.curves(truth, view, columns));
         drawing.truth = curves.collect();
         drawing
     }

@@ -5,7 +5,7 @@ use egui::{
 
 use super::error::NO_ERROR;
 use super::*;
-use crate::lab::{SCENES, Scene};
+use crate::lab::{Action, SCENES, Scene};
 use crate::view::panels;
 use crate::view::theme;
 
@@ -256,4 +256,44 @@ fn a_click_on_a_curve_selects_its_lane() {
     let is_pick = |command: &Command| *command == Command::Pick(widest);
     assert!(person.click(&lab, at).iter().any(is_pick));
     assert!(person.click(&lab, cell.frame.right_bottom() - vec2(9.0, 9.0)).is_empty());
+}
+
+#[test]
+fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.apply(Command::Pick(3));
+    (0..120).for_each(|_| lab.tick());
+    let place = |q: f64| Command::Act(Action::Place { body: 0, q: [q].into(), v: [0.0].into() });
+    lab.apply(place(8.0));
+    (0..300).for_each(|_| lab.tick());
+    let top = |lab: &Lab| sheet_of(lab).unwrap().plots[0].fit.max()[1];
+    assert!((8.0..12.0).contains(&top(&lab)), "{}", top(&lab));
+    lab.apply(place(0.5));
+    (0..10).for_each(|_| lab.tick());
+    assert!(top(&lab) > 8.0, "the new swing has only begun");
+    (0..120).for_each(|_| lab.tick());
+    assert!((0.5..1.0).contains(&top(&lab)), "{}", top(&lab));
+    let sheet = sheet_of(&lab).unwrap();
+    let plot = &sheet.plots[0];
+    let pieces = plot.drawing(&lab, &plot.fit, 400.0).truth;
+    let starts: Vec<[f64; 2]> = pieces.iter().map(|curve| curve.points[0]).collect();
+    assert_eq!(starts, [[0.0, 1.0], [2.0, 8.0], [7.0, 0.5]]);
+    // A parameter that is changed begins a new swing too, without a jump.
+    lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value: 4.0 }));
+    let before = lab.past().changed_s();
+    assert_eq!(before, lab.race().t());
+    lab.apply(Command::Seek(60));
+    assert_eq!(lab.past().changed_s(), f64::NEG_INFINITY, "not done yet");
+}
+
+#[test]
+fn a_reference_that_has_no_error_yet_is_not_said_to_have_one() {
+    for scene in ["helm", "pendulum"] {
+        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+        let words = |lab: &Lab| lab.race().truth().bodies()[0].truth_in_words();
+        let at_start = words(&lab);
+        assert!(at_start == "reference" || at_start.contains("10⁻¹"), "{scene}: {at_start}");
+        (0..60).for_each(|_| lab.tick());
+        assert!(words(&lab).starts_with("reference to 10⁻¹"), "{scene}: {}", words(&lab));
+    }
 }

@@ -81,3 +81,40 @@ fn a_body_without_a_map_says_why() {
     let (_, texts) = frame(&context, &lab("orbit"), Vec::new());
     assert!(texts.iter().any(|(_, text)| text.starts_with("No stability map")), "{texts:?}");
 }
+
+#[test]
+fn arrow_keys_move_the_focused_cross_by_rates_and_by_factors_of_the_parameter() {
+    let mut lab = lab("stiff");
+    let context = Context::default();
+    theme::dress(&context);
+    frame(&context, &lab, Vec::new());
+    context.memory_mut(|memory| memory.request_focus(Id::unique(CROSS_ID)));
+    frame(&context, &lab, Vec::new());
+    let (commands, _) = frame(&context, &lab, vec![press(Key::ArrowUp)]);
+    let [Command::Act(Action::Set { value, .. })] = &commands[..] else { panic!("{commands:?}") };
+    let before = lab.race().values(0)[1];
+    assert!((value / before / 1.122 - 1.0).abs() < 5e-3, "{before} to {value}");
+    for command in commands {
+        lab.apply(command);
+    }
+    let (commands, _) = frame(&context, &lab, vec![press(Key::ArrowRight)]);
+    assert_eq!(commands, [Command::TickRateUp]);
+}
+
+fn press(key: Key) -> Event {
+    Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers: Modifiers::NONE }
+}
+
+#[test]
+fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
+    let context = Context::default();
+    theme::dress(&context);
+    let (_, texts) = frame(&context, &lab("spring"), Vec::new());
+    assert!(texts.iter().any(|(_, text)| text.ends_with(": ω h < 2")), "{texts:?}");
+    let mut damped = Lab::new(Scene::built_in("harbour").unwrap());
+    damped.apply(Command::Instrument(Instrument::StabilityMap));
+    damped.apply(Command::Body(1));
+    damped.analyse();
+    let map = damped.viewer().stability_map().unwrap();
+    assert!(map.regions.iter().all(|region| region.limit.is_none()));
+}

@@ -1,0 +1,36 @@
+//! A fixed tick, at most one a frame: where frames are too long, the game is slower.
+//!
+//! ```text
+//! let mut game_loop = GameLoop::new(60);
+//! // Each frame, with the duration of the last one:
+//! for _ in 0..game_loop.frame(duration_ns) {
+//!     world.step(1.0 / 60.0);
+//! }
+//! world.draw();
+//! ```
+
+const SECOND_NS: i64 = 1_000_000_000;
+
+/// The loop. Its time is counted in nanoseconds times ticks per second, in which a tick is whole: nothing is rounded.
+pub struct GameLoop {
+    tick_hz: i64,
+    /// The time since the last tick.
+    owed: i64,
+}
+
+impl GameLoop {
+    /// The loop before its first frame.
+    pub fn new(tick_hz: u32) -> Self {
+        Self { tick_hz: tick_hz.into(), owed: 0 }
+    }
+
+    /// The ticks to make now; `duration_ns` is the duration of the last frame.
+    pub fn frame(&mut self, duration_ns: i64) -> i64 {
+        // A clock that went back counts as no time.
+        self.owed += duration_ns.max(0) * self.tick_hz;
+        let due = i64::from(self.owed >= SECOND_NS);
+        // One tick is kept, so that timer noise costs nothing; the others are never caught up: the game slows down instead.
+        self.owed = (self.owed - due * SECOND_NS).min(SECOND_NS);
+        due
+    }
+}

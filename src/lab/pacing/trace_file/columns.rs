@@ -1,0 +1,126 @@
+//! The columns of a log that say when frames began and were displayed.
+
+use csv::StringRecord;
+
+use super::error::Fault;
+use super::milliseconds;
+
+/// Whether a row says how long it took until its frame, or from its frame on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Span {
+    /// Since the frame before: PresentMon 1 and 2, OCAT, CapFrameX, FrameView.
+    Before,
+    /// Until the frame after: the metrics of PresentMon 2.0, `--v2_metrics`.
+    After,
+}
+
+/// The names of the two columns of times; each also without its `Ms`.
+const TIMES: [(Span, &str, &str); 2] = [
+    (Span::Before, "MsBetweenPresents", "MsBetweenDisplayChange"),
+    (Span::After, "MsFrameTime", "MsDisplayedTime"),
+];
+
+/// The most characters of a wrong header that are shown.
+const MOST_SHOWN: usize = 300;
+
+/// Where the columns are.
+pub(super) struct Columns {
+    span: Span,
+    began: Column,
+    displayed: Column,
+    dropped: Option<Column>,
+    application: Option<usize>,
+    process: Option<usize>,
+    swap_chain: Option<usize>,
+    count: usize,
+}
+
+struct Column {
+    place: usize,
+    name: String,
+}
+
+/// What a row says.
+pub(super) struct Cells<'a> {
+    /// The program, the process and the window; empty where there is no such column.
+    pub(super) application: &'a str,
+    pub(super) process: &'a str,
+    pub(super) swap_chain: &'a str,
+    /// What the two times span.
+    pub(super) span: Span,
+    /// From one frame's beginning to the other's, in nanoseconds; the error where it is needed and missing.
+    pub(super) began_ns: Result<i64, Fault>,
+    /// From one frame's display to the other's; `None` if it was never displayed.
+    pub(super) displayed_ns: Option<i64>,
+    /// Whether a column says that it was displayed.
+    pub(super) surely_displayed: bool,
+}
+
+impl Columns {
+    /// Finds the columns by the header, whatever the case of its letters.
+    pub(super) fn find(header: &StringRecord) -> Result<Self, Fault> {
+        let place = |name: &str| header.iter().position(|h| h.trim().eq_ignore_ascii_case(name));
+        let column = |name: &str| {
+            let place = place(name).or_else(|| place(name.strip_prefix("Ms")?))?;
+            Some(Column { place, name: header[place].trim().to_owned() })
+        };
+        let times = |&(span, began, displayed): &(Span, &str, &str)| {
+            Some((span, column(began)?, column(displayed)?))
+        };
+        let Some((span, began, displayed)) = TIMES.iter().find_map(times) else {
+            let mut found = header.iter().map(str::trim).collect::<Vec<_>>().join(", ");
+            if let Some((end, _)) = found.char_indices().nth(MOST_SHOWN) {
+                found.replace_range(end.., "…");
+            }
+            return Err(Fault::Columns { found });
+        };
+        Ok(Self {
+            span,
+            began,
+            displayed,
+            dropped: column("Dropped"),
+            application: place("Application"),
+            process: place("ProcessID"),
+            swap_chain: place("SwapChainAddress"),
+            count: header.len(),
+        })
+    }
+
+    /// Reads a row.
+    pub(super) fn read<'a>(&self, row: &'a StringRecord) -> Result<Cells<'a>, Fault> {
+        let (cells, header) = (row.len(), self.count);
+        if cells < header {
+            return Err(Fault::FewCells { cells, header });
+        } else if cells > header {
+            return Err(Fault::ManyCells { cells, header });
+        }
+        let text = |place: Option<usize>| place.map_or("", |place| row[place].trim());
+        let dropped = self.dropped.as_ref().map(|column| column.flag(row)).transpose()?;
+        let began_ns = self.began.time(row)?;
+        let displayed_ns = self.displayed.time(row)?;
+        Ok(Cells {
+            application: text(self.application),
+            process: text(self.process),
+            swap_chain: text(self.swap_chain),
+            span: self.span,
+            began_ns: began_ns.ok_or_else(|| Fault::NoTime { column: self.began.name.clone() }),
+            displayed_ns: displayed_ns.filter(|_| dropped != Some(true)),
+            surely_displayed: dropped == Some(false),
+        })
+    }
+}
+
+impl Column {
+    fn time(&self, row: &StringRecord) -> Result<Option<i64>, Fault> {
+        milliseconds::nanoseconds(&row[self.place])
+            .map_err(|fault| Fault::Cell { column: self.name.clone(), fault })
+    }
+
+    fn flag(&self, row: &StringRecord) -> Result<bool, Fault> {
+        match row[self.place].trim() {
+            "1" => Ok(true),
+            "0" => Ok(false),
+            cell => Err(Fault::NotAFlag { column: self.name.clone(), cell: cell.into() }),
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! A loupe in the corner of a cell, for lanes that lie so close to the truth that no eye could tell them apart.
+
+use glam::DVec2;
+
+use super::moment::Moment;
+use super::sketch::{Camera, SOLID, demote, disc, fill, line, ring};
+use super::{Align, Label, Picture, Rect, Rgba};
+use crate::lab::METRICS;
+use crate::lab::number::{enlargement, round};
+use crate::lab::palette::faded;
+use crate::lab::race::Entrant;
+
+/// Its radius, how far it keeps from the edges of its cell, and the height of the number in it, in points.
+const RADIUS: f32 = 36.0;
+const INSET: f32 = 10.0;
+const NUMBER: f32 = 11.0;
+/// The least size of a cell that it does not crowd, in points.
+const ROOM: [f32; 2] = [360.0, 118.0];
+/// The part of its radius that the furthest lane reaches.
+const REACH: f64 = 0.5;
+/// Lanes further from the truth than this can be seen beside it, in points.
+const SEEN: f64 = 2.0;
+/// It shows lanes that were close to the truth for this long, in seconds: a swing of the harbour's spring.
+const LATELY_S: f64 = 1.0;
+/// The radius of a lane in it, in points.
+const LANE: f32 = 4.0;
+
+/// A lane under the loupe.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    /// How far it is from the truth at the present tick, in metres.
+    pub(super) off_m: DVec2,
+    /// The furthest that it was in the last second, in metres.
+    pub(super) lately_m: f64,
+    pub(super) colour: Rgba,
+}
+
+impl Near {
+    pub(super) fn of(moment: &Moment<'_>, lane: &Entrant, body: usize, colour: Rgba) -> Self {
+        let race = moment.lab.race();
+        let [place, truth] =
+            [&lane.lane, race.truth()].map(|lane| lane.bodies()[body].stepper.place());
+        let error = METRICS.iter().position(|metric| metric.id == "position_error");
+        let lately = moment.history(lane, body).since(race.t() - LATELY_S);
+        let errors = lately.filter_map(|sample| Some(sample.metrics[error?]));
+        Self { off_m: place - truth, lately_m: errors.fold(0.0, f64::max), colour }
+    }
+}
+
+/// Draws the lanes about the truth in the upper right corner of `room`, unless what is `busy` reaches there, if all of
+/// them are too close to the truth to be seen and have been for a while. The one in front is the last.
+pub(super) fn draw(
+    picture: &mut Picture,
+    moment: &Moment<'_>,
+    camera: &Camera,
+    lanes: &[Near],
+    (room, busy): (Rect, Rect),
+) {
+    let furthest_m = lanes.iter().map(|lane| lane.lately_m.max(lane.off_m.length()));
+    let furthest = camera.points_per_metre * furthest_m.fold(0.0, f64::max);
+    let has_room = (0..2).all(|axis| room.max[axis] - room.min[axis] >= ROOM[axis]);
+    if lanes.len() < 2 || !has_room || furthest > SEEN || moment.lab.race().t() < LATELY_S {
+        return;
+    }
+    let Some(times) = enlargement(furthest, REACH * f64::from(RADIUS)) else { return };
+    let (palette, clip) = (moment.palette, camera.rect);
+    let at = [room.max[0] - RADIUS - INSET, room.min[1] + RADIUS + INSET];
+    if (0..2).all(|i| at[i] - RADIUS < busy.max[i] && at[i] + RADIUS > busy.min[i]) {
+        return;
+    }
+    let [x, y] = at;
+    let rim = around(at, RADIUS);
+    picture.shapes.push(fill(&rim, faded(palette.panel, 0.94), clip));
+    // The number stands below.
+    let middle = y - 5.0;
+    let hair = faded(palette.exact, 0.45);
+    let reach = RADIUS - 12.0;
+    picture.shapes.push(line([x - reach, middle], [x + reach, middle], 1.0, hair, clip));
+    picture.shapes.push(line([x, middle - reach], [x, middle + reach], 1.0, hair, clip));
+    picture.shapes.push(ring(&around([x, middle], 3.0), 1.2, palette.exact, SOLID, clip));
+    for lane in lanes {
+        let off = lane.off_m * (camera.points_per_metre * times);
+        let place = [x + demote(off.x), middle - demote(off.y)];
+        picture.shapes.push(disc(place, LANE, lane.colour, clip));
+        picture.shapes.push(ring(&around(place, LANE), 1.0, palette.panel, SOLID, clip));
+    }
+    picture.shapes.push(ring(&rim, 1.6, palette.dim, SOLID, clip));
+    picture.labels.push(Label {
+        at: [x, y + RADIUS - NUMBER],
+        align: Align::Centre,
+        size: NUMBER,
+        colour: palette.text,
+        is_strong: false,
+        halo: [0; 4],
+        text: format!("×{}", round(times, 1)),
+    });
+}
+
+/// The outline of a circle.
+fn around([x, y]: [f32; 2], radius: f32) -> Vec<[f32; 2]> {
+    const CORNERS: u8 = 48;
+    let corner = |i: u8| {
+        let angle = std::f32::consts::TAU * f32::from(i) / f32::from(CORNERS);
+        [x + radius * libm::cosf(angle), y + radius * libm::sinf(angle)]
+    };
+    (0..CORNERS).map(corner).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lab::picture::compose;
+    use crate::lab::{Command, Lab, Scene};
+
+    /// What the loupes on the stage are labelled with after some seconds of a race of the methods with these ids.
+    fn labels(scene: &str, methods: &[&str], seconds: u32) -> Vec<String> {
+        let mut scene = Scene::built_in(scene).unwrap();
+        let all = Lab::new(scene.clone()).entries().to_vec();
+        scene.lanes = all.into_iter().filter(|spec| methods.contains(&spec.method.id)).collect();
+        let mut lab = Lab::new(scene);
+        lab.apply(Command::ToggleRace);
+        (0..seconds * lab.race().tick_hz()).for_each(|_| lab.tick());
+        let picture = compose(&lab, [800.0, 440.0]);
+        let texts = picture.labels.into_iter().map(|label| label.text);
+        texts.filter(|text| text.starts_with('×')).collect()
+    }
+
+    #[test]
+    fn lanes_that_no_eye_can_tell_apart_are_under_a_loupe_with_its_scale() {
+        let alone = labels("spring", &["rk4"], 3);
+        assert_eq!(alone, Vec::<String>::new(), "it stands beside no other");
+        let found = labels("spring", &["rk4", "yoshida4", "pefrl"], 3);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let far = labels("spring", &["explicit-euler", "semi-implicit-euler", "rk4"], 3);
+        assert_eq!(far, Vec::<String>::new(), "semi-implicit Euler can be seen");
+    }
+}

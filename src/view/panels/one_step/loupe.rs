@@ -1,0 +1,100 @@
+//! A loupe for a landing that lies too close to the exact one to be told from it.
+
+use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Vec2, vec2};
+
+use super::PlotArea;
+use crate::lab::OneStep;
+use crate::lab::number::{enlargement, round};
+use crate::view::theme::Ink;
+
+/// Its radius, its least radius, and how far it keeps from the plot's edges and from all else in the plot, in points.
+const RADIUS: f32 = 44.0;
+const LEAST_RADIUS: f32 = 28.0;
+const INSET: f32 = 6.0;
+const APART: f32 = 8.0;
+/// Its radius is at most this part of the plot's height.
+const MOST_OF_HEIGHT: f32 = 0.3;
+/// A landing further than this from the exact one can be told from it, in points.
+const SEEN: f64 = 9.0;
+/// The distance of both landings in the loupe, as a part of its radius.
+const REACH: f64 = 0.8;
+/// The radii of both landings, in points.
+const LANDING: f32 = 5.0;
+const EXACT: f32 = 7.0;
+
+/// Draws the loupe where it is furthest from what is `taken` and from the exact motion, if it is needed and there is room.
+pub(super) fn show(
+    painter: &Painter,
+    area: &PlotArea,
+    step: &OneStep,
+    taken: &[Pos2],
+    (ink, own): (&Ink, Color32),
+) {
+    let (Some(landing), Some(exact)) = (step.landing, step.exact_landing()) else { return };
+    let [right, up] = area.lengths([0, 1].map(|axis| landing[axis] - exact[axis]));
+    let distance = libm::hypot(right, up);
+    let radius = RADIUS.min(MOST_OF_HEIGHT * area.rect.height());
+    let times = enlargement(distance, REACH * f64::from(radius));
+    let Some(times) = times.filter(|_| distance <= SEEN) else { return };
+    let room = area.rect.shrink(radius + INSET);
+    if radius < LEAST_RADIUS || !room.is_positive() {
+        return;
+    }
+    let curve = step.exact.iter().map(|point| area.at(*point));
+    let taken: Vec<Pos2> = taken.iter().copied().chain(curve).collect();
+    let places = (0..=8)
+        .flat_map(|i| [0.0, 0.5, 1.0].map(|down| room.lerp_inside(vec2(i as f32 / 8.0, down))));
+    let nearest =
+        |place: &Pos2| taken.iter().map(|at| at.distance(*place)).fold(f32::INFINITY, f32::min);
+    let furthest = places.max_by(|a, b| nearest(a).total_cmp(&nearest(b)));
+    let Some(at) = furthest.filter(|at| nearest(at) > radius + APART) else { return };
+    let pointed = area.at(landing);
+    let towards = (pointed - at).normalized();
+    let thin = Stroke::new(1.0, ink.dim);
+    painter.line_segment([at + radius * towards, pointed - (EXACT + 2.0) * towards], thin);
+    painter.circle(at, radius, ink.plot, Stroke::new(1.5, ink.dim));
+    let half = vec2((right * times / 2.0) as f32, -(up * times / 2.0) as f32);
+    let lift = Vec2::new(0.0, -5.0);
+    let [exact, landing] = [at + lift - half, at + lift + half];
+    painter.line_segment([exact, landing], Stroke::new(1.0, ink.grid));
+    painter.circle_stroke(exact, EXACT, Stroke::new(2.2, ink.exact));
+    painter.circle(landing, LANDING, own, Stroke::new(1.6, ink.plot));
+    let text = format!("×{}", round(times, 1));
+    let foot = at + vec2(0.0, radius - 9.0);
+    painter.text(foot, Align2::CENTER_CENTER, text, FontId::proportional(11.0), ink.text);
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::{Context, RawInput, Rect, Shape};
+
+    use crate::lab::{Command, Instrument, Lab, Scene};
+    use crate::view::{panels, theme};
+
+    /// What the loupes in a frame are labelled with, under the method at this place of the spring's list.
+    fn labels(entry: usize) -> Vec<String> {
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        lab.apply(Command::Pick(entry));
+        lab.apply(Command::Instrument(Instrument::OneStep));
+        lab.apply(Command::ToggleEnlarged);
+        (0..20).for_each(|_| lab.tick());
+        let context = Context::default();
+        theme::dress(&context);
+        let size = egui::vec2(1280.0, 720.0);
+        let screen_rect = Some(Rect::from_min_size(egui::Pos2::ZERO, size));
+        let input = RawInput { screen_rect, ..RawInput::default() };
+        let mut output = context.run_ui(input, |ui| drop(panels::show(ui, &lab)));
+        output.textures_delta.clear();
+        let texts = output.shapes.iter().filter_map(|shape| match &shape.shape {
+            Shape::Text(text) => Some(text.galley.text().to_owned()),
+            _ => None,
+        });
+        texts.filter(|text| text.starts_with('×')).collect()
+    }
+
+    #[test]
+    fn a_landing_that_covers_the_exact_one_is_under_a_loupe_with_its_scale() {
+        assert_eq!(labels(3).len(), 1, "Runge-Kutta 4: {:?}", labels(3));
+        assert_eq!(labels(0), Vec::<String>::new(), "explicit Euler can be seen to miss");
+    }
+}

@@ -1,0 +1,5 @@
+//! `loop`.
+
+use std::fs;
+
+use crate::{stderr_of_failure, stdout_of};

@@ -1,0 +1,177 @@
+//! The same panels beside the window's: they tell where a widget is, and what the mouse on it asks for.
+
+use egui::accesskit::{Action, Node, Role};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect};
+use image::RgbaImage;
+use regatta::lab::{Command, Lab, Pace};
+use regatta::view::{AdapterPreference, FrameOutput, FrameRenderer, Gpu, Offscreen, Readback};
+
+use crate::desk::Desk;
+
+/// The size at which a window opens.
+const SIZE_PX: [u32; 2] = [1280, 720];
+/// On the stage, beside all bodies: what is under the pointer is lit.
+const ASIDE: Pos2 = Pos2::new(40.0, 300.0);
+
+/// A lab and its panels, which are given what the window is given.
+pub(crate) struct Twin {
+    pub(crate) lab: Lab,
+    gpu: Gpu,
+    target: Offscreen,
+    renderer: FrameRenderer,
+    /// The accessible widgets of the last frame.
+    nodes: Vec<Node>,
+}
+
+impl Twin {
+    pub(crate) fn new(mut lab: Lab) -> Self {
+        // As in a window: it tells of the memory for rewinding.
+        lab.set_pace(Pace::Unknown);
+        let gpu = Gpu::headless(AdapterPreference::CpuOnly).expect("the window has an adapter too");
+        let target = Offscreen::new(&gpu, SIZE_PX).unwrap();
+        let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+        renderer.context().enable_accesskit();
+        Self { lab, gpu, target, renderer, nodes: Vec::new() }
+    }
+
+    /// Shows a frame with this event, and applies what it asks for.
+    fn frame(&mut self, event: Option<Event>) -> FrameOutput {
+        let events = event.into_iter().collect();
+        let input = RawInput { events, focused: true, ..RawInput::default() };
+        let Self { lab, gpu, target, renderer, .. } = self;
+        let (commands, mut output) = renderer.draw(gpu, &target.view, SIZE_PX, 1.0, input, lab);
+        let update = output.platform.accesskit_update.take().expect("it is enabled");
+        self.nodes = update.nodes.into_iter().map(|(_, node)| node).collect();
+        for command in commands {
+            self.lab.apply(command);
+        }
+        output
+    }
+
+    fn show(&mut self, events: impl IntoIterator<Item = Event>) {
+        for event in events {
+            drop(self.frame(Some(event)));
+            self.gpu.queue.submit([]);
+        }
+    }
+
+    /// Shows frames until nothing changes any more.
+    fn settle(&mut self) {
+        self.lab.analyse();
+        (0..3).for_each(|_| drop(self.frame(None)));
+    }
+
+    /// Where the widget is whose name, or value, begins so, of those that `is_meant`.
+    #[track_caller]
+    fn find(&mut self, name: &str, is_meant: impl Fn(&Node) -> bool) -> Rect {
+        self.settle();
+        let is_so = |text: Option<&str>| text.is_some_and(|text| text.starts_with(name));
+        let is_found = |node: &&Node| is_so(node.label()) || is_so(node.value());
+        let mut meant = self.nodes.iter().filter(|node| is_meant(node));
+        let Some(found) = meant.clone().find(is_found) else {
+            let names: Vec<_> = meant.by_ref().map(|node| node.label().or(node.value())).collect();
+            panic!("no \"{name}\" in {names:?}");
+        };
+        let rect = found.bounds().expect("widgets are somewhere");
+        let [min, max] =
+            [[rect.x0, rect.y0], [rect.x1, rect.y1]].map(|at| at.map(|side| side as f32));
+        Rect::from_min_max(min.into(), max.into())
+    }
+
+    /// Where the slider of this name is.
+    #[track_caller]
+    pub(crate) fn slider(&mut self, name: &str) -> Rect {
+        self.find(name, |node| node.role() == Role::Slider)
+    }
+
+    /// Applies a command, for which a key was pressed in the window.
+    pub(crate) fn apply(&mut self, command: Command) {
+        self.lab.apply(command);
+    }
+
+    /// Clicks the widget of this name here and in the window, and waits for both to have the same title.
+    #[track_caller]
+    pub(crate) fn click(&mut self, desk: &Desk, name: &str) {
+        let is_clickable =
+            |node: &Node| node.supports_action(Action::Click) && node.role() != Role::Label;
+        let rect = self.find(name, is_clickable);
+        self.click_at(desk, rect.center());
+    }
+
+    /// Clicks a place here and in the window, and waits for both to have the same title.
+    #[track_caller]
+    pub(crate) fn click_at(&mut self, desk: &Desk, at: Pos2) {
+        let at = at.floor();
+        if !self.lab.running() {
+            desk.still();
+        }
+        desk.click(at.x as u32, at.y as u32);
+        self.show([Event::PointerMoved(at), button(at, true), button(at, false)]);
+        desk.titled(&self.lab.title());
+    }
+
+    /// Types into the number of this name.
+    #[track_caller]
+    pub(crate) fn enter(&mut self, desk: &Desk, name: &str, number: &str) {
+        let rect = self.find(name, |node| node.role() == Role::SpinButton);
+        self.click_at(desk, rect.center());
+        desk.still();
+        for digit in number.chars() {
+            desk.press(&digit.to_string());
+            self.show([Event::Text(digit.to_string())]);
+        }
+        desk.press("Return");
+        self.show([Event::Key {
+            key: Key::Enter,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        }]);
+        self.settle();
+        desk.titled(&self.lab.title());
+    }
+
+    /// Drags from a place to another, here and in the window.
+    #[track_caller]
+    pub(crate) fn drag(&mut self, desk: &Desk, from: Pos2, to: Pos2) {
+        let [from, to] = [from, to].map(Pos2::floor);
+        let middle = from.lerp(to, 0.5).floor();
+        desk.still();
+        desk.xdotool(&format!("mousemove --window WINDOW {} {} mousedown 1", from.x, from.y));
+        self.show([Event::PointerMoved(from), button(from, true)]);
+        for at in [middle, to] {
+            desk.xdotool(&format!("mousemove --window WINDOW {} {}", at.x, at.y));
+            self.show([Event::PointerMoved(at)]);
+            desk.titled(&self.lab.title());
+        }
+        desk.xdotool("mouseup 1");
+        self.show([button(to, false)]);
+        self.settle();
+        desk.titled(&self.lab.title());
+    }
+
+    /// Moves the pointer aside here and in the window.
+    #[track_caller]
+    fn move_aside(&mut self, desk: &Desk) {
+        desk.xdotool(&format!("mousemove --window WINDOW {} {}", ASIDE.x, ASIDE.y));
+        self.show([Event::PointerMoved(ASIDE)]);
+    }
+
+    /// Waits for the window to show what is shown here.
+    #[track_caller]
+    pub(crate) fn looks_alike(&mut self, desk: &Desk) {
+        self.move_aside(desk);
+        self.settle();
+        let drawing = self.frame(None).drawing;
+        let mut rgba = Vec::new();
+        Readback::default().read(&self.gpu, drawing, &self.target.texture, &mut rgba).unwrap();
+        let picture = RgbaImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgba).unwrap();
+        desk.shows(&picture, 1);
+    }
+}
+
+fn button(pos: Pos2, pressed: bool) -> Event {
+    let button = PointerButton::Primary;
+    Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE }
+}

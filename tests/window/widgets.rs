@@ -1,0 +1,131 @@
+//! Every kind of widget worked by the mouse, in the window and in its twin: both come to the same run, and look alike.
+
+use regatta::lab::{Command, INSTRUMENTS, Instrument, Lab, Scene};
+
+use crate::desk::Desk;
+use crate::twin::Twin;
+
+/// A paused window at the start of a scene, and its twin.
+fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
+    let desk = Desk::open(test, &format!("--scene {scene}"))?;
+    let mut twin = Twin::new(Lab::new(Scene::built_in(scene).unwrap()));
+    desk.press("space");
+    twin.apply(Command::TogglePause);
+    desk.titled(&twin.lab.title());
+    desk.press("Home");
+    twin.apply(Command::Restart);
+    desk.at_tick(0);
+    Some((desk, twin))
+}
+
+/// Waits for window and twin to look alike, and compares what their recordings end with: the last command and the state.
+/// What a drag passes over in one frame is in no recording, and frames differ.
+#[track_caller]
+fn same(desk: &Desk, twin: &mut Twin) {
+    twin.looks_alike(desk);
+    let [window, twin] = [desk.recording(), twin.lab.recording().unwrap()];
+    let end = |text: &str| text.rsplit("[[command]]").next().map(str::to_owned);
+    assert_eq!(end(&window), end(&twin));
+}
+
+#[test]
+fn the_menus_and_buttons_above_and_below_and_the_table_are_worked_by_the_mouse() {
+    let test = "the_menus_and_buttons_above_and_below_and_the_table_are_worked_by_the_mouse";
+    let Some((desk, mut twin)) = paused(test, "ship") else { return };
+    for name in [
+        "ship",
+        "spring",
+        "one tick forward (.)",
+        "one tick forward (.)",
+        "one tick back (,)",
+        "run (Space)",
+        "pause (Space)",
+        "restart (Home)",
+        "simulated seconds per second",
+        "2× real time",
+        "ticks per simulated second",
+        "120 Hz",
+        "2 Semi-implicit Euler",
+        "sort by error",
+        "Race",
+        "4 Runge-Kutta 4",
+        "side by side (V)",
+        "Solo",
+        "help (H)",
+        "Close (Esc)",
+    ] {
+        twin.click(&desk, name);
+    }
+    let lab = &twin.lab;
+    assert_eq!((lab.clock().speed_percent(), lab.clock().tick_hz(), lab.active()), (200, 120, 3));
+    assert!(!lab.display().help);
+    same(&desk, &mut twin);
+    desk.quit();
+}
+
+#[test]
+fn the_instruments_and_the_inspector_are_worked_by_the_mouse() {
+    let test = "the_instruments_and_the_inspector_are_worked_by_the_mouse";
+    let Some((desk, mut twin)) = paused(test, "spring") else { return };
+    for card in INSTRUMENTS {
+        twin.click(&desk, card.name);
+        assert_eq!(twin.lab.display().instrument, card.instrument);
+    }
+    twin.click(&desk, "Error");
+    twin.click(&desk, "position error");
+    twin.click(&desk, "velocity error");
+    twin.click(&desk, "show this body large");
+    twin.click(&desk, "inspector (E)");
+    let stiffness = twin.slider("stiffness");
+    twin.drag(&desk, stiffness.center(), stiffness.lerp_inside(egui::vec2(0.8, 0.5)));
+    twin.click(&desk, "restore stiffness");
+    twin.enter(&desk, "stiffness", "90");
+    assert!(twin.lab.race().values(0).contains(&90.0));
+    same(&desk, &mut twin);
+    // Escape would close the inspector.
+    desk.close();
+    desk.ends();
+}
+
+#[test]
+fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
+    let test = "the_guide_and_the_timeline_are_worked_by_the_mouse";
+    let Some((desk, mut twin)) = paused(test, "spring") else { return };
+    desk.press("shift+period shift+period");
+    (0..2).for_each(|_| twin.apply(Command::SecondForward));
+    desk.at_tick(120);
+    let track = twin.slider("timeline");
+    twin.click_at(&desk, track.lerp_inside(egui::vec2(0.05, 0.5)));
+    let tick = twin.lab.race().tick();
+    assert!((1..119).contains(&tick), "{tick}");
+    desk.at_tick(tick);
+    twin.click(&desk, "2 Semi-implicit Euler");
+    twin.click(&desk, "bring back the future");
+    assert_eq!((twin.lab.timeline().end(), twin.lab.active()), (120, 0));
+    same(&desk, &mut twin);
+    twin.click(&desk, "guide (F2)");
+    twin.click(&desk, "pause (Space)");
+    twin.click(&desk, "restart (Home)");
+    let choice = twin.lab.viewer().tour().unwrap().stop().choices[1];
+    twin.click(&desk, choice);
+    assert_eq!(twin.lab.viewer().tour().unwrap().guess(), Some(1));
+    same(&desk, &mut twin);
+    twin.click(&desk, "Close");
+    assert!(twin.lab.viewer().tour().is_none());
+    same(&desk, &mut twin);
+    desk.quit();
+}
+
+#[test]
+fn a_drag_of_the_cross_on_the_stability_map_sets_the_tick_rate_and_the_parameter() {
+    let test = "a_drag_of_the_cross_on_the_stability_map_sets_the_tick_rate_and_the_parameter";
+    let Some((desk, mut twin)) = paused(test, "spring") else { return };
+    let values = twin.lab.race().values(0).to_vec();
+    twin.click(&desk, Instrument::StabilityMap.name());
+    let map = twin.slider("you are here");
+    twin.drag(&desk, map.center(), map.lerp_inside(egui::vec2(0.3, 0.4)));
+    let lab = &twin.lab;
+    assert!(lab.clock().tick_hz() != lab.scene().tick_hz && lab.race().values(0) != values);
+    same(&desk, &mut twin);
+    desk.quit();
+}
