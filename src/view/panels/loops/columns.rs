@@ -105,8 +105,10 @@ impl Cell {
 
 /// The unit that is shown in percent.
 const AMPLITUDES: &str = "amplitudes";
-/// Less is not told from nothing by three digits.
-const LEAST: f64 = 5e-4;
+/// Less is not told from nothing by three decimals.
+const LEAST: f64 = 1e-3;
+/// From here on three digits have no more than two decimals.
+const SMALL: f64 = 0.1;
 
 /// A value of a metric as the table has it.
 pub(super) fn shown(value: f64, unit: &str) -> String {
@@ -114,6 +116,7 @@ pub(super) fn shown(value: f64, unit: &str) -> String {
     let number = match value.abs() {
         0.0 => "0".into(),
         small if small < LEAST => "<0.001".into(),
+        small if small < SMALL => round(libm::round(value * 1000.0) / 1000.0, 3),
         _ => round(value, 3),
     };
     format!("{number} {unit}")
@@ -170,9 +173,10 @@ mod tests {
     }
 
     #[test]
-    fn values_have_three_digits_and_nothing_is_told_from_almost_nothing() {
-        let texts = [(8.2247, "ms"), (0.0, "ms"), (1e-7, "ms"), (0.1234, AMPLITUDES)];
+    fn values_have_three_digits_or_decimals_and_nothing_is_told_from_almost_nothing() {
+        let texts =
+            [(8.2247, "ms"), (-0.008_81, "ms"), (0.0, "ms"), (1e-7, "ms"), (0.1234, AMPLITUDES)];
         let texts = texts.map(|(value, unit)| shown(value, unit));
-        assert_eq!(texts, ["8.22 ms", "0 ms", "<0.001 ms", "12.3 %"]);
+        assert_eq!(texts, ["8.22 ms", "\u{2212}0.009 ms", "0 ms", "<0.001 ms", "12.3 %"]);
     }
 }

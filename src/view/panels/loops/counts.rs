@@ -71,9 +71,9 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
         let middle = rect.left() + group * (count as f32 + 0.5);
         let at = pos2(middle, rect.bottom() + 3.0);
         painter.text(at, Align2::CENTER_TOP, name, FontId::proportional(11.0), ink.dim);
-        let number = |x: f32, share: f64, y: f32| {
+        let number = |x: f32, y: f32, share: f64, colour: Color32| {
             let (at, text) = (pos2(x, y - 1.0), round(share, 3));
-            painter.text(at, Align2::CENTER_BOTTOM, text, strong_font(11.0), ink.text);
+            painter.text(at, Align2::CENTER_BOTTOM, text, strong_font(11.0), colour);
         };
         let top_of = |share: f64| area.at([0.0, share]).y.min(rect.bottom() - LEAST);
         for (i, series) in series.iter().enumerate() {
@@ -83,7 +83,7 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
             let bar = Rect::from_x_y_ranges(along, top_of(share)..=rect.bottom());
             painter.rect_filled(bar, 0.0, series.colour);
             if width >= ROOM_FOR_NUMBER {
-                number(bar.center().x, share, bar.top());
+                number(bar.center().x, bar.top(), share, series.colour);
             }
         }
         // Else one number over the group.
@@ -92,13 +92,17 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
         {
             let highest = series.iter().map(|series| series.shares_percent[count]);
             let y = top_of(highest.fold(0.0, f64::max));
-            number(middle, first.shares_percent[count], y);
+            number(middle, y, first.shares_percent[count], first.colour);
         }
     }
     let at = pos2(rect.center().x, room.bottom());
-    let name =
-        if room.width() > 190.0 { "ticks in a frame; share of frames" } else { "ticks in a frame" };
-    painter.text(at, Align2::CENTER_BOTTOM, name, FontId::proportional(11.5), ink.dim);
+    painter.text(
+        at,
+        Align2::CENTER_BOTTOM,
+        "ticks in a frame",
+        FontId::proportional(11.5),
+        ink.dim,
+    );
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::view::panels::{ink, strong_font};
 use crate::view::theme::Ink;
 
 /// So many frames of the display are shown.
-const FRAMES: f64 = 16.0;
+const FRAMES: f64 = 12.0;
 /// Where a lane is further off, in lengths of the plot, it is off the plot.
 const FURTHEST: f64 = 1.0;
 /// The range ends at multiples of this, in milliseconds, so that it seldom changes.

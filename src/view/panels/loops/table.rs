@@ -14,6 +14,8 @@ use crate::view::panels::{ink, keycap, severity_tone, short, strong_font};
 use crate::view::plot;
 use crate::view::theme::{TYPE, colour};
 
+/// Rows in sight: the stage and the instrument need the room. The rest is scrolled to.
+const MOST_ROWS: usize = 6;
 /// Half the size of the sign of a verdict, and the room that it takes, in points.
 const SIGN: f32 = 4.5;
 const SIGN_ROOM: f32 = 17.0;
@@ -22,7 +24,7 @@ const SIGN_ROOM: f32 = 17.0;
 type Order = Option<(usize, bool)>;
 
 pub(in crate::view::panels) fn height(loops: &LoopLab) -> f32 {
-    lanes::height_of(loops.lanes().len())
+    lanes::height_of(loops.lanes().len().min(MOST_ROWS))
 }
 
 pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
