@@ -46,13 +46,16 @@ impl Theme {
     /// The colour of a method, and its dash pattern as the second cue: drawn length and gap in points, a
     /// gap of 0 being solid.
     pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
-        self.numbered_style(METHODS.iter().position(|listed| listed == method).unwrap_or(0))
+        let place = METHODS.iter().position(|listed| listed == method).unwrap_or(0);
+        let (colour, dash) = STYLES[place];
+        (self.palette().methods[colour], DASHES[dash])
     }
 
-    /// The colour and the dash pattern of the thing with this number among others, from 0: neighbours differ.
+    /// The colour and the dash pattern of the thing with this number among others, from 0: seven neighbours differ in
+    /// colour.
     pub fn numbered_style(self, number: usize) -> (Rgba, [f32; 2]) {
-        let (colour, dash) = STYLES[number % STYLES.len()];
-        (self.palette().methods[colour], DASHES[dash])
+        let colour = NUMBERED[number % NUMBERED.len()];
+        (self.palette().methods[colour], DASHES[number % DASHES.len()])
     }
 }
 
@@ -162,6 +165,9 @@ static LIGHT: Palette = Palette {
 /// Drawn length and gap in points. Five patterns against seven colours: no two of the first 35 methods
 /// share both.
 const DASHES: [[f32; 2]; 5] = [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0]];
+
+/// The places of the colours of numbered things. No two warm ones are beside each other.
+const NUMBERED: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
 
 /// The methods that the chapter and its scenes race, with the places of their colours and dashes.
 const CLASSICS: [(&str, usize, usize); 6] = [
@@ -278,6 +284,10 @@ mod tests {
             for pair in METHODS.windows(2) {
                 let [a, b] = [&pair[0], &pair[1]].map(|method| theme.style(method).0);
                 assert!(distance(a, b) > 40 * 40, "{} and {}: {a:?} {b:?}", pair[0].id, pair[1].id);
+            }
+            for number in 0..2 * NUMBERED.len() {
+                let [a, b] = [number, number + 1].map(|number| theme.numbered_style(number).0);
+                assert!(distance(a, b) > 60 * 60, "{number}: {a:?} {b:?}");
             }
             for lanes in [
                 ["explicit-euler", "semi-implicit-euler"],

@@ -6,7 +6,7 @@ use super::frame::write;
 use super::{panels, theme};
 use crate::lab::palette::Theme;
 use crate::lab::picture::compose;
-use crate::lab::{Arrangement, Command, Lab, SCALE_LADDER, SCENES, Scene};
+use crate::lab::{Arrangement, Command, Instrument, Lab, LoopCommand, SCALE_LADDER, SCENES, Scene};
 
 /// Sizes of windows in points: the first is the least, the last has four times the usual pixels.
 const SIZES: [Vec2; 4] =
@@ -171,4 +171,45 @@ fn every_text_can_be_read_in_the_light_theme_and_with_the_help_and_the_inspector
             assert_legible(&lab, &format!("{command:?}"));
         }
     }
+}
+
+#[test]
+fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
+    for name in ["spring", "harbour", "orbit"] {
+        for theme in [Theme::Dark, Theme::Light] {
+            let mut lab = run(name, false);
+            lab.choose_theme(theme);
+            lab.apply(Command::Loop(LoopCommand::ToggleLab));
+            lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
+            assert_legible(&lab, &format!("loop lab on {name}, {theme:?}"));
+        }
+    }
+}
+
+#[test]
+fn every_text_of_the_loop_lab_can_be_read_with_every_loop_and_on_every_display() {
+    let mut lab = run("spring", false);
+    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    let loops = lab.loop_lab().expect("it is open");
+    let (traces, places) = (loops.traces().len(), loops.lanes().len());
+    for trace in 0..traces {
+        lab.apply(Command::Loop(LoopCommand::Trace(trace)));
+        lab.apply(Command::Loop(LoopCommand::Seek(5_000_000_000)));
+        assert_legible(&lab, &format!("trace {trace}"));
+    }
+    for place in 0..places {
+        lab.apply(Command::Loop(LoopCommand::Select(place)));
+        assert_legible(&lab, &format!("loop {place} selected"));
+    }
+}
+
+#[test]
+fn every_text_of_this_windows_own_loop_can_be_read() {
+    let mut lab = run("spring", false);
+    lab.apply(Command::Instrument(Instrument::Loop));
+    assert_legible(&lab, "no frame yet");
+    for frame in 0..600 {
+        lab.advance(if frame % 50 == 7 { 41_000_000 } else { 16_600_000 });
+    }
+    assert_legible(&lab, "ten seconds of frames");
 }

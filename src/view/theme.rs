@@ -258,7 +258,7 @@ mod tests {
         let context = egui::Context::default();
         dress(&context);
         context.run_ui(egui::RawInput::default(), |_| {}).textures_delta.clear();
-        let signs = "−×°²³⁰⁴⁵⁶⁷⁸⁹⁻₀₁₂ωΔζλμ←↑→↓↺…·⏮⏸⏭▶◀▲◆▼●✓½¼×√≤≥";
+        let signs = "−×°²³⁰⁴⁵⁶⁷⁸⁹⁻₀₁₂ωΔζλμ←↑→↓↺…·⏮⏸⏭▶◀▲◆▼●✓½¼⅛×√≤≥";
         context.fonts_mut(|fonts| {
             for family in [FontFamily::Proportional, strong()] {
                 for sign in signs.chars() {

@@ -77,8 +77,7 @@ impl Lab {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::key::command_for;
-    use crate::lab::{Key, Scene};
+    use crate::lab::{Key, Scene, command_for};
 
     #[test]
     fn a_key_goes_to_the_next_stop_of_the_open_guide_and_stays_at_the_last() {

@@ -2,9 +2,9 @@
 
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
-use super::{ink, keycap, short};
+use super::{ink, keycap, loops, short};
 use crate::lab::number::round;
-use crate::lab::{Command, Lab, Mode};
+use crate::lab::{Command, Lab, LoopCommand, Mode};
 use crate::view::theme::TYPE;
 
 pub(super) const HEIGHT: f32 = 32.0;
@@ -24,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let room_for_hint = keycap::line_width(ui, sentence) + GAP;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
-        if lab.dropped() > 0 {
+        if lab.dropped() > 0 && lab.loop_lab().is_none() {
             let text = format!("{} ticks dropped", lab.dropped());
             ui.label(RichText::new(text).color(ink(ui).bad))
                 .on_hover_text("the simulation fell behind real time and gave these up");
@@ -48,10 +48,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 
 /// The notice, or else the hint, or else what the scene is about; and whether it is one of the first two.
 fn sentence(lab: &Lab) -> (String, bool) {
-    match (&lab.viewer().notice, lab.hint()) {
-        (Some(notice), _) => (notice.clone(), true),
-        (None, Some(hint)) => (hint, true),
-        (None, None) => (lab.scene().about.clone(), false),
+    if let Some(notice) = &lab.viewer().notice {
+        return (notice.clone(), true);
+    }
+    if let Some(loops) = lab.loop_lab() {
+        return (loops::hints::sentence(loops), true);
+    }
+    match lab.hint() {
+        Some(hint) => (hint, true),
+        None => (lab.scene().about.clone(), false),
     }
 }
 
@@ -67,6 +72,16 @@ fn fitting<'s>(ui: &Ui, sentence: &'s str, width: f32) -> &'s str {
 fn key_hints(lab: &Lab) -> Vec<KeyHint> {
     let hint = |key, what: &str, command| (key, what.to_owned(), Some(command));
     let mut hints = vec![hint("H", "all keys", Command::ToggleHelp)];
+    let pause = if lab.running() { "pause" } else { "run" };
+    let pause = hint("Space", pause, Command::TogglePause);
+    let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
+    if lab.loop_lab().is_some() {
+        hints.push(hint("L", "leave the lab", toggle_loops));
+        hints.push(pause);
+        hints.push(hint("V", "next display", Command::ToggleArrangement));
+        hints.push(hint(".", "next frame", Command::TickForward));
+        return hints;
+    }
     let inputs =
         [("throttle", "↑ ↓", lab.race().throttle()), ("rudder", "← →", lab.race().rudder())];
     for (input, key, part) in inputs {
@@ -84,8 +99,8 @@ fn key_hints(lab: &Lab) -> Vec<KeyHint> {
             hints.push(hint("C", "race", Command::ToggleRace));
         }
     }
-    let pause = if lab.running() { "pause" } else { "run" };
-    hints.push(hint("Space", pause, Command::TogglePause));
+    hints.push(pause);
+    hints.push(hint("L", "loop lab", toggle_loops));
     hints.push(hint("F2", "guide", Command::ToggleGuide));
     hints
 }

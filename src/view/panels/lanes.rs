@@ -15,18 +15,22 @@ mod columns;
 mod row;
 mod verdict;
 
-const ROW: f32 = 26.0;
-const HEAD: f32 = 24.0;
+pub(super) const ROW: f32 = 26.0;
+pub(super) const HEAD: f32 = 24.0;
 /// The width of the bar at the left of the selected row, and of the margin that it stands in, in points.
-const BAR: f32 = 4.0;
-const MARGIN: f32 = 8.0;
+pub(super) const BAR: f32 = 4.0;
+pub(super) const MARGIN: f32 = 8.0;
 
 /// Rows in sight, where the window is high enough: the lanes of a usual race. The rest is scrolled to.
 const ROWS: std::ops::RangeInclusive<usize> = 5..=8;
 
 pub(super) fn height(lab: &Lab) -> f32 {
-    let rows = lab.scene().lanes.len().clamp(*ROWS.start(), *ROWS.end());
-    HEAD + ROW * rows as f32 + 2.0
+    height_of(lab.scene().lanes.len())
+}
+
+/// The height of a table of so many rows, as far as they are in sight.
+pub(super) fn height_of(rows: usize) -> f32 {
+    HEAD + ROW * rows.clamp(*ROWS.start(), *ROWS.end()) as f32 + 2.0
 }
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
@@ -38,7 +42,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     // The last row in sight is as clear as the others.
     ui.spacing_mut().scroll.fade.strength = 0.0;
     let mut list = ScrollArea::vertical().auto_shrink(false);
-    if let Some(offset) = offset_to_follow(ui, &rows) {
+    let selected = rows.iter().position(|row| row.is_selected).unwrap_or_default();
+    if let Some(offset) = offset_to_follow(ui, Id::unique("active lane"), selected, rows.len()) {
         list = list.vertical_scroll_offset(offset);
     }
     list.show(ui, |ui| {
@@ -245,22 +250,20 @@ fn tooltip(response: Response, row: &Row<'_>, said: Option<&str>) -> Response {
     })
 }
 
-/// How far to scroll for the selected row to be seen when it becomes so, in this very frame; `None` at all
-/// other times: a person may scroll away.
-fn offset_to_follow(ui: &Ui, rows: &[Row<'_>]) -> Option<f32> {
-    let id = Id::unique("active lane");
-    let place = rows.iter().position(|row| row.is_selected).unwrap_or_default();
+/// How far to scroll for the selected of so many rows to be seen when it becomes so, in this very frame; `None` at all
+/// other times: a person may scroll away. `id` is that of the table.
+pub(super) fn offset_to_follow(ui: &Ui, id: Id, selected: usize, rows: usize) -> Option<f32> {
     let known = ui.data_mut(|data| {
         let known = data.get_temp::<usize>(id);
-        data.insert_temp(id, place);
+        data.insert_temp(id, selected);
         known
     });
     let room = ui.available_height();
-    let bottom = ROW * (place + 1) as f32;
-    let hidden = (ROW * rows.len() as f32 - room).max(0.0);
+    let bottom = ROW * (selected + 1) as f32;
+    let hidden = (ROW * rows as f32 - room).max(0.0);
     // From the top, as long as the row is in sight there: a race shows its lanes.
     let offset = if bottom <= room { 0.0 } else { bottom - (ROW + room) / 2.0 };
-    (known != Some(place)).then(|| offset.clamp(0.0, hidden))
+    (known != Some(selected)).then(|| offset.clamp(0.0, hidden))
 }
 
 #[cfg(test)]

@@ -74,11 +74,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
         panel.show(ui, |ui| footer::show(ui, lab, &mut commands));
     }
     if size.y >= HEIGHT_FOR_LANES {
-        let height = lanes::height(lab).min(size.y * 0.4);
+        let height = lab.loop_lab().map_or_else(|| lanes::height(lab), loops::table::height);
+        let height = height.min(size.y * 0.4);
         // Without a margin: a row reaches from edge to edge.
         let frame = Frame::new().fill(ink(ui).panel);
         let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame);
-        panel.show(ui, |ui| lanes::show(ui, lab, &mut commands));
+        panel.show(ui, |ui| match lab.loop_lab() {
+            Some(loops) => loops::table::show(ui, loops, &mut commands),
+            None => lanes::show(ui, lab, &mut commands),
+        });
     }
     if size.y >= HEIGHT_FOR_TIMELINE {
         let height = match size.y >= HEIGHT_FOR_TIMES {
@@ -87,7 +91,10 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
         };
         let frame = frame(ink(ui).panel).inner_margin(Margin::symmetric(8, 1));
         let panel = egui::Panel::bottom("timeline").exact_size(height).frame(frame);
-        panel.show(ui, |ui| timeline::show(ui, lab, &mut commands));
+        panel.show(ui, |ui| match lab.loop_lab() {
+            Some(loops) => loops::slider::show(ui, loops, &mut commands),
+            None => timeline::show(ui, lab, &mut commands),
+        });
     }
     if size.x >= WIDTH_FOR_INSTRUMENTS {
         let width = if lab.display().enlarged { size.x } else { size.x * INSTRUMENTS };
@@ -153,7 +160,12 @@ fn short(ui: &Ui, words: &str, font: FontId, room: f32, colour: Color32) -> (Arc
 
 /// The colour of a verdict.
 fn tone(ui: &Ui, word: Outcome) -> Color32 {
-    match word.severity() {
+    severity_tone(ui, word.severity())
+}
+
+/// The colour of what is so bad.
+fn severity_tone(ui: &Ui, severity: Severity) -> Color32 {
+    match severity {
         Severity::Fine => ink(ui).good,
         Severity::Doubtful => ink(ui).warn,
         Severity::Bad => ink(ui).bad,

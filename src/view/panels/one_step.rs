@@ -4,13 +4,11 @@ use egui::{
     Align2, Color32, FontId, Grid, Label, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui,
     Vec2, pos2, vec2,
 };
-use egui_plot::GridInput;
 
 use super::plot_area::{PlotArea, arrow, label};
 use super::{colour, formula, ink, strong_font};
 use crate::lab::number::{round, significant};
 use crate::lab::{Lab, OneStep, Slope};
-use crate::view::ticks;
 
 mod loupe;
 
@@ -101,7 +99,7 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     let area = PlotArea { rect, bounds: [0, 1].map(|axis| range(step, axis)) };
     let painter = ui.painter_at(whole);
     painter.rect_filled(rect, 0.0, ink.plot);
-    area.axes(&painter, ink, [&marks(&area, 0), &marks(&area, 1)]);
+    area.axes(&painter, ink, [&area.marks(0, 64.0), &area.marks(1, 26.0)]);
     let coordinate = &lab.race().truth().bodies()[lab.display().body].coordinates[0];
     let small = FontId::proportional(11.5);
     let up = format!("velocity {}, {}/s", coordinate.velocity, coordinate.unit);
@@ -227,19 +225,6 @@ fn badge_place(at: Pos2, rect: Rect, taken: &[Pos2]) -> Pos2 {
 fn badge(painter: &egui::Painter, at: Pos2, number: usize, [colour, text]: [Color32; 2]) {
     painter.circle_filled(at, BADGE, colour);
     painter.text(at, Align2::CENTER_CENTER, number.to_string(), strong_font(11.0), text);
-}
-
-fn marks(area: &PlotArea, axis: usize) -> Vec<(f64, String)> {
-    let [low, high] = area.bounds[axis];
-    let room = if axis == 0 { area.rect.width() } else { area.rect.height() };
-    let base_step_size = ticks::FINEST * (high - low) / f64::from(room);
-    let apart = if axis == 0 { 64.0 } else { 26.0 };
-    let input = GridInput { bounds: (low, high), base_step_size };
-    let marks = ticks::linear(input, apart);
-    marks
-        .into_iter()
-        .map(|mark| (mark.value, ticks::linear_label(mark, &(low..=high), "")))
-        .collect()
 }
 
 /// The height of the table, in points.

@@ -4,9 +4,11 @@ use egui::epaint::TextShape;
 use egui::{
     Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, pos2, vec2,
 };
+use egui_plot::{GridInput, GridMark};
 
 use crate::lab::number::{round, superscript};
 use crate::view::theme::{Ink, strong_font};
+use crate::view::ticks;
 
 /// The height of a number at an axis, in points.
 const NUMBER: f32 = 11.0;
@@ -53,6 +55,16 @@ impl PlotArea {
             let [low, high] = self.bounds[axis];
             low + (high - low) * f64::from(parts[axis])
         })
+    }
+
+    /// Round marks along an axis with their numbers, at least so many points apart as long as there are three.
+    pub(super) fn marks(&self, axis: usize, apart: f64) -> Vec<(f64, String)> {
+        let [low, high] = self.bounds[axis];
+        let room = if axis == 0 { self.rect.width() } else { self.rect.height() };
+        let base_step_size = ticks::FINEST * (high - low) / f64::from(room);
+        let marks = ticks::linear(GridInput { bounds: (low, high), base_step_size }, apart);
+        let text = |mark: GridMark| ticks::linear_label(mark, &(low..=high), "");
+        marks.into_iter().map(|mark| (mark.value, text(mark))).collect()
     }
 
     /// Paints the marks of both axes with their numbers, and a grid line at each.

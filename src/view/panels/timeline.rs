@@ -10,7 +10,7 @@ use egui::{
 use egui_plot::GridInput;
 
 use self::marks::{Context, Group, Sign, grouped};
-use self::span::Span;
+pub(super) use self::span::Span;
 use super::{Ink, ink};
 use crate::lab::{Command, Event, Lab, Mode, TimeScale};
 use crate::view::ticks;
@@ -23,15 +23,15 @@ pub(super) const HEIGHT: f32 = 38.0;
 pub(super) const HEIGHT_OF_TRACK: f32 = 19.0;
 
 /// The track's thickness and how far its middle is from the panel's top, in points.
-const THICKNESS: f32 = 6.0;
-const TRACK_Y: f32 = 16.0;
-const TRACK_Y_ALONE: f32 = 12.0;
+pub(super) const THICKNESS: f32 = 6.0;
+pub(super) const TRACK_Y: f32 = 16.0;
+pub(super) const TRACK_Y_ALONE: f32 = 12.0;
 /// From this width on, in points, there is room for a name at the left and for the memory at the right.
-const ROOM_FOR_WORDS: f32 = 700.0;
-const NAME: f32 = 72.0;
-const MEMORY: f32 = 104.0;
+pub(super) const ROOM_FOR_WORDS: f32 = 700.0;
+pub(super) const NAME: f32 = 72.0;
+pub(super) const MEMORY: f32 = 104.0;
 /// What the ends of the track keep free for half a number, and for the *undo* button where nothing else is there.
-const MARGIN: f32 = 14.0;
+pub(super) const MARGIN: f32 = 14.0;
 const UNDO: f32 = 52.0;
 /// The least distances in points between the numbers along the track, and between two marks.
 const NUMBERS_APART: f64 = 64.0;
@@ -76,11 +76,14 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 
     let painter = ui.painter().clone();
     if is_tall {
-        numbers(&painter, &track, room.bottom());
+        numbers(&painter, (span, along), y, room.bottom(), track.ink);
     }
     fill(&painter, lab, &events, &track);
     groups.iter().for_each(|group| draw_group(&painter, &track, group));
-    handle(&painter, &track, lab.race().tick(), response.has_focus());
+    let present = track.x(lab.race().tick());
+    if along.expand(1.0).contains(present) {
+        handle(&painter, pos2(present, y), response.has_focus(), track.ink);
+    }
     if room.width() >= ROOM_FOR_WORDS {
         let at = pos2(room.left(), y);
         painter.text(at, Align2::LEFT_CENTER, "Timeline", FontId::proportional(11.5), ink(ui).dim);
@@ -182,20 +185,26 @@ fn seek(ui: &Ui, lab: &Lab, response: &Response, track: &Track<'_>, commands: &m
     }
 }
 
-/// Times at round steps under the track.
-fn numbers(painter: &Painter, track: &Track<'_>, bottom: f32) {
-    let Span { from_s, to_s } = track.span;
-    let base_step_size = ticks::FINEST * track.span.length_s() / f64::from(track.along.span());
+/// Times at round steps under a track whose middle is at `y`.
+pub(super) fn numbers(
+    painter: &Painter,
+    (span, along): (Span, Rangef),
+    y: f32,
+    bottom: f32,
+    ink: &Ink,
+) {
+    let Span { from_s, to_s } = span;
+    let base_step_size = ticks::FINEST * span.length_s() / f64::from(along.span());
     let marks = ticks::linear(GridInput { bounds: (from_s, to_s), base_step_size }, NUMBERS_APART);
     let last = marks.iter().map(|mark| mark.value).fold(f64::NEG_INFINITY, f64::max);
     for mark in marks {
-        let x = track.span.x(mark.value, track.along);
-        let top = track.y + 0.5 * THICKNESS;
-        painter.vline(x, Rangef::new(top + 1.0, top + 4.0), Stroke::new(1.0, track.ink.dim));
+        let x = span.x(mark.value, along);
+        let top = y + 0.5 * THICKNESS;
+        painter.vline(x, Rangef::new(top + 1.0, top + 4.0), Stroke::new(1.0, ink.dim));
         let unit = if mark.value == last { "s" } else { "" };
         let text = ticks::linear_label(mark, &(from_s..=to_s), unit);
         let at = pos2(x, bottom);
-        painter.text(at, Align2::CENTER_BOTTOM, text, FontId::proportional(10.5), track.ink.dim);
+        painter.text(at, Align2::CENTER_BOTTOM, text, FontId::proportional(10.5), ink.dim);
     }
 }
 
@@ -272,18 +281,12 @@ fn draw_group(painter: &Painter, track: &Track<'_>, group: &Group) {
 }
 
 /// The present.
-fn handle(painter: &Painter, track: &Track<'_>, present: u64, has_focus: bool) {
-    let x = track.x(present);
-    if !track.along.expand(1.0).contains(x) {
-        return;
-    }
-    let centre = pos2(x, track.y);
-    let rim = if has_focus {
-        Stroke::new(2.5, track.ink.accent)
-    } else {
-        Stroke::new(2.0, track.ink.background)
+pub(super) fn handle(painter: &Painter, centre: Pos2, has_focus: bool, ink: &Ink) {
+    let rim = match has_focus {
+        true => Stroke::new(2.5, ink.accent),
+        false => Stroke::new(2.0, ink.background),
     };
-    painter.circle(centre, 6.0, track.ink.exact, rim);
+    painter.circle(centre, 6.0, ink.exact, rim);
 }
 
 /// The *undo* button, and the memory that the past takes.

@@ -5,7 +5,8 @@ use egui::{
 };
 
 use super::ink;
-use crate::lab::{Command, Lab, Mode, Pace, SCENES, SPEED_LADDER, Scene, TICK_LADDER};
+use super::loops::controls;
+use crate::lab::{Command, Lab, LoopCommand, Mode, Pace, SCENES, SPEED_LADDER, Scene, TICK_LADDER};
 use crate::view::theme::{TYPE, strong_font};
 
 pub(super) const HEIGHT: f32 = 40.0;
@@ -23,24 +24,42 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         transport(ui, lab, width >= ROOM_FOR_BACK, commands);
         if width >= ROOM_FOR_MENUS {
             word(ui, width, "speed");
-            speed_menu(ui, lab, commands);
+            match lab.loop_lab() {
+                Some(loops) => controls::speed_menu(ui, loops, commands),
+                None => speed_menu(ui, lab, commands),
+            }
             word(ui, width, "tick rate");
             tick_rate_menu(ui, lab, commands);
         }
-        modes(ui, lab, commands);
+        modes(ui, lab, width, commands);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             button(ui, "?", "help (H)", Command::ToggleHelp, commands);
-            if width >= ROOM_FOR_MENUS {
-                inspector_button(ui, lab, commands);
-            }
-            if width >= ROOM_FOR_PACE {
-                pace(ui, lab);
-                ui.separator();
-            }
-            let race = lab.race();
-            let time = match width >= ROOM_FOR_WORDS {
-                true => format!("t = {:.3} s · tick {}", race.t(), race.tick()),
-                false => format!("{:.3} s", race.t()),
+            let is_wide = width >= ROOM_FOR_WORDS;
+            let time = match lab.loop_lab() {
+                Some(loops) => {
+                    if width >= ROOM_FOR_PACE {
+                        controls::display(ui, loops);
+                    }
+                    if controls::has_trace_menu_above(ui) {
+                        controls::trace_menu(ui, loops, commands);
+                        ui.separator();
+                    }
+                    controls::moment(loops, is_wide)
+                }
+                None => {
+                    if width >= ROOM_FOR_MENUS {
+                        inspector_button(ui, lab, commands);
+                    }
+                    if width >= ROOM_FOR_PACE {
+                        pace(ui, lab);
+                        ui.separator();
+                    }
+                    let race = lab.race();
+                    match is_wide {
+                        true => format!("t = {:.3} s · tick {}", race.t(), race.tick()),
+                        false => format!("{:.3} s", race.t()),
+                    }
+                }
             };
             ui.add(Label::new(RichText::new(time).font(strong_font(TYPE))).truncate());
         });
@@ -80,49 +99,73 @@ fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 fn transport(ui: &mut Ui, lab: &Lab, has_back: bool, commands: &mut Vec<Command>) {
+    let unit = if lab.loop_lab().is_some() { "frame" } else { "tick" };
     button(ui, "⏮", "restart (Home)", Command::Restart, commands);
     if has_back {
-        button(ui, "◀", "one tick back (,)", Command::TickBack, commands);
+        button(ui, "◀", &format!("one {unit} back (,)"), Command::TickBack, commands);
     }
     let (sign, hover) =
         if lab.running() { ("⏸", "pause (Space)") } else { ("▶", "run (Space)") };
     button(ui, sign, hover, Command::TogglePause, commands);
-    button(ui, "⏭", "one tick forward (.)", Command::TickForward, commands);
+    button(ui, "⏭", &format!("one {unit} forward (.)"), Command::TickForward, commands);
 }
 
-/// Solo or race: two halves of one control.
-fn modes(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+/// Solo, race or loop lab: three parts of one control.
+fn modes(ui: &mut Ui, lab: &Lab, width: f32, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
+    let is_in_loops = lab.loop_lab().is_some();
+    let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
+    let to_mode = |mode: Mode| match (is_in_loops, lab.mode() == mode) {
+        (true, true) => toggle_loops.clone(),
+        // From the loop lab it leads to the other mode.
+        (_, false) | (false, true) => Command::ToggleRace,
+    };
+    let is_in = |mode: Mode| !is_in_loops && lab.mode() == mode;
+    let loops = if width >= ROOM_FOR_WORDS { "Loop lab" } else { "Loops" };
+    let parts = [
+        (
+            "Solo",
+            "fly one method, and switch it in flight (C)",
+            is_in(Mode::Solo),
+            to_mode(Mode::Solo),
+        ),
+        (
+            "Race",
+            "race every method from the start line (C)",
+            is_in(Mode::Race),
+            to_mode(Mode::Race),
+        ),
+        (loops, "see one motion in every game loop, in slow motion (L)", is_in_loops, toggle_loops),
+    ];
     let frame = Frame::new().fill(ink(ui).raised).corner_radius(6.0);
     frame.show(ui, |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
-        for (mode, name, about) in [
-            (Mode::Solo, "Solo", "fly one method, and switch it in flight (C)"),
-            (Mode::Race, "Race", "race every method from the start line (C)"),
-        ] {
-            let is_chosen = lab.mode() == mode;
-            let font =
-                || if is_chosen { strong_font(TYPE) } else { egui::FontId::proportional(TYPE) };
-            let text = ui.painter().layout_no_wrap(name.into(), font(), ink(ui).text);
-            let size = vec2(text.size().x + 24.0, 26.0);
-            let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-            response.widget_info(|| {
-                egui::WidgetInfo::selected(egui::Role::RadioButton, true, is_chosen, name)
-            });
-            if is_chosen {
-                ui.painter().rect_filled(rect, 6.0, ink(ui).accent);
-            } else if response.hovered() || response.has_focus() {
-                let stroke = egui::Stroke::new(1.0, ink(ui).accent);
-                ui.painter().rect_stroke(rect, 6.0, stroke, egui::StrokeKind::Inside);
-            }
-            let colour = if is_chosen { ink(ui).on_accent } else { ink(ui).text };
-            let at = rect.center();
-            ui.painter().text(at, egui::Align2::CENTER_CENTER, name, font(), colour);
-            if response.on_hover_text(about).clicked() && !is_chosen {
-                commands.push(Command::ToggleRace);
+        for (name, about, is_chosen, command) in parts {
+            if part(ui, name, about, is_chosen) && !is_chosen {
+                commands.push(command);
             }
         }
     });
+}
+
+/// Shows a part of a control. Returns whether it was clicked.
+fn part(ui: &mut Ui, name: &str, about: &str, is_chosen: bool) -> bool {
+    let font = || if is_chosen { strong_font(TYPE) } else { egui::FontId::proportional(TYPE) };
+    let text = ui.painter().layout_no_wrap(name.into(), font(), ink(ui).text);
+    let size = vec2(text.size().x + 24.0, 26.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response
+        .widget_info(|| egui::WidgetInfo::selected(egui::Role::RadioButton, true, is_chosen, name));
+    if is_chosen {
+        ui.painter().rect_filled(rect, 6.0, ink(ui).accent);
+    } else if response.hovered() || response.has_focus() {
+        let stroke = egui::Stroke::new(1.0, ink(ui).accent);
+        ui.painter().rect_stroke(rect, 6.0, stroke, egui::StrokeKind::Inside);
+    }
+    let colour = if is_chosen { ink(ui).on_accent } else { ink(ui).text };
+    let at = rect.center();
+    ui.painter().text(at, egui::Align2::CENTER_CENTER, name, font(), colour);
+    response.on_hover_text(about).clicked()
 }
 
 fn speed_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
@@ -150,7 +193,7 @@ fn multiple(percent: u32) -> String {
 }
 
 fn tick_rate_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
-    let tick_hz = lab.clock().tick_hz();
+    let tick_hz = lab.loop_lab().map_or(lab.clock().tick_hz(), |loops| loops.scene().tick_hz);
     let text = RichText::new(format!("{tick_hz} Hz"));
     let menu = ComboBox::from_id_salt("tick rate").selected_text(text).width(72.0).height(480.0);
     let response = menu.show_ui(ui, |ui| {

@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use egui::{Color32, Pos2, Rect, pos2, vec2};
 
-use super::super::ink_of;
+use super::super::{ink_of, loops};
 use super::layout::{Cell, MARKS_APART, NUMBER, NUMBERS, TITLE, WORDS, cells};
 use super::sheet::{Sheet, methods_shown};
 use super::sheet_of;
-use crate::lab::Lab;
+use crate::lab::{Instrument, Lab};
 use crate::view::curves::{Curve, arrow_corners};
 use crate::view::plot::{Arrow, Switch, SwitchMark, on_screen};
 use crate::view::theme::Ink;
@@ -26,6 +26,9 @@ const RING: f32 = 4.0;
 /// The values of the chosen instrument as comma-separated text, a line for each sample of each curve; `None` if it has no
 /// plots.
 pub(in crate::view) fn csv(lab: &Lab) -> Option<String> {
+    if lab.display().instrument == Instrument::Loop {
+        return Some(loops::csv(lab));
+    }
     let mut text = "plot,quantity,unit,curve,t_s,value\n".to_owned();
     for plot in &sheet_of(lab)?.plots {
         let mut add = |curve: &str, t: f64, at: [f64; 2]| {

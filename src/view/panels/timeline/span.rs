@@ -9,33 +9,39 @@ const FOLLOWED_AT: f64 = 0.8;
 
 /// From one time to a later one, in seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Span {
-    pub(super) from_s: f64,
-    pub(super) to_s: f64,
+pub(in crate::view::panels) struct Span {
+    pub(in crate::view::panels) from_s: f64,
+    pub(in crate::view::panels) to_s: f64,
 }
 
 impl Span {
     /// All of a run that was run to `end_s`, and room ahead: at least to the end of the scene.
-    pub(super) fn whole(scene_s: f64, end_s: f64) -> Self {
+    pub(in crate::view::panels) fn whole(scene_s: f64, end_s: f64) -> Self {
         Self { from_s: 0.0, to_s: scene_s.max(end_s * (1.0 + AHEAD)) }
     }
 
-    pub(super) fn length_s(self) -> f64 {
+    pub(in crate::view::panels) fn length_s(self) -> f64 {
         self.to_s - self.from_s
     }
 
     /// Where `t` is drawn on a track.
-    pub(super) fn x(self, t: f64, track: Rangef) -> f32 {
+    pub(in crate::view::panels) fn x(self, t: f64, track: Rangef) -> f32 {
         track.min + ((t - self.from_s) / self.length_s()) as f32 * track.span()
     }
 
     /// The time that is drawn at `x`.
-    pub(super) fn t(self, x: f32, track: Rangef) -> f64 {
+    pub(in crate::view::panels) fn t(self, x: f32, track: Rangef) -> f64 {
         self.from_s + f64::from((x - track.min) / track.span()) * self.length_s()
     }
 
     /// `factor` times closer, with `about_s` staying where it is; no less than `least_s`, and nothing outside `whole`.
-    pub(super) fn zoomed(self, about_s: f64, factor: f64, least_s: f64, whole: Self) -> Self {
+    pub(in crate::view::panels) fn zoomed(
+        self,
+        about_s: f64,
+        factor: f64,
+        least_s: f64,
+        whole: Self,
+    ) -> Self {
         let length_s = (self.length_s() / factor).max(least_s).min(whole.length_s());
         let part = (about_s - self.from_s) / self.length_s();
         let from_s = about_s - part * length_s;
@@ -43,12 +49,12 @@ impl Span {
     }
 
     /// The same length `by_s` later, as far as that is in `whole`.
-    pub(super) fn moved(self, by_s: f64, whole: Self) -> Self {
+    pub(in crate::view::panels) fn moved(self, by_s: f64, whole: Self) -> Self {
         Self { from_s: self.from_s + by_s, to_s: self.to_s + by_s }.within(whole)
     }
 
     /// The same length moved to show `now_s`, if it does not.
-    pub(super) fn following(self, now_s: f64, whole: Self) -> Self {
+    pub(in crate::view::panels) fn following(self, now_s: f64, whole: Self) -> Self {
         if (self.from_s..=self.to_s).contains(&now_s) {
             return self;
         }

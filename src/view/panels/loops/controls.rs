@@ -1,0 +1,110 @@
+//! What is chosen in the loop lab, in the top bar: how slow it is played, and on which display.
+
+use egui::{ComboBox, RichText, TextWrapMode, Ui};
+
+use crate::lab::number::round;
+use crate::lab::pacing::TRACES;
+use crate::lab::{Command, LoopCommand, LoopLab, SLOWNESS};
+use crate::view::panels::ink;
+
+/// From this width of the window on, in points, the top bar has the menu of traces; else the instrument has it.
+const ROOM_FOR_TRACES: f32 = 1180.0;
+
+/// Whether the top bar has the menu of traces.
+pub(in crate::view::panels) fn has_trace_menu_above(ui: &Ui) -> bool {
+    ui.ctx().content_rect().width() >= ROOM_FOR_TRACES
+}
+
+/// The speed of a slow motion.
+fn speed(slowness: u32) -> String {
+    match slowness {
+        1 => "1×".into(),
+        2 => "½×".into(),
+        4 => "¼×".into(),
+        8 => "⅛×".into(),
+        slower => format!("1/{slower}×"),
+    }
+}
+
+pub(in crate::view::panels) fn speed_menu(
+    ui: &mut Ui,
+    loops: &LoopLab,
+    commands: &mut Vec<Command>,
+) {
+    let chosen = loops.slowness();
+    let menu = ComboBox::from_id_salt("slowness").selected_text(speed(chosen)).width(54.0);
+    let response = menu.height(400.0).show_ui(ui, |ui| {
+        for slowness in SLOWNESS {
+            let text = format!("{} real time", speed(slowness));
+            if ui.selectable_label(slowness == chosen, text).clicked() {
+                commands.push(Command::Loop(LoopCommand::Slowness(slowness)));
+            }
+        }
+    });
+    let about = "how slowly the frames are played (- and =); a monitor adds its own judder to what is faster";
+    response.response.on_hover_text(about);
+}
+
+/// What happens in the trace of this name.
+fn about_trace(name: &str) -> &'static str {
+    let built_in = TRACES.iter().find(|card| card.id == name);
+    match name {
+        "live" => "the last frames of this window",
+        _ => built_in.map_or("frames that were opened from a file", |card| card.about),
+    }
+}
+
+pub(in crate::view::panels) fn trace_menu(
+    ui: &mut Ui,
+    loops: &LoopLab,
+    commands: &mut Vec<Command>,
+) {
+    let chosen = loops.traces()[loops.trace()].name();
+    let menu = ComboBox::from_id_salt("trace").selected_text(chosen).width(112.0).height(480.0);
+    let response = menu.show_ui(ui, |ui| {
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+        for (place, trace) in loops.traces().iter().enumerate() {
+            let is_chosen = place == loops.trace();
+            let label = ui.selectable_label(is_chosen, trace.name());
+            if label.on_hover_text(about_trace(trace.name())).clicked() {
+                commands.push(Command::Loop(LoopCommand::Trace(place)));
+            }
+        }
+    });
+    let about = format!("frames of the display (V for the next): {}", about_trace(chosen));
+    response.response.on_hover_text(about);
+}
+
+/// Where time has got to: in full, or as it fits beside the rest.
+pub(in crate::view::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String {
+    let t_s = loops.now_ns() as f64 / 1e9;
+    let frame = loops.lanes()[loops.selected()].frame_at(loops.now_ns()).unwrap_or_default();
+    match is_wide {
+        true => format!("t = {t_s:.3} s · frame {frame}"),
+        false => format!("{t_s:.3} s"),
+    }
+}
+
+/// The display that is simulated.
+pub(in crate::view::panels) fn display(ui: &mut Ui, loops: &LoopLab) {
+    let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
+    let text = RichText::new(format!("{hz} Hz display, simulated")).color(ink(ui).dim);
+    ui.label(text).on_hover_text("nothing here depends on the display of this computer");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slow_motions_are_named_by_their_fraction() {
+        let names: Vec<String> = SLOWNESS.into_iter().map(speed).collect();
+        assert_eq!(names, ["1×", "½×", "¼×", "⅛×", "1/16×", "1/32×"]);
+    }
+
+    #[test]
+    fn every_trace_says_what_happens_in_it() {
+        assert!(TRACES.iter().all(|card| about_trace(card.id) == card.about));
+        assert_ne!(about_trace("live"), about_trace("my-game"));
+    }
+}

@@ -1,0 +1,120 @@
+//! A histogram of the ticks of a frame.
+
+use egui::{Align2, Color32, FontId, Rect, Ui, pos2, vec2};
+
+use super::ShownLane;
+use crate::lab::number::round;
+use crate::view::panels::plot_area::PlotArea;
+use crate::view::panels::{ink, strong_font};
+
+/// What a frame can have: the last is that or more.
+const NAMES: [&str; 4] = ["0", "1", "2", "3+"];
+/// Room for the title, the numbers at the left, those below, and the name of the axis, in points.
+pub(super) const TITLE: f32 = 20.0;
+pub(super) const LEFT: f32 = 38.0;
+pub(super) const BELOW: f32 = 17.0;
+pub(super) const NAME: f32 = 15.0;
+/// Room for numbers over bars, as a part of the highest.
+const ABOVE: f64 = 0.22;
+/// The part of a group's width that its bars take.
+const BARS: f32 = 0.78;
+/// From this width on, in points, every bar has its number.
+const ROOM_FOR_NUMBER: f32 = 30.0;
+/// The least height of a bar in points: that of a share of nothing.
+const LEAST: f32 = 1.5;
+
+/// The shares of one loop.
+pub(super) struct Series {
+    colour: Color32,
+    shares_percent: [f64; 4],
+    /// Whether its numbers are shown where there is no room for all.
+    is_first: bool,
+}
+
+impl Series {
+    pub(super) fn new(colour: Color32, ticks: impl Iterator<Item = u32>) -> Self {
+        Self { colour, shares_percent: shares_percent(ticks), is_first: true }
+    }
+
+    pub(super) fn of_lane(lane: &ShownLane<'_>) -> Self {
+        let ticks = lane.lane.frames().iter().map(|frame| frame.ticks);
+        Self { is_first: lane.is_selected, ..Self::new(lane.colour, ticks) }
+    }
+}
+
+/// The frames with 0, 1, 2 and 3 or more ticks, in percent.
+fn shares_percent(ticks: impl Iterator<Item = u32>) -> [f64; 4] {
+    let mut counts = [0_u64; 4];
+    ticks.for_each(|ticks| counts[(ticks as usize).min(3)] += 1);
+    let all = counts.iter().sum::<u64>().max(1) as f64;
+    counts.map(|count| 100.0 * count as f64 / all)
+}
+
+/// Shows the shares, a bar for each loop.
+pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
+    let ink = ink(ui);
+    let painter = ui.painter_at(room);
+    painter.text(room.left_top(), Align2::LEFT_TOP, "Ticks per frame", strong_font(13.0), ink.text);
+    let rect = Rect::from_min_max(room.min + vec2(LEFT, TITLE), room.max - vec2(2.0, BELOW + NAME));
+    if !rect.is_positive() || rect.height() < 20.0 {
+        return;
+    }
+    let highest = series.iter().flat_map(|series| series.shares_percent).fold(0.0, f64::max);
+    let top = (highest * (1.0 + ABOVE)).max(10.0);
+    let area = PlotArea { rect, bounds: [[-0.5, 3.5], [0.0, top]] };
+    painter.rect_filled(rect, 0.0, ink.plot);
+    let marks = area.marks(1, 24.0).into_iter().map(|(value, text)| (value, format!("{text} %")));
+    area.axes(&painter, ink, [&[], &marks.collect::<Vec<_>>()]);
+    let group = rect.width() / NAMES.len() as f32;
+    let width = group * BARS / series.len().max(1) as f32;
+    for (count, name) in NAMES.iter().enumerate() {
+        let middle = rect.left() + group * (count as f32 + 0.5);
+        let at = pos2(middle, rect.bottom() + 3.0);
+        painter.text(at, Align2::CENTER_TOP, name, FontId::proportional(11.0), ink.dim);
+        let number = |x: f32, y: f32, share: f64, colour: Color32| {
+            let (at, text) = (pos2(x, y - 1.0), round(share, 3));
+            painter.text(at, Align2::CENTER_BOTTOM, text, strong_font(11.0), colour);
+        };
+        let top_of = |share: f64| area.at([0.0, share]).y.min(rect.bottom() - LEAST);
+        for (i, series) in series.iter().enumerate() {
+            let share = series.shares_percent[count];
+            let left = middle - group * BARS / 2.0 + width * i as f32;
+            let along = left + 0.5..=left + width - 0.5;
+            let bar = Rect::from_x_y_ranges(along, top_of(share)..=rect.bottom());
+            painter.rect_filled(bar, 0.0, series.colour);
+            if width >= ROOM_FOR_NUMBER {
+                number(bar.center().x, bar.top(), share, series.colour);
+            }
+        }
+        // Else one number over the group.
+        if let Some(first) = series.iter().find(|series| series.is_first)
+            && width < ROOM_FOR_NUMBER
+        {
+            let highest = series.iter().map(|series| series.shares_percent[count]);
+            let y = top_of(highest.fold(0.0, f64::max));
+            number(middle, y, first.shares_percent[count], first.colour);
+        }
+    }
+    let at = pos2(rect.center().x, room.bottom());
+    painter.text(
+        at,
+        Align2::CENTER_BOTTOM,
+        "ticks in a frame",
+        FontId::proportional(11.5),
+        ink.dim,
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_in_percent_and_three_ticks_or_more_are_together() {
+        assert_eq!(
+            shares_percent([0, 1, 1, 2, 3, 250, 0, 1].into_iter()),
+            [25.0, 37.5, 12.5, 25.0]
+        );
+        assert_eq!(shares_percent([].into_iter()), [0.0; 4]);
+    }
+}

@@ -1,0 +1,81 @@
+//! The animation error of the last frames.
+
+use egui::{Align2, FontId, Rect, Ui, pos2, vec2};
+
+use super::ShownLane;
+use super::counts::{BELOW, LEFT, NAME, TITLE};
+use crate::lab::LoopLab;
+use crate::lab::number::round;
+use crate::view::panels::plot_area::PlotArea;
+use crate::view::panels::{ink, strong_font};
+
+/// So many frames are shown.
+const FRAMES: usize = 24;
+/// The least reach of the axis, in milliseconds: less is not seen.
+const LEAST_MS: f64 = 1.0;
+/// The part of a frame's width that its bars take, and the least height of a bar in points.
+const BARS: f32 = 0.84;
+const LEAST: f32 = 1.0;
+
+/// The next of 1, 2, 5, 10 and so on.
+pub(super) fn round_up(value: f64) -> f64 {
+    let decade = libm::pow(10.0, libm::floor(libm::log10(value)));
+    let steps = [1.0, 2.0, 5.0].map(|digit| digit * decade);
+    steps.into_iter().find(|step| *step >= value * (1.0 - 1e-9)).unwrap_or(10.0 * decade)
+}
+
+/// Shows the error of each of the last frames, a bar for each lane.
+pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]) {
+    let ink = ink(ui);
+    let painter = ui.painter_at(room);
+    let title = if room.width() > 165.0 { "Animation error by frame" } else { "Animation error" };
+    painter.text(room.left_top(), Align2::LEFT_TOP, title, strong_font(13.0), ink.text);
+    let rect = Rect::from_min_max(room.min + vec2(LEFT, TITLE), room.max - vec2(6.0, BELOW + NAME));
+    if !rect.is_positive() || rect.height() < 20.0 {
+        return;
+    }
+    // From the present frame back.
+    let errors: Vec<Vec<f64>> = lanes
+        .iter()
+        .map(|lane| {
+            let until = lane.lane.frame_at(loops.now_ns()).map_or(0, |place| place + 1);
+            let frames = lane.lane.frames()[..until].iter().rev().take(FRAMES);
+            frames.map(|frame| frame.animation_error_ms).collect()
+        })
+        .collect();
+    let largest = errors.iter().flatten().fold(0.0_f64, |most, error| most.max(error.abs()));
+    let reach = round_up((1.1 * largest).max(LEAST_MS));
+    let area = PlotArea { rect, bounds: [[-(FRAMES as f64), 0.0], [-reach, reach]] };
+    painter.rect_filled(rect, 0.0, ink.plot);
+    let along = [0.0, 8.0, 16.0].map(|back| (-back - 0.5, round(-back, 3)));
+    area.axes(&painter, ink, [&along, &area.marks(1, 24.0)]);
+    let frame = rect.width() / FRAMES as f32;
+    let width = frame * BARS / lanes.len().max(1) as f32;
+    let zero = area.at([0.0; 2]).y;
+    for (i, (lane, errors)) in lanes.iter().zip(&errors).enumerate() {
+        for (back, error) in errors.iter().enumerate() {
+            let right = rect.right() - frame * back as f32;
+            let left = right - frame * (1.0 + BARS) / 2.0 + width * i as f32;
+            let end = area.at([0.0, *error]).y;
+            let bar = Rect::from_x_y_ranges(
+                left..=left + width.max(1.0),
+                end.min(zero - LEAST)..=end.max(zero + LEAST),
+            );
+            painter.rect_filled(bar, 0.0, lane.colour);
+        }
+    }
+    let at = pos2(rect.center().x, room.bottom());
+    let name = if room.width() > 165.0 { "ms, by frame from now" } else { "ms, by frame" };
+    painter.text(at, Align2::CENTER_BOTTOM, name, FontId::proportional(11.5), ink.dim);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_axis_reaches_to_the_next_round_number() {
+        let rounded = [1.0, 1.1, 2.0, 4.9, 5.1, 16.7, 300.0].map(round_up);
+        assert_eq!(rounded, [1.0, 2.0, 2.0, 5.0, 10.0, 20.0, 500.0]);
+    }
+}

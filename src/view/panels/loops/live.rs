@@ -1,0 +1,183 @@
+//! The window's own loop: how long its last frames took, and what it made of them.
+
+use egui::{Align2, Color32, FontId, Label, Pos2, Rect, RichText, Sense, Shape, Stroke, Ui, Vec2};
+use egui::{pos2, vec2};
+
+use super::counts::{self, BELOW, LEFT, Series};
+use super::errors::round_up;
+use crate::lab::number::round;
+use crate::lab::pacing::POLICIES;
+use crate::lab::{Lab, LiveFrame};
+use crate::view::panels::plot_area::PlotArea;
+use crate::view::panels::{ink, strong_font};
+use crate::view::theme::colour;
+
+/// The window's own loop is this one by default.
+const OWN_LOOP: &str = "fixed-hermite";
+/// The length of the plot in seconds.
+const LENGTH_S: f64 = 10.0;
+/// The plot reaches to this many times the frame time that 99 in 100 frames keep.
+const REACH: f64 = 1.6;
+/// From this height on, in points, there is a histogram, and the part of the height that it takes.
+const ROOM_FOR_COUNTS: f32 = 210.0;
+const COUNTS: f32 = 0.4;
+/// The height of the name of an axis, in points.
+const NAMES: f32 = 16.0;
+
+/// What is said of the frames, in milliseconds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Summary {
+    mean_ms: f64,
+    /// 99 in 100 frames took no longer.
+    usual_ms: f64,
+    worst_ms: f64,
+    dropped: u64,
+    error_rms_ms: f64,
+}
+
+impl Summary {
+    /// `None` without frames.
+    fn of<'a>(frames: impl ExactSizeIterator<Item = &'a LiveFrame> + Clone) -> Option<Self> {
+        let count = frames.len();
+        let mut times: Vec<f64> = frames.clone().map(time_ms).collect();
+        times.sort_by(f64::total_cmp);
+        let worst_ms = *times.last()?;
+        let squares = frames.clone().map(|frame| frame.animation_error_ms.powi(2)).sum::<f64>();
+        Some(Self {
+            mean_ms: times.iter().sum::<f64>() / count as f64,
+            usual_ms: times[(99 * count).div_ceil(100) - 1],
+            worst_ms,
+            dropped: frames.map(|frame| frame.dropped).sum(),
+            error_rms_ms: (squares / count as f64).sqrt(),
+        })
+    }
+}
+
+/// The colour of the loop that the window's own is like.
+fn own_colour(ui: &Ui) -> Color32 {
+    let place = POLICIES.iter().position(|card| card.id == OWN_LOOP).unwrap_or(0);
+    colour(ink(ui).theme.numbered_style(place).0)
+}
+
+fn time_ms(frame: &LiveFrame) -> f64 {
+    frame.duration_ns as f64 / 1e6
+}
+
+pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
+    let top = ui.cursor().top();
+    let frames = lab.viewer().live.frames();
+    ui.label(RichText::new("This window's own loop").font(strong_font(15.0)).color(ink(ui).text));
+    let Some(summary) = Summary::of(frames.clone()) else {
+        let words = "No frame yet: run it with Space, and its frames show here. \
+                     L opens the loop lab, where one motion runs in many loops.";
+        ui.add(Label::new(RichText::new(words).color(ink(ui).dim)).wrap());
+        return;
+    };
+    let Summary { mean_ms, usual_ms, worst_ms, dropped, error_rms_ms } = summary;
+    let ms = |value: f64| format!("{} ms", round(value, 3));
+    let times = format!(
+        "Frame time {} in the mean, {} or less in 99 of 100 frames, {} at worst.",
+        ms(mean_ms),
+        ms(usual_ms),
+        ms(worst_ms)
+    );
+    let lost = match dropped {
+        0 => "No tick dropped.".into(),
+        1 => "1 tick dropped.".into(),
+        many => format!("{many} ticks dropped."),
+    };
+    let error = format!("{lost} Animation error {} RMS.", ms(error_rms_ms));
+    ui.add(Label::new(RichText::new(times).color(ink(ui).dim)).wrap());
+    ui.add(Label::new(RichText::new(error).color(ink(ui).dim)).wrap());
+    let height = (top + room.y - ui.cursor().top()).max(50.0);
+    let (room, response) = ui.allocate_exact_size(vec2(room.x, height), Sense::hover());
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Image, true, "frame times of this window")
+    });
+    let lower = if height >= ROOM_FOR_COUNTS { COUNTS } else { 0.0 };
+    let (upper, below) = room.split_top_bottom_at_fraction(1.0 - lower);
+    plot(ui, upper, frames.clone(), &summary);
+    if lower > 0.0 {
+        let ticks = frames.map(|frame| frame.ticks);
+        let series = Series::new(own_colour(ui), ticks);
+        counts::show(ui, below.with_min_y(below.top() + 6.0), &[series]);
+    }
+}
+
+/// The frame times against real time up to the last frame.
+fn plot<'a>(
+    ui: &Ui,
+    room: Rect,
+    frames: impl ExactSizeIterator<Item = &'a LiveFrame>,
+    summary: &Summary,
+) {
+    let ink = ink(ui);
+    let rect =
+        Rect::from_min_max(room.min + vec2(LEFT, NAMES), room.max - vec2(6.0, BELOW + NAMES));
+    if !rect.is_positive() {
+        return;
+    }
+    let reach = round_up((REACH * summary.usual_ms).max(1.0));
+    let area = PlotArea { rect, bounds: [[-LENGTH_S, 0.0], [0.0, reach]] };
+    let painter = ui.painter_at(room);
+    painter.rect_filled(rect, 0.0, ink.plot);
+    area.axes(&painter, ink, [&area.marks(0, 56.0), &area.marks(1, 24.0)]);
+    let small = || FontId::proportional(11.5);
+    painter.text(room.left_top(), Align2::LEFT_TOP, "frame time, ms", small(), ink.dim);
+    let at = pos2(rect.center().x, room.bottom());
+    painter.text(at, Align2::CENTER_BOTTOM, "real time, s from the last frame", small(), ink.dim);
+
+    let times: Vec<f64> = frames.map(time_ms).collect();
+    let mut ago_s = 0.0;
+    let mut points: Vec<Pos2> = Vec::with_capacity(times.len());
+    let inner = painter.with_clip_rect(rect);
+    for time_ms in times.iter().rev() {
+        let at = area.at([-ago_s, *time_ms]);
+        points.push(at);
+        if *time_ms > reach && ago_s <= LENGTH_S {
+            arrow_up(&inner, pos2(at.x, rect.top()), ink.warn);
+        }
+        ago_s += time_ms / 1000.0;
+    }
+    inner.add(Shape::line(points, Stroke::new(1.2, own_colour(ui))));
+    let mean = area.at([0.0, summary.mean_ms]).y;
+    inner.extend(Shape::dashed_line(
+        &[pos2(rect.left(), mean), pos2(rect.right(), mean)],
+        Stroke::new(1.0, ink.accent),
+        6.0,
+        4.0,
+    ));
+}
+
+/// A frame that took longer than the plot reaches.
+fn arrow_up(painter: &egui::Painter, tip: Pos2, colour: Color32) {
+    let corners = [vec2(0.0, 1.0), vec2(4.0, 8.0), vec2(-4.0, 8.0)].map(|corner| tip + corner);
+    painter.add(Shape::convex_polygon(corners.to_vec(), colour, Stroke::NONE));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_summary_has_the_mean_the_usual_and_the_worst_frame() {
+        let frame = |ms: i64| LiveFrame {
+            duration_ns: ms * 1_000_000,
+            ticks: 1,
+            dropped: u64::from(ms > 50),
+            animation_error_ms: 3.0,
+        };
+        let mut frames = vec![frame(10); 99];
+        frames.push(frame(110));
+        let summary = Summary::of(frames.iter()).unwrap();
+        let expected = Summary {
+            mean_ms: 11.0,
+            usual_ms: 10.0,
+            worst_ms: 110.0,
+            dropped: 1,
+            error_rms_ms: 3.0,
+        };
+        assert_eq!(summary, expected);
+        assert_eq!(Summary::of([].iter()), None);
+    }
+}

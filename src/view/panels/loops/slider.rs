@@ -1,0 +1,77 @@
+//! The timeline of the loop lab: from the first frame to the last. Click or drag to go to a moment.
+
+use egui::{Align2, EventFilter, FontId, Key, Rangef, Rect, Response, Sense, Ui, pos2};
+
+use crate::lab::{Command, LoopCommand, LoopLab};
+use crate::view::panels::ink;
+use crate::view::panels::timeline::{
+    HEIGHT, HEIGHT_OF_TRACK, MARGIN, MEMORY, NAME, ROOM_FOR_WORDS, Span, THICKNESS, TRACK_Y,
+    TRACK_Y_ALONE, handle, numbers,
+};
+
+/// Shows it.
+pub(in crate::view::panels) fn show(ui: &mut Ui, loops: &LoopLab, commands: &mut Vec<Command>) {
+    let room = ui.available_rect_before_wrap();
+    let is_tall = room.height() > 0.5 * (HEIGHT + HEIGHT_OF_TRACK);
+    let y = room.top() + if is_tall { TRACK_Y } else { TRACK_Y_ALONE };
+    let has_words = room.width() >= ROOM_FOR_WORDS;
+    let [left, right] = if has_words { [NAME, MEMORY + MARGIN] } else { [MARGIN; 2] };
+    let along = Rangef::new(room.left() + left, room.right() - right);
+    let span = Span { from_s: 0.0, to_s: loops.end_ns() as f64 / 1e9 };
+    if along.span() < 40.0 || span.to_s <= 0.0 {
+        return;
+    }
+    let grab = Rect::from_x_y_ranges(along.expand(MARGIN / 2.0), room.y_range());
+    let response = ui.interact(grab, ui.scope_id().with("slider"), Sense::click_and_drag());
+    seek(ui, loops, &response, (span, along), commands);
+
+    let ink = ink(ui);
+    let painter = ui.painter();
+    let now_s = loops.now_ns() as f64 / 1e9;
+    if is_tall {
+        numbers(painter, (span, along), y, room.bottom(), ink);
+    }
+    let x = span.x(now_s, along);
+    let piece = |to: f32| {
+        let half = 0.5 * THICKNESS;
+        Rect::from_min_max(pos2(along.min, y - half), pos2(to, y + half))
+    };
+    painter.rect_filled(piece(along.max), 0.5 * THICKNESS, ink.raised);
+    painter.rect_filled(piece(x), 0.5 * THICKNESS, ink.dim.gamma_multiply(0.8));
+    handle(painter, pos2(x, y), response.has_focus(), ink);
+    if has_words {
+        let font = || FontId::proportional(11.5);
+        painter.text(pos2(room.left(), y), Align2::LEFT_CENTER, "Timeline", font(), ink.dim);
+        let end = pos2(room.right(), y);
+        let text = format!("{now_s:.2} of {:.0} s", span.to_s);
+        painter.text(end, Align2::RIGHT_CENTER, text, font(), ink.dim);
+    }
+}
+
+/// Goes to where the mouse is pressed; with the focus, the arrows go by frames.
+fn seek(
+    ui: &Ui,
+    loops: &LoopLab,
+    response: &Response,
+    (span, along): (Span, Rangef),
+    commands: &mut Vec<Command>,
+) {
+    let now_s = loops.now_ns() as f64 / 1e9;
+    let name = format!("timeline, at {now_s:.3} s");
+    response.widget_info(|| egui::WidgetInfo::slider(true, now_s, &name));
+    // A press that is over before the next frame is only seen by its end.
+    let is_held = response.is_pointer_button_down_on();
+    if (is_held || response.clicked() || response.drag_stopped())
+        && let Some(pointer) = response.interact_pointer_pos()
+    {
+        let moment_ns = (span.t(along.clamp(pointer.x), along) * 1e9).round() as i64;
+        commands.push(Command::Loop(LoopCommand::Seek(moment_ns)));
+    }
+    if response.has_focus() {
+        let filter = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+        let pressed = |key| ui.input(|input| input.num_presses(key));
+        commands.extend((0..pressed(Key::ArrowLeft)).map(|_| Command::TickBack));
+        commands.extend((0..pressed(Key::ArrowRight)).map(|_| Command::TickForward));
+    }
+}
