@@ -145,6 +145,16 @@ fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
 }
 
 #[test]
+fn the_loop_lab_looks_as_it_did() {
+    let Some(gpu) = gpu_or_skip("the_loop_lab_looks_as_it_did") else { return };
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.open_loop_lab_on("steady-144");
+    (0..FRAMES).for_each(|_| _ = lab.advance(16_666_667));
+    let drawn = drawn(&mut OffscreenRenderer::new(gpu, SIZE_PX, SCALE).unwrap(), SIZE_PX, &lab);
+    assert_eq!(wrong("spring-loops.png", &drawn), None);
+}
+
+#[test]
 fn the_same_lab_gives_the_same_bytes_from_two_renderers() {
     let test = "the_same_lab_gives_the_same_bytes_from_two_renderers";
     let Some(gpu) = gpu_or_skip(test) else { return };

@@ -67,6 +67,8 @@ pub struct LoopLab {
     now_ns: i64,
     end_ns: i64,
     slowness: u32,
+    /// Whether the run goes on when the loop lab is left.
+    pub(super) run_goes_on: bool,
 }
 
 /// The body in one loop: all its frames.
@@ -147,8 +149,7 @@ impl LoopLane {
 impl LoopLab {
     /// The body at this place of a scene under a method, in all loops, at the start.
     pub fn new(scene: &Scene, body: usize, method: &'static Method) -> Self {
-        let bodies = vec![scene.bodies[body].clone()];
-        let scene = Arc::new(Scene { bodies, script: Vec::new(), ..scene.clone() });
+        let scene = alone(scene, body);
         let mut cards: Vec<&TraceCard> = TRACES.iter().collect();
         cards.sort_by_key(|card| {
             let first = TRACES_AT_FIRST.iter().position(|id| *id == card.id);
@@ -156,10 +157,9 @@ impl LoopLab {
         });
         let places =
             AT_FIRST.iter().filter_map(|id| POLICIES.iter().position(|card| card.id == *id));
-        let of_scene = &scene.bodies[0];
         let mut lab = Self {
-            body: LaneBody::new(of_scene.kind, &of_scene.values, Solver::Method(method)),
-            scene: Arc::clone(&scene),
+            body: at_start(&scene),
+            scene: Arc::new(scene),
             method,
             traces: cards.into_iter().map(|card| card.trace(DISPLAY)).collect(),
             trace: 0,
@@ -170,10 +170,20 @@ impl LoopLab {
             now_ns: 0,
             end_ns: 0,
             slowness: SLOWNESS_AT_FIRST,
+            run_goes_on: true,
         };
         lab.selected = lab.on_stage[0];
         lab.make();
         lab
+    }
+
+    /// Shows the body at this place of another scene, from its start.
+    pub(super) fn show(&mut self, scene: &Scene, body: usize) {
+        let scene = alone(scene, body);
+        self.body = at_start(&scene);
+        self.scene = Arc::new(scene);
+        self.now_ns = 0;
+        self.make();
     }
 
     /// Makes all frames again.
@@ -329,6 +339,17 @@ impl LoopLab {
     pub fn selected_card(&self) -> &'static PolicyCard {
         self.lanes[self.selected].card
     }
+}
+
+/// A scene with the body at this place alone, and without the script.
+fn alone(scene: &Scene, body: usize) -> Scene {
+    Scene { bodies: vec![scene.bodies[body].clone()], script: Vec::new(), ..scene.clone() }
+}
+
+/// The one body of a scene at its start.
+fn at_start(scene: &Scene) -> LaneBody {
+    let body = &scene.bodies[0];
+    LaneBody::new(body.kind, &body.values, Solver::Truth)
 }
 
 #[cfg(test)]

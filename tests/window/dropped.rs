@@ -109,3 +109,28 @@ fn a_scene_file_dropped_on_the_window_is_opened_and_one_with_mistakes_is_not() {
     desk.press_and_see("Escape");
     desk.quit();
 }
+
+#[test]
+fn a_log_of_frames_dropped_on_the_window_opens_the_loop_lab_and_one_with_mistakes_is_told() {
+    let test =
+        "a_log_of_frames_dropped_on_the_window_opens_the_loop_lab_and_one_with_mistakes_is_told";
+    let folder = tempfile::tempdir().unwrap();
+    let [good, bad] = ["log.csv", "bad.csv"].map(|name| folder.path().join(name));
+    let rows = "16.7,16.7\n".repeat(100);
+    std::fs::write(&good, format!("MsBetweenPresents,MsBetweenDisplayChange\n{rows}")).unwrap();
+    std::fs::write(&bad, "a,b\n1,2\n").unwrap();
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
+    drop_file(&desk, &good);
+    desk.titled("Regatta - spring - loop lab: Fixed - log.csv - 60 Hz");
+    desk.press("space");
+    let title = "Regatta - spring - loop lab: Fixed - log.csv - 60 Hz (paused)";
+    desk.titled(title);
+    desk.still();
+    let before = desk.sight();
+    drop_file(&desk, &bad);
+    until("the mistakes", || (desk.sight() != before).then_some(()));
+    desk.titled(title);
+    desk.press_and_see("Escape");
+    desk.quit();
+}

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use regatta::lab::{Command, KEYS, Key, Lab, SCENES, Scene, TICK_LADDER};
+use regatta::lab::{Command, KEYS, Key, Lab, LoopCommand, SCENES, Scene, TICK_LADDER};
 
 use crate::desk::Desk;
 
@@ -61,7 +61,14 @@ fn every_key_of_the_table_does_what_the_table_says() {
             Command::ToggleGuide,
             Command::Escape,
         ];
-        if !others.contains(command) {
+        if *command == Command::Loop(LoopCommand::ToggleLab) {
+            // The other keys do other things in the loop lab.
+            for _ in 0..2 {
+                desk.press(&x_name(*key));
+                assert_eq!(lab.apply(command.clone()), None);
+                desk.titled(&lab.title());
+            }
+        } else if !others.contains(command) {
             desk.press(&x_name(*key));
             assert_eq!(lab.apply(command.clone()), None);
             desk.titled(&lab.title());
@@ -76,6 +83,29 @@ fn every_key_of_the_table_does_what_the_table_says() {
     desk.press("space");
     lab.apply(Command::TogglePause);
     desk.titled(&lab.title());
+    desk.quit();
+}
+
+#[test]
+fn in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_was() {
+    let test = "in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_was";
+    let Some(desk) = Desk::open(test, "--scene spring --loop") else { return };
+    let mut lab = lab("spring");
+    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    desk.titled("Regatta - spring - loop lab: Fixed - edge - 60 Hz");
+    for (keys, commands) in [
+        ("space", vec![Command::TogglePause]),
+        ("6", vec![Command::Pick(5)]),
+        ("v", vec![Command::ToggleArrangement]),
+        ("bracketright", vec![Command::TickRateUp]),
+        ("m n period", vec![Command::NextMethod, Command::NextScene, Command::TickForward]),
+        ("l", vec![Command::Loop(LoopCommand::ToggleLab)]),
+    ] {
+        desk.press(keys);
+        commands.into_iter().for_each(|command| _ = lab.apply(command));
+        desk.titled(&lab.title());
+    }
+    assert!(!lab.title().contains("loop lab") && lab.running());
     desk.quit();
 }
 

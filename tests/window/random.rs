@@ -8,7 +8,7 @@ use crate::dice::Dice;
 use crate::dropped::drop_file;
 
 /// Keys of the table, but for those that write files or leave the window, and some that are bound to nothing.
-const KEYS: [&str; 44] = [
+const KEYS: [&str; 45] = [
     "1",
     "2",
     "3",
@@ -42,6 +42,7 @@ const KEYS: [&str; 44] = [
     "v",
     "t",
     "shift+t",
+    "l",
     "e",
     "x",
     "h",

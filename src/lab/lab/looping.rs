@@ -17,12 +17,23 @@ impl Lab {
         let body = self.display().body;
         let mut loops = LoopLab::new(self.scene(), body, method);
         loops.offer(self.viewer.live.trace());
+        loops.run_goes_on = self.running;
         self.loop_lab = Some(loops);
         self.viewer.display.instrument = Instrument::Loop;
         self.viewer.display.inspector = false;
         self.viewer.held = None;
         self.viewer.notice = None;
         self.running = true;
+    }
+
+    /// Leaves the loop lab; the run goes on as it did before.
+    fn leave_loop_lab(&mut self) {
+        let Some(loops) = self.loop_lab.take() else { return };
+        self.running = loops.run_goes_on;
+        self.viewer.notice = None;
+        if self.display().instrument == Instrument::Loop {
+            self.viewer.display.instrument = Instrument::Motion;
+        }
     }
 
     /// Opens the loop lab on the trace of this name, if there is one.
@@ -55,7 +66,7 @@ impl Lab {
         match command {
             Command::Loop(command) => self.change_loop_lab(command),
             Command::ToggleRace => {
-                self.loop_lab = None;
+                self.leave_loop_lab();
                 return Some(command);
             }
             Command::Pick(place) => loops.select(place),
@@ -90,14 +101,12 @@ impl Lab {
                 );
             }
             Command::Scene(_) | Command::NextScene | Command::PreviousScene | Command::Body(_) => {
-                let kept = (loops.trace(), loops.slowness());
-                self.loop_lab = None;
+                let (loops, running) = (self.loop_lab.take(), self.running);
                 self.carry_out(command);
-                self.open_loop_lab();
-                if let Some(loops) = &mut self.loop_lab {
-                    loops.choose_trace(kept.0);
-                    loops.set_slowness(kept.1);
-                }
+                self.loop_lab = loops;
+                self.running = running;
+                let (scene, body) = (self.start.scene.clone(), self.display().body);
+                self.loop_lab.iter_mut().for_each(|loops| loops.show(&scene, body));
             }
             Command::Act(_)
             | Command::Fly(_)
@@ -124,13 +133,7 @@ impl Lab {
     fn change_loop_lab(&mut self, command: LoopCommand) {
         let Some(loops) = &mut self.loop_lab else { return };
         match command {
-            LoopCommand::ToggleLab => {
-                self.loop_lab = None;
-                self.viewer.notice = None;
-                if self.display().instrument == Instrument::Loop {
-                    self.viewer.display.instrument = Instrument::Motion;
-                }
-            }
+            LoopCommand::ToggleLab => self.leave_loop_lab(),
             LoopCommand::Select(place) => loops.select(place),
             LoopCommand::ToggleOnStage(place) => loops.toggle(place),
             LoopCommand::Trace(place) => loops.choose_trace(place),
