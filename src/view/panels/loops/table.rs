@@ -215,7 +215,7 @@ fn paint(ui: &Ui, loops: &LoopLab, place: usize, cell: Cell, rect: Rect, verdict
                 short(ui, words, FontId::proportional(TYPE), rect.right() - at.x, text).1
             };
             let wordings = wordings(&verdict.text);
-            let words = wordings.iter().copied().find(|words| fits(&words));
+            let words = wordings.iter().copied().find(fits);
             write(words.unwrap_or(wordings[wordings.len() - 1]), at, FontId::proportional(TYPE));
         }
         Cell::Metric(_) => {
