@@ -20,9 +20,9 @@ public:
     int frame(std::int64_t duration_ns) {
         owed += std::max<std::int64_t>(duration_ns, 0) * tick_hz;
         const int due = owed >= second_ns ? 1 : 0;
-        // One tick is kept, so that timer noise costs nothing; the others are never caught up: the game slows down
-        // instead.
-        owed = std::min(owed - due * second_ns, second_ns);
+        // One tick is kept, so that timer noise costs nothing; the others are never caught up.
+        const std::int64_t left = owed - due * second_ns;
+        owed = left < second_ns ? left : second_ns;
         return due;
     }
 

@@ -29,7 +29,7 @@ impl GameLoop {
         // A clock that went back counts as no time.
         self.owed += duration_ns.max(0) * self.tick_hz;
         let due = i64::from(self.owed >= SECOND_NS);
-        // One tick is kept, so that timer noise costs nothing; the others are never caught up: the game slows down instead.
+        // One tick is kept, so that timer noise costs nothing; the others are never caught up.
         self.owed = (self.owed - due * SECOND_NS).min(SECOND_NS);
         due
     }

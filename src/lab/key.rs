@@ -262,6 +262,12 @@ pub static KEYS: &[Binding] = &[
         repeats: false,
     },
     Binding {
+        shown: "Page Down",
+        about: "next stop of the guide, while it is open",
+        keys: &[(Key::PageDown, Command::NextStop)],
+        repeats: false,
+    },
+    Binding {
         shown: "H, F1, ?",
         about: "help",
         keys: &[

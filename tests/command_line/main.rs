@@ -11,6 +11,7 @@ mod chapter;
 mod files;
 mod formats;
 mod list;
+mod loops;
 mod manifest;
 mod mishaps;
 mod mistakes;

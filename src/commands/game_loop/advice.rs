@@ -37,8 +37,11 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
 
 /// A policy with what was measured and its constants.
 fn words(row: &Measured) -> String {
-    let ms =
-        |value: Option<f64>| value.map_or("unknown".into(), |ms| format!("{} ms", round(ms, 3)));
+    // Traces are counted in whole nanoseconds: what is less than a microsecond is their rounding.
+    let to_microseconds = |ms: f64| (1000.0 * ms).round() / 1000.0;
+    let ms = |value: Option<f64>| {
+        value.map_or("unknown".into(), |ms| format!("{} ms", round(to_microseconds(ms), 3)))
+    };
     let error = ms(row.report.animation_error_rms_ms);
     let latency = ms(row.report.latency_mean_ms);
     let constants = match row.card.constants {

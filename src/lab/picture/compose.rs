@@ -18,8 +18,7 @@ use crate::lab::{Arrangement, Lab, Mode, ZoomPan};
 
 /// The head of a cell in which its lane is named, and may have halted, in points.
 const CAPTION: f32 = 32.0;
-/// The column of lane names at the left of a race, in points: on a stage wide enough for names, and on
-/// others, where only the number fits.
+/// The column of lane names at the left of a race, in points: where names fit, and where only numbers do.
 const GUTTERS: (f32, f32) = (124.0, 18.0);
 /// From this width of the stage on, in points, lane names fit.
 const ROOM_FOR_NAMES: f32 = 520.0;
@@ -385,7 +384,7 @@ fn trail_s(framing: Framing, moment: &Moment<'_>) -> Option<f64> {
     }
 }
 
-/// Two dotted lines at the largest swing of the truth: a mass beyond them has gained energy.
+/// Dotted lines at the largest swing of the truth: a mass beyond them has gained energy.
 fn envelope(picture: &mut Picture, camera: &Camera, swing_m: f64, colour: Rgba) {
     let (top, bottom) = (camera.rect.min[1] + 4.0, camera.rect.max[1] - 4.0);
     for x in [-swing_m, swing_m] {

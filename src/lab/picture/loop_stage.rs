@@ -15,8 +15,9 @@ use crate::lab::{Lab, LoopFrame, LoopLab, LoopLane, Severity};
 const ROOM_FOR_RULER: f32 = 260.0;
 /// From this height of a band on, in points, the path of the frames fits below the body.
 const ROOM_FOR_PATH: f32 = 90.0;
-/// From this width of the stage on, in points, words fit beside bodies.
+/// From this width of the stage on, and this height of a band, in points, words fit beside bodies.
 const ROOM_FOR_WORDS: f32 = 420.0;
+const LEAST_FOR_WORDS: f32 = 46.0;
 /// How many frames before the present one are seen.
 const FRAMES_BEFORE: usize = 14;
 /// How strong the first of them is, and the last.
@@ -24,6 +25,8 @@ const STRENGTHS: (f32, f32) = (0.5, 0.06);
 /// The side of a block, as a part of the band's height, at most in points.
 const BLOCK: f32 = 0.27;
 const LARGEST_BLOCK: f32 = 44.0;
+/// The foot of a band, in which its loop is named, in points.
+const FOOT: f32 = 30.0;
 /// How long the path of frames is, in seconds of the display.
 const PATH_S: f64 = 0.16;
 /// How much of the swing the stage shows beside it.
@@ -98,7 +101,7 @@ impl Band<'_> {
                 let [least, most] = self.loops.range();
                 let reach = least.abs().max(most.abs());
                 let reach = if reach > 0.0 { reach } else { half_width_m };
-                let above = self.rect.min[1] + 0.36 * height as f32;
+                let above = self.rect.min[1] + 0.38 * height as f32;
                 let at = if self.has_path() { [x, above] } else { plain.at };
                 Camera { at, points_per_metre: width / (2.0 * MARGIN * reach), ..plain }
             }
@@ -156,7 +159,7 @@ impl Band<'_> {
     /// Where the frames have shown the body, as a staircase in time, beside where it was.
     fn path(&self, picture: &mut Picture, camera: &Camera, frames: &[LoopFrame]) {
         let now_ns = frames[frames.len() - 1].displayed_ns;
-        let [top, bottom] = [camera.at[1] + 0.8 * camera.block, self.rect.max[1] - 12.0];
+        let [top, bottom] = [camera.at[1] + 0.8 * camera.block, self.rect.max[1] - FOOT];
         let y = |ns: i64| {
             let ago_s = (now_ns - ns) as f64 / 1e9;
             top + (bottom - top) * (ago_s / PATH_S) as f32
@@ -188,17 +191,16 @@ impl Band<'_> {
             halo: faded(self.palette.sea[1], 0.85),
             text,
         };
-        let right = self.rect.max[0] - 14.0;
-        let bottom = self.rect.max[1];
-        let name = self.lane.card().name.to_owned();
-        let is_selected = self.loops.selected() == self.place;
-        if is_selected {
-            let ends = [[2.5, self.rect.min[1] + 4.0], [2.5, bottom - 4.0]];
-            picture.shapes.push(line(ends[0], ends[1], 3.0, self.colour, self.rect));
+        let [left, right] = [self.rect.min[0] + 14.0, self.rect.max[0] - 14.0];
+        let foot = self.rect.max[1] - 0.5 * FOOT;
+        if self.loops.selected() == self.place {
+            let [top, bottom] = [self.rect.min[1] + 4.0, self.rect.max[1] - 4.0];
+            picture.shapes.push(line([2.5, top], [2.5, bottom], 3.0, self.colour, self.rect));
         }
-        let name = label([right, bottom - 30.0], Align::Right, 14.5, self.palette.text, name);
+        let name = self.lane.card().name.to_owned();
+        let name = label([left, foot], Align::Left, 14.5, self.palette.text, name);
         picture.labels.push(Label { is_strong: true, ..name });
-        if width < ROOM_FOR_WORDS || height < 46.0 {
+        if width < ROOM_FOR_WORDS || height < LEAST_FOR_WORDS {
             return;
         }
         let verdict = self.lane.verdict(self.loops.scene().tick_hz);
@@ -208,7 +210,7 @@ impl Band<'_> {
             Severity::Bad => self.palette.bad,
             Severity::Unknown => self.palette.dim,
         };
-        picture.labels.push(label([right, bottom - 13.0], Align::Right, 12.0, tone, verdict.text));
+        picture.labels.push(label([right, foot], Align::Right, 12.5, tone, verdict.text));
         let [drawn, exact] = at.map(|at| camera.points(at));
         let above = drawn[1] - 0.5 * camera.block - 9.0;
         let words = match frame.latency_ms() {
