@@ -23,7 +23,7 @@ impl Lab {
     }
 
     pub(super) fn carry_out(&mut self, command: Command) -> Option<DriverRequest> {
-        let Some(command) = self.carry_out_in_loop_lab(command) else { return None };
+        let command = self.carry_out_in_loop_lab(command)?;
         let race = self.race();
         match command {
             Command::Act(action) => self.act(action),

@@ -115,10 +115,10 @@ fn modes(ui: &mut Ui, lab: &Lab, width: f32, commands: &mut Vec<Command>) {
     ui.add_space(4.0);
     let is_in_loops = lab.loop_lab().is_some();
     let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
-    let to_mode = |mode: Mode| match (is_in_loops, lab.mode() == mode) {
-        (true, true) => toggle_loops.clone(),
-        // From the loop lab it leads to the other mode.
-        (_, false) | (false, true) => Command::ToggleRace,
+    // From the loop lab, the command for a race leads to the other mode.
+    let to_mode = |mode: Mode| match is_in_loops && lab.mode() == mode {
+        true => toggle_loops.clone(),
+        false => Command::ToggleRace,
     };
     let is_in = |mode: Mode| !is_in_loops && lab.mode() == mode;
     let loops = if width >= ROOM_FOR_WORDS { "Loop lab" } else { "Loops" };

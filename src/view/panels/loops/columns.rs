@@ -105,6 +105,8 @@ impl Cell {
 
 /// The unit that is shown in percent.
 const AMPLITUDES: &str = "amplitudes";
+/// From here on milliseconds are told in seconds.
+const MANY_MS: f64 = 10_000.0;
 /// Less is not told from nothing by three decimals.
 const LEAST: f64 = 1e-3;
 /// From here on three digits have no more than two decimals.
@@ -113,6 +115,10 @@ const SMALL: f64 = 0.1;
 /// A value of a metric as the table has it.
 pub(super) fn shown(value: f64, unit: &str) -> String {
     let (value, unit) = if unit == AMPLITUDES { (100.0 * value, "%") } else { (value, unit) };
+    let (value, unit) = match unit {
+        "ms" if value.abs() >= MANY_MS => (value / 1000.0, "s"),
+        _ => (value, unit),
+    };
     let number = match value.abs() {
         0.0 => "0".into(),
         small if small < LEAST => "<0.001".into(),
@@ -174,9 +180,18 @@ mod tests {
 
     #[test]
     fn values_have_three_digits_or_decimals_and_nothing_is_told_from_almost_nothing() {
-        let texts =
-            [(8.2247, "ms"), (-0.008_81, "ms"), (0.0, "ms"), (1e-7, "ms"), (0.1234, AMPLITUDES)];
+        let texts = [
+            (8.2247, "ms"),
+            (-14_000.0, "ms"),
+            (-0.008_81, "ms"),
+            (0.0, "ms"),
+            (1e-7, "ms"),
+            (0.1234, AMPLITUDES),
+        ];
         let texts = texts.map(|(value, unit)| shown(value, unit));
-        assert_eq!(texts, ["8.22 ms", "\u{2212}0.009 ms", "0 ms", "<0.001 ms", "12.3 %"]);
+        assert_eq!(
+            texts,
+            ["8.22 ms", "\u{2212}14 s", "\u{2212}0.009 ms", "0 ms", "<0.001 ms", "12.3 %"]
+        );
     }
 }

@@ -10,12 +10,12 @@ use crate::view::panels::{ink, strong_font};
 /// What a frame can have: the last is that or more.
 const NAMES: [&str; 4] = ["0", "1", "2", "3+"];
 /// Room for the title, the numbers at the left, those below, and the name of the axis, in points.
-pub(super) const TITLE: f32 = 20.0;
+pub(super) const TITLE: f32 = 24.0;
 pub(super) const LEFT: f32 = 38.0;
 pub(super) const BELOW: f32 = 17.0;
 pub(super) const NAME: f32 = 15.0;
-/// Room for numbers over bars, as a part of the highest.
-const ABOVE: f64 = 0.22;
+/// Room for numbers over bars, in points.
+const ABOVE: f32 = 17.0;
 /// The part of a group's width that its bars take.
 const BARS: f32 = 0.78;
 /// From this width on, in points, every bar has its number.
@@ -56,11 +56,11 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
     let painter = ui.painter_at(room);
     painter.text(room.left_top(), Align2::LEFT_TOP, "Ticks per frame", strong_font(13.0), ink.text);
     let rect = Rect::from_min_max(room.min + vec2(LEFT, TITLE), room.max - vec2(2.0, BELOW + NAME));
-    if !rect.is_positive() || rect.height() < 20.0 {
+    if !rect.is_positive() || rect.height() < 2.0 * ABOVE {
         return;
     }
     let highest = series.iter().flat_map(|series| series.shares_percent).fold(0.0, f64::max);
-    let top = (highest * (1.0 + ABOVE)).max(10.0);
+    let top = highest.max(10.0) * f64::from(rect.height() / (rect.height() - ABOVE));
     let area = PlotArea { rect, bounds: [[-0.5, 3.5], [0.0, top]] };
     painter.rect_filled(rect, 0.0, ink.plot);
     let marks = area.marks(1, 24.0).into_iter().map(|(value, text)| (value, format!("{text} %")));

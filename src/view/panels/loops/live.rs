@@ -3,17 +3,14 @@
 use egui::{Align2, Color32, FontId, Label, Pos2, Rect, RichText, Sense, Shape, Stroke, Ui, Vec2};
 use egui::{pos2, vec2};
 
+use super::columns::shown;
 use super::counts::{self, BELOW, LEFT, Series};
 use super::errors::round_up;
-use crate::lab::number::round;
-use crate::lab::pacing::POLICIES;
 use crate::lab::{Lab, LiveFrame};
 use crate::view::panels::plot_area::PlotArea;
 use crate::view::panels::{ink, strong_font};
 use crate::view::theme::colour;
 
-/// The window's own loop is this one by default.
-const OWN_LOOP: &str = "fixed-hermite";
 /// The length of the plot in seconds.
 const LENGTH_S: f64 = 10.0;
 /// The plot reaches to this many times the frame time that 99 in 100 frames keep.
@@ -53,10 +50,9 @@ impl Summary {
     }
 }
 
-/// The colour of the loop that the window's own is like.
+/// The colour of the window's own loop.
 fn own_colour(ui: &Ui) -> Color32 {
-    let place = POLICIES.iter().position(|card| card.id == OWN_LOOP).unwrap_or(0);
-    colour(ink(ui).theme.numbered_style(place).0)
+    colour(ink(ui).theme.evaluation(1))
 }
 
 fn time_ms(frame: &LiveFrame) -> f64 {
@@ -74,21 +70,19 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
         return;
     };
     let Summary { mean_ms, usual_ms, worst_ms, dropped, error_rms_ms } = summary;
-    let ms = |value: f64| format!("{} ms", round(value, 3));
-    let times = format!(
-        "Frame time {} in the mean, {} or less in 99 of 100 frames, {} at worst.",
-        ms(mean_ms),
-        ms(usual_ms),
-        ms(worst_ms)
-    );
+    let [mean, usual, worst] = [mean_ms, usual_ms, worst_ms].map(|time_ms| shown(time_ms, "ms"));
+    let times = format!("Frame time: mean {mean}, 99 % within {usual}, worst {worst}.");
     let lost = match dropped {
         0 => "No tick dropped.".into(),
         1 => "1 tick dropped.".into(),
         many => format!("{many} ticks dropped."),
     };
-    let error = format!("{lost} Animation error {} RMS.", ms(error_rms_ms));
+    let error = format!("{lost} Animation error {} RMS.", shown(error_rms_ms, "ms"));
     ui.add(Label::new(RichText::new(times).color(ink(ui).dim)).wrap());
-    ui.add(Label::new(RichText::new(error).color(ink(ui).dim)).wrap());
+    let error = ui.add(Label::new(RichText::new(error).color(ink(ui).dim)).wrap());
+    error.on_hover_text(
+        "change of the moment shown minus change of real time; a frame counts as displayed when it begins",
+    );
     let height = (top + room.y - ui.cursor().top()).max(50.0);
     let (room, response) = ui.allocate_exact_size(vec2(room.x, height), Sense::hover());
     response.widget_info(|| {
@@ -123,7 +117,8 @@ fn plot<'a>(
     painter.rect_filled(rect, 0.0, ink.plot);
     area.axes(&painter, ink, [&area.marks(0, 56.0), &area.marks(1, 24.0)]);
     let small = || FontId::proportional(11.5);
-    painter.text(room.left_top(), Align2::LEFT_TOP, "frame time, ms", small(), ink.dim);
+    let at = pos2(rect.left(), room.top());
+    painter.text(at, Align2::LEFT_TOP, "frame time, ms", small(), ink.dim);
     let at = pos2(rect.center().x, room.bottom());
     painter.text(at, Align2::CENTER_BOTTOM, "real time, s from the last frame", small(), ink.dim);
 

@@ -75,7 +75,7 @@ pub(super) fn show(ui: &mut Ui, loops: &LoopLab, lanes: &[ShownLane<'_>], size: 
     area.axes(&painter, ink, [&area.marks(0, 56.0), &area.marks(1, 26.0)]);
     let small = FontId::proportional(11.5);
     painter.text(
-        room.left_top(),
+        pos2(rect.left(), room.top()),
         Align2::LEFT_TOP,
         "moment shown, ms from now",
         small.clone(),

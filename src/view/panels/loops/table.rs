@@ -210,7 +210,13 @@ fn paint(ui: &Ui, loops: &LoopLab, place: usize, cell: Cell, rect: Rect, verdict
         }
         Cell::Verdict => {
             sign(ui, pos2(left.x + SIGN, left.y), verdict.severity);
-            write(&verdict.text, left + vec2(SIGN_ROOM, 0.0), FontId::proportional(TYPE));
+            let at = left + vec2(SIGN_ROOM, 0.0);
+            let fits = |words: &&str| {
+                short(ui, words, FontId::proportional(TYPE), rect.right() - at.x, text).1
+            };
+            let wordings = wordings(&verdict.text);
+            let words = wordings.iter().copied().find(fits);
+            write(words.unwrap_or(wordings[wordings.len() - 1]), at, FontId::proportional(TYPE));
         }
         Cell::Metric(_) => {
             let Some(metric) = cell.metric() else { return };
@@ -219,6 +225,12 @@ fn paint(ui: &Ui, loops: &LoopLab, place: usize, cell: Cell, rect: Rect, verdict
             ui.painter().text(rect.right_center(), Align2::RIGHT_CENTER, words, font, text);
         }
     }
+}
+
+/// A verdict, and what is left of it without its last parts.
+fn wordings(verdict: &str) -> Vec<&str> {
+    let shorter = verdict.rmatch_indices(", ").map(|(end, _)| &verdict[..end]);
+    std::iter::once(verdict).chain(shorter).collect()
 }
 
 /// Draws the sign of a severity: ● is right, ◆ is doubtful, ▲ is bad, a ring is not known.
@@ -261,6 +273,15 @@ fn tooltip(response: Response, loops: &LoopLab, place: usize, verdict: &LoopVerd
 mod tests {
     use super::*;
     use crate::lab::{Lab, Scene};
+
+    #[test]
+    fn a_verdict_is_shortened_from_its_end() {
+        assert_eq!(
+            wordings("smooth, loses 3 ms, late"),
+            ["smooth, loses 3 ms, late", "smooth, loses 3 ms", "smooth"]
+        );
+        assert_eq!(wordings("smooth"), ["smooth"]);
+    }
 
     #[test]
     fn rows_are_sorted_by_what_was_clicked_and_back() {
