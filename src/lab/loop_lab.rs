@@ -249,10 +249,9 @@ impl LoopLab {
         self.slowness
     }
 
-    /// Chooses the trace at this place, from its start.
+    /// Chooses the trace at this place; the moment stays, if the trace reaches it.
     pub fn choose_trace(&mut self, place: usize) {
         self.trace = place.min(self.traces.len() - 1);
-        self.now_ns = 0;
         self.make();
     }
 

@@ -51,11 +51,11 @@ impl Theme {
         (self.palette().methods[colour], DASHES[dash])
     }
 
-    /// The colour and the dash pattern of the thing with this number among others, from 0: seven neighbours differ in
-    /// colour.
-    pub fn numbered_style(self, number: usize) -> (Rgba, [f32; 2]) {
-        let colour = NUMBERED[number % NUMBERED.len()];
-        (self.palette().methods[colour], DASHES[number % DASHES.len()])
+    /// The colour and the dash pattern of the game loop at this place of [`POLICIES`](super::pacing::POLICIES): seven
+    /// neighbours differ in colour.
+    pub fn loop_style(self, place: usize) -> (Rgba, [f32; 2]) {
+        let colour = LOOPS[place % LOOPS.len()];
+        (self.palette().methods[colour], DASHES[place % DASHES.len()])
     }
 }
 
@@ -166,8 +166,8 @@ static LIGHT: Palette = Palette {
 /// share both.
 const DASHES: [[f32; 2]; 5] = [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0]];
 
-/// The places of the colours of numbered things. No two warm ones are beside each other.
-const NUMBERED: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
+/// The places of the colours of game loops. No two warm ones are beside each other.
+const LOOPS: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
 
 /// The methods that the chapter and its scenes race, with the places of their colours and dashes.
 const CLASSICS: [(&str, usize, usize); 6] = [
@@ -285,8 +285,8 @@ mod tests {
                 let [a, b] = [&pair[0], &pair[1]].map(|method| theme.style(method).0);
                 assert!(distance(a, b) > 40 * 40, "{} and {}: {a:?} {b:?}", pair[0].id, pair[1].id);
             }
-            for number in 0..2 * NUMBERED.len() {
-                let [a, b] = [number, number + 1].map(|number| theme.numbered_style(number).0);
+            for number in 0..2 * LOOPS.len() {
+                let [a, b] = [number, number + 1].map(|number| theme.loop_style(number).0);
                 assert!(distance(a, b) > 60 * 60, "{number}: {a:?} {b:?}");
             }
             for lanes in [

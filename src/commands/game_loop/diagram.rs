@@ -24,7 +24,7 @@ pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
 }
 
 fn curve(place: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> FigureCurve {
-    let (colour, dash) = Theme::Dark.numbered_style(place);
+    let (colour, dash) = Theme::Dark.loop_style(place);
     FigureCurve { name: row.card.id.into(), colour, dash, dots, points }
 }
 

@@ -63,6 +63,7 @@ impl Lab {
         let Some(loops) = &mut self.loop_lab else { return Some(command) };
         let tick_hz = loops.scene().tick_hz;
         let slowness = loops.slowness();
+        let frames_per_second = loops.traces()[loops.trace()].refresh().hz().round() as i64;
         match command {
             Command::Loop(command) => self.change_loop_lab(command),
             Command::ToggleRace => {
@@ -76,8 +77,8 @@ impl Lab {
             Command::Restart => loops.seek(0),
             Command::TickForward => self.step_loops(1),
             Command::TickBack => self.step_loops(-1),
-            Command::SecondForward => self.step_loops(i64::from(tick_hz)),
-            Command::SecondBack => self.step_loops(-i64::from(tick_hz)),
+            Command::SecondForward => self.step_loops(frames_per_second),
+            Command::SecondBack => self.step_loops(-frames_per_second),
             Command::NextMethod => loops.set_method(method_beside(loops, 1)),
             Command::PreviousMethod => loops.set_method(method_beside(loops, METHODS.len() - 1)),
             Command::Method(method) => loops.set_method(method),

@@ -51,7 +51,7 @@ pub(super) fn compose(lab: &Lab, loops: &LoopLab, size: [f32; 2]) -> Picture {
             picture.shapes.push(edge);
         }
         let lane = &loops.lanes()[place];
-        let colour = lab.display().theme.numbered_style(place).0;
+        let colour = lab.display().theme.loop_style(place).0;
         let band = Band { loops, lane, place, rect, colour, palette };
         ruled = ruled.or(band.draw(&mut picture, lab.display().ghost));
     }

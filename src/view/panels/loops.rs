@@ -83,7 +83,7 @@ struct ShownLane<'a> {
 /// The lanes on the stage, from top to bottom.
 fn on_stage<'a>(loops: &'a LoopLab, ink: &Ink) -> Vec<ShownLane<'a>> {
     let lane = |&place: &usize| {
-        let (rgba, dash) = ink.theme.numbered_style(place);
+        let (rgba, dash) = ink.theme.loop_style(place);
         let (lane, is_selected) = (&loops.lanes()[place], place == loops.selected());
         ShownLane { place, lane, colour: colour(rgba), dash, is_selected }
     };

@@ -137,7 +137,7 @@ fn row(
     }
     if is_selected {
         let bar = Rect::from_min_size(rect.min + vec2(0.0, 1.0), vec2(BAR, ROW - 2.0));
-        let own = colour(ink(ui).theme.numbered_style(place).0);
+        let own = colour(ink(ui).theme.loop_style(place).0);
         ui.painter().rect_filled(bar, 2.0, own);
     }
     if tooltip(response, loops, place, &verdict).clicked() {
@@ -161,7 +161,7 @@ fn eye(ui: &Ui, loops: &LoopLab, place: usize, rect: Rect, commands: &mut Vec<Co
     let name = format!("{} on the stage", loops.lanes()[place].card().name);
     response.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, is_on, &name));
     let is_lit = response.hovered() || response.has_focus();
-    let own = colour(ink(ui).theme.numbered_style(place).0);
+    let own = colour(ink(ui).theme.loop_style(place).0);
     let inked = match (is_lit, is_on) {
         (true, _) => ink(ui).accent,
         (false, true) => own,
@@ -199,7 +199,7 @@ fn paint(ui: &Ui, loops: &LoopLab, place: usize, cell: Cell, rect: Rect, verdict
         }
         Cell::Key | Cell::OnStage => {}
         Cell::Swatch => {
-            let (rgba, dash) = ink(ui).theme.numbered_style(place);
+            let (rgba, dash) = ink(ui).theme.loop_style(place);
             let strong = colour(rgba);
             let inked = if is_on { strong } else { strong.gamma_multiply(0.7) };
             plot::swatch(ui.painter(), left, rect.width() - 4.0, dash, inked);
