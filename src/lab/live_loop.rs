@@ -24,11 +24,18 @@ pub struct LiveFrame {
 }
 
 /// The last frames of the lab's own loop, the latest at the end.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct LiveLoop {
     frames: VecDeque<LiveFrame>,
     /// The moment that the last frame showed, in seconds.
     shown_s: Option<f64>,
+}
+
+impl Default for LiveLoop {
+    /// No frame, and room for all: adding one allocates nothing.
+    fn default() -> Self {
+        Self { frames: VecDeque::with_capacity(MOST_FRAMES), shown_s: None }
+    }
 }
 
 impl LiveLoop {
