@@ -1,7 +1,8 @@
 //! `regatta loop`: what a game loop does to motion, over the frames of a display.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{self, Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 use clap::Args;
 use serde_json::json;
@@ -33,7 +34,7 @@ One row for each trace and policy, in the order asked for:
   animation_error_rms_ms  change of the moment shown minus change of the moment of display, from frame to
   animation_error_max_ms  frame: judder (PresentMon's term)
   repeated_percent        displayed frames that show the same moment again
-  double_percent          displayed frames that show two ticks or more at once and run ahead of the display
+  double_percent          displayed frames that show two ticks or more at once, half a tick or more ahead
   latency_mean_ms         moment of display minus moment shown
   latency_max_ms
   dropped_ms              real time given up
@@ -132,7 +133,9 @@ pub(super) struct LoopArgs {
 enum LoopError {
     #[error("{policy} is not written out in {asked}; give --language {}", .known.join(" or "))]
     NoSnippet { policy: &'static str, asked: String, known: Vec<&'static str> },
-    #[error("rows and frames would go to the same place; give another --out or --frames")]
+    #[error(
+        "two outputs would go to the same place; give each of --out, --frames and --plot its own"
+    )]
     SamePlace,
 }
 
@@ -153,10 +156,13 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     if let Some(plot) = &args.plot {
         check_picture_name(plot, &args.out)?;
     }
-    if args.frames.as_ref() == Some(&args.out) {
+    let places = [Some(&args.out), args.frames.as_ref(), args.plot.as_ref()];
+    let places: Vec<PathBuf> = places.into_iter().flatten().map(|path| real(path)).collect();
+    if (1..places.len()).any(|n| places[..n].contains(&places[n])) {
         return Err(LoopError::SamePlace.into());
     }
     let interrupted = watch_for_interrupt();
+    let stop = || interrupted.load(Ordering::Relaxed);
     // Before the first run: a refusal should not come late.
     let older = if args.force { Older::Replace } else { Older::Keep };
     let place = |path, option| Place { path, option, older };
@@ -173,13 +179,14 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     for trace in &traces {
         let from = rows.len();
         for card in args.policies() {
-            if interrupted.load(std::sync::atomic::Ordering::Relaxed) {
-                return Err(Interrupted::NothingWritten.into());
-            }
             let spec = LaneSpec::plain(args.method);
             let mut lines = String::new();
             let each = frames.is_some().then_some(&mut lines);
-            rows.push(measure(&scene, spec, card, trace, args.until_ns(&scene, trace), each));
+            let until_ns = args.until_ns(&scene, trace);
+            rows.push(measure(&scene, spec, card, trace, until_ns, &stop, each));
+            if stop() {
+                return Err(Interrupted::NothingWritten.into());
+            }
             if let Some(frames) = &mut frames {
                 frames.write_all(lines.as_bytes()).map_err(|error| frames.failed(error))?;
             }
@@ -221,6 +228,15 @@ impl LoopArgs {
             None if trace.ends() => i64::MAX,
             seconds => (seconds.unwrap_or(scene.seconds) * 1e9).round() as i64,
         }
+    }
+}
+
+/// A path by which the same file is known however it is written.
+fn real(path: &Path) -> PathBuf {
+    let whole = path::absolute(path).unwrap_or_else(|_| path.into());
+    match (whole.parent().and_then(|folder| folder.canonicalize().ok()), whole.file_name()) {
+        (Some(folder), Some(name)) => folder.join(name),
+        _ => whole,
     }
 }
 

@@ -33,11 +33,9 @@ pub(super) enum TraceError {
         source: io::Error,
     },
     /// The file holds no trace.
-    #[error("{}: {source}", .path.display())]
+    #[error("{source}")]
     Invalid {
-        /// As it was given.
-        path: PathBuf,
-        /// Why.
+        /// Why, and where.
         source: TraceFileError,
     },
     /// The trace has a display of its own.
@@ -97,7 +95,7 @@ fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, T
     })?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let traces = trace_file::read(&name, &String::from_utf8_lossy(&bytes))
-        .map_err(|source| TraceError::Invalid { path: path.into(), source })?;
+        .map_err(|source| TraceError::Invalid { source })?;
     Ok(match display {
         Some(display) => traces.into_iter().map(|trace| trace.on(display)).collect(),
         None => traces,

@@ -17,7 +17,7 @@ pub enum Interpolation {
 
 impl Interpolation {
     /// Every way, in the order in which the window goes through them.
-    pub const ALL: [Self; 4] = [Self::Raw, Self::Linear, Self::Hermite, Self::Extrapolated];
+    pub const ALL: [Self; 4] = [Self::Raw, Self::Extrapolated, Self::Linear, Self::Hermite];
 
     /// The name for people.
     pub fn name(self) -> &'static str {

@@ -167,7 +167,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "I",
-        about: "drawing between ticks: raw / linear / Hermite / extrapolated",
+        about: "drawing between ticks: raw / extrapolated / linear / Hermite",
         keys: &[(Key::Sign('i'), Command::NextInterpolation)],
         repeats: false,
     },

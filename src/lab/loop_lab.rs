@@ -5,16 +5,15 @@
 use std::sync::Arc;
 
 use super::lane::LaneBody;
-use super::lane_spec::LaneSpec;
-use super::pacing::{
-    FrameTrace, LoopRun, POLICIES, PacingReport, PolicyCard, RefreshRate, TRACES, TraceCard,
-};
+use super::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use super::scene::Scene;
 use crate::sim::Solver;
 use crate::sim::integrators::Method;
 
+mod lane;
 mod words;
 
+pub use lane::{LoopFrame, LoopLane};
 pub use words::LoopVerdict;
 
 /// The policies on the stage at first: the raw loop, the usual remedy, and the one that also heals timer noise.
@@ -28,8 +27,6 @@ pub const MOST_ON_STAGE: usize = 4;
 pub const SLOWNESS: [u32; 6] = [1, 2, 4, 8, 16, 32];
 /// How slow it is at first.
 const SLOWNESS_AT_FIRST: u32 = 8;
-/// The longest run, in seconds of the display.
-const LONGEST_S: f64 = 20.0;
 /// The display of a trace that has none of its own.
 const DISPLAY: RefreshRate = RefreshRate::new(60, 1);
 
@@ -69,81 +66,6 @@ pub struct LoopLab {
     slowness: u32,
     /// Whether the run goes on when the loop lab is left.
     pub(super) run_goes_on: bool,
-}
-
-/// The body in one loop: all its frames.
-pub struct LoopLane {
-    card: &'static PolicyCard,
-    frames: Vec<LoopFrame>,
-    report: PacingReport,
-}
-
-/// A displayed frame.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LoopFrame {
-    /// When it is displayed, in nanoseconds.
-    pub displayed_ns: i64,
-    /// The simulated moment that it shows, in milliseconds.
-    pub shown_ms: f64,
-    /// The steps made for it, with those for frames before that were not displayed.
-    pub ticks: u32,
-    /// The animation error in milliseconds; 0 for the first.
-    pub animation_error_ms: f64,
-    /// The coordinates of the body as it shows them.
-    pub q: Box<[f64]>,
-    /// The exact coordinates at the moment of display.
-    pub exact: Box<[f64]>,
-}
-
-impl LoopFrame {
-    /// How far the moment shown is behind the display, in milliseconds.
-    pub fn latency_ms(&self) -> f64 {
-        self.displayed_ns as f64 / 1e6 - self.shown_ms
-    }
-}
-
-impl LoopLane {
-    fn new(
-        scene: &Scene,
-        method: &'static Method,
-        card: &'static PolicyCard,
-        trace: &FrameTrace,
-    ) -> Self {
-        let mut frames: Vec<LoopFrame> = Vec::new();
-        let mut ticks = 0;
-        let until_ns = (scene.seconds.min(LONGEST_S) * 1e9) as i64;
-        let run = LoopRun::new(scene, LaneSpec::plain(method), card, trace);
-        let report = run.measure(until_ns, |run, record| {
-            ticks += record.steps.count;
-            let Some(displayed_ns) = record.frame.displayed_ns else { return };
-            frames.push(LoopFrame {
-                displayed_ns,
-                shown_ms: record.shown_ms,
-                ticks: std::mem::take(&mut ticks),
-                animation_error_ms: record.animation_error_ms.unwrap_or_default(),
-                q: run.lane().drawn(0).into(),
-                exact: run.exact(0).into(),
-            });
-        });
-        Self { card, frames, report }
-    }
-
-    /// Its policy.
-    pub fn card(&self) -> &'static PolicyCard {
-        self.card
-    }
-    /// The frames that are displayed, in order.
-    pub fn frames(&self) -> &[LoopFrame] {
-        &self.frames
-    }
-    /// What is seen over all frames.
-    pub fn report(&self) -> &PacingReport {
-        &self.report
-    }
-    /// The place of the frame that the display holds at `now_ns`.
-    pub fn frame_at(&self, now_ns: i64) -> Option<usize> {
-        self.frames.partition_point(|frame| frame.displayed_ns <= now_ns).checked_sub(1)
-    }
 }
 
 impl LoopLab {
@@ -191,10 +113,10 @@ impl LoopLab {
         let trace = &self.traces[self.trace];
         let lane = |card| LoopLane::new(&self.scene, self.method, card, trace);
         self.lanes = POLICIES.iter().map(lane).collect();
-        let ends = self.lanes.iter().filter_map(|lane| Some(lane.frames.last()?.displayed_ns));
+        let ends = self.lanes.iter().filter_map(|lane| Some(lane.frames().last()?.displayed_ns));
         self.end_ns = ends.max().unwrap_or_default();
         self.now_ns = self.now_ns.min(self.end_ns);
-        let exact = self.lanes.iter().flat_map(|lane| &lane.frames).map(|frame| frame.exact[0]);
+        let exact = self.lanes.iter().flat_map(LoopLane::frames).map(|frame| frame.exact[0]);
         self.range = exact.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], q| {
             [least.min(q), most.max(q)]
         });
@@ -326,7 +248,7 @@ impl LoopLab {
 
     /// Goes by so many frames of the selected lane.
     pub fn step(&mut self, frames: i64) {
-        let frames_of = &self.lanes[self.selected].frames;
+        let frames_of = self.lanes[self.selected].frames();
         let at = self.lanes[self.selected].frame_at(self.now_ns).unwrap_or_default() as i64;
         let place = (at + frames).clamp(0, frames_of.len().max(1) as i64 - 1);
         if let Some(frame) = frames_of.get(place as usize) {
@@ -336,7 +258,7 @@ impl LoopLab {
 
     /// The selected policy's card.
     pub fn selected_card(&self) -> &'static PolicyCard {
-        self.lanes[self.selected].card
+        self.lanes[self.selected].card()
     }
 }
 

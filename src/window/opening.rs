@@ -45,7 +45,7 @@ fn open_trace(lab: &mut Lab, path: &Path) -> Result<(), String> {
         std::fs::read(path).map_err(|error| format!("error: cannot read {shown}: {error}"))?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let traces = trace_file::read(&name, &String::from_utf8_lossy(&bytes));
-    lab.open_traces(traces.map_err(|error| format!("error: {shown}: {error}"))?);
+    lab.open_traces(traces.map_err(|error| format!("error: {error}"))?);
     Ok(())
 }
 

@@ -27,6 +27,10 @@ fn try_save(gpu: &Gpu, size_px: [u32; 2], scale: f32, lab: &Lab) -> Result<PathB
 
 /// A file name, without its ending, that says what the picture shows.
 fn name(lab: &Lab) -> String {
+    if let Some(loops) = lab.loop_lab() {
+        let (policy, ms) = (loops.selected_card().id, loops.now_ns() / 1_000_000);
+        return format!("regatta-{}-loop-{policy}-at-{ms}-ms", lab.scene().name);
+    }
     let method = match lab.mode() {
         Mode::Solo => lab.entries()[lab.active()].method.id,
         Mode::Race => "race",

@@ -46,7 +46,10 @@ fn run_in(directory: &Path, arguments: &str) -> Output {
 /// What the program writes, where it succeeds in silence.
 fn stdout_of(arguments: &str) -> String {
     let output = run(arguments);
-    assert_eq!(stderr(&output), "", "{arguments}");
+    // A busy machine is told of, and is no fault of the program.
+    let said = stderr(&output);
+    let said = said.lines().find(|line| !line.starts_with("warning: the machine is busy"));
+    assert_eq!(said, None, "{arguments}");
     assert_eq!(output.status.code(), Some(0), "{arguments}");
     String::from_utf8(output.stdout).unwrap()
 }

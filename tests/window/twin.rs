@@ -68,7 +68,9 @@ impl Twin {
         let is_so = |text: Option<&str>| text.is_some_and(|text| text.starts_with(name));
         let is_found = |node: &&Node| is_so(node.label()) || is_so(node.value());
         let mut meant = self.nodes.iter().filter(|node| is_meant(node));
-        let Some(found) = meant.clone().find(is_found) else {
+        let is_named = |node: &&Node| [node.label(), node.value()].contains(&Some(name));
+        let Some(found) = meant.clone().find(is_named).or_else(|| meant.clone().find(is_found))
+        else {
             let names: Vec<_> = meant.by_ref().map(|node| node.label().or(node.value())).collect();
             panic!("no \"{name}\" in {names:?}");
         };

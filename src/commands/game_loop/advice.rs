@@ -17,6 +17,11 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
         rows.iter().map(|row| (row.card, row.report.clone())).collect();
     match advised_loop(&measured, latency_ms) {
         Some(place) => tell(&format!("{trace}: take {}", words(&rows[place]))),
+        None if rows.iter().all(|row| row.report.animation_error_rms_ms.is_none()) => {
+            tell(&format!(
+                "{trace}: fewer than two frames were displayed, and nothing can be said"
+            ));
+        }
         None => tell(&format!(
             "{trace}: none of these policies is as fast at any frame rate with a mean latency of {latency_ms} ms or \
              less; try more policies, or a larger --latency-ms"

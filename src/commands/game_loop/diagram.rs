@@ -104,9 +104,18 @@ fn note(rows: &[&Measured]) -> String {
         .collect();
     ranked.sort_by(|(_, one), (_, other)| one.total_cmp(other));
     let listed = ranked.iter().map(|(id, error)| format!("{id} {}", round(*error, 3)));
+    let outside = rows.iter().filter_map(|row| {
+        let latency = row.report.latency_mean_ms.filter(|ms| ms.abs() > LARGEST_LATENCY_MS)?;
+        Some(format!("{} {} ms", row.card.id, round(latency, 3)))
+    });
+    let outside = outside.collect::<Vec<_>>().join(", ");
+    let outside = match outside.as_str() {
+        "" => String::new(),
+        listed => format!(" Later than the chart shows: {listed}."),
+    };
     format!(
         "Animation error is the change of the moment shown minus the change of the moment of display, from frame to \
-         frame. RMS in ms, from the least: {}.",
+         frame. RMS in ms, from the least: {}.{outside}",
         listed.collect::<Vec<_>>().join(", ")
     )
 }

@@ -20,18 +20,19 @@ pub(super) struct Measured {
     pub(super) first: Vec<[f64; 2]>,
 }
 
-/// Measures a policy on a trace, and writes a line for each frame to `lines`.
+/// Measures a policy on a trace until `stop` says so, and writes a line for each frame to `lines`.
 pub(super) fn measure(
     scene: &Scene,
     spec: LaneSpec,
     card: &'static PolicyCard,
     trace: &FrameTrace,
     until_ns: i64,
+    stop: &dyn Fn() -> bool,
     mut lines: Option<&mut String>,
 ) -> Measured {
     let mut first = Vec::new();
     let name = csv_cell(trace.name());
-    let report = LoopRun::new(scene, spec, card, trace).measure(until_ns, |run, record| {
+    let report = LoopRun::new(scene, spec, card, trace).measure(until_ns, stop, |run, record| {
         if let Some(displayed_ns) = record.frame.displayed_ns.filter(|_| first.len() <= DRAWN) {
             first.push([displayed_ns as f64 / 1e6, record.shown_ms]);
         }

@@ -61,6 +61,7 @@ impl Lab {
     /// Carries out a command on the open loop lab. Returns the command if it is one for the rest of the lab.
     pub(super) fn carry_out_in_loop_lab(&mut self, command: Command) -> Option<Command> {
         let Some(loops) = &mut self.loop_lab else { return Some(command) };
+        self.viewer.notice = None;
         let tick_hz = loops.scene().tick_hz;
         let slowness = loops.slowness();
         let frames_per_second = loops.traces()[loops.trace()].refresh().hz().round() as i64;
@@ -79,9 +80,15 @@ impl Lab {
             Command::TickBack => self.step_loops(-1),
             Command::SecondForward => self.step_loops(frames_per_second),
             Command::SecondBack => self.step_loops(-frames_per_second),
-            Command::NextMethod => loops.set_method(method_beside(loops, 1)),
-            Command::PreviousMethod => loops.set_method(method_beside(loops, METHODS.len() - 1)),
-            Command::Method(method) => loops.set_method(method),
+            Command::NextMethod => {
+                let next = method_beside(loops, 1);
+                self.step_loops_by(next);
+            }
+            Command::PreviousMethod => {
+                let previous = method_beside(loops, METHODS.len() - 1);
+                self.step_loops_by(previous);
+            }
+            Command::Method(method) => self.step_loops_by(method),
             Command::TickHz(tick_hz) => loops.set_tick_hz(tick_hz),
             Command::TickRateUp => {
                 let higher = TICK_LADDER.iter().find(|&&hz| hz > tick_hz);
@@ -123,6 +130,13 @@ impl Lab {
             | Command::ToggleEqualCost
             | Command::NextInterpolation
             | Command::ToggleInspector
+            | Command::Instrument(_)
+            | Command::NextInstrument
+            | Command::PreviousInstrument
+            | Command::Metric(_)
+            | Command::ExportInstrument
+            | Command::Record
+            | Command::ToggleGuide
             | Command::Seek(_) => {
                 self.set_notice("not in the loop lab: L leaves it");
             }
@@ -144,6 +158,11 @@ impl Lab {
                 self.running = false;
             }
         }
+    }
+
+    fn step_loops_by(&mut self, method: &'static Method) {
+        self.loop_lab.iter_mut().for_each(|loops| loops.set_method(method));
+        self.set_notice(format!("every loop steps by {}", method.name));
     }
 
     fn step_loops(&mut self, frames: i64) {

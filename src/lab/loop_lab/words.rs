@@ -1,6 +1,6 @@
 //! What is said of a loop in a line.
 
-use super::LoopLane;
+use super::lane::LoopLane;
 use crate::lab::analysis::Severity;
 use crate::lab::number::round;
 

@@ -16,7 +16,7 @@ pub fn advised_loop(
     latency_ms: f64,
 ) -> Option<usize> {
     let fits = |report: &PacingReport| {
-        report.latency_mean_ms.is_some_and(|latency| latency <= latency_ms)
+        report.latency_mean_ms.is_some_and(|latency| latency <= latency_ms + ALIKE_MS)
             && report.time_difference_ms.is_some_and(|difference| difference.abs() <= AS_FAST_MS)
     };
     let rank = |card: &PolicyCard, report: &PacingReport| {

@@ -121,9 +121,15 @@ impl LoopRun {
         })
     }
 
-    /// Makes frames up to the first that begins at `until_ns` or later, and returns when the last one began.
-    pub fn run_until(&mut self, until_ns: i64, mut seen: impl FnMut(&Self, &FrameRecord)) -> i64 {
-        while self.began_ns() < until_ns || self.last.is_none() {
+    /// Makes frames up to the first that begins at `until_ns` or later, or until `stop` says so, and returns when the last
+    /// one began.
+    pub fn run_until(
+        &mut self,
+        until_ns: i64,
+        stop: &dyn Fn() -> bool,
+        mut seen: impl FnMut(&Self, &FrameRecord),
+    ) -> i64 {
+        while (self.began_ns() < until_ns || self.last.is_none()) && !stop() {
             let Some(record) = self.next_frame() else { break };
             seen(self, &record);
         }
@@ -136,16 +142,25 @@ impl LoopRun {
     }
 
     /// Runs on to `until_ns`, and returns what was seen with the [difference](PacingReport::state_difference) to the same
-    /// game at half the frame rate.
-    pub fn measure(mut self, until_ns: i64, seen: impl FnMut(&Self, &FrameRecord)) -> PacingReport {
+    /// game at half the frame rate. Both are compared at a frame that both have.
+    pub fn measure(
+        mut self,
+        until_ns: i64,
+        stop: &dyn Fn() -> bool,
+        mut seen: impl FnMut(&Self, &FrameRecord),
+    ) -> PacingReport {
         let mut half = self.clone().at_half_the_rate();
-        let end_ns = half.run_until(until_ns, |_, _| {});
-        self.run_until(until_ns, seen);
-        let report = self.report();
-        self.run_until(end_ns, |_, _| {});
+        let common_ns = half.run_until(until_ns, stop, |_, _| {});
+        self.run_until(common_ns.min(until_ns), stop, &mut seen);
+        let report = (common_ns > until_ns).then(|| self.report());
+        self.run_until(common_ns, stop, |_, _| {});
         let state_difference = self.truth.distance(self.lane.lane(), half.lane.lane());
         let [simulated, at_half] = [&self, &half].map(|run| run.lane.pacer().simulated());
         let time_difference = self.lane.pacer().base().milliseconds(simulated - at_half);
+        let report = report.unwrap_or_else(|| {
+            self.run_until(until_ns, stop, seen);
+            self.report()
+        });
         PacingReport { state_difference, time_difference_ms: Some(time_difference), ..report }
     }
 

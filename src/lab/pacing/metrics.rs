@@ -4,6 +4,9 @@ use super::frame::Frame;
 use super::pacer::Pacer;
 use super::policy::Steps;
 
+/// By how much a frame may miss a double step and count as one: the nanoseconds of a trace are rounded.
+const LEEWAY_NS: i64 = 1000;
+
 /// What a loop did over a trace.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PacingReport {
@@ -186,7 +189,8 @@ impl PacingMeter {
         let error = progress - (displayed - displayed_before);
         self.repeated += u64::from(progress == 0);
         let tick = base.tick();
-        self.doubled += u64::from(progress >= 2 * tick && 2 * error >= tick);
+        let leeway = base.nanoseconds(LEEWAY_NS);
+        self.doubled += u64::from(progress + leeway >= 2 * tick && 2 * (error + leeway) >= tick);
         if error.abs() > self.largest_error.abs() {
             self.largest_error = error;
         }

@@ -81,7 +81,10 @@ fn tabs(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             let name = Label::new(RichText::new(row.name()).color(ink(ui).dim)).selectable(false);
             ui.put(place, name);
             for card in INSTRUMENTS.iter().filter(|card| card.row == row) {
-                if tab(ui, card, lab.display().instrument == card.instrument) {
+                // Of the loop lab there is one.
+                let is_open = lab.loop_lab().is_none() || card.instrument == Instrument::Loop;
+                let is_chosen = lab.display().instrument == card.instrument;
+                if ui.add_enabled_ui(is_open, |ui| tab(ui, card, is_chosen)).inner {
                     commands.push(Command::Instrument(card.instrument));
                 }
             }

@@ -77,7 +77,11 @@ fn head(
         let words = match column.cell {
             Cell::Verdict => {
                 let display = loops.traces()[loops.trace()].name();
-                format!("Verdict at {} Hz on {display}", loops.scene().tick_hz)
+                format!(
+                    "Verdict at {} Hz on {display}, {}",
+                    loops.scene().tick_hz,
+                    loops.method().name
+                )
             }
             _ => column.head.to_owned(),
         };

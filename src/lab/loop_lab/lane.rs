@@ -1,0 +1,84 @@
+//! The body in one loop, frame by frame.
+
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::pacing::{FrameTrace, LoopRun, PacingReport, PolicyCard};
+use crate::lab::scene::Scene;
+use crate::sim::integrators::Method;
+
+/// The longest run, in seconds of the display.
+const LONGEST_S: f64 = 20.0;
+
+/// The body in one loop: all its frames.
+pub struct LoopLane {
+    card: &'static PolicyCard,
+    frames: Vec<LoopFrame>,
+    report: PacingReport,
+}
+
+/// A displayed frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoopFrame {
+    /// When it is displayed, in nanoseconds.
+    pub displayed_ns: i64,
+    /// The simulated moment that it shows, in milliseconds.
+    pub shown_ms: f64,
+    /// The steps made for it, with those for frames before that were not displayed.
+    pub ticks: u32,
+    /// The animation error in milliseconds; 0 for the first.
+    pub animation_error_ms: f64,
+    /// The coordinates of the body as it shows them.
+    pub q: Box<[f64]>,
+    /// The exact coordinates at the moment of display.
+    pub exact: Box<[f64]>,
+}
+
+impl LoopFrame {
+    /// How far the moment shown is behind the display, in milliseconds.
+    pub fn latency_ms(&self) -> f64 {
+        self.displayed_ns as f64 / 1e6 - self.shown_ms
+    }
+}
+
+impl LoopLane {
+    pub(super) fn new(
+        scene: &Scene,
+        method: &'static Method,
+        card: &'static PolicyCard,
+        trace: &FrameTrace,
+    ) -> Self {
+        let mut frames: Vec<LoopFrame> = Vec::new();
+        let mut ticks = 0;
+        let until_ns = (scene.seconds.min(LONGEST_S) * 1e9) as i64;
+        let run = LoopRun::new(scene, LaneSpec::plain(method), card, trace);
+        let report = run.measure(until_ns, &|| false, |run, record| {
+            ticks += record.steps.count;
+            let Some(displayed_ns) = record.frame.displayed_ns else { return };
+            frames.push(LoopFrame {
+                displayed_ns,
+                shown_ms: record.shown_ms,
+                ticks: std::mem::take(&mut ticks),
+                animation_error_ms: record.animation_error_ms.unwrap_or_default(),
+                q: run.lane().drawn(0).into(),
+                exact: run.exact(0).into(),
+            });
+        });
+        Self { card, frames, report }
+    }
+
+    /// Its policy.
+    pub fn card(&self) -> &'static PolicyCard {
+        self.card
+    }
+    /// The frames that are displayed, in order.
+    pub fn frames(&self) -> &[LoopFrame] {
+        &self.frames
+    }
+    /// What is seen over all frames.
+    pub fn report(&self) -> &PacingReport {
+        &self.report
+    }
+    /// The place of the frame that the display holds at `now_ns`.
+    pub fn frame_at(&self, now_ns: i64) -> Option<usize> {
+        self.frames.partition_point(|frame| frame.displayed_ns <= now_ns).checked_sub(1)
+    }
+}
