@@ -18,6 +18,8 @@ const ROOM_FOR_PATH: f32 = 90.0;
 /// From this width of the stage on, and this height of a band, in points, words fit beside bodies.
 const ROOM_FOR_WORDS: f32 = 420.0;
 const LEAST_FOR_WORDS: f32 = 46.0;
+/// From this width of the stage on, in points, the method fits beside the loop's name.
+const ROOM_FOR_METHOD: f32 = 620.0;
 /// How many frames before the present one are seen.
 const FRAMES_BEFORE: usize = 14;
 /// How strong the first of them is, and the last.
@@ -197,7 +199,10 @@ impl Band<'_> {
             let [top, bottom] = [self.rect.min[1] + 4.0, self.rect.max[1] - 4.0];
             picture.shapes.push(line([2.5, top], [2.5, bottom], 3.0, self.colour, self.rect));
         }
-        let name = self.lane.card().name.to_owned();
+        let name = match width >= ROOM_FOR_METHOD {
+            true => format!("{} · {}", self.lane.card().name, self.loops.method().name),
+            false => self.lane.card().name.to_owned(),
+        };
         let name = label([left, foot], Align::Left, 14.5, self.palette.text, name);
         picture.labels.push(Label { is_strong: true, ..name });
         if width < ROOM_FOR_WORDS || height < LEAST_FOR_WORDS {

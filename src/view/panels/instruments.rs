@@ -84,7 +84,7 @@ fn tabs(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
                 // Of the loop lab there is one.
                 let is_open = lab.loop_lab().is_none() || card.instrument == Instrument::Loop;
                 let is_chosen = lab.display().instrument == card.instrument;
-                if ui.add_enabled_ui(is_open, |ui| tab(ui, card, is_chosen)).inner {
+                if tab(ui, card, is_chosen, is_open) {
                     commands.push(Command::Instrument(card.instrument));
                 }
             }
@@ -92,16 +92,16 @@ fn tabs(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     }
 }
 
-/// Shows a tab. Returns whether it was clicked.
-fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool) -> bool {
+/// Shows a tab, which can be clicked if it `is_open`. Returns whether it was clicked.
+fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bool {
     let ink = ink(ui);
     let text = match is_chosen {
         true => RichText::new(card.name).color(ink.on_accent).font(strong_font(13.0)),
         false => RichText::new(card.name).color(ink.text),
     };
     let fill = if is_chosen { ink.accent } else { Color32::TRANSPARENT };
-    let response = ui.add(Button::new(text).fill(fill).stroke(Stroke::NONE));
-    let info = || egui::WidgetInfo::selected(egui::Role::Tab, true, is_chosen, card.name);
+    let response = ui.add_enabled(is_open, Button::new(text).fill(fill).stroke(Stroke::NONE));
+    let info = || egui::WidgetInfo::selected(egui::Role::Tab, is_open, is_chosen, card.name);
     response.widget_info(info);
     response.on_hover_text(card.about).clicked()
 }

@@ -77,11 +77,7 @@ fn head(
         let words = match column.cell {
             Cell::Verdict => {
                 let display = loops.traces()[loops.trace()].name();
-                format!(
-                    "Verdict at {} Hz on {display}, {}",
-                    loops.scene().tick_hz,
-                    loops.method().name
-                )
+                format!("Verdict at {} Hz on {display}", loops.scene().tick_hz)
             }
             _ => column.head.to_owned(),
         };
