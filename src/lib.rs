@@ -22,6 +22,10 @@
 //!   [`AnalysisWorker`](lab::AnalysisWorker) runs both, and the stability map, beside the race. The truth is a lane
 //!   whose solver is the exact flow, or a [reference](sim::REFERENCE_ACCURACY) for a body that has none. The layer knows no GPU and no wall clock: time comes in as
 //!   integers, text as `&str`.
+//!   Game loops are in [`lab::pacing`]: a [`Policy`](lab::pacing::Policy) decides each frame which steps are made, a
+//!   [`FrameTrace`](lab::pacing::FrameTrace) says when frames begin and are displayed, and a
+//!   [`LoopRun`](lab::pacing::LoopRun) measures what a viewer sees. The [`LoopLab`](lab::LoopLab) has every frame of every
+//!   loop ready to be looked up.
 //! - `view` is pixels: a graphics device, the sea and the shapes on the stage, panels in egui, and
 //!   `FrameRenderer::draw`, the only code that draws a frame. Window, screenshot and capture call it
 //!   and differ only in where time comes from and where the texture goes.
@@ -55,7 +59,8 @@
 //! - **A body that blows up is data.** It halts, keeps its last good state and says why; other bodies
 //!   and lanes go on, unchanged to the bit. Under another method it resumes from the truth.
 //! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
-//!   [metrics](lab::METRICS), [scenes](lab::SCENES), [keys](lab::KEYS) and the [stops](lab::STOPS) of the guide:
+//!   [metrics](lab::METRICS), [scenes](lab::SCENES), [keys](lab::KEYS), the [stops](lab::STOPS) of the guide,
+//!   [game loops](lab::pacing::POLICIES) with their [metrics](lab::pacing::PACING_METRICS), and [traces](lab::pacing::TRACES):
 //!   menus, help, command line and tests loop over them.
 //! - Who may import whom is enforced by `tests/tidy`.
 //!
@@ -68,6 +73,8 @@
 //!   `lab/picture/look/spring.rs`, and add that to `LOOKS`. `tests/exact_flows.rs` and `tests/bodies` hold its exact flow, or what stands in for one,
 //!   against its equation.
 //! - **A scene**: add a file to `assets/scenes` and its line to [`SCENES`](lab::SCENES).
+//! - **A game loop**: a file beside `lab/pacing/policies/whole_refresh.rs` if it has a memory, a card in
+//!   [`POLICIES`](lab::pacing::POLICIES), and its source in `assets/loops`. `tests/pacing_policies.rs` runs it for a day.
 //! - **A metric**: one entry of [`METRICS`](lab::METRICS). **A key**: one entry of [`KEYS`](lab::KEYS).
 //!
 //! # In your own game loop

@@ -32,6 +32,12 @@ pub(super) enum TraceError {
         /// What the system says.
         source: io::Error,
     },
+    /// The file is in another encoding.
+    #[error("{} is in UTF-16, as PowerShell writes it; save it as UTF-8", .path.display())]
+    Utf16 {
+        /// As it was given.
+        path: PathBuf,
+    },
     /// The file holds no trace.
     #[error("{source}")]
     Invalid {
@@ -93,6 +99,9 @@ fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, T
         io::ErrorKind::NotFound => TraceError::NotFound { path: path.into() },
         _ => TraceError::Unreadable { path: path.into(), source },
     })?;
+    if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
+        return Err(TraceError::Utf16 { path: path.into() });
+    }
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let traces = trace_file::read(&name, &String::from_utf8_lossy(&bytes))
         .map_err(|source| TraceError::Invalid { source })?;

@@ -122,6 +122,17 @@ fn a_recorded_log_is_a_trace_for_each_of_its_programs() {
 }
 
 #[test]
+fn a_log_in_utf_16_is_refused_by_the_name_of_its_encoding() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "\u{feff}MsBetweenPresents,MsBetweenDisplayChange\r\n16.7,16.7\r\n";
+    let bytes: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    fs::write(folder.path().join("log.csv"), bytes).unwrap();
+    let output = run_in(folder.path(), "loop --trace log.csv");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("UTF-16"), "{}", stderr(&output));
+}
+
+#[test]
 fn advice_names_a_policy_within_the_latency_with_its_constants() {
     let told = |options: &str| stderr(&run(&format!("loop {options}")));
     let of_edge = told("--trace edge --seconds 5");

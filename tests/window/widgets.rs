@@ -14,7 +14,8 @@ fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
     desk.titled(&twin.lab.title());
     // After a tick at least, a restart leaves a run to bring back.
     desk.press("period Home");
-    [Command::TickForward, Command::Restart].map(|command| twin.apply(command));
+    twin.apply(Command::TickForward);
+    twin.apply(Command::Restart);
     desk.at_tick(0);
     Some((desk, twin))
 }
