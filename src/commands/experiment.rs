@@ -7,7 +7,7 @@ use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::scene_file::{self, SceneFileError};
-use crate::lab::pacing::{TRACES, TraceCard, trace_card};
+use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
 use crate::lab::{
     Clock, Command, Lab, LaneSpec, MOST_SECONDS, SCENES, Scene, lanes_that_race, nearest,
@@ -20,7 +20,7 @@ pub(super) struct ExperimentArgs {
     /// A built-in scene (`regatta list scenes`), or else the path of a scene file
     /// [default: harbour]
     #[arg(long, value_name = "NAME|FILE")]
-    #[arg(value_parser = SceneParser, hide_possible_values = true)]
+    #[arg(value_parser = PathOrName(scene_names), hide_possible_values = true)]
     scene: Option<PathBuf>,
 
     /// An integrator (`regatta list methods`); give several to race them
@@ -160,10 +160,23 @@ impl Experiment {
 
 /// The built-in trace of this id, for the command line's parser.
 pub(super) fn known_trace(id: &str) -> Result<&'static TraceCard, String> {
-    trace_card(id).ok_or_else(|| match nearest(id, TRACES.iter().map(|card| (card.id, card.id))) {
-        Some(id) => format!("no such trace; did you mean {id}? `regatta list traces` names all"),
-        None => "no such trace. `regatta list traces` names all".into(),
-    })
+    let spellings = TRACES.iter().map(|card| (card.id, card.id));
+    trace_card(id).ok_or_else(|| no_such("trace", "traces", nearest(id, spellings)))
+}
+
+/// The policy of this id, for the command line's parser.
+pub(super) fn known_policy(id: &str) -> Result<&'static PolicyCard, String> {
+    let spellings = POLICIES.iter().flat_map(|card| [(card.id, card.id), (card.name, card.id)]);
+    policy(id).ok_or_else(|| no_such("policy", "policies", nearest(id, spellings)))
+}
+
+/// What is said of an id that is not on a list; another one that is may have been meant.
+fn no_such(thing: &str, list: &str, meant: Option<&'static str>) -> String {
+    let see = format!("`regatta list {list}` names all");
+    match meant {
+        Some(id) => format!("no such {thing}; did you mean {id}? {see}"),
+        None => format!("no such {thing}. {see}"),
+    }
 }
 
 /// A theme on the command line.
@@ -204,11 +217,11 @@ pub(super) fn range_of(range: std::ops::RangeInclusive<u32>) -> std::ops::RangeI
     i64::from(*range.start())..=i64::from(*range.end())
 }
 
-/// Takes any path; offers the built-in scenes to the shell's completion.
+/// Takes any path; offers these names to the shell's completion.
 #[derive(Clone)]
-pub(super) struct SceneParser;
+pub(super) struct PathOrName(pub(super) fn() -> Vec<&'static str>);
 
-impl TypedValueParser for SceneParser {
+impl TypedValueParser for PathOrName {
     type Value = PathBuf;
 
     fn parse_ref(
@@ -221,8 +234,18 @@ impl TypedValueParser for SceneParser {
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(SCENES.iter().map(|scene| PossibleValue::new(scene.name))))
+        Some(Box::new((self.0)().into_iter().map(PossibleValue::new)))
     }
+}
+
+/// The names of the built-in scenes.
+pub(super) fn scene_names() -> Vec<&'static str> {
+    SCENES.iter().map(|scene| scene.name).collect()
+}
+
+/// The names of the built-in traces.
+pub(super) fn trace_names() -> Vec<&'static str> {
+    TRACES.iter().map(|card| card.id).collect()
 }
 
 /// Takes a method's id; offers all of them to the shell's completion.
@@ -246,14 +269,7 @@ impl TypedValueParser for MethodParser {
     }
 }
 
-const SEE_METHODS: &str = "`regatta list methods` names all";
-
 fn known_method(id: &str) -> Result<&'static Method, String> {
-    method(id).ok_or_else(|| {
-        let spellings = METHODS.iter().flat_map(|m| [(m.id, m.id), (m.name, m.id)]);
-        match nearest(id, spellings) {
-            Some(id) => format!("no such method; did you mean {id}? {SEE_METHODS}"),
-            None => format!("no such method. {SEE_METHODS}"),
-        }
-    })
+    let spellings = METHODS.iter().flat_map(|m| [(m.id, m.id), (m.name, m.id)]);
+    method(id).ok_or_else(|| no_such("method", "methods", nearest(id, spellings)))
 }

@@ -1,4 +1,4 @@
-//! The formats of a sweep's files, by their names.
+//! The files of a table and of its picture: their formats by their names, and whether two names are one file.
 
 use std::path::{self, Path, PathBuf};
 
@@ -6,7 +6,7 @@ use crate::commands::error::Cause;
 use crate::commands::output::picture_format::{ending, is_of_pictures};
 use crate::commands::output::table::RowFormat;
 
-/// Why a sweep's files cannot have these names.
+/// Why files cannot have these names.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum FileNameError {
     /// The rows and the picture cannot go to one file.
@@ -63,7 +63,16 @@ pub(super) fn check_picture_name(plot: &Path, out: &Path) -> Result<(), FileName
         Some(ending) if !ending.eq_ignore_ascii_case("png") => {
             Err(FileNameError::PictureMislabelled { path: plot.to_owned() })
         }
-        _ if path::absolute(plot).ok() == path::absolute(out).ok() => Err(FileNameError::SamePlace),
+        _ if same_file_path(plot) == same_file_path(out) => Err(FileNameError::SamePlace),
         _ => Ok(()),
+    }
+}
+
+/// A path that is the same for one file however it is written, also through links to its folder.
+pub(super) fn same_file_path(path: &Path) -> PathBuf {
+    let whole = path::absolute(path).unwrap_or_else(|_| path.into());
+    match (whole.parent().and_then(|folder| folder.canonicalize().ok()), whole.file_name()) {
+        (Some(folder), Some(name)) => folder.join(name),
+        _ => whole,
     }
 }

@@ -1,24 +1,26 @@
 //! `regatta loop`: what a game loop does to motion, over the frames of a display.
 
 use std::io::Write;
-use std::path::{self, Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use clap::Args;
 use serde_json::json;
 
 use super::error::{Cause, Error};
-use super::experiment::{MethodParser, SceneParser, range_of, some_seconds};
-use super::file_names::{check_picture_name, row_format};
+use super::experiment::{
+    MethodParser, PathOrName, known_policy, range_of, scene_names, some_seconds, trace_names,
+};
+use super::file_names::{check_picture_name, row_format, same_file_path};
 use super::interrupt::{Interrupted, watch_for_interrupt};
 use super::output::table::{self, Column, RowFormat};
 use super::output::{AtomicOutput, Older, Place, STDOUT, finish, print};
 use super::plot::Plot;
 use super::scene_file;
 use super::terminal::tell;
-use super::trace_source::{TraceParser, traces};
-use crate::lab::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate, policy};
-use crate::lab::{Clock, LaneSpec, Scene, nearest};
+use super::trace_source::traces;
+use crate::lab::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate};
+use crate::lab::{Clock, LaneSpec, Scene};
 use crate::sim::integrators::Method;
 
 mod advice;
@@ -65,7 +67,7 @@ pub(super) struct LoopArgs {
 
     /// A built-in trace (`regatta list traces`), or else a CSV file of PresentMon, OCAT, CapFrameX or
     /// FrameView; give several to go through them [default: all built-in traces]
-    #[arg(long = "trace", value_name = "ID|FILE", value_parser = TraceParser)]
+    #[arg(long = "trace", value_name = "ID|FILE", value_parser = PathOrName(trace_names))]
     #[arg(hide_possible_values = true)]
     traces: Vec<PathBuf>,
 
@@ -80,7 +82,7 @@ pub(super) struct LoopArgs {
     display_hz: Option<RefreshRate>,
 
     /// A built-in scene (`regatta list scenes`), or else the path of a scene file
-    #[arg(long, value_name = "NAME|FILE", default_value = "spring", value_parser = SceneParser)]
+    #[arg(long, value_name = "NAME|FILE", default_value = "spring", value_parser = PathOrName(scene_names))]
     #[arg(hide_possible_values = true)]
     scene: PathBuf,
 
@@ -157,7 +159,8 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         check_picture_name(plot, &args.out)?;
     }
     let places = [Some(&args.out), args.frames.as_ref(), args.plot.as_ref()];
-    let places: Vec<PathBuf> = places.into_iter().flatten().map(|path| real(path)).collect();
+    let places: Vec<PathBuf> =
+        places.into_iter().flatten().map(|path| same_file_path(path)).collect();
     if (1..places.len()).any(|n| places[..n].contains(&places[n])) {
         return Err(LoopError::SamePlace.into());
     }
@@ -231,15 +234,6 @@ impl LoopArgs {
     }
 }
 
-/// A path by which the same file is known however it is written.
-fn real(path: &Path) -> PathBuf {
-    let whole = path::absolute(path).unwrap_or_else(|_| path.into());
-    match (whole.parent().and_then(|folder| folder.canonicalize().ok()), whole.file_name()) {
-        (Some(folder), Some(name)) => folder.join(name),
-        _ => whole,
-    }
-}
-
 /// The source of a policy in a language.
 fn snippet(card: &'static PolicyCard, language: &str) -> Result<&'static str, LoopError> {
     let found = card.snippets.iter().find(|snippet| snippet.language == language);
@@ -292,18 +286,6 @@ const COLUMNS: &[Column<Measured>] = &[
 /// The columns of `--frames`.
 const FRAME_COLUMNS: &str =
     "trace,policy,frame,began_ms,displayed_ms,shown_ms,ticks,dropped_ms,q\n";
-
-fn known_policy(id: &str) -> Result<&'static PolicyCard, String> {
-    policy(id).ok_or_else(|| {
-        let spellings = POLICIES.iter().flat_map(|card| [(card.id, card.id), (card.name, card.id)]);
-        match nearest(id, spellings) {
-            Some(id) => {
-                format!("no such policy; did you mean {id}? `regatta list policies` names all")
-            }
-            None => "no such policy. `regatta list policies` names all".into(),
-        }
-    })
-}
 
 fn latency(written: &str) -> Result<f64, String> {
     let latency = written.parse::<f64>().ok().filter(|ms| (0.0..=10_000.0).contains(ms));

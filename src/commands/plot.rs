@@ -1,4 +1,4 @@
-//! Draws the picture of a sweep and opens the file for it.
+//! Draws a figure of charts into a PNG file, which is opened first.
 
 use crate::commands::error::{Cause, Error};
 use crate::commands::output::{AtomicOutput, Place};

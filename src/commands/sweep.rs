@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::error::Error;
-use super::experiment::{MethodParser, SceneParser, range_of, some_seconds};
+use super::experiment::{MethodParser, PathOrName, range_of, scene_names, some_seconds};
 use super::file_names::{check_picture_name, row_format};
 use super::interrupt::watch_for_interrupt;
 use super::output::table::{self, Column, RowFormat};
@@ -49,7 +49,7 @@ Examples:
 pub(super) struct SweepArgs {
     /// A built-in scene (`regatta list scenes`), or else the path of a scene file; give several to sweep
     /// them [default: all built-in scenes]
-    #[arg(long = "scene", value_name = "NAME|FILE", value_parser = SceneParser)]
+    #[arg(long = "scene", value_name = "NAME|FILE", value_parser = PathOrName(scene_names))]
     #[arg(hide_possible_values = true)]
     scenes: Vec<PathBuf>,
 

@@ -1,11 +1,8 @@
 //! Finds the frame traces that `--trace` names: a built-in one, or else the streams of a file.
 
-use std::ffi::OsStr;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-
-use clap::builder::{PossibleValue, TypedValueParser};
 
 use super::error::Cause;
 use crate::lab::nearest;
@@ -31,12 +28,6 @@ pub(super) enum TraceError {
         path: PathBuf,
         /// What the system says.
         source: io::Error,
-    },
-    /// The file is in another encoding.
-    #[error("{} is in UTF-16, as PowerShell writes it; save it as UTF-8", .path.display())]
-    Utf16 {
-        /// As it was given.
-        path: PathBuf,
     },
     /// The file holds no trace.
     #[error("{source}")]
@@ -99,35 +90,11 @@ fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, T
         io::ErrorKind::NotFound => TraceError::NotFound { path: path.into() },
         _ => TraceError::Unreadable { path: path.into(), source },
     })?;
-    if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
-        return Err(TraceError::Utf16 { path: path.into() });
-    }
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let traces = trace_file::read(&name, &String::from_utf8_lossy(&bytes))
-        .map_err(|source| TraceError::Invalid { source })?;
+    let traces =
+        trace_file::from_bytes(&name, &bytes).map_err(|source| TraceError::Invalid { source })?;
     Ok(match display {
         Some(display) => traces.into_iter().map(|trace| trace.on(display)).collect(),
         None => traces,
     })
-}
-
-/// Takes any path; offers the built-in traces to the shell's completion.
-#[derive(Clone)]
-pub(super) struct TraceParser;
-
-impl TypedValueParser for TraceParser {
-    type Value = PathBuf;
-
-    fn parse_ref(
-        &self,
-        command: &clap::Command,
-        arg: Option<&clap::Arg>,
-        value: &OsStr,
-    ) -> Result<PathBuf, clap::Error> {
-        clap::builder::PathBufValueParser::new().parse_ref(command, arg, value)
-    }
-
-    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(TRACES.iter().map(|card| PossibleValue::new(card.id))))
-    }
 }

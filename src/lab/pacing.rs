@@ -2,7 +2,8 @@
 //!
 //! A [`FrameTrace`] says for each [`Frame`] when it began and when its picture was displayed. A [`Policy`] sees what a game
 //! sees, the duration of the last frame, and answers with steps and the moment to show; [`POLICIES`] is the table of them.
-//! A [`PacedLane`] steps bodies by a policy, frame by frame. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
+//! A [`PacedLane`] steps bodies by a policy, a [`LoopRun`] goes through a trace with one, and [`PACING_METRICS`] are what a
+//! viewer of the display sees of it. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
 
 mod accumulator;
 mod advice;
@@ -16,6 +17,7 @@ mod policies;
 mod policy;
 mod scripted_truth;
 mod time_base;
+mod timed_script;
 mod trace;
 pub mod trace_file;
 
@@ -27,7 +29,6 @@ pub use loop_run::LoopRun;
 pub use metrics::{FrameRecord, PACING_METRICS, PacingMetric, PacingReport};
 pub use paced_lane::PacedLane;
 pub use pacer::Pacer;
-
 pub use patterns::{TRACES, TraceCard, steady_trace, trace_card};
 pub use policies::{LONGEST_FRAME_MS, POLICIES, policy};
 pub use policy::{Policy, PolicyCard, Snippet, Steps};

@@ -40,11 +40,11 @@ fn is_trace(path: &Path) -> bool {
 
 /// Opens the loop lab on the traces in a CSV file.
 fn open_trace(lab: &mut Lab, path: &Path) -> Result<(), String> {
-    let shown = path.display();
-    let bytes =
-        std::fs::read(path).map_err(|error| format!("error: cannot read {shown}: {error}"))?;
+    check_regular(path)?;
+    let bytes = std::fs::read(path)
+        .map_err(|error| format!("error: cannot read {}: {error}", path.display()))?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let traces = trace_file::read(&name, &String::from_utf8_lossy(&bytes));
+    let traces = trace_file::from_bytes(&name, &bytes);
     lab.open_traces(traces.map_err(|error| format!("error: {error}"))?);
     Ok(())
 }
@@ -85,12 +85,17 @@ pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene) -> Option<(PathBuf, St
 }
 
 fn read_regular(read: &ReadScene, path: &Path) -> Result<(Scene, String), String> {
+    check_regular(path)?;
+    read(path)
+}
+
+/// Fails for a pipe or a device: reading one would block the window until its other end is written.
+fn check_regular(path: &Path) -> Result<(), String> {
     match path.metadata() {
-        // Reading a pipe would block the window until its other end is written.
         Ok(found) if !found.is_file() && !found.is_dir() => {
             Err(format!("error: {} is not a regular file", path.display()))
         }
-        _ => read(path),
+        _ => Ok(()),
     }
 }
 

@@ -82,13 +82,13 @@ impl Lab {
             Command::SecondBack => self.step_loops(-frames_per_second),
             Command::NextMethod => {
                 let next = method_beside(loops, 1);
-                self.step_loops_by(next);
+                self.set_loop_method(next);
             }
             Command::PreviousMethod => {
                 let previous = method_beside(loops, METHODS.len() - 1);
-                self.step_loops_by(previous);
+                self.set_loop_method(previous);
             }
-            Command::Method(method) => self.step_loops_by(method),
+            Command::Method(method) => self.set_loop_method(method),
             Command::TickHz(tick_hz) => loops.set_tick_hz(tick_hz),
             Command::TickRateUp => {
                 let higher = TICK_LADDER.iter().find(|&&hz| hz > tick_hz);
@@ -160,7 +160,7 @@ impl Lab {
         }
     }
 
-    fn step_loops_by(&mut self, method: &'static Method) {
+    fn set_loop_method(&mut self, method: &'static Method) {
         self.loop_lab.iter_mut().for_each(|loops| loops.set_method(method));
         self.set_notice(format!("every loop steps by {}", method.name));
     }

@@ -7,8 +7,8 @@ use super::pacer::Pacer;
 use super::policy::{PolicyCard, Steps};
 use super::scripted_truth::ScriptedTruth;
 use super::time_base::TimeBase;
+use super::timed_script::TimedScript;
 use super::trace::{FrameTrace, Frames};
-use crate::lab::action::Action;
 use crate::lab::lane::Lane;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
@@ -38,8 +38,7 @@ pub struct LoopRun {
     frames: Frames,
     meter: PacingMeter,
     last: Option<(Frame, Steps)>,
-    script: Vec<(f64, Action)>,
-    done: usize,
+    script: TimedScript,
     /// One frame in so many is made; the others are left out.
     stride: u32,
 }
@@ -54,18 +53,13 @@ impl LoopRun {
     ) -> Self {
         let base = TimeBase::new(scene.tick_hz, trace.refresh());
         let lane = Lane::new(scene, spec.solver(), spec.substeps);
-        let script = scene.script.iter().map(|scripted| {
-            (scripted.tick as f64 / f64::from(scene.tick_hz), scripted.action.clone())
-        });
-        let script: Vec<_> = script.collect();
         Self {
             lane: PacedLane::new(Pacer::new(card, base), lane),
-            truth: ScriptedTruth::new(scene, script.clone()),
+            truth: ScriptedTruth::new(scene),
             frames: trace.frames(),
             meter: PacingMeter::default(),
             last: None,
-            script,
-            done: 0,
+            script: TimedScript::new(scene),
             stride: 1,
         }
     }
@@ -95,11 +89,10 @@ impl LoopRun {
         let steps = match self.last {
             None => Steps::default(),
             Some((last, _)) => {
-                let (script, done) = (&self.script, &mut self.done);
+                let script = &mut self.script;
                 self.lane.frame(frame.began_ns - last.began_ns, |step, t, lane| {
-                    while let Some((_, action)) = script.get(*done).filter(|(at, _)| *at <= t) {
-                        lane.act(step, t, action);
-                        *done += 1;
+                    while let Some((_, action)) = script.next_due(t) {
+                        lane.act(step, t, &action);
                     }
                 })
             }

@@ -24,9 +24,6 @@ mod whole_refresh;
 
 pub use fixed::LONGEST_FRAME_MS;
 
-/// The longest step of a clamped frame, in milliseconds, times three.
-const LONGEST_STEP_MS_3: i64 = 100;
-
 /// The loop with this id in each of these languages.
 macro_rules! snippets {
     ($id:literal: $($language:literal $ending:literal),+) => {
@@ -91,11 +88,7 @@ pub static POLICIES: &[PolicyCard] = &[
         drawing: Interpolation::Raw,
         has_fixed_tick: false,
         snippets: snippets!("clamped-variable": "rust" "rs", "c++" "hpp", "c#" "cs"),
-        build: |base| {
-            Box::new(Variable {
-                longest: Some(base.nanoseconds(LONGEST_STEP_MS_3 * 1_000_000) / 3),
-            })
-        },
+        build: |base| Box::new(Variable { longest: Some(base.nanoseconds(1_000_000_000) / 30) }),
     },
     PolicyCard {
         id: "semi-fixed",

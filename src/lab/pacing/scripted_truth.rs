@@ -1,7 +1,7 @@
 //! The exact solution at the moments of display, and how far the pictures are from it.
 
 use super::paced_lane::PacedLane;
-use crate::lab::action::Action;
+use super::timed_script::TimedScript;
 use crate::lab::lane::{Lane, LaneBody};
 use crate::lab::scene::Scene;
 use crate::sim::Solver;
@@ -11,9 +11,7 @@ use crate::sim::Solver;
 pub(super) struct ScriptedTruth {
     lane: Lane,
     t: f64,
-    /// The script by time in seconds.
-    script: Vec<(f64, Action)>,
-    done: usize,
+    script: TimedScript,
     errors: Vec<BodyError>,
 }
 
@@ -39,21 +37,19 @@ impl BodyError {
 }
 
 impl ScriptedTruth {
-    /// The solution at the scene's start, with a script by time in seconds.
-    pub(super) fn new(scene: &Scene, script: Vec<(f64, Action)>) -> Self {
+    /// The solution at the scene's start.
+    pub(super) fn new(scene: &Scene) -> Self {
         let lane = Lane::new(scene, Solver::Truth, 1);
         let none = BodyError { squares: 0.0, count: 0, range: [f64::INFINITY, f64::NEG_INFINITY] };
         let errors = lane.bodies().iter().map(|_| none).collect();
-        Self { lane, t: 0.0, script, done: 0, errors }
+        Self { lane, t: 0.0, script: TimedScript::new(scene), errors }
     }
 
     /// Goes on to `t` (s), and adds how far every body is drawn from it.
     pub(super) fn compare(&mut self, t: f64, paced: &PacedLane) {
-        while let Some((at, action)) = self.script.get(self.done).filter(|(at, _)| *at <= t) {
-            let (at, action) = (*at, action.clone());
+        while let Some((at, action)) = self.script.next_due(t) {
             self.advance(at);
             self.lane.act(0, at, &action);
-            self.done += 1;
         }
         self.advance(t);
         for (place, (body, error)) in self.lane.bodies().iter().zip(&mut self.errors).enumerate() {

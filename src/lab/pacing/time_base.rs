@@ -6,7 +6,7 @@ use std::str::FromStr;
 /// Nanoseconds in a second.
 const SECOND_NS: i128 = 1_000_000_000;
 
-/// The rate at which a display shows pictures: a fraction, since 59.94 Hz is none of a whole number.
+/// The rate at which a display shows pictures: a fraction, since 59.94 Hz is not a whole number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RefreshRate {
     numerator: u32,
@@ -40,20 +40,9 @@ impl RefreshRate {
     /// When refresh `n` begins, in nanoseconds from the first, rounded up: the moment at which a clock in nanoseconds first
     /// sees it.
     pub fn refresh_ns(self, n: u64) -> i64 {
-        let ns = (i128::from(n) * i128::from(self.denominator) * SECOND_NS)
-            .div_euclid_up(i128::from(self.numerator));
+        let seconds_ns = u128::from(n) * u128::from(self.denominator) * SECOND_NS.unsigned_abs();
+        let ns = seconds_ns.div_ceil(self.numerator.into());
         i64::try_from(ns).unwrap_or(i64::MAX)
-    }
-}
-
-/// Division that rounds up.
-trait DivUp {
-    fn div_euclid_up(self, by: Self) -> Self;
-}
-
-impl DivUp for i128 {
-    fn div_euclid_up(self, by: Self) -> Self {
-        -(-self).div_euclid(by)
     }
 }
 

@@ -21,6 +21,17 @@ use stream::Stream;
 
 pub use error::TraceFileError;
 
+/// Reads the streams of a log from the bytes of a file, like [`read`]; what is not UTF-8 is read as well as it can be.
+///
+/// # Errors
+/// As [`read`], and if the bytes are UTF-16.
+pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<FrameTrace>, TraceFileError> {
+    if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
+        return Err(TraceFileError { name: name.into(), line: 1, fault: Fault::Utf16 });
+    }
+    read(name, &String::from_utf8_lossy(bytes))
+}
+
 /// Reads the streams of a log in order of their first rows. A lone stream is called `name`, several are called `name`, a
 /// colon and their program, with its process and a number where these are needed to tell them apart.
 ///

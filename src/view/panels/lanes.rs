@@ -3,6 +3,7 @@
 
 use egui::{Align2, FontId, Id, Pos2, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
+use super::sorting::{self, Order};
 use super::{formula, ink, keycap, short};
 use crate::lab::{Command, FORMULAS, Lab, Mode};
 use crate::view::plot;
@@ -53,9 +54,6 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     });
 }
 
-/// The column by which rows are sorted, and whether in reverse; `None` in the order of the keys.
-type Order = Option<(usize, bool)>;
-
 /// Shows the heads, and returns the order that a person has chosen with them.
 fn head(ui: &mut Ui, lab: &Lab, columns: &[(&Column, f32, f32)], width: f32) -> Order {
     let id = Id::unique("order of the lanes");
@@ -72,11 +70,7 @@ fn head(ui: &mut Ui, lab: &Lab, columns: &[(&Column, f32, f32)], width: f32) -> 
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Button, true, format!("sort by {name}"))
         });
-        let sign = match order {
-            Some((by, false)) if by == place => " ↓",
-            Some((by, true)) if by == place => " ↑",
-            _ => "",
-        };
+        let sign = sorting::sign(order, place);
         let words = match column.cell {
             Cell::Verdict => format!("{} at {} Hz", column.head, lab.clock().tick_hz()),
             _ => column.head.to_owned(),
@@ -94,11 +88,7 @@ fn head(ui: &mut Ui, lab: &Lab, columns: &[(&Column, f32, f32)], width: f32) -> 
         }
         let response = response.on_hover_text(column.about);
         if response.clicked() {
-            order = match order {
-                Some((by, false)) if by == place => Some((place, true)),
-                Some((by, true)) if by == place => None,
-                _ => Some((place, false)),
-            };
+            order = sorting::clicked(order, place);
             ui.data_mut(|data| data.insert_temp(id, order));
         }
     }

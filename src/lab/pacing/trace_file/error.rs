@@ -19,6 +19,8 @@ pub(super) enum Fault {
         "there is nothing here; capture some frames with PresentMon, OCAT, CapFrameX or FrameView"
     )]
     Empty,
+    #[error("the text is in UTF-16, as PowerShell writes it; save it as UTF-8")]
+    Utf16,
     #[error("there is a header and no row below it; capture some frames")]
     NoRows,
     #[error(

@@ -10,6 +10,7 @@ use super::columns::{COLUMNS, Cell, Column, fitting, shown};
 use crate::lab::{Command, LoopCommand, LoopLab, LoopVerdict, Severity};
 use crate::view::panels::lanes::{self, BAR, HEAD, MARGIN, ROW};
 use crate::view::panels::plot_area::polygon;
+use crate::view::panels::sorting::{self, Order};
 use crate::view::panels::{ink, keycap, severity_tone, short, strong_font};
 use crate::view::plot;
 use crate::view::theme::{TYPE, colour};
@@ -19,9 +20,6 @@ const MOST_ROWS: usize = 6;
 /// Half the size of the sign of a verdict, and the room that it takes, in points.
 const SIGN: f32 = 4.5;
 const SIGN_ROOM: f32 = 17.0;
-
-/// The column by which rows are sorted, and whether in reverse; `None` in the order of the keys.
-type Order = Option<(usize, bool)>;
 
 pub(in crate::view::panels) fn height(loops: &LoopLab) -> f32 {
     lanes::height_of(loops.lanes().len().min(MOST_ROWS))
@@ -69,11 +67,7 @@ fn head(
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Button, true, format!("sort by {name}"))
         });
-        let sign = match order {
-            Some((by, false)) if by == place => " ↓",
-            Some((by, true)) if by == place => " ↑",
-            _ => "",
-        };
+        let sign = sorting::sign(order, place);
         let words = match column.cell {
             Cell::Verdict => {
                 let display = loops.traces()[loops.trace()].name();
@@ -90,11 +84,7 @@ fn head(
         let text_rect = side.align_size_within_rect(text.size(), rect);
         ui.painter().galley(text_rect.min, text, inked);
         if response.on_hover_text(column.cell.about()).clicked() {
-            order = match order {
-                Some((by, false)) if by == place => Some((place, true)),
-                Some((by, true)) if by == place => None,
-                _ => Some((place, false)),
-            };
+            order = sorting::clicked(order, place);
             ui.data_mut(|data| data.insert_temp(id, order));
         }
     }
