@@ -4,7 +4,8 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use regatta::lab::{Command, Lab, Scene, picture};
+use regatta::lab::{Command, Lab, LaneSpec, Scene, picture};
+use regatta::sim::integrators::METHODS;
 use regatta::view::{
     AdapterPreference, FrameRenderer, Gpu, Offscreen, OffscreenRenderer, Panels, Readback, png,
 };
@@ -17,8 +18,6 @@ const FRAMES: usize = 300;
 const SIZE_PX: [u32; 2] = [1280, 720];
 /// What the window of that size leaves for the stage, in points.
 const STAGE_POINTS: [f32; 2] = [793.0, 532.0];
-/// The aims, for `harbour` in race mode.
-const MOST_FOR_A_PICTURE: Duration = Duration::from_micros(300);
 const MOST_FOR_THE_FIRST_FRAME: Duration = Duration::from_secs(1);
 
 fn main() {
@@ -27,79 +26,101 @@ fn main() {
         Ok(gpu) => gpu,
         Err(error) => return println!("SKIPPED frame: {error}"),
     };
-    let mut lab = Lab::new(Scene::built_in("harbour").expect("a built-in scene"));
-    lab.apply(Command::ToggleRace);
+    let harbour = Scene::built_in("harbour").expect("a built-in scene");
     let mut renderer =
         OffscreenRenderer::new(gpu.clone(), SIZE_PX, 1.0).expect("1280x720 is within any limit");
-    renderer.draw(&lab, &mut Vec::new()).expect("a fresh device gives its frame back");
+    let first_lab = racing(harbour.clone());
+    renderer.draw(&first_lab, &mut Vec::new()).expect("a fresh device gives its frame back");
     let first = start.elapsed();
+    let adapter = format!("{} ({})", gpu.info.name, gpu.info.backend);
+    let aim = verdict(first < MOST_FOR_THE_FIRST_FRAME, "1000 ms");
+    println!("{adapter}\nstart to first frame {:.0} ms{aim}", millis(first));
+    let lanes = METHODS.iter().map(LaneSpec::plain).collect();
+    measure(&gpu, harbour.clone());
+    measure(&gpu, Scene { lanes, ..harbour });
+}
 
+fn racing(scene: Scene) -> Lab {
+    let mut lab = Lab::new(scene);
+    lab.apply(Command::ToggleRace);
+    lab
+}
+
+fn measure(gpu: &Gpu, scene: Scene) {
+    let mut lab = racing(scene);
     lab.analyse();
     for _ in 0..WARM_UP {
         lab.advance(FRAME_NS);
     }
     let shapes = picture::compose(&lab, STAGE_POINTS).shapes.len();
-    let adapter = format!("{} ({})", gpu.info.name, gpu.info.backend);
-    println!("harbour, race, {} lanes, {shapes} shapes, {adapter}", lab.entries().len());
-    let aim = verdict(first < MOST_FOR_THE_FIRST_FRAME, "1000 ms");
-    println!("start to first frame {:.0} ms{aim}", millis(first));
+    let lanes = lab.race().entrants().len();
     for panels in [Panels::Shown, Panels::Off] {
-        println!("\n1280x720, panels {panels:?}: a frame's stages, median and least ms");
-        for (name, times) in stages(&gpu, panels, &mut lab) {
-            let (median, least) = (times[FRAMES / 2], times[0]);
-            let aim = match name {
-                PICTURE => verdict(median < MOST_FOR_A_PICTURE, "0.3 ms"),
-                _ => String::new(),
-            };
-            println!("{name:44} {:>8.3} {:>8.3}{aim}", millis(median), millis(least));
+        println!("\nharbour, {lanes} lanes, {shapes} shapes, 1280x720, panels {panels:?}");
+        println!("{:44} {:>8} {:>8}", "stages of a frame, in ms", "median", "least");
+        let frames: Vec<_> = frames(gpu, panels, &mut lab).collect();
+        for Row { name, stages, aim } in &ROWS {
+            let sums = frames.iter().map(|frame| stages.iter().map(|&stage| frame[stage]).sum());
+            let mut sums: Vec<Duration> = sums.collect();
+            sums.sort();
+            let [median, least] = [sums[FRAMES / 2], sums[0]].map(millis);
+            let aim = aim.map_or(String::new(), |aim| verdict(median < aim, &format!("{aim} ms")));
+            println!("{name:44} {median:>8.3} {least:>8.3}{aim}");
         }
     }
 }
 
-const PICTURE: &str = "events to picture";
+/// The stages of a frame, one after the other.
+const STAGES: usize = 7;
 
-/// The times of each stage of a frame, one after the other, least first.
-fn stages(gpu: &Gpu, panels: Panels, lab: &mut Lab) -> [(&'static str, Vec<Duration>); 6] {
+/// A line of the table: the sum of some stages.
+struct Row {
+    name: &'static str,
+    stages: &'static [usize],
+    /// The most that is aimed at, in milliseconds.
+    aim: Option<f64>,
+}
+
+const ROWS: [Row; 9] = [
+    Row { name: "simulation", stages: &[0], aim: None },
+    Row { name: "events to picture", stages: &[0, 1], aim: Some(0.3) },
+    Row { name: "panels and picture laid out", stages: &[2], aim: None },
+    Row { name: "simulation, and all laid out", stages: &[0, 2], aim: Some(4.0) },
+    Row { name: "what is laid out to commands", stages: &[3], aim: None },
+    Row { name: "commands to pixels", stages: &[4], aim: None },
+    Row { name: "read back", stages: &[5], aim: None },
+    Row { name: "pixels to PNG", stages: &[6], aim: None },
+    Row { name: "all, the picture once", stages: &[0, 2, 3, 4, 5, 6], aim: None },
+];
+
+/// The times that the stages of some frames take.
+fn frames(gpu: &Gpu, panels: Panels, lab: &mut Lab) -> impl Iterator<Item = [Duration; STAGES]> {
     let canvas = Offscreen::new(gpu, SIZE_PX).expect("1280x720 is within any limit");
     let mut renderer = FrameRenderer::new(gpu, Offscreen::FORMAT).with_panels(panels);
     let (mut readback, mut rgba) = (Readback::default(), Vec::new());
-    let mut times = [const { Vec::new() }; 5];
-    for _ in 0..FRAMES {
-        let mut from = Instant::now();
-        let mut lap = |stage: usize| {
-            times[stage].push(from.elapsed());
-            from = Instant::now();
-        };
+    (0..FRAMES).map(move |_| {
+        let mut ends = vec![Instant::now()];
+        let mut lap = || ends.push(Instant::now());
         lab.apply(Command::ThrottleDown);
         lab.apply(Command::ThrottleUp);
         lab.advance(FRAME_NS);
+        lap();
         black_box(picture::compose(lab, STAGE_POINTS));
-        lap(0);
+        lap();
         let input = egui::RawInput { time: Some(lab.race().t()), ..Default::default() };
-        let (_, output) = renderer.draw(gpu, &canvas.view, SIZE_PX, 1.0, input, lab);
+        let (_, layout) = renderer.lay_out(gpu, SIZE_PX, 1.0, input, lab);
+        lap();
+        let output = renderer.paint(gpu, &canvas.view, SIZE_PX, layout);
         gpu.queue.submit(output.drawing);
-        lap(1);
+        lap();
         let wait = wgpu::PollType::Wait { submission_index: None, timeout: None };
         gpu.device.poll(wait).expect("the device is there");
-        lap(2);
+        lap();
         readback.read(gpu, None, &canvas.texture, &mut rgba).expect("the device is there");
-        lap(3);
+        lap();
         black_box(png::encode(SIZE_PX, &rgba));
-        lap(4);
-    }
-    let frames: Vec<Duration> =
-        (0..FRAMES).map(|frame| times.iter().map(|stage| stage[frame]).sum()).collect();
-    let [picture, layout, draw, read, encode] = times;
-    let mut stages = [
-        (PICTURE, picture),
-        ("panels and picture to commands", layout),
-        ("commands to pixels", draw),
-        ("read back", read),
-        ("pixels to PNG", encode),
-        ("all of it", frames),
-    ];
-    stages.iter_mut().for_each(|(_, times)| times.sort());
-    stages
+        lap();
+        std::array::from_fn(|stage| ends[stage + 1] - ends[stage])
+    })
 }
 
 fn verdict(holds: bool, aim: &str) -> String {

@@ -111,10 +111,12 @@ fn turns(points: &[Pos2]) -> f32 {
 }
 
 fn is_crowded(runs: &[Vec<Joint>], width: f32) -> bool {
-    let pieces = runs.iter().flat_map(|run| run.windows(2));
-    let length: f32 = pieces.map(|ends| ends[0].at.distance(ends[1].at)).sum();
-    let points: Vec<Pos2> = runs.iter().flatten().map(|joint| joint.at).collect();
-    length * width > CROWDED * Rect::from_points(&points).expand(BEGINNING).area()
+    let (mut length, mut room) = (0.0, Rect::NOTHING);
+    for run in runs {
+        run.iter().for_each(|joint| room.extend_with(joint.at));
+        length += run.windows(2).map(|ends| ends[0].at.distance(ends[1].at)).sum::<f32>();
+    }
+    length * width > CROWDED * room.expand(BEGINNING).area()
 }
 
 /// The dots of a curve through these points of the screen, each with its radius.

@@ -28,6 +28,13 @@ pub struct FrameOutput {
     pub repaint_delay: Duration,
 }
 
+/// A frame that is laid out and not yet drawn.
+#[must_use]
+pub struct Layout {
+    panels: egui::FullOutput,
+    stage: Option<Stage>,
+}
+
 /// Draws frames on texture views of one format.
 pub struct FrameRenderer {
     context: egui::Context,
@@ -80,11 +87,24 @@ impl FrameRenderer {
         input: egui::RawInput,
         lab: &Lab,
     ) -> (Vec<Command>, FrameOutput) {
+        let (commands, layout) = self.lay_out(gpu, size_px, scale, input, lab);
+        (commands, self.paint(gpu, target, size_px, layout))
+    }
+
+    /// The first half of [`draw`](Self::draw): lays out the panels and composes the picture of the stage.
+    pub fn lay_out(
+        &mut self,
+        gpu: &Gpu,
+        size_px: [u32; 2],
+        scale: f32,
+        input: egui::RawInput,
+        lab: &Lab,
+    ) -> (Vec<Command>, Layout) {
         let mut commands = Vec::new();
         theme::show(&self.context, lab.display(), size_px.map(|side| side as f32 / scale));
         let shown = self.shown;
         let mut touch = std::mem::take(&mut self.touch);
-        let output = self.draw_with(gpu, target, size_px, scale, input, |ui| {
+        let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
             let rect = match shown {
                 Panels::Shown => {
                     let (asked, rect) = panels::show(ui, lab);
@@ -103,7 +123,24 @@ impl FrameRenderer {
             Some(Stage { rect, picture })
         });
         self.touch = touch;
-        (commands, output)
+        (commands, layout)
+    }
+
+    /// The second half: makes the commands that draw what is laid out. On a lost device nothing is drawn.
+    pub fn paint(
+        &mut self,
+        gpu: &Gpu,
+        target: &wgpu::TextureView,
+        size_px: [u32; 2],
+        layout: Layout,
+    ) -> FrameOutput {
+        let Layout { mut panels, stage } = layout;
+        let drawing = self.encode(gpu, target, size_px, &mut panels, stage.as_ref());
+        let repaint_delay = panels
+            .viewport_output
+            .get(&egui::ViewportId::ROOT)
+            .map_or(Duration::MAX, |viewport| viewport.repaint_delay);
+        FrameOutput { drawing, platform: panels.platform_output, repaint_delay }
     }
 
     /// Makes the commands that draw a diagram on all of `target`, which has `size_px` pixels, `scale` of
@@ -118,46 +155,41 @@ impl FrameRenderer {
     ) -> Option<wgpu::CommandBuffer> {
         self.context.set_zoom_factor(growth(size_px.map(|side| side as f32 / scale)));
         let mut draw = || {
-            self.draw_with(gpu, target, size_px, scale, egui::RawInput::default(), |ui| {
+            let input = egui::RawInput::default();
+            let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
                 figure::show(ui, figure);
                 None
-            })
+            });
+            self.paint(gpu, target, size_px, layout)
         };
         // Once for the axes to learn how much room their labels take.
         let _ = draw();
         draw().drawing
     }
 
-    /// Makes the commands that draw panels and a stage.
+    /// Lays out panels and a stage.
     ///
     /// `show` lays out the panels and says what is left for the stage. It may be called twice for a
     /// frame, when a widget first has to learn its size; events come with the first call only, so a
-    /// caller adds up what the calls ask for. On a lost device the panels work as ever, and nothing
-    /// is drawn.
-    fn draw_with(
+    /// caller adds up what the calls ask for. On a lost device the panels work as ever.
+    fn lay_out_with(
         &mut self,
         gpu: &Gpu,
-        target: &wgpu::TextureView,
         size_px: [u32; 2],
         scale: f32,
         input: egui::RawInput,
         mut show: impl FnMut(&mut egui::Ui) -> Option<Stage>,
-    ) -> FrameOutput {
+    ) -> Layout {
         let mut stage = None;
         let input = self.sized(gpu, size_px, scale, input);
-        let mut output = self.context.run_ui(input, |ui| {
+        let panels = self.context.run_ui(input, |ui| {
             stage = show(ui);
             if let Some(Stage { rect, picture }) = &stage {
                 let painter = ui.painter().with_clip_rect(*rect);
                 picture.labels.iter().for_each(|label| write(&painter, *rect, label));
             }
         });
-        let drawing = self.paint(gpu, target, size_px, &mut output, stage.as_ref());
-        let repaint_delay = output
-            .viewport_output
-            .get(&egui::ViewportId::ROOT)
-            .map_or(Duration::MAX, |viewport| viewport.repaint_delay);
-        FrameOutput { drawing, platform: output.platform_output, repaint_delay }
+        Layout { panels, stage }
     }
 
     fn sized(
@@ -177,7 +209,7 @@ impl FrameRenderer {
         input
     }
 
-    fn paint(
+    fn encode(
         &mut self,
         gpu: &Gpu,
         target: &wgpu::TextureView,
@@ -283,8 +315,8 @@ mod tests {
         let target = Offscreen::new(gpu, size_px).unwrap();
         let mut renderer = FrameRenderer::new(gpu, Offscreen::FORMAT);
         let input = egui::RawInput::default();
-        let output =
-            renderer.draw_with(gpu, &target.view, size_px, scale, input, |ui| show(ui, picture));
+        let layout = renderer.lay_out_with(gpu, size_px, scale, input, |ui| show(ui, picture));
+        let output = renderer.paint(gpu, &target.view, size_px, layout);
         read(gpu, output.drawing, &target)
     }
 
@@ -349,7 +381,7 @@ mod tests {
             swept: Vec::new(),
         };
         let input = egui::RawInput::default();
-        let output = renderer.draw_with(&gpu, &target.view, [128, 64], 1.0, input, |ui| {
+        let layout = renderer.lay_out_with(&gpu, [128, 64], 1.0, input, |ui| {
             let clip = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(100.0, 64.0));
             let painter = ui.painter().with_clip_rect(clip);
             for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
@@ -358,6 +390,7 @@ mod tests {
             }
             None
         });
+        let output = renderer.paint(&gpu, &target.view, [128, 64], layout);
         let pixels = read(&gpu, output.drawing, &target);
         for x in 10..128 {
             let [dashed, solid] = [20, 40].map(|y| pixels.at(x, y)[0]);
@@ -388,8 +421,8 @@ mod tests {
         gpu.device.destroy();
         let picture = red_everywhere();
         let input = egui::RawInput::default();
-        let output =
-            renderer.draw_with(&gpu, &target.view, [64, 64], 1.0, input, |ui| show(ui, &picture));
+        let layout = renderer.lay_out_with(&gpu, [64, 64], 1.0, input, |ui| show(ui, &picture));
+        let output = renderer.paint(&gpu, &target.view, [64, 64], layout);
         assert!(gpu.is_lost());
         assert!(output.drawing.is_none());
 

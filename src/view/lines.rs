@@ -10,8 +10,6 @@ use egui::{Color32, Pos2, Rect, Vec2, vec2};
 const TOLERANCE: f32 = 0.2;
 /// How far a channel of its colour may be from theirs, of 255.
 const TINT: f32 = 3.0;
-/// The most points that one straight piece stands for, so that finding it takes no longer.
-const LONGEST_PIECE: usize = 32;
 /// Corners sharper than this, the cosine of the turn, are not mitred: the tip would stick out.
 const SHARPEST_MITRE: f32 = 0.0;
 
@@ -41,16 +39,26 @@ pub(super) fn shown(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Ve
 
 /// The runs of a line within a window, cut off at its edges.
 fn visible(joints: impl Iterator<Item = Joint>, window: Rect) -> Vec<Vec<Joint>> {
+    let most = joints.size_hint().0.max(2);
     let mut runs: Vec<Vec<Joint>> = Vec::new();
-    let mut last: Option<Joint> = None;
+    let mut last: Option<(Joint, bool)> = None;
     for joint in joints {
-        if let Some([from, to]) = last.and_then(|last| cut([last, joint], window)) {
-            match runs.last_mut() {
-                Some(run) if run.last() == Some(&from) => run.push(to),
-                _ => runs.push(vec![from, to]),
+        let is_inside = window.contains(joint.at);
+        if let Some((last, was_inside)) = last {
+            let whole = was_inside && is_inside;
+            let seen = if whole { Some([last, joint]) } else { cut([last, joint], window) };
+            if let Some([from, to]) = seen {
+                match runs.last_mut() {
+                    Some(run) if run.last() == Some(&from) => run.push(to),
+                    _ => {
+                        let mut run = Vec::with_capacity(most);
+                        run.extend([from, to]);
+                        runs.push(run);
+                    }
+                }
             }
         }
-        last = Some(joint);
+        last = Some((joint, is_inside));
     }
     runs
 }
@@ -84,30 +92,71 @@ fn cut([from, to]: [Joint; 2], window: Rect) -> Option<[Joint; 2]> {
 fn simple(line: &[Joint]) -> Vec<Joint> {
     let Some(&first) = line.first() else { return Vec::new() };
     let mut kept = vec![first];
-    let (mut from, mut to) = (0, 1);
-    while to < line.len() {
-        let fits = |end: usize| {
-            line[from + 1..end].iter().all(|&joint| stands_for([line[from], line[end]], joint))
-        };
-        while to + 1 < line.len() && to - from < LONGEST_PIECE && fits(to + 1) {
-            to += 1;
+    let mut piece = Piece::from(first);
+    for ends in line.windows(2) {
+        if !piece.reaches(ends[1]) {
+            kept.push(ends[0]);
+            piece = Piece::from(ends[0]);
+            piece.reaches(ends[1]);
         }
-        kept.push(line[to]);
-        (from, to) = (to, to + 1);
     }
+    kept.extend(line[1..].last());
     kept
 }
 
-/// Whether a straight piece shows what it would with one more joint.
-fn stands_for([from, to]: [Joint; 2], between: Joint) -> bool {
-    let along = to.at - from.at;
-    let part = (between.at - from.at).dot(along) / along.length_sq().max(f32::MIN_POSITIVE);
-    let part = part.clamp(0.0, 1.0);
-    let mid = |a: f32, b: f32| a + part * (b - a);
-    let tint = |i: usize| mid(from.colour[i].into(), to.colour[i].into());
-    between.at.distance_sq(from.at + part * along) <= TOLERANCE * TOLERANCE
-        && (between.radius - mid(from.radius, to.radius)).abs() <= TOLERANCE
-        && (0..4).all(|i| (f32::from(between.colour[i]) - tint(i)).abs() <= TINT)
+/// What changes along a line: how far it lies to the side, its radius and the channels of its colour.
+type Values = [f32; 6];
+
+const TOLERANCES: Values = [TOLERANCE, TOLERANCE, TINT, TINT, TINT, TINT];
+
+/// A straight piece that is being made longer. Whatever changes along it runs linearly, and has to pass within the
+/// tolerance of every joint that the piece stands for: what is left are ranges of slopes (Sklansky and Gonzalez 1980).
+struct Piece {
+    from: Joint,
+    /// Whether it has no joint beyond its start yet.
+    is_new: bool,
+    /// Its direction, that of the first joint out of the tolerance round its start.
+    axis: Option<Vec2>,
+    /// How far along it the last joint lies, in points; the next is no nearer.
+    reach: f32,
+    least: Values,
+    most: Values,
+}
+
+impl Piece {
+    fn from(from: Joint) -> Self {
+        let (least, most) = ([f32::NEG_INFINITY; 6], [f32::INFINITY; 6]);
+        Self { from, is_new: true, axis: None, reach: 0.0, least, most }
+    }
+
+    /// Has the piece end at a joint, and stand for it from then on, if it can. A new piece reaches any.
+    fn reaches(&mut self, joint: Joint) -> bool {
+        let is_new = std::mem::take(&mut self.is_new);
+        let offset = joint.at - self.from.at;
+        let tint = |i: usize| f32::from(joint.colour[i]) - f32::from(self.from.colour[i]);
+        let radius = joint.radius - self.from.radius;
+        let mut values = [0.0, radius, tint(0), tint(1), tint(2), tint(3)];
+        if self.axis.is_none() && offset.length_sq() <= TOLERANCE * TOLERANCE {
+            let is_like_start = (1..6).all(|i| values[i].abs() <= TOLERANCES[i] / 2.0);
+            // Where the colour leaps without a way for it, nothing beyond is reached.
+            let reaches = is_new || self.reach == 0.0 && is_like_start;
+            self.reach = if is_like_start { self.reach } else { f32::INFINITY };
+            return reaches;
+        }
+        let axis = *self.axis.get_or_insert_with(|| offset.normalized());
+        let along = axis.dot(offset);
+        values[0] = axis.x * offset.y - axis.y * offset.x;
+        let is_between =
+            |i: usize| self.least[i] * along <= values[i] && values[i] <= self.most[i] * along;
+        let reaches = is_new || along >= self.reach && (0..6).all(is_between);
+        self.reach = along;
+        let per_point = 1.0 / along;
+        for i in 0..6 {
+            self.least[i] = self.least[i].max((values[i] - TOLERANCES[i]) * per_point);
+            self.most[i] = self.most[i].min((values[i] + TOLERANCES[i]) * per_point);
+        }
+        reaches
+    }
 }
 
 /// A vertex in `shaders/lines.wgsl`.
@@ -179,6 +228,8 @@ impl LineMesh {
     /// Adds a line as quads from joint to joint, mitred where they meet.
     pub(super) fn add(&mut self, line: &[Joint], px_per_point: f32) {
         let [drawn_px, gap_px] = self.dash.map(|points| points * px_per_point);
+        self.vertices.reserve(2 * line.len());
+        self.indices.reserve(6 * line.len());
         let vertices = &mut self.vertices;
         let mut add = |joint: Joint, normal: Vec2, along: f32| {
             let half_px = joint.radius * px_per_point;
@@ -247,18 +298,48 @@ mod tests {
         assert_eq!(visible([from, to].into_iter(), window), [[from, half]]);
     }
 
+    /// Whether a straight piece shows what it would with one more joint.
+    fn stands_for([from, to]: [Joint; 2], between: Joint) -> bool {
+        let along = to.at - from.at;
+        let part = (between.at - from.at).dot(along) / along.length_sq().max(f32::MIN_POSITIVE);
+        let there = from.lerp(to, part.clamp(0.0, 1.0));
+        let is_near = |a: f32, b: f32, tolerance: f32| (a - b).abs() <= tolerance;
+        let tint = |i: usize| is_near(between.colour[i].into(), there.colour[i].into(), TINT + 1.0);
+        is_near(between.at.distance(there.at), 0.0, TOLERANCE + 1e-4)
+            && is_near(between.radius, there.radius, TOLERANCE + 1e-4)
+            && (0..4).all(tint)
+    }
+
     #[test]
     fn a_simpler_line_keeps_its_ends_its_spikes_and_within_the_tolerance_all_else() {
         let mut wave: Vec<Joint> =
             (0..400).map(|i| i as f32 / 8.0).map(|x| joint([x, 20.0 * (x / 5.0).sin()])).collect();
         wave[200].at.y += 30.0;
-        let kept = simple(&wave);
-        assert!(kept.len() < wave.len() / 4, "{} of {}", kept.len(), wave.len());
-        assert_eq!((kept.first(), kept.last()), (wave.first(), wave.last()));
-        assert!(kept.contains(&wave[200]));
-        for &joint in &wave {
-            assert!(kept.windows(2).any(|ends| stands_for([ends[0], ends[1]], joint)), "{joint:?}");
+        let mut fading = wave.clone();
+        for (i, joint) in fading.iter_mut().enumerate() {
+            joint.radius = 1.0 + (i as f32 / 90.0).cos();
+            joint.colour = Color32::from_rgb(100 + (i / 3) as u8, 200 - (i / 40) as u8, 0);
         }
+        // It comes to rest, nearly, changes its colour there, and goes back the way it came.
+        let mut resting: Vec<Joint> =
+            (0..150).map(|i| joint([100.0 * 0.9_f32.powi(i), (i as f32).sin() / 30.0])).collect();
+        resting[120..].iter_mut().for_each(|joint| joint.colour = Color32::RED);
+        resting.extend((0..50).map(|i| joint([2.0 * i as f32, 0.0])));
+        for line in [&wave, &fading, &resting] {
+            let kept = simple(line);
+            assert!(kept.len() < line.len() / 3, "{} of {}", kept.len(), line.len());
+            assert_eq!((kept.first(), kept.last()), (line.first(), line.last()));
+            for &joint in line {
+                assert!(
+                    kept.windows(2).any(|ends| stands_for([ends[0], ends[1]], joint)),
+                    "{joint:?}"
+                );
+            }
+        }
+        assert!(simple(&wave).contains(&wave[200]));
+        let still = [joint([5.0, 5.0]); 9];
+        assert_eq!(simple(&still).len(), 2);
+        assert_eq!((simple(&still[..1]).len(), simple(&[]).len()), (1, 0));
     }
 
     #[test]

@@ -37,7 +37,7 @@ mod touch;
 mod triangles;
 
 pub use figure::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
-pub use frame::{FrameOutput, FrameRenderer};
+pub use frame::{FrameOutput, FrameRenderer, Layout};
 pub use gpu::{AdapterPreference, Gpu, GpuError};
 pub use offscreen::Offscreen;
 pub use offscreen_renderer::OffscreenRenderer;

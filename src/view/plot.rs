@@ -82,13 +82,36 @@ pub(super) fn draw(ui: &mut Ui, plot: Plot<'_>, bounds: PlotBounds, drawing: &Dr
 
 /// Where a point of a plot with these bounds lies in its frame on the screen. A point far outside is drawn nearer, but
 /// far enough out for a line to leave at its own slope, and near enough for the f32 of the painter.
-pub(super) fn on_screen(frame: Rect, bounds: &PlotBounds, [x, y]: [f64; 2]) -> Pos2 {
-    let ([left, low], [right, high]) = (bounds.min(), bounds.max());
-    let part = |value: f64, from: f64, to: f64| {
-        ((value - from) / (to - from)).clamp(-FAR_OUTSIDE, 1.0 + FAR_OUTSIDE) as f32
-    };
-    let (along, up) = (part(x, left, right), part(y, low, high));
-    pos2(frame.left() + along * frame.width(), frame.bottom() - up * frame.height())
+pub(super) fn on_screen(frame: Rect, bounds: &PlotBounds, at: [f64; 2]) -> Pos2 {
+    Projection::new(frame, bounds).at(at)
+}
+
+/// How points of a plot lie on the screen.
+struct Projection {
+    frame: Rect,
+    least: [f64; 2],
+    /// Parts of the frame to a unit of the axes.
+    parts: [f64; 2],
+}
+
+impl Projection {
+    fn new(frame: Rect, bounds: &PlotBounds) -> Self {
+        let (least, most) = (bounds.min(), bounds.max());
+        Self { frame, least, parts: [0, 1].map(|axis| 1.0 / (most[axis] - least[axis])) }
+    }
+
+    fn at(&self, [x, y]: [f64; 2]) -> Pos2 {
+        pos2(self.frame.left() + self.part(0, x) * self.frame.width(), self.height(y))
+    }
+
+    fn height(&self, y: f64) -> f32 {
+        self.frame.bottom() - self.part(1, y) * self.frame.height()
+    }
+
+    fn part(&self, axis: usize, value: f64) -> f32 {
+        let part = (value - self.least[axis]) * self.parts[axis];
+        part.clamp(-FAR_OUTSIDE, 1.0 + FAR_OUTSIDE) as f32
+    }
 }
 
 /// Draws everything in a plot into `frame`, cut off at its edges.
@@ -98,7 +121,8 @@ pub(super) fn paint(painter: &Painter, frame: Rect, bounds: &PlotBounds, drawing
         return;
     }
     let painter = painter.with_clip_rect(seen);
-    let on_screen = |at: &[f64; 2]| on_screen(frame, bounds, *at);
+    let projection = Projection::new(frame, bounds);
+    let on_screen = |at: &[f64; 2]| projection.at(*at);
     for Switch { at, colour } in &drawing.switches {
         let at = on_screen(at);
         match drawing.switch_mark {
@@ -114,9 +138,8 @@ pub(super) fn paint(painter: &Painter, frame: Rect, bounds: &PlotBounds, drawing
         let mut with_dots = Vec::new();
         for curve in curves {
             let points: Vec<Pos2> = curve.points.iter().map(on_screen).collect();
-            let heights = curve.points.iter().zip(&curve.swept);
-            let heights = heights.map(|([x, _], ends)| ends.map(|y| on_screen(&[*x, y]).y));
-            let swept: Vec<[f32; 2]> = heights.collect();
+            let height = |y: f64| projection.height(y);
+            let swept: Vec<[f32; 2]> = curve.swept.iter().map(|ends| ends.map(height)).collect();
             let is_line = curves::paint(&painter, &points, &swept, curve);
             let dots = if is_line { curve.dots } else { Dots::Each(SCATTERED) };
             with_dots.push((curve.colour, dots, points));

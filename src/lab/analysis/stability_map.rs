@@ -177,9 +177,9 @@ impl MapWork {
         }
     }
 
-    /// Whether it maps the body of `request`.
-    pub(super) fn is_of_body(&self, request: &MapRequest) -> bool {
-        self.map.request.body == request.body
+    /// Whether it maps the body of `request`, which is of this kind.
+    pub(super) fn is_of(&self, kind: &'static Kind, request: &MapRequest) -> bool {
+        std::ptr::eq(self.kind, kind) && self.map.request.body == request.body
     }
 
     pub(super) fn map(&self) -> StabilityMap {

@@ -125,8 +125,9 @@ impl AnalysisWorker {
 
     /// Replaces the request. Results that answer the new one too are kept.
     pub fn set_request(&mut self, request: AnalysisRequest) {
+        self.set_map(&request);
         if !request.is_of(&self.request.scene) {
-            *self = Self::new(request);
+            *self = Self { mapping: self.mapping.take(), ..Self::new(request) };
             return;
         }
         let is_same_run = request.by_hand == self.request.by_hand;
@@ -140,14 +141,17 @@ impl AnalysisWorker {
         if request.entries != self.request.entries {
             self.judged = 0;
         }
-        if let (Some(work), Some(wanted)) = (&mut self.mapping, &request.map) {
-            if work.is_of_body(wanted) {
-                work.set_request(wanted.clone());
-            } else {
-                self.mapping = None;
-            }
-        }
         self.request = request;
+    }
+
+    /// Has the map answer another request; with a parameter that is not on the map, the scene changes as well.
+    fn set_map(&mut self, request: &AnalysisRequest) {
+        let Some(wanted) = &request.map else { return };
+        let kind = request.scene.bodies[wanted.body].kind;
+        self.mapping = self.mapping.take().filter(|work| work.is_of(kind, wanted));
+        if let Some(work) = &mut self.mapping {
+            work.set_request(wanted.clone());
+        }
     }
 
     /// Does one step: finds a region of the map, computes a missing verdict or, if none is missing, tests a criterion for
@@ -286,6 +290,29 @@ mod tests {
         worker.set_request(AnalysisRequest { tick_hz: 20, ..first });
         assert!(worker.findings().verdicts.iter().all(Option::is_some));
         assert!(!worker.findings().complete);
+    }
+
+    #[test]
+    fn a_map_keeps_its_regions_while_its_cross_is_moved() {
+        use crate::lab::{Command, Instrument, Lab};
+        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+        lab.apply(Command::Instrument(Instrument::StabilityMap));
+        let mut worker = AnalysisWorker::new(lab.analysis_request());
+        while worker.work() {}
+        let found = worker.findings().map.expect("a map");
+        assert_eq!(found.regions.len(), found.request.specs.len());
+        let [damping, stiffness] = ["damping", "stiffness"].map(|name| {
+            let parameters = lab.scene().bodies[0].kind.parameters;
+            parameters.iter().position(|parameter| parameter.key.starts_with(name)).unwrap()
+        });
+        let mut moved = |parameter: usize, value: f64| {
+            lab.apply(Command::TickHz(24));
+            lab.apply(Command::Act(Action::Set { body: 0, parameter, value }));
+            worker.set_request(lab.analysis_request());
+            worker.findings().map.map(|map| (map.regions, map.here.len()))
+        };
+        assert_eq!(moved(stiffness, 580.0), Some((found.regions, 0)));
+        assert_eq!(moved(damping, 3.0), Some((Vec::new(), 0)), "another map");
     }
 
     #[test]

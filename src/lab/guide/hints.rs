@@ -100,7 +100,7 @@ pub(in crate::lab) fn suits_race(hint: &str) -> bool {
         let is_next = matches!(command, Command::NextMethod | Command::PreviousMethod);
         is_pick || is_next || matches!(command, Command::ToggleRace)
     };
-    !asked(hint).is_some_and(|commands| commands.iter().any(is_of_solo))
+    !keys(hint).flat_map(bound_to).any(|command| is_of_solo(&command))
 }
 
 /// What a method does, in words that follow its name.
@@ -117,11 +117,19 @@ fn reaction(outcome: Option<Outcome>) -> &'static str {
 
 /// The commands of the first key that a hint names.
 fn asked(hint: &str) -> Option<Vec<&'static Command>> {
-    let name = hint.split('`').nth(1)?;
-    let bound = KEYS.iter().flat_map(|binding| binding.keys);
-    let commands = bound.filter(|(key, _)| is_named(*key, name)).map(|(_, command)| command);
-    let commands: Vec<_> = commands.collect();
+    let commands: Vec<_> = bound_to(keys(hint).next()?).collect();
     (!commands.is_empty()).then_some(commands)
+}
+
+/// The names of the keys in a text, which stand between backticks.
+fn keys(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}
+
+/// The commands of the key that people call so.
+fn bound_to(name: &str) -> impl Iterator<Item = &'static Command> {
+    let bound = KEYS.iter().flat_map(|binding| binding.keys);
+    bound.filter(move |(key, _)| is_named(*key, name)).map(|(_, command)| command)
 }
 
 /// Whether people call a key so.
@@ -181,6 +189,7 @@ mod tests {
             assert!(lab.hint().is_some(), "{}: {solo}", scene.name);
         }
         assert!(suits_race("Press `[`.") && !suits_race("Press `2`."));
+        assert!(!suits_race("Steer with `←`. `C` races all methods."), "its last key counts too");
     }
 
     #[test]

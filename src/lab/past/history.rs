@@ -9,6 +9,7 @@ use std::{iter, option};
 use glam::DVec2;
 
 use super::energies::Energies;
+use super::summary::{MOST_SUMMED, Summary, SummaryLog, SummaryMark};
 use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
 use crate::lab::lane::LaneBody;
@@ -18,7 +19,7 @@ use crate::lab::metrics::METRICS;
 pub const CAPACITY: usize = 2048;
 
 /// Further samples that are kept for going back without a repetition: 17 s at 60 Hz.
-const SPARE: usize = 1024;
+pub(super) const SPARE: usize = 1024;
 
 /// One moment of a body.
 #[derive(Clone, Debug)]
@@ -72,6 +73,7 @@ impl Sample {
 #[derive(Debug)]
 pub struct History {
     samples: WindowedLog<Sample>,
+    summaries: SummaryLog,
     /// The present, if no sample is due at it.
     present: Option<Sample>,
     /// The range of the first coordinate since the newest sample.
@@ -83,6 +85,7 @@ pub struct History {
 pub(super) struct HistoryMark {
     /// The number of samples since the start.
     samples: u64,
+    summaries: SummaryMark,
     since: SweptRange,
 }
 
@@ -103,6 +106,7 @@ impl History {
     pub fn new() -> Self {
         Self {
             samples: WindowedLog::new(CAPACITY, SPARE),
+            summaries: SummaryLog::new(),
             present: None,
             since: SweptRange::NOTHING,
         }
@@ -111,6 +115,14 @@ impl History {
     /// The samples, oldest first. The newest is the present, unless the body has halted.
     pub fn samples(&self) -> Samples<'_> {
         self.after(0)
+    }
+
+    /// The samples in fewer records, of [`MOST_SUMMED`] at most, oldest first; `None` where they do not reach as far back.
+    pub fn summaries(&self) -> Option<impl Iterator<Item = Summary>> {
+        let oldest = self.samples.range(MOST_SUMMED.min(self.samples.len())).next();
+        let reaches = |summary: Summary| oldest.is_none_or(|oldest| summary.t <= oldest.t);
+        let all = self.summaries.shown().chain(self.present.as_ref().map(Summary::of));
+        self.summaries.shown().next().is_none_or(reaches).then_some(all)
     }
 
     fn after(&self, skipped: usize) -> Samples<'_> {
@@ -164,6 +176,7 @@ impl History {
     fn begin_at(&mut self, now: Sample) {
         self.present = None;
         self.since = SweptRange::NOTHING;
+        self.summaries.push(&now);
         self.samples.push(now);
     }
 
@@ -191,6 +204,7 @@ impl History {
         {
             now.jumped |= newest.jumped;
             self.samples.pop();
+            self.summaries.pop();
         }
         let newest = self.samples.newest();
         let is_new = |newest: &Sample| {
@@ -208,7 +222,11 @@ impl History {
 
     /// Where it is now.
     pub(super) fn mark(&self) -> HistoryMark {
-        HistoryMark { samples: self.samples.mark(), since: self.since }
+        HistoryMark {
+            samples: self.samples.mark(),
+            summaries: self.summaries.mark(),
+            since: self.since,
+        }
     }
 
     /// Whether a run begun again at the mark `from` will show at `mark` what it showed then.
@@ -221,11 +239,13 @@ impl History {
         self.present = None;
         self.since = mark.since;
         self.samples.rewind(mark.samples);
+        self.summaries.rewind(mark.summaries);
     }
 
     /// Forgets the future: another one begins.
     pub(super) fn forget_future(&mut self) {
         self.samples.forget_future();
+        self.summaries.forget_future();
     }
 }
 
@@ -355,5 +375,55 @@ mod tests {
         history.record_passing(sample(1e9, 0));
         assert_eq!(history.samples().count(), CAPACITY + 1, "the present is beside them");
         assert_eq!(history.samples().next().unwrap().t, 1.0);
+    }
+
+    /// What each summary has: the time, the method, how far it sweeps and whether it begins at a jump.
+    fn summaries(history: &History) -> Vec<(f64, usize, [f64; 2], bool)> {
+        let summaries = history.summaries().expect("they reach as far back");
+        summaries.map(|s| (s.t, s.entry, s.swept.ends(), s.jumped)).collect()
+    }
+
+    #[test]
+    fn a_summary_stands_for_four_samples_of_one_motion_and_for_all_that_they_sweep() {
+        let at = |t: u32, q: f64| Sample { q, ..sample(f64::from(t), 0) };
+        let mut history = History::new();
+        (0..6).for_each(|t| history.record(at(t, f64::from(t))));
+        assert_eq!(summaries(&history), [(3.0, 0, [0.0, 3.0], false), (5.0, 0, [4.0, 5.0], false)]);
+        switch(&mut history, 5.5, 0, 1);
+        history.record(Sample { entry: 1, ..at(6, -1.0) });
+        let before = summaries(&history);
+        assert_eq!(before[1..], [(5.5, 0, [0.0, 5.0], false), (6.0, 1, [-1.0, 0.0], false)]);
+        history.jump(Sample { entry: 1, ..at(6, 9.0) });
+        history.record(Sample { entry: 1, ..at(7, f64::INFINITY) });
+        history.record_passing(Sample { entry: 1, ..at(8, 7.0) });
+        let times: Vec<_> = summaries(&history)[3..].iter().map(|s| (s.0, s.3)).collect();
+        assert_eq!(times, [(6.0, true), (7.0, false), (8.0, false)]);
+    }
+
+    #[test]
+    fn summaries_go_back_and_on_with_the_samples() {
+        let tick = |history: &mut History, t: u32| {
+            history.record(Sample { q: f64::from(t % 7), ..sample(f64::from(t), 0) });
+        };
+        let mut history = History::new();
+        let mut seen = Vec::new();
+        for t in 0..6000 {
+            tick(&mut history, t);
+            seen.push((history.mark(), summaries(&history)));
+        }
+        for back in [5999, 5997, 5990, 5800, 5998, 5500] {
+            let (mark, shown) = &seen[back];
+            history.rewind(*mark);
+            assert_eq!(&summaries(&history), shown);
+        }
+        (5501..6000).for_each(|t| tick(&mut history, t));
+        assert_eq!(summaries(&history), seen[5999].1);
+        assert!(seen[5999].1.len() > CAPACITY / MOST_SUMMED);
+        history.rewind(seen[100].0);
+        (101..4000).for_each(|t| tick(&mut history, t));
+        assert!(summaries(&history).len() > CAPACITY / MOST_SUMMED);
+        switch(&mut history, 4000.0, 0, 1);
+        (0..1200).for_each(|t| switch(&mut history, 4001.0 + f64::from(t), 1, 2));
+        assert!(history.summaries().is_none(), "short runs fill them too soon");
     }
 }

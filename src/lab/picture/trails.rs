@@ -46,12 +46,14 @@ impl Moment<'_> {
     ) -> impl Iterator<Item = (f64, &'h Sample)> {
         let shown = self.lanes_t;
         // A body that was put elsewhere did not move there.
-        let jump = history.samples().rev().position(|sample| sample.jumped);
-        let unbroken = jump.map_or(usize::MAX, |jump| jump + 1);
-        let recent = move |s: &&Sample| shown - s.t < trail_s;
-        let count = history.samples().rev().take(unbroken).take_while(recent).count();
-        let every = count.div_ceil(TRAIL_POINTS).max(1);
-        let newest_first = history.samples().rev().take(unbroken).take_while(recent);
+        let mut has_jumped = false;
+        let recent = move |s: &&Sample| {
+            let goes_on = !has_jumped && shown - s.t < trail_s;
+            has_jumped = s.jumped;
+            goes_on
+        };
+        let newest_first = history.samples().rev().take_while(recent);
+        let every = newest_first.clone().count().div_ceil(TRAIL_POINTS).max(1);
         let newest_first = newest_first.step_by(every);
         newest_first.filter(move |s| s.t < shown).map(move |s| (shown - s.t, s))
     }

@@ -25,7 +25,10 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         if lab.dropped() > 0 && lab.loop_lab().is_none() {
-            let text = format!("{} ticks dropped", lab.dropped());
+            let text = match lab.dropped() {
+                1 => "1 tick dropped".to_owned(),
+                many => format!("{many} ticks dropped"),
+            };
             ui.label(RichText::new(text).color(ink(ui).bad))
                 .on_hover_text("the simulation fell behind real time and gave these up");
             ui.add_space(GAP);

@@ -36,7 +36,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
                 commands.push(Command::ToggleInspector);
             }
             let restoring = restoring(lab);
-            let all = ui.add_enabled_ui(!restoring.is_empty(), |ui| {
+            let is_edited = !restoring.is_empty() || Field::has_faults(ui);
+            let all = ui.add_enabled_ui(is_edited, |ui| {
                 named(ui, Button::new("↺ Restore all"), "everything as the scene has it")
             });
             if all.inner.clicked() {

@@ -5,6 +5,7 @@
 
 use egui::{Button, Color32, ComboBox, FontId, Label, RichText, Sense, Stroke, Ui, vec2};
 
+use super::tracks::Detail;
 use super::{advice, cost, ink, loops, one_step, stability_map};
 use crate::lab::{
     Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS, Mode,
@@ -45,7 +46,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let room = ui.available_size() - vec2(10.0, 2.0);
     match lab.display().instrument {
         Instrument::Motion | Instrument::Error | Instrument::Energy | Instrument::Phase => {
-            let sheet = sheet_of(lab);
+            let sheet = sheet_of(lab, detail(ui, lab));
             sheet.iter().for_each(|sheet| plots(ui, lab, sheet, commands));
         }
         Instrument::Cost => cost::show(ui, lab, room),
@@ -56,10 +57,19 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     }
 }
 
+/// How closely a person looks at the plots in all that is left of `ui`.
+fn detail(ui: &Ui, lab: &Lab) -> Detail {
+    let room = ui.available_rect_before_wrap();
+    match ui.rect_contains_pointer(room) || chart::is_zoomed(ui, lab) {
+        true => Detail::Samples,
+        false => Detail::Columns(room.width() * ui.pixels_per_point()),
+    }
+}
+
 /// The plots of the chosen instrument, if it has any.
-fn sheet_of(lab: &Lab) -> Option<Sheet> {
+fn sheet_of(lab: &Lab, detail: Detail) -> Option<Sheet> {
     match lab.display().instrument {
-        Instrument::Motion => Some(motion::sheet(lab)),
+        Instrument::Motion => Some(motion::sheet(lab, detail)),
         Instrument::Error => Some(error::sheet(lab)),
         Instrument::Energy => Some(energy::sheet(lab)),
         Instrument::Phase => Some(phase::sheet(lab)),

@@ -15,7 +15,7 @@ mod loupe;
 /// Room for the numbers at the left of the plot and below it, in points.
 const LEFT: f32 = 62.0;
 const BELOW: f32 = 20.0;
-const NAME: f32 = 15.0;
+const NAME: f32 = 21.0;
 /// From this width on, in points, the table stands beside the plot; and the table's width there.
 const ROOM_BESIDE: f32 = 700.0;
 const TABLE: f32 = 380.0;

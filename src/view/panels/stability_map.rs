@@ -59,11 +59,11 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
         return;
     }
     let left = top + room.y - ui.cursor().top();
-    let words = match room.y >= ROOM_FOR_WORDS {
+    let (words, height) = match room.y >= ROOM_FOR_WORDS {
         true => sentence(ui, lab, map, room.x),
         false => short_sentence(ui, lab, map, room.x),
     };
-    let size = vec2(room.x, (left - words.size().y - 6.0).max(40.0));
+    let size = vec2(room.x, (left - height - 6.0).max(40.0));
     plot(ui, lab, map, size, commands);
     ui.add(Label::new(words)).on_hover_text(each_method(map));
 }
@@ -302,9 +302,9 @@ fn cross(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea, commands: &mut
         point_in_words(lab, place, lab.clock().tick_hz(), value)
     );
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, &here));
-    if let Some(pointer) =
-        response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked())
-    {
+    // Where it is let go may be the first that is heard of the way there.
+    let is_moved = response.dragged() || response.drag_stopped() || response.clicked();
+    if let Some(pointer) = response.interact_pointer_pos().filter(|_| is_moved) {
         go_to(lab, map, area.point(pointer), commands);
     }
     if response.has_focus() {

@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 use egui_plot::PlotBounds;
 
 use super::ink_of;
-use crate::lab::{Entrant, Lab, Mode, Sample};
+use crate::lab::{Entrant, History, Lab, Mode, Sample, Summary};
 use crate::view::curves::{Curve, Dots};
 use crate::view::plot::{Arrow, Drawing, Switch};
 
@@ -22,6 +22,31 @@ struct Point {
     swept: [f64; 2],
     /// Whether the body was put there, so that no path leads from the point before.
     jumped: bool,
+}
+
+/// How closely a plot is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Detail {
+    /// Every sample counts.
+    Samples,
+    /// It is seen on so many columns of pixels.
+    Columns(f32),
+}
+
+impl Detail {
+    /// Whether so many points are enough.
+    fn is_met_by(self, points: usize) -> bool {
+        match self {
+            Self::Samples => false,
+            Self::Columns(columns) => points as f32 >= columns,
+        }
+    }
+}
+
+fn finite(points: impl Iterator<Item = Point>) -> Vec<Point> {
+    let mut kept = Vec::with_capacity(points.size_hint().0);
+    kept.extend(points.filter(|point| point.at.iter().all(|x| x.is_finite())));
+    kept
 }
 
 /// The samples of one lane, oldest first.
@@ -55,28 +80,36 @@ impl Track {
     }
 
     /// A track for each lane, of the body's first coordinate over time, with all that it comes to between samples.
-    pub(super) fn of_coordinate(lab: &Lab, body: usize) -> Vec<Self> {
-        Self::of_points(lab, body, |s| Point {
+    pub(super) fn of_coordinate(lab: &Lab, body: usize, detail: Detail) -> Vec<Self> {
+        let point = |s: Summary| Point {
             t: s.t,
             entry: s.entry,
             at: [s.t, s.q],
             swept: s.swept.ends(),
             jumped: s.jumped,
-        })
+        };
+        let points = |history: &History| match history.summaries() {
+            Some(summaries) if detail.is_met_by(summaries.size_hint().0) => {
+                finite(summaries.map(point))
+            }
+            _ => finite(history.samples().map(|sample| point(Summary::of(sample)))),
+        };
+        Self::of_histories(lab, body, points)
     }
 
     fn of_points(lab: &Lab, body: usize, point: impl Fn(&Sample) -> Point) -> Vec<Self> {
+        Self::of_histories(lab, body, |history| finite(history.samples().map(&point)))
+    }
+
+    fn of_histories(lab: &Lab, body: usize, points: impl Fn(&History) -> Vec<Point>) -> Vec<Self> {
         let front = lab.selected().lane_number;
-        let track = |(place, lane): (usize, &Entrant)| {
-            let points = lab.past().histories(place)[body].samples().map(&point);
-            Self {
-                points: points.filter(|point| point.at.iter().all(|x| x.is_finite())).collect(),
-                entry: lane.entry,
-                is_front: lane.lane_number == front,
-                part: "",
-                dash: None,
-                strength: 1.0,
-            }
+        let track = |(place, lane): (usize, &Entrant)| Self {
+            points: points(&lab.past().histories(place)[body]),
+            entry: lane.entry,
+            is_front: lane.lane_number == front,
+            part: "",
+            dash: None,
+            strength: 1.0,
         };
         let lanes = lab.race().entrants().iter().enumerate();
         let mut tracks: Vec<Self> = lanes.map(track).collect();

@@ -97,6 +97,11 @@ impl Field<'_> {
         }
     }
 
+    /// Whether something is wrong in any field.
+    pub(super) fn has_faults(ui: &Ui) -> bool {
+        ui.data(|data| data.count::<Fault>()) > 0
+    }
+
     /// Forgets what was wrong in all fields.
     pub(super) fn forget_faults(ui: &Ui) {
         ui.data_mut(|data| data.remove_by_type::<Fault>());

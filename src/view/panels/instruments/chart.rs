@@ -25,6 +25,14 @@ const NEAR: f32 = 9.0;
 struct Views(BTreeMap<String, [f64; 2]>);
 
 impl Views {
+    fn id(lab: &Lab) -> Id {
+        Id::unique(("plots", lab.scene_name()))
+    }
+
+    fn of(ui: &Ui, lab: &Lab) -> Self {
+        ui.data(|data| data.get_temp(Self::id(lab))).unwrap_or_default()
+    }
+
     /// The names of a cell's axes. All plots over time have the same time in view.
     fn names(cell: &Cell<'_>) -> [String; 2] {
         let along = if cell.plot.is_over_time() { "time" } else { &cell.plot.id };
@@ -80,8 +88,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
     let room = ui.available_rect_before_wrap();
     ui.allocate_rect(room, Sense::hover());
     let body = lab.display().body;
-    let id = Id::unique(("plots", lab.scene_name()));
-    let mut views: Views = ui.data_mut(|data| data.get_temp(id)).unwrap_or_default();
+    let mut views = Views::of(ui, lab);
     // The heights of plots do not depend on the room beside them.
     let left = room_for_numbers(ui, &cells(sheet, room, LEFT, body), &views);
     let cells = cells(sheet, room, left, body);
@@ -114,7 +121,12 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
             hover::show(ui, lab, cell, &bounds(cell), t, place == 0);
         }
     }
-    ui.data_mut(|data| data.insert_temp(id, views));
+    ui.data_mut(|data| data.insert_temp(Views::id(lab), views));
+}
+
+/// Whether a person has zoomed or panned.
+pub(super) fn is_zoomed(ui: &Ui, lab: &Lab) -> bool {
+    !Views::of(ui, lab).0.is_empty()
 }
 
 /// The room that the numbers of all plots take, in points.

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use egui::{Color32, Pos2, Rect, pos2, vec2};
 
+use super::super::tracks::Detail;
 use super::super::{ink_of, loops};
 use super::layout::{Cell, MARKS_APART, NUMBER, NUMBERS, TITLE, WORDS, cells};
 use super::sheet::{Sheet, methods_shown};
@@ -30,7 +31,7 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<String> {
         return Some(loops::csv(lab));
     }
     let mut text = "plot,quantity,unit,curve,t_s,value\n".to_owned();
-    for plot in &sheet_of(lab)?.plots {
+    for plot in &sheet_of(lab, Detail::Samples)?.plots {
         let mut add = |curve: &str, t: f64, at: [f64; 2]| {
             let values = plot.axes.iter().zip(at).skip(usize::from(plot.is_over_time()));
             for (axis, place) in values {
@@ -66,7 +67,7 @@ fn quoted(text: &str) -> String {
 
 /// The plots of the chosen instrument as an SVG file; `None` if it has none.
 pub(in crate::view) fn svg(lab: &Lab) -> Option<String> {
-    let sheet = sheet_of(lab)?;
+    let sheet = sheet_of(lab, Detail::Samples)?;
     let mut drawing = Svg { text: String::new(), ink: ink_of(lab.display().theme) };
     let [width, height] = SIZE;
     let ink = drawing.ink;
@@ -260,7 +261,7 @@ mod tests {
         for instrument in [Instrument::Motion, Instrument::Error, Instrument::Phase] {
             lab.apply(Command::Instrument(instrument));
             let text = csv(&lab).unwrap();
-            let sheet = sheet_of(&lab).unwrap();
+            let sheet = sheet_of(&lab, Detail::Samples).unwrap();
             let rows = |plot: &super::super::sheet::PlotModel| {
                 let lanes: usize = plot.tracks.iter().map(|track| track.places().count()).sum();
                 let exact: usize = plot.exact.iter().map(|line| line.times.len()).sum();

@@ -1,7 +1,7 @@
 //! Every body's first coordinate over time, under all lanes and exactly.
 
 use super::super::ranges;
-use super::super::tracks::{Look, Track};
+use super::super::tracks::{Detail, Look, Track};
 use super::error::capitalised;
 use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
 use crate::lab::{Lab, Mode};
@@ -14,16 +14,16 @@ use crate::view::plot::SwitchMark;
 const HEALTHY: f64 = 1.6;
 const HEALTHY_ALONE: f64 = 4.0;
 
-pub(super) fn sheet(lab: &Lab) -> Sheet {
+pub(super) fn sheet(lab: &Lab, detail: Detail) -> Sheet {
     let bodies = 0..lab.scene().bodies.len();
     let title = if bodies.len() > 1 { "Motion of every body" } else { "Motion" };
-    Sheet { title: title.into(), plots: bodies.map(|body| plot(lab, body)).collect() }
+    Sheet { title: title.into(), plots: bodies.map(|body| plot(lab, body, detail)).collect() }
 }
 
-fn plot(lab: &Lab, body: usize) -> PlotModel {
+fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
     let truth = &lab.race().truth().bodies()[body];
     let coordinate = &truth.coordinates[0];
-    let tracks = Track::of_coordinate(lab, body);
+    let tracks = Track::of_coordinate(lab, body, detail);
     let exact = ExactLine::of_coordinate(lab, body);
     let y =
         ranges::around_truth(exact.fitted(lab, 1), &Track::fitted(lab, &tracks), 1, healthy(lab));

@@ -111,9 +111,18 @@ impl ExactLine {
         body: usize,
         place: impl Fn(&TruthSample) -> Option<[f64; 2]>,
     ) -> Self {
-        let (mut times, mut points, mut jumps) = (Vec::new(), Vec::new(), Vec::new());
-        let mut has_jumped = false;
-        for sample in samples(lab, body) {
+        Self::of_samples(lab, samples(lab, body), place)
+    }
+
+    fn of_samples(
+        lab: &Lab,
+        samples: impl Iterator<Item = TruthSample>,
+        place: impl Fn(&TruthSample) -> Option<[f64; 2]>,
+    ) -> Self {
+        let most = samples.size_hint().0;
+        let (mut times, mut points) = (Vec::with_capacity(most), Vec::with_capacity(most));
+        let (mut jumps, mut has_jumped) = (Vec::new(), false);
+        for sample in samples {
             has_jumped |= sample.jumped;
             let at = place(&sample).filter(|at| at.iter().all(|x| x.is_finite()));
             let Some(at) = at else { continue };
@@ -132,9 +141,9 @@ impl ExactLine {
 
     /// The first coordinate of a body over time.
     pub(super) fn of_coordinate(lab: &Lab, body: usize) -> Self {
-        let line = Self::of(lab, body, |s| Some([s.t, s.q]));
         let finite = samples(lab, body).filter(|s| s.t.is_finite() && s.q.is_finite());
         let samples: Vec<TruthSample> = finite.collect();
+        let line = Self::of_samples(lab, samples.iter().copied(), |s| Some([s.t, s.q]));
         let swept = samples.iter().map(|sample| sample.swept.ends()).collect();
         Self { curve: Curve { swept, ..line.curve }, is_coordinate: true, samples, ..line }
     }

@@ -3,6 +3,7 @@ use egui::{
     TouchPhase, Vec2, vec2,
 };
 
+use super::super::tracks::Detail;
 use super::error::NO_ERROR;
 use super::*;
 use crate::lab::{Action, SCENES, Scene};
@@ -51,7 +52,7 @@ fn assert_legible(lab: &Lab, what: &str) {
     for card in INSTRUMENTS {
         assert!(place(card.name).is_some(), "{what}: no tab {}", card.name);
     }
-    let Some(sheet) = sheet_of(lab) else {
+    let Some(sheet) = sheet_of(lab, Detail::Samples) else {
         let words = here.iter().filter(|(_, text)| text.len() > 10).count();
         assert!(words > 3, "{what}: {here:?}");
         return;
@@ -157,7 +158,7 @@ impl Person {
         self.time += 1.0 / 60.0;
         let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, FRAME));
         let input = RawInput { screen_rect, events, time: Some(self.time), ..RawInput::default() };
-        let sheet = sheet_of(lab).unwrap();
+        let sheet = sheet_of(lab, Detail::Samples).unwrap();
         let mut commands = Vec::new();
         let mut output =
             self.context.run_ui(input, |ui| chart::show(ui, lab, &sheet, &mut commands));
@@ -245,7 +246,7 @@ fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
 #[test]
 fn a_click_on_a_curve_selects_its_lane() {
     let (lab, mut person) = (race_of_springs(), Person::new());
-    let sheet = sheet_of(&lab).unwrap();
+    let sheet = sheet_of(&lab, Detail::Samples).unwrap();
     let room = Rect::from_min_size(Pos2::ZERO, FRAME);
     let cell = &layout::cells(&sheet, room, 40.0, 0)[0];
     // Explicit Euler swings wider than all others.
@@ -266,14 +267,14 @@ fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() 
     let place = |q: f64| Command::Act(Action::Place { body: 0, q: [q].into(), v: [0.0].into() });
     lab.apply(place(8.0));
     (0..300).for_each(|_| lab.tick());
-    let top = |lab: &Lab| sheet_of(lab).unwrap().plots[0].fit.max()[1];
+    let top = |lab: &Lab| sheet_of(lab, Detail::Samples).unwrap().plots[0].fit.max()[1];
     assert!((8.0..12.0).contains(&top(&lab)), "{}", top(&lab));
     lab.apply(place(0.5));
     (0..10).for_each(|_| lab.tick());
     assert!(top(&lab) > 8.0, "the new swing has only begun");
     (0..120).for_each(|_| lab.tick());
     assert!((0.5..1.0).contains(&top(&lab)), "{}", top(&lab));
-    let sheet = sheet_of(&lab).unwrap();
+    let sheet = sheet_of(&lab, Detail::Samples).unwrap();
     let plot = &sheet.plots[0];
     let pieces = plot.drawing(&lab, &plot.fit, 400.0).truth;
     let starts: Vec<[f64; 2]> = pieces.iter().map(|curve| curve.points[0]).collect();

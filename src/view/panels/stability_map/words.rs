@@ -24,30 +24,59 @@ pub(super) fn point_in_words(lab: &Lab, place: usize, tick_hz: u32, value: f64) 
     text.trim_end().to_owned()
 }
 
-/// What the methods do at the present point, and what the map does not draw, wrapped to a width.
-pub(super) fn sentence(ui: &Ui, lab: &Lab, map: &StabilityMap, width: f32) -> Arc<Galley> {
-    let mut job = counted_job(ui, lab, map, 13.0);
+/// What the methods do at the present point, and what the map does not draw, wrapped to a width; and the room that is left
+/// for that, in points: it does not change while the cross is moved.
+pub(super) fn sentence(ui: &Ui, lab: &Lab, map: &StabilityMap, width: f32) -> (Arc<Galley>, f32) {
     let notes = " Drag the cross to change both values at once.".to_owned() + &notes(map);
-    append(&mut job, &notes, FontId::proportional(12.0), ink(ui).dim);
-    job.wrap.max_width = width;
-    ui.painter().layout_job(job)
+    let wrapped = |mut job: LayoutJob| {
+        append(&mut job, &notes, FontId::proportional(12.0), ink(ui).dim);
+        job.wrap.max_width = width;
+        ui.painter().layout_job(job)
+    };
+    let words = wrapped(counted_job(ui, lab, map, 13.0));
+    let room = wrapped(job(ui, &longest(lab, map), 13.0)).size().y;
+    let height = room.max(words.size().y);
+    (words, height)
 }
 
-/// What the methods do at the present point, in one line that is cut off at a width.
-pub(super) fn short_sentence(ui: &Ui, lab: &Lab, map: &StabilityMap, width: f32) -> Arc<Galley> {
+/// What the methods do at the present point, in one line that is cut off at a width, and its height in points.
+pub(super) fn short_sentence(
+    ui: &Ui,
+    lab: &Lab,
+    map: &StabilityMap,
+    width: f32,
+) -> (Arc<Galley>, f32) {
     let mut job = counted_job(ui, lab, map, 12.0);
     job.wrap = TextWrapping::truncate_at_width(width);
-    ui.painter().layout_job(job)
+    let words = ui.painter().layout_job(job);
+    let height = words.size().y;
+    (words, height)
 }
 
 fn counted_job(ui: &Ui, lab: &Lab, map: &StabilityMap, size: f32) -> LayoutJob {
     let MapRequest { parameter, tick_hz, .. } = &map.request;
     let here = point_in_words(lab, *parameter, *tick_hz, map.request.value());
+    let does = if map.here.is_empty() { "judging …".to_owned() } else { counted(map) };
+    job(ui, &[here, does], size)
+}
+
+/// A point of the map, and what the methods do there.
+fn job(ui: &Ui, [here, does]: &[String; 2], size: f32) -> LayoutJob {
     let mut job = LayoutJob::default();
     append(&mut job, &format!("{here}: "), strong_font(size), ink(ui).text);
-    let does = if map.here.is_empty() { "judging …".to_owned() } else { counted(map) };
-    append(&mut job, &does, FontId::proportional(size), ink(ui).text);
+    append(&mut job, does, FontId::proportional(size), ink(ui).text);
     job
+}
+
+/// The longest that the words about a point of this map become.
+fn longest(lab: &Lab, map: &StabilityMap) -> [String; 2] {
+    let MapRequest { parameter, rates_hz, range, specs, .. } = &map.request;
+    let here = range.map(|value| point_in_words(lab, *parameter, rates_hz[1] as u32, value));
+    let names = specs.iter().map(|(_, spec)| spec.method.name);
+    let name = names.max_by_key(|name| name.chars().count()).unwrap_or_default();
+    let all = specs.len();
+    let does = format!("{all} of {all} methods are stable. {name} {}.", growth(0.001_23));
+    [here.into_iter().max_by_key(|here| here.chars().count()).unwrap_or_default(), does]
 }
 
 fn append(job: &mut LayoutJob, text: &str, font_id: FontId, color: Color32) {
