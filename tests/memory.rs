@@ -1,6 +1,5 @@
 //! What the program holds on to after thousands of random events: the laboratory, the panels and the renderer, without a
 //! window. Every byte is counted, which the memory of a process does not tell so closely.
-#![expect(unsafe_code, reason = "a global allocator that counts can only be written so")]
 #![cfg(feature = "desktop")]
 
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
@@ -23,6 +22,7 @@ static HELD: AtomicIsize = AtomicIsize::new(0);
 struct Counting;
 
 // SAFETY: everything is passed on unchanged; the count needs no allocation.
+#[expect(unsafe_code, reason = "a global allocator that counts can only be written so")]
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         HELD.fetch_add(layout.size() as isize, Ordering::Relaxed);

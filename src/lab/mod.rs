@@ -69,8 +69,8 @@ pub use loop_lab::{
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use one_step::{FORMULAS, Formula, OneStep, Slope};
 pub use past::{
-    CAPACITY, Energies, History, MOST_SUMMED, Past, Run, Sample, Samples, Summary, SweptRange,
-    TruthCurve, TruthSample,
+    CAPACITY, Energies, History, Past, Run, Sample, Samples, Summary, SweptRange, TruthCurve,
+    TruthSample,
 };
 pub use race::{Entrant, Mode, Observer, Race};
 pub use scene::{

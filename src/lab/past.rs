@@ -10,14 +10,16 @@ use history::HistoryMark;
 
 mod energies;
 mod history;
+mod sample;
 mod summary;
 mod swept_range;
 mod truth_curve;
 mod windowed_log;
 
 pub use energies::Energies;
-pub use history::{CAPACITY, History, Run, Sample, Samples};
-pub use summary::{MOST_SUMMED, Summary};
+pub use history::{History, Run, Samples};
+pub use sample::{CAPACITY, Sample};
+pub use summary::Summary;
 pub use swept_range::SweptRange;
 use truth_curve::TruthMark;
 pub use truth_curve::{TruthCurve, TruthSample};

@@ -142,6 +142,9 @@ impl Gpu {
             ..wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits())
         };
         let max_texture_side_px = limits.max_texture_dimension_2d;
+        if info.device_type == wgpu::DeviceType::Cpu {
+            keep_freed_memory();
+        }
         let request = adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("regatta"),
             required_limits: limits,
@@ -187,6 +190,18 @@ impl Gpu {
 pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instance {
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     wgpu::Instance::new(descriptor)
+}
+
+/// Has the C library keep what a frame frees, for the next frame.
+///
+/// A software driver allocates some 16 MB for a frame and frees them after it. Handed back to the system, they are cleared
+/// and mapped again page by page, which takes a third of the time of a frame. glibc keeps twice as much as the largest
+/// block that it mapped alone and was given back; other libraries take no notice.
+fn keep_freed_memory() {
+    /// In bytes.
+    const BLOCK: usize = 16 << 20;
+    // It is reserved and not used, so that it takes no memory itself.
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(BLOCK)));
 }
 
 fn title(info: &wgpu::AdapterInfo) -> String {

@@ -6,74 +6,16 @@
 use std::collections::vec_deque;
 use std::{iter, option};
 
-use glam::DVec2;
-
-use super::energies::Energies;
+use super::sample::{CAPACITY, SPARE, Sample};
 use super::summary::{MOST_SUMMED, Summary, SummaryLog, SummaryMark};
 use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
-use crate::lab::lane::LaneBody;
-use crate::lab::metrics::METRICS;
-
-/// The most samples shown: every tick of 30 s at 60 Hz, and more than a plot has pixels.
-pub const CAPACITY: usize = 2048;
-
-/// Further samples that are kept for going back without a repetition: 17 s at 60 Hz.
-pub(super) const SPARE: usize = 1024;
-
-/// One moment of a body.
-#[derive(Clone, Debug)]
-pub struct Sample {
-    /// Time in seconds.
-    pub t: f64,
-    /// The first coordinate.
-    pub q: f64,
-    /// The range of the first coordinate since the sample before.
-    pub swept: SweptRange,
-    /// Its velocity.
-    pub v: f64,
-    /// Where the body was, in metres.
-    pub at: DVec2,
-    /// Its energies, if it conserves energy.
-    pub energies: Option<Energies>,
-    /// The lane's place on the list of methods at that moment: a trail changes colour at a switch.
-    pub entry: usize,
-    /// One value for each of [`METRICS`]; NaN where it has no meaning.
-    pub metrics: [f64; METRICS.len()],
-    /// Whether the body was put here, so that no path leads from the sample before.
-    pub jumped: bool,
-}
-
-/// Compares bits.
-impl PartialEq for Sample {
-    fn eq(&self, other: &Self) -> bool {
-        let numbers = |s: &Self| [s.t, s.q, s.v, s.at.x, s.at.y].map(f64::to_bits);
-        let metrics = |s: &Self| s.metrics.map(f64::to_bits);
-        let energies = |s: &Self| s.energies.map(Energies::to_bits);
-        numbers(self) == numbers(other)
-            && energies(self) == energies(other)
-            && metrics(self) == metrics(other)
-            && (self.entry, self.jumped, self.swept) == (other.entry, other.jumped, other.swept)
-    }
-}
-
-impl Sample {
-    /// The present of `body`, in a lane whose method has place `entry`.
-    pub(in crate::lab) fn new(t: f64, entry: usize, body: &LaneBody, truth: &LaneBody) -> Self {
-        let (q, v) = (body.stepper.q()[0], body.stepper.v()[0]);
-        let metrics =
-            std::array::from_fn(|i| (METRICS[i].measure)(body, truth).unwrap_or(f64::NAN));
-        let (swept, at) = (SweptRange::at(q), body.stepper.place());
-        let energies = Energies::of(&*body.stepper);
-        Self { t, q, swept, v, at, energies, entry, metrics, jumped: false }
-    }
-}
 
 /// The recent past of one body in one lane, oldest first.
 #[derive(Debug)]
 pub struct History {
     samples: WindowedLog<Sample>,
-    summaries: SummaryLog,
+    summaries: [SummaryLog; MOST_SUMMED.len()],
     /// The present, if no sample is due at it.
     present: Option<Sample>,
     /// The range of the first coordinate since the newest sample.
@@ -85,7 +27,7 @@ pub struct History {
 pub(super) struct HistoryMark {
     /// The number of samples since the start.
     samples: u64,
-    summaries: SummaryMark,
+    summaries: [SummaryMark; MOST_SUMMED.len()],
     since: SweptRange,
 }
 
@@ -106,7 +48,7 @@ impl History {
     pub fn new() -> Self {
         Self {
             samples: WindowedLog::new(CAPACITY, SPARE),
-            summaries: SummaryLog::new(),
+            summaries: MOST_SUMMED.map(SummaryLog::new),
             present: None,
             since: SweptRange::NOTHING,
         }
@@ -117,12 +59,16 @@ impl History {
         self.after(0)
     }
 
-    /// The samples in fewer records, of [`MOST_SUMMED`] at most, oldest first; `None` where they do not reach as far back.
-    pub fn summaries(&self) -> Option<impl Iterator<Item = Summary>> {
-        let oldest = self.samples.range(MOST_SUMMED.min(self.samples.len())).next();
-        let reaches = |summary: Summary| oldest.is_none_or(|oldest| summary.t <= oldest.t);
-        let all = self.summaries.shown().chain(self.present.as_ref().map(Summary::of));
-        self.summaries.shown().next().is_none_or(reaches).then_some(all)
+    /// The samples in fewer records, oldest first: in the fewest that are `least` at least and reach as far back. `None` if
+    /// there are none such.
+    pub fn summaries(&self, least: usize) -> Option<impl Iterator<Item = Summary>> {
+        self.summaries.iter().zip(MOST_SUMMED).find_map(|(log, most_summed)| {
+            let oldest = self.samples.range(most_summed.min(self.samples.len())).next();
+            let reaches = |summary: Summary| oldest.is_none_or(|oldest| summary.t <= oldest.t);
+            let all = log.shown().chain(self.present.as_ref().map(Summary::of));
+            let is_enough = all.size_hint().0 >= least && log.shown().next().is_none_or(reaches);
+            is_enough.then_some(all)
+        })
     }
 
     fn after(&self, skipped: usize) -> Samples<'_> {
@@ -176,7 +122,7 @@ impl History {
     fn begin_at(&mut self, now: Sample) {
         self.present = None;
         self.since = SweptRange::NOTHING;
-        self.summaries.push(&now);
+        self.summaries.iter_mut().for_each(|log| log.push(&now));
         self.samples.push(now);
     }
 
@@ -204,7 +150,7 @@ impl History {
         {
             now.jumped |= newest.jumped;
             self.samples.pop();
-            self.summaries.pop();
+            self.summaries.iter_mut().for_each(SummaryLog::pop);
         }
         let newest = self.samples.newest();
         let is_new = |newest: &Sample| {
@@ -224,7 +170,7 @@ impl History {
     pub(super) fn mark(&self) -> HistoryMark {
         HistoryMark {
             samples: self.samples.mark(),
-            summaries: self.summaries.mark(),
+            summaries: self.summaries.each_ref().map(SummaryLog::mark),
             since: self.since,
         }
     }
@@ -239,13 +185,13 @@ impl History {
         self.present = None;
         self.since = mark.since;
         self.samples.rewind(mark.samples);
-        self.summaries.rewind(mark.summaries);
+        self.summaries.iter_mut().zip(mark.summaries).for_each(|(log, mark)| log.rewind(mark));
     }
 
     /// Forgets the future: another one begins.
     pub(super) fn forget_future(&mut self) {
         self.samples.forget_future();
-        self.summaries.forget_future();
+        self.summaries.iter_mut().for_each(SummaryLog::forget_future);
     }
 }
 
@@ -257,7 +203,10 @@ impl Default for History {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
+
     use super::*;
+    use crate::lab::metrics::METRICS;
 
     fn sample(t: f64, entry: usize) -> Sample {
         Sample {
@@ -379,7 +328,7 @@ mod tests {
 
     /// What each summary has: the time, the method, how far it sweeps and whether it begins at a jump.
     fn summaries(history: &History) -> Vec<(f64, usize, [f64; 2], bool)> {
-        let summaries = history.summaries().expect("they reach as far back");
+        let summaries = history.summaries(0).expect("they reach as far back");
         summaries.map(|s| (s.t, s.entry, s.swept.ends(), s.jumped)).collect()
     }
 
@@ -418,12 +367,15 @@ mod tests {
         }
         (5501..6000).for_each(|t| tick(&mut history, t));
         assert_eq!(summaries(&history), seen[5999].1);
-        assert!(seen[5999].1.len() > CAPACITY / MOST_SUMMED);
+        assert!(seen[5999].1.len() > CAPACITY / 4);
+        let at_least = |least: usize| history.summaries(least).map(Iterator::count);
+        assert_eq!(at_least(600).map(|count| count / 10), Some(CAPACITY / 20));
+        assert_eq!((at_least(400), at_least(1200)), (Some(seen[5999].1.len()), None));
         history.rewind(seen[100].0);
         (101..4000).for_each(|t| tick(&mut history, t));
-        assert!(summaries(&history).len() > CAPACITY / MOST_SUMMED);
+        assert!(summaries(&history).len() > CAPACITY / 4);
         switch(&mut history, 4000.0, 0, 1);
         (0..1200).for_each(|t| switch(&mut history, 4001.0 + f64::from(t), 1, 2));
-        assert!(history.summaries().is_none(), "short runs fill them too soon");
+        assert!(history.summaries(0).is_none(), "short runs fill them too soon");
     }
 }

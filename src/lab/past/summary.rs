@@ -1,15 +1,14 @@
 //! The samples of a history in fewer records: what a plot shows that has fewer columns than there are samples.
 
+use std::collections::vec_deque;
 use std::{iter, option};
 
-use std::collections::vec_deque;
-
-use super::history::{CAPACITY, SPARE, Sample};
+use super::sample::{CAPACITY, SPARE, Sample};
 use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
 
-/// The most samples that a summary stands for.
-pub const MOST_SUMMED: usize = 4;
+/// The most samples that a summary stands for, one for each log, the fewest summaries first.
+pub(super) const MOST_SUMMED: [usize; 2] = [4, 2];
 
 /// Consecutive samples of one motion under one method.
 #[derive(Clone, Copy, Debug)]
@@ -61,6 +60,7 @@ type Unfinished = Option<(Summary, usize)>;
 /// The summaries of a history.
 #[derive(Debug)]
 pub(super) struct SummaryLog {
+    most_summed: usize,
     whole: WindowedLog<Summary>,
     last: Unfinished,
 }
@@ -77,9 +77,10 @@ pub(super) type Summaries<'l> =
     iter::Chain<iter::Copied<vec_deque::Iter<'l, Summary>>, option::IntoIter<Summary>>;
 
 impl SummaryLog {
-    pub(super) fn new() -> Self {
-        let whole = WindowedLog::new(CAPACITY / MOST_SUMMED + 1, SPARE / MOST_SUMMED);
-        Self { whole, last: None }
+    /// A log of summaries that stand for so many samples at most.
+    pub(super) fn new(most_summed: usize) -> Self {
+        let whole = WindowedLog::new(CAPACITY / most_summed + 1, SPARE / most_summed);
+        Self { most_summed, whole, last: None }
     }
 
     pub(super) fn shown(&self) -> Summaries<'_> {
@@ -89,7 +90,7 @@ impl SummaryLog {
     /// Adds a sample. Never allocates.
     pub(super) fn push(&mut self, sample: &Sample) {
         let next = Summary::of(sample);
-        let together = self.last.filter(|(_, count)| *count < MOST_SUMMED);
+        let together = self.last.filter(|(_, count)| *count < self.most_summed);
         let together = together.and_then(|(last, count)| Some((last.and(next)?, count + 1)));
         if together.is_none()
             && let Some((last, _)) = self.last

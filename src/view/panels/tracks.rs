@@ -34,11 +34,11 @@ pub(super) enum Detail {
 }
 
 impl Detail {
-    /// Whether so many points are enough.
-    fn is_met_by(self, points: usize) -> bool {
+    /// So many points of a curve are enough.
+    fn least_points(self) -> usize {
         match self {
-            Self::Samples => false,
-            Self::Columns(columns) => points as f32 >= columns,
+            Self::Samples => usize::MAX,
+            Self::Columns(columns) => columns.ceil() as usize,
         }
     }
 }
@@ -88,11 +88,9 @@ impl Track {
             swept: s.swept.ends(),
             jumped: s.jumped,
         };
-        let points = |history: &History| match history.summaries() {
-            Some(summaries) if detail.is_met_by(summaries.size_hint().0) => {
-                finite(summaries.map(point))
-            }
-            _ => finite(history.samples().map(|sample| point(Summary::of(sample)))),
+        let points = |history: &History| match history.summaries(detail.least_points()) {
+            Some(summaries) => finite(summaries.map(point)),
+            None => finite(history.samples().map(|sample| point(Summary::of(sample)))),
         };
         Self::of_histories(lab, body, points)
     }
@@ -299,115 +297,4 @@ fn runs(points: &[Point]) -> impl Iterator<Item = &[Point]> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lab::{Action, Command, Scene};
-
-    const LOOK: Look = Look { width: 1.0, dots: Dots::None, bounded: [false, true] };
-
-    fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
-        ink_of(lab.display().theme).style(&lab.entries()[entry]).0
-    }
-
-    fn drawn(lab: &Lab, low: f64, high: f64) -> Drawing {
-        let bounds = PlotBounds::from_min_max([0.0, low], [20.0, high]);
-        drawing(lab, &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, LOOK)
-    }
-
-    fn tick(lab: &mut Lab, ticks: u32) {
-        (0..ticks).for_each(|_| lab.tick());
-    }
-
-    #[test]
-    fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        let flown = [(3, 60), (1, 90), (4, 30)];
-        for (entry, ticks) in flown {
-            lab.apply(Command::Pick(entry));
-            tick(&mut lab, ticks);
-        }
-        let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
-        let colours: Vec<_> = curves.iter().map(|curve| curve.colour).collect();
-        assert_eq!(colours, flown.map(|(entry, _)| colour_of(&lab, entry)));
-        let dashes =
-            flown.map(|(entry, _)| ink_of(lab.display().theme).style(&lab.entries()[entry]).1);
-        assert!(curves.iter().map(|curve| curve.dash).eq(dashes));
-        for (before, after) in curves.iter().zip(&curves[1..]) {
-            assert_eq!(before.points.last(), after.points.first(), "one line");
-        }
-        assert!(arrows.is_empty());
-        let marks: Vec<_> = switches.iter().map(|switch| (switch.at[0], switch.colour)).collect();
-        assert_eq!(marks, [(1.0, colour_of(&lab, 1)), (2.5, colour_of(&lab, 4))]);
-    }
-
-    #[test]
-    fn a_switch_after_a_halt_is_marked_where_the_other_method_took_over() {
-        let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
-        lab.apply(Command::Pick(0));
-        while lab.race().entrants()[0].lane.halted().is_none() {
-            lab.tick();
-            assert!(lab.race().tick() < 1000);
-        }
-        tick(&mut lab, 30);
-        let taken_over = lab.race().t();
-        lab.apply(Command::Pick(3));
-        tick(&mut lab, 30);
-        let marks: Vec<_> =
-            drawn(&lab, -2.0, 2.0).switches.iter().map(|switch| switch.at[0]).collect();
-        assert_eq!(marks, [taken_over]);
-    }
-
-    #[test]
-    fn a_lane_that_grows_out_of_the_plot_ends_there_with_an_arrow() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        lab.apply(Command::Pick(0));
-        lab.apply(Command::Restart);
-        tick(&mut lab, 900);
-        let Drawing { curves, arrows, .. } = drawn(&lab, -1.5, 1.5);
-        assert_eq!((curves.len(), arrows.len()), (1, 1));
-        let points = &curves[0].points;
-        let (last, inside) = points.split_last().unwrap();
-        assert!(inside.iter().all(|point| point[1].abs() <= 1.5) && last[1].abs() > 1.5);
-        assert_eq!(arrows[0].to, *last);
-        assert!(last[0] < 3.0, "it passes the plot at every swing later on");
-    }
-
-    #[test]
-    fn a_lane_that_comes_back_to_stay_is_drawn_again() {
-        let points: Vec<Point> = (0..100)
-            .map(|i| {
-                let y = if (20..30).contains(&i) || i == 35 { 9.0 } else { 0.0 };
-                let at = [f64::from(i), y];
-                Point { t: f64::from(i), entry: 0, at, swept: [y; 2], jumped: false }
-            })
-            .collect();
-        let found = stays(&points, |point| point.at[1] < 1.0, 10.0);
-        assert_eq!(found, [0..=19, 36..=99]);
-    }
-
-    #[test]
-    fn no_stroke_leads_to_where_a_body_was_put() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        tick(&mut lab, 60);
-        lab.apply(Command::Act(Action::Place { body: 0, q: [0.5].into(), v: [0.0].into() }));
-        tick(&mut lab, 60);
-        let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
-        assert_eq!((curves.len(), arrows.len(), switches.len()), (2, 0, 0));
-        assert_eq!(curves[0].points.last().map(|at| at[0]), Some(1.0));
-        assert_eq!(curves[1].points[0], [1.0, 0.5]);
-        let since = Track::of(&lab, 0, |s| [s.t, s.q])[0].since(1.0);
-        assert_eq!(since.points[0].at, [1.0, 0.5], "where it was before is not of it");
-    }
-
-    #[test]
-    fn a_method_that_flies_outside_all_along_has_an_arrow_of_its_own() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        lab.apply(Command::Pick(0));
-        tick(&mut lab, 600);
-        lab.apply(Command::Pick(1));
-        tick(&mut lab, 100);
-        let Drawing { arrows, .. } = drawn(&lab, -1.5, 1.5);
-        assert!(arrows.iter().any(|arrow| arrow.colour == colour_of(&lab, 0)));
-        assert!(arrows.iter().any(|arrow| arrow.colour == colour_of(&lab, 1)));
-    }
-}
+mod tests;

@@ -1,0 +1,145 @@
+use super::*;
+use crate::lab::picture::Picture;
+use crate::lab::picture::{Cap, Shape, Stroke};
+use crate::view::curves;
+use crate::view::curves::{Curve, Dots};
+use crate::view::testing::{EVERYWHERE, Pixels, gpu_or_skip, read};
+use crate::view::{AdapterPreference, Offscreen};
+
+fn red_everywhere() -> Picture {
+    let stroke = Stroke {
+        from: [-1000.0; 2],
+        to: [1000.0; 2],
+        radii: [2000.0; 2],
+        colour: [255, 0, 0, 255],
+        cap: Cap::Round,
+        clip: EVERYWHERE,
+    };
+    Picture { shapes: vec![Shape::Stroke(stroke)], ..Picture::default() }
+}
+
+/// A panel 40 points wide at the left; the stage is the rest.
+fn show(ui: &mut egui::Ui, picture: &Picture) -> Option<Stage> {
+    let frame = egui::Frame::NONE.fill(egui::Color32::GREEN);
+    egui::Panel::left("panel").exact_size(40.0).frame(frame).show(ui, |_| ());
+    Some(Stage { rect: ui.available_rect_before_wrap(), picture: picture.clone() })
+}
+
+fn draw(gpu: &Gpu, size_px: [u32; 2], scale: f32, picture: &Picture) -> Pixels {
+    let target = Offscreen::new(gpu, size_px).unwrap();
+    let mut renderer = FrameRenderer::new(gpu, Offscreen::FORMAT);
+    let input = egui::RawInput::default();
+    let layout = renderer.lay_out_with(gpu, size_px, scale, input, |ui| show(ui, picture));
+    let output = renderer.paint(gpu, &target.view, size_px, layout);
+    read(gpu, output.drawing, &target)
+}
+
+#[test]
+fn the_stage_fills_what_the_panels_leave() {
+    let Some(gpu) = gpu_or_skip("the_stage_fills_what_the_panels_leave") else { return };
+    for scale in [1.0, 2.0] {
+        let pixels = draw(&gpu, [200, 100], scale, &red_everywhere());
+        let edge = (40.0 * scale) as u32;
+        assert_eq!(pixels.at(edge / 2, 50), [0, 255, 0, 255]);
+        assert_eq!(pixels.at(edge + 2, 50), [255, 0, 0, 255]);
+        assert_eq!(pixels.at(199, 99), [255, 0, 0, 255]);
+    }
+}
+
+#[test]
+fn a_frame_of_one_pixel_is_drawn() {
+    let Some(gpu) = gpu_or_skip("a_frame_of_one_pixel_is_drawn") else { return };
+    for scale in [0.5, 1.0, 3.0] {
+        let pixels = draw(&gpu, [1, 1], scale, &red_everywhere());
+        assert_eq!(pixels.at(0, 0)[3], 255);
+    }
+}
+
+#[test]
+fn labels_are_written_on_the_stage() {
+    let Some(gpu) = gpu_or_skip("labels_are_written_on_the_stage") else { return };
+    let label = |align| Label {
+        at: [80.0, 50.0],
+        align,
+        size: 20.0,
+        colour: [255; 4],
+        is_strong: false,
+        halo: [0; 4],
+        text: "HHHH".to_owned(),
+    };
+    let lit = |align| {
+        let picture = Picture { labels: vec![label(align)], ..Picture::default() };
+        let pixels = draw(&gpu, [200, 100], 1.0, &picture);
+        let bright = |x: u32| (0..100).any(|y| pixels.at(x, y)[0] > 200);
+        let left = (40..120).filter(|&x| bright(x)).count();
+        let right = (120..200).filter(|&x| bright(x)).count();
+        (left > 0, right > 0)
+    };
+    assert_eq!(lit(Align::Left), (false, true));
+    assert_eq!(lit(Align::Right), (true, false));
+    assert_eq!(lit(Align::Centre), (true, true));
+}
+
+#[test]
+fn a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip() {
+    let test = "a_curve_is_drawn_in_its_dashes_and_no_further_than_the_clip";
+    let Some(gpu) = gpu_or_skip(test) else { return };
+    let target = Offscreen::new(&gpu, [128, 64]).unwrap();
+    let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+    let curve = |dash| Curve {
+        colour: egui::Color32::RED,
+        width: 4.0,
+        dash,
+        dots: Dots::None,
+        points: Vec::new(),
+        swept: Vec::new(),
+    };
+    let input = egui::RawInput::default();
+    let layout = renderer.lay_out_with(&gpu, [128, 64], 1.0, input, |ui| {
+        let clip = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(100.0, 64.0));
+        let painter = ui.painter().with_clip_rect(clip);
+        for (y, dash) in [(20.0, [8.0, 6.0]), (40.0, [8.0, 0.0])] {
+            let ends = [egui::pos2(10.0, y), egui::pos2(120.0, y)];
+            assert!(curves::paint(&painter, &ends, &[], &curve(dash)));
+        }
+        None
+    });
+    let output = renderer.paint(&gpu, &target.view, [128, 64], layout);
+    let pixels = read(&gpu, output.drawing, &target);
+    for x in 10..128 {
+        let [dashed, solid] = [20, 40].map(|y| pixels.at(x, y)[0]);
+        assert_eq!(solid > 250, x < 100, "{x}");
+        // Half a pixel from the ends of a dash lies its blur.
+        let into_pattern = (x as f32 + 0.5 - 10.0) % 14.0;
+        if x < 100 && (0.5..7.0).contains(&into_pattern) {
+            assert!(dashed > 250, "{x} is in a dash");
+        } else if x >= 100 || (9.0..13.0).contains(&into_pattern) {
+            assert!(dashed < 10, "{x} is in a gap");
+        }
+    }
+}
+
+#[test]
+fn the_same_input_makes_the_same_frame() {
+    let Some(gpu) = gpu_or_skip("the_same_input_makes_the_same_frame") else { return };
+    let frame = || draw(&gpu, [120, 90], 1.5, &red_everywhere()).rows;
+    assert_eq!(frame(), frame());
+}
+
+#[test]
+fn a_lost_device_does_not_panic_and_a_new_one_draws() {
+    let test = "a_lost_device_does_not_panic_and_a_new_one_draws";
+    let Some(gpu) = gpu_or_skip(test) else { return };
+    let target = Offscreen::new(&gpu, [64, 64]).unwrap();
+    let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+    gpu.device.destroy();
+    let picture = red_everywhere();
+    let input = egui::RawInput::default();
+    let layout = renderer.lay_out_with(&gpu, [64, 64], 1.0, input, |ui| show(ui, &picture));
+    let output = renderer.paint(&gpu, &target.view, [64, 64], layout);
+    assert!(gpu.is_lost());
+    assert!(output.drawing.is_none());
+
+    let gpu = Gpu::headless(AdapterPreference::CpuOnly).unwrap();
+    assert_eq!(draw(&gpu, [64, 64], 1.0, &picture).at(60, 60), [255, 0, 0, 255]);
+}
