@@ -2,7 +2,7 @@
 
 use regatta::lab::palette::Theme;
 use regatta::lab::picture::{FAR, Picture, Shape, Whose, compose};
-use regatta::lab::{Command, ESCAPE, Lab, Mode, SCENES, Scene};
+use regatta::lab::{Command, ESCAPE, Lab, LoopCommand, Mode, SCENES, Scene};
 
 fn assert_drawable(picture: &Picture, what: &str) {
     let finite = |values: &[f32]| values.iter().all(|x| x.is_finite() && x.abs() <= 2.0 * FAR);
@@ -314,5 +314,31 @@ fn a_body_off_the_stage_is_told_of_by_its_place_at_the_tick_however_it_is_drawn(
         assert!(is_of_tick, "{said} m, at {place} m");
         lab.advance(100_000_000);
         lab.apply(Command::NextInterpolation);
+    }
+}
+
+#[test]
+fn loops_over_each_other_are_named_below_and_numbered_above_their_bodies() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
+    let below = compose(&lab, [780.0, 500.0]);
+    lab.apply(Command::ToggleArrangement);
+    let over = compose(&lab, [780.0, 500.0]);
+    let exact = |picture: &Picture| {
+        let colour = lab.display().theme.palette().exact;
+        let is_exact = |shape: &&Shape| match shape {
+            Shape::Path(path) => path.points.iter().all(|point| point.colour == colour),
+            _ => false,
+        };
+        picture.shapes.iter().filter(is_exact).count()
+    };
+    let loops = lab.loop_lab().unwrap();
+    let count = loops.on_stage().len();
+    assert_eq!(exact(&below), count * exact(&over), "one exact body");
+    for &place in loops.on_stage() {
+        let starts = |words: &str| over.labels.iter().any(|label| label.text.starts_with(words));
+        assert!(starts(&format!("{} {} · ", place + 1, loops.lanes()[place].card().name)));
+        assert!(over.labels.iter().any(|label| label.text == (place + 1).to_string()));
     }
 }

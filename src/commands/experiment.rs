@@ -161,13 +161,26 @@ impl Experiment {
 /// The built-in trace of this id, for the command line's parser.
 pub(super) fn known_trace(id: &str) -> Result<&'static TraceCard, String> {
     let spellings = TRACES.iter().map(|card| (card.id, card.id));
-    trace_card(id).ok_or_else(|| no_such("trace", "traces", nearest(id, spellings)))
+    trace_card(id).ok_or_else(|| {
+        if is_path(id) {
+            return "only built-in traces are taken here; drop the file on the window, open it there with O, or \
+                    give it to `regatta loop --trace`"
+                .into();
+        }
+        no_such("trace", "traces", nearest(id, spellings))
+    })
 }
 
 /// The policy of this id, for the command line's parser.
 pub(super) fn known_policy(id: &str) -> Result<&'static PolicyCard, String> {
     let spellings = POLICIES.iter().flat_map(|card| [(card.id, card.id), (card.name, card.id)]);
     policy(id).ok_or_else(|| no_such("policy", "policies", nearest(id, spellings)))
+}
+
+/// Whether what is meant to be an id looks like the path of a file.
+fn is_path(id: &str) -> bool {
+    Path::new(id).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
+        || id.contains(['/', '\\'])
 }
 
 /// What is said of an id that is not on a list; another one that is may have been meant.

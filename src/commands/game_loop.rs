@@ -113,7 +113,7 @@ pub(super) struct LoopArgs {
     #[arg(long, value_name = "FILE")]
     frames: Option<PathBuf>,
 
-    /// Draw the moment shown against the moment of display, and a ranking, as PNG into FILE
+    /// Draw the moment shown against the moment of display, over the first trace, and a ranking, as PNG into FILE
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 
@@ -123,6 +123,10 @@ pub(super) struct LoopArgs {
 
     /// Print this policy as source, to be taken into a game, and do nothing else
     #[arg(long, value_name = "ID", value_parser = known_policy)]
+    #[arg(conflicts_with_all = [
+        "policies", "traces", "tick_hz", "display_hz", "scene", "method", "seconds", "latency_ms", "format", "out",
+        "frames", "plot", "force",
+    ])]
     show: Option<&'static PolicyCard>,
 
     /// The language of --show: rust, c++ or c#

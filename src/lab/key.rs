@@ -54,7 +54,7 @@ pub struct Binding {
 pub static KEYS: &[Binding] = &[
     Binding {
         shown: "1 … 9, 0",
-        about: "solo: switch the bodies to that method, in flight; race: select that lane",
+        about: "solo: switch the bodies to that method, in flight; race, loop lab: select that lane",
         keys: &[
             (Key::Digit(1), Command::Pick(0)),
             (Key::Digit(2), Command::Pick(1)),
@@ -179,7 +179,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "V",
-        about: "race: lanes over each other / side by side; loop lab: the next display",
+        about: "race, loop lab: lanes over each other / side by side",
         keys: &[(Key::Sign('v'), Command::ToggleArrangement)],
         repeats: false,
     },
@@ -203,7 +203,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "T, Shift T",
-        about: "next, previous instrument",
+        about: "next, previous instrument; loop lab: display",
         keys: &[
             (Key::Sign('t'), Command::NextInstrument),
             (Key::ShiftSign('t'), Command::PreviousInstrument),

@@ -60,6 +60,7 @@ pub struct LoopLab {
     /// The range of the exact first coordinate.
     range: [f64; 2],
     on_stage: Vec<usize>,
+    is_overlaid: bool,
     selected: usize,
     now_ns: i64,
     end_ns: i64,
@@ -89,6 +90,7 @@ impl LoopLab {
             range: [0.0; 2],
             selected: 0,
             on_stage: places.collect(),
+            is_overlaid: false,
             now_ns: 0,
             end_ns: 0,
             slowness: SLOWNESS_AT_FIRST,
@@ -154,6 +156,10 @@ impl LoopLab {
     pub fn on_stage(&self) -> &[usize] {
         &self.on_stage
     }
+    /// Whether the stage has the lanes over each other, and not below each other.
+    pub fn is_overlaid(&self) -> bool {
+        self.is_overlaid
+    }
     /// The place of the selected lane.
     pub fn selected(&self) -> usize {
         self.selected
@@ -204,6 +210,11 @@ impl LoopLab {
     /// Sets how many times slower than real time it is played.
     pub fn set_slowness(&mut self, slowness: u32) {
         self.slowness = slowness.clamp(SLOWNESS[0], SLOWNESS[SLOWNESS.len() - 1]);
+    }
+
+    /// Puts the lanes of the stage over each other, or below each other.
+    pub(super) fn toggle_overlay(&mut self) {
+        self.is_overlaid = !self.is_overlaid;
     }
 
     /// Selects the lane at this place, and brings it on the stage.

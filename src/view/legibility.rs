@@ -182,6 +182,8 @@ fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
             lab.apply(Command::Loop(LoopCommand::ToggleLab));
             lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
             assert_legible(&lab, &format!("loop lab on {name}, {theme:?}"));
+            lab.apply(Command::ToggleArrangement);
+            assert_legible(&lab, &format!("loops over each other on {name}, {theme:?}"));
         }
     }
 }

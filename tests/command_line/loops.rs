@@ -184,8 +184,14 @@ fn mistakes_are_told_with_a_remedy() {
         ("--trace Cargo.toml", "Cargo.toml"),
         ("--out x.csv --frames x.csv", "the same place"),
         ("--language rust", "--show"),
+        ("--show fixed --frames x.csv", "--frames"),
+        ("--show fixed --tick-hz 30", "--tick-hz"),
     ] {
         let refused = refusal(&format!("loop {options}"), 2);
         assert!(refused.contains(says), "{options}: {refused}");
+    }
+    for command in ["capture", "play"] {
+        let refused = refusal(&format!("{command} --loop my/capture.csv"), 2);
+        assert!(refused.contains("drop the file on the window"), "{refused}");
     }
 }

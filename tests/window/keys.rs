@@ -96,7 +96,11 @@ fn in_the_loop_lab_keys_choose_loops_displays_rates_and_methods_and_leave_as_it_
     for (keys, commands) in [
         ("space", vec![Command::TogglePause]),
         ("6", vec![Command::Pick(5)]),
-        ("v", vec![Command::ToggleArrangement]),
+        ("t", vec![Command::NextInstrument]),
+        (
+            "v shift+t t",
+            vec![Command::ToggleArrangement, Command::PreviousInstrument, Command::NextInstrument],
+        ),
         ("bracketright", vec![Command::TickRateUp]),
         ("m n period", vec![Command::NextMethod, Command::NextScene, Command::TickForward]),
         ("l", vec![Command::Loop(LoopCommand::ToggleLab)]),

@@ -63,7 +63,7 @@ impl Lab {
         let Some(loops) = &mut self.loop_lab else { return Some(command) };
         self.viewer.notice = None;
         let tick_hz = loops.scene().tick_hz;
-        let slowness = loops.slowness();
+        let (slowness, traces) = (loops.slowness(), loops.traces().len());
         let frames_per_second = loops.traces()[loops.trace()].refresh().hz().round() as i64;
         match command {
             Command::Loop(command) => self.change_loop_lab(command),
@@ -72,8 +72,10 @@ impl Lab {
                 return Some(command);
             }
             Command::Pick(place) => loops.select(place),
-            Command::ToggleArrangement => {
-                loops.choose_trace((loops.trace() + 1) % loops.traces().len());
+            Command::ToggleArrangement => loops.toggle_overlay(),
+            Command::NextInstrument => loops.choose_trace((loops.trace() + 1) % traces),
+            Command::PreviousInstrument => {
+                loops.choose_trace((loops.trace() + traces - 1) % traces)
             }
             Command::Restart => loops.seek(0),
             Command::TickForward => self.step_loops(1),
@@ -131,8 +133,6 @@ impl Lab {
             | Command::NextInterpolation
             | Command::ToggleInspector
             | Command::Instrument(_)
-            | Command::NextInstrument
-            | Command::PreviousInstrument
             | Command::Metric(_)
             | Command::ExportInstrument
             | Command::Record

@@ -29,6 +29,8 @@ const BLOCK: f32 = 0.27;
 const LARGEST_BLOCK: f32 = 44.0;
 /// The foot of a band, in which its loop is named, in points.
 const FOOT: f32 = 30.0;
+/// The height of a line where several loops are named below each other, in points.
+const LINE: f32 = 18.0;
 /// How long the path of frames is, in seconds of the display.
 const PATH_S: f64 = 0.16;
 /// How much of the swing the stage shows beside it.
@@ -42,26 +44,94 @@ pub(super) fn compose(lab: &Lab, loops: &LoopLab, size: [f32; 2]) -> Picture {
     chart::sea(&mut picture, stage, palette);
     let has_ruler = size[1] >= ROOM_FOR_RULER;
     let top = if has_ruler { chart::RULER } else { 0.0 };
-    let on_stage = loops.on_stage();
-    let height = (size[1] - top) / on_stage.len() as f32;
-    let mut ruled = None;
-    for (row, &place) in on_stage.iter().enumerate() {
-        let from = top + height * row as f32;
-        let rect = Rect { min: [0.0, from], max: [size[0], from + height] };
-        if row > 0 {
-            let edge = line([0.0, from], [size[0], from], 1.0, faded(palette.chart, 0.35), rect);
-            picture.shapes.push(edge);
-        }
-        let lane = &loops.lanes()[place];
-        let colour = lab.display().theme.loop_style(place).0;
-        let band = Band { loops, lane, place, rect, colour, palette };
-        ruled = ruled.or(band.draw(&mut picture, lab.display().ghost));
-    }
+    let ground = Rect { min: [0.0, top], max: size };
+    let ruled = match loops.is_overlaid() {
+        true => overlay(&mut picture, lab, loops, ground),
+        false => side_by_side(&mut picture, lab, loops, ground),
+    };
     if let Some(camera) = ruled.filter(|_| has_ruler) {
         let strip = Rect { min: stage.min, max: [size[0], top] };
         chart::ruler(&mut picture, strip, &camera, palette);
     }
     picture
+}
+
+/// Draws a band for each loop on the stage. Returns the camera of the first, if it stays where it is.
+fn side_by_side(picture: &mut Picture, lab: &Lab, loops: &LoopLab, ground: Rect) -> Option<Camera> {
+    let palette = lab.display().theme.palette();
+    let on_stage = loops.on_stage();
+    let height = (ground.max[1] - ground.min[1]) / on_stage.len() as f32;
+    let mut ruled = None;
+    for (row, &place) in on_stage.iter().enumerate() {
+        let from = ground.min[1] + height * row as f32;
+        let rect = Rect { min: [0.0, from], max: [ground.max[0], from + height] };
+        if row > 0 {
+            let ends = [[0.0, from], [ground.max[0], from]];
+            let edge = line(ends[0], ends[1], 1.0, faded(palette.chart, 0.35), rect);
+            picture.shapes.push(edge);
+        }
+        let band = Band::new(lab, loops, place, rect, FOOT);
+        ruled = ruled.or(band.draw(picture, lab.display().ghost));
+    }
+    ruled
+}
+
+/// Draws all loops on the stage over each other, the selected one in front, and names them below. Returns the camera, if
+/// it stays where it is.
+fn overlay(picture: &mut Picture, lab: &Lab, loops: &LoopLab, ground: Rect) -> Option<Camera> {
+    let on_stage = loops.on_stage();
+    let is_selected = |place: usize| place == loops.selected();
+    let foot = FOOT + LINE * (on_stage.len() - 1) as f32;
+    let mut back_to_front = on_stage.to_vec();
+    back_to_front.sort_by_key(|&place| is_selected(place));
+    let bands: Vec<Band<'_>> =
+        back_to_front.into_iter().map(|place| Band::new(lab, loops, place, ground, foot)).collect();
+    let front = bands.last()?;
+    let exact = front.outline(&front.frames()?.last()?.exact);
+    let camera = front.camera(exact.at);
+    if lab.display().ghost {
+        front.ghost(picture, &camera, &exact);
+    }
+    for band in &bands {
+        let Some(frames) = band.frames() else { continue };
+        let drawn = band.outline(&frames[frames.len() - 1].q);
+        if is_selected(band.place) {
+            band.before(picture, &camera, frames);
+        }
+        if band.has_path() {
+            band.path(picture, &camera, frames);
+        }
+        band.body(picture, &camera, &drawn);
+    }
+    let mut above = camera.at[1] - 0.5 * camera.block - 9.0;
+    for (row, &place) in on_stage.iter().enumerate() {
+        let Some(band) = bands.iter().find(|band| band.place == place) else { continue };
+        let Some(frame) = band.frames().and_then(<[LoopFrame]>::last) else { continue };
+        let at = camera.points(band.outline(&frame.q).at);
+        let number = band.label([at[0], above], Align::Centre, 12.5, (place + 1).to_string());
+        if above > ground.min[1] + 0.5 * LINE {
+            picture.labels.push(Label { colour: band.colour, is_strong: true, ..number });
+        }
+        above -= LINE;
+        let y = ground.max[1] - foot + 0.5 * FOOT + LINE * row as f32;
+        let bar = [-6.0, 6.0].map(|up| [6.0, y + up]);
+        picture.shapes.push(line(bar[0], bar[1], 3.0, band.colour, ground));
+        band.name(
+            picture,
+            y,
+            &format!("{} {} · {}", place + 1, band.lane.card().name, lateness(frame)),
+        );
+    }
+    front.is_recorded().then_some(camera)
+}
+
+/// How far a frame is behind the moment of its display.
+fn lateness(frame: &LoopFrame) -> String {
+    match frame.latency_ms() {
+        late if late.abs() < 0.05 => "on time".into(),
+        late if late > 0.0 => format!("{} ms behind", round(late, 3)),
+        early => format!("{} ms ahead", round(-early, 3)),
+    }
 }
 
 /// The band of one loop.
@@ -70,11 +140,34 @@ struct Band<'a> {
     lane: &'a LoopLane,
     place: usize,
     rect: Rect,
+    /// The room for names at its foot, in points.
+    foot: f32,
     colour: Rgba,
     palette: &'static Palette,
 }
 
-impl Band<'_> {
+impl<'a> Band<'a> {
+    fn new(lab: &Lab, loops: &'a LoopLab, place: usize, rect: Rect, foot: f32) -> Self {
+        let theme = lab.display().theme;
+        let (lane, colour) = (&loops.lanes()[place], theme.loop_style(place).0);
+        Self { loops, lane, place, rect, foot, colour, palette: theme.palette() }
+    }
+
+    /// The frames up to the one that the display holds, if there is one.
+    fn frames(&self) -> Option<&'a [LoopFrame]> {
+        let present = self.lane.frame_at(self.loops.now_ns())?;
+        Some(&self.lane.frames()[..=present])
+    }
+
+    fn framing(&self) -> Framing {
+        let body = self.loops.body();
+        Look::of(body.kind).framing(&*body.stepper)
+    }
+
+    fn is_recorded(&self) -> bool {
+        matches!(self.framing(), Framing::Recorder { .. })
+    }
+
     fn size(&self) -> [f32; 2] {
         [0, 1].map(|axis| self.rect.max[axis] - self.rect.min[axis])
     }
@@ -86,7 +179,6 @@ impl Band<'_> {
 
     /// What the band shows of the body's world.
     fn camera(&self, exact: DVec2) -> Camera {
-        let body = self.loops.body();
         let [width, height] = self.size().map(f64::from);
         let [x, y] = [0, 1].map(|axis| (self.rect.min[axis] + self.rect.max[axis]) / 2.0);
         let plain = Camera {
@@ -98,7 +190,7 @@ impl Band<'_> {
             block: (BLOCK * height as f32).min(LARGEST_BLOCK),
             quay_m: 0.0,
         };
-        match Look::of(body.kind).framing(&*body.stepper) {
+        match self.framing() {
             Framing::Recorder { half_width_m } => {
                 let [least, most] = self.loops.range();
                 let reach = least.abs().max(most.abs());
@@ -119,49 +211,61 @@ impl Band<'_> {
     }
 
     fn has_path(&self) -> bool {
-        let body = self.loops.body();
-        let framing = Look::of(body.kind).framing(&*body.stepper);
-        matches!(framing, Framing::Recorder { .. }) && self.size()[1] >= ROOM_FOR_PATH
+        self.is_recorded() && self.size()[1] >= ROOM_FOR_PATH
     }
 
     /// Draws the band. Returns its camera, if that stays where it is.
     fn draw(&self, picture: &mut Picture, shows_ghost: bool) -> Option<Camera> {
-        let present = self.lane.frame_at(self.loops.now_ns())?;
-        let frames = &self.lane.frames()[..=present];
-        let frame = &frames[present];
+        let frames = self.frames()?;
+        let frame = frames.last()?;
         let exact = self.outline(&frame.exact);
         let camera = self.camera(exact.at);
-        let coat = |colour: Rgba, fill: f32| Coat { colour, dash: SOLID, fill };
-        for (strength, before) in distinct_before(frames) {
-            let outline = self.outline(&before.q);
-            let seen = Seen { outline: &outline, camera: &camera, palette: self.palette };
-            seen.behind(&mut picture.shapes, coat(faded(self.colour, strength), 0.12));
-        }
+        self.before(picture, &camera, frames);
         if self.has_path() {
             self.path(picture, &camera, frames);
         }
-        let drawn = self.outline(&frame.q);
-        let seen = Seen { outline: &drawn, camera: &camera, palette: self.palette };
         if shows_ghost {
-            let ghost = Seen { outline: &exact, camera: &camera, palette: self.palette };
-            ghost.behind(&mut picture.shapes, coat(self.palette.exact, 0.08));
+            self.ghost(picture, &camera, &exact);
         }
-        let framing = Look::of(self.loops.body().kind).framing(&*self.loops.body().stepper);
-        let is_recorded = matches!(framing, Framing::Recorder { .. });
-        // A coil would hide the frames before.
-        if !is_recorded {
-            seen.carried(&mut picture.shapes, coat(self.colour, 0.0));
-        }
-        seen.front(&mut picture.shapes, coat(self.colour, 0.0));
-        seen.number(picture, self.place + 1);
+        let drawn = self.outline(&frame.q);
+        self.body(picture, &camera, &drawn);
+        self.seen(&camera, &drawn).number(picture, self.place + 1);
         self.words(picture, &camera, frame, [drawn.at, exact.at]);
-        is_recorded.then_some(camera)
+        self.is_recorded().then_some(camera)
+    }
+
+    fn seen<'s>(&self, camera: &'s Camera, outline: &'s Outline) -> Seen<'s> {
+        Seen { outline, camera, palette: self.palette }
+    }
+
+    /// The frames before the one that the display holds.
+    fn before(&self, picture: &mut Picture, camera: &Camera, frames: &[LoopFrame]) {
+        for (strength, before) in distinct_before(frames) {
+            let outline = self.outline(&before.q);
+            let coat = Coat { colour: faded(self.colour, strength), dash: SOLID, fill: 0.12 };
+            self.seen(camera, &outline).behind(&mut picture.shapes, coat);
+        }
+    }
+
+    fn ghost(&self, picture: &mut Picture, camera: &Camera, exact: &Outline) {
+        let coat = Coat { colour: self.palette.exact, dash: SOLID, fill: 0.08 };
+        self.seen(camera, exact).behind(&mut picture.shapes, coat);
+    }
+
+    fn body(&self, picture: &mut Picture, camera: &Camera, drawn: &Outline) {
+        let seen = self.seen(camera, drawn);
+        let coat = || Coat { colour: self.colour, dash: SOLID, fill: 0.0 };
+        // A coil would hide the frames before.
+        if !self.is_recorded() {
+            seen.carried(&mut picture.shapes, coat());
+        }
+        seen.front(&mut picture.shapes, coat());
     }
 
     /// Where the frames have shown the body, as a staircase in time, beside where it was.
     fn path(&self, picture: &mut Picture, camera: &Camera, frames: &[LoopFrame]) {
         let now_ns = frames[frames.len() - 1].displayed_ns;
-        let [top, bottom] = [camera.at[1] + 0.8 * camera.block, self.rect.max[1] - FOOT];
+        let [top, bottom] = [camera.at[1] + 0.8 * camera.block, self.rect.max[1] - self.foot];
         let y = |ns: i64| {
             let ago_s = (now_ns - ns) as f64 / 1e9;
             top + (bottom - top) * (ago_s / PATH_S) as f32
@@ -182,19 +286,33 @@ impl Band<'_> {
         picture.shapes.push(path(held, 2.2, self.colour, SOLID, self.rect));
     }
 
+    fn label(&self, at: [f32; 2], align: Align, size: f32, text: String) -> Label {
+        let halo = faded(self.palette.sea[1], 0.85);
+        Label { at, align, size, colour: self.palette.text, is_strong: false, halo, text }
+    }
+
+    /// The loop's name at this height, and where there is room, its verdict.
+    fn name(&self, picture: &mut Picture, y: f32, name: &str) {
+        let [left, right] = [self.rect.min[0] + 14.0, self.rect.max[0] - 14.0];
+        let name = self.label([left, y], Align::Left, 14.5, name.into());
+        picture.labels.push(Label { is_strong: true, ..name });
+        let [width, height] = self.size();
+        if width < ROOM_FOR_WORDS || height < LEAST_FOR_WORDS {
+            return;
+        }
+        let verdict = self.lane.verdict(self.loops.scene().tick_hz);
+        let colour = match verdict.severity {
+            Severity::Fine => self.palette.good,
+            Severity::Doubtful => self.palette.warn,
+            Severity::Bad => self.palette.bad,
+            Severity::Unknown => self.palette.dim,
+        };
+        let verdict = self.label([right, y], Align::Right, 12.5, verdict.text);
+        picture.labels.push(Label { colour, ..verdict });
+    }
+
     fn words(&self, picture: &mut Picture, camera: &Camera, frame: &LoopFrame, at: [DVec2; 2]) {
         let [width, height] = self.size();
-        let label = |at, align, size, colour, text: String| Label {
-            at,
-            align,
-            size,
-            colour,
-            is_strong: false,
-            halo: faded(self.palette.sea[1], 0.85),
-            text,
-        };
-        let [left, right] = [self.rect.min[0] + 14.0, self.rect.max[0] - 14.0];
-        let foot = self.rect.max[1] - 0.5 * FOOT;
         if self.loops.selected() == self.place {
             let [top, bottom] = [self.rect.min[1] + 4.0, self.rect.max[1] - 4.0];
             picture.shapes.push(line([2.5, top], [2.5, bottom], 3.0, self.colour, self.rect));
@@ -203,42 +321,17 @@ impl Band<'_> {
             true => format!("{} · {}", self.lane.card().name, self.loops.method().name),
             false => self.lane.card().name.to_owned(),
         };
-        let name = label([left, foot], Align::Left, 14.5, self.palette.text, name);
-        picture.labels.push(Label { is_strong: true, ..name });
-        if width < ROOM_FOR_WORDS || height < LEAST_FOR_WORDS {
-            return;
-        }
-        let verdict = self.lane.verdict(self.loops.scene().tick_hz);
-        let tone = match verdict.severity {
-            Severity::Fine => self.palette.good,
-            Severity::Doubtful => self.palette.warn,
-            Severity::Bad => self.palette.bad,
-            Severity::Unknown => self.palette.dim,
-        };
-        picture.labels.push(label([right, foot], Align::Right, 12.5, tone, verdict.text));
+        self.name(picture, self.rect.max[1] - 0.5 * FOOT, &name);
         let [drawn, exact] = at.map(|at| camera.points(at));
         let above = drawn[1] - 0.5 * camera.block - 9.0;
-        let words = match frame.latency_ms() {
-            late if late.abs() < 0.05 => "on time".into(),
-            late if late > 0.0 => format!("{} ms behind", round(late, 3)),
-            early => format!("{} ms ahead", round(-early, 3)),
-        };
-        if above > self.rect.min[1] + 6.0 {
-            picture.shapes.push(line(
-                [drawn[0], above],
-                [exact[0], above],
-                1.2,
-                self.palette.accent,
-                self.rect,
-            ));
+        let has_room = width >= ROOM_FOR_WORDS && height >= LEAST_FOR_WORDS;
+        if has_room && above > self.rect.min[1] + 6.0 {
+            let (accent, rect) = (self.palette.accent, self.rect);
+            let ends = [drawn[0], exact[0]].map(|x| [x, above]);
+            picture.shapes.push(line(ends[0], ends[1], 1.2, accent, rect));
             let x = drawn[0].max(exact[0]).clamp(60.0, (width - 120.0).max(60.0));
-            picture.labels.push(label(
-                [x + 8.0, above],
-                Align::Left,
-                12.0,
-                self.palette.accent,
-                words,
-            ));
+            let words = self.label([x + 8.0, above], Align::Left, 12.0, lateness(frame));
+            picture.labels.push(Label { colour: accent, ..words });
         }
     }
 }

@@ -78,10 +78,12 @@ fn key_hints(lab: &Lab) -> Vec<KeyHint> {
     let pause = if lab.running() { "pause" } else { "run" };
     let pause = hint("Space", pause, Command::TogglePause);
     let toggle_loops = Command::Loop(LoopCommand::ToggleLab);
-    if lab.loop_lab().is_some() {
+    if let Some(loops) = lab.loop_lab() {
         hints.push(hint("L", "leave the lab", toggle_loops));
         hints.push(pause);
-        hints.push(hint("V", "next display", Command::ToggleArrangement));
+        hints.push(hint("T", "next display", Command::NextInstrument));
+        let arrangement = if loops.is_overlaid() { "side by side" } else { "overlay" };
+        hints.push(hint("V", arrangement, Command::ToggleArrangement));
         hints.push(hint(".", "next frame", Command::TickForward));
         return hints;
     }

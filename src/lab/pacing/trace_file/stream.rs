@@ -20,12 +20,17 @@ pub(super) struct Stream {
     next_shown_ns: i64,
 }
 
+/// A name with a replacement for each control character: it is printed in messages and on screens.
+fn printable(name: &str) -> String {
+    name.replace(char::is_control, "\u{fffd}")
+}
+
 impl Stream {
     /// The stream before its first row, which is this one.
     pub(super) fn new(first: &Cells) -> Self {
         Self {
-            application: first.application.into(),
-            process: first.process.into(),
+            application: printable(first.application),
+            process: printable(first.process),
             frames: Vec::new(),
             last_shown_ns: None,
             next_began_ns: Ok(0),

@@ -71,7 +71,7 @@ pub(in crate::view::panels) fn trace_menu(
             }
         }
     });
-    let about = format!("frames of the display (V for the next): {}", about_trace(chosen));
+    let about = format!("frames of the display (T for the next): {}", about_trace(chosen));
     response.response.on_hover_text(about);
 }
 

@@ -22,7 +22,7 @@ pub(in crate::view::panels) fn sentence(loops: &LoopLab) -> String {
     if is_new && loops.traces()[loops.trace()].name() == EDGE {
         let next = hz(next);
         return format!(
-            "Raw ticks flip between none and two a frame; press `V` for a {next} Hz display."
+            "Raw ticks flip between none and two a frame; press `T` for a {next} Hz display."
         );
     }
     let repeated = loops.lanes()[raw].report().repeated_percent.unwrap_or_default();
@@ -33,6 +33,6 @@ pub(in crate::view::panels) fn sentence(loops: &LoopLab) -> String {
             "At {hz} Hz, {percent} % of raw frames repeat the one before; press `{key}` to draw between ticks."
         );
     }
-    "The same motion in different loops; `V`: the next display, `1` … `9`: a loop, `L`: leave."
+    "The same motion in different loops; `T`: the next display, `1` … `9`: a loop, `L`: leave."
         .into()
 }
