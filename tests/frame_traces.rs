@@ -149,6 +149,8 @@ fn streams_are_named_by_their_programs_and_where_needed_by_processes_and_numbers
     let nameless: Vec<String> =
         self::traces("log", windows).iter().map(|trace| trace.name().into()).collect();
     assert_eq!(nameless, ["log:stream", "log:stream-2"]);
+    let odd = "Application,MsBetweenPresents,MsBetweenDisplayChange\n\u{1b}[31mred,1,1\nb,1,1\n";
+    assert_eq!(self::traces("log", odd)[0].name(), "log:\u{fffd}[31mred", "for a terminal");
     for name in ["log:dwm.exe-2656", "log:dwm.exe-2656-2"] {
         let trace = traces.iter().find(|trace| trace.name() == name).unwrap();
         assert!((trace.refresh().hz() - 59.94).abs() < 0.1, "{name}: {} Hz", trace.refresh());

@@ -195,7 +195,7 @@ pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instan
 /// Has the C library keep what a frame frees, for the next frame.
 ///
 /// A software driver allocates some 16 MB for a frame and frees them after it. Handed back to the system, they are cleared
-/// and mapped again page by page, which takes a third of the time of a frame. glibc keeps twice as much as the largest
+/// and mapped again page by page, which takes a quarter of the time of a frame. glibc keeps twice as much as the largest
 /// block that it mapped alone and was given back; other libraries take no notice.
 fn keep_freed_memory() {
     /// In bytes.
