@@ -113,7 +113,7 @@ pub(super) struct LoopArgs {
     #[arg(long, value_name = "FILE")]
     frames: Option<PathBuf>,
 
-    /// Draw the moment shown against the moment of display, over the first trace, and a ranking, as PNG into FILE
+    /// Draw the moment shown against the moment of display, and what each loop costs, on up to four traces, as PNG into FILE
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 
@@ -176,7 +176,10 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let out = AtomicOutput::open_for_text(place(&args.out, "--out"))?;
     let frames = args.frames.as_deref().map(|path| place(path, "--frames"));
     let mut frames = frames.map(AtomicOutput::open_for_text).transpose()?;
-    let plot = args.plot.as_deref().map(|path| Plot::open(place(path, "--plot"), diagram::CHARTS));
+    let plot = args
+        .plot
+        .as_deref()
+        .map(|path| Plot::open(place(path, "--plot"), diagram::charts(traces.len())));
     let plot = plot.transpose()?;
 
     if let Some(frames) = &mut frames {

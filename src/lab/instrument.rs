@@ -143,6 +143,14 @@ impl Instrument {
         self.card().name
     }
 
+    /// Whether the loop lab has it: each of its loops has a motion, and they have one method in common.
+    pub fn is_in_loop_lab(self) -> bool {
+        match self {
+            Self::Motion | Self::Error | Self::Energy | Self::Phase | Self::Loop => true,
+            Self::Cost | Self::StabilityMap | Self::OneStep | Self::Advice => false,
+        }
+    }
+
     /// The instrument so many tabs further on, cyclically.
     pub(super) fn beside(self, step: isize) -> Self {
         let count = INSTRUMENTS.len() as isize;

@@ -4,23 +4,28 @@
 
 use std::sync::Arc;
 
+use super::action::Action;
 use super::lane::LaneBody;
 use super::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use super::scene::Scene;
 use crate::sim::Solver;
 use crate::sim::integrators::Method;
 
+mod frame_metrics;
 mod lane;
 mod words;
 
-pub use lane::{LoopFrame, LoopLane};
+pub use frame_metrics::{FRAME_METRICS, FrameMetric};
+pub use lane::{LoopFrame, LoopLane, LoopState};
 pub use words::LoopVerdict;
 
-/// The policies on the stage at first: the raw loop, the usual remedy, and the one that also heals timer noise.
-const AT_FIRST: [&str; 3] = ["fixed", "fixed-linear", "whole-refresh"];
-/// The traces that come first: one that makes raw ticks flip between none and two, and a display for which they are too
-/// few.
-const TRACES_AT_FIRST: [&str; 2] = ["edge", "steady-144"];
+/// The traces that come first, with the policies on the stage: noise that makes raw ticks flip between none and two, under
+/// the raw loop and the one that heals noise; then a display for which ticks are too few, under the raw loop and the usual
+/// remedy.
+const OPENING: [(&str, [&str; 2]); 2] =
+    [("edge", ["fixed", "whole-refresh"]), ("steady-144", ["fixed", "fixed-linear"])];
+/// How much of a trace the opening shows before it goes on, in nanoseconds of the display: long enough to see a judder.
+const OPENING_NS: i64 = 1_500_000_000;
 /// The most policies on the stage.
 pub const MOST_ON_STAGE: usize = 4;
 /// How many times slower than real time it can be played; a monitor adds its own judder to what is faster.
@@ -49,8 +54,10 @@ pub enum LoopCommand {
 
 /// A body in every loop.
 pub struct LoopLab {
-    /// With one body and without a script.
+    /// With one body.
     scene: Arc<Scene>,
+    /// The same at its own tick rate.
+    original: Arc<Scene>,
     method: &'static Method,
     /// The body at its start, for how it looks.
     body: LaneBody,
@@ -60,6 +67,12 @@ pub struct LoopLab {
     /// The range of the exact first coordinate.
     range: [f64; 2],
     on_stage: Vec<usize>,
+    /// Whether a person chose what is on the stage.
+    is_stage_chosen: bool,
+    /// Whether it goes on by itself to the second trace of the opening.
+    plays_opening: bool,
+    /// The place of the metric in [`FRAME_METRICS`].
+    metric: usize,
     is_overlaid: bool,
     selected: usize,
     now_ns: i64,
@@ -75,37 +88,49 @@ impl LoopLab {
         let scene = alone(scene, body);
         let mut cards: Vec<&TraceCard> = TRACES.iter().collect();
         cards.sort_by_key(|card| {
-            let first = TRACES_AT_FIRST.iter().position(|id| *id == card.id);
-            first.unwrap_or(TRACES_AT_FIRST.len())
+            let first = OPENING.iter().position(|(id, _)| *id == card.id);
+            first.unwrap_or(OPENING.len())
         });
-        let places =
-            AT_FIRST.iter().filter_map(|id| POLICIES.iter().position(|card| card.id == *id));
+        let scene = Arc::new(scene);
         let mut lab = Self {
             body: at_start(&scene),
-            scene: Arc::new(scene),
+            original: scene.clone(),
+            scene,
             method,
             traces: cards.into_iter().map(|card| card.trace(DISPLAY)).collect(),
             trace: 0,
             lanes: Vec::new(),
             range: [0.0; 2],
             selected: 0,
-            on_stage: places.collect(),
+            on_stage: Vec::new(),
+            is_stage_chosen: false,
+            plays_opening: false,
+            metric: 0,
             is_overlaid: false,
             now_ns: 0,
             end_ns: 0,
             slowness: SLOWNESS_AT_FIRST,
             run_goes_on: true,
         };
-        lab.selected = lab.on_stage[0];
-        lab.make();
+        lab.choose_trace(0);
         lab
+    }
+
+    /// Goes on by itself to the second trace of the opening, until [`end_opening`](Self::end_opening).
+    pub(super) fn play_opening(&mut self) {
+        self.plays_opening = true;
+    }
+
+    /// Stays with the chosen trace.
+    pub(super) fn end_opening(&mut self) {
+        self.plays_opening = false;
     }
 
     /// Shows the body at this place of another scene, from its start.
     pub(super) fn show(&mut self, scene: &Scene, body: usize) {
-        let scene = alone(scene, body);
-        self.body = at_start(&scene);
-        self.scene = Arc::new(scene);
+        self.original = Arc::new(alone(scene, body));
+        self.scene = self.original.clone();
+        self.body = at_start(&self.scene);
         self.now_ns = 0;
         self.make();
     }
@@ -177,9 +202,27 @@ impl LoopLab {
         self.slowness
     }
 
-    /// Chooses the trace at this place; the moment stays, if the trace reaches it.
+    /// The place of the metric that the error instrument shows in [`FRAME_METRICS`].
+    pub fn metric(&self) -> usize {
+        self.metric
+    }
+
+    /// Shows the metric at this place of [`FRAME_METRICS`] in the error instrument.
+    pub(super) fn set_metric(&mut self, place: usize) {
+        self.metric = place.min(FRAME_METRICS.len() - 1);
+    }
+
+    /// Chooses the trace at this place; the moment stays, if the trace reaches it. A trace of the opening brings its
+    /// policies on the stage, unless a person chose others.
     pub fn choose_trace(&mut self, place: usize) {
         self.trace = place.min(self.traces.len() - 1);
+        let name = self.traces[self.trace].name();
+        let opening = OPENING.iter().find(|(id, _)| *id == name && !self.is_stage_chosen);
+        if let Some((_, ids)) = opening {
+            let place = |id: &&str| POLICIES.iter().position(|card| card.id == *id);
+            self.on_stage = ids.iter().filter_map(place).collect();
+            self.selected = self.on_stage[0];
+        }
         self.make();
     }
 
@@ -195,9 +238,15 @@ impl LoopLab {
         self.choose_trace(place);
     }
 
-    /// Chooses the tick rate, in Hz.
+    /// Chooses the tick rate, in Hz. The script keeps its times, to the nearest tick.
     pub fn set_tick_hz(&mut self, tick_hz: u32) {
-        self.scene = Arc::new(Scene { tick_hz, ..(*self.scene).clone() });
+        let mut scene = Scene { tick_hz, ..(*self.original).clone() };
+        let [to, from] = [tick_hz, self.original.tick_hz].map(u128::from);
+        for row in &mut scene.script {
+            let tick = (u128::from(row.tick) * to + from / 2) / from;
+            row.tick = u64::try_from(tick).unwrap_or(u64::MAX);
+        }
+        self.scene = Arc::new(scene);
         self.make();
     }
 
@@ -223,6 +272,7 @@ impl LoopLab {
             return;
         }
         self.selected = place;
+        self.is_stage_chosen = true;
         if !self.on_stage.contains(&place) {
             if self.on_stage.len() == MOST_ON_STAGE {
                 self.on_stage.remove(0);
@@ -234,6 +284,7 @@ impl LoopLab {
 
     /// Takes the lane at this place off the stage, or brings it on; one stays.
     pub fn toggle(&mut self, place: usize) {
+        self.is_stage_chosen = true;
         match self.on_stage.iter().position(|&shown| shown == place) {
             Some(_) if self.on_stage.len() == 1 => {}
             Some(shown) => {
@@ -244,9 +295,14 @@ impl LoopLab {
         }
     }
 
-    /// Goes on by `real_ns` nanoseconds of real time; at the end it begins again.
+    /// Goes on by `real_ns` nanoseconds of real time; at the end it begins again. The opening goes on to its next trace.
     pub fn advance(&mut self, real_ns: i64) {
         self.now_ns += real_ns.max(0) / i64::from(self.slowness);
+        if self.plays_opening && self.now_ns > OPENING_NS {
+            self.plays_opening = self.trace + 2 < OPENING.len();
+            self.now_ns = 0;
+            self.choose_trace(self.trace + 1);
+        }
         if self.now_ns > self.end_ns {
             self.now_ns = 0;
         }
@@ -273,9 +329,14 @@ impl LoopLab {
     }
 }
 
-/// A scene with the body at this place alone, and without the script.
+/// A scene with the body at this place alone, and what of the script acts on it.
 fn alone(scene: &Scene, body: usize) -> Scene {
-    Scene { bodies: vec![scene.bodies[body].clone()], script: Vec::new(), ..scene.clone() }
+    let mut alone = Scene { bodies: vec![scene.bodies[body].clone()], ..scene.clone() };
+    alone.script.retain_mut(|row| match &mut row.action {
+        Action::Set { body: of, .. } | Action::Place { body: of, .. } => std::mem::take(of) == body,
+        _ => true,
+    });
+    alone
 }
 
 /// The one body of a scene at its start.
@@ -285,67 +346,4 @@ fn at_start(scene: &Scene) -> LaneBody {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lab::pacing::policy;
-    use crate::sim::integrators::method;
-
-    fn lab() -> LoopLab {
-        LoopLab::new(&Scene::built_in("spring").unwrap(), 0, method("rk4").unwrap())
-    }
-
-    #[test]
-    fn it_opens_where_raw_ticks_judder_and_whole_refreshes_do_not() {
-        let lab = lab();
-        assert_eq!(lab.traces()[lab.trace()].name(), "edge");
-        let error = |id: &str| {
-            let lane = lab.lanes().iter().find(|lane| lane.card().id == id).unwrap();
-            lane.report().animation_error_rms_ms.unwrap()
-        };
-        assert!((11.0..12.6).contains(&error("fixed")), "{}", error("fixed"));
-        assert!(error("whole-refresh") < 1e-6, "{}", error("whole-refresh"));
-        let on_stage = lab.on_stage().iter().map(|&place| lab.lanes()[place].card().id);
-        assert!(on_stage.eq(AT_FIRST));
-        assert_eq!(lab.selected_card(), policy("fixed").unwrap());
-    }
-
-    #[test]
-    fn a_display_holds_a_frame_until_the_next() {
-        let mut lab = lab();
-        lab.step(3);
-        let lane = &lab.lanes()[lab.selected()];
-        let at = lane.frame_at(lab.now_ns()).unwrap();
-        assert_eq!(at, 3);
-        assert_eq!(lane.frame_at(lane.frames()[4].displayed_ns - 1), Some(3));
-        assert_eq!(lane.frame_at(-1), None);
-        lab.step(-100);
-        assert_eq!(lab.now_ns(), 0);
-    }
-
-    #[test]
-    fn it_plays_slowly_and_begins_again_at_its_end() {
-        let mut lab = lab();
-        lab.advance(80_000_000);
-        assert_eq!(lab.now_ns(), 10_000_000);
-        lab.seek(i64::MAX);
-        assert_eq!(lab.now_ns(), lab.end_ns());
-        lab.advance(80_000_000);
-        assert_eq!(lab.now_ns(), 0);
-    }
-
-    #[test]
-    fn the_stage_holds_one_to_four_lanes_in_the_order_of_the_table() {
-        let mut lab = lab();
-        for place in [0, 1, 2, 99] {
-            lab.select(place);
-        }
-        assert_eq!(lab.on_stage().len(), MOST_ON_STAGE);
-        assert!(lab.on_stage().is_sorted() && lab.on_stage().contains(&lab.selected()));
-        for place in 0..POLICIES.len() {
-            if lab.on_stage().contains(&place) {
-                lab.toggle(place);
-            }
-        }
-        assert_eq!(lab.on_stage().len(), 1);
-    }
-}
+mod tests;

@@ -64,7 +64,8 @@ pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use lane_spec::LaneSpec;
 pub use live_loop::{LiveFrame, LiveLoop};
 pub use loop_lab::{
-    LoopCommand, LoopFrame, LoopLab, LoopLane, LoopVerdict, MOST_ON_STAGE, SLOWNESS,
+    FRAME_METRICS, FrameMetric, LoopCommand, LoopFrame, LoopLab, LoopLane, LoopState, LoopVerdict,
+    MOST_ON_STAGE, SLOWNESS,
 };
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use one_step::{FORMULAS, Formula, OneStep, Slope};

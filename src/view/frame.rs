@@ -153,7 +153,7 @@ impl FrameRenderer {
         scale: f32,
         figure: &Figure,
     ) -> Option<wgpu::CommandBuffer> {
-        self.context.set_zoom_factor(growth(size_px.map(|side| side as f32 / scale)));
+        theme::set_zoom(&self.context, growth(size_px.map(|side| side as f32 / scale)));
         let mut draw = || {
             let input = egui::RawInput::default();
             let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {

@@ -206,6 +206,19 @@ fn every_text_of_the_loop_lab_can_be_read_with_every_loop_and_on_every_display()
 }
 
 #[test]
+fn every_text_of_every_instrument_of_the_loop_lab_can_be_read() {
+    for name in ["spring", "harbour"] {
+        let mut lab = run(name, false);
+        lab.apply(Command::Loop(LoopCommand::ToggleLab));
+        lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
+        for instrument in Instrument::all().filter(|one| one.is_in_loop_lab()) {
+            lab.apply(Command::Instrument(instrument));
+            assert_legible(&lab, &format!("{} by loop on {name}", instrument.name()));
+        }
+    }
+}
+
+#[test]
 fn every_text_of_this_windows_own_loop_can_be_read() {
     let mut lab = run("spring", false);
     lab.apply(Command::Instrument(Instrument::Loop));

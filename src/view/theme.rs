@@ -138,7 +138,13 @@ pub(super) fn dress(context: &egui::Context) {
 /// Has the context show the theme and the size of type of a display, in a window of this size in points.
 pub(super) fn show(context: &egui::Context, display: &Display, size: [f32; 2]) {
     context.set_theme(in_egui(display.theme));
-    context.set_zoom_factor(zoom(size, display.scale_percent));
+    set_zoom(context, zoom(size, display.scale_percent));
+}
+
+/// Sets how much larger everything is from the next frame on. egui's own way would lay that frame out in the points of the
+/// one before.
+pub(super) fn set_zoom(context: &egui::Context, zoom: f32) {
+    context.options_mut(|options| options.zoom_factor = zoom);
 }
 
 fn in_egui(theme: Theme) -> egui::Theme {

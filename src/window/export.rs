@@ -39,37 +39,43 @@ impl App {
 fn save(gpu: &Gpu, lab: &Lab) -> String {
     match try_save(gpu, lab) {
         Ok(paths) => {
-            let names = paths.map(|path| path.display().to_string());
+            let names: Vec<_> = paths.iter().map(|path| path.display().to_string()).collect();
             format!("saved {}", names.join(", "))
         }
         Err(reason) => format!("nothing saved: {reason}"),
     }
 }
 
-fn try_save(gpu: &Gpu, lab: &Lab) -> Result<[PathBuf; 3], String> {
-    let (Some(svg), Some(csv)) = (instrument_svg(lab), instrument_csv(lab)) else {
-        return Err("this instrument has no plots".into());
-    };
+/// Saves a picture and a table, and a drawing of an instrument whose plots can be drawn.
+fn try_save(gpu: &Gpu, lab: &Lab) -> Result<Vec<PathBuf>, String> {
+    let csv = instrument_csv(lab).ok_or("this instrument has no plots")?;
     let mut rgba = Vec::new();
     OffscreenRenderer::new(gpu.clone(), SIZE_PX, SCALE)
         .map_err(|error| error.to_string())?
         .with_panels(Panels::Instrument)
         .draw(lab, &mut rgba)
         .map_err(|error| error.to_string())?;
+    let png = png::encode(SIZE_PX, &rgba);
+    let svg = instrument_svg(lab).map(String::into_bytes);
+    let files = [("png", Some(png)), ("svg", svg), ("csv", Some(csv.into_bytes()))];
     let name = name(lab);
-    let write = |ending: &str, bytes: &[u8]| {
-        write_new(Path::new(""), &name, ending, bytes)
+    let files = files.into_iter().filter_map(|(ending, bytes)| Some((ending, bytes?)));
+    let written = files.map(|(ending, bytes)| {
+        write_new(Path::new(""), &name, ending, &bytes)
             .map_err(|error| format!("cannot write {name}.{ending} here: {error}"))
-    };
-    Ok([
-        write("png", &png::encode(SIZE_PX, &rgba))?,
-        write("svg", svg.as_bytes())?,
-        write("csv", csv.as_bytes())?,
-    ])
+    });
+    written.collect()
 }
 
 /// A file name, without its ending, that says what the files show.
 fn name(lab: &Lab) -> String {
     let instrument = lab.display().instrument.name().to_lowercase().replace(' ', "-");
-    format!("regatta-{}-{instrument}-tick-{}", lab.scene().name, lab.race().tick())
+    let scene = &lab.scene().name;
+    match lab.loop_lab() {
+        Some(loops) => {
+            let ms = loops.now_ns() / 1_000_000;
+            format!("regatta-{scene}-loops-{instrument}-at-{ms}-ms")
+        }
+        None => format!("regatta-{scene}-{instrument}-tick-{}", lab.race().tick()),
+    }
 }

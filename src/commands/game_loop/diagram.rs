@@ -6,21 +6,41 @@ use crate::lab::number::round;
 use crate::lab::palette::Theme;
 use crate::view::{Axis, Chart, Figure, FigureCurve, Legend, Marks};
 
-/// The charts of the picture.
-pub(super) const CHARTS: usize = 2;
+/// The most traces of which a picture has charts.
+const MOST_TRACES: usize = 4;
 
 /// An animation error that is drawn at the bottom: no display shows it.
 const LEAST_MS: f64 = 1e-3;
+/// The radius of a dot, and how much further the dot of a loop reaches for each other that is drawn over it, in points.
+const DOT: f32 = 4.0;
+const RING: f32 = 3.0;
+const EXPLAINED: &str = "Animation error is the change of the moment shown minus the change of the moment of display, \
+                         from frame to frame";
 /// A loop that is further behind or ahead, because it does not keep time, is outside of the chart.
 const LARGEST_LATENCY_MS: f64 = 200.0;
 
-/// The picture of the rows of the first trace.
+/// The number of charts of the picture of so many traces.
+pub(super) fn charts(traces: usize) -> usize {
+    2 * traces.min(MOST_TRACES)
+}
+
+/// The picture of the rows, which are in the order of their traces: two charts for each of the first traces.
 pub(super) fn figure(scene: &Scene, rows: &[Measured]) -> Figure {
-    let trace = rows.first().map_or("", |row| &row.trace);
-    let rows: Vec<&Measured> = rows.iter().filter(|row| row.trace == trace).collect();
-    let title =
-        format!("{trace}, {} Hz ticks: what each loop shows, and what it costs", scene.tick_hz);
-    Figure { title, note: note(&rows), columns: CHARTS, charts: vec![shown(&rows), costs(&rows)] }
+    let mut by_trace: Vec<&[Measured]> =
+        rows.chunk_by(|one, other| one.trace == other.trace).collect();
+    let left_out = by_trace.len().saturating_sub(MOST_TRACES);
+    by_trace.truncate(MOST_TRACES);
+    let what = format!("{} Hz ticks: what each loop shows, and what it costs", scene.tick_hz);
+    let (title, note) = match by_trace[..] {
+        [rows] => (format!("{}, {what}", rows[0].trace), note(rows)),
+        _ => (what, note_on_several(&by_trace, left_out)),
+    };
+    let several = by_trace.len() > 1;
+    let charts = by_trace.iter().flat_map(|rows| {
+        let before = if several { format!("{}: ", rows[0].trace) } else { String::new() };
+        [shown(rows, &before), costs(rows, &before)]
+    });
+    Figure { title, note, columns: 2, charts: charts.collect() }
 }
 
 fn curve(place: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> FigureCurve {
@@ -29,7 +49,7 @@ fn curve(place: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> Figu
 }
 
 /// The moment shown against the moment of display, as the display holds each picture until the next.
-fn shown(rows: &[&Measured]) -> Chart {
+fn shown(rows: &[Measured], before: &str) -> Chart {
     let ends = rows.iter().filter_map(|row| row.first.last()).map(|last| last[0]);
     let end = ends.fold(1.0, f64::max);
     let steps = |row: &Measured| -> Vec<[f64; 2]> {
@@ -51,7 +71,7 @@ fn shown(rows: &[&Measured]) -> Chart {
         [5.0, 2.0, 1.0].map(|times| times * mark).into_iter().find(|mark| *mark <= end / 4.0);
     let mark = mark.unwrap_or(end);
     Chart {
-        title: "Moment shown against moment of display".into(),
+        title: sentence(before, "moment shown against moment of display"),
         legend: Legend::Shared,
         axes: [
             Axis { name: "moment of display (ms)", view: [0.0, end], marks: Marks::Every(mark) },
@@ -62,18 +82,20 @@ fn shown(rows: &[&Measured]) -> Chart {
 }
 
 /// The animation error against the latency: the best loop is at the lower left.
-fn costs(rows: &[&Measured]) -> Chart {
+fn costs(rows: &[Measured], before: &str) -> Chart {
+    let known: Vec<[f64; 2]> = rows.iter().filter_map(point).collect();
     let points = rows.iter().enumerate().map(|(n, row)| {
-        let point = point(row);
-        curve(n, row, 5.0, point.into_iter().collect())
+        let later = rows[n + 1..].iter().filter_map(point);
+        let over = point(row).map_or(0, |here| later.filter(|there| is_near(here, *there)).count());
+        let radius = DOT + RING * over as f32;
+        curve(n, row, radius, point(row).into_iter().collect())
     });
-    let known: Vec<[f64; 2]> = rows.iter().filter_map(|row| point(row)).collect();
     let latencies = known.iter().map(|point| point[0]).filter(|ms| ms.abs() <= LARGEST_LATENCY_MS);
     let (least, most) =
         latencies.fold((0.0, 10.0), |(least, most): (f64, f64), ms| (least.min(ms), most.max(ms)));
     let worst = known.iter().map(|point| point[1]).fold(LEAST_MS, f64::max);
     Chart {
-        title: "Animation error against latency: lower left is better".into(),
+        title: sentence(before, "animation error against latency, lower left is better"),
         legend: Legend::Shared,
         axes: [
             Axis {
@@ -91,13 +113,42 @@ fn costs(rows: &[&Measured]) -> Chart {
     }
 }
 
+/// Whether two points look like one.
+fn is_near([x, y]: [f64; 2], [other_x, other_y]: [f64; 2]) -> bool {
+    (x - other_x).abs() < 0.5 && (y / other_y - 1.0).abs() < 0.1
+}
+
 fn point(row: &Measured) -> Option<[f64; 2]> {
     let report = &row.report;
     Some([report.latency_mean_ms?, report.animation_error_rms_ms?.max(LEAST_MS)])
 }
 
+/// A title, after what comes before it.
+fn sentence(before: &str, title: &str) -> String {
+    match before {
+        "" => title[..1].to_uppercase() + &title[1..],
+        before => format!("{before}{title}"),
+    }
+}
+
+/// The loop with the least error of each trace.
+fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
+    let error = |row: &Measured| row.report.animation_error_rms_ms.unwrap_or(f64::INFINITY);
+    let least = by_trace.iter().filter_map(|rows| {
+        let best = rows.iter().min_by(|one, other| error(one).total_cmp(&error(other)))?;
+        Some(format!("{}: {} {}", best.trace, best.card.id, round(error(best), 3)))
+    });
+    let least = least.collect::<Vec<_>>().join("; ");
+    let left_out = match left_out {
+        0 => String::new(),
+        1 => " One more trace is in the table only.".into(),
+        more => format!(" {more} more traces are in the table only."),
+    };
+    format!("{EXPLAINED}. The least RMS in ms on each trace: {least}.{left_out}")
+}
+
 /// The ranking.
-fn note(rows: &[&Measured]) -> String {
+fn note(rows: &[Measured]) -> String {
     let mut ranked: Vec<(&str, f64)> = rows
         .iter()
         .filter_map(|row| Some((row.card.id, row.report.animation_error_rms_ms?)))
@@ -113,9 +164,6 @@ fn note(rows: &[&Measured]) -> String {
         "" => String::new(),
         listed => format!(" Later than the chart shows: {listed}."),
     };
-    format!(
-        "Animation error is the change of the moment shown minus the change of the moment of display, from frame to \
-         frame. RMS in ms, from the least: {}.{outside}",
-        listed.collect::<Vec<_>>().join(", ")
-    )
+    let listed = listed.collect::<Vec<_>>().join(", ");
+    format!("{EXPLAINED}. RMS in ms, from the least: {listed}.{outside}")
 }

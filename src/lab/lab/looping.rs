@@ -18,6 +18,7 @@ impl Lab {
         let mut loops = LoopLab::new(self.scene(), body, method);
         loops.offer(self.viewer.live.trace());
         loops.run_goes_on = self.running;
+        loops.play_opening();
         self.loop_lab = Some(loops);
         self.viewer.display.instrument = Instrument::Loop;
         self.viewer.display.inspector = false;
@@ -43,6 +44,7 @@ impl Lab {
             && let Some(place) = loops.traces().iter().position(|known| known.name() == trace)
         {
             loops.choose_trace(place);
+            loops.end_opening();
         }
     }
 
@@ -55,6 +57,7 @@ impl Lab {
             && !traces.is_empty()
         {
             loops.add_traces(traces);
+            loops.end_opening();
         }
     }
 
@@ -118,6 +121,13 @@ impl Lab {
                 let (scene, body) = (self.start.scene.clone(), self.display().body);
                 self.loop_lab.iter_mut().for_each(|loops| loops.show(&scene, body));
             }
+            Command::Metric(place) => loops.set_metric(place),
+            Command::Instrument(instrument) if !instrument.is_in_loop_lab() => {
+                self.set_notice(format!(
+                    "{} is not in the loop lab: L leaves it",
+                    instrument.name()
+                ));
+            }
             Command::Act(_)
             | Command::Fly(_)
             | Command::Throttle(_)
@@ -132,9 +142,6 @@ impl Lab {
             | Command::ToggleEqualCost
             | Command::NextInterpolation
             | Command::ToggleInspector
-            | Command::Instrument(_)
-            | Command::Metric(_)
-            | Command::ExportInstrument
             | Command::Record
             | Command::ToggleGuide
             | Command::Seek(_) => {
@@ -142,6 +149,7 @@ impl Lab {
             }
             other => return Some(other),
         }
+        self.loop_lab.iter_mut().for_each(LoopLab::end_opening);
         None
     }
 

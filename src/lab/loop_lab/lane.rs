@@ -1,7 +1,9 @@
 //! The body in one loop, frame by frame.
 
+use crate::lab::lane::LaneBody;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::pacing::{FrameTrace, LoopRun, PacingReport, PolicyCard};
+use crate::lab::past::Energies;
 use crate::lab::scene::Scene;
 use crate::sim::integrators::Method;
 
@@ -30,6 +32,28 @@ pub struct LoopFrame {
     pub q: Box<[f64]>,
     /// The exact coordinates at the moment of display.
     pub exact: Box<[f64]>,
+    /// The body after the last step, which is not always what is shown.
+    pub stepped: LoopState,
+    /// The exact body at the moment of display.
+    pub exact_state: LoopState,
+}
+
+/// A state of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoopState {
+    /// The first coordinate.
+    pub q: f64,
+    /// Its velocity.
+    pub v: f64,
+    /// The energies, if the body conserves energy.
+    pub energies: Option<Energies>,
+}
+
+impl LoopState {
+    fn of(body: &LaneBody) -> Self {
+        let stepper = &*body.stepper;
+        Self { q: stepper.q()[0], v: stepper.v()[0], energies: Energies::of(stepper) }
+    }
 }
 
 impl LoopFrame {
@@ -60,6 +84,8 @@ impl LoopLane {
                 animation_error_ms: record.animation_error_ms.unwrap_or_default(),
                 q: run.lane().drawn(0).into(),
                 exact: run.exact(0).into(),
+                stepped: LoopState::of(&run.lane().lane().bodies()[0]),
+                exact_state: LoopState::of(run.exact_body(0)),
             });
         });
         Self { card, frames, report }

@@ -9,7 +9,7 @@ use super::scripted_truth::ScriptedTruth;
 use super::time_base::TimeBase;
 use super::timed_script::TimedScript;
 use super::trace::{FrameTrace, Frames};
-use crate::lab::lane::Lane;
+use crate::lab::lane::{Lane, LaneBody};
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 
@@ -76,7 +76,12 @@ impl LoopRun {
 
     /// The exact coordinates of the body at this place of the scene at the moment of the last displayed frame.
     pub fn exact(&self, body: usize) -> &[f64] {
-        self.truth.q(body)
+        self.truth.body(body).stepper.q()
+    }
+
+    /// The body at this place of the scene, exactly, at the moment of the last displayed frame.
+    pub(in crate::lab) fn exact_body(&self, body: usize) -> &LaneBody {
+        self.truth.body(body)
     }
 
     /// Makes the next frame; `None` where the trace has ended.

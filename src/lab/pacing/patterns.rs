@@ -110,7 +110,9 @@ pub fn trace_card(id: &str) -> Option<&'static TraceCard> {
 
 /// An even display of any rate, by the name `steady-` and the rate.
 pub fn steady_trace(refresh: RefreshRate) -> FrameTrace {
-    FrameTrace::of_pattern(format!("steady-{refresh}"), refresh, Steady::new(refresh))
+    // As many decimals as a rate can be given with.
+    let hz = (refresh.hz() * 1e6).round() / 1e6;
+    FrameTrace::of_pattern(format!("steady-{hz}"), refresh, Steady::new(refresh))
 }
 
 #[cfg(test)]

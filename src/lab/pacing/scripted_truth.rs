@@ -64,9 +64,9 @@ impl ScriptedTruth {
         }
     }
 
-    /// The exact coordinates of a body.
-    pub(super) fn q(&self, body: usize) -> &[f64] {
-        self.lane.bodies()[body].stepper.q()
+    /// A body in its exact state.
+    pub(super) fn body(&self, body: usize) -> &LaneBody {
+        &self.lane.bodies()[body]
     }
 
     /// The largest distance between the bodies of two lanes, in amplitudes.

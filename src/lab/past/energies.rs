@@ -13,7 +13,7 @@ pub struct Energies {
 
 impl Energies {
     /// Those of a body now; `None` if it conserves none. Never allocates.
-    pub(super) fn of(body: &dyn Stepper) -> Option<Self> {
+    pub(in crate::lab) fn of(body: &dyn Stepper) -> Option<Self> {
         Some(Self { kinetic_j: body.kinetic_energy()?, total_j: body.energy()? })
     }
 

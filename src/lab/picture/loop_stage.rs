@@ -27,6 +27,8 @@ const STRENGTHS: (f32, f32) = (0.5, 0.06);
 /// The side of a block, as a part of the band's height, at most in points.
 const BLOCK: f32 = 0.27;
 const LARGEST_BLOCK: f32 = 44.0;
+/// The room that the words on a frame's latency take, in points.
+const ROOM_FOR_LATENESS: f32 = 112.0;
 /// The foot of a band, in which its loop is named, in points.
 const FOOT: f32 = 30.0;
 /// The height of a line where several loops are named below each other, in points.
@@ -329,8 +331,12 @@ impl<'a> Band<'a> {
             let (accent, rect) = (self.palette.accent, self.rect);
             let ends = [drawn[0], exact[0]].map(|x| [x, above]);
             picture.shapes.push(line(ends[0], ends[1], 1.2, accent, rect));
-            let x = drawn[0].max(exact[0]).clamp(60.0, (width - 120.0).max(60.0));
-            let words = self.label([x + 8.0, above], Align::Left, 12.0, lateness(frame));
+            let right = drawn[0].max(exact[0]) + 8.0;
+            let (x, align) = match right + ROOM_FOR_LATENESS <= width {
+                true => (right.max(60.0), Align::Left),
+                false => (drawn[0].min(exact[0]).min(width) - 8.0, Align::Right),
+            };
+            let words = self.label([x, above], align, 12.0, lateness(frame));
             picture.labels.push(Label { colour: accent, ..words });
         }
     }

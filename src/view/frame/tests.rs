@@ -1,4 +1,5 @@
 use super::*;
+use crate::lab::Scene;
 use crate::lab::picture::Picture;
 use crate::lab::picture::{Cap, Shape, Stroke};
 use crate::view::curves;
@@ -142,4 +143,23 @@ fn a_lost_device_does_not_panic_and_a_new_one_draws() {
 
     let gpu = Gpu::headless(AdapterPreference::CpuOnly).unwrap();
     assert_eq!(draw(&gpu, [64, 64], 1.0, &picture).at(60, 60), [255, 0, 0, 255]);
+}
+
+#[test]
+fn the_first_frame_of_any_size_is_laid_out_like_the_next() {
+    let Some(gpu) = gpu_or_skip("the_first_frame_of_any_size_is_laid_out_like_the_next") else {
+        return;
+    };
+    let lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+    for size_px in [[1280, 720], [1920, 1080], [3840, 2160], [800, 600]] {
+        let [first, second] = [0, 1].map(|_| {
+            let input = egui::RawInput::default();
+            let (_, mut layout) = renderer.lay_out(&gpu, size_px, 1.0, input, &lab);
+            layout.panels.textures_delta.clear();
+            layout.stage.expect("a lab has a stage").rect
+        });
+        assert_eq!(first, second, "{size_px:?}");
+        assert!(first.width() > 300.0 && first.right() < 1280.0 * 1.75, "{first}");
+    }
 }

@@ -5,16 +5,18 @@
 
 use egui::{Button, Color32, ComboBox, FontId, Label, RichText, Sense, Stroke, Ui, vec2};
 
+use super::roster::Roster;
 use super::tracks::Detail;
 use super::{advice, cost, ink, loops, one_step, stability_map};
 use crate::lab::{
-    Command, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS, Mode,
+    Command, FRAME_METRICS, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS,
 };
 use crate::view::plot;
 use crate::view::theme::strong_font;
 pub(in crate::view) use export::{csv, svg};
-use sheet::{Sheet, methods_shown};
+use sheet::Sheet;
 
+mod by_loop;
 mod chart;
 mod energy;
 mod error;
@@ -68,6 +70,9 @@ fn detail(ui: &Ui, lab: &Lab) -> Detail {
 
 /// The plots of the chosen instrument, if it has any.
 fn sheet_of(lab: &Lab, detail: Detail) -> Option<Sheet> {
+    if let Some(loops) = lab.loop_lab() {
+        return by_loop::sheet(lab, loops, lab.display().instrument);
+    }
     match lab.display().instrument {
         Instrument::Motion => Some(motion::sheet(lab, detail)),
         Instrument::Error => Some(error::sheet(lab)),
@@ -91,8 +96,7 @@ fn tabs(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             let name = Label::new(RichText::new(row.name()).color(ink(ui).dim)).selectable(false);
             ui.put(place, name);
             for card in INSTRUMENTS.iter().filter(|card| card.row == row) {
-                // Of the loop lab there is one.
-                let is_open = lab.loop_lab().is_none() || card.instrument == Instrument::Loop;
+                let is_open = lab.loop_lab().is_none() || card.instrument.is_in_loop_lab();
                 let is_chosen = lab.display().instrument == card.instrument;
                 if tab(ui, card, is_chosen, is_open) {
                     commands.push(Command::Instrument(card.instrument));
@@ -118,7 +122,7 @@ fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bo
 
 /// An instrument of plots, below its title, its choices and its legend.
 fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
-    let lines = legend_lines(ui, lab, sheet);
+    let lines = legend_lines(sheet);
     let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && lines.len() <= MOST_IN_LEGEND;
     let is_below = lines.len() > BESIDE_TITLE
         || lab.display().instrument != Instrument::Motion
@@ -131,13 +135,13 @@ fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
         choices(ui, lab, commands);
         if has_legend && !is_below {
             ui.add_space(8.0);
-            legend(ui, &lines, lab, commands);
+            legend(ui, &lines, &sheet.roster, commands);
         }
     });
     if has_legend && is_below {
         ui.scope(|ui| {
             ui.spacing_mut().interact_size.y = 15.0;
-            ui.horizontal_wrapped(|ui| legend(ui, &lines, lab, commands));
+            ui.horizontal_wrapped(|ui| legend(ui, &lines, &sheet.roster, commands));
         });
     }
     chart::show(ui, lab, sheet, commands);
@@ -147,10 +151,21 @@ fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
 fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let instrument = lab.display().instrument;
     if instrument == Instrument::Error {
-        let offered = error::choices().map(|place| (Command::Metric(place), METRICS[place].name));
-        choice(ui, "metric", offered.collect(), Command::Metric(lab.display().metric), commands);
+        let (offered, chosen): (Vec<_>, usize) = match lab.loop_lab() {
+            Some(loops) => {
+                let names = FRAME_METRICS.iter().map(|metric| metric.name);
+                (names.enumerate().collect(), loops.metric())
+            }
+            None => {
+                let names = error::choices().map(|place| (place, METRICS[place].name));
+                (names.collect(), lab.display().metric)
+            }
+        };
+        let offered = offered.into_iter().map(|(place, name)| (Command::Metric(place), name));
+        choice(ui, "metric", offered.collect(), Command::Metric(chosen), commands);
     }
-    if instrument != Instrument::Motion && lab.scene().bodies.len() > 1 {
+    let has_all = instrument == Instrument::Motion && lab.loop_lab().is_none();
+    if !has_all && lab.scene().bodies.len() > 1 {
         let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
         let offered = (0..).map(Command::Body).zip(names);
         let chosen = Command::Body(lab.display().body);
@@ -179,36 +194,35 @@ fn choice(
 
 /// A line of the legend.
 struct LegendLine {
-    /// The method, by its place on the list; `None` for the exact solution.
+    /// Its place on the roster; `None` for the exact solution.
     entry: Option<usize>,
     text: String,
     colour: Color32,
     dash: [f32; 2],
 }
 
-/// Every method with its line, and the exact solution.
-fn legend_lines(ui: &Ui, lab: &Lab, sheet: &Sheet) -> Vec<LegendLine> {
-    let ink = ink(ui);
-    let methods = methods_shown(sheet).into_iter().map(|entry| {
-        let spec = &lab.entries()[entry];
-        let (colour, dash) = ink.style(spec);
-        let text = format!("{} {}", entry + 1, spec.method.name);
-        LegendLine { entry: Some(entry), text, colour, dash }
+/// All whose curves are shown, and the exact solution.
+fn legend_lines(sheet: &Sheet) -> Vec<LegendLine> {
+    let runners = sheet.shown().map(|(entry, runner)| LegendLine {
+        entry: Some(entry),
+        text: format!("{} {}", entry + 1, runner.name),
+        colour: runner.colour,
+        dash: runner.dash,
     });
     let has_exact = sheet.plots.iter().any(|plot| !plot.exact.is_empty());
     let exact = has_exact.then(|| LegendLine {
         entry: None,
-        text: lab.race().truth().bodies()[lab.display().body].truth_in_words(),
-        colour: ink.exact,
+        text: sheet.roster.exact.clone(),
+        colour: sheet.roster.exact_colour,
         dash: [1.0, 0.0],
     });
-    methods.chain(exact).collect()
+    runners.chain(exact).collect()
 }
 
-fn legend(ui: &mut Ui, lines: &[LegendLine], lab: &Lab, commands: &mut Vec<Command>) {
+fn legend(ui: &mut Ui, lines: &[LegendLine], roster: &Roster, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.x = 13.0;
     for LegendLine { entry, text, colour, dash } in lines {
-        let is_front = *entry == Some(lab.active());
+        let is_front = *entry == Some(roster.front);
         let font = if is_front { strong_font(12.0) } else { FontId::proportional(12.0) };
         let inked = if is_front { ink(ui).text } else { ink(ui).dim };
         let words = ui.painter().layout_no_wrap(text.clone(), font, inked);
@@ -218,7 +232,7 @@ fn legend(ui: &mut Ui, lines: &[LegendLine], lab: &Lab, commands: &mut Vec<Comma
         let at = rect.left_center() + vec2(SWATCH + 6.0, -words.size().y / 2.0);
         ui.painter().galley(at, words, inked);
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
-        if response.clicked() && lab.mode() == Mode::Race {
+        if response.clicked() && roster.is_race {
             commands.extend(entry.map(Command::Pick));
         }
     }

@@ -23,6 +23,7 @@ mod one_step;
 mod opening;
 mod plot_area;
 mod ranges;
+mod roster;
 mod sorting;
 mod stability_map;
 mod timeline;

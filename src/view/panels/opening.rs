@@ -47,9 +47,13 @@ fn path(ui: &Ui, lab: &Lab, refused: Option<&str>, commands: &mut Vec<Command>) 
         let typed = lab.viewer().typed_path();
         let mut text = typed.to_owned();
         let field = TextEdit::singleline(&mut text).id(id).desired_width(width).lock_focus(true);
-        let field = field.hint_text("path of a scene file").show(ui);
+        let field = field.hint_text("path of a scene, or of a log of frames").show(ui);
         field.response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::Role::TextInput, true, "path of a scene file")
+            egui::WidgetInfo::labeled(
+                egui::Role::TextInput,
+                true,
+                "path of a scene or of a log of frames",
+            )
         });
         if text != typed {
             commands.push(Command::TypePath(text));

@@ -6,8 +6,8 @@ use std::ops::RangeInclusive;
 
 use egui_plot::PlotBounds;
 
-use super::ink_of;
-use crate::lab::{Entrant, History, Lab, Mode, Sample, Summary};
+use super::roster::Roster;
+use crate::lab::{Entrant, History, Lab, Sample, Summary};
 use crate::view::curves::{Curve, Dots};
 use crate::view::plot::{Arrow, Drawing, Switch};
 
@@ -63,6 +63,8 @@ pub(super) struct Track {
     dash: Option<[f32; 2]>,
     /// How much of its colour it has.
     strength: f32,
+    /// Whether it stays at each sample until the next, as a display does.
+    is_held: bool,
 }
 
 /// What is drawn of a lane that comes back into the plot: nothing, until it has stayed for this part of
@@ -108,11 +110,29 @@ impl Track {
             part: "",
             dash: None,
             strength: 1.0,
+            is_held: false,
         };
         let lanes = lab.race().entrants().iter().enumerate();
         let mut tracks: Vec<Self> = lanes.map(track).collect();
         tracks.sort_by_key(|track| track.is_front);
         tracks
+    }
+
+    /// A track of these times (s) and places, under the one at place `entry` of the roster.
+    pub(super) fn of_places(
+        entry: usize,
+        is_front: bool,
+        places: impl Iterator<Item = (f64, [f64; 2])>,
+    ) -> Self {
+        let point =
+            |(t, at): (f64, [f64; 2])| Point { t, entry, at, swept: [at[1]; 2], jumped: false };
+        let points = finite(places.map(point));
+        Self { points, entry, is_front, part: "", dash: None, strength: 1.0, is_held: false }
+    }
+
+    /// The same track, which stays at each sample until the next.
+    pub(super) fn held(self) -> Self {
+        Self { is_held: true, ..self }
     }
 
     /// The same track as a part of its lane, with a dash of its own, and so much of its colour.
@@ -122,6 +142,10 @@ impl Track {
 
     /// The method that flew the lane at time `t` (s), and where it was, between samples on the line through them.
     pub(super) fn at(&self, t: f64) -> Option<(usize, [f64; 2])> {
+        if self.is_held {
+            let last = self.points.partition_point(|point| point.t <= t).checked_sub(1)?;
+            return Some((self.points[last].entry, [t, self.points[last].at[1]]));
+        }
         let after = self.points.partition_point(|point| point.t < t);
         let to = self.points.get(after)?;
         let Some(from) = after.checked_sub(1).map(|before| self.points[before]) else {
@@ -194,22 +218,27 @@ pub(super) struct Look {
 }
 
 /// The lanes within `bounds`, with an arrow where one leaves them and a mark where one was switched.
-pub(super) fn drawing(lab: &Lab, tracks: &[Track], bounds: &PlotBounds, look: Look) -> Drawing {
+pub(super) fn drawing(
+    roster: &Roster,
+    tracks: &[Track],
+    bounds: &PlotBounds,
+    look: Look,
+) -> Drawing {
     let mut drawing = Drawing::default();
     for track in tracks {
-        add(&mut drawing, lab, track, bounds, look);
+        add(&mut drawing, roster, track, bounds, look);
     }
     drawing
 }
 
-fn add(drawing: &mut Drawing, lab: &Lab, track: &Track, bounds: &PlotBounds, look: Look) {
+fn add(drawing: &mut Drawing, roster: &Roster, track: &Track, bounds: &PlotBounds, look: Look) {
     let points = &track.points[..];
-    let is_dim = lab.mode() == Mode::Race && !track.is_front;
+    let is_dim = roster.is_race && !track.is_front;
     let is_thin = is_dim || track.strength < 1.0;
     let width = if is_thin { look.width - THINNER } else { look.width };
-    let style = |point: &Point| ink_of(lab.display().theme).style(&lab.entries()[point.entry]);
-    let rgba =
-        |point: &Point| style(point).0.gamma_multiply(if is_dim { DIM } else { track.strength });
+    let runner = |point: &Point| &roster.runners[point.entry];
+    let strength = if is_dim { DIM } else { track.strength };
+    let rgba = |point: &Point| runner(point).colour.gamma_multiply(strength);
     // A body that had halted has no samples from there to the switch.
     for pair in points.windows(2).filter(|pair| pair[0].entry != pair[1].entry) {
         drawing.switches.push(Switch { at: pair[1].at, colour: rgba(&pair[1]) });
@@ -222,7 +251,7 @@ fn add(drawing: &mut Drawing, lab: &Lab, track: &Track, bounds: &PlotBounds, loo
     };
     let is_in_view = |point: &Point| look.bounded[0] || point.at[0] >= bounds.min()[0];
     let mut is_drawn = vec![false; points.len()];
-    for stay in stays(points, within, RETURNED * lab.scene().seconds) {
+    for stay in stays(points, within, RETURNED * roster.length_s) {
         let (first, last) = stay.into_inner();
         // To the edge on both sides, and not across a switch on the way in.
         let enters = first > 0 && goes_on(&points[first - 1], &points[first]);
@@ -234,10 +263,10 @@ fn add(drawing: &mut Drawing, lab: &Lab, track: &Track, bounds: &PlotBounds, loo
             Curve {
                 colour: rgba(newest),
                 width,
-                dash: track.dash.unwrap_or(style(newest).1),
+                dash: track.dash.unwrap_or(runner(newest).dash),
                 dots: look.dots,
-                points: run.iter().map(|point| point.at).collect(),
-                swept: run.iter().map(|point| point.swept).collect(),
+                points: if track.is_held { staircase(run) } else { places(run) },
+                swept: if track.is_held { Vec::new() } else { swept(run) },
             }
         }));
         if leaves && is_in_view(&points[last + 1]) {
@@ -256,6 +285,20 @@ fn add(drawing: &mut Drawing, lab: &Lab, track: &Track, bounds: &PlotBounds, loo
             drawing.arrows.push(Arrow { from: newest.at, to: newest.at, colour: rgba(newest) });
         }
     }
+}
+
+fn places(run: &[Point]) -> Vec<[f64; 2]> {
+    run.iter().map(|point| point.at).collect()
+}
+
+fn swept(run: &[Point]) -> Vec<[f64; 2]> {
+    run.iter().map(|point| point.swept).collect()
+}
+
+/// The corners of a line that is level from each point to the next.
+fn staircase(run: &[Point]) -> Vec<[f64; 2]> {
+    let steps = run.windows(2).flat_map(|pair| [pair[0].at, [pair[1].at[0], pair[0].at[1]]]);
+    steps.chain(run.last().map(|last| last.at)).collect()
 }
 
 /// Whether the lane went from one sample to the next under one method.

@@ -6,10 +6,11 @@ use egui::{Align2, FontId, Id, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, po
 use egui_plot::PlotBounds;
 
 use super::super::ink;
+use super::super::roster::Roster;
 use super::hover;
 use super::layout::{Cell, MARKS_APART, NUMBER, NUMBERS, TITLE, WORDS, cells};
 use super::sheet::Sheet;
-use crate::lab::{Command, Lab, Mode};
+use crate::lab::{Command, Lab};
 use crate::view::plot::{on_screen, paint};
 use crate::view::theme::strong_font;
 
@@ -26,7 +27,7 @@ struct Views(BTreeMap<String, [f64; 2]>);
 
 impl Views {
     fn id(lab: &Lab) -> Id {
-        Id::unique(("plots", lab.scene_name()))
+        Id::unique(("plots", lab.scene_name(), lab.loop_lab().is_some()))
     }
 
     fn of(ui: &Ui, lab: &Lab) -> Self {
@@ -105,20 +106,20 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
         if response.double_clicked() {
             views.fit(cell);
         } else if response.clicked() {
-            commands.extend(picked(lab, cell, &views.bounds(cell), &response));
+            commands.extend(picked(&sheet.roster, cell, &views.bounds(cell), &response));
         } else if response.dragged() {
             views.pan(cell, response.drag_delta());
         }
         response.context_menu(|ui| menu(ui, cell, &mut views, commands));
     }
     for (place, cell) in cells.iter().enumerate() {
-        show_plot(ui, lab, cell, &views.bounds(cell), commands);
+        show_plot(ui, lab, &sheet.roster, cell, &views.bounds(cell), commands);
         if cell.plot.nothing.is_none() {
             let at = pointer.filter(|(over, _)| *over == place || cell.plot.is_over_time());
             let bounds = |cell: &Cell<'_>| views.bounds(cell);
             let t =
                 at.and_then(|(over, at)| hover::time_at(&cells[over], &bounds(&cells[over]), at));
-            hover::show(ui, lab, cell, &bounds(cell), t, place == 0);
+            hover::show(ui, &sheet.roster, cell, &bounds(cell), t, place == 0);
         }
     }
     ui.data_mut(|data| data.insert_temp(Views::id(lab), views));
@@ -178,9 +179,14 @@ fn menu(ui: &mut Ui, cell: &Cell<'_>, views: &mut Views, commands: &mut Vec<Comm
 }
 
 /// The command that selects the lane of the curve under a click.
-fn picked(lab: &Lab, cell: &Cell<'_>, bounds: &PlotBounds, response: &Response) -> Option<Command> {
+fn picked(
+    roster: &Roster,
+    cell: &Cell<'_>,
+    bounds: &PlotBounds,
+    response: &Response,
+) -> Option<Command> {
     let at = response.interact_pointer_pos()?;
-    if lab.mode() == Mode::Solo {
+    if !roster.is_race {
         return None;
     }
     let distance = |track: &super::super::tracks::Track| {
@@ -205,6 +211,7 @@ fn distance_to(at: Pos2, [from, to]: [Pos2; 2]) -> f32 {
 fn show_plot(
     ui: &mut Ui,
     lab: &Lab,
+    roster: &Roster,
     cell: &Cell<'_>,
     bounds: &PlotBounds,
     commands: &mut Vec<Command>,
@@ -238,7 +245,7 @@ fn show_plot(
     }
     axes(ui, cell, bounds);
     let columns = frame.width() * painter.pixels_per_point();
-    paint(&painter, frame, bounds, &plot.drawing(lab, bounds, columns));
+    paint(&painter, frame, bounds, &plot.drawing(lab, roster, bounds, columns));
     let rim = Stroke::new(1.0, ink.line);
     painter.rect_stroke(frame, 0.0, rim, egui::StrokeKind::Outside);
 }

@@ -1,6 +1,7 @@
 //! The energies of the selected lane and of the exact solution, and the energy that every lane has gained.
 
 use super::super::ranges;
+use super::super::roster::Roster;
 use super::super::tracks::{Look, Track};
 use super::error;
 use super::motion::healthy;
@@ -31,7 +32,7 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
     // Why there is no drift is said only where there is no energy either.
     let drift = drift.filter(|plot| plot.nothing.is_none() || !conserves);
     let plots = conserves.then_some(energies).into_iter().chain(drift).collect();
-    Sheet { title: "Energy".into(), plots }
+    Sheet { roster: Roster::of(lab), title: "Energy".into(), plots }
 }
 
 fn energies(lab: &Lab, body: usize) -> PlotModel {

@@ -1,6 +1,7 @@
 //! The chosen metric of the chosen body over time: an error, or a count.
 
 use super::super::ranges;
+use super::super::roster::Roster;
 use super::super::tracks::{Look, Track};
 use super::sheet::{FRONT, PlotAxis, PlotModel, Sheet, over_time};
 use crate::lab::{Lab, METRICS, Metric, Scale};
@@ -21,7 +22,11 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
     let (body, place) = (lab.display().body, lab.display().metric);
     let metric = &METRICS[place];
     let name = capitalised(&lab.scene().bodies[body].name);
-    Sheet { title: capitalised(metric.name), plots: vec![plot(lab, body, place, name)] }
+    Sheet {
+        roster: Roster::of(lab),
+        title: capitalised(metric.name),
+        plots: vec![plot(lab, body, place, name)],
+    }
 }
 
 /// A plot of a metric of a body.

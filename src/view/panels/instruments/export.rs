@@ -4,10 +4,11 @@ use std::fmt::Write;
 
 use egui::{Color32, Pos2, Rect, pos2, vec2};
 
+use super::super::roster::Roster;
 use super::super::tracks::Detail;
 use super::super::{ink_of, loops};
 use super::layout::{Cell, MARKS_APART, NUMBER, NUMBERS, TITLE, WORDS, cells};
-use super::sheet::{Sheet, methods_shown};
+use super::sheet::Sheet;
 use super::sheet_of;
 use crate::lab::{Instrument, Lab};
 use crate::view::curves::{Curve, arrow_corners};
@@ -31,7 +32,8 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<String> {
         return Some(loops::csv(lab));
     }
     let mut text = "plot,quantity,unit,curve,t_s,value\n".to_owned();
-    for plot in &sheet_of(lab, Detail::Samples)?.plots {
+    let sheet = sheet_of(lab, Detail::Samples)?;
+    for plot in &sheet.plots {
         let mut add = |curve: &str, t: f64, at: [f64; 2]| {
             let values = plot.axes.iter().zip(at).skip(usize::from(plot.is_over_time()));
             for (axis, place) in values {
@@ -44,7 +46,7 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<String> {
         };
         for track in &plot.tracks {
             for (t, entry, at) in track.places() {
-                let id = lab.entries()[entry].method.id;
+                let id = sheet.roster.runners[entry].id;
                 add(format!("{id} {}", track.part).trim_end(), t, at);
             }
         }
@@ -78,10 +80,10 @@ pub(in crate::view) fn svg(lab: &Lab) -> Option<String> {
     drawing.rect(all, ink.background);
     let head = pos2(MARGIN, MARGIN + 8.0);
     drawing.words(head, "start", 17.0, ink.text, &format!("{}: {}", lab.scene_name(), sheet.title));
-    drawing.legend(lab, &sheet);
+    drawing.legend(&sheet);
     let room = Rect::from_min_max(pos2(MARGIN, HEAD), all.max - vec2(MARGIN, MARGIN / 2.0));
     for (place, cell) in cells(&sheet, room, LEFT, lab.display().body).iter().enumerate() {
-        drawing.plot(lab, cell, place);
+        drawing.plot(lab, &sheet.roster, cell, place);
     }
     drawing.line("</svg>".into());
     Some(drawing.text)
@@ -141,24 +143,20 @@ impl Svg {
         ));
     }
 
-    fn legend(&mut self, lab: &Lab, sheet: &Sheet) {
-        let methods = methods_shown(sheet).into_iter().map(|entry| {
-            let spec = &lab.entries()[entry];
-            (spec.method.name.to_owned(), self.ink.style(spec))
-        });
-        let exact = sheet.plots.iter().any(|plot| !plot.exact.is_empty());
-        let truth = &lab.race().truth().bodies()[lab.display().body];
-        let exact = exact.then(|| (truth.truth_in_words(), (self.ink.exact, [1.0, 0.0])));
-        let lines: Vec<_> = methods.chain(exact).collect();
+    fn legend(&mut self, sheet: &Sheet) {
+        let runners = sheet.shown().map(|(_, runner)| (runner.name, (runner.colour, runner.dash)));
+        let has_exact = sheet.plots.iter().any(|plot| !plot.exact.is_empty());
+        let exact = (&*sheet.roster.exact, (sheet.roster.exact_colour, [1.0, 0.0]));
+        let lines: Vec<_> = runners.chain(has_exact.then_some(exact)).collect();
         let (mut x, y) = (MARGIN, MARGIN + 30.0);
         for (name, (colour, dash)) in lines {
             self.stroke(&[pos2(x, y - 4.0), pos2(x + 30.0, y - 4.0)], (colour, 2.4), dash);
-            self.words(pos2(x + 36.0, y), "start", WORDS, self.ink.text, &name);
+            self.words(pos2(x + 36.0, y), "start", WORDS, self.ink.text, name);
             x += 36.0 + 7.2 * name.chars().count() as f32 + 16.0;
         }
     }
 
-    fn plot(&mut self, lab: &Lab, cell: &Cell<'_>, place: usize) {
+    fn plot(&mut self, lab: &Lab, roster: &Roster, cell: &Cell<'_>, place: usize) {
         let (frame, plot, ink) = (cell.frame, cell.plot, self.ink);
         let bounds = plot.fit;
         self.rect(frame, ink.plot);
@@ -168,7 +166,7 @@ impl Svg {
             return self.words(frame.center(), "middle", WORDS, ink.dim, why);
         }
         self.axes(cell);
-        let drawing = plot.drawing(lab, &bounds, frame.width());
+        let drawing = plot.drawing(lab, roster, &bounds, frame.width());
         self.line(format!(r#"<clipPath id="plot{place}">"#));
         self.rect(frame, ink.plot);
         self.line("</clipPath>".into());

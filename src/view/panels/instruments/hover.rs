@@ -4,9 +4,9 @@ use egui::{Align2, FontId, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
 use egui_plot::PlotBounds;
 
 use super::super::ink;
+use super::super::roster::Roster;
 use super::layout::{Cell, WORDS};
 use super::sheet::Readout;
-use crate::lab::Lab;
 use crate::view::plot::on_screen;
 use crate::view::theme::strong_font;
 
@@ -35,15 +35,15 @@ pub(super) fn time_at(cell: &Cell<'_>, bounds: &PlotBounds, at: Pos2) -> Option<
 /// time is written above the plot.
 pub(super) fn show(
     ui: &Ui,
-    lab: &Lab,
+    roster: &Roster,
     cell: &Cell<'_>,
     bounds: &PlotBounds,
     t: Option<f64>,
     has_tag: bool,
 ) {
-    let (frame, now) = (cell.frame, lab.race().t());
+    let (frame, now) = (cell.frame, roster.now_s);
     let is_over_time = cell.plot.is_over_time();
-    let readouts = cell.plot.readouts(lab, t.unwrap_or(now));
+    let readouts = cell.plot.readouts(roster, t.unwrap_or(now));
     let painter = ui.painter();
     if is_over_time && (bounds.min()[0]..bounds.max()[0]).contains(&now) {
         let x = on_screen(frame, bounds, [now, 0.0]).x;

@@ -1,6 +1,7 @@
 //! Every body's first coordinate over time, under all lanes and exactly.
 
 use super::super::ranges;
+use super::super::roster::Roster;
 use super::super::tracks::{Detail, Look, Track};
 use super::error::capitalised;
 use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
@@ -17,7 +18,11 @@ const HEALTHY_ALONE: f64 = 4.0;
 pub(super) fn sheet(lab: &Lab, detail: Detail) -> Sheet {
     let bodies = 0..lab.scene().bodies.len();
     let title = if bodies.len() > 1 { "Motion of every body" } else { "Motion" };
-    Sheet { title: title.into(), plots: bodies.map(|body| plot(lab, body, detail)).collect() }
+    Sheet {
+        roster: Roster::of(lab),
+        title: title.into(),
+        plots: bodies.map(|body| plot(lab, body, detail)).collect(),
+    }
 }
 
 fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {

@@ -3,6 +3,7 @@
 use egui_plot::PlotBounds;
 
 use super::super::ranges;
+use super::super::roster::Roster;
 use super::super::tracks::{Look, Track};
 use super::error::capitalised;
 use super::motion::healthy;
@@ -13,7 +14,7 @@ use crate::view::curves::Dots;
 use crate::view::plot::SwitchMark;
 
 /// Samples in a phase portrait: a few turns, and each still to be told from the next.
-const SAMPLES: usize = 360;
+pub(super) const SAMPLES: usize = 360;
 
 pub(super) fn sheet(lab: &Lab) -> Sheet {
     let body = lab.display().body;
@@ -43,5 +44,5 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
         switch_mark: SwitchMark::Ring,
         nothing: None,
     };
-    Sheet { title: "Phase portrait".into(), plots: vec![plot] }
+    Sheet { roster: Roster::of(lab), title: "Phase portrait".into(), plots: vec![plot] }
 }

@@ -7,9 +7,10 @@ use egui::Color32;
 use egui_plot::PlotBounds;
 
 use super::super::ink_of;
+use super::super::roster::{Roster, Runner};
 use super::super::tracks::{self, Look, Track};
 use crate::lab::number::significant;
-use crate::lab::{Lab, LaneBody, Mode, TruthCurve, TruthSample};
+use crate::lab::{Lab, LaneBody, TruthCurve, TruthSample};
 use crate::view::axis_scale::AxisScale;
 use crate::view::curves::{Curve, Dots};
 use crate::view::plot::{Drawing, SwitchMark};
@@ -21,6 +22,7 @@ pub(super) const EXACT: f32 = 1.3;
 
 /// An instrument of plots.
 pub(super) struct Sheet {
+    pub(super) roster: Roster,
     pub(super) title: String,
     pub(super) plots: Vec<PlotModel>,
 }
@@ -132,6 +134,17 @@ impl ExactLine {
             times.push(sample.t);
             points.push(at);
         }
+        Self::through(lab, times, points, jumps)
+    }
+
+    /// The exact solution at these times (s) and places; those that are not finite are left out.
+    pub(super) fn of_places(lab: &Lab, places: impl Iterator<Item = (f64, [f64; 2])>) -> Self {
+        let known = places.filter(|(_, at)| at.iter().all(|x| x.is_finite()));
+        let (times, points) = known.unzip();
+        Self::through(lab, times, points, Vec::new())
+    }
+
+    fn through(lab: &Lab, times: Vec<f64>, points: Vec<[f64; 2]>, jumps: Vec<usize>) -> Self {
         let colour = ink_of(lab.display().theme).exact;
         let dash = [1.0, 0.0];
         let swept = Vec::new();
@@ -199,6 +212,11 @@ impl ExactLine {
         points.map(move |point| point[axis]).chain(swept.copied())
     }
 
+    /// The values along an axis.
+    pub(super) fn values(&self, axis: usize) -> impl Iterator<Item = f64> + Clone {
+        self.curve.points.iter().map(move |point| point[axis])
+    }
+
     /// Where it was at time `t` (s), on the line between samples.
     pub(super) fn at(&self, t: f64) -> Option<[f64; 2]> {
         let after = self.times.partition_point(|&time| time < t);
@@ -226,10 +244,16 @@ impl PlotModel {
     }
 
     /// Everything in the plot with `bounds` in view on so many columns of pixels.
-    pub(super) fn drawing(&self, lab: &Lab, bounds: &PlotBounds, columns: f32) -> Drawing {
+    pub(super) fn drawing(
+        &self,
+        lab: &Lab,
+        roster: &Roster,
+        bounds: &PlotBounds,
+        columns: f32,
+    ) -> Drawing {
         let mut healthy = *bounds;
         healthy.merge(&self.fit);
-        let mut drawing = tracks::drawing(lab, &self.tracks, &healthy, self.look);
+        let mut drawing = tracks::drawing(roster, &self.tracks, &healthy, self.look);
         drawing.switch_mark = self.switch_mark;
         let truth = &lab.race().truth().bodies()[self.body];
         let view = [bounds.min()[0], bounds.max()[0]];
@@ -239,25 +263,16 @@ impl PlotModel {
     }
 
     /// The values of all curves at time `t` (s).
-    pub(super) fn readouts(&self, lab: &Lab, t: f64) -> Vec<Readout> {
-        let ink = ink_of(lab.display().theme);
+    pub(super) fn readouts(&self, roster: &Roster, t: f64) -> Vec<Readout> {
         let lanes = self.tracks.iter().filter_map(|track| {
             let (entry, at) = track.at(t)?;
-            let key = match lab.mode() {
-                Mode::Race => format!("{}", entry + 1),
-                Mode::Solo => String::new(),
-            };
-            Some(Readout {
-                colour: ink.style(&lab.entries()[entry]).0,
-                is_front: track.is_front,
-                name: joined(&key, track.part),
-                at,
-            })
+            let key = if roster.is_race { format!("{}", entry + 1) } else { String::new() };
+            let (colour, name) = (roster.runners[entry].colour, joined(&key, track.part));
+            Some(Readout { colour, is_front: track.is_front, name, at })
         });
         let exact = self.exact.iter().filter_map(|line| {
-            let at = line.at(t)?;
-            let name = joined("", line.part);
-            Some(Readout { colour: ink.exact, is_front: true, name, at })
+            let (at, name) = (line.at(t)?, joined("", line.part));
+            Some(Readout { colour: roster.exact_colour, is_front: true, name, at })
         });
         lanes.chain(exact).collect()
     }
@@ -267,14 +282,16 @@ fn joined(key: &str, part: &str) -> String {
     format!("{key} {part}").trim().to_owned()
 }
 
-/// The methods whose curves the plots show, by their places on the list.
-pub(super) fn methods_shown(sheet: &Sheet) -> Vec<usize> {
-    let tracks = sheet.plots.iter().flat_map(|plot| &plot.tracks);
-    let mut shown: Vec<usize> =
-        tracks.flat_map(|track| track.flown().chain([track.entry])).collect();
-    shown.sort_unstable();
-    shown.dedup();
-    shown
+impl Sheet {
+    /// Those whose curves the plots show, with their places on the roster.
+    pub(super) fn shown(&self) -> impl Iterator<Item = (usize, &Runner)> {
+        let tracks = self.plots.iter().flat_map(|plot| &plot.tracks);
+        let mut shown: Vec<usize> =
+            tracks.flat_map(|track| track.flown().chain([track.entry])).collect();
+        shown.sort_unstable();
+        shown.dedup();
+        shown.into_iter().map(|entry| (entry, &self.roster.runners[entry]))
+    }
 }
 
 /// The time in view and the given range of values: at first a quarter of the scene, then half of it, then all that has

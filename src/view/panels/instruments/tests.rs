@@ -276,7 +276,7 @@ fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() 
     assert!((0.5..1.0).contains(&top(&lab)), "{}", top(&lab));
     let sheet = sheet_of(&lab, Detail::Samples).unwrap();
     let plot = &sheet.plots[0];
-    let pieces = plot.drawing(&lab, &plot.fit, 400.0).truth;
+    let pieces = plot.drawing(&lab, &sheet.roster, &plot.fit, 400.0).truth;
     let starts: Vec<[f64; 2]> = pieces.iter().map(|curve| curve.points[0]).collect();
     assert_eq!(starts, [[0.0, 1.0], [2.0, 8.0], [7.0, 0.5]]);
     // A parameter that is changed begins a new swing too, without a jump.

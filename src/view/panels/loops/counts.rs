@@ -50,6 +50,15 @@ fn shares_percent(ticks: impl Iterator<Item = u32>) -> [f64; 4] {
     counts.map(|count| 100.0 * count as f64 / all)
 }
 
+/// A share in at most four characters.
+fn percent(share: f64) -> String {
+    match share {
+        share if share > 0.0 && share < 0.1 => "<0.1".into(),
+        share if share < 10.0 => round(share, 2),
+        share => round(share, 3),
+    }
+}
+
 /// Shows the shares, a bar for each loop.
 pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
     let ink = ink(ui);
@@ -72,7 +81,7 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
         let at = pos2(middle, rect.bottom() + 3.0);
         painter.text(at, Align2::CENTER_TOP, name, FontId::proportional(11.0), ink.dim);
         let number = |x: f32, y: f32, share: f64, colour: Color32| {
-            let (at, text) = (pos2(x, y - 1.0), round(share, 3));
+            let (at, text) = (pos2(x, y - 1.0), percent(share));
             painter.text(at, Align2::CENTER_BOTTOM, text, strong_font(11.0), colour);
         };
         let top_of = |share: f64| area.at([0.0, share]).y.min(rect.bottom() - LEAST);
@@ -108,6 +117,13 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_share_is_short() {
+        let shares = [0.0, 0.0833, 0.128, 8.333, 24.92, 100.0];
+        let written = ["0", "<0.1", "0.13", "8.3", "24.9", "100"];
+        assert_eq!(shares.map(percent), written);
+    }
 
     #[test]
     fn shares_are_in_percent_and_three_ticks_or_more_are_together() {

@@ -1,5 +1,6 @@
 use super::*;
 use crate::lab::{Action, Command, Scene};
+use crate::view::panels::ink_of;
 
 const LOOK: Look = Look { width: 1.0, dots: Dots::None, bounded: [false, true] };
 
@@ -9,7 +10,7 @@ fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
 
 fn drawn(lab: &Lab, low: f64, high: f64) -> Drawing {
     let bounds = PlotBounds::from_min_max([0.0, low], [20.0, high]);
-    drawing(lab, &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, LOOK)
+    drawing(&Roster::of(lab), &Track::of(lab, 0, |s| [s.t, s.q]), &bounds, LOOK)
 }
 
 fn tick(lab: &mut Lab, ticks: u32) {

@@ -1,0 +1,98 @@
+use super::*;
+use crate::lab::pacing::policy;
+use crate::sim::integrators::method;
+
+fn lab() -> LoopLab {
+    LoopLab::new(&Scene::built_in("spring").unwrap(), 0, method("rk4").unwrap())
+}
+
+#[test]
+fn it_opens_where_raw_ticks_judder_and_whole_refreshes_do_not() {
+    let lab = lab();
+    assert_eq!(lab.traces()[lab.trace()].name(), "edge");
+    let error = |id: &str| {
+        let lane = lab.lanes().iter().find(|lane| lane.card().id == id).unwrap();
+        lane.report().animation_error_rms_ms.unwrap()
+    };
+    assert!((11.0..12.6).contains(&error("fixed")), "{}", error("fixed"));
+    assert!(error("whole-refresh") < 1e-6, "{}", error("whole-refresh"));
+    assert_eq!(on_stage(&lab), ["fixed", "whole-refresh"]);
+    assert_eq!(lab.selected_card(), policy("fixed").unwrap());
+}
+
+fn on_stage(lab: &LoopLab) -> Vec<&'static str> {
+    lab.on_stage().iter().map(|&place| lab.lanes()[place].card().id).collect()
+}
+
+#[test]
+fn the_opening_goes_on_to_a_fast_display_unless_a_person_does_something() {
+    let past_the_first = 8 * (OPENING_NS + 1_000_000);
+    let mut lab = lab();
+    lab.advance(past_the_first);
+    assert_eq!(lab.trace(), 0, "not asked for");
+    lab.seek(0);
+    lab.play_opening();
+    lab.advance(past_the_first);
+    assert_eq!(lab.traces()[lab.trace()].name(), "steady-144");
+    assert_eq!(on_stage(&lab), ["fixed", "fixed-linear"]);
+    assert_eq!(lab.now_ns(), 0);
+    lab.advance(past_the_first);
+    assert_eq!(lab.traces()[lab.trace()].name(), "steady-144", "it stays there");
+    lab.select(0);
+    lab.choose_trace(0);
+    assert_eq!(on_stage(&lab).len(), 3, "what a person chose stays");
+}
+
+#[test]
+fn a_script_acts_on_the_body_at_its_times_under_any_tick_rate() {
+    let scene = Scene::built_in("helm").unwrap();
+    assert!(!scene.script.is_empty());
+    let mut lab = LoopLab::new(&scene, 0, method("rk4").unwrap());
+    let ends = |lab: &LoopLab| lab.lanes()[0].frames().last().unwrap().exact[0];
+    let at_own_rate = ends(&lab);
+    let bare = Scene { script: Vec::new(), ..scene.clone() };
+    assert_ne!(at_own_rate, ends(&LoopLab::new(&bare, 0, method("rk4").unwrap())));
+    lab.set_tick_hz(3 * scene.tick_hz);
+    let relative = (ends(&lab) / at_own_rate - 1.0).abs();
+    assert!(relative < 1e-12, "{relative}");
+}
+
+#[test]
+fn a_display_holds_a_frame_until_the_next() {
+    let mut lab = lab();
+    lab.step(3);
+    let lane = &lab.lanes()[lab.selected()];
+    let at = lane.frame_at(lab.now_ns()).unwrap();
+    assert_eq!(at, 3);
+    assert_eq!(lane.frame_at(lane.frames()[4].displayed_ns - 1), Some(3));
+    assert_eq!(lane.frame_at(-1), None);
+    lab.step(-100);
+    assert_eq!(lab.now_ns(), 0);
+}
+
+#[test]
+fn it_plays_slowly_and_begins_again_at_its_end() {
+    let mut lab = lab();
+    lab.advance(80_000_000);
+    assert_eq!(lab.now_ns(), 10_000_000);
+    lab.seek(i64::MAX);
+    assert_eq!(lab.now_ns(), lab.end_ns());
+    lab.advance(80_000_000);
+    assert_eq!(lab.now_ns(), 0);
+}
+
+#[test]
+fn the_stage_holds_one_to_four_lanes_in_the_order_of_the_table() {
+    let mut lab = lab();
+    for place in [0, 1, 2, 99] {
+        lab.select(place);
+    }
+    assert_eq!(lab.on_stage().len(), MOST_ON_STAGE);
+    assert!(lab.on_stage().is_sorted() && lab.on_stage().contains(&lab.selected()));
+    for place in 0..POLICIES.len() {
+        if lab.on_stage().contains(&place) {
+            lab.toggle(place);
+        }
+    }
+    assert_eq!(lab.on_stage().len(), 1);
+}

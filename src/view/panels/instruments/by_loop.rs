@@ -1,0 +1,290 @@
+//! The plots of the loop lab: what each loop on the stage shows and holds, up to the moment of display.
+
+use egui_plot::PlotBounds;
+
+use super::super::ranges;
+use super::super::roster::Roster;
+use super::super::tracks::{Look, Track};
+use super::error::capitalised;
+use super::phase::SAMPLES;
+use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet};
+use crate::lab::{
+    Energies, FRAME_METRICS, Instrument, Lab, LoopFrame, LoopLab, LoopLane, METRICS, Scale,
+};
+use crate::view::axis_scale::AxisScale;
+use crate::view::curves::Dots;
+use crate::view::plot::SwitchMark;
+
+/// So many seconds are in view where every frame is to be seen.
+const FRAMES_S: f64 = 1.0;
+/// A loop this many times further out than the exact solution does not stretch the axes.
+const HEALTHY: f64 = 1.6;
+/// The same for an energy, in fiftieths of the exact one.
+const HEALTHY_ENERGY: f64 = 50.0;
+/// What of the body is in a plot.
+const SHOWN: &str = "as shown";
+const STEPPED: &str = "as stepped";
+/// Said where every value is zero, which has no logarithm.
+const NO_ERROR: &str = "No error: every loop on the stage shows the exact place.";
+
+/// The instrument's plots; `None` if it has none in the loop lab.
+pub(super) fn sheet(lab: &Lab, loops: &LoopLab, instrument: Instrument) -> Option<Sheet> {
+    let plots = Plots { lab, loops };
+    let (title, plot) = match instrument {
+        Instrument::Motion => ("Motion", plots.motion()),
+        Instrument::Error => ("Error", plots.metric()),
+        Instrument::Energy => ("Energy", plots.energy()),
+        Instrument::Phase => ("Phase portrait", plots.phase()),
+        Instrument::Cost
+        | Instrument::StabilityMap
+        | Instrument::OneStep
+        | Instrument::Loop
+        | Instrument::Advice => return None,
+    };
+    Some(Sheet { roster: Roster::of(lab), title: title.into(), plots: vec![plot] })
+}
+
+#[derive(Clone, Copy)]
+struct Plots<'a> {
+    lab: &'a Lab,
+    loops: &'a LoopLab,
+}
+
+impl Plots<'_> {
+    fn motion(self) -> PlotModel {
+        let tracks = self.held(|frame| frame.q[0]);
+        let exact = self.exact(|t, frame| [t, frame.exact[0]]);
+        let range = self.loops.range();
+        let y = ranges::around_truth(range.into_iter(), &tracks, 1, HEALTHY);
+        let coordinate = &self.loops.body().coordinates[0];
+        let up = PlotAxis::new(coordinate.name, coordinate.unit, AxisScale::Linear);
+        self.over_time("motion by loop", up, tracks, Some(exact), (self.last_frames(), y))
+    }
+
+    fn metric(self) -> PlotModel {
+        let metric = &FRAME_METRICS[self.loops.metric()];
+        let scale = match metric.scale {
+            Scale::Log => AxisScale::Log,
+            Scale::Linear => AxisScale::Linear,
+        };
+        let tracks = self.held(|frame| scale.place((metric.measure)(frame)));
+        let [least, most] = self.loops.range();
+        let y = match metric.scale {
+            Scale::Log => ranges::of_decades(&tracks, least.abs().max(most.abs())),
+            Scale::Linear => ranges::from_zero(&tracks),
+        };
+        let unit = metric.unit.on(&self.loops.body().coordinates[0]);
+        let up = PlotAxis::new(metric.name, &unit, scale);
+        let is_empty = tracks.iter().all(Track::is_empty);
+        let id = format!("{} by loop", metric.id);
+        let plot = self.over_time(&id, up, tracks, None, (self.last_frames(), y));
+        PlotModel { nothing: is_empty.then(|| NO_ERROR.into()), ..plot }
+    }
+
+    fn energy(self) -> PlotModel {
+        let total = |energies: Option<Energies>| energies.map_or(f64::NAN, |known| known.total_j);
+        let tracks = self.held(|frame| total(frame.stepped.energies));
+        let exact = self.exact(|t, frame| [t, total(frame.exact_state.energies)]);
+        let y = ranges::around_truth(exact.values(1), &tracks, 1, HEALTHY_ENERGY);
+        let up = PlotAxis::new("total energy", "J", AxisScale::Linear);
+        let is_empty = exact.times.is_empty();
+        let view = self.time_in_view();
+        let plot = self.over_time("energy by loop", up, tracks, Some(exact), (view, y));
+        let drift = METRICS.iter().find(|metric| metric.id == "energy_drift");
+        let why = drift.filter(|_| is_empty).map(|metric| metric.absent.to_owned());
+        PlotModel { title: self.title(STEPPED), nothing: why, ..plot }
+    }
+
+    fn phase(self) -> PlotModel {
+        let mut tracks = self.tracks(|_, frame| [frame.stepped.q, frame.stepped.v]);
+        tracks.iter_mut().for_each(|track| track.keep_latest(SAMPLES));
+        let newest = tracks.iter().filter_map(Track::times).map(|(first, _)| first);
+        let since_s = newest.fold(f64::NEG_INFINITY, f64::max);
+        let exact = self.exact(|t, frame| {
+            let state = frame.exact_state;
+            if t >= since_s { [state.q, state.v] } else { [f64::NAN; 2] }
+        });
+        let [x, y] =
+            [0, 1].map(|axis| ranges::around_orbit(exact.values(axis), &tracks, axis, HEALTHY));
+        let coordinate = &self.loops.body().coordinates[0];
+        let axes = [
+            PlotAxis::new(coordinate.name, coordinate.unit, AxisScale::Linear),
+            PlotAxis::new(
+                coordinate.velocity,
+                &format!("{}/s", coordinate.unit),
+                AxisScale::Linear,
+            ),
+        ];
+        PlotModel {
+            id: "phase portrait by loop".into(),
+            title: self.title(STEPPED),
+            body: self.lab.display().body,
+            axes,
+            fit: PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]),
+            tracks,
+            look: Look { width: FRONT, dots: Dots::Sparse, bounded: [true; 2] },
+            exact: vec![exact],
+            switch_mark: SwitchMark::Ring,
+            nothing: None,
+        }
+    }
+
+    fn over_time(
+        self,
+        id: &str,
+        up: PlotAxis,
+        tracks: Vec<Track>,
+        exact: Option<ExactLine>,
+        ([from, to], (low, high)): ([f64; 2], (f64, f64)),
+    ) -> PlotModel {
+        PlotModel {
+            id: id.into(),
+            title: self.title(SHOWN),
+            body: self.lab.display().body,
+            axes: [PlotAxis::new("moment of display", "s", AxisScale::Linear), up],
+            fit: PlotBounds::from_min_max([from, low], [to, high]),
+            tracks,
+            look: Look { width: FRONT, dots: Dots::None, bounded: [false, true] },
+            exact: exact.into_iter().collect(),
+            switch_mark: SwitchMark::Line,
+            nothing: None,
+        }
+    }
+
+    fn title(self, what: &str) -> String {
+        format!("{}, {what}", capitalised(&self.loops.scene().bodies[0].name))
+    }
+
+    fn now_s(self) -> f64 {
+        self.loops.now_ns() as f64 / 1e9
+    }
+
+    fn last_frames(self) -> [f64; 2] {
+        [(self.now_s() - FRAMES_S).max(0.0), self.now_s().max(FRAMES_S)]
+    }
+
+    /// A quarter of the trace, then half of it, then all of it.
+    fn time_in_view(self) -> [f64; 2] {
+        let end_s = self.loops.end_ns() as f64 / 1e9;
+        let windows = [0.25, 0.5, 1.0].map(|part| part * end_s);
+        let to = windows.into_iter().find(|&to| self.now_s() <= to).unwrap_or(end_s);
+        [0.0, to]
+    }
+
+    /// A track for each loop on the stage, of a value over time that each frame has until the next.
+    fn held(self, value: impl Fn(&LoopFrame) -> f64) -> Vec<Track> {
+        let tracks = self.tracks(|t, frame| [t, value(frame)]);
+        tracks.into_iter().map(Track::held).collect()
+    }
+
+    /// A track for each loop on the stage, of its frames so far; the selected one last.
+    fn tracks(self, place: impl Fn(f64, &LoopFrame) -> [f64; 2]) -> Vec<Track> {
+        let track = |&entry: &usize| {
+            let places = self.frames(&self.loops.lanes()[entry], 1, &place);
+            Track::of_places(entry, entry == self.loops.selected(), places)
+        };
+        let mut tracks: Vec<Track> = self.loops.on_stage().iter().map(track).collect();
+        tracks.sort_by_key(|track| track.is_front);
+        tracks
+    }
+
+    /// The exact solution at the frames of the selected loop so far, and at the next, by which it is known now.
+    fn exact(self, place: impl Fn(f64, &LoopFrame) -> [f64; 2]) -> ExactLine {
+        let lane = &self.loops.lanes()[self.loops.selected()];
+        ExactLine::of_places(self.lab, self.frames(lane, 2, &place))
+    }
+
+    /// The frames up to so many after the last one before the present.
+    fn frames<'f>(
+        self,
+        lane: &'f LoopLane,
+        after: usize,
+        place: &'f impl Fn(f64, &LoopFrame) -> [f64; 2],
+    ) -> impl Iterator<Item = (f64, [f64; 2])> + 'f {
+        let so_far = lane.frame_at(self.loops.now_ns()).map_or(0, |last| last + after);
+        lane.frames()[..so_far.min(lane.frames().len())].iter().map(move |frame| {
+            let t = frame.displayed_ns as f64 / 1e9;
+            (t, place(t, frame))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{Command, LoopCommand, Scene};
+    use crate::view::panels::instruments::{csv, svg};
+
+    fn lab_at(scene: &str, now_ns: i64) -> Lab {
+        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+        lab.apply(Command::Loop(LoopCommand::ToggleLab));
+        lab.apply(Command::Loop(LoopCommand::Seek(now_ns)));
+        lab
+    }
+
+    fn plot(lab: &Lab, instrument: Instrument) -> PlotModel {
+        sheet(lab, lab.loop_lab().unwrap(), instrument).unwrap().plots.remove(0)
+    }
+
+    #[test]
+    fn every_instrument_of_the_loop_lab_has_a_curve_for_each_loop_on_the_stage_and_can_be_saved() {
+        for scene in ["spring", "harbour", "orbit"] {
+            let mut lab = lab_at(scene, 3_000_000_000);
+            lab.apply(Command::Pick(1));
+            for instrument in Instrument::all().filter(|one| one.is_in_loop_lab()) {
+                lab.apply(Command::Instrument(instrument));
+                assert_eq!(lab.display().instrument, instrument);
+                let table = csv(&lab).unwrap();
+                let names = ["lockstep", "fixed", "whole-refresh"];
+                let drawing = svg(&lab);
+                assert_eq!(drawing.is_some(), instrument != Instrument::Loop);
+                let has_values = table.lines().count() > 100;
+                let Some(sheet) = sheet(&lab, lab.loop_lab().unwrap(), instrument) else {
+                    continue;
+                };
+                assert_eq!(has_values, sheet.plots[0].nothing.is_none(), "{scene} {instrument:?}");
+                if has_values {
+                    assert!(names.iter().all(|name| table.contains(&format!(",{name},"))));
+                    assert!(!drawing.unwrap().contains("NaN"), "{scene} {instrument:?}");
+                }
+            }
+            lab.apply(Command::Instrument(Instrument::StabilityMap));
+            assert_eq!(lab.display().instrument, Instrument::Loop, "the map is of the run");
+        }
+    }
+
+    #[test]
+    fn a_display_holds_what_a_loop_shows_until_the_next_frame() {
+        let lab = lab_at("spring", 900_000_000);
+        let motion = plot(&lab, Instrument::Motion);
+        let loops = lab.loop_lab().unwrap();
+        let frames = loops.lanes()[loops.selected()].frames();
+        let [one, next] = [&frames[20], &frames[21]];
+        let between = (one.displayed_ns + next.displayed_ns) as f64 / 2e9;
+        let track = motion.tracks.last().unwrap();
+        assert!(track.is_front);
+        assert_eq!(track.at(between).unwrap().1[1], one.q[0]);
+        // The cosine of the spring, between the exact values at two frames.
+        let exact = motion.exact[0].at(between).unwrap()[1];
+        let true_value = libm::cos(2.0 * std::f64::consts::PI * between);
+        assert!((exact - true_value).abs() < 3e-3, "{exact} and {true_value}");
+        assert!(motion.exact[0].at(0.9).is_some(), "the present is known");
+        assert!(motion.fit.max()[0] - motion.fit.min()[0] == FRAMES_S);
+    }
+
+    #[test]
+    fn every_measure_of_a_frame_can_be_looked_at() {
+        let mut lab = lab_at("spring", 2_000_000_000);
+        lab.apply(Command::Instrument(Instrument::Error));
+        for (place, metric) in FRAME_METRICS.iter().enumerate() {
+            lab.apply(Command::Metric(place));
+            let plot = plot(&lab, Instrument::Error);
+            assert!(plot.axes[1].name().starts_with(metric.name) && plot.nothing.is_none());
+            let raw = plot.tracks.last().unwrap().at(1.5).unwrap().1[1];
+            let loops = lab.loop_lab().unwrap();
+            let fixed = &loops.lanes()[loops.selected()];
+            let frame = &fixed.frames()[fixed.frame_at(1_500_000_000).unwrap()];
+            assert_eq!(plot.axes[1].scale.place((metric.measure)(frame)), raw, "{}", metric.id);
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Whose curves the plots show: the methods of a run, or the loops of the loop lab.
+
+use egui::Color32;
+
+use super::ink_of;
+use crate::lab::pacing::POLICIES;
+use crate::lab::{Lab, LoopLab, Mode};
+use crate::view::theme::colour;
+
+/// Whose curves the plots show.
+pub(super) struct Roster {
+    /// By the place that a track calls its entry.
+    pub(super) runners: Vec<Runner>,
+    /// The place of the one in front.
+    pub(super) front: usize,
+    /// Whether there are several at a time, which are told apart by their digits.
+    pub(super) is_race: bool,
+    /// The name of the exact curve.
+    pub(super) exact: String,
+    pub(super) exact_colour: Color32,
+    /// The present and the length of the run, in seconds.
+    pub(super) now_s: f64,
+    pub(super) length_s: f64,
+}
+
+/// One of them.
+pub(super) struct Runner {
+    pub(super) id: &'static str,
+    pub(super) name: &'static str,
+    pub(super) colour: Color32,
+    /// Drawn length and gap in points.
+    pub(super) dash: [f32; 2],
+}
+
+impl Roster {
+    /// The methods of the run, or of the open loop lab its loops.
+    pub(super) fn of(lab: &Lab) -> Self {
+        match lab.loop_lab() {
+            Some(loops) => Self::of_loops(lab, loops),
+            None => Self::of_methods(lab),
+        }
+    }
+
+    fn of_methods(lab: &Lab) -> Self {
+        let ink = ink_of(lab.display().theme);
+        let runners = lab.entries().iter().map(|spec| {
+            let (colour, dash) = ink.style(spec);
+            Runner { id: spec.method.id, name: spec.method.name, colour, dash }
+        });
+        Self {
+            runners: runners.collect(),
+            front: lab.active(),
+            is_race: lab.mode() == Mode::Race,
+            exact: lab.race().truth().bodies()[lab.display().body].truth_in_words(),
+            exact_colour: ink.exact,
+            now_s: lab.race().t(),
+            length_s: lab.scene().seconds,
+        }
+    }
+
+    fn of_loops(lab: &Lab, loops: &LoopLab) -> Self {
+        let ink = ink_of(lab.display().theme);
+        let runners = POLICIES.iter().enumerate().map(|(place, card)| {
+            let (rgba, dash) = ink.theme.loop_style(place);
+            Runner { id: card.id, name: card.name, colour: colour(rgba), dash }
+        });
+        Self {
+            runners: runners.collect(),
+            front: loops.selected(),
+            is_race: true,
+            exact: loops.body().kind.truth.id().into(),
+            exact_colour: ink.exact,
+            now_s: loops.now_ns() as f64 / 1e9,
+            length_s: loops.end_ns() as f64 / 1e9,
+        }
+    }
+}
