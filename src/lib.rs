@@ -36,9 +36,9 @@
 //!   which `regatta verify` judges. A sweep's runs and the methods that `advise` judges share nothing, so
 //!   that any number of threads makes the same rows (`commands/jobs.rs`).
 //!
-//! `view`, `window` and `commands` are there with the default feature `desktop`. Without it the
-//! package is `sim` and `lab`, pulls in no graphics crate, and builds in seconds: what a game's own
-//! tests want.
+//! Each layer is a feature that has those below it. `view`, `window` and `commands` are there with the default feature
+//! `desktop`. `lab` alone pulls in no graphics crate: what a game's own tests want. Without any feature the package is
+//! `sim`, which needs two crates: what a game's loop wants.
 //!
 //! # A frame
 //!
@@ -83,41 +83,15 @@
 //! 120 Hz whatever the frame rate, and drawn between ticks:
 //!
 //! ```
-//! use glam::DVec2;
-//! use regatta::lab::Clock;
-//! use regatta::sim::integrators::{StepFailure, integrator, method};
-//! use regatta::sim::{State, System};
+#![doc = include_str!("../examples/game_loop.rs")]
+//! ```
 //!
-//! struct Ball {
-//!     drag_per_s: f64,
-//! }
+//! # In continuous integration
 //!
-//! impl System for Ball {
-//!     type Vector = DVec2;
-//!     fn acceleration(&self, _t: f64, _q: &DVec2, v: &DVec2, a: &mut DVec2) {
-//!         *a = DVec2::new(0.0, -9.81) - self.drag_per_s * *v;
-//!     }
-//! }
+//! A race of a scene gives the same hashes for ever, unless its physics changes:
 //!
-//! fn main() -> Result<(), StepFailure> {
-//!     let ball = Ball { drag_per_s: 0.1 };
-//!     let mut state = State { q: DVec2::new(0.0, 2.0), v: DVec2::new(5.0, 3.0) };
-//!     let mut previous = state.clone();
-//!     let mut rk4 = integrator::<Ball>(method("rk4").expect("a built-in method"), &state.q);
-//!
-//!     let (mut clock, mut tick) = (Clock::new(120), 0_u64);
-//!     for frame_ns in [16_700_000, 16_600_000, 41_000_000] {
-//!         for _ in 0..clock.advance(frame_ns).ticks {
-//!             previous.assign(&state);
-//!             rk4.step(&ball, tick as f64 / 120.0, 1.0 / 120.0, &mut state)?;
-//!             tick += 1;
-//!         }
-//!         let _drawn_at = previous.q.lerp(state.q, clock.alpha());
-//!     }
-//!     assert_eq!(tick, 8);
-//!     assert!(state.q.x > 0.3 && state.v.y < 3.0);
-//!     Ok(())
-//! }
+//! ```
+#![doc = include_str!("../examples/ci_hash.rs")]
 //! ```
 //!
 //! # Out of scope
@@ -129,7 +103,9 @@
 
 #[cfg(feature = "desktop")]
 pub mod commands;
+#[cfg(feature = "lab")]
 pub mod lab;
+pub mod prelude;
 pub mod sim;
 #[cfg(feature = "desktop")]
 pub mod view;

@@ -19,14 +19,17 @@ fn recipe() -> &'static str {
     tests.next().expect("the README prints a test")
 }
 
-/// The dependency as the README prints it, on this source tree.
+/// The dependencies as the README prints them, on this source tree.
 fn manifest() -> String {
-    let printed = "regatta = { version = \"0.1\", default-features = false }";
-    assert!(README.contains(printed), "the README prints another dependency");
-    let here = format!("path = {:?}, default-features = false", env!("CARGO_MANIFEST_DIR"));
+    let tables = README.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
+    let mut tables = tables.filter(|table| table.contains("[dependencies]\nregatta = "));
+    let printed = tables.next().expect("the README prints the dependencies");
+    let here = format!("path = {:?}", env!("CARGO_MANIFEST_DIR"));
+    let dependencies = printed.replace("version = \"0.1\"", &here);
+    assert_ne!(dependencies, printed, "the README prints another version");
     format!(
         "[package]\nname = \"stranger\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
-         [dependencies]\nregatta = {{ {here} }}\n\n[workspace]\n"
+         {dependencies}\n[workspace]\n"
     )
 }
 
@@ -37,9 +40,9 @@ struct Stranger {
 }
 
 impl Stranger {
-    fn new() -> Self {
+    fn new(folder: &str) -> Self {
         let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("stranger-target");
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("stranger");
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
         let write = |path: &str, text: &str| {
             let path = folder.join(path);
             fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -49,6 +52,9 @@ impl Stranger {
         write("Cargo.lock", include_str!("../Cargo.lock"));
         write("src/lib.rs", "");
         write("tests/physics.rs", recipe());
+        for (name, text) in examples() {
+            write(&format!("examples/{name}.rs"), &text);
+        }
         Self { folder, target }
     }
 
@@ -57,14 +63,29 @@ impl Stranger {
         let file = self.folder.join("assets/scenes/stiff.toml");
         fs::create_dir_all(file.parent().unwrap()).unwrap();
         fs::write(file, scene).unwrap();
+        self.cargo(&["test", "--quiet", "--offline", "--test", "physics"])
+    }
+
+    fn cargo(&self, arguments: &[&str]) -> Output {
         Command::new(env!("CARGO"))
-            .args(["test", "--quiet", "--offline", "--test", "physics"])
+            .args(arguments)
             .current_dir(&self.folder)
             .env("CARGO_TARGET_DIR", &self.target)
             .env_remove("RUSTFLAGS")
             .output()
             .expect("cargo runs this test too")
     }
+}
+
+/// The programs of `examples`, by their names.
+fn examples() -> Vec<(String, String)> {
+    let folder = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples")).unwrap();
+    let programs = folder.map(|entry| {
+        let path = entry.unwrap().path();
+        let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+        (name, fs::read_to_string(path).unwrap())
+    });
+    programs.collect()
 }
 
 fn said(output: &Output) -> String {
@@ -74,7 +95,7 @@ fn said(output: &Output) -> String {
 
 #[test]
 fn the_readmes_test_passes_and_fails_for_every_lane_whose_method_is_another() {
-    let stranger = Stranger::new();
+    let stranger = Stranger::new("stranger-with-a-test");
     let output = stranger.test(SCENE);
     assert!(output.status.success(), "{}", said(&output));
     assert!(said(&output).contains("1 passed"), "{}", said(&output));
@@ -85,6 +106,18 @@ fn the_readmes_test_passes_and_fails_for_every_lane_whose_method_is_another() {
         let said = said(&output);
         assert!(!output.status.success(), "{} may change unseen", lane.method.id);
         assert!(said.contains("the_physics_is_what_it_was") && said.contains(OTHER), "{said}");
+    }
+}
+
+#[test]
+fn the_examples_run_in_a_package_of_their_own() {
+    let stranger = Stranger::new("stranger-with-examples");
+    let examples = examples();
+    assert!(examples.len() > 1);
+    for (name, _) in examples {
+        assert!(README.contains(&format!("examples/{name}.rs")), "the README leaves out {name}");
+        let output = stranger.cargo(&["run", "--quiet", "--offline", "--example", &name]);
+        assert!(output.status.success() && !output.stdout.is_empty(), "{}", said(&output));
     }
 }
 

@@ -1,6 +1,5 @@
 //! The lab: a run with its past, the clock that drives it, and its display. Commands come in; state goes out.
 
-use super::clock::Clock;
 use super::command::SCALE_LADDER;
 use super::display::{Display, Pace};
 use super::lane_spec::LaneSpec;
@@ -13,6 +12,7 @@ use super::scene_list::SceneList;
 use super::session::{RecordingTooLong, Timeline};
 use super::start::StartSettings;
 use super::viewer::Viewer;
+use crate::sim::Clock;
 
 mod apply;
 mod driving;

@@ -6,7 +6,6 @@
 
 mod action;
 mod analysis;
-mod clock;
 mod command;
 mod display;
 mod duration;
@@ -41,6 +40,7 @@ mod start;
 mod viewer;
 mod zoom_pan;
 
+pub use crate::sim::Clock;
 pub use crate::sim::bodies::{Acts, Parameter, Range};
 pub use action::Action;
 pub use analysis::{
@@ -49,7 +49,6 @@ pub use analysis::{
     MOST_ADVISED_SUBSTEPS, MOST_WORK, MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome,
     Region, RunFailure, Severity, StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
 };
-pub use clock::Clock;
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 pub use display::{Arrangement, Display, DriverRequest, Pace};
 pub use equal_cost::{equal_cost, lanes_that_race};

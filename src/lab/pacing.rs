@@ -5,7 +5,6 @@
 //! A [`PacedLane`] steps bodies by a policy, a [`LoopRun`] goes through a trace with one, and [`PACING_METRICS`] are what a
 //! viewer of the display sees of it. Time is counted in whole numbers of a [`TimeBase`]; there is no clock here.
 
-mod accumulator;
 mod advice;
 mod frame;
 mod loop_run;
@@ -21,8 +20,7 @@ mod timed_script;
 mod trace;
 pub mod trace_file;
 
-pub(super) use accumulator::most_ticks;
-pub use accumulator::{Accumulator, Due};
+pub use crate::sim::{Accumulator, Due, LONGEST_FRAME_MS};
 pub use advice::advised_loop;
 pub use frame::Frame;
 pub use loop_run::LoopRun;
@@ -30,7 +28,7 @@ pub use metrics::{FrameRecord, PACING_METRICS, PacingMetric, PacingReport};
 pub use paced_lane::PacedLane;
 pub use pacer::Pacer;
 pub use patterns::{TRACES, TraceCard, steady_trace, trace_card};
-pub use policies::{LONGEST_FRAME_MS, POLICIES, policy};
+pub use policies::{POLICIES, policy};
 pub use policy::{Policy, PolicyCard, Snippet, Steps};
 pub use time_base::{RefreshRate, TimeBase};
 pub use trace::{FrameTrace, Frames};

@@ -1,12 +1,14 @@
 //! Mathematics: a state, an equation of motion, and ways to step it.
 //!
-//! This layer knows no files, clocks, threads, randomness or pixels. Everything stepped is `f64` and
+//! This layer knows no files, wall clocks, threads, randomness or pixels. Everything stepped is `f64` and
 //! uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same bits on every platform,
 //! in every build profile.
 
+mod accumulator;
 pub mod bodies;
 mod body;
 mod body_stepper;
+mod clock;
 mod double_double;
 mod exact_flow;
 pub mod integrators;
@@ -14,11 +16,16 @@ mod parameter;
 mod propagator;
 mod reference;
 mod solver;
+#[cfg(feature = "lab")]
 pub mod stability;
 mod stepper;
 mod system;
 
+#[cfg(feature = "lab")]
+pub(crate) use accumulator::most_ticks;
+pub use accumulator::{Accumulator, Due, LONGEST_FRAME_MS};
 pub use body_stepper::stepper;
+pub use clock::Clock;
 pub use reference::REFERENCE_ACCURACY;
 pub use solver::Solver;
 pub use stepper::{RecordedTick, Stepper};

@@ -22,8 +22,6 @@ mod snapped;
 mod variable;
 mod whole_refresh;
 
-pub use fixed::LONGEST_FRAME_MS;
-
 /// The loop with this id in each of these languages.
 macro_rules! snippets {
     ($id:literal: $($language:literal $ending:literal),+) => {

@@ -1,45 +1,67 @@
 //! Failures of a step.
 
+use std::fmt;
+
 /// Why a body could not be advanced to the end of its tick.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum StepFailure {
     /// An adaptive method used up its substeps before the end of the tick.
-    #[error("needs more than {limit} substeps for one tick; raise the tick rate or the tolerance")]
     TooManySubsteps {
         /// The most attempts that a tick may take.
         limit: u32,
     },
     /// The solver of an implicit method did not solve the equations of a step. They may have a solution
     /// nevertheless.
-    #[error(
-        "the solver gave up on a step's equations: {limit} of Newton's iterations do not solve them, nor does following the solution from a shorter step; raise the tick rate or the substeps"
-    )]
     NewtonFailed {
         /// The most iterations that a step may take.
         limit: u32,
     },
     /// A reference solution exceeded its budget of evaluations.
-    #[error(
-        "has no reference solution: {evaluations} evaluations of the acceleration did not reach the end of a tick; soften the body"
-    )]
     ReferenceFailed {
         /// The evaluations spent.
         evaluations: u64,
     },
     /// A value became infinite or undefined.
-    #[error("left the numbers: {coordinate} is {value}")]
     NotFinite {
         /// The coordinate's name.
         coordinate: &'static str,
         /// Its value.
         value: f64,
     },
-    /// A value left the range in which bodies are simulated; see [`crate::lab::ESCAPE`].
-    #[error("left the stage: {coordinate} reached {value:.1e}")]
+    /// A value left the range in which bodies are simulated; `lab::ESCAPE`.
     Escaped {
         /// The coordinate's name.
         coordinate: &'static str,
         /// The value that was too large.
         value: f64,
     },
+}
+
+impl std::error::Error for StepFailure {}
+
+impl fmt::Display for StepFailure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooManySubsteps { limit } => write!(
+                f,
+                "needs more than {limit} substeps for one tick; raise the tick rate or the tolerance"
+            ),
+            Self::NewtonFailed { limit } => write!(
+                f,
+                "the solver gave up on a step's equations: {limit} of Newton's iterations do not solve them, nor does \
+                 following the solution from a shorter step; raise the tick rate or the substeps"
+            ),
+            Self::ReferenceFailed { evaluations } => write!(
+                f,
+                "has no reference solution: {evaluations} evaluations of the acceleration did not reach the end of a \
+                 tick; soften the body"
+            ),
+            Self::NotFinite { coordinate, value } => {
+                write!(f, "left the numbers: {coordinate} is {value}")
+            }
+            Self::Escaped { coordinate, value } => {
+                write!(f, "left the stage: {coordinate} reached {value:.1e}")
+            }
+        }
+    }
 }

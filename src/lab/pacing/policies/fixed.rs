@@ -1,12 +1,8 @@
 //! Whole ticks from an accumulator: the loop of "Fix Your Timestep!", and of Regatta's own window.
 
-use crate::lab::pacing::accumulator::{Accumulator, most_ticks};
 use crate::lab::pacing::policy::{Policy, Steps};
 use crate::lab::pacing::time_base::TimeBase;
-
-/// The longest real time for which one frame catches up, in milliseconds: 15 ticks at 60 Hz. With a longer one a slow
-/// machine falls further behind each frame; with a shorter one a hitch shows as slow motion.
-pub const LONGEST_FRAME_MS: u32 = 250;
+use crate::sim::{Accumulator, LONGEST_FRAME_MS, most_ticks};
 
 /// An accumulator that gives whole ticks.
 #[derive(Clone, Copy)]

@@ -96,7 +96,7 @@ mod tests {
         let counts = ticks(noise.clone());
         assert!(counts[1..].iter().all(|&count| count == 1), "{counts:?}");
         // Without it they come and go.
-        let mut fixed = crate::lab::pacing::accumulator::Accumulator::default();
+        let mut fixed = crate::sim::Accumulator::default();
         let counts = noise.map(|time| fixed.advance(time, 100, 8).ticks);
         assert!(counts.filter(|&count| count == 0).count() > 100);
     }

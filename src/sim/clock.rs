@@ -4,7 +4,7 @@
 //! percentage of real time divides it without a remainder being rounded away: a day at 60 Hz is
 //! 5 184 000 ticks however the day is cut into frames.
 
-use super::pacing::{Accumulator, Due, LONGEST_FRAME_MS, most_ticks};
+use super::accumulator::{Accumulator, Due, LONGEST_FRAME_MS, most_ticks};
 
 /// One tick in nanoseconds × hertz × percent.
 const TICK: i128 = 1_000_000_000 * 100;

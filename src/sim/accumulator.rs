@@ -1,5 +1,9 @@
 //! Time in, whole ticks out, exactly: the heart of every loop with a fixed timestep.
 
+/// The longest real time for which one frame catches up, in milliseconds: 15 ticks at 60 Hz. With a longer one a slow
+/// machine falls further behind each frame; with a shorter one a hitch shows as slow motion.
+pub const LONGEST_FRAME_MS: u32 = 250;
+
 /// The ticks that a frame has to simulate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Due {
@@ -41,7 +45,7 @@ impl Accumulator {
 
 /// The most ticks in a frame: those of `longest_ms`, and at least one. `tick_hz_percent` is the tick rate in Hz times the
 /// speed in percent.
-pub(in crate::lab) fn most_ticks(tick_hz_percent: u64, longest_ms: u32) -> u32 {
+pub(crate) fn most_ticks(tick_hz_percent: u64, longest_ms: u32) -> u32 {
     let most = (tick_hz_percent * u64::from(longest_ms)).div_ceil(100 * 1000);
     u32::try_from(most.max(1)).expect("at most 10 000 Hz at a hundredfold speed")
 }

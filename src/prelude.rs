@@ -1,0 +1,15 @@
+//! What a game's loop needs, in one import, with [`glam`] in the version whose vectors the systems use.
+//!
+//! With the feature `lab` it also has scenes, races and verdicts.
+
+pub use glam;
+
+#[cfg(feature = "lab")]
+pub use crate::lab::{
+    Adviser, CRITERIA, Judge, Lane, LaneSpec, METRICS, Race, SCENES, Scene, Session, Verdict,
+};
+pub use crate::sim::bodies::{BODIES, Body, Input};
+pub use crate::sim::integrators::{
+    Family, Integrator, METHODS, Method, StepFailure, integrator, method,
+};
+pub use crate::sim::{Clock, Due, Solver, State, Stepper, System, Vector, stepper};
