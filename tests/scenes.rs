@@ -9,7 +9,7 @@ use regatta::lab::{
     Race, SCENES, Scene, SceneBody, TICK_LADDER,
 };
 use regatta::sim::bodies::{Body, Chain};
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{GENERAL_METHODS, method};
 use regatta::sim::{Solver, Stepper};
 
 fn built_in(name: &str) -> Scene {
@@ -52,7 +52,7 @@ fn every_built_in_scene_parses_names_its_methods_and_says_what_to_try() {
         assert!((2..=9).contains(&parsed.lanes.len()), "{}", scene.name);
         // By name, so that a new method changes no scene.
         assert!(scene.text.contains("\nmethods = ["), "{}", scene.name);
-        assert!(parsed.lanes.contains(&LaneSpec::plain(&METHODS[0])));
+        assert!(parsed.lanes.contains(&LaneSpec::plain(&GENERAL_METHODS[0])));
     }
     assert!(Scene::built_in("no-such-scene").is_none());
 }
@@ -277,7 +277,7 @@ fn a_scene_without_lanes_races_every_method_and_optional_keys_have_defaults() {
     assert_eq!((scene.name.as_str(), scene.title.as_str()), ("mine", "Mine"));
     assert_eq!((scene.about.as_str(), scene.hint), ("", None));
     assert_eq!((scene.tick_hz, scene.seconds), (60, 10.0));
-    assert_eq!(scene.lanes.len(), METHODS.len());
+    assert_eq!(scene.lanes.len(), GENERAL_METHODS.len());
     let spring = &scene.bodies[0];
     let defaults = spring.kind.parameters[2..].iter().map(|parameter| parameter.default.unwrap());
     assert_eq!(spring.values, [1.0, 40.0].into_iter().chain(defaults).collect::<Vec<_>>());

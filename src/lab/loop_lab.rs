@@ -104,6 +104,9 @@ impl LoopLab {
     /// Shows the body at this place of another scene, from its start.
     pub(super) fn show(&mut self, scene: &Scene, body: usize) {
         let scene = alone(scene, body);
+        if scene.refusal(self.method).is_some() {
+            self.method = scene.fitting_methods().next().expect("some methods step every body");
+        }
         self.body = at_start(&scene);
         self.scene = Arc::new(scene);
         self.now_ns = 0;

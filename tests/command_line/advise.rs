@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use regatta::sim::integrators::METHODS;
+use regatta::sim::integrators::GENERAL_METHODS;
 use serde_json::Value;
 
 use crate::{refusal, run_in, stdout_of};
@@ -25,7 +25,7 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     let advice = advice("--scene spring --rates");
     let rows = advice["methods"].as_array().unwrap();
     let ids: Vec<&str> = rows.iter().map(|row| row["method"].as_str().unwrap()).collect();
-    assert_eq!(ids, METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
+    assert_eq!(ids, GENERAL_METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
     assert_eq!((&advice["scene"], &advice["tick_hz"]), (&"spring".into(), &60.into()));
     assert_eq!((&advice["horizon_s"], &advice["bodies"]), (&20.0.into(), &["spring"][..].into()));
 

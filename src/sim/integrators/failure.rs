@@ -26,6 +26,12 @@ pub enum StepFailure {
         /// The evaluations spent.
         evaluations: u64,
     },
+    /// The method is not for this body; see [`Only`](super::Only).
+    #[error("cannot be stepped by this method: {reason}")]
+    Refused {
+        /// Why, as on the method's card.
+        reason: &'static str,
+    },
     /// A value became infinite or undefined.
     #[error("left the numbers: {coordinate} is {value}")]
     NotFinite {

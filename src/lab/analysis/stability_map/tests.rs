@@ -1,6 +1,6 @@
 use super::*;
 use crate::lab::scene::Scene;
-use crate::sim::integrators::{METHODS, Method, method};
+use crate::sim::integrators::{GENERAL_METHODS, Method, method};
 
 /// The map of a spring of 1 kg over its stiffness, with this damping.
 fn spring(damping: f64, ids: &[&str]) -> StabilityMap {
@@ -71,7 +71,7 @@ fn the_regions_of_an_undamped_spring_end_at_the_limits_of_the_cards() {
 #[test]
 fn no_method_is_stable_again_far_beyond_its_limit() {
     // Up to 5000 rad in a tick.
-    let limited = METHODS.iter().filter(|method| {
+    let limited = GENERAL_METHODS.iter().filter(|method| {
         method.tolerance.is_none() && method.stability_limit.is_some_and(|limit| limit >= 1.0)
     });
     let specs: Vec<LaneSpec> = limited.map(LaneSpec::plain).collect();
@@ -169,7 +169,7 @@ fn what_a_method_does_at_the_present_point_is_known() {
 
 #[test]
 fn the_present_point_changes_no_region() {
-    let specs = vec![(0, LaneSpec::plain(&METHODS[0]))];
+    let specs = vec![(0, LaneSpec::plain(&GENERAL_METHODS[0]))];
     let scene = Scene::built_in("harbour").unwrap();
     let opened = &scene.bodies[1];
     let request = |k: f64, c: f64, tick_hz: u32| {

@@ -51,6 +51,10 @@ fn has_bodies(lab: &Lab) -> bool {
     lab.mode() == Mode::Solo && lab.scene().bodies.len() > 1
 }
 
+fn follows(lab: &Lab) -> bool {
+    lab.race().truth().bodies().iter().any(|body| body.chase().is_some())
+}
+
 pub(super) static COLUMNS: &[Column] = &[
     Column {
         head: "Key",
@@ -126,6 +130,24 @@ pub(super) static COLUMNS: &[Column] = &[
             None => row.no_truth(),
         }),
         rank: |row| number(row.measure("position_error")),
+    },
+    Column {
+        head: "half-life",
+        about: "time in which the body covered half of the way to its target; under a method that is not flown, that of the verdict",
+        width: 88.0,
+        turn: 1,
+        is_wanted: follows,
+        cell: Cell::Number(|row| Some(format!("{} ms", significant(row.half_life_ms()?, 3)))),
+        rank: |row| number(row.half_life_ms()),
+    },
+    Column {
+        head: "overshoot",
+        about: "how far the body went beyond its target, in percent of the way",
+        width: 88.0,
+        turn: 2,
+        is_wanted: follows,
+        cell: Cell::Number(|row| Some(format!("{} %", significant(row.overshoot_percent()?, 3)))),
+        rank: |row| number(row.overshoot_percent()),
     },
     Column {
         head: "energy",
