@@ -387,3 +387,32 @@ fn other_editors_line_ends_byte_order_mark_and_inline_tables_are_the_same_scene(
         assert_eq!(format!("{:?}", parse(variant)), expected);
     }
 }
+
+#[test]
+fn a_scene_without_lanes_races_the_methods_that_step_all_its_bodies() {
+    let camera = |order: u32| format!("[[follow]]\norder = {order}\nrate_per_s = 5\n");
+    let ids = |scene: &Scene| scene.lanes.iter().map(|lane| lane.method.id).collect::<Vec<_>>();
+    let others = |scene: &Scene| ids(scene)[GENERAL_METHODS.len()..].to_vec();
+    let first = parse_body(&camera(1));
+    assert_eq!(others(&first), ["lerp-per-frame", "lerp-dt", "exponential-decay"]);
+    let second = parse_body(&camera(2));
+    let followers = ["smooth-damp", "critically-damped-spring", "implicit-spring"];
+    assert_eq!(others(&second), followers);
+    for mixed in [format!("{}{}", camera(1), camera(2)), format!("{SPRING}{}", camera(2))] {
+        assert!(others(&parse_body(&mixed)).is_empty());
+    }
+    // What is not raced is still on the list of methods, if it fits.
+    let listed = parse_body(&format!("methods = ['rk4']\n{}", camera(2))).method_list();
+    assert_eq!(listed.len(), GENERAL_METHODS.len() + followers.len());
+    assert!(!listed.iter().any(|spec| spec.method.id == "lerp-dt"));
+}
+
+#[test]
+fn a_method_that_does_not_fit_is_not_taken_up_and_the_reason_is_told() {
+    let mut lab = Lab::new(built_in("spring"));
+    let before = lab.active();
+    lab.apply(Command::Method(method("smooth-damp").unwrap()));
+    assert_eq!(lab.active(), before);
+    let notice = lab.viewer().notice.clone().unwrap_or_default();
+    assert!(notice.contains("smooth-damp does not step the body \"spring\""), "{notice}");
+}

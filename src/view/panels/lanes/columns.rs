@@ -55,6 +55,11 @@ fn follows(lab: &Lab) -> bool {
     lab.race().truth().bodies().iter().any(|body| body.chase().is_some())
 }
 
+/// Whether a body may have an energy.
+fn has_energies(lab: &Lab) -> bool {
+    lab.race().truth().bodies().iter().any(|body| body.chase().is_none())
+}
+
 pub(super) static COLUMNS: &[Column] = &[
     Column {
         head: "Key",
@@ -144,7 +149,7 @@ pub(super) static COLUMNS: &[Column] = &[
         head: "overshoot",
         about: "how far the body went beyond its target, in percent of the way",
         width: 88.0,
-        turn: 2,
+        turn: 1,
         is_wanted: follows,
         cell: Cell::Number(|row| Some(format!("{} %", significant(row.overshoot_percent()?, 3)))),
         rank: |row| number(row.overshoot_percent()),
@@ -154,7 +159,7 @@ pub(super) static COLUMNS: &[Column] = &[
         about: "energy gained or lost, in percent of the energy that the exact motion exchanges",
         width: 98.0,
         turn: 3,
-        is_wanted: always,
+        is_wanted: has_energies,
         cell: Cell::Number(|row| {
             let drift = row.measure("energy_drift")?;
             let sign = if drift > 0.0 { "+" } else { "" };
