@@ -5,8 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use regatta::lab::{
-    Action, Command, LAST_TICK, Lab, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ,
-    Race, SCENES, Scene, SceneBody, TICK_LADDER,
+    Action, Command, Judge, LAST_TICK, Lab, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS,
+    MOST_TICK_HZ, Race, SCENES, Scene, SceneBody, TICK_LADDER,
 };
 use regatta::sim::bodies::{Body, Chain};
 use regatta::sim::integrators::{GENERAL_METHODS, method};
@@ -415,4 +415,37 @@ fn a_method_that_does_not_fit_is_not_taken_up_and_the_reason_is_told() {
     assert_eq!(lab.active(), before);
     let notice = lab.viewer().notice.clone().unwrap_or_default();
     assert!(notice.contains("smooth-damp does not step the body \"spring\""), "{notice}");
+}
+
+/// The half-life in milliseconds under a method at a rate, by the verdict.
+fn half_life_ms(scene: &Scene, id: &str, tick_hz: u32) -> f64 {
+    let verdict = Judge::new(scene, 1.0).verdict(LaneSpec::plain(method(id).unwrap()), tick_hz);
+    1e3 * verdict.chase.expect("a target that stays").half_life_s.expect("it comes half-way")
+}
+
+#[test]
+fn the_cameras_are_as_early_and_late_as_their_scenes_say() {
+    let scene = built_in("follow");
+    let wanted = 1e3 * 1.678_347 / 5.0;
+    assert!((wanted - 336.0_f64).abs() < 0.5);
+    let mut before = (f64::INFINITY, 0.0);
+    for tick_hz in [15, 30, 60, 144] {
+        for id in ["critically-damped-spring", "smooth-damp"] {
+            let off = half_life_ms(&scene, id, tick_hz) - wanted;
+            assert!(off.abs() < 1.0, "{id} at {tick_hz} Hz is off by {off} ms");
+        }
+        let [late, early] =
+            ["implicit-spring", "explicit-euler"].map(|id| half_life_ms(&scene, id, tick_hz));
+        assert!(wanted < late && late < before.0, "{late} ms at {tick_hz} Hz");
+        assert!(before.1 < early && early < wanted, "{early} ms at {tick_hz} Hz");
+        before = (late, early);
+    }
+    let scene = built_in("lerp");
+    for tick_hz in [30, 60, 144] {
+        let [lerp, euler] =
+            ["lerp-dt", "explicit-euler"].map(|id| half_life_ms(&scene, id, tick_hz));
+        assert!((lerp - euler).abs() < 1e-9, "{lerp} ms, {euler} ms");
+    }
+    let place = |hz| TICK_LADDER.iter().position(|rung| *rung == hz).unwrap();
+    assert_eq!(place(60) - place(scene.tick_hz), 3, "three presses");
 }

@@ -1,6 +1,7 @@
 //! The methods: one file each, one line each in the table below.
 //!
-//! A method implements [`Integrator`] for every [`System`] and describes itself on a [`Method`] card.
+//! A method implements [`Integrator`] for every [`System`] and describes itself on a [`Method`] card. If it
+//! is for some bodies [only](Only), its card says which, and its step fails on others.
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
 //! of each card, both ways. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
 

@@ -206,3 +206,25 @@ fn a_body_without_rest_has_no_map_and_a_pendulum_has_that_of_its_small_swings() 
         assert_eq!(work.map.regions.len(), usize::from(is_possible), "{name}");
     }
 }
+
+#[test]
+fn a_follower_is_mapped_on_a_body_of_its_rate() {
+    let scene = Scene::built_in("lerp").unwrap();
+    let (body, specs) = (&scene.bodies[0], scene.lanes.clone());
+    for (tick_hz, is_stable) in [(6, true), (4, false)] {
+        let specs = specs.iter().copied().enumerate().collect();
+        let request = MapRequest::new((0, 1), body, &body.values, tick_hz, specs);
+        let mut work = MapWork::new(body.kind, request);
+        while !work.is_done() {
+            work.advance();
+        }
+        let map = work.map();
+        let [per_frame, by_dt, exact, euler] = map.here[..] else { panic!("{:?}", map.here) };
+        assert_eq!([per_frame, exact], [Here::Stable; 2]);
+        for here in [by_dt, euler] {
+            assert_eq!(here == Here::Stable, is_stable, "{here:?} at {tick_hz} Hz");
+        }
+        assert_eq!(map.regions[0].coverage, Coverage::Everywhere);
+        assert!(holds(&map.regions[1], 12.0, 20.0) && !holds(&map.regions[1], 8.0, 20.0));
+    }
+}
