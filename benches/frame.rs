@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use regatta::lab::{Command, Lab, LaneSpec, Scene, picture};
-use regatta::sim::integrators::METHODS;
+use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::view::{
     AdapterPreference, FrameRenderer, Gpu, Offscreen, OffscreenRenderer, Panels, Readback, png,
 };
@@ -35,7 +35,7 @@ fn main() {
     let adapter = format!("{} ({})", gpu.info.name, gpu.info.backend);
     let aim = verdict(first < MOST_FOR_THE_FIRST_FRAME, "1000 ms");
     println!("{adapter}\nstart to first frame {:.0} ms{aim}", millis(first));
-    let lanes = METHODS.iter().map(LaneSpec::plain).collect();
+    let lanes = GENERAL_METHODS.iter().map(LaneSpec::plain).collect();
     measure(&gpu, harbour.clone());
     measure(&gpu, Scene { lanes, ..harbour });
 }

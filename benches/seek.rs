@@ -6,7 +6,7 @@
 use std::time::{Duration, Instant};
 
 use regatta::lab::{LaneSpec, Scene, Session, Timeline};
-use regatta::sim::integrators::METHODS;
+use regatta::sim::integrators::GENERAL_METHODS;
 
 /// Ticks in ten minutes.
 const TICKS: u64 = 10 * 60 * 60;
@@ -66,5 +66,5 @@ fn measure(name: &str, lanes: Vec<LaneSpec>) {
 fn main() {
     let harbour = Scene::built_in("harbour").expect("a built-in scene");
     measure("harbour", harbour.lanes);
-    measure("harbour, all methods", METHODS.iter().map(LaneSpec::plain).collect());
+    measure("harbour, all methods", GENERAL_METHODS.iter().map(LaneSpec::plain).collect());
 }

@@ -5,8 +5,8 @@ use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
 use regatta::lab::{Action, Command, Lab, Past, Race, SCENES, Scene};
-use regatta::sim::bodies::Spring;
-use regatta::sim::integrators::{METHODS, integrator};
+use regatta::sim::bodies::{Follow, Spring};
+use regatta::sim::integrators::{GENERAL_METHODS, METHODS, Method, integrator};
 use regatta::sim::{Solver, State, System, Vector};
 
 struct Counting;
@@ -73,7 +73,15 @@ impl<V: Vector> System for Springs<V> {
 }
 
 fn steps_without_allocating<S: System + 'static>(system: &S, like: &S::Vector) {
-    for method in METHODS {
+    all_step_without_allocating(GENERAL_METHODS, system, like);
+}
+
+fn all_step_without_allocating<S: System + 'static>(
+    methods: &[Method],
+    system: &S,
+    like: &S::Vector,
+) {
+    for method in methods {
         let mut state = State { q: like.clone(), v: like.clone() };
         let mut integrator = integrator::<S>(method, like);
         let count = allocations_in(|| {
@@ -97,6 +105,15 @@ fn no_method_allocates_in_a_thousand_steps_on_any_vector() {
     steps_without_allocating(&plane, &glam::DVec2::ONE);
     let many = Springs(std::marker::PhantomData);
     steps_without_allocating(&many, &vec![1.0; 50]);
+}
+
+#[test]
+fn no_follower_allocates_in_a_thousand_steps() {
+    let (first, second) = METHODS[GENERAL_METHODS.len()..].split_at(3);
+    for (order, methods) in [(1, first), (2, second)] {
+        let camera = Follow { order, rate: 5.0, step: 1.0, ..Follow::BLANK };
+        all_step_without_allocating(methods, &camera, &0.0);
+    }
 }
 
 fn scenes() -> impl Iterator<Item = Scene> {
@@ -146,7 +163,7 @@ fn a_lab_allocates_in_no_tick_but_those_at_which_it_takes_a_snapshot() {
 
 #[test]
 fn a_stepper_takes_no_more_memory_than_it_says_and_not_less_than_a_third() {
-    let solvers = METHODS.iter().map(Solver::Method).chain([Solver::Truth]);
+    let solvers = GENERAL_METHODS.iter().map(Solver::Method).chain([Solver::Truth]);
     for solver in solvers {
         for name in ["harbour", "chain", "helm", "orbit", "pendulum"] {
             for body in &Scene::built_in(name).expect("a built-in scene").bodies {

@@ -4,7 +4,7 @@
 
 use regatta::sim::bodies::{Body, Ship, Spring};
 use regatta::sim::integrators::{
-    AdaptiveEulerAsPrinted, Integrator, METHODS, Method, Tolerance, integrator, method,
+    AdaptiveEulerAsPrinted, GENERAL_METHODS, Integrator, Method, Tolerance, integrator, method,
 };
 use regatta::sim::{Counted, State, System};
 
@@ -31,7 +31,9 @@ fn sail(id: &str, h: f64, n: u32) -> Vec<State<f64>> {
 
 /// The three listings, and what the chapter calls Euler.
 fn printed() -> impl Iterator<Item = &'static Method> {
-    METHODS.iter().filter(|method| method.is_as_printed() || method.id == "semi-implicit-euler")
+    GENERAL_METHODS
+        .iter()
+        .filter(|method| method.is_as_printed() || method.id == "semi-implicit-euler")
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A method that blows up hurts nobody else: it halts, once, and says when and why.
 
 use regatta::lab::{Clock, Command, ESCAPE, Lab, LaneBody, LaneSpec, Mode, Past, Race, Scene};
-use regatta::sim::integrators::{METHODS, StepFailure, method};
+use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
 
 /// Ticks of the long race: 4 h 38 min at 60 Hz.
 const TICKS: u64 = 1_000_000;
@@ -13,13 +13,14 @@ fn stiff() -> Scene {
 }
 
 fn entries(without: &str) -> impl Iterator<Item = (usize, LaneSpec)> {
-    let lanes = METHODS.iter().map(LaneSpec::plain).enumerate();
+    let lanes = GENERAL_METHODS.iter().map(LaneSpec::plain).enumerate();
     lanes.filter(move |(_, spec)| spec.method.id != without)
 }
 
 /// The bits of each lane but the named method's, with the lane's place on the list.
 fn states(race: &Race, without: &str) -> Vec<(usize, Vec<u64>)> {
-    let others = race.entrants().iter().filter(|entrant| METHODS[entrant.entry].id != without);
+    let others =
+        race.entrants().iter().filter(|entrant| GENERAL_METHODS[entrant.entry].id != without);
     let bits = others.map(|entrant| {
         let values = entrant.lane.bodies().iter().flat_map(|body| {
             let values = body.stepper.q().iter().chain(body.stepper.v());
@@ -55,7 +56,7 @@ fn explicit_euler_on_the_stiff_spring_halts_once_and_a_million_ticks_go_on() {
             }
         }
     }
-    assert_eq!(METHODS[with.entrants()[0].entry].id, blown);
+    assert_eq!(GENERAL_METHODS[with.entrants()[0].entry].id, blown);
 
     let halt = halt.expect("explicit Euler multiplies the amplitude by 1.94 a tick");
     // 1.94ⁿ passes 1e38 at n = 132; the velocity, 100 times the stretch, at 125.

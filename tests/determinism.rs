@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use regatta::lab::{Action, Command, Lab, LaneSpec, Race, SCENES, Scene, SceneBody, Scripted};
 use regatta::sim::bodies::Input;
-use regatta::sim::integrators::{METHODS, Method, method};
+use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 
 /// Ticks after which the hash is taken: 28 minutes at 60 Hz. For a scene of many coordinates fewer, so
 /// that it takes no longer than one of four.
@@ -54,7 +54,7 @@ impl Field {
             }
             Field::Everyone => {
                 let spec = |method| LaneSpec { method, ..scene.lanes[0] };
-                let lanes = METHODS.iter().map(spec).collect();
+                let lanes = scene.fitting_methods().map(spec).collect();
                 let mut lab = Lab::new(Scene { lanes, ..scene.clone() });
                 lab.apply(Command::ToggleRace);
                 lab
@@ -140,7 +140,7 @@ fn lines(name: &str) -> String {
     ];
     let hashes = compare(Field::Everyone.open(&scene), ticks, &pacings, name);
     let mut lines = String::new();
-    for (method, hash) in METHODS.iter().zip(hashes) {
+    for (method, hash) in scene.fitting_methods().zip(hashes) {
         writeln!(lines, "{name} {} {hash:016x}", method.id).expect("a string takes everything");
     }
     lines
@@ -193,7 +193,7 @@ const SCRIPTED_TICKS: u64 = 4000;
 
 /// One lane whose method the script switches, and all methods at once.
 fn fields() -> [(&'static str, Field); 2] {
-    [("solo", Field::Solo(&METHODS[0])), ("race", Field::Everyone)]
+    [("solo", Field::Solo(&GENERAL_METHODS[0])), ("race", Field::Everyone)]
 }
 
 fn scripted(name: &str, script: Vec<Scripted>) -> Scene {
@@ -280,7 +280,7 @@ fn each_lane_has_the_hash_of_a_race_of_its_own() {
     let scene = built_in("harbour");
     let mut race = Field::Everyone.open(&scene);
     let mut solos: Vec<Lab> =
-        METHODS.iter().map(|method| Field::Solo(method).open(&scene)).collect();
+        GENERAL_METHODS.iter().map(|method| Field::Solo(method).open(&scene)).collect();
     for _ in 0..200 {
         race.tick();
         solos.iter_mut().for_each(Lab::tick);

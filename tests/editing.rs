@@ -1,7 +1,7 @@
 //! Edits during a run: they are in the journal, and a restart keeps them.
 
 use regatta::lab::{Action, Command, Lab, LaneSpec, Mode, Scene, Session};
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn stiffness(value: f64) -> Action {
     Action::Set { body: 0, parameter: 1, value }
@@ -10,7 +10,7 @@ fn stiffness(value: f64) -> Action {
 #[test]
 fn dragging_a_parameter_at_one_tick_adds_few_rows_and_repeats_to_the_bit() {
     for ways in [&[50.0, 60.0, 70.0, 80.0][..], &[50.0, 60.0, 50.0, 60.0, 50.0], &[50.0, 0.0]] {
-        for method in METHODS {
+        for method in GENERAL_METHODS {
             let mut scene = Scene::built_in("spring").unwrap();
             scene.lanes = vec![LaneSpec::plain(method)];
             let scene = std::sync::Arc::new(scene);

@@ -2,7 +2,7 @@
 //! when the keys are pressed as they say.
 
 use regatta::lab::{Command, Key, Lab, Mode, SCENES, Scene, command_for};
-use regatta::sim::integrators::METHODS;
+use regatta::sim::integrators::GENERAL_METHODS;
 
 const C: Key = Key::Sign('c');
 const LOWER_RATE: Key = Key::Sign('[');
@@ -66,7 +66,7 @@ fn every_scene_names_the_lane_that_it_opens_with() {
 
 #[test]
 fn a_scene_opens_with_a_lane_of_its_own_and_never_with_another_method() {
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         let text = |opening: &str| {
             format!(
                 "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['{}', 'rk4-as-printed']\n{opening}\n\

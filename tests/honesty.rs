@@ -6,7 +6,7 @@ mod dice;
 use dice::Dice;
 use regatta::lab::{Adviser, CRITERIA, Judge, LaneSpec, Outcome, Scene, Verdict};
 use regatta::sim::bodies::{Input, Truth};
-use regatta::sim::integrators::METHODS;
+use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::sim::{Solver, Stepper};
 
 impl Dice {
@@ -311,7 +311,7 @@ fn verdicts_on_random_scenes_are_true() {
         let kind = KINDS[round % KINDS.len()];
         let text = scene(&mut dice, kind);
         let scene = Scene::parse("random", &text).unwrap();
-        let spec = LaneSpec::plain(dice.one_of(&METHODS.iter().collect::<Vec<_>>()));
+        let spec = LaneSpec::plain(dice.one_of(&GENERAL_METHODS.iter().collect::<Vec<_>>()));
         let tick_hz = dice.scaled(2.0, 500.0).round() as u32;
         let verdict = Judge::new(&scene, 1.0).verdict(spec, tick_hz);
         let what = format!("{} at {tick_hz} Hz on\n{text}  says: {verdict}", spec.method.id);
@@ -342,7 +342,7 @@ fn advised_substeps_and_rates_meet_their_criterion_and_one_fewer_does_not() {
         let tick_hz = dice.one_of(&[20, 30, 60, 120]);
         let adviser = Adviser::new(&scene, 1.0, tick_hz);
         for _ in 0..3 {
-            let spec = LaneSpec::plain(dice.one_of(&METHODS.iter().collect::<Vec<_>>()));
+            let spec = LaneSpec::plain(dice.one_of(&GENERAL_METHODS.iter().collect::<Vec<_>>()));
             let meets = adviser.meets(spec, CRITERIA[accurate]);
             let Some(met) = meets.met() else { continue };
             let error = |substeps: u32, tick_hz: u32| {

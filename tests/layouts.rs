@@ -2,7 +2,7 @@
 
 use regatta::lab::{Command, Lab, Lane, LaneSpec, Mode, Scene};
 use regatta::sim::Solver;
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn scene(name: &str) -> Scene {
     Scene::built_in(name).expect("a built-in scene")
@@ -17,7 +17,7 @@ fn bits(lane: &Lane) -> Vec<u64> {
 #[test]
 fn solo_to_race_and_back_flies_the_method_that_was_selected() {
     let mut lab = Lab::new(scene("spring"));
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         lab.apply(Command::Method(method));
         lab.apply(Command::ToggleRace);
         assert_eq!(lab.mode(), Mode::Race);
@@ -44,7 +44,7 @@ fn a_race_is_of_the_scenes_lanes_and_of_the_method_last_flown_and_takes_no_other
                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
     let racing = |lab: &Lab| lab.race().entrants().iter().map(|e| e.entry).collect::<Vec<_>>();
     let mut lab = Lab::new(Scene::parse("pair.toml", text).unwrap());
-    assert_eq!(lab.entries().len(), METHODS.len(), "every method can be flown");
+    assert_eq!(lab.entries().len(), GENERAL_METHODS.len(), "every method can be flown");
     lab.apply(Command::ToggleRace);
     assert_eq!(racing(&lab), [0, 1]);
     for _ in 0..30 {

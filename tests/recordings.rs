@@ -4,7 +4,7 @@ use regatta::lab::{
     Action, Command, Lab, LaneSpec, Mode, SCENES, Scene, Scripted, Session, equal_cost,
     lanes_that_race,
 };
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn built_in(name: &str) -> Scene {
     Scene::built_in(name).expect("a built-in scene")
@@ -45,7 +45,7 @@ fn difficult_texts_and_numbers_are_unchanged_by_writing_and_reading() {
     scene.bodies[0].values[0] = 1.0 / 3.0;
     scene.bodies[0].values[6] = -1e-300;
     scene.bodies[0].values[7] = 1e15;
-    scene.lanes = METHODS.iter().map(LaneSpec::plain).collect();
+    scene.lanes = GENERAL_METHODS.iter().map(LaneSpec::plain).collect();
     scene.lanes[2].substeps = 7;
     let adaptive = scene.lanes.iter().position(|spec| spec.method.tolerance.is_some()).unwrap();
     scene.lanes[adaptive].tolerance = Some(1e-14);
@@ -203,7 +203,7 @@ fn equal_cost_brings_each_lane_as_near_as_possible_to_the_dearest() {
         (0..60).for_each(|tick| lane.tick(tick, tick as f64 / 60.0, 1.0 / 60.0));
         lane.evaluations() as f64
     };
-    let all: Vec<LaneSpec> = METHODS.iter().map(LaneSpec::plain).collect();
+    let all: Vec<LaneSpec> = GENERAL_METHODS.iter().map(LaneSpec::plain).collect();
     let dearest = all.iter().map(cost).fold(0.0, f64::max);
     for (plain, equal) in all.iter().zip(equal_cost(&scene, &all, 60)) {
         assert_eq!((equal.method, equal.tolerance), (plain.method, plain.tolerance));

@@ -5,11 +5,11 @@ use std::fs;
 use std::path::Path;
 
 use regatta::lab::{
-    Action, Command, LAST_TICK, Lab, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ,
-    Race, SCENES, Scene, SceneBody, TICK_LADDER,
+    Action, Command, Judge, LAST_TICK, Lab, LaneSpec, MOST_BODIES, MOST_LANES, MOST_SECONDS,
+    MOST_TICK_HZ, Race, SCENES, Scene, SceneBody, TICK_LADDER,
 };
 use regatta::sim::bodies::{Body, Chain};
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{GENERAL_METHODS, method};
 use regatta::sim::{Solver, Stepper};
 
 fn built_in(name: &str) -> Scene {
@@ -52,7 +52,7 @@ fn every_built_in_scene_parses_names_its_methods_and_says_what_to_try() {
         assert!((2..=9).contains(&parsed.lanes.len()), "{}", scene.name);
         // By name, so that a new method changes no scene.
         assert!(scene.text.contains("\nmethods = ["), "{}", scene.name);
-        assert!(parsed.lanes.contains(&LaneSpec::plain(&METHODS[0])));
+        assert!(parsed.lanes.contains(&LaneSpec::plain(&GENERAL_METHODS[0])));
     }
     assert!(Scene::built_in("no-such-scene").is_none());
 }
@@ -277,7 +277,7 @@ fn a_scene_without_lanes_races_every_method_and_optional_keys_have_defaults() {
     assert_eq!((scene.name.as_str(), scene.title.as_str()), ("mine", "Mine"));
     assert_eq!((scene.about.as_str(), scene.hint), ("", None));
     assert_eq!((scene.tick_hz, scene.seconds), (60, 10.0));
-    assert_eq!(scene.lanes.len(), METHODS.len());
+    assert_eq!(scene.lanes.len(), GENERAL_METHODS.len());
     let spring = &scene.bodies[0];
     let defaults = spring.kind.parameters[2..].iter().map(|parameter| parameter.default.unwrap());
     assert_eq!(spring.values, [1.0, 40.0].into_iter().chain(defaults).collect::<Vec<_>>());
@@ -386,4 +386,66 @@ fn other_editors_line_ends_byte_order_mark_and_inline_tables_are_the_same_scene(
     for variant in [&text.replace('\n', "\r\n"), &format!("\u{feff}{text}"), inline] {
         assert_eq!(format!("{:?}", parse(variant)), expected);
     }
+}
+
+#[test]
+fn a_scene_without_lanes_races_the_methods_that_step_all_its_bodies() {
+    let camera = |order: u32| format!("[[follow]]\norder = {order}\nrate_per_s = 5\n");
+    let ids = |scene: &Scene| scene.lanes.iter().map(|lane| lane.method.id).collect::<Vec<_>>();
+    let others = |scene: &Scene| ids(scene)[GENERAL_METHODS.len()..].to_vec();
+    let first = parse_body(&camera(1));
+    assert_eq!(others(&first), ["lerp-per-frame", "lerp-dt", "exponential-decay"]);
+    let second = parse_body(&camera(2));
+    let followers = ["smooth-damp", "critically-damped-spring", "implicit-spring"];
+    assert_eq!(others(&second), followers);
+    for mixed in [format!("{}{}", camera(1), camera(2)), format!("{SPRING}{}", camera(2))] {
+        assert!(others(&parse_body(&mixed)).is_empty());
+    }
+    // What is not raced is still on the list of methods, if it fits.
+    let listed = parse_body(&format!("methods = ['rk4']\n{}", camera(2))).method_list();
+    assert_eq!(listed.len(), GENERAL_METHODS.len() + followers.len());
+    assert!(!listed.iter().any(|spec| spec.method.id == "lerp-dt"));
+}
+
+#[test]
+fn a_method_that_does_not_fit_is_not_taken_up_and_the_reason_is_told() {
+    let mut lab = Lab::new(built_in("spring"));
+    let before = lab.active();
+    lab.apply(Command::Method(method("smooth-damp").unwrap()));
+    assert_eq!(lab.active(), before);
+    let notice = lab.viewer().notice.clone().unwrap_or_default();
+    assert!(notice.contains("smooth-damp does not step the body \"spring\""), "{notice}");
+}
+
+/// The half-life in milliseconds under a method at a rate, by the verdict.
+fn half_life_ms(scene: &Scene, id: &str, tick_hz: u32) -> f64 {
+    let verdict = Judge::new(scene, 1.0).verdict(LaneSpec::plain(method(id).unwrap()), tick_hz);
+    1e3 * verdict.chase.expect("a target that stays").half_life_s.expect("it comes half-way")
+}
+
+#[test]
+fn the_cameras_are_as_early_and_late_as_their_scenes_say() {
+    let scene = built_in("follow");
+    let wanted = 1e3 * 1.678_347 / 5.0;
+    assert!((wanted - 336.0_f64).abs() < 0.5);
+    let mut before = (f64::INFINITY, 0.0);
+    for tick_hz in [15, 30, 60, 144] {
+        for id in ["critically-damped-spring", "smooth-damp"] {
+            let off = half_life_ms(&scene, id, tick_hz) - wanted;
+            assert!(off.abs() < 1.0, "{id} at {tick_hz} Hz is off by {off} ms");
+        }
+        let [late, early] =
+            ["implicit-spring", "explicit-euler"].map(|id| half_life_ms(&scene, id, tick_hz));
+        assert!(wanted < late && late < before.0, "{late} ms at {tick_hz} Hz");
+        assert!(before.1 < early && early < wanted, "{early} ms at {tick_hz} Hz");
+        before = (late, early);
+    }
+    let scene = built_in("lerp");
+    for tick_hz in [30, 60, 144] {
+        let [lerp, euler] =
+            ["lerp-dt", "explicit-euler"].map(|id| half_life_ms(&scene, id, tick_hz));
+        assert!((lerp - euler).abs() < 1e-9, "{lerp} ms, {euler} ms");
+    }
+    let place = |hz| TICK_LADDER.iter().position(|rung| *rung == hz).unwrap();
+    assert_eq!(place(60) - place(scene.tick_hz), 3, "three presses");
 }

@@ -11,7 +11,7 @@ use regatta::lab::{
     Timeline, TruthSample,
 };
 use regatta::sim::bodies::BODIES;
-use regatta::sim::integrators::METHODS;
+use regatta::sim::integrators::GENERAL_METHODS;
 
 impl Dice {
     fn below(&mut self, count: usize) -> usize {
@@ -19,7 +19,7 @@ impl Dice {
     }
 
     fn spec(&mut self) -> LaneSpec {
-        let method = &METHODS[self.below(METHODS.len())];
+        let method = &GENERAL_METHODS[self.below(GENERAL_METHODS.len())];
         let tolerance = (method.tolerance.is_some() && self.part() < 0.5)
             .then(|| 10.0_f64.powf(self.between(-8.0, -3.0)));
         LaneSpec { method, substeps: 1 + self.below(3) as u32, tolerance }
@@ -34,10 +34,13 @@ fn scene(dice: &mut Dice, n: usize) -> Scene {
         "helm"
     } else if n % 40 == 20 {
         "pendulum"
+    } else if n % 40 == 10 {
+        "follow"
     } else {
         kinds[n % 6]
     };
-    let names = ["harbour", "spring", "chain", "orbit", "ship", "pendulum", "helm", "stiff"];
+    let names =
+        ["harbour", "spring", "chain", "orbit", "ship", "pendulum", "helm", "stiff", "follow"];
     let built_in = |name: &&str| Scene::built_in(name).expect("a built-in scene");
     let all: Vec<Scene> = names.iter().map(built_in).collect();
     let of = |kind: &str| all.iter().flat_map(|s| &s.bodies).find(|b| b.kind.id == kind).cloned();
@@ -76,7 +79,7 @@ fn action(dice: &mut Dice, session: &Session) -> Action {
             let value = race.values(body)[parameter] * dice.between(0.8, 1.25);
             Action::Set { body, parameter, value }
         }
-        17 => Action::Method(&METHODS[dice.below(METHODS.len())]),
+        17 => Action::Method(&GENERAL_METHODS[dice.below(GENERAL_METHODS.len())]),
         18 => {
             let truth = &race.truth().bodies()[body].stepper;
             let factor = dice.between(0.9, 1.1);

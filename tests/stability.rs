@@ -1,7 +1,7 @@
 //! The one-tick map of every method, against the chapter's tables and against the steppers themselves.
 
 use regatta::sim::bodies::{Ship, Spring, kind};
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{GENERAL_METHODS, method};
 use regatta::sim::stability::{FOREVER_S, RateSearch, Stability, Tick};
 use regatta::sim::{Solver, Stepper, stepper};
 
@@ -172,7 +172,7 @@ fn neither_the_state_nor_the_unit_of_length_changes_a_linear_bodys_map() {
     for (x0, v0) in [(1.0, 0.0), (0.0, 1.0), (0.0, 0.0), (-3e9, 2e9), (4e-12, 1e-11)] {
         let body = Spring { mass: 2.0, stiffness: 180.0, damping: 3.0, x0, v0, kick: 1.0 };
         let body = stepper(body, Solver::Truth);
-        for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+        for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
             let found = of(&*body, method.id, 0.02);
             let reference = of(&*spring_like(&[1.0, 0.3]), method.id, 0.02);
             let off = (found.spectral_radius - reference.spectral_radius).abs();
@@ -192,7 +192,7 @@ fn spring_like(state: &[f64; 2]) -> Box<dyn Stepper> {
 fn several_substeps_in_a_tick_are_as_many_ticks() {
     for omega in [HZ_1, 60.0] {
         let body = spring(omega, 0.1);
-        for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+        for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
             let tick = in_steps(&*body, method.id, 0.06, 4);
             let step = of(&*body, method.id, 0.015);
             let [tick, step] = [tick.growth_per_s, step.growth_per_s];
@@ -204,7 +204,7 @@ fn several_substeps_in_a_tick_are_as_many_ticks() {
 #[test]
 fn a_method_that_chooses_its_substeps_is_seen_to_hold_a_stiff_spring() {
     let body = spring(100.0, 0.0);
-    for method in METHODS.iter().filter(|m| m.tolerance.is_some() && m.keeps_time) {
+    for method in GENERAL_METHODS.iter().filter(|m| m.tolerance.is_some() && m.keeps_time) {
         for tick_hz in [10, 60] {
             let found = of(&*body, method.id, 1.0 / f64::from(tick_hz));
             // What it gains in a second is of the order of its tolerance.
@@ -227,7 +227,7 @@ fn the_ship_stands_neutral_and_its_speed_is_held_up_to_a_step_of_twice_its_time(
         assert!(!bounded || (found.spectral_radius - 1.0).abs() < 1e-12, "{h} s: {found:?}");
     }
     // Without drag it is neutral twice over, which rounding must not turn into growth.
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         let found = of(&*ship(0.0), method.id, 1.0 / 60.0);
         assert!(found.is_bounded() && found.halving_s().is_none(), "{}: {found:?}", method.id);
     }
@@ -235,7 +235,7 @@ fn the_ship_stands_neutral_and_its_speed_is_held_up_to_a_step_of_twice_its_time(
 
 #[test]
 fn a_kick_or_a_way_run_changes_nothing_but_the_state() {
-    let mut body = spring(HZ_1, 0.0).with_solver(Solver::Method(&METHODS[0]), 0.0);
+    let mut body = spring(HZ_1, 0.0).with_solver(Solver::Method(&GENERAL_METHODS[0]), 0.0);
     let before = of(&*body, "rk4", 0.1);
     for tick in 0..7 {
         body.advance(0.1 * f64::from(tick), 0.1, 1).unwrap();

@@ -1,7 +1,7 @@
 //! What a stepper says of its body besides its state: energies, inputs taken and refused, errors, lost time.
 
 use regatta::sim::bodies::{BODIES, Input, Ship, Spring, kind};
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{GENERAL_METHODS, method};
 use regatta::sim::{Solver, Stepper, stepper};
 
 fn by(id: &str) -> Solver {
@@ -21,6 +21,7 @@ fn bodies(solver: Solver, damping: f64) -> impl Iterator<Item = (&'static str, B
             let plain = card[..card.len() - 1].iter().map(|p| p.default.unwrap_or(1.5));
             plain.chain([0.0, 2.0, 10.0, 1.0]).collect()
         }
+        "follow" => vec![2.0, 3.0, 1.2, 0.3, 0.4, 0.6, -0.5, 0.8, 0.3],
         id => panic!("{id} has no values here"),
     };
     BODIES.iter().map(move |kind| (kind.id, (kind.build)(&values(kind.id), solver)))
@@ -54,7 +55,7 @@ fn a_body_says_that_it_is_linear_just_where_its_forces_add_up() {
         assert_eq!(body.is_linear(), adds_up, "{id}");
         linear.extend(adds_up.then_some(id));
     }
-    assert_eq!(linear, ["ship", "spring", "chain"]);
+    assert_eq!(linear, ["ship", "spring", "chain", "follow"]);
 }
 
 #[test]
@@ -71,7 +72,9 @@ fn only_what_conserves_its_energy_says_that_it_has_one() {
 
 #[test]
 fn energy_stays_along_the_true_motion_and_the_motions_part_is_what_is_missing_at_rest() {
-    for (id, mut body) in bodies(Solver::Truth, 0.0).filter(|(id, _)| *id != "helm") {
+    for (id, mut body) in
+        bodies(Solver::Truth, 0.0).filter(|(id, _)| !matches!(*id, "helm" | "follow"))
+    {
         body.input(0.0, Input::Throttle(0.4));
         let start = body.energy().unwrap();
         for tick in 0..30 {
@@ -146,7 +149,7 @@ fn the_inputs_on_its_card_are_taken_and_any_other_is_refused_and_changes_no_bit(
 
 #[test]
 fn what_a_method_lost_stays_lost_under_the_next() {
-    let printed = METHODS.iter().find(|m| m.tolerance.is_some() && !m.keeps_time).unwrap();
+    let printed = GENERAL_METHODS.iter().find(|m| m.tolerance.is_some() && !m.keeps_time).unwrap();
     let (_, mut body) = bodies(Solver::Method(printed), 0.9).nth(1).unwrap();
     assert_eq!(body.counts().lost_time, 0.0);
     let run = |body: &mut dyn Stepper, from: u32| {
@@ -250,8 +253,8 @@ fn a_copy_of_a_stepper_goes_on_alike_to_the_bit() {
             body.advance(t, H, 2).expect("soft bodies at a fine tick");
         }
     };
-    let methods = METHODS.iter().map(Solver::Method);
-    let adaptive = METHODS.iter().filter(|method| method.tolerance.is_some());
+    let methods = GENERAL_METHODS.iter().map(Solver::Method);
+    let adaptive = GENERAL_METHODS.iter().filter(|method| method.tolerance.is_some());
     let tolerant = adaptive.map(|method| Solver::WithTolerance(method, 1e-7));
     for solver in methods.chain(tolerant).chain([Solver::Truth]) {
         for (id, mut body) in bodies(solver, 0.4) {

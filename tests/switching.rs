@@ -6,7 +6,7 @@ use regatta::lab::{
     Scene, SceneBody,
 };
 use regatta::sim::bodies::{Body, Input, Ship, Spring};
-use regatta::sim::integrators::{METHODS, Method, method};
+use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 use regatta::sim::{Solver, State};
 
 fn scene(name: &str) -> Scene {
@@ -31,8 +31,8 @@ fn run(race: &mut Race, ticks: u32) {
 
 #[test]
 fn a_switch_carries_the_state_to_the_bit() {
-    for from in METHODS {
-        for to in METHODS {
+    for from in GENERAL_METHODS {
+        for to in GENERAL_METHODS {
             let mut race = solo(&scene("harbour"), from.id);
             run(&mut race, 100);
             let (before, hash) = (bits(&race.entrants()[0].lane), race.state_hash());
@@ -50,12 +50,15 @@ fn a_switch_carries_the_state_to_the_bit() {
 #[test]
 fn there_and_back_in_one_tick_changes_nothing_that_follows() {
     // A method that carries something forgets it, as it must: it starts anew.
-    for method in METHODS.iter().filter(|method| method.restart.is_none()) {
+    for method in GENERAL_METHODS.iter().filter(|method| method.restart.is_none()) {
         let mut straight = solo(&scene("harbour"), method.id);
         let mut detour = solo(&scene("harbour"), method.id);
         run(&mut straight, 500);
         run(&mut detour, 100);
-        detour.switch(0, LaneSpec { substeps: 3, ..LaneSpec::plain(METHODS.last().unwrap()) });
+        detour.switch(
+            0,
+            LaneSpec { substeps: 3, ..LaneSpec::plain(GENERAL_METHODS.last().unwrap()) },
+        );
         detour.switch(0, LaneSpec::plain(method));
         run(&mut detour, 400);
         assert_eq!(detour.state_hash(), straight.state_hash(), "{}", method.id);
@@ -94,7 +97,7 @@ fn goes_on_as_if_started_there(from: &'static Method, to: &'static Method, chang
 
 #[test]
 fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
-    for to in METHODS {
+    for to in GENERAL_METHODS {
         let from = method(if to.id == "rk4" { "improved-euler" } else { "rk4" }).unwrap();
         goes_on_as_if_started_there(from, to, |_| ());
     }
@@ -102,14 +105,14 @@ fn after_a_switch_the_new_method_goes_on_as_if_started_there() {
 
 #[test]
 fn after_a_kick_every_method_goes_on_as_if_started_there() {
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         goes_on_as_if_started_there(method, method, |race| race.input(Input::Kick(1.0)));
     }
 }
 
 #[test]
 fn after_a_change_of_tick_rate_every_method_goes_on_as_if_started_there() {
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         goes_on_as_if_started_there(method, method, |race| race.set_tick_hz(100));
         goes_on_as_if_started_there(method, method, |race| race.set_tick_hz(49));
     }
@@ -136,7 +139,7 @@ fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
             assert!(race.switch(0, spec).is_empty());
         },
     ];
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         let begun = || {
             let mut race = solo(&mixed(), method.id);
             race.input(Input::Throttle(0.5));
@@ -161,7 +164,7 @@ fn what_is_set_to_what_it_is_changes_no_bit_of_lanes_or_truth() {
 
 #[test]
 fn a_persons_action_that_changes_nothing_changes_no_bit() {
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         let begun = || {
             let mut lab = Lab::new(mixed());
             lab.apply(Command::Method(method));

@@ -2,7 +2,7 @@
 
 use regatta::lab::{Adviser, CRITERIA, Judge, LaneSpec, Outcome, Scene, Verdict};
 use regatta::sim::Solver;
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{GENERAL_METHODS, method};
 
 fn scene(seconds: f64, body: &str) -> Scene {
     let text = format!("title = \"t\"\ntick_hz = 60\nseconds = {seconds}\n{body}\n");
@@ -32,7 +32,7 @@ fn a_truth_that_fails_is_no_agreement() {
     ] {
         let scene = scene(2.0, body);
         let judge = Judge::new(&scene, 1.0);
-        for method in METHODS {
+        for method in GENERAL_METHODS {
             let found = judge.verdict(LaneSpec::plain(method), 60);
             let mut lane =
                 (scene.bodies[0].kind.build)(&scene.bodies[0].values, Solver::Method(method));
@@ -251,7 +251,7 @@ fn a_map_past_all_numbers_is_unbounded_and_no_panic() {
         "[[ship]]\nthrust_n = 1\ndrag_n_s_per_m = 1e9\nmass_kg = 1",
     ] {
         let scene = scene(1.0, body);
-        for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+        for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
             let found = verdict(&scene, method.id, 60);
             let is_implicit = method.evaluations.is_none();
             assert!(

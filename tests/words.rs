@@ -20,6 +20,7 @@ fn plain(word: Outcome) -> Verdict {
         frequency_error: None,
         is_bounded: Some(true),
         energy_drift: None,
+        chase: None,
         failure: None,
         no_truth: None,
         not_judged: None,

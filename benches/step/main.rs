@@ -19,7 +19,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use regatta::sim::bodies::kind;
-use regatta::sim::integrators::{METHODS, Method};
+use regatta::sim::integrators::{GENERAL_METHODS, Method};
 use regatta::sim::{Solver, Stepper};
 
 use floor::{ByHand, Loop, by_hand};
@@ -219,7 +219,7 @@ fn main() {
 fn readme() {
     let heads = COURSES.each_ref().map(|course| format!("{}, ns | by hand |", course.name()));
     println!("| method | {}\n|---|{}", heads.join(" "), "---:|---:|".repeat(COURSES.len()));
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         print!("| `{}` |", method.id);
         for course in &COURSES {
             let Figures { ns, by_hand } = measure(course, method, 1);
@@ -241,7 +241,7 @@ fn everything() {
     );
     let mut verdicts = Vec::new();
     for course in &COURSES {
-        for method in METHODS.iter().filter(|method| wanted(course, method)) {
+        for method in GENERAL_METHODS.iter().filter(|method| wanted(course, method)) {
             for substeps in [1, 16] {
                 check(course, method, substeps);
                 let Figures { ns, by_hand } = measure(course, method, substeps);

@@ -10,7 +10,6 @@ use super::interrupt::{Interrupted, watch_for_interrupt};
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::{Adviser, LaneSpec};
-use crate::sim::integrators::METHODS;
 
 mod judged;
 mod report;
@@ -59,7 +58,7 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(Lineup::Everyone)?;
     let scene = &experiment.scene;
     let specs: Vec<LaneSpec> = if args.experiment.names_no_method() {
-        METHODS.iter().map(LaneSpec::plain).collect()
+        scene.fitting_methods().map(LaneSpec::plain).collect()
     } else {
         args.experiment.lanes_named(scene)
     };

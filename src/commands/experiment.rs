@@ -75,6 +75,7 @@ impl ExperimentArgs {
         let (mut scene, text) = scene_file::load(path)?;
         if path == self.scene() {
             scene.tick_hz = self.tick_hz.unwrap_or(scene.tick_hz);
+            self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
             if self.methods.len() > 1 {
                 scene.lanes = lanes_of(&scene, &self.methods);
             }

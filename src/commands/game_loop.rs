@@ -156,6 +156,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         return Ok(print(snippet(card, &args.language)?)?);
     }
     let (scene, _) = scene_file::load(&args.scene)?;
+    scene_file::check_method(&scene, args.method)?;
     let scene = Scene { tick_hz: args.tick_hz.unwrap_or(scene.tick_hz), ..scene };
     let traces = traces(&args.traces, args.display_hz)?;
     let format = row_format(&args.out, args.format)?;

@@ -132,6 +132,16 @@ const METHOD: &[Column<Method>] = &[
     Column { key: "restart", heading: None, value: |method| json!(method.restart) },
     Column { key: "keeps_time", heading: None, value: |method| json!(method.keeps_time) },
     Column { key: "as_printed", heading: Some("AS PRINTED"), value: |m| json!(m.is_as_printed()) },
+    Column {
+        key: "only",
+        heading: Some("ONLY FOR"),
+        value: |method| method.only.map_or(Value::Null, |only| json!(only.to_string())),
+    },
+    Column {
+        key: "only_because",
+        heading: None,
+        value: |method| json!(method.only.map(|only| only.reason)),
+    },
     Column { key: "about", heading: Some("ABOUT"), value: |method| json!(method.about) },
     Column { key: "source", heading: None, value: |method| json!(method.source) },
 ];

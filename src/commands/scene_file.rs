@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::error::{Cause, message};
-use crate::lab::{BuiltIn, LARGEST_FILE, SCENES, Scene, SceneErrors, nearest};
+use crate::lab::{BuiltIn, LARGEST_FILE, Refusal, SCENES, Scene, SceneErrors, nearest};
+use crate::sim::integrators::Method;
 
 /// The reason why a scene cannot be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -32,6 +33,9 @@ pub(super) enum SceneFileError {
         /// What the system says.
         source: io::Error,
     },
+    /// A method that the command line names does not step a body of the scene.
+    #[error("--method {0}; name another, which `regatta list methods` has, or another scene")]
+    Refused(Refusal),
     /// The file holds no valid scene.
     #[error(transparent)]
     Invalid(#[from] SceneErrors),
@@ -58,6 +62,11 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), SceneFileError> {
     let bytes = read(path)?;
     let scene = Scene::from_bytes(&path.display().to_string(), &bytes)?;
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
+}
+
+/// Checks that `method`, which the command line names, steps `scene`.
+pub(super) fn check_method(scene: &Scene, method: &Method) -> Result<(), SceneFileError> {
+    scene.refusal(method).map_or(Ok(()), |refusal| Err(SceneFileError::Refused(refusal)))
 }
 
 /// Whether `path` is the name of a built-in scene.

@@ -13,7 +13,8 @@ use super::output::table::{self, Column, RowFormat};
 use super::output::{AtomicOutput, Older, Place, STDOUT, finish};
 use super::plot::Plot;
 use super::scene_file::{self, SceneFileError};
-use crate::lab::{Clock, SCENES, Scene};
+use crate::lab::{Clock, SCENES, Scene, SceneBody};
+use crate::sim::bodies::refusal;
 use crate::sim::integrators::{METHODS, Method};
 
 mod diagrams;
@@ -35,6 +36,7 @@ One row for each scene, body, method and tick rate, in that order whatever the n
                         no-truth or not-judged
   halted                why, if it blew up or gave up: a method that blows up is a row like others
 
+A method that is for some bodies only has rows of those (`regatta list methods`).
 A body is judged as `regatta advise` judges it, from its start and with the inputs of the scene's script.
 Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
 
@@ -135,6 +137,13 @@ impl SweepArgs {
         rates.sort_unstable();
         rates.dedup();
         let methods = METHODS.iter().filter(asked).collect();
+        for method in &self.methods {
+            // A method runs on the bodies that it steps; one that steps none would leave no row.
+            let alone = |body: &SceneBody| refusal(method, body.kind, &body.values).is_none();
+            if !scenes.iter().any(|(_, scene)| scene.bodies.iter().any(alone)) {
+                scene_file::check_method(&scenes[0].1, method)?;
+            }
+        }
         Ok(Swept { scenes, methods, rates, seconds: self.seconds })
     }
 }

@@ -3,6 +3,7 @@
 
 mod advice;
 mod change;
+mod chase_finding;
 mod energy;
 mod frequency;
 mod judge;
@@ -22,6 +23,7 @@ pub use advice::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS,
     MethodAdvice, recommended,
 };
+pub use chase_finding::ChaseFinding;
 pub use judge::{Judge, LONGEST_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 pub use outcome::{Outcome, Severity};

@@ -4,6 +4,7 @@
 //! bit.
 
 use super::action::Action;
+use super::chase::Chase;
 use super::extent::Extent;
 use super::number::superscript;
 use super::scene::Scene;
@@ -69,6 +70,7 @@ pub struct LaneBody {
     halted: Option<Halt>,
     /// The range of the true motion so far; `None` under a method.
     extent: Option<Extent>,
+    chase: Option<Chase>,
 }
 
 impl LaneBody {
@@ -77,6 +79,7 @@ impl LaneBody {
         let stepper = (kind.build)(values, solver);
         let state = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
         let [previous_q, previous_v] = state.clone();
+        let chase = Chase::new(&*stepper, 0.0);
         let mut body = Self {
             kind,
             coordinates: (kind.coordinates)(values),
@@ -86,6 +89,7 @@ impl LaneBody {
             before_input: state,
             halted: None,
             extent: (solver == Solver::Truth).then(Extent::default),
+            chase,
         };
         body.cover();
         body
@@ -99,6 +103,12 @@ impl LaneBody {
     /// The range of the true motion so far; `None` under a method.
     pub(super) fn extent(&self) -> Option<&Extent> {
         self.extent.as_ref()
+    }
+
+    /// How the body closes on the target that it follows, since its start or the last input or placement; `None`
+    /// if it follows nothing, or a target that moves.
+    pub fn chase(&self) -> Option<&Chase> {
+        self.chase.as_ref()
     }
 
     /// Of `values`, one per coordinate, those whose coordinate has the unit of the first coordinate.
@@ -141,7 +151,11 @@ impl LaneBody {
             .advance(t, h, substeps)
             .and_then(|()| check(&*self.stepper, self.coordinates));
         match stepped {
-            Ok(()) => self.cover(),
+            Ok(()) => {
+                self.cover();
+                let place = self.stepper.q()[0];
+                self.chase.iter_mut().for_each(|chase| chase.take_in(place, t + h));
+            }
             Err(failure) => {
                 self.stepper.set(t, &self.previous_q, &self.previous_v);
                 self.halted = Some(Halt { tick, body: place, failure });
@@ -161,9 +175,14 @@ impl LaneBody {
         let [q, v] = &mut self.before_input;
         q.copy_from_slice(self.stepper.q());
         v.copy_from_slice(self.stepper.v());
-        self.stepper.input(t, input);
+        let is_taken = self.stepper.input(t, input);
         match check(&*self.stepper, self.coordinates) {
-            Ok(()) => self.cover(),
+            Ok(()) => {
+                self.cover();
+                if is_taken {
+                    self.chase = Chase::new(&*self.stepper, t);
+                }
+            }
             Err(failure) => {
                 let [q, v] = &self.before_input;
                 self.stepper.set(t, q, v);
@@ -200,6 +219,7 @@ impl LaneBody {
         }
         self.remember();
         self.cover();
+        self.chase = Chase::new(&*self.stepper, t);
     }
 
     fn remember(&mut self) {
@@ -334,63 +354,4 @@ impl Lane {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sim::integrators::{METHODS, method};
-
-    const H: f64 = 1.0 / 60.0;
-
-    fn bits(stepper: &dyn Stepper) -> Vec<u64> {
-        stepper.q().iter().chain(stepper.v()).map(|x| x.to_bits()).collect()
-    }
-
-    #[test]
-    fn a_tick_takes_as_many_equal_steps_as_the_lane_has_substeps() {
-        let scene = Scene::built_in("spring").unwrap();
-        let body = &scene.bodies[0];
-        for method in METHODS {
-            let solver = Solver::Method(method);
-            let mut lane = Lane::new(&scene, solver, 4);
-            let mut by_hand = (body.kind.build)(&body.values, solver);
-            for tick in 0..30 {
-                let t = tick as f64 * H;
-                lane.tick(tick, t, H);
-                by_hand.advance(t, H, 4).unwrap();
-            }
-            let stepper = &*lane.bodies()[0].stepper;
-            assert_eq!(bits(stepper), bits(&*by_hand), "{}", method.id);
-            if let Some(evaluations) = method.evaluations {
-                let steps = lane.evaluations().abs_diff(u64::from(evaluations) * 4 * 30);
-                // Those that carry something need one more to begin.
-                assert!(steps <= 4, "{}: {}", method.id, lane.evaluations());
-            }
-        }
-    }
-
-    #[test]
-    fn a_lane_that_is_switched_takes_the_substeps_of_the_other() {
-        let scene = Scene::built_in("spring").unwrap();
-        let euler = Solver::Method(method("explicit-euler").unwrap());
-        let truth = Lane::new(&scene, Solver::Truth, 1);
-        let mut lane = Lane::new(&scene, euler, 1);
-        lane.tick(0, 0.0, H);
-        lane.switch(euler, 5, H, &truth);
-        lane.tick(1, H, H);
-        assert_eq!((lane.substeps(), lane.evaluations()), (5, 1 + 5));
-    }
-
-    #[test]
-    fn a_body_without_truth_has_no_extent_and_the_truth_has_one_from_its_start() {
-        let scene = Scene::built_in("ship").unwrap();
-        let mut truth = Lane::new(&scene, Solver::Truth, 1);
-        let largest = |lane: &Lane| lane.bodies()[0].extent().unwrap().largest_speed();
-        assert_eq!(largest(&truth), 0.0);
-        truth.input(0, 0.0, Input::Kick(2.0));
-        assert_eq!(largest(&truth), 4.0);
-        truth.input(0, 0.0, Input::Throttle(-1.0));
-        (0..60).for_each(|tick| truth.tick(tick, tick as f64 * H, H));
-        assert!(truth.bodies()[0].speed() < 4.0 && largest(&truth) == 4.0);
-        let lane = Lane::new(&scene, Solver::Method(&METHODS[0]), 1);
-        assert!(lane.bodies()[0].extent().is_none());
-    }
-}
+mod tests;

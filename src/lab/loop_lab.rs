@@ -130,6 +130,10 @@ impl LoopLab {
     pub(super) fn show(&mut self, scene: &Scene, body: usize) {
         self.original = Arc::new(alone(scene, body));
         self.scene = self.original.clone();
+        if self.scene.refusal(self.method).is_some() {
+            let mut fitting = self.scene.fitting_methods();
+            self.method = fitting.next().expect("some methods step every body");
+        }
         self.body = at_start(&self.scene);
         self.now_ns = 0;
         self.make();

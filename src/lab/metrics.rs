@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::chase::Chase;
 use super::lane::LaneBody;
 use crate::sim::bodies::Coordinate;
 
@@ -135,6 +136,24 @@ pub const METRICS: &[Metric] = &[
         scale: Scale::Linear,
         about: "time by which this body is behind, under a method that does not keep it",
         measure: |lane, _| Some(lane.stepper.counts().lost_time).filter(|&lost| lost > 0.0),
+    },
+    Metric {
+        id: "half_life",
+        name: "half-life",
+        absent: "No half-life: this body follows no target that stays, or is not yet half-way.",
+        unit: Unit::Of("ms"),
+        scale: Scale::Linear,
+        about: "time in which this body covered half of the way to a target that stays, since the last input or placement",
+        measure: |lane, _| Some(1e3 * lane.chase()?.half_life_s()?),
+    },
+    Metric {
+        id: "overshoot",
+        name: "overshoot",
+        absent: "No overshoot: this body follows no target that stays.",
+        unit: Unit::Of("%"),
+        scale: Scale::Linear,
+        about: "furthest that this body went beyond a target that stays, in percent of the way, since the last input or placement",
+        measure: |lane, _| lane.chase().map(Chase::overshoot_percent),
     },
 ];
 

@@ -6,6 +6,7 @@
 
 mod action;
 mod analysis;
+mod chase;
 mod command;
 mod display;
 mod duration;
@@ -44,11 +45,13 @@ pub use crate::sim::Clock;
 pub use crate::sim::bodies::{Acts, Parameter, Range};
 pub use action::Action;
 pub use analysis::{
-    Advice, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, Coverage, Criterion, CriterionMet,
-    CriterionResult, FREQUENCY_TOLERANCE, Findings, Here, Judge, LONG_RUN, LONGEST_HORIZON_S,
-    MOST_ADVISED_SUBSTEPS, MOST_WORK, MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome,
-    Region, RunFailure, Severity, StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
+    Advice, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, ChaseFinding, Coverage, Criterion,
+    CriterionMet, CriterionResult, FREQUENCY_TOLERANCE, Findings, Here, Judge, LONG_RUN,
+    LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK, MapRequest, MethodAdvice, NoTruth,
+    NotJudged, Outcome, Region, RunFailure, Severity, StabilityMap, TOLERANCE, VISIBLE, Verdict,
+    duration, recommended,
 };
+pub use chase::Chase;
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 pub use display::{Arrangement, Display, DriverRequest, Pace};
 pub use equal_cost::{equal_cost, lanes_that_race};
@@ -75,7 +78,7 @@ pub use past::{
 pub use race::{Entrant, Mode, Observer, Race};
 pub use scene::{
     BuiltIn, Check, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES,
-    MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, SCENES, Scene,
+    MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, Refusal, SCENES, Scene,
     SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, edited_values, nearest,
     parameter_named,
 };

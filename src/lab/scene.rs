@@ -9,7 +9,7 @@ use std::path::Path;
 use super::action::Action;
 use super::lane_spec::LaneSpec;
 use crate::sim::bodies::Kind;
-use crate::sim::integrators::{METHODS, Method};
+use crate::sim::integrators::Method;
 
 mod cause;
 mod clip;
@@ -18,7 +18,9 @@ mod document;
 mod edit;
 mod errors;
 mod fields;
+mod fitting;
 mod nearest;
+mod refusal;
 mod script;
 mod syntax;
 mod table;
@@ -27,6 +29,7 @@ mod writer;
 pub use edit::{EditError, edited_values, parameter_named};
 pub use errors::{MOST_SHOWN, SceneError, SceneErrors};
 pub use nearest::nearest;
+pub use refusal::Refusal;
 
 /// The largest scene file in bytes: tens of thousands of scripted commands. A file of nothing but
 /// mistakes takes the parser some hundred times its size in memory.
@@ -158,10 +161,10 @@ impl Scene {
             .map_err(|errors| SceneErrors::new(file, text, errors))
     }
 
-    /// The methods that digits and lanes refer to: the scene's lanes, then all other methods.
+    /// The methods that digits and lanes refer to: the scene's lanes, then all others that step its bodies.
     pub fn method_list(&self) -> Vec<LaneSpec> {
         let is_listed = |method: &Method| self.lanes.iter().any(|spec| spec.method == method);
-        let others = METHODS.iter().filter(|method| !is_listed(method));
+        let others = self.fitting_methods().filter(|method| !is_listed(method));
         self.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
     }
 
@@ -193,4 +196,6 @@ pub static SCENES: &[BuiltIn] = &[
     BuiltIn { name: "pendulum", text: include_str!("../../assets/scenes/pendulum.toml") },
     BuiltIn { name: "orbit", text: include_str!("../../assets/scenes/orbit.toml") },
     BuiltIn { name: "helm", text: include_str!("../../assets/scenes/helm.toml") },
+    BuiltIn { name: "follow", text: include_str!("../../assets/scenes/follow.toml") },
+    BuiltIn { name: "lerp", text: include_str!("../../assets/scenes/lerp.toml") },
 ];

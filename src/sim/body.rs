@@ -33,29 +33,42 @@ pub trait Body: System + Clone + Send + 'static {
     /// The state at tick 0.
     fn start(&self) -> State<Self::Vector>;
 
-    /// The exact flow over `dt` (s) under constant input. Returns `None` for all arguments if the body
-    /// has no closed form; its truth is then a reference solution.
+    /// The exact flow over `dt` (s) under constant input, from time 0 if the forces depend on time.
+    /// Returns `None` for all arguments if the body has no closed form; its truth is then a reference
+    /// solution.
     fn exact(&self, dt: f64, from: &State<Self::Vector>) -> Option<State<Self::Vector>>;
 
-    /// Overwrites `to` with [`Body::exact`], and returns whether there is a closed form. A body with
+    /// The exact flow over `dt` (s) from time `t` (s). A body whose forces depend on time overrides this.
+    fn exact_at(
+        &self,
+        _t: f64,
+        dt: f64,
+        from: &State<Self::Vector>,
+    ) -> Option<State<Self::Vector>> {
+        self.exact(dt, from)
+    }
+
+    /// Overwrites `to` with [`Body::exact_at`], and returns whether there is a closed form. A body with
     /// coordinates on the heap overrides this so that it does not allocate.
     fn exact_into(
         &self,
+        t: f64,
         dt: f64,
         from: &State<Self::Vector>,
         to: &mut State<Self::Vector>,
     ) -> bool {
-        let flown = self.exact(dt, from);
+        let flown = self.exact_at(t, dt, from);
         flown.is_some_and(|state| {
             *to = state;
             true
         })
     }
 
-    /// A bound on the rounding error of [`Body::exact`] over `dt` from `from` to `to`, for exact
-    /// arguments: of a coordinate and of a velocity.
+    /// A bound on the rounding error of [`Body::exact_at`] over `dt` from `from` at time `_t` to `to`, for
+    /// exact arguments: of a coordinate and of a velocity.
     fn exact_error(
         &self,
+        _t: f64,
         _dt: f64,
         _from: &State<Self::Vector>,
         _to: &State<Self::Vector>,

@@ -12,7 +12,7 @@ use super::propagator::{Jump, MethodPropagator, Propagator};
 use super::reference::Reference;
 use super::solver::Solver;
 use super::stepper::{RecordedTick, Stepper};
-use super::system::{Counted, Counts, Recorded, State, Vector};
+use super::system::{Counted, Counts, Pursuit, Recorded, State, Vector};
 
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
@@ -173,6 +173,11 @@ impl<B: Body, D: Propagator<B>> Stepper for BodyStepper<B, D> {
     }
     fn kinetic_energy(&self) -> Option<f64> {
         self.body.system.kinetic_energy(&self.state)
+    }
+
+    fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
+        let Pursuit { target, rate, order, is_still } = self.body.system.pursuit(t)?;
+        Some(Pursuit { target: target.components()[0], rate, order, is_still })
     }
 
     fn place(&self) -> DVec2 {

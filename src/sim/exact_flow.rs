@@ -55,14 +55,14 @@ impl<V: Vector> Anchor<V> {
     ) -> [f64; 2] {
         let mut error = [0.0; 2];
         if t != self.t {
-            error = body.exact_error(t - self.t, &self.state, state);
+            error = body.exact_error(self.t, t - self.t, &self.state, state);
             let late = f64::EPSILON * (t.abs() + self.t.abs());
             body.acceleration(t, &state.q, &state.v, &mut scratch.v);
             error[0] += late * largest(&state.v);
             error[1] += late * largest(&scratch.v);
         }
         if self.error != [0.0; 2] {
-            body.exact_into(t - self.t, &self.displaced, scratch);
+            body.exact_into(self.t, t - self.t, &self.displaced, scratch);
             scratch.add_scaled(-1.0, state);
             error[0] += largest(&scratch.q);
             error[1] += largest(&scratch.v);
@@ -81,7 +81,8 @@ impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
         state: &mut State<B::Vector>,
     ) -> Result<(), StepFailure> {
         self.t = t + h;
-        let is_known = body.system.exact_into(self.t - self.anchor.t, &self.anchor.state, state);
+        let Anchor { state: from, t: begin, .. } = &self.anchor;
+        let is_known = body.system.exact_into(*begin, self.t - begin, from, state);
         assert!(is_known, "a body has a closed form always or never");
         Ok(())
     }

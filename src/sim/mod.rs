@@ -29,4 +29,4 @@ pub use clock::Clock;
 pub use reference::REFERENCE_ACCURACY;
 pub use solver::Solver;
 pub use stepper::{RecordedTick, Stepper};
-pub use system::{Counted, Counts, Evaluation, Recorded, State, System, Vector};
+pub use system::{Counted, Counts, Evaluation, Pursuit, Recorded, State, System, Vector};

@@ -231,7 +231,7 @@ pub(super) const fn descriptions<B, const N: usize>(of: &[ParameterOf<B>; N]) ->
 
 /// Suffixes of keys and the symbols of the units they name. A suffix comes before any shorter suffix
 /// that ends it.
-const UNITS: [(&str, &str); 13] = [
+const UNITS: [(&str, &str); 15] = [
     ("_kg_m2", "kg·m²"),
     ("_n_s_per_m", "N·s/m"),
     ("_n_per_m", "N/m"),
@@ -241,6 +241,8 @@ const UNITS: [(&str, &str); 13] = [
     ("_m_per_s2", "m/s²"),
     ("_m_per_s", "m/s"),
     ("_rad_per_s", "rad/s"),
+    ("_per_s", "1/s"),
+    ("_hz", "Hz"),
     ("_rad", "rad"),
     ("_kg", "kg"),
     ("_n", "N"),

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::body::Input;
 use super::integrators::{Method, StepFailure};
 use super::solver::Solver;
-use super::system::{Counts, Evaluation};
+use super::system::{Counts, Evaluation, Pursuit};
 
 /// A tick that was taken on a copy of a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +68,10 @@ pub trait Stepper: Send {
     fn energy(&self) -> Option<f64>;
     /// The kinetic part of [`Stepper::energy`], in joules. Never allocates.
     fn kinetic_energy(&self) -> Option<f64>;
+
+    /// What the body follows at time `t` (s), in its first coordinate; `None` if it follows nothing. It is not
+    /// counted as an evaluation.
+    fn pursuit(&self, t: f64) -> Option<Pursuit<f64>>;
 
     /// Where the body is, in metres. Never allocates.
     fn place(&self) -> DVec2;

@@ -191,11 +191,31 @@ pub trait System {
         self.acceleration(t, &state.q, &state.v, &mut d.v);
     }
 
+    /// What the body follows at time `t` (s), which counts as an evaluation; `None` if it follows nothing. A
+    /// [follower](super::integrators::Family::Follower) steps by this alone.
+    #[inline]
+    fn pursuit(&self, _t: f64) -> Option<Pursuit<Self::Vector>> {
+        None
+    }
+
     /// Reports that a method left out `h` (s) of a step, as a method that does not [keep
     /// time](super::integrators::Method::keeps_time) does. It does not affect the motion; [`Counted`]
     /// sums it.
     #[inline]
     fn skipped(&self, _h: f64) {}
+}
+
+/// What a body follows at one moment, and how fast.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pursuit<V> {
+    /// The target, in the units of the coordinates.
+    pub target: V,
+    /// The rate k of a law of first order or ω of one of second order, per second; positive.
+    pub rate: f64,
+    /// The order of the law: 1 or 2.
+    pub order: u32,
+    /// Whether the target stays where it is.
+    pub is_still: bool,
 }
 
 /// A system that counts evaluations and skipped time. A clone continues from the same counts.
@@ -243,6 +263,13 @@ impl<S: System> System for Counted<S> {
     }
 
     #[inline]
+    fn pursuit(&self, t: f64) -> Option<Pursuit<S::Vector>> {
+        let pursuit = self.system.pursuit(t)?;
+        self.evaluations.set(self.evaluations.get() + 1);
+        Some(pursuit)
+    }
+
+    #[inline]
     fn skipped(&self, h: f64) {
         self.lost_time.set(self.lost_time.get() + h);
     }
@@ -286,5 +313,14 @@ impl<V: Vector> System for Recorded<'_, V> {
         self.system.acceleration(t, q, v, a);
         let [q, v, a] = [q, v, a].map(|vector| vector.components().to_vec());
         self.evaluations.borrow_mut().push(Evaluation { t, q, v, a });
+    }
+
+    /// Kept as an evaluation at rest in the target.
+    fn pursuit(&self, t: f64) -> Option<Pursuit<V>> {
+        let pursuit = self.system.pursuit(t)?;
+        let mut rest = pursuit.target.clone();
+        rest.components_mut().fill(0.0);
+        self.acceleration(t, &pursuit.target, &rest, &mut rest.clone());
+        Some(pursuit)
     }
 }

@@ -3,13 +3,13 @@
 
 use regatta::lab::Scene;
 use regatta::sim::bodies::{Acts, BODIES, Input, Kind, LARGEST, Range, kind};
-use regatta::sim::integrators::METHODS;
+use regatta::sim::integrators::GENERAL_METHODS;
 use regatta::sim::{Solver, Stepper};
 
 const HZ: f64 = 60.0;
 
 fn solvers() -> impl Iterator<Item = Solver> {
-    METHODS.iter().map(Solver::Method).chain([Solver::Truth])
+    GENERAL_METHODS.iter().map(Solver::Method).chain([Solver::Truth])
 }
 
 /// The parameter values of the first body of this kind in the scene of the kind's name.
@@ -161,17 +161,19 @@ fn counts_and_curves_act_at_the_start_and_so_does_what_the_start_alone_reads() {
 /// The symbol of the unit that ends a key: `per` divides, a figure is a power, and a letter after the first
 /// underscore is a unit.
 fn unit_of_key(key: &str) -> String {
-    let units = ["n", "m", "s", "kg", "rad", "m2", "m3", "s2"];
+    let units = ["n", "m", "s", "kg", "rad", "hz", "m2", "m3", "s2"];
     let words: Vec<&str> = key.split('_').collect();
     let is_unit = |word: &&&str| units.contains(*word) || **word == "per";
     let count = words[1..].iter().rev().take_while(is_unit).count();
     let symbol = |word: &str| match word {
         "n" => "N".to_owned(),
+        "hz" => "Hz".to_owned(),
         word => word.replace('2', "²").replace('3', "³"),
     };
     let mut written = String::new();
     for word in &words[words.len() - count..] {
         match *word {
+            "per" if written.is_empty() => written += "1/",
             "per" => written += "/",
             word => {
                 let is_first = written.is_empty() || written.ends_with('/');
@@ -188,6 +190,7 @@ fn every_parameter_has_the_unit_that_ends_its_key_and_says_what_it_is() {
     assert_eq!(unit_of_key("damping_n_s_per_m"), "N·s/m");
     assert_eq!(unit_of_key("mu_m3_per_s2"), "m³/s²");
     assert_eq!(unit_of_key("plucked_mass"), "");
+    assert_eq!(unit_of_key("rate_per_s"), "1/s");
     for kind in BODIES {
         for parameter in kind.parameters {
             assert_eq!(parameter.unit, unit_of_key(parameter.key), "{}", parameter.key);

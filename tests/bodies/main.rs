@@ -8,6 +8,7 @@ mod chain;
 mod edits;
 mod fifty_digits;
 mod flow;
+mod follow;
 mod helm;
 mod orbit;
 mod reference;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use regatta::sim::integrators::METHODS;
+use regatta::sim::integrators::GENERAL_METHODS;
 use serde_json::Value;
 
 use crate::{refusal, run_in, stdout_of};
@@ -25,7 +25,7 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     let advice = advice("--scene spring --rates");
     let rows = advice["methods"].as_array().unwrap();
     let ids: Vec<&str> = rows.iter().map(|row| row["method"].as_str().unwrap()).collect();
-    assert_eq!(ids, METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
+    assert_eq!(ids, GENERAL_METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
     assert_eq!((&advice["scene"], &advice["tick_hz"]), (&"spring".into(), &60.into()));
     assert_eq!((&advice["horizon_s"], &advice["bodies"]), (&20.0.into(), &["spring"][..].into()));
 
@@ -141,4 +141,44 @@ fn a_scene_that_nothing_holds_is_told_so() {
 fn mistakes_are_refused_as_elsewhere() {
     assert!(refusal("advise --scene shp", 2).contains("did you mean ship?"));
     assert!(refusal("advise --format xml", 2).contains("text, json"));
+}
+
+#[test]
+fn a_camera_is_told_its_half_life_at_30_60_and_144_hz_and_that_it_explodes_above_two() {
+    let of = |id: &str, tick_hz: u32| {
+        let advice = advice(&format!("--scene lerp --method {id} --tick-hz {tick_hz}"));
+        row(&advice, id)["verdict"].clone()
+    };
+    for (id, wanted) in [
+        ("lerp-per-frame", [219.3, 109.6, 45.7]),
+        ("lerp-dt", [57.0, 63.4, 66.9]),
+        ("exponential-decay", [69.3; 3]),
+    ] {
+        for (tick_hz, wanted) in [30, 60, 144].into_iter().zip(wanted) {
+            let verdict = of(id, tick_hz);
+            let [found, truth] = ["half_life_s", "true_half_life_s"]
+                .map(|key| 1e3 * verdict[key].as_f64().expect("a half-life"));
+            assert!((found - wanted).abs() < 0.06, "{id} at {tick_hz} Hz: {found} ms");
+            assert!((truth - 69.315).abs() < 0.01, "{truth} ms");
+            assert_eq!(verdict["overshoot_percent"], 0.0);
+        }
+    }
+    assert!(
+        of("lerp-per-frame", 30)["text"]
+            .as_str()
+            .unwrap()
+            .contains("half-life 219 ms, not 69.3 ms")
+    );
+    let text = of("lerp-dt", 4)["text"].to_string();
+    assert!(text.contains("explodes, as k dt = 2.5 is above 2"), "{text}");
+    let text = of("lerp-dt", 6)["text"].to_string();
+    assert!(text.contains("overshoots by 67 %"), "{text}");
+    assert!(row(&advice("--scene spring --method rk4"), "rk4")["verdict"]["half_life_s"].is_null());
+}
+
+#[test]
+fn lerp_per_frame_does_not_look_right_at_any_rate_but_its_own() {
+    let advice = advice("--scene lerp");
+    assert_eq!(advice["recommended"]["accurate"]["method"], "exponential-decay");
+    assert_eq!(advice["recommended"]["looks-right"]["method"], "exponential-decay");
 }

@@ -36,8 +36,11 @@ fn a_method_is_listed_with_all_of_its_card() {
     for (object, method) in methods.iter().zip(METHODS) {
         let keys: Vec<_> = object.as_object().unwrap().keys().map(String::as_str).collect();
         let expected = "id name family order order_with_drag evaluations symplectic reversible \
-                        stability_limit tolerance restart keeps_time as_printed about source";
+                        stability_limit tolerance restart keeps_time as_printed only only_because about source";
         assert_eq!(keys.join(" "), expected);
+        let only = method.only.map(|only| (only.to_string(), only.reason));
+        let (bodies, reason) = only.unzip();
+        assert_eq!((&object["only"], &object["only_because"]), (&bodies.into(), &reason.into()));
         assert_eq!(object["order"], method.order);
         assert_eq!(object["order_with_drag"], method.order_with_drag);
         assert_eq!(object["evaluations"], Value::from(method.evaluations));

@@ -11,10 +11,21 @@ fn each_mistake_is_named_with_its_remedy() {
     for (arguments, said) in [
         ("trace --scene shp", "is called \"shp\"; did you mean ship?"),
         ("trace --scene Stiff", "did you mean stiff?"),
+        ("trace --scene spring --method lerp-dt", "lerp-dt does not step the body \"spring\""),
+        (
+            "capture --out x --scene follow --method lerp-dt",
+            "only a `follow` of order 1; name another",
+        ),
+        (
+            "advise --scene lerp --method smooth-damp",
+            "smooth-damp does not step the body \"camera\"",
+        ),
+        ("sweep --scene spring --method lerp-dt", "lerp-dt does not step"),
+        ("loop --scene spring --method smooth-damp", "smooth-damp does not step"),
         ("trace --scene nosuch.toml", "give one of these, or the path of a scene file"),
         (
             "trace --scene nosuch.toml",
-            "(harbour, ship, spring, stiff, surge, chain, pendulum, orbit, helm)",
+            "(harbour, ship, spring, stiff, surge, chain, pendulum, orbit, helm, follow, lerp)",
         ),
         ("trace --scene .", ". is a directory; give a scene file in it"),
         ("trace --method rk5", "did you mean rk4? `regatta list methods` names all"),

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use regatta::lab::palette::Theme;
 use regatta::lab::{SCENES, Scene};
-use regatta::sim::integrators::{METHODS, method};
+use regatta::sim::integrators::{GENERAL_METHODS, method};
 use serde_json::Value;
 
 use crate::capture::{dimensions, drawn_or_skip, names};
@@ -65,7 +65,7 @@ fn without_options_all_methods_sweep_all_scenes_by_octaves() {
     let rates: Vec<u64> = of_spring().take(6).map(|row| row["tick_hz"].as_u64().unwrap()).collect();
     assert_eq!(rates, [15, 30, 60, 120, 240, 480]);
     let ids: Vec<&str> = of_spring().step_by(6).map(|row| text(row, "method")).collect();
-    assert_eq!(ids, METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
+    assert_eq!(ids, GENERAL_METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What the cards say of one method beside another.
 
-use regatta::sim::integrators::{Family, METHODS, integrator, method};
+use regatta::sim::integrators::{Family, GENERAL_METHODS, integrator, method};
 use regatta::sim::{State, System};
 
 use super::systems::{Kepler, fresh, kepler_orbit, spring};
@@ -37,7 +37,7 @@ fn midpoint_gains_as_slowly_as_improved_euler_and_adams_bashforth_2_twice_as_fas
 
 #[test]
 fn no_explicit_method_is_cheaper_than_ssp_rk3_and_bounded_on_a_spring() {
-    let bounded = METHODS.iter().filter(|method| {
+    let bounded = GENERAL_METHODS.iter().filter(|method| {
         method.family == Family::Explicit && method.stability_limit.is_some_and(|z| z > 0.0)
     });
     let cheapest = bounded.min_by_key(|method| method.evaluations).expect("two there are");

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use regatta::sim::bodies::Body;
 use regatta::sim::integrators::{
-    BogackiShampine32, DormandPrince54, Family, Integrator, METHODS, Method, StepFailure,
+    BogackiShampine32, DormandPrince54, Family, GENERAL_METHODS, Integrator, Method, StepFailure,
     Tolerance, integrator,
 };
 use regatta::sim::{Counted, State, System, Vector};
@@ -11,7 +11,7 @@ use regatta::sim::{Counted, State, System, Vector};
 use super::systems::{Kepler, bits, kepler_orbit, spring};
 
 fn adaptive() -> impl Iterator<Item = &'static Method> {
-    METHODS.iter().filter(|method| method.family == Family::Adaptive)
+    GENERAL_METHODS.iter().filter(|method| method.family == Family::Adaptive)
 }
 
 /// The error after an arc of one time unit begun on the true course, averaged over where it begins, in

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use regatta::sim::integrators::{Family, METHODS, method};
+use regatta::sim::integrators::{Family, GENERAL_METHODS, METHODS, method};
 
 #[test]
 fn ids_and_names_are_unique_and_found() {
@@ -27,10 +27,11 @@ fn every_card_has_a_description_and_a_source() {
 #[test]
 fn families_agree_with_the_other_fields() {
     for card in METHODS {
+        assert_eq!(card.family == Family::Follower, card.only.is_some(), "{}", card.id);
         let is_implicit = card.family == Family::Implicit;
         let asks_at_will = card.tolerance.is_some() || is_implicit;
         assert_eq!(asks_at_will, card.evaluations.is_none(), "{}", card.id);
-        if !card.is_as_printed() {
+        if !card.is_as_printed() && card.family != Family::Follower {
             let adaptive = card.family == Family::Adaptive;
             assert_eq!(adaptive, card.tolerance.is_some(), "{}", card.id);
             assert_eq!(adaptive || is_implicit, card.stability_limit.is_none(), "{}", card.id);
@@ -42,10 +43,12 @@ fn families_agree_with_the_other_fields() {
 }
 
 #[test]
-fn the_table_runs_family_by_family_with_the_listings_last() {
+fn the_table_runs_family_by_family_with_the_listings_and_the_followers_last() {
     let mut families: Vec<Family> = METHODS.iter().map(|card| card.family).collect();
     families.dedup();
     let distinct: HashSet<_> = families.iter().map(|family| family.id()).collect();
     assert_eq!(families.len(), distinct.len(), "{families:?}");
-    assert_eq!(families.last(), Some(&Family::AsPrinted));
+    assert_eq!(families[families.len() - 2..], [Family::AsPrinted, Family::Follower]);
+    let general = METHODS.iter().filter(|card| card.only.is_none());
+    assert!(GENERAL_METHODS.iter().eq(general), "those for every body come first");
 }

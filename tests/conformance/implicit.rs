@@ -2,13 +2,13 @@
 
 use glam::DVec2;
 use regatta::sim::bodies::{Body, Pendulum};
-use regatta::sim::integrators::{Family, METHODS, Method, StepFailure, integrator, method};
+use regatta::sim::integrators::{Family, GENERAL_METHODS, Method, StepFailure, integrator, method};
 use regatta::sim::{Counted, State, System};
 
 use super::systems::{Kepler, Timetable, fresh, kepler_orbit, spring};
 
 fn implicit() -> impl Iterator<Item = &'static Method> {
-    METHODS.iter().filter(|method| method.family == Family::Implicit)
+    GENERAL_METHODS.iter().filter(|method| method.family == Family::Implicit)
 }
 
 /// Masses of 1 kg in a row, joined to each other and to a wall at each end by springs of increasing

@@ -1,7 +1,7 @@
 //! The largest stable steps on damped oscillators, measured on the real stepper.
 
 use regatta::sim::State;
-use regatta::sim::integrators::{METHODS, Method, method};
+use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 
 use super::systems::{fresh, spring};
 
@@ -87,7 +87,7 @@ fn limit(stable: impl Fn(f64) -> bool) -> f64 {
 #[test]
 fn the_one_step_map_leaves_the_unit_circle_at_the_tabulated_step() {
     // Under drag the adaptive listing cuts its steps as it likes.
-    for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+    for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
         let (id, Some(undamped)) = (method.id, method.stability_limit) else { continue };
         let (_, damped) = ONE_STEP.iter().find(|(tabled, _)| *tabled == id).expect("a row");
         let damped = RATIOS.into_iter().zip(*damped);

@@ -7,6 +7,7 @@ mod abouts;
 mod adaptive;
 mod cards;
 mod cost;
+mod followers;
 mod geometry;
 mod implicit;
 mod limits;

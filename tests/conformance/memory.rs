@@ -5,13 +5,13 @@ use std::cell::RefCell;
 use glam::DVec2;
 use regatta::sim::State;
 use regatta::sim::bodies::Spring;
-use regatta::sim::integrators::{Integrator, METHODS, Method, integrator};
+use regatta::sim::integrators::{GENERAL_METHODS, Integrator, Method, integrator};
 
 use super::systems::{Timetable, bits, fresh, spring};
 
 /// Methods with memory: of a force, a slope, a position, or a substep length.
 fn methods_with_memory() -> impl Iterator<Item = &'static Method> {
-    METHODS.iter().filter(|method| method.restart.is_some())
+    GENERAL_METHODS.iter().filter(|method| method.restart.is_some())
 }
 
 /// Steps a lively damped spring `n` times by `h`.
@@ -23,7 +23,7 @@ fn run(integrator: &mut dyn Integrator<Spring>, state: &mut State<f64>, h: f64, 
 
 #[test]
 fn a_reset_clears_all_memory() {
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         let (mut used, mut elsewhere) = (fresh(method), State { q: 100.0, v: 3.0 });
         run(&mut *used, &mut elsewhere, 0.05, 57);
         used.reset();
@@ -37,7 +37,7 @@ fn a_reset_clears_all_memory() {
 
 #[test]
 fn methods_with_a_restart_and_no_others_have_memory() {
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         let mut left_alone = State { q: -0.3, v: 11.0 };
         let mut interrupted = left_alone.clone();
         let [mut going_on, mut beginning_anew] = [fresh(method), fresh(method)];
@@ -84,7 +84,7 @@ fn memory_is_dropped_for_a_step_of_another_length() {
 
 #[test]
 fn a_carried_step_changes_sign_when_time_reverses() {
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         let system = Timetable { power: 1, asked: RefCell::default() };
         let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(0.0, 0.0) };
         let mut integrator = integrator::<Timetable>(method, &state.q);

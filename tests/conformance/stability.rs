@@ -2,7 +2,7 @@
 
 use regatta::sim::State;
 use regatta::sim::bodies::Spring;
-use regatta::sim::integrators::{METHODS, Method, StepFailure};
+use regatta::sim::integrators::{GENERAL_METHODS, Method, StepFailure};
 
 use super::systems::{fresh, spring};
 
@@ -33,7 +33,7 @@ fn largest_amplitude(
 
 #[test]
 fn below_its_limit_a_method_stays_bounded() {
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         let Some(limit) = method.stability_limit else { continue };
         for part in [0.1, 0.3, 0.5, 0.7, 0.9, 0.99] {
             // At 0.99 of the limit of a symplectic map the ellipse is 7 to 14 times as long as wide.
@@ -46,7 +46,7 @@ fn below_its_limit_a_method_stays_bounded() {
 
 #[test]
 fn beyond_its_limit_a_method_grows() {
-    for method in METHODS {
+    for method in GENERAL_METHODS {
         let Some(limit) = method.stability_limit else { continue };
         let beyond = if limit > 0.0 { vec![1.01 * limit] } else { vec![0.1, 0.3, 1.0] };
         for z in beyond {
@@ -60,7 +60,7 @@ fn beyond_its_limit_a_method_grows() {
 #[test]
 fn a_method_without_a_limit_stays_bounded_at_any_tick() {
     // A minute of a stiff spring at h ω = 10, five times beyond the usual limit.
-    for method in METHODS.iter().filter(|method| method.stability_limit.is_none()) {
+    for method in GENERAL_METHODS.iter().filter(|method| method.stability_limit.is_none()) {
         let most = largest_amplitude(method, 100.0, 0.1, 600, 100.0).unwrap();
         println!("{:22} {most}", method.id);
         assert!(most < 2.0, "{}: amplitude {most} after a minute", method.id);

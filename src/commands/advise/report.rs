@@ -125,6 +125,11 @@ fn method(scene: &Scene, row: &Row) -> Value {
         },
         "criteria": criteria.collect::<Map<_, _>>(),
     });
+    if let Some(chase) = &row.advised.verdict.chase {
+        object["verdict"]["half_life_s"] = json!(chase.half_life_s);
+        object["verdict"]["true_half_life_s"] = json!(chase.true_half_life_s);
+        object["verdict"]["overshoot_percent"] = json!(chase.overshoot_percent);
+    }
     if let Some(rates) = &row.rates {
         let rates = CRITERIA.iter().zip(rates).map(|(c, hz)| (c.id().to_owned(), json!(hz)));
         object["rates"] = Value::Object(rates.collect());

@@ -99,7 +99,8 @@ impl Grid {
             let rates = if swept.rates.is_empty() { &own } else { &swept.rates };
             for body in &scene.bodies {
                 let alone = Scene { bodies: vec![body.clone()], ..scene.clone() };
-                for method in &swept.methods {
+                let fits = |method: &&&Method| alone.refusal(method).is_none();
+                for method in swept.methods.iter().filter(fits) {
                     grid.cells.extend(rates.iter().map(|&tick_hz| Cell {
                         subject: grid.subjects.len(),
                         spec: LaneSpec::plain(method),

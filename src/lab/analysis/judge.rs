@@ -6,6 +6,7 @@
 //! beyond that.
 
 use super::change::{Change, bounded, fill_from_run};
+use super::chase_finding::ChaseFinding;
 use super::frequency::frequency_error;
 use super::limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 use super::modes::{Modes, TooMuch};
@@ -151,6 +152,7 @@ impl Judge {
             frequency_error: None,
             is_bounded: None,
             energy_drift: run.energy_drift,
+            chase: ChaseFinding::of(truth, spec, tick_hz, run.chase.as_ref()),
             failure: run.failure.clone(),
             no_truth: None,
             not_judged: None,

@@ -5,6 +5,7 @@ use super::run::{MOST_WORK, work_of};
 use super::truth::BodyTruth;
 use super::verdict::Verdict;
 use crate::lab::lane_spec::LaneSpec;
+use crate::sim::integrators::Family;
 use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
 
 /// Finding the modes would take more work than a run may.
@@ -20,7 +21,7 @@ pub(super) struct Modes<'a> {
 }
 
 impl<'a> Modes<'a> {
-    /// `None` if the body is not linear, or if the method chooses its own steps or fails.
+    /// `None` if the body is not linear, or if the method chooses its own steps, follows a target or fails.
     ///
     /// # Errors
     /// If that takes too much work.
@@ -30,7 +31,10 @@ impl<'a> Modes<'a> {
         tick_hz: u32,
     ) -> Result<Option<Self>, TooMuch> {
         let chooses = spec.method.tolerance.is_some() || !spec.method.keeps_time;
-        let Some(modes) = truth.modes.as_ref().filter(|_| !chooses) else { return Ok(None) };
+        let is_follower = spec.method.family == Family::Follower;
+        let Some(modes) = truth.modes.as_ref().filter(|_| !chooses && !is_follower) else {
+            return Ok(None);
+        };
         let n = modes.len() as u64;
         // An implicit step takes differences of the force along every coordinate.
         let evaluations = u64::from(spec.method.evaluations.unwrap_or(modes.len() as u32));

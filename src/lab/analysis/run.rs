@@ -4,6 +4,7 @@ use super::energy::Energy;
 use super::peaks::Peaks;
 use super::truth::{BodyTruth, LONG_RUN, TruthSeries, ticks};
 use super::verdict::RunFailure;
+use crate::lab::chase::Chase;
 use crate::lab::lane::check;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::Stepper;
@@ -79,6 +80,8 @@ pub(super) struct Run {
     /// kinetic energy.
     pub(super) quarters: [f64; 4],
     pub(super) long_quarters: [f64; 4],
+    /// How the body closes on a target that stays, up to the first input.
+    pub(super) chase: Option<Chase>,
     /// The swinging coordinate after each tick of the horizon.
     pub(super) series: Vec<f64>,
     /// The largest swing in each window of the horizon, in amplitudes.
@@ -113,6 +116,8 @@ pub(super) fn follow(
     };
     let mut stepper = truth.start(spec.solver());
     let mut run = Run::new(truth, horizon as f64 / hz);
+    run.chase = Chase::new(&*stepper, 0.0);
+    let chased_s = truth.inputs.first().map_or(truth.horizon_s, |input| input.t);
     // A run that is judged without its error needs no truth.
     let series = (until != Until::Grown).then(|| truth.series(tick_hz));
     if series.as_ref().is_some_and(|series| series.is_too_much) {
@@ -142,6 +147,8 @@ pub(super) fn follow(
         if tick <= horizon {
             run.seconds = t;
             run.evaluations = stepper.evaluations();
+            let place = stepper.q()[0];
+            run.chase.iter_mut().filter(|_| t <= chased_s).for_each(|it| it.take_in(place, t));
             if let Some(series) = &series {
                 run.compare(&*stepper, series, truth, tick, horizon, t);
                 if let Some(swing) = &truth.swing {
@@ -214,6 +221,7 @@ impl Run {
             has_come_to_rest: false,
             quarters: [0.0; 4],
             long_quarters: [0.0; 4],
+            chase: None,
             series: Vec::new(),
             windows: vec![0.0; windows],
         }

@@ -255,14 +255,20 @@ fn chooses_steps(spec: &LaneSpec) -> bool {
     spec.method.tolerance.is_some() || !spec.method.keeps_time
 }
 
-/// The stability of a method on a mode, which is that on a spring of its frequency and damping. `None` if the method
-/// fails.
+/// The stability of a method on a mode, which is that on a spring of its frequency and damping, or for a follower that
+/// on a body of its rate. `None` if the method fails.
 fn stability(spec: &LaneSpec, mode: &NormalMode, hz: f64) -> Option<Stability> {
-    let values = [1.0, mode.omega_squared, mode.damping_per_s, 1.0, 0.0, 1.0];
-    let spring = (kind("spring").expect("a kind of body").build)(&values, Solver::Truth);
+    let order = spec.method.only.and_then(|only| only.with).map(|(_, order)| order);
+    let (id, values) = match order {
+        Some(order) => {
+            ("follow", vec![order, mode.omega_squared.sqrt(), 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+        }
+        None => ("spring", vec![1.0, mode.omega_squared, mode.damping_per_s, 1.0, 0.0, 1.0]),
+    };
+    let body = (kind(id).expect("a kind of body").build)(&values, Solver::Truth);
     // The map of a tick is a power of that of a step, in which the mode turns less.
     let tick = Tick { t: 0.0, h: 1.0 / hz / f64::from(spec.substeps), substeps: 1 };
-    Stability::of(&*spring, spec.solver(), tick).ok()
+    Stability::of(&*body, spec.solver(), tick).ok()
 }
 
 fn here(spec: &LaneSpec, modes: &[NormalMode], hz: f64) -> Here {

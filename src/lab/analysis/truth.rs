@@ -194,7 +194,9 @@ impl BodyTruth {
                 self.centres = sums.iter().map(|sum| sum / seconds).collect();
             }
         }
-        if self.failure.is_none() && self.energy_scale.is_none() {
+        // What is knocked away from a target that stays does not swing about it.
+        let is_chase = body.pursuit(0.0).is_some_and(|pursuit| pursuit.is_still);
+        if self.failure.is_none() && self.energy_scale.is_none() && !is_chase {
             self.swing = self.watch(&self.centres, most);
         }
         let reach = |i: usize| {

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::chase_finding::ChaseFinding;
 use super::limits::TOLERANCE;
 use super::outcome::Outcome;
 use crate::lab::number::{round, significant, superscript};
@@ -92,6 +93,8 @@ pub struct Verdict {
     /// The energy drift of largest magnitude, in percent of the energy that the motion exchanges; `None` if energy is not
     /// conserved.
     pub energy_drift: Option<f64>,
+    /// How the body closes on a target that stays; `None` if it follows none.
+    pub chase: Option<ChaseFinding>,
     /// Why and when the run ended early, if it did.
     pub failure: Option<RunFailure>,
     /// Why there is no truth; `None` if there is one.
@@ -230,7 +233,7 @@ impl fmt::Display for Verdict {
         {
             write!(f, "; a faint mode ×2 in {}", duration(seconds))?;
         }
-        Ok(())
+        self.chase.as_ref().map_or(Ok(()), |chase| write!(f, "; {chase}"))
     }
 }
 

@@ -10,7 +10,7 @@ use super::verdict::Verdict;
 use crate::lab::intervention::Interventions;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
-use crate::sim::integrators::METHODS;
+use crate::sim::integrators::Method;
 
 /// The verdicts and the advice that a lab wants. Two requests of one [`Lab`](crate::lab::Lab) are equal if they have the
 /// same answer.
@@ -93,6 +93,8 @@ pub struct AnalysisWorker {
 /// Advice being computed, method by method and criterion by criterion.
 struct AdviceInProgress {
     adviser: Adviser,
+    /// The methods that step the scene.
+    methods: Vec<&'static Method>,
     advised: Vec<MethodAdvice>,
     /// The results for the present method.
     met: Vec<CriterionResult>,
@@ -101,7 +103,7 @@ struct AdviceInProgress {
 impl AdviceInProgress {
     /// Tests one more criterion.
     fn advance(&mut self) {
-        let Some(method) = METHODS.get(self.advised.len()) else { return };
+        let Some(method) = self.methods.get(self.advised.len()) else { return };
         let spec = LaneSpec::plain(method);
         if let Some(&criterion) = CRITERIA.get(self.met.len()) {
             self.met.push(self.adviser.meets(spec, criterion));
@@ -112,7 +114,7 @@ impl AdviceInProgress {
     }
 
     fn is_done(&self) -> bool {
-        self.advised.len() == METHODS.len()
+        self.advised.len() == self.methods.len()
     }
 }
 
@@ -173,6 +175,7 @@ impl AnalysisWorker {
         } else if *advice {
             let advising = self.advising.get_or_insert_with(|| AdviceInProgress {
                 adviser: Adviser::new(&by_hand.applied_to(scene), 1.0, *tick_hz),
+                methods: scene.fitting_methods().collect(),
                 advised: Vec::new(),
                 met: Vec::new(),
             });
@@ -201,10 +204,10 @@ impl AnalysisWorker {
     /// The findings so far.
     pub fn findings(&self) -> Findings {
         let advice = self.advising.as_ref().filter(|_| self.request.advice);
-        let advice = advice.map(|AdviceInProgress { adviser, advised, .. }| Advice {
+        let advice = advice.map(|AdviceInProgress { adviser, methods, advised, .. }| Advice {
             tick_hz: adviser.tick_hz(),
             horizon_s: adviser.judge().horizon_s(),
-            wanted: METHODS.len(),
+            wanted: methods.len(),
             advised: advised.clone(),
         });
         Findings {
@@ -221,6 +224,7 @@ impl AnalysisWorker {
 mod tests {
     use super::*;
     use crate::lab::{Action, Race};
+    use crate::sim::integrators::GENERAL_METHODS;
 
     fn request(name: &str) -> AnalysisRequest {
         let scene = Arc::new(Scene::built_in(name).unwrap());
@@ -251,19 +255,19 @@ mod tests {
         let first = request("harbour");
         let mut worker = AnalysisWorker::new(first.clone());
         let (count, fine) = answer(&mut worker, &first);
-        assert_eq!(count, METHODS.len());
+        assert_eq!(count, GENERAL_METHODS.len());
         assert_eq!(answer(&mut worker, &first), (0, fine.clone()));
         let (count, coarse) =
             answer(&mut worker, &AnalysisRequest { tick_hz: 20, ..first.clone() });
-        assert_eq!(count, METHODS.len());
+        assert_eq!(count, GENERAL_METHODS.len());
         assert!(coarse != fine);
         let mut race = Race::of(&first.scene);
         race.act(Action::Throttle(0.5), &mut ());
         let by_hand = Interventions::in_race(&race);
         let slower = AnalysisRequest { tick_hz: 20, by_hand, ..first.clone() };
-        assert_eq!(answer(&mut worker, &slower).0, METHODS.len());
-        assert_eq!(answer(&mut worker, &first), (METHODS.len(), fine));
-        assert_eq!(answer(&mut worker, &request("spring")).0, METHODS.len());
+        assert_eq!(answer(&mut worker, &slower).0, GENERAL_METHODS.len());
+        assert_eq!(answer(&mut worker, &first), (GENERAL_METHODS.len(), fine));
+        assert_eq!(answer(&mut worker, &request("spring")).0, GENERAL_METHODS.len());
     }
 
     #[test]
@@ -275,7 +279,7 @@ mod tests {
         let lane = finer.entries.iter_mut().find(|spec| spec.method.id == "rk4").unwrap();
         lane.substeps = 8;
         let (count, finer) = answer(&mut worker, &finer);
-        assert_eq!(count, METHODS.len());
+        assert_eq!(count, GENERAL_METHODS.len());
         let changed: Vec<_> = (0..once.len()).filter(|&i| once[i] != finer[i]).collect();
         let rk4 = plain.entries.iter().position(|spec| spec.method.id == "rk4").unwrap();
         assert_eq!(changed, [rk4]);
@@ -325,7 +329,7 @@ mod tests {
         let bits = 1 + (0..).take_while(|_| worker.work()).count();
         assert!((3..2000).contains(&bits), "{bits} times");
         let advice = worker.findings().advice.unwrap();
-        assert_eq!([advice.advised.len(), advice.wanted], [METHODS.len(); 2]);
+        assert_eq!([advice.advised.len(), advice.wanted], [GENERAL_METHODS.len(); 2]);
         assert!(worker.findings().complete);
     }
 }

@@ -29,7 +29,11 @@ impl Lab {
             Command::Act(action) => self.act(action),
             Command::Method(method) => {
                 let listed = race.list().iter().position(|spec| spec.method == method);
-                self.pick(listed.expect("every method is on the list"));
+                match (listed, self.scene().refusal(method)) {
+                    (Some(entry), _) => self.pick(entry),
+                    (None, Some(refusal)) => self.set_notice(refusal.to_string()),
+                    (None, None) => unreachable!("every method that fits is on the list"),
+                }
             }
             Command::Pick(entry) => self.pick(entry),
             Command::Fly(spec) => self.fly(spec),

@@ -5,7 +5,7 @@ use crate::lab::command::{Command, TICK_LADDER};
 use crate::lab::instrument::Instrument;
 use crate::lab::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
 use crate::lab::pacing::FrameTrace;
-use crate::sim::integrators::{METHODS, Method, method};
+use crate::sim::integrators::{Method, method};
 
 /// The method of the body at first: none that adds much of its own.
 const METHOD_AT_FIRST: &str = "rk4";
@@ -86,11 +86,11 @@ impl Lab {
             Command::SecondForward => self.step_loops(frames_per_second),
             Command::SecondBack => self.step_loops(-frames_per_second),
             Command::NextMethod => {
-                let next = method_beside(loops, 1);
+                let next = method_beside(loops, true);
                 self.set_loop_method(next);
             }
             Command::PreviousMethod => {
-                let previous = method_beside(loops, METHODS.len() - 1);
+                let previous = method_beside(loops, false);
                 self.set_loop_method(previous);
             }
             Command::Method(method) => self.set_loop_method(method),
@@ -169,8 +169,15 @@ impl Lab {
     }
 
     fn set_loop_method(&mut self, method: &'static Method) {
-        self.loop_lab.iter_mut().for_each(|loops| loops.set_method(method));
-        self.set_notice(format!("every loop steps by {}", method.name));
+        let Some(loops) = &mut self.loop_lab else { return };
+        let notice = match loops.scene().refusal(method) {
+            Some(refusal) => refusal.to_string(),
+            None => {
+                loops.set_method(method);
+                format!("every loop steps by {}", method.name)
+            }
+        };
+        self.set_notice(notice);
     }
 
     fn step_loops(&mut self, frames: i64) {
@@ -192,7 +199,8 @@ impl Lab {
     }
 }
 
-fn method_beside(loops: &LoopLab, step: usize) -> &'static Method {
-    let place = METHODS.iter().position(|method| method == loops.method()).unwrap_or(0);
-    &METHODS[(place + step) % METHODS.len()]
+fn method_beside(loops: &LoopLab, is_next: bool) -> &'static Method {
+    let methods: Vec<_> = loops.scene().fitting_methods().collect();
+    let place = methods.iter().position(|method| *method == loops.method()).unwrap_or(0);
+    methods[(place + if is_next { 1 } else { methods.len() - 1 }) % methods.len()]
 }

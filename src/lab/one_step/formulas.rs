@@ -144,4 +144,23 @@ pub const FORMULAS: &[Formula] = &[
         &["e = |v₁ − v₂|, of one step and of two halves", "h shrinks to h √(tolerance / e)"],
         &[],
     ),
+    formula("lerp-per-frame", &["x′ = x + 0.1 (g − x), whatever h is", "v′ = k (g − x′)"], &[]),
+    formula("lerp-dt", &["x′ = x + k h (g − x)", "v′ = k (g − x′)"], &[]),
+    formula("exponential-decay", &["x′ = g + (x − g) exp(−k h)", "v′ = k (g − x′)"], &[]),
+    formula(
+        "smooth-damp",
+        &[
+            "e = 1 / (1 + z + 0.48 z² + 0.235 z³), z = ω h",
+            "b = (v + ω (x − g)) h",
+            "x′ = g + (x − g + b) e, but not beyond g",
+            "v′ = (v − ω b) e",
+        ],
+        &[],
+    ),
+    formula(
+        "critically-damped-spring",
+        &["b = (v + ω (x − g)) h", "x′ = g + (x − g + b) exp(−ω h)", "v′ = (v − ω b) exp(−ω h)"],
+        &[],
+    ),
+    formula("implicit-spring", &["v′ = (v + h ω² (g − x)) / (1 + ω h)²", "x′ = x + h v′"], &[]),
 ];

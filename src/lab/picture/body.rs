@@ -33,7 +33,7 @@ impl Seen<'_> {
     pub(super) fn still(&self, shapes: &mut Vec<Shape>) {
         let is_still = |mark: &&Mark| matches!(mark, Mark::Wall { .. } | Mark::Anchor { .. });
         let marks = self.outline.marks.iter().filter(is_still).copied().collect();
-        let outline = Outline { marks, at: self.outline.at };
+        let outline = Outline { marks, ..*self.outline };
         let nothing = Coat { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
         Seen { outline: &outline, ..*self }.carried(shapes, nothing);
     }

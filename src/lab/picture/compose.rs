@@ -223,7 +223,7 @@ impl Band<'_> {
         for lane in behind.chain([&self.front]) {
             let body = &lane.lane.bodies()[index];
             let (look, coordinates) = (Look::of(body.kind), moment.coordinates(body));
-            let outline = look.outline(&*body.stepper, &coordinates);
+            let outline = look.outline(&*body.stepper, moment.lanes_t, &coordinates);
             let (colour, dash) = moment.style(lane.entry);
             let at = camera.points(outline.at);
             let flag = Flag { at, number: lane.entry + 1, colour };
@@ -249,7 +249,7 @@ impl Band<'_> {
                 flagged.push(flag);
                 continue;
             }
-            let in_hand = held.map(|held| look.outline(&*body.stepper, &held.q));
+            let in_hand = held.map(|held| look.outline(&*body.stepper, moment.lanes_t, &held.q));
             let shown = Seen { outline: in_hand.as_ref().unwrap_or(&outline), ..seen };
             if held.is_some() {
                 let left = Coat { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };

@@ -29,7 +29,7 @@ impl Ghost {
         let curve = &remembered.truth_curves()[index];
         let (q, _) = remembered.truth_between(race, index, moment.alpha);
         let look = Look::of(body.kind);
-        let outline = look.outline(&*body.stepper, &q);
+        let outline = look.outline(&*body.stepper, moment.t, &q);
         let framing = look.framing(&*body.stepper);
         let centre_m = match framing {
             Framing::Follow { .. } | Framing::Recorder { .. } => DVec2::ZERO,

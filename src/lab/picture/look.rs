@@ -6,10 +6,11 @@ use std::any::Any;
 use glam::DVec2;
 
 use super::outline::{Mark, Outline};
-use crate::sim::bodies::{Body, Chain, Helm, Kind, Orbit, Pendulum, Ship, Spring};
+use crate::sim::bodies::{Body, Chain, Follow, Helm, Kind, Orbit, Pendulum, Ship, Spring};
 use crate::sim::{State, Stepper, Vector};
 
 mod chain;
+mod follow;
 mod helm;
 mod orbit;
 mod pendulum;
@@ -70,7 +71,8 @@ pub struct Pull {
 
 /// How bodies of one type look.
 trait Drawn: Body {
-    /// Draws a body with these coordinates, in metres, x right and y up; [`Outline::at`] is where it is.
+    /// Draws a body with these coordinates, in metres, x right and y up; [`Outline::at`] is where it is and
+    /// [`Outline::t`] when.
     fn draw(&self, q: &Self::Vector, outline: &mut Outline);
 
     /// What part of its world the stage shows.
@@ -89,7 +91,7 @@ trait Drawn: Body {
 pub struct Look {
     /// The kind's id.
     kind: &'static str,
-    outline: fn(&dyn Any, &[f64]) -> Outline,
+    outline: fn(&dyn Any, f64, &[f64]) -> Outline,
     framing: fn(&dyn Any) -> Framing,
     handles: fn(&dyn Any, &[f64]) -> Vec<Handle>,
     pull: fn(&dyn Any, &mut [f64], &mut [f64], Pull),
@@ -103,14 +105,15 @@ static LOOKS: &[Look] = &[
     Look::of_type::<Pendulum>("pendulum"),
     Look::of_type::<Orbit>("orbit"),
     Look::of_type::<Helm>("helm"),
+    Look::of_type::<Follow>("follow"),
 ];
 
 impl Look {
     const fn of_type<B: Drawn>(kind: &'static str) -> Self {
-        let outline = |body: &dyn Any, q: &[f64]| {
+        let outline = |body: &dyn Any, t: f64, q: &[f64]| {
             let body = typed::<B>(body);
             let shown = vector::<B>(body, q);
-            let mut outline = Outline { at: body.place(&shown), marks: Vec::new() };
+            let mut outline = Outline { t, at: body.place(&shown), marks: Vec::new() };
             body.draw(&shown, &mut outline);
             outline
         };
@@ -134,9 +137,9 @@ impl Look {
         look.expect("the tests below find a look for every kind")
     }
 
-    /// The outline of `body`, which is of this kind, at the coordinates `q`.
-    pub fn outline(&self, body: &dyn Stepper, q: &[f64]) -> Outline {
-        (self.outline)(body.body(), q)
+    /// The outline of `body`, which is of this kind, at the coordinates `q` at time `t` (s).
+    pub fn outline(&self, body: &dyn Stepper, t: f64, q: &[f64]) -> Outline {
+        (self.outline)(body.body(), t, q)
     }
 
     /// What part of the world of `body`, which is of this kind, the stage shows.
@@ -185,7 +188,7 @@ mod tests {
         for kind in BODIES {
             let (look, mut body) = (Look::of(kind), body(kind));
             for tick in 0..30 {
-                let outline = look.outline(&*body, body.q());
+                let outline = look.outline(&*body, f64::from(tick) / 60.0, body.q());
                 assert!(outline.at == body.place() && !outline.marks.is_empty(), "{}", kind.id);
                 body.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
             }
@@ -208,7 +211,7 @@ mod tests {
         assert!(length.range.contains(7.0) && body.set_parameter(0.0, place, 7.0));
         assert_ne!(half_m(&*body), before);
         assert_eq!(half_m(&*body), DVec2::splat(1.2 * 7.0));
-        let outline = Look::of(pendulum).outline(&*body, &[0.0]);
+        let outline = Look::of(pendulum).outline(&*body, 0.0, &[0.0]);
         assert_eq!(outline.at, DVec2::new(0.0, -7.0));
     }
 }

@@ -89,14 +89,14 @@ fn overlay(picture: &mut Picture, lab: &Lab, loops: &LoopLab, ground: Rect) -> O
     let bands: Vec<Band<'_>> =
         back_to_front.into_iter().map(|place| Band::new(lab, loops, place, ground, foot)).collect();
     let front = bands.last()?;
-    let exact = front.outline(&front.frames()?.last()?.exact);
+    let exact = front.exact(front.frames()?.last()?);
     let camera = front.camera(exact.at);
     if lab.display().ghost {
         front.ghost(picture, &camera, &exact);
     }
     for band in &bands {
         let Some(frames) = band.frames() else { continue };
-        let drawn = band.outline(&frames[frames.len() - 1].q);
+        let drawn = band.shown(&frames[frames.len() - 1]);
         if is_selected(band.place) {
             band.before(picture, &camera, frames);
         }
@@ -109,7 +109,7 @@ fn overlay(picture: &mut Picture, lab: &Lab, loops: &LoopLab, ground: Rect) -> O
     for (row, &place) in on_stage.iter().enumerate() {
         let Some(band) = bands.iter().find(|band| band.place == place) else { continue };
         let Some(frame) = band.frames().and_then(<[LoopFrame]>::last) else { continue };
-        let at = camera.points(band.outline(&frame.q).at);
+        let at = camera.points(band.shown(frame).at);
         let number = band.label([at[0], above], Align::Centre, 12.5, (place + 1).to_string());
         if above > ground.min[1] + 0.5 * LINE {
             picture.labels.push(Label { colour: band.colour, is_strong: true, ..number });
@@ -174,9 +174,19 @@ impl<'a> Band<'a> {
         [0, 1].map(|axis| self.rect.max[axis] - self.rect.min[axis])
     }
 
-    fn outline(&self, q: &[f64]) -> Outline {
+    fn outline(&self, t: f64, q: &[f64]) -> Outline {
         let body = self.loops.body();
-        Look::of(body.kind).outline(&*body.stepper, q)
+        Look::of(body.kind).outline(&*body.stepper, t, q)
+    }
+
+    /// The body as a frame shows it.
+    fn shown(&self, frame: &LoopFrame) -> Outline {
+        self.outline(frame.shown_ms / 1e3, &frame.q)
+    }
+
+    /// The exact body at the moment of a frame's display.
+    fn exact(&self, frame: &LoopFrame) -> Outline {
+        self.outline(frame.displayed_ns as f64 / 1e9, &frame.exact)
     }
 
     /// What the band shows of the body's world.
@@ -220,7 +230,7 @@ impl<'a> Band<'a> {
     fn draw(&self, picture: &mut Picture, shows_ghost: bool) -> Option<Camera> {
         let frames = self.frames()?;
         let frame = frames.last()?;
-        let exact = self.outline(&frame.exact);
+        let exact = self.exact(frame);
         let camera = self.camera(exact.at);
         self.before(picture, &camera, frames);
         if self.has_path() {
@@ -229,7 +239,7 @@ impl<'a> Band<'a> {
         if shows_ghost {
             self.ghost(picture, &camera, &exact);
         }
-        let drawn = self.outline(&frame.q);
+        let drawn = self.shown(frame);
         self.body(picture, &camera, &drawn);
         self.seen(&camera, &drawn).number(picture, self.place + 1);
         self.words(picture, &camera, frame, [drawn.at, exact.at]);
@@ -243,7 +253,7 @@ impl<'a> Band<'a> {
     /// The frames before the one that the display holds.
     fn before(&self, picture: &mut Picture, camera: &Camera, frames: &[LoopFrame]) {
         for (strength, before) in distinct_before(frames) {
-            let outline = self.outline(&before.q);
+            let outline = self.shown(before);
             let coat = Coat { colour: faded(self.colour, strength), dash: SOLID, fill: 0.12 };
             self.seen(camera, &outline).behind(&mut picture.shapes, coat);
         }
@@ -275,7 +285,8 @@ impl<'a> Band<'a> {
         let since =
             frames.partition_point(|frame| (now_ns - frame.displayed_ns) as f64 > PATH_S * 1e9);
         let frames = &frames[since..];
-        let x = |q: &[f64]| camera.points(self.outline(q).at)[0];
+        // Where a body is does not depend on the moment.
+        let x = |q: &[f64]| camera.points(self.outline(0.0, q).at)[0];
         let mut held = Vec::new();
         for pair in frames.windows(2) {
             let x = x(&pair[0].q);

@@ -50,6 +50,8 @@ pub enum Mark {
 pub struct Outline {
     /// What is drawn, the first at the bottom.
     pub marks: Vec<Mark>,
+    /// The moment shown, in seconds.
+    pub t: f64,
     /// Where the body is, as its [`place`](crate::sim::bodies::Body::place) says.
     pub at: DVec2,
 }

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 
 use super::LARGEST_FILE;
 use super::clip::clip;
+use super::refusal::Refusal;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{self, BODIES, Fault};
 use crate::sim::integrators::METHODS;
@@ -76,6 +77,8 @@ pub(super) enum Cause {
     TwoLaneLists,
     #[error("`{key}` is {method:?}, which no lane of this scene has")]
     NotALane { key: &'static str, method: &'static str, known: Vec<&'static str> },
+    #[error("`{key}`: {refusal}")]
+    Refused { key: &'static str, refusal: Refusal },
     #[error("`{key}` does not apply to the method {method:?}")]
     NoTolerance { key: &'static str, method: &'static str },
     #[error("`tolerance` does not apply to lane {lane}: at tick {tick} its method is {method:?}")]
@@ -191,6 +194,9 @@ impl Cause {
             Cause::TwoLaneLists => "keep one of them".into(),
             Cause::NotALane { known, .. } => {
                 format!("write one of {}, or give it a lane", list(known, '"', ", "))
+            }
+            Cause::Refused { .. } => {
+                "name another method, or change the body; `regatta list methods` has what each is for".into()
             }
             Cause::NoTolerance { .. } => {
                 format!("remove it, or choose an adaptive method: {}", adaptive_methods())

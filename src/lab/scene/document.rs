@@ -3,19 +3,20 @@
 use toml::de::DeTable;
 
 use super::cause::{Cause, Wanted};
-use super::described::{check_names, finish_bodies, name_the_nameless, read_bodies};
+use super::described::{Described, check_names, finish_bodies, name_the_nameless, read_bodies};
 use super::errors::{SceneError, position};
 use super::fields::{
     ABOUT, HINT, METHOD_LIST, OPENING_METHOD, SECONDS, SUBSTEPS, TICK_HZ, TITLE, TOP, optional,
     read_tolerance, required,
 };
+use super::fitting::{check_method, every_lane};
 use super::script::{self, SceneContext};
 use super::syntax;
 use super::table::{Field, Table};
 use super::{LEAST_SECONDS, MOST_LANES, MOST_SECONDS, MOST_SUBSTEPS, MOST_TICK_HZ, Scene};
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
-use crate::sim::integrators::{METHODS, Method};
+use crate::sim::integrators::Method;
 
 /// The most characters of a title, which is shown in the window's title bar.
 const MOST_TITLE_CHARS: usize = 80;
@@ -51,12 +52,12 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let hint = top.text(HINT, MOST_HINT_CHARS);
     let tick_hz = top.whole(TICK_HZ, 1..=MOST_TICK_HZ);
     let seconds = top.number(SECONDS, Range::Between(LEAST_SECONDS, MOST_SECONDS));
-    let lanes = read_lanes(text, &mut top);
-    let opening_method = read_opening_method(&lanes, &mut top);
-    let (equal_cost, opens_as_race) = read_race(&mut top);
     let mut bodies = read_bodies(&mut top);
     check_names(text, &bodies, &mut top);
     name_the_nameless(&mut bodies);
+    let lanes = read_lanes(text, &bodies, &mut top);
+    let opening_method = read_opening_method(&lanes, &mut top);
+    let (equal_cost, opens_as_race) = read_race(&mut top);
     let context = SceneContext { bodies: &bodies, lanes: &lanes };
     let script = script::read(&context, &mut top);
     let checks = script::read_checks(&context, &mut top);
@@ -94,7 +95,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     }
 }
 
-fn read_lanes(text: &str, top: &mut Table<'_>) -> Vec<LaneSpec> {
+fn read_lanes(text: &str, bodies: &[Described], top: &mut Table<'_>) -> Vec<LaneSpec> {
     let listed = top.methods(METHOD_LIST, MOST_LANES);
     let is_listed = listed.is_some();
     let listed = listed.into_iter().flatten();
@@ -118,17 +119,15 @@ fn read_lanes(text: &str, top: &mut Table<'_>) -> Vec<LaneSpec> {
         top.adopt(row, &TOP);
     }
 
+    let key = if is_listed { METHOD_LIST.key } else { LANE_METHOD.key };
     for (n, (span, lane)) in lanes.iter().enumerate() {
+        check_method(key, lane.method, span.clone(), bodies, top);
         if let Some((first, _)) = lanes[..n].iter().find(|(_, earlier)| earlier == lane) {
             let (line, _) = position(text, first.start);
             top.complain(span.clone(), Cause::DuplicateLane { lane: *lane, line });
         }
     }
-    if is_given {
-        lanes.into_iter().map(|(_, lane)| lane).collect()
-    } else {
-        METHODS.iter().map(LaneSpec::plain).collect()
-    }
+    if is_given { lanes.into_iter().map(|(_, lane)| lane).collect() } else { every_lane(bodies) }
 }
 
 /// The opening method, which must be that of a lane, so that it races too.

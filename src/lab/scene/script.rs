@@ -3,6 +3,7 @@
 use super::cause::Cause;
 use super::described::Described;
 use super::fields::{SUBSTEPS, TOLERANCE, TOP, optional, read_tolerance, required};
+use super::fitting::check_method;
 use super::nearest::nearest;
 use super::table::{Field, Table};
 use super::{Check, LAST_TICK, MOST_NAME_CHARS, MOST_SUBSTEPS, MOST_TICK_HZ, Scripted};
@@ -198,6 +199,9 @@ fn read_lane(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<usize> {
 
 fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action> {
     let method = row.method(METHOD);
+    if let Some(method) = method {
+        check_method(METHOD.key, method, row.span(METHOD.key), context.bodies, row);
+    }
     let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS);
     let tolerance = read_tolerance(row, method);
     if [LANE, SUBSTEPS, TOLERANCE].iter().any(|field| row.has(field.key)) {

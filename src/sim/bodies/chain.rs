@@ -213,10 +213,16 @@ impl Body for Chain {
 
     fn exact(&self, dt: f64, from: &State<Vec<f64>>) -> Option<State<Vec<f64>>> {
         let mut to = from.clone();
-        self.exact_into(dt, from, &mut to).then_some(to)
+        self.exact_into(0.0, dt, from, &mut to).then_some(to)
     }
 
-    fn exact_into(&self, dt: f64, from: &State<Vec<f64>>, to: &mut State<Vec<f64>>) -> bool {
+    fn exact_into(
+        &self,
+        _t: f64,
+        dt: f64,
+        from: &State<Vec<f64>>,
+        to: &mut State<Vec<f64>>,
+    ) -> bool {
         to.q.fill(0.0);
         to.v.fill(0.0);
         let norm = 2.0 / (self.masses + 1) as f64;
@@ -237,7 +243,13 @@ impl Body for Chain {
         true
     }
 
-    fn exact_error(&self, dt: f64, from: &State<Vec<f64>>, _to: &State<Vec<f64>>) -> [f64; 2] {
+    fn exact_error(
+        &self,
+        _t: f64,
+        dt: f64,
+        from: &State<Vec<f64>>,
+        _to: &State<Vec<f64>>,
+    ) -> [f64; 2] {
         let norm = 2.0 / (self.masses + 1) as f64;
         let mut sum = [0.0; 2];
         for n in 1..=self.masses {

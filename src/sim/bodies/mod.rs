@@ -5,20 +5,24 @@
 //! drawn. To add one, copy `spring.rs`, declare it, and name it in [`BODIES`].
 
 mod chain;
+mod follow;
 mod helm;
 mod kepler;
 mod kind;
 mod orbit;
 mod oscillator;
 mod pendulum;
+mod refusal;
 mod ship;
 mod spring;
 
 pub use chain::Chain;
+pub use follow::Follow;
 pub use helm::{Helm, ThrustCurve};
 pub use kind::{Coordinate, Kind, Truth};
 pub use orbit::{Ellipse, Orbit};
 pub use pendulum::Pendulum;
+pub use refusal::refusal;
 pub use ship::Ship;
 pub use spring::Spring;
 
@@ -27,7 +31,7 @@ pub use super::parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, Paramet
 
 /// Every kind of body, in menu order.
 pub static BODIES: &[Kind] =
-    &[ship::KIND, spring::KIND, chain::KIND, pendulum::KIND, orbit::KIND, helm::KIND];
+    &[ship::KIND, spring::KIND, chain::KIND, pendulum::KIND, orbit::KIND, helm::KIND, follow::KIND];
 
 /// The kind with this id.
 pub fn kind(id: &str) -> Option<&'static Kind> {

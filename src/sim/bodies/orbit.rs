@@ -125,7 +125,7 @@ impl Body for Orbit {
     }
 
     /// Infinite so close to the centre that the rounding of the time exceeds the time of passage.
-    fn exact_error(&self, dt: f64, _from: &State<DVec2>, to: &State<DVec2>) -> [f64; 2] {
+    fn exact_error(&self, _t: f64, dt: f64, _from: &State<DVec2>, to: &State<DVec2>) -> [f64; 2] {
         if 100.0 * f64::EPSILON * dt.abs() * to.v.length() > to.q.length() {
             return [f64::INFINITY; 2];
         }

@@ -97,7 +97,7 @@ impl Body for Ship {
         })
     }
 
-    fn exact_error(&self, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {
+    fn exact_error(&self, _t: f64, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {
         let push = self.thrust * self.throttle / self.mass;
         let rate = self.drag / self.mass;
         // φ₁ ≤ min(1, 1/|z|) and φ₂ ≤ min(½, 1/|z|).

@@ -98,7 +98,7 @@ impl Body for Spring {
         Some(oscillator::flow(self.stiffness / self.mass, alpha, dt, from))
     }
 
-    fn exact_error(&self, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {
+    fn exact_error(&self, _t: f64, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {
         let alpha = self.damping / self.mass / 2.0;
         oscillator::flow_error(self.stiffness / self.mass, alpha, dt, from)
     }

@@ -3,6 +3,8 @@
 //! A method sets its name, source, orders and evaluations, and takes the other fields from its family
 //! unless they differ.
 
+use std::fmt;
+
 use super::tolerance::Tolerance;
 
 /// The families of methods, for menus and tables.
@@ -18,6 +20,8 @@ pub enum Family {
     Implicit,
     /// A listing of the chapter, with its faults.
     AsPrinted,
+    /// Moves a body towards its target by a rule of its own, without the acceleration.
+    Follower,
 }
 
 impl Family {
@@ -29,7 +33,26 @@ impl Family {
             Family::Adaptive => "adaptive",
             Family::Implicit => "implicit",
             Family::AsPrinted => "as-printed",
+            Family::Follower => "follower",
         }
+    }
+}
+
+/// The bodies that a method is for, if it does not step every body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Only {
+    /// The ids of the kinds that it steps.
+    pub kinds: &'static [&'static str],
+    /// The key of a parameter and the value that it must have; `None` if any body of these kinds will do.
+    pub with: Option<(&'static str, f64)>,
+    /// Why it steps no other body: a clause in lower case that follows a colon.
+    pub reason: &'static str,
+}
+
+impl fmt::Display for Only {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.kinds.join(", "))?;
+        self.with.map_or(Ok(()), |(key, value)| write!(f, " with {key} = {value}"))
     }
 }
 
@@ -45,19 +68,21 @@ pub struct Method {
     /// How it works.
     pub family: Family,
     /// Global order of the error of the whole state if forces depend on position only. In a listing as
-    /// printed `v` may be of higher order than `q`.
+    /// printed `v` may be of higher order than `q`. Of a follower, the order while its target moves evenly
+    /// and is not reached.
     pub order: u32,
     /// Global order if forces also depend on velocity.
     pub order_with_drag: u32,
     /// Evaluations of the acceleration per step, averaged over a long run; `None` if the method
-    /// decides. A method with a [restart](Method::restart) needs one more at its first step.
+    /// decides. A follower evaluates its target. A method with a [restart](Method::restart) needs one more at its first step.
     pub evaluations: Option<u32>,
     /// Whether the one-step map conserves phase-space area on a system without drag.
     pub symplectic: bool,
     /// Whether a step of `-h` undoes a step of `h`, up to round-off.
     pub reversible: bool,
     /// The largest `h ω` at which the undamped oscillator stays bounded. `None` for implicit methods,
-    /// and for those that choose their own substeps.
+    /// and for those that choose their own substeps. Of a follower, the largest product of `h` and its rate
+    /// at which it stays near a still target; `None` if it does at any step.
     pub stability_limit: Option<f64>,
     /// The default tolerance of a substep of an adaptive method.
     pub tolerance: Option<Tolerance>,
@@ -67,6 +92,8 @@ pub struct Method {
     /// Whether a step of `h` always advances by `h`. A method that does not reports the rest to
     /// [`System::skipped`](crate::sim::System::skipped).
     pub keeps_time: bool,
+    /// The bodies that it is for; `None` if it steps every body.
+    pub only: Option<Only>,
     /// Where the method comes from.
     pub source: &'static str,
 }
@@ -99,6 +126,7 @@ const PLAIN: Method = Method {
     tolerance: None,
     restart: None,
     keeps_time: true,
+    only: None,
     source: "",
 };
 
@@ -128,3 +156,27 @@ pub(super) const IMPLICIT: Method = Method { family: Family::Implicit, ..PLAIN }
 /// A listing of the chapter: if forces depend on position only, all are semi-implicit Euler.
 pub(super) const AS_PRINTED: Method =
     Method { family: Family::AsPrinted, symplectic: true, stability_limit: Some(2.0), ..PLAIN };
+
+/// A follower by a law of first order, whose distance from a still target only shrinks.
+pub(super) const FIRST_ORDER_FOLLOWER: Method = Method {
+    family: Family::Follower,
+    order: 1,
+    order_with_drag: 1,
+    evaluations: Some(1),
+    only: Some(Only {
+        kinds: &["follow"],
+        with: Some(("order", 1.0)),
+        reason: "it moves straight towards a target, so that it steps only a `follow` of order 1",
+    }),
+    ..PLAIN
+};
+
+/// A follower by a law of second order, whose distance from a still target only shrinks.
+pub(super) const SECOND_ORDER_FOLLOWER: Method = Method {
+    only: Some(Only {
+        kinds: &["follow"],
+        with: Some(("order", 2.0)),
+        reason: "it moves towards a target with a velocity of its own, so that it steps only a `follow` of order 2",
+    }),
+    ..FIRST_ORDER_FOLLOWER
+};

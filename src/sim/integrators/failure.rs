@@ -21,6 +21,11 @@ pub enum StepFailure {
         /// The evaluations spent.
         evaluations: u64,
     },
+    /// The method is not for this body; see [`Only`](super::Only).
+    Refused {
+        /// Why, as on the method's card.
+        reason: &'static str,
+    },
     /// A value became infinite or undefined.
     NotFinite {
         /// The coordinate's name.
@@ -56,6 +61,7 @@ impl fmt::Display for StepFailure {
                 "has no reference solution: {evaluations} evaluations of the acceleration did not reach the end of a \
                  tick; soften the body"
             ),
+            Self::Refused { reason } => write!(f, "cannot be stepped by this method: {reason}"),
             Self::NotFinite { coordinate, value } => {
                 write!(f, "left the numbers: {coordinate} is {value}")
             }

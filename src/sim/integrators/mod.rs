@@ -1,6 +1,7 @@
 //! The methods: one file each, one line each in the table below.
 //!
-//! A method implements [`Integrator`] for every [`System`] and describes itself on a [`Method`] card.
+//! A method implements [`Integrator`] for every [`System`] and describes itself on a [`Method`] card. If it
+//! is for some bodies [only](Only), its card says which, and its step fails on others.
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
 //! of each card, both ways. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
 
@@ -14,15 +15,20 @@ mod adaptive_euler_as_printed;
 mod bdf2;
 mod bogacki_shampine_32;
 mod card;
+mod critically_damped_spring;
 mod dormand_prince_54;
 mod explicit_euler;
+mod exponential_decay;
 mod failure;
 mod gauss_legendre_4;
 mod implicit_euler;
 mod implicit_midpoint;
+mod implicit_spring;
 mod improved_euler;
 mod improved_euler_as_printed;
 mod integrator;
+mod lerp_dt;
+mod lerp_per_frame;
 mod midpoint;
 mod newmark;
 mod pefrl;
@@ -32,6 +38,7 @@ mod rk4;
 mod rk4_as_printed;
 mod semi_implicit_euler;
 mod shared;
+mod smooth_damp;
 mod ssp_rk3;
 mod stormer_verlet;
 mod tolerance;
@@ -43,16 +50,21 @@ pub use adaptive_euler::AdaptiveEuler;
 pub use adaptive_euler_as_printed::AdaptiveEulerAsPrinted;
 pub use bdf2::Bdf2;
 pub use bogacki_shampine_32::BogackiShampine32;
-pub use card::{Family, Method};
+pub use card::{Family, Method, Only};
+pub use critically_damped_spring::CriticallyDampedSpring;
 pub use dormand_prince_54::DormandPrince54;
 pub use explicit_euler::ExplicitEuler;
+pub use exponential_decay::ExponentialDecay;
 pub use failure::StepFailure;
 pub use gauss_legendre_4::GaussLegendre4;
 pub use implicit_euler::ImplicitEuler;
 pub use implicit_midpoint::ImplicitMidpoint;
+pub use implicit_spring::ImplicitSpring;
 pub use improved_euler::ImprovedEuler;
 pub use improved_euler_as_printed::ImprovedEulerAsPrinted;
 pub use integrator::Integrator;
+pub use lerp_dt::LerpDt;
+pub use lerp_per_frame::LerpPerFrame;
 pub use midpoint::Midpoint;
 pub use newmark::Newmark;
 pub use pefrl::Pefrl;
@@ -61,6 +73,7 @@ pub use rk4::Rk4;
 pub use rk4_as_printed::Rk4AsPrinted;
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
+pub use smooth_damp::SmoothDamp;
 pub use ssp_rk3::SspRk3;
 pub use stormer_verlet::StormerVerlet;
 pub use tolerance::Tolerance;
@@ -117,7 +130,25 @@ methods! {
     improved_euler_as_printed::ImprovedEulerAsPrinted,
     rk4_as_printed::Rk4AsPrinted,
     adaptive_euler_as_printed::AdaptiveEulerAsPrinted,
+    lerp_per_frame::LerpPerFrame,
+    lerp_dt::LerpDt,
+    exponential_decay::ExponentialDecay,
+    smooth_damp::SmoothDamp,
+    critically_damped_spring::CriticallyDampedSpring,
+    implicit_spring::ImplicitSpring,
 }
+
+/// The number of leading [`METHODS`] that step every body.
+const GENERAL_COUNT: usize = {
+    let mut count = 0;
+    while count < METHODS.len() && METHODS[count].only.is_none() {
+        count += 1;
+    }
+    count
+};
+
+/// The methods that step every body: those of [`METHODS`] that come before any that is for [`Only`] some.
+pub static GENERAL_METHODS: &[Method] = METHODS.split_at(GENERAL_COUNT).0;
 
 /// The method with this id.
 pub fn method(id: &str) -> Option<&'static Method> {

@@ -107,14 +107,14 @@ mod tests {
     use super::*;
     use crate::sim::Solver;
     use crate::sim::bodies::kind;
-    use crate::sim::integrators::{METHODS, method};
+    use crate::sim::integrators::{GENERAL_METHODS, method};
 
     #[test]
     fn each_copy_moves_as_a_stepper_does() {
         let spring = kind("spring").unwrap();
         let values = [2.0, 180.0, 3.0, 1.0, 0.0, 1.0];
         let states = [vec![1.0, 0.0], vec![-0.3, 4.0]];
-        for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+        for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
             let mut stepper = (spring.build)(&values, Solver::Method(method));
             let mut ensemble = Ensemble::new((spring.build)(&values, Solver::Truth), method, 2);
             ensemble.set(&states);

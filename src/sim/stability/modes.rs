@@ -73,6 +73,16 @@ impl NormalMode {
         // The unit of velocity: the orbit of the mode is a circle, or the distance in a step is 1.
         let rate = if self.omega_squared > 0.0 { self.omega_squared.sqrt() } else { 1.0 / tick.h };
         let mut maps: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(2, 2));
+        // What a target does to the body at rest is no part of the map.
+        let mut driven = [[0.0; 2]; 3];
+        if !stays_at_rest(body, tick.t) {
+            let rest = vec![0.0; n];
+            stepper.set(tick.t, &rest, &rest);
+            for (k, driven) in driven.iter_mut().enumerate() {
+                stepper.advance(tick.t + tick.h * k as f64, tick.h, tick.substeps)?;
+                *driven = [self.part(stepper.q()), self.part(stepper.v())];
+            }
+        }
         for column in 0..2 {
             let mut state = vec![0.0; 2 * n];
             let unit = if column == 0 { 1.0 } else { rate };
@@ -82,8 +92,8 @@ impl NormalMode {
             stepper.set(tick.t, &state[..n], &state[n..]);
             for (k, map) in maps.iter_mut().enumerate() {
                 stepper.advance(tick.t + tick.h * k as f64, tick.h, tick.substeps)?;
-                map[(0, column)] = self.part(stepper.q());
-                map[(1, column)] = self.part(stepper.v()) / rate;
+                map[(0, column)] = self.part(stepper.q()) - driven[k][0];
+                map[(1, column)] = (self.part(stepper.v()) - driven[k][1]) / rate;
             }
         }
         let later = [maps[0].clone(), maps[1].clone()];
@@ -113,8 +123,8 @@ impl NormalMode {
 /// Ticks over which the energy of a mode is followed.
 const FOLLOWED_TICKS: u64 = 1 << 14;
 
-/// A copy of `body` with throttle 0, so that its equation is homogeneous and deviations obey the same
-/// equation.
+/// A copy of `body` with throttle 0, so that its equation is homogeneous but for a target, and deviations
+/// obey the same equation.
 pub fn unforced(body: &dyn Stepper) -> Box<dyn Stepper> {
     let mut free = body.with_solver(Solver::Truth, 0.0);
     free.input(0.0, Input::Throttle(0.0));
@@ -129,18 +139,32 @@ pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
     }
     let free = unforced(body);
     let n = state_of(&*free).len() / 2;
+    let push = push_at_rest(&*free, 0.0);
     let column = |j: usize, moves: bool| {
         let mut state = vec![0.0; 2 * n];
         state[if moves { n + j } else { j }] = 1.0;
         let mut a = vec![0.0; n];
         free.acceleration(0.0, &state[..n], &state[n..], &mut a);
-        a
+        a.iter().zip(&push).map(|(a, push)| a - push).collect::<Vec<_>>()
     };
     let matrix = |moves: bool| {
         let columns: Vec<f64> = (0..n).flat_map(|j| column(j, moves)).collect();
         -DMatrix::from_vec(n, n, columns)
     };
     modes_of(matrix(false), &matrix(true))
+}
+
+/// The acceleration of `body` at rest at the origin at time `t` (s), which a target causes.
+fn push_at_rest(body: &dyn Stepper, t: f64) -> Vec<f64> {
+    let rest = vec![0.0; body.q().len()];
+    let mut push = rest.clone();
+    body.acceleration(t, &rest, &rest, &mut push);
+    push
+}
+
+/// Whether no target moves `body` from rest at the origin.
+fn stays_at_rest(body: &dyn Stepper, t: f64) -> bool {
+    body.pursuit(t).is_none() && push_at_rest(body, t).iter().all(|&push| push == 0.0)
 }
 
 /// The normal modes of small deviations of `body` from rest at the origin, without throttle. `None` if
@@ -193,7 +217,7 @@ const COUPLING: f64 = 1e-10;
 mod tests {
     use super::*;
     use crate::sim::bodies::kind;
-    use crate::sim::integrators::{METHODS, method};
+    use crate::sim::integrators::{GENERAL_METHODS, method};
 
     fn body(id: &str, values: &[f64]) -> Box<dyn Stepper> {
         (kind(id).unwrap().build)(values, Solver::Truth)
@@ -285,7 +309,7 @@ mod tests {
             for mode in normal_modes(&*chain).unwrap() {
                 let values = [1.0, mode.omega_squared, mode.damping_per_s, 1.0, 0.0, 1.0];
                 let spring = body("spring", &values);
-                for method in METHODS.iter().filter(|method| method.tolerance.is_none()) {
+                for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
                     for (h, substeps) in [(0.02, 1), (0.04, 2), (0.06, 1)] {
                         let solver = Solver::Method(method);
                         let tick = Tick { t: 0.0, h, substeps };

@@ -1,6 +1,6 @@
 use super::*;
 use crate::lab::scene::Scene;
-use crate::sim::integrators::{METHODS, Method, method};
+use crate::sim::integrators::{GENERAL_METHODS, Method, method};
 
 /// The map of a spring of 1 kg over its stiffness, with this damping.
 fn spring(damping: f64, ids: &[&str]) -> StabilityMap {
@@ -71,7 +71,7 @@ fn the_regions_of_an_undamped_spring_end_at_the_limits_of_the_cards() {
 #[test]
 fn no_method_is_stable_again_far_beyond_its_limit() {
     // Up to 5000 rad in a tick.
-    let limited = METHODS.iter().filter(|method| {
+    let limited = GENERAL_METHODS.iter().filter(|method| {
         method.tolerance.is_none() && method.stability_limit.is_some_and(|limit| limit >= 1.0)
     });
     let specs: Vec<LaneSpec> = limited.map(LaneSpec::plain).collect();
@@ -169,7 +169,7 @@ fn what_a_method_does_at_the_present_point_is_known() {
 
 #[test]
 fn the_present_point_changes_no_region() {
-    let specs = vec![(0, LaneSpec::plain(&METHODS[0]))];
+    let specs = vec![(0, LaneSpec::plain(&GENERAL_METHODS[0]))];
     let scene = Scene::built_in("harbour").unwrap();
     let opened = &scene.bodies[1];
     let request = |k: f64, c: f64, tick_hz: u32| {
@@ -204,5 +204,27 @@ fn a_body_without_rest_has_no_map_and_a_pendulum_has_that_of_its_small_swings() 
         }
         assert_eq!(work.map.is_possible, is_possible, "{name}");
         assert_eq!(work.map.regions.len(), usize::from(is_possible), "{name}");
+    }
+}
+
+#[test]
+fn a_follower_is_mapped_on_a_body_of_its_rate() {
+    let scene = Scene::built_in("lerp").unwrap();
+    let (body, specs) = (&scene.bodies[0], scene.lanes.clone());
+    for (tick_hz, is_stable) in [(6, true), (4, false)] {
+        let specs = specs.iter().copied().enumerate().collect();
+        let request = MapRequest::new((0, 1), body, &body.values, tick_hz, specs);
+        let mut work = MapWork::new(body.kind, request);
+        while !work.is_done() {
+            work.advance();
+        }
+        let map = work.map();
+        let [per_frame, by_dt, exact, euler] = map.here[..] else { panic!("{:?}", map.here) };
+        assert_eq!([per_frame, exact], [Here::Stable; 2]);
+        for here in [by_dt, euler] {
+            assert_eq!(here == Here::Stable, is_stable, "{here:?} at {tick_hz} Hz");
+        }
+        assert_eq!(map.regions[0].coverage, Coverage::Everywhere);
+        assert!(holds(&map.regions[1], 12.0, 20.0) && !holds(&map.regions[1], 8.0, 20.0));
     }
 }

@@ -62,7 +62,7 @@ fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
         // As near to the hand as the body can be.
         let reached = cell.camera.points(held.handle);
         let wanted = match kind.id {
-            "ship" | "spring" => off(&grip, [40.0, 0.0]),
+            "ship" | "spring" | "follow" => off(&grip, [40.0, 0.0]),
             "chain" => off(&grip, [0.0, -31.0]),
             "pendulum" => reached,
             _ => off(&grip, [40.0, -31.0]),

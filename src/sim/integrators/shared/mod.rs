@@ -1,5 +1,6 @@
 //! Building blocks shared by several methods.
 
+pub(super) mod chase;
 pub(super) mod composition;
 pub(super) mod embedded_pair;
 pub(super) mod last_step;

@@ -51,6 +51,15 @@ fn has_bodies(lab: &Lab) -> bool {
     lab.mode() == Mode::Solo && lab.scene().bodies.len() > 1
 }
 
+fn follows(lab: &Lab) -> bool {
+    lab.race().truth().bodies().iter().any(|body| body.chase().is_some())
+}
+
+/// Whether a body may have an energy.
+fn has_energies(lab: &Lab) -> bool {
+    lab.race().truth().bodies().iter().any(|body| body.chase().is_none())
+}
+
 pub(super) static COLUMNS: &[Column] = &[
     Column {
         head: "Key",
@@ -128,11 +137,29 @@ pub(super) static COLUMNS: &[Column] = &[
         rank: |row| number(row.measure("position_error")),
     },
     Column {
+        head: "half-life",
+        about: "time in which the body covered half of the way to its target; under a method that is not flown, that of the verdict",
+        width: 88.0,
+        turn: 1,
+        is_wanted: follows,
+        cell: Cell::Number(|row| Some(format!("{} ms", significant(row.half_life_ms()?, 3)))),
+        rank: |row| number(row.half_life_ms()),
+    },
+    Column {
+        head: "overshoot",
+        about: "how far the body went beyond its target, in percent of the way",
+        width: 88.0,
+        turn: 1,
+        is_wanted: follows,
+        cell: Cell::Number(|row| Some(format!("{} %", significant(row.overshoot_percent()?, 3)))),
+        rank: |row| number(row.overshoot_percent()),
+    },
+    Column {
         head: "energy",
         about: "energy gained or lost, in percent of the energy that the exact motion exchanges",
         width: 98.0,
         turn: 3,
-        is_wanted: always,
+        is_wanted: has_energies,
         cell: Cell::Number(|row| {
             let drift = row.measure("energy_drift")?;
             let sign = if drift > 0.0 { "+" } else { "" };

@@ -2,7 +2,7 @@
 
 use super::verdict::Said;
 use crate::lab::number::significant;
-use crate::lab::{Entrant, Lab, LaneBody, LaneSpec, METRICS, Mode};
+use crate::lab::{ChaseFinding, Entrant, Lab, LaneBody, LaneSpec, METRICS, Mode};
 
 /// A method, or a body of the lane that is flown solo.
 pub(super) struct Row<'a> {
@@ -108,6 +108,22 @@ impl<'a> Row<'a> {
     pub(super) fn measure(&self, id: &str) -> Option<f64> {
         let metric = METRICS.iter().find(|metric| metric.id == id)?;
         (metric.measure)(self.flown_body()?, self.truth())
+    }
+
+    /// The half-life of the body in this lane, or else the one of the verdict.
+    pub(super) fn half_life_ms(&self) -> Option<f64> {
+        let judged = || Some(1e3 * self.chase()?.half_life_s?);
+        self.measure("half_life").or_else(judged)
+    }
+
+    /// The overshoot of the body in this lane, or else the one of the verdict.
+    pub(super) fn overshoot_percent(&self) -> Option<f64> {
+        let judged = || Some(self.chase()?.overshoot_percent);
+        self.measure("overshoot").or_else(judged)
+    }
+
+    fn chase(&self) -> Option<&'a ChaseFinding> {
+        self.lab.viewer().verdict(self.entry)?.of_bodies.get(self.body)?.chase.as_ref()
     }
 
     pub(super) fn evaluations(&self) -> Option<u64> {

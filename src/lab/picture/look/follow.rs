@@ -1,0 +1,47 @@
+//! A camera on a chart recorder's paper, with a line to the target that it follows.
+
+use glam::DVec2;
+
+use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use crate::sim::State;
+use crate::sim::bodies::Follow;
+
+/// How far the camera and the target go to either side, in metres; of a camera that stays, 1.
+fn reach(follow: &Follow) -> f64 {
+    let target = follow.step.abs() + follow.sine.abs();
+    let reach = target.max(follow.x0.abs());
+    if reach > 0.0 { reach } else { 1.0 }
+}
+
+/// The radii of the camera and of the target, and half the length of the line across the target, in reaches.
+const CAMERA: f64 = 0.09;
+const TARGET: f64 = 0.045;
+const HALF_POST: f64 = 0.16;
+
+impl Drawn for Follow {
+    fn draw(&self, _x: &f64, outline: &mut Outline) {
+        let (reach, at) = (reach(self), DVec2::new(self.target(outline.t), 0.0));
+        let half_post = DVec2::Y * HALF_POST * reach;
+        outline.marks.push(Mark::Rod { from: outline.at, to: at });
+        outline.marks.push(Mark::Wall { from: at - half_post, to: at + half_post });
+        outline.marks.push(Mark::Anchor { centre: at, radius: TARGET * reach });
+        outline.marks.push(Mark::Disc { centre: outline.at, radius: CAMERA * reach });
+    }
+
+    fn framing(&self) -> Framing {
+        Framing::Recorder { half_width_m: 1.3 * reach(self) }
+    }
+
+    fn handles(&self, x: &f64) -> Vec<Handle> {
+        vec![Handle { at: DVec2::new(*x, 0.0), radius: CAMERA * reach(self) }]
+    }
+
+    /// By the law of first order the velocity follows from the place.
+    fn pull(&self, state: &mut State<f64>, pull: Pull) {
+        state.v = match self.order {
+            1 => state.v - self.rate * (pull.to.x - state.q),
+            _ => pull.velocity.x,
+        };
+        state.q = pull.to.x;
+    }
+}

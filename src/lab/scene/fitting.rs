@@ -1,0 +1,38 @@
+//! Holds the methods that a scene file names against its bodies.
+
+use std::ops::Range as Span;
+
+use super::cause::Cause;
+use super::described::Described;
+use super::refusal::Refusal;
+use super::table::Table;
+use crate::lab::lane_spec::LaneSpec;
+use crate::sim::bodies::refusal;
+use crate::sim::integrators::{METHODS, Method};
+
+/// Reports the method of `key` at `span` if it refuses a body.
+pub(super) fn check_method(
+    key: &'static str,
+    method: &'static Method,
+    span: Span<usize>,
+    bodies: &[Described],
+    table: &mut Table<'_>,
+) {
+    let refused = bodies.iter().find_map(|Described { kind, name, values, .. }| {
+        let reason = refusal(method, kind, values.as_ref()?)?;
+        let body = name.clone().unwrap_or_else(|| kind.id.into());
+        Some(Refusal { method: method.id, body, reason })
+    });
+    if let Some(refusal) = refused {
+        table.complain(span, Cause::Refused { key, refusal });
+    }
+}
+
+/// A plain lane for each method that steps all of these bodies.
+pub(super) fn every_lane(bodies: &[Described]) -> Vec<LaneSpec> {
+    let steps = |method: &Method, body: &Described| {
+        body.values.as_ref().is_none_or(|values| refusal(method, body.kind, values).is_none())
+    };
+    let fitting = METHODS.iter().filter(|method| bodies.iter().all(|body| steps(method, body)));
+    fitting.map(LaneSpec::plain).collect()
+}

@@ -1,0 +1,230 @@
+//! A camera, or any value, that follows a target.
+//!
+//! By the law of first order it moves as `x′ = k (g - x)`, by that of second order as a critically damped
+//! spring, `x″ = ω² (g - x) - 2 ω x′`. The target is `g(t) = s + r t + A sin(2π f t)` from time 0 on.
+
+use std::f64::consts::TAU;
+
+use glam::DVec2;
+
+use super::kind::{Coordinate, Kind, Truth};
+use crate::sim::body::{Body, Input};
+use crate::sim::body_stepper::stepper;
+use crate::sim::parameter::{self, ParameterOf, Range};
+use crate::sim::system::{Pursuit, State, System};
+
+pub(super) const KIND: Kind = Kind {
+    id: "follow",
+    about: "x′ = k (g - x) or x″ = k² (g - x) - 2 k x′: a camera that follows a target g(t)",
+    coordinates: |_| &[Coordinate { name: "x", velocity: "v", unit: "m" }],
+    parameters: &parameter::descriptions(&PARAMETERS),
+    inputs: &["kick"],
+    leading: "rate_per_s",
+    truth: Truth::Exact,
+    check: |_| Ok(()),
+    build: |values, solver| stepper(Follow::BLANK.with_parameters(values), solver),
+};
+
+type Of = ParameterOf<Follow>;
+
+const PARAMETERS: [Of; 9] = [
+    Of::count("order", 2, |follow| &mut follow.order)
+        .or(2.0)
+        .about("1 to move straight at the target, 2 with a velocity of its own"),
+    Of::number("rate_per_s", RATES, |follow| &mut follow.rate)
+        .about("k: it halves the distance in 0.693 / k by the law of order 1, in 1.678 / k by that of order 2"),
+    Of::number("step_m", Range::ANY, |follow| &mut follow.step)
+        .or(1.0)
+        .at_start()
+        .about("s, where the target is from the start on"),
+    Of::number("ramp_m_per_s", Range::ANY, |follow| &mut follow.ramp)
+        .or(0.0)
+        .at_start()
+        .about("r, how fast the target moves away"),
+    Of::number("sine_m", Range::ANY, |follow| &mut follow.sine)
+        .or(0.0)
+        .at_start()
+        .about("A, how far the target swings to either side"),
+    Of::number("sine_hz", Range::NonNegative(MOST_SINE_HZ), |follow| &mut follow.sine_hz)
+        .or(1.0)
+        .at_start()
+        .about("f, how often the target swings"),
+    Of::number("x0_m", Range::ANY, |follow| &mut follow.x0)
+        .or(0.0)
+        .at_start()
+        .about("where it starts"),
+    Of::number("v0_m_per_s", Range::ANY, |follow| &mut follow.v0)
+        .or(0.0)
+        .at_start()
+        .about("its velocity at the start; of order 1 the law gives it"),
+    Of::number("kick_m", Range::ANY, |follow| &mut follow.kick)
+        .or(0.5)
+        .about("how far one kick displaces it"),
+];
+
+/// The rates of a law, per second. A slower one would lag so far behind a moving target that the closed form
+/// cancels; a faster one is at its target within a tick at any rate.
+const RATES: Range = Range::Between(1e-3, 1e6);
+
+/// The highest frequency of the target in hertz: above it the phase is lost to rounding within a day.
+const MOST_SINE_HZ: f64 = 1e4;
+
+/// A follower. Its coordinate is where it is, in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Follow {
+    /// The order of the law: 1 or 2.
+    pub order: usize,
+    /// k or ω, per second.
+    pub rate: f64,
+    /// s, the target's place, in metres.
+    pub step: f64,
+    /// r, the target's speed, in metres per second.
+    pub ramp: f64,
+    /// A, the amplitude of the target's swing, in metres.
+    pub sine: f64,
+    /// f, the frequency of the target's swing, in hertz.
+    pub sine_hz: f64,
+    /// Place at the start, in metres.
+    pub x0: f64,
+    /// Velocity at the start, in metres per second. By the law of first order it follows from the place.
+    pub v0: f64,
+    /// How far one kick displaces it, in metres.
+    pub kick: f64,
+}
+
+impl Follow {
+    /// Order 2 and all other parameters 0, to be set by [`Body::with_parameters`].
+    pub const BLANK: Self = Self {
+        order: 2,
+        rate: 0.0,
+        step: 0.0,
+        ramp: 0.0,
+        sine: 0.0,
+        sine_hz: 0.0,
+        x0: 0.0,
+        v0: 0.0,
+        kick: 0.0,
+    };
+
+    /// Where the target is at time `t` (s), in metres.
+    pub fn target(&self, t: f64) -> f64 {
+        self.step + self.ramp * t + self.sine * libm::sin(TAU * self.sine_hz * t)
+    }
+
+    /// How fast the target moves at time `t` (s), in metres per second.
+    pub fn target_velocity(&self, t: f64) -> f64 {
+        let omega = TAU * self.sine_hz;
+        self.ramp + self.sine * omega * libm::cos(omega * t)
+    }
+
+    /// Whether the target stays where it is.
+    pub fn is_still(&self) -> bool {
+        self.ramp == 0.0 && (self.sine == 0.0 || self.sine_hz == 0.0)
+    }
+
+    /// The motion at time `t` (s) that any other approaches: behind a ramp at a constant distance, behind a
+    /// sine smaller and late.
+    fn steady(&self, t: f64) -> State<f64> {
+        let omega = TAU * self.sine_hz;
+        // 1 / (1 + iβ), and its square for the law of second order.
+        let beta = omega / self.rate;
+        let size = 1.0 / (1.0 + beta * beta);
+        let once = (size, -beta * size);
+        let (re, im) = match self.order {
+            1 => once,
+            _ => (once.0 * once.0 - once.1 * once.1, 2.0 * once.0 * once.1),
+        };
+        let (sin, cos) = (libm::sin(omega * t), libm::cos(omega * t));
+        let late = t - self.order as f64 / self.rate;
+        State {
+            q: self.step + self.ramp * late + self.sine * (re * sin + im * cos),
+            v: self.ramp + self.sine * omega * (re * cos - im * sin),
+        }
+    }
+
+    /// Bounds on the coordinate and the velocity of the terms of [`Follow::steady`] at time `t`, with what the
+    /// rounding of the phase adds, in units of the rounding of 1.
+    fn steady_size(&self, t: f64) -> [f64; 2] {
+        let omega = TAU * self.sine_hz;
+        let phase = 8.0 + 2.0 * (omega * t).abs();
+        let late = t.abs() + self.order as f64 / self.rate;
+        let swing = self.sine.abs() * phase;
+        [8.0 * (self.step.abs() + self.ramp.abs() * late) + swing, self.ramp.abs() + omega * swing]
+    }
+}
+
+impl System for Follow {
+    type Vector = f64;
+
+    /// The law of first order is differentiated once, and its defect `v - k (g - x)` dies away at the rate k:
+    /// `x″ = k g′ - k x′ - k (x′ - k (g - x))`. The homogeneous part is that of the second order.
+    #[inline]
+    fn acceleration(&self, t: f64, x: &f64, v: &f64, a: &mut f64) {
+        let k = self.rate;
+        let push = if self.order == 1 { k * self.target_velocity(t) } else { 0.0 };
+        *a = k * k * (self.target(t) - x) - 2.0 * k * v + push;
+    }
+
+    #[inline]
+    fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
+        let order = if self.order == 1 { 1 } else { 2 };
+        let (rate, is_still) = (self.rate, self.is_still());
+        Some(Pursuit { target: self.target(t), rate, order, is_still })
+    }
+}
+
+impl Body for Follow {
+    const PARAMETERS: &'static [Of] = &PARAMETERS;
+
+    fn start(&self) -> State<f64> {
+        let straight = self.rate * (self.target(0.0) - self.x0);
+        State { q: self.x0, v: if self.order == 1 { straight } else { self.v0 } }
+    }
+
+    fn exact(&self, dt: f64, from: &State<f64>) -> Option<State<f64>> {
+        self.exact_at(0.0, dt, from)
+    }
+
+    fn exact_at(&self, t: f64, dt: f64, from: &State<f64>) -> Option<State<f64>> {
+        if dt == 0.0 {
+            return Some(from.clone());
+        }
+        let (here, there, k) = (self.steady(t), self.steady(t + dt), self.rate);
+        // What deviates from the steady motion dies away as a critically damped spring comes to rest.
+        let (x, v) = (from.q - here.q, from.v - here.v);
+        let (decay, b) = (libm::exp(-k * dt), v + k * x);
+        Some(State { q: there.q + decay * (x + b * dt), v: there.v + decay * (v - k * b * dt) })
+    }
+
+    fn exact_error(&self, t: f64, dt: f64, from: &State<f64>, _to: &State<f64>) -> [f64; 2] {
+        let ([q0, v0], [q1, v1]) = (self.steady_size(t), self.steady_size(t + dt));
+        let (k, z) = (self.rate, (self.rate * dt).abs());
+        let (x, v) = (8.0 * from.q.abs() + q0, 8.0 * from.v.abs() + v0);
+        let decay = (1.0 + z) * libm::exp(-k * dt);
+        let deviation = decay * (x * (1.0 + z) + v * dt.abs());
+        let slope = decay * (v * (1.0 + z) + k * z * x);
+        [q1 + deviation, v1 + slope].map(|size| f64::EPSILON * size)
+    }
+
+    fn is_linear(&self) -> bool {
+        true
+    }
+
+    fn energy(&self, _state: &State<f64>) -> Option<f64> {
+        None
+    }
+
+    /// By the law of first order a displacement changes the velocity too.
+    fn input(&mut self, input: Input, state: &mut State<f64>) -> bool {
+        let Input::Kick(times) = input else { return false };
+        state.q += times * self.kick;
+        if self.order == 1 {
+            state.v -= self.rate * times * self.kick;
+        }
+        true
+    }
+
+    fn place(&self, x: &f64) -> DVec2 {
+        DVec2::new(*x, 0.0)
+    }
+}

@@ -1,0 +1,253 @@
+//! Followers: what their cards claim, measured on bodies that follow a target.
+
+use std::cell::RefCell;
+
+use glam::{DVec2, DVec3};
+use regatta::sim::bodies::{Body, Follow};
+use regatta::sim::integrators::{Family, METHODS, Method, StepFailure, integrator, method};
+use regatta::sim::{Counted, Pursuit, State, System, Vector};
+
+use super::systems::{bits, fresh, spring};
+
+fn followers() -> impl Iterator<Item = &'static Method> {
+    METHODS.iter().filter(|method| method.family == Family::Follower)
+}
+
+/// The order of the law that a follower is for.
+fn order_of(method: &Method) -> usize {
+    let (key, order) = method.only.expect("a follower is for one law").with.expect("an order");
+    assert_eq!(key, "order");
+    order as usize
+}
+
+/// A body at rest 2 m before a still target, by the law that `method` is for.
+fn still(method: &Method, rate: f64) -> Follow {
+    let order = order_of(method);
+    Follow { order, rate, step: 1.0, x0: -1.0, kick: 0.5, ..Follow::BLANK }
+}
+
+/// The states after each of `steps` steps of `h`.
+fn course(method: &Method, body: &Follow, h: f64, steps: u32) -> Vec<State<f64>> {
+    let mut integrator = fresh::<Follow>(method);
+    let mut state = body.start();
+    let states = (0..steps).map(|step| {
+        integrator.step(body, h * f64::from(step), h, &mut state).expect("the law it is for");
+        state.clone()
+    });
+    states.collect()
+}
+
+#[test]
+fn behind_an_even_target_each_follower_has_the_order_on_its_card() {
+    let span = 1.7;
+    for method in followers() {
+        let body = Follow { ramp: 0.8, ..still(method, 3.0) };
+        let truth = body.exact(span, &body.start()).expect("a closed form");
+        let error = |steps: u32| {
+            let states = course(method, &body, span / f64::from(steps), steps);
+            let last = states.last().expect("a step");
+            [(last.q - truth.q).abs(), (last.v - truth.v).abs()]
+        };
+        for k in 12..15 {
+            let [coarse, fine] = [error(1 << k), error(2 << k)];
+            for part in 0..2 {
+                let order = (coarse[part] / fine[part]).log2();
+                println!("{:26} {part}: order {order:.3}", method.id);
+                for claimed in [method.order, method.order_with_drag] {
+                    assert!((order - f64::from(claimed)).abs() < 0.1, "{}: {order}", method.id);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_costs_the_evaluations_of_the_target_on_the_card() {
+    for method in followers() {
+        let counted = Counted::new(still(method, 3.0));
+        let mut state = counted.system.start();
+        let mut integrator = fresh::<Counted<Follow>>(method);
+        for steps in 1..50 {
+            integrator.step(&counted, 0.0, 0.1, &mut state).expect("the law it is for");
+            assert_eq!(counted.evaluations(), u64::from(steps * method.evaluations.unwrap()));
+        }
+        assert_eq!(counted.counts().lost_time, 0.0);
+    }
+}
+
+#[test]
+fn up_to_its_limit_a_follower_stays_near_a_still_target_and_beyond_it_leaves() {
+    let furthest = |method: &Method, z: f64| {
+        let states = course(method, &still(method, 1.0), z, 4000);
+        let distances = states.iter().map(|state| (state.q - 1.0).abs());
+        distances.take_while(|distance| distance.is_finite()).fold(0.0, f64::max)
+    };
+    for method in followers() {
+        let parts =
+            [0.01, 0.3, 0.9, 0.99].map(|part| part * method.stability_limit.unwrap_or(50.0));
+        for z in parts {
+            assert!(furthest(method, z) <= 2.0, "{} at {z}", method.id);
+        }
+        match method.stability_limit {
+            Some(limit) => assert!(furthest(method, 1.01 * limit) > 1e6, "{}", method.id),
+            None => assert!(furthest(method, 1e4) <= 2.0, "{}", method.id),
+        }
+    }
+}
+
+#[test]
+fn a_follower_loses_area_and_cannot_be_run_backwards() {
+    for method in followers() {
+        let body = Follow { ramp: 0.8, ..still(method, 3.0) };
+        let step = |t: f64, h: f64, [q, v]: [f64; 2]| {
+            let mut state = State { q, v };
+            fresh::<Follow>(method).step(&body, t, h, &mut state).expect("the law it is for");
+            [state.q, state.v]
+        };
+        let [from, along, across] =
+            [[-1.0, 0.1], [-0.99, 0.1], [-1.0, 0.11]].map(|s| step(0.0, 0.1, s));
+        let [a, b] = [along, across].map(|to| [to[0] - from[0], to[1] - from[1]]);
+        let area = (a[0] * b[1] - a[1] * b[0]) / 1e-4;
+        assert_eq!(method.symplectic, (area - 1.0).abs() < 1e-6, "{}: {area}", method.id);
+        assert!(area < 0.9, "{}: {area}", method.id);
+        let back = step(0.1, -0.1, from);
+        assert_eq!(method.reversible, (back[0] + 1.0).abs() < 1e-9, "{}: {back:?}", method.id);
+    }
+}
+
+#[test]
+fn a_follower_has_no_memory_and_looks_at_the_target_at_the_end_of_its_step() {
+    /// Remembers the times at which it is asked for its target.
+    struct Watched(Follow, RefCell<Vec<f64>>);
+    impl System for Watched {
+        type Vector = f64;
+        fn acceleration(&self, _t: f64, _q: &f64, _v: &f64, _a: &mut f64) {
+            panic!("a follower needs no acceleration");
+        }
+        fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
+            self.1.borrow_mut().push(t);
+            self.0.pursuit(t)
+        }
+    }
+    for method in followers() {
+        assert!(method.restart.is_none() && method.keeps_time && method.tolerance.is_none());
+        let body = Follow { sine: 0.3, sine_hz: 1.0, ..still(method, 3.0) };
+        let system = Watched(body.clone(), RefCell::default());
+        let mut state = body.start();
+        let mut kept = fresh::<Watched>(method);
+        kept.steps(&system, 5.0, 0.3, 3, &mut state).expect("the law it is for");
+        let asked = system.1.take();
+        let wanted = [5.1, 5.2, 5.3];
+        let are_near = asked.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12);
+        assert!(asked.len() == 3 && are_near, "{}: {asked:?}", method.id);
+
+        let mut alike = state.clone();
+        kept.step(&system, 5.3, 0.1, &mut state).expect("the law it is for");
+        fresh::<Watched>(method).step(&system, 5.3, 0.1, &mut alike).expect("the law it is for");
+        assert_eq!(bits(&state), bits(&alike), "{}", method.id);
+    }
+}
+
+#[test]
+fn a_follower_refuses_what_follows_nothing_and_the_law_of_the_other_order() {
+    let refused = |method: &Method, stepped: Result<(), StepFailure>| {
+        let reason = method.only.expect("a follower is for one law").reason;
+        assert_eq!(stepped, Err(StepFailure::Refused { reason }), "{}", method.id);
+    };
+    for method in followers() {
+        let mut state = State { q: 1.0, v: 0.0 };
+        refused(method, fresh(method).step(&spring(3.0, 0.1), 0.0, 0.1, &mut state));
+        let other = Follow { order: 3 - order_of(method), ..still(method, 3.0) };
+        refused(method, fresh(method).step(&other, 0.0, 0.1, &mut other.start()));
+    }
+}
+
+/// A still target at 1 in every coordinate.
+struct Ones<V>(V, u32);
+
+impl<V: Vector> System for Ones<V> {
+    type Vector = V;
+    fn acceleration(&self, _t: f64, _q: &V, _v: &V, _a: &mut V) {
+        panic!("a follower needs no acceleration");
+    }
+    fn pursuit(&self, _t: f64) -> Option<Pursuit<V>> {
+        let mut target = self.0.clone();
+        target.components_mut().fill(1.0);
+        Some(Pursuit { target, rate: 3.0, order: self.1, is_still: true })
+    }
+}
+
+#[test]
+fn equal_targets_get_equal_bits_in_every_vector() {
+    fn run<V: Vector>(method: &Method, like: V) -> Vec<u64> {
+        let system = Ones(like.clone(), order_of(method) as u32);
+        let mut state = State { q: like.clone(), v: like };
+        state.q.components_mut().fill(-0.3);
+        state.v.components_mut().fill(0.7);
+        let mut integrator = integrator::<Ones<V>>(method, &state.q);
+        integrator.steps(&system, 0.0, 0.7, 7, &mut state).expect("the law it is for");
+        bits(&state)
+    }
+    for method in followers() {
+        let alone = run(method, 0.0);
+        for many in [run(method, DVec2::ZERO), run(method, DVec3::ZERO), run(method, vec![0.0; 5])]
+        {
+            let half = many.len() / 2;
+            assert!(many[..half].iter().all(|&bits| bits == alone[0]), "{}", method.id);
+            assert!(many[half..].iter().all(|&bits| bits == alone[1]), "{}", method.id);
+        }
+    }
+}
+
+/// The largest error of the place over 2 s, as a part of the way, at a step of `z` divided by the rate.
+fn error_at_rest(id: &str, z: f64) -> f64 {
+    let method = method(id).expect("a follower");
+    let body = still(method, 5.0);
+    let h = z / body.rate;
+    let errors = (1..).zip(course(method, &body, h, (2.0 / h) as u32)).map(|(step, state)| {
+        let truth = body.exact(h * f64::from(step), &body.start()).expect("a closed form");
+        (state.q - truth.q).abs() / 2.0
+    });
+    errors.fold(0.0, f64::max)
+}
+
+#[test]
+fn behind_a_still_target_the_closed_forms_are_exact_at_any_step_and_the_others_are_not() {
+    for z in [0.03, 0.3, 1.0, 5.0] {
+        for id in ["exponential-decay", "critically-damped-spring"] {
+            let error = error_at_rest(id, z);
+            assert!(error < 1e-14, "{id} at {z}: {error:e}");
+        }
+        for id in ["lerp-per-frame", "lerp-dt", "implicit-spring"] {
+            assert!(error_at_rest(id, z) > 3e-3, "{id} at {z}: {:e}", error_at_rest(id, z));
+        }
+    }
+}
+
+#[test]
+fn the_exponential_of_smooth_damp_is_within_0_12_percent_up_to_a_step_of_one() {
+    let method = method("smooth-damp").expect("a follower");
+    // From rest x' - g = (x - g) (1 + z) e, so that one step shows the e that it uses.
+    let off = |z: f64| {
+        let end = course(method, &still(method, 1.0), z, 1)[0].q;
+        let e = (end - 1.0) / -2.0 / (1.0 + z);
+        (e / libm::exp(-z) - 1.0).abs()
+    };
+    let worst = (1..=100).map(|n| off(f64::from(n) / 100.0)).fold(0.0, f64::max);
+    println!("smooth damp: e is off by {:.4} %", 100.0 * worst);
+    assert!((1.15e-3..1.25e-3).contains(&worst), "{worst:e}");
+}
+
+#[test]
+fn smooth_damp_stops_dead_where_it_meets_a_moving_target_and_the_closed_form_goes_on() {
+    let stops = |id: &str| {
+        let method = method(id).expect("a follower");
+        let body = Follow { step: 0.0, sine: 1.0, sine_hz: 1.0, x0: 0.0, ..still(method, 8.0) };
+        let states = course(method, &body, 1.0 / 144.0, 6 * 144);
+        states.iter().skip(144).filter(|state| state.v == 0.0).count()
+    };
+    // Once in every swing.
+    let stopped = stops("smooth-damp");
+    assert!((4..=6).contains(&stopped), "{stopped} stops in 5 s");
+    assert_eq!(stops("critically-damped-spring") + stops("implicit-spring"), 0);
+}
