@@ -18,6 +18,7 @@ mod document;
 mod edit;
 mod errors;
 mod fields;
+mod law;
 mod nearest;
 mod script;
 mod syntax;

@@ -238,7 +238,7 @@ impl Band<'_> {
             if held.is_none() && !(stays && self.room().contains(at)) {
                 lost.push(Lost { flag, place: body.stepper.place() });
                 if is_front {
-                    seen.still(&mut picture.shapes);
+                    seen.still(picture);
                     self.draw_ghost(picture, shows_ghost);
                 }
                 continue;
@@ -256,6 +256,7 @@ impl Band<'_> {
                 seen.behind(&mut picture.shapes, left);
             }
             shown.carried(&mut picture.shapes, coat);
+            shown.names(picture);
             self.draw_ghost(picture, shows_ghost);
             shown.front(&mut picture.shapes, coat);
             if let Some(held) = held.filter(|held| held.lane == lane.lane_number) {

@@ -8,6 +8,7 @@ mod chain;
 mod helm;
 mod kepler;
 mod kind;
+mod law;
 mod orbit;
 mod oscillator;
 mod pendulum;
@@ -17,19 +18,21 @@ mod spring;
 pub use chain::Chain;
 pub use helm::{Helm, ThrustCurve};
 pub use kind::{Coordinate, Kind, Truth};
+pub use law::{Law, check_law, law_kind};
 pub use orbit::{Ellipse, Orbit};
 pub use pendulum::Pendulum;
 pub use ship::Ship;
 pub use spring::Spring;
 
 pub use super::body::{Body, Input};
+pub use super::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 pub use super::parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
 
 /// Every kind of body, in menu order.
 pub static BODIES: &[Kind] =
     &[ship::KIND, spring::KIND, chain::KIND, pendulum::KIND, orbit::KIND, helm::KIND];
 
-/// The kind with this id.
+/// The kind with this id. A [law](law_kind) has a kind of its own, which is not in the table.
 pub fn kind(id: &str) -> Option<&'static Kind> {
     BODIES.iter().find(|kind| kind.id == id)
 }
