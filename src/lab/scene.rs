@@ -194,4 +194,11 @@ pub static SCENES: &[BuiltIn] = &[
     BuiltIn { name: "pendulum", text: include_str!("../../assets/scenes/pendulum.toml") },
     BuiltIn { name: "orbit", text: include_str!("../../assets/scenes/orbit.toml") },
     BuiltIn { name: "helm", text: include_str!("../../assets/scenes/helm.toml") },
+    BuiltIn { name: "duffing", text: include_str!("../../assets/scenes/duffing.toml") },
+    BuiltIn { name: "quarter-car", text: include_str!("../../assets/scenes/quarter-car.toml") },
+    BuiltIn {
+        name: "bouncing-bungee",
+        text: include_str!("../../assets/scenes/bouncing-bungee.toml"),
+    },
+    BuiltIn { name: "lift", text: include_str!("../../assets/scenes/lift.toml") },
 ];

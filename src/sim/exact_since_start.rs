@@ -69,11 +69,13 @@ impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
         if !self.is_untouched {
             return self.reference.truth_error(body, state);
         }
-        let largest = |x: &B::Vector| x.components().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let largest =
+            |x: &B::Vector| x.components().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let mut a = state.v.clone();
         body.system.acceleration(self.t, &state.q, &state.v, &mut a);
         let late = f64::EPSILON * self.t;
-        let of = |size: &B::Vector, rate: &B::Vector| ROUNDING * largest(size) + late * largest(rate);
+        let of =
+            |size: &B::Vector, rate: &B::Vector| ROUNDING * largest(size) + late * largest(rate);
         Some([of(&state.q, &state.v), of(&state.v, &a)])
     }
 

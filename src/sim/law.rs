@@ -109,11 +109,10 @@ impl Equations {
                     is_linear: is_linear(&motion, inputs, T, |input| moves.contains(&input)),
                     angles: (0..n)
                         .map(|i| {
-                            let in_energy =
-                                energy.as_ref().is_none_or(|tape| {
-                                    !tape.reads(FIRST_COORDINATE + i)
-                                        || is_angle(tape, FIRST_COORDINATE + i)
-                                });
+                            let in_energy = energy.as_ref().is_none_or(|tape| {
+                                !tape.reads(FIRST_COORDINATE + i)
+                                    || is_angle(tape, FIRST_COORDINATE + i)
+                            });
                             is_angle(&motion, FIRST_COORDINATE + i) && in_energy
                         })
                         .collect(),
@@ -152,6 +151,15 @@ impl Equations {
     /// or tangent alone.
     pub fn is_angle(&self, coordinate: usize) -> bool {
         self.angles[coordinate]
+    }
+
+    /// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate.
+    pub fn drawn_unit(&self) -> &'static str {
+        let drawn = self.text.plane.map_or(0, |[x, _]| x);
+        match self.text.coordinates[drawn].unit {
+            "1" => "",
+            unit => unit,
+        }
     }
 
     /// The text of a part.
@@ -248,7 +256,6 @@ impl Registers {
         let numbers = size_of_val(&self.motion[..]) + size_of_val(&self.energy[..]);
         numbers + size_of_val(&self.exact[..])
     }
-
 }
 
 /// A moment of a motion.
@@ -356,11 +363,7 @@ impl Equations {
 
     /// The rates at which the energy changes by the velocities and by the accelerations, in watts; together
     /// they are 0 where the energy is conserved. `None` if the law gives no energy.
-    pub(super) fn power(
-        &self,
-        registers: &Registers,
-        [q, v, a]: [&[f64]; 3],
-    ) -> Option<[f64; 2]> {
+    pub(super) fn power(&self, registers: &Registers, [q, v, a]: [&[f64]; 3]) -> Option<[f64; 2]> {
         let tape = self.energy.as_ref()?;
         let n = q.len();
         let mut slots: Vec<Jet> = registers.energy.iter().map(|&x| [x, 0.0, 0.0]).collect();

@@ -160,7 +160,8 @@ impl Seen<'_> {
                 Mark::Hull { bow, length } => {
                     hull::hollow(shapes, self.berth(bow, length), coat, clip);
                 }
-                Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rail { .. } | Mark::Name { .. } => {}
+                Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rail { .. } | Mark::Name { .. } => {
+                }
             }
         }
     }
@@ -183,7 +184,8 @@ impl Seen<'_> {
                 Mark::Hull { bow, length } => {
                     hull::ghost(shapes, self.berth(bow, length), palette, clip);
                 }
-                Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rail { .. } | Mark::Name { .. } => {}
+                Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rail { .. } | Mark::Name { .. } => {
+                }
             }
         }
     }

@@ -189,6 +189,7 @@ impl<'a> Band<'a> {
             paper: 0.0,
             block: (BLOCK * height as f32).min(LARGEST_BLOCK),
             quay_m: 0.0,
+            unit: "m",
         };
         match self.framing() {
             Framing::Recorder { half_width_m } => {

@@ -290,7 +290,9 @@ impl fmt::Display for Wanted {
             Wanted::Numbers(1) => write!(f, "one number in brackets, such as [0.5]"),
             Wanted::Numbers(count) => write!(f, "{count} numbers in brackets, with commas between"),
             Wanted::Table(name) => write!(f, "`[{name}]` in brackets and its keys below"),
-            Wanted::Constants => write!(f, "names and numbers, such as {{ k = 18000.0, m = 250.0 }}"),
+            Wanted::Constants => {
+                write!(f, "names and numbers, such as {{ k = 18000.0, m = 250.0 }}")
+            }
             Wanted::Coordinates(name) => {
                 write!(f, "`[{name}.x]` for a coordinate x, and its keys below")
             }

@@ -4,8 +4,8 @@ use std::ops::Range as Span;
 
 use super::cause::Cause;
 use super::errors::position;
-use super::law::{LAW, read_law};
 use super::fields::{TOP, optional, required};
+use super::law::{LAW, read_law};
 use super::table::{Field, Table};
 use super::{MOST_BODIES, MOST_NAME_CHARS, SceneBody};
 use crate::sim::bodies::{BODIES, Kind, Parameter, Range};

@@ -86,7 +86,10 @@ fn read_constants(row: &mut Table<'_>) -> (Vec<(String, Span<usize>)>, Option<Ve
 fn check_count(row: &mut Table<'_>, what: &str, entries: &[Named<'_>], most: usize) {
     if let Some(entry) = entries.get(most) {
         let what = format!("the law has {} {what}", entries.len());
-        row.complain(entry.span.clone(), Cause::Law { what, remedy: format!("keep at most {most}") });
+        row.complain(
+            entry.span.clone(),
+            Cause::Law { what, remedy: format!("keep at most {most}") },
+        );
     }
 }
 
@@ -105,7 +108,8 @@ fn read_coordinates(row: &mut Table<'_>) -> Option<Vec<WrittenCoordinate>> {
     let mut coordinates = Vec::new();
     for (n, entry) in entries.iter().enumerate().take(MOST_COORDINATES) {
         let mut table = row.table_of(entry, place)?;
-        let number = |table: &mut Table<'_>, field: Field, default: f64| match table.has(field.key) {
+        let number = |table: &mut Table<'_>, field: Field, default: f64| match table.has(field.key)
+        {
             true => table.number(field, Range::ANY),
             false => {
                 table.knows(field.key);

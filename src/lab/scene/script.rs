@@ -164,9 +164,10 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
         action = read(context, row, *field).or(action);
         if let Some(input) = *input
             && !context.bodies.is_empty()
-            && !context.bodies.iter().any(|body| {
-                body.kind.is_none_or(|kind| kind.inputs.contains(&input))
-            })
+            && !context
+                .bodies
+                .iter()
+                .any(|body| body.kind.is_none_or(|kind| kind.inputs.contains(&input)))
         {
             row.complain(row.span(field.key), Cause::NoTaker { input });
         }

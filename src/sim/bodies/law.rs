@@ -176,14 +176,7 @@ impl Body for Law {
         true
     }
 
-    fn acceleration_on(
-        &self,
-        piece: &Piece,
-        t: f64,
-        q: &Vec<f64>,
-        v: &Vec<f64>,
-        a: &mut Vec<f64>,
-    ) {
+    fn acceleration_on(&self, piece: &Piece, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
         let (at, registers) = (self.at(t, q, v), &mut self.registers.borrow_mut());
         self.equations.accelerate_on(&piece.modes, registers, at, a);
     }

@@ -25,8 +25,8 @@ pub use ship::Ship;
 pub use spring::Spring;
 
 pub use super::body::{Body, Input};
-pub use super::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 pub use super::parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
+pub use super::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 
 /// Every kind of body, in menu order.
 pub static BODIES: &[Kind] =

@@ -37,7 +37,13 @@ impl PartScope<'_> {
         let starts = names.clone().map(|name| format!("{name}0")).zip(first_start..);
         let pushes = names.map(|name| format!("v{name}0")).zip(first_start + n..);
         // A constant comes before a start of the same name.
-        plain.into_iter().chain(coordinates).chain(velocities).chain(constants).chain(starts).chain(pushes)
+        plain
+            .into_iter()
+            .chain(coordinates)
+            .chain(velocities)
+            .chain(constants)
+            .chain(starts)
+            .chain(pushes)
     }
 
     fn may_use(&self, slot: usize) -> bool {
@@ -73,7 +79,9 @@ impl Scope for PartScope<'_> {
                 format!("an energy that is conserved does not depend on `{name}`")
             }
             _ if moves.contains(&slot) => {
-                format!("`{name}` is what `exact` finds, of `t`, constants and starts such as `{name}0`")
+                format!(
+                    "`{name}` is what `exact` finds, of `t`, constants and starts such as `{name}0`"
+                )
             }
             _ => format!("an exact solution does not depend on `{name}`"),
         })
@@ -163,11 +171,17 @@ pub(super) fn check_names(text: &LawText) -> Vec<Refusal> {
         } else if name.chars().count() > MOST_NAME_CHARS {
             refuse(format!("the name `{shown}` has {} characters", name.len()), "keep at most 24");
         } else if is_reserved(name) {
-            refuse(format!("`{name}` has a meaning of its own in expressions"), "give it another name");
+            refuse(
+                format!("`{name}` has a meaning of its own in expressions"),
+                "give it another name",
+            );
         } else if let Some((known, owner)) =
             taken.iter().find(|(known, _)| meanings.iter().any(|(meaning, _)| meaning == known))
         {
-            refuse(format!("the name `{known}` is that of {owner} already"), "give it another name");
+            refuse(
+                format!("the name `{known}` is that of {owner} already"),
+                "give it another name",
+            );
         }
         taken.extend(meanings);
     }

@@ -13,7 +13,8 @@ impl Equations {
         loop {
             let (op, operands, ..) = self.motion.operations().find(|(_, _, to, _)| *to == slot)?;
             // Of a choice, the branch that was not taken does not matter.
-            let taken = |n: &usize| op != Op::If || *n == if value(operands[0]) == 1.0 { 1 } else { 2 };
+            let taken =
+                |n: &usize| op != Op::If || *n == if value(operands[0]) == 1.0 { 1 } else { 2 };
             let mut rows = (0..operands.len()).filter(taken).map(|n| operands[n]);
             if let Some(operand) = rows.find(|&operand| !value(operand).is_finite())
                 && self.motion.origin(operand).is_some()

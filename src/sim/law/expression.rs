@@ -71,11 +71,7 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<Expression, Fault> 
             let what = format!("`{}` closes nothing", parser.written());
             return Err(Fault::new(parser.span(), what, "remove it, or open it before"));
         }
-        _ => {
-            let what = format!("`{}` follows a complete expression", parser.written());
-            let remedy = "write an operator between them, such as `*`";
-            return Err(Fault::new(parser.span(), what, remedy));
-        }
+        _ => return Err(parser.juxtaposed()),
     }
     parser.want_number(value)?;
     let mut expression = parser.expression;
@@ -126,11 +122,22 @@ impl Parser<'_> {
         if self.takes(symbol) {
             return Ok(());
         }
+        if let Token::Name | Token::Number(_) | Token::Symbol("(") = self.peek()
+            && symbol == ")"
+        {
+            return Err(self.juxtaposed());
+        }
         let what = match self.peek() {
             Token::End => format!("the text ends where `{symbol}` is missing"),
             _ => format!("`{}` stands where `{symbol}` is missing", self.written()),
         };
         Err(Fault::new(self.here(), what, format!("write `{symbol}` after {after}")))
+    }
+
+    /// The next token follows a value without an operator.
+    fn juxtaposed(&self) -> Fault {
+        let what = format!("`{}` follows a complete expression", quoted(self.written()));
+        Fault::new(self.span(), what, "write an operator before it, such as `*`")
     }
 
     /// The bytes of the next token; at the end of the text, the last character.
@@ -348,6 +355,7 @@ impl Parser<'_> {
                 self.next += 1;
                 let inner = self.nested(Self::any)?;
                 self.expect(")", "the part in brackets")?;
+                self.expression.spans[inner] = span.start..self.tokens[self.next - 1].1.end;
                 Ok(inner)
             }
             Token::Name => self.named(),

@@ -13,7 +13,12 @@ enum Dependence {
 
 /// Whether every output is a linear function of the inputs that `moves` names, apart from a constant, with
 /// coefficients that do not change in time. `t` is the input that is the time.
-pub(super) fn is_linear(tape: &Tape, inputs: usize, t: usize, moves: impl Fn(usize) -> bool) -> bool {
+pub(super) fn is_linear(
+    tape: &Tape,
+    inputs: usize,
+    t: usize,
+    moves: impl Fn(usize) -> bool,
+) -> bool {
     let mut of = vec![Dependence::Constant; tape.slots];
     for (input, of) in of.iter_mut().enumerate().take(inputs) {
         *of = match input {

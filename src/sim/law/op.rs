@@ -43,21 +43,10 @@ pub(super) enum Op {
 impl Op {
     /// Whether the operation is smooth only piece by piece.
     pub(super) fn is_switch(self) -> bool {
-        use Op::{
-            Abs, Equal, Floor, Less, LessEqual, Max, Min, NotEqual, Sign, Step, Table,
-        };
+        use Op::{Abs, Equal, Floor, Less, LessEqual, Max, Min, NotEqual, Sign, Step, Table};
         matches!(
             self,
-            Abs | Sign
-                | Floor
-                | Step
-                | Min
-                | Max
-                | Less
-                | LessEqual
-                | Equal
-                | NotEqual
-                | Table
+            Abs | Sign | Floor | Step | Min | Max | Less | LessEqual | Equal | NotEqual | Table
         )
     }
 

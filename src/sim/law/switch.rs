@@ -68,10 +68,7 @@ pub(super) fn distances(op: Op, mode: i64, a: f64, b: f64, table: Option<&Table>
         Op::Table => {
             let (low, high) = table.map_or((None, None), |table| table.ends(mode));
             let infinite = f64::INFINITY;
-            [
-                low.map_or(infinite, |[x, _]| to(a, x)),
-                high.map_or(infinite, |[x, _]| above(a, x)),
-            ]
+            [low.map_or(infinite, |[x, _]| to(a, x)), high.map_or(infinite, |[x, _]| above(a, x))]
         }
         _ => [f64::INFINITY; 2],
     }

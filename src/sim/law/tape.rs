@@ -86,7 +86,8 @@ impl Tape {
             let rows = expression.nodes.iter().zip(&expression.spans).zip(used).enumerate();
             for (n, ((node, span), _)) in rows.filter(|(_, (_, is_used))| *is_used) {
                 let count = arguments(node.op);
-                let operands = [0, 1, 2].map(|i| if i < count { slots[node.arguments[i]] } else { 0 });
+                let operands =
+                    [0, 1, 2].map(|i| if i < count { slots[node.arguments[i]] } else { 0 });
                 let origin = Origin { part: *part, span: span.clone() };
                 slots[n] = match node.op {
                     Op::Input => node.index as u16,
@@ -122,7 +123,8 @@ impl Tape {
         self.slots += 1;
         known.insert(key, to);
         self.origins.insert(to, origin);
-        let is_constant = operands[..arguments(node.op)].iter().all(|&slot| is_fixed[slot as usize]);
+        let is_constant =
+            operands[..arguments(node.op)].iter().all(|&slot| is_fixed[slot as usize]);
         is_fixed.push(is_constant);
         let place = self.tables.len() as u16;
         self.tables.extend(table.cloned());

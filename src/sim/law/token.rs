@@ -93,7 +93,11 @@ fn number(rest: &str, at: usize) -> Result<(Token, usize), Fault> {
     let number = match text.parse::<f64>() {
         Ok(number) if number.is_finite() => number,
         Ok(_) => {
-            return Err(Fault::new(span, format!("`{text}` is too large"), "write a smaller number"));
+            return Err(Fault::new(
+                span,
+                format!("`{text}` is too large"),
+                "write a smaller number",
+            ));
         }
         Err(_) => {
             let remedy = "write it with one point, such as `0.5`";

@@ -2,8 +2,8 @@
 
 use super::extrapolation::Extrapolation;
 use crate::sim::body::Body;
-use crate::sim::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 use crate::sim::double_double::{DoubleDouble, TWO_PI};
+use crate::sim::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 use crate::sim::system::{State, Vector};
 
 /// A step accepted with at most this many columns was too short: the next is twice as long.
@@ -21,7 +21,11 @@ const LARGEST_ANGLE: f64 = 3.3;
 const BOUNDARY_TOLERANCE: f64 = 1e-9;
 
 /// The same where the force jumps: the error of the state is of first order in this.
-const JUMP_TOLERANCE: f64 = 1e-15;
+const JUMP_TOLERANCE: f64 = 2e-15;
+
+/// A boundary crossed by less than this part of the switch's extent is rounding, where the force can jump: a
+/// motion that comes to rest at a corner would otherwise cross it for ever.
+const CROSSING_ROUNDING: f64 = 1e-13;
 
 /// The largest number of boundaries crossed one after another without a step. A motion that is pushed back
 /// to a jump of the force from both sides, such as one at rest under dry friction, crosses it for ever.
@@ -72,23 +76,6 @@ struct Crossing {
     ended: f64,
 }
 
-/// The crossing that seems first from the distances at both ends of a step: of boundaries beyond which the
-/// step ends, unless it started further beyond.
-fn first_crossing(switches: usize, begun: &Distances, ended: &Distances) -> Option<Crossing> {
-    let mut first: Option<(f64, Crossing)> = None;
-    for (switch, (begun, ended)) in begun.iter().zip(ended).enumerate().take(switches) {
-        for (side, (&begun, &ended)) in begun.iter().zip(ended).enumerate() {
-            if ended < 0.0 && ended < begun {
-                let part = if begun > 0.0 { begun / (begun - ended) } else { 0.0 };
-                if first.is_none_or(|(earliest, _)| part < earliest) {
-                    first = Some((part, Crossing { switch, side, begun, ended }));
-                }
-            }
-        }
-    }
-    first.map(|(_, crossing)| crossing)
-}
-
 /// The budget of evaluations is exhausted, or the motion does not get on.
 #[derive(Debug)]
 pub(super) struct BudgetExhausted;
@@ -105,6 +92,8 @@ pub(super) struct Trajectory<V> {
     step: Option<f64>,
     /// The current piece of the force law.
     piece: Piece,
+    /// The largest distance of each switch to a boundary so far, where the force can jump; otherwise 0.
+    extents: [f64; MOST_SWITCHES],
     control: StepControl,
 }
 
@@ -117,6 +106,7 @@ impl<V: Vector> Trajectory<V> {
             turns: state.q,
             step: None,
             piece: Piece::FIRST,
+            extents: [0.0; MOST_SWITCHES],
             control,
         }
     }
@@ -128,6 +118,7 @@ impl<V: Vector> Trajectory<V> {
             half.components_mut().fill(0.0);
         }
         self.step = None;
+        self.extents = [0.0; MOST_SWITCHES];
         self.unwind(body);
         self.piece = body.piece(t, &self.at);
     }
@@ -182,8 +173,8 @@ impl<V: Vector> Trajectory<V> {
         let mut left = h;
         let mut halvings = 0;
         let mut stands = 0;
+        let switches = body.switches();
         let tolerance = self.control.tolerance();
-        let ignored = if body.has_jumps() { 0.0 } else { IGNORED_CROSSING };
         work.begin(body, &self.piece, t, &self.at);
         while work.evaluations < budget {
             let is_first = left.abs() > 0.5 * h.abs();
@@ -202,11 +193,12 @@ impl<V: Vector> Trajectory<V> {
             let mut stepped = trial;
             let mut begun = NO_BOUNDARIES;
             let mut ended = NO_BOUNDARIES;
-            if body.switches() > 0 {
+            if switches > 0 {
                 begun = body.distances_to_ends(&self.piece, from, &self.at);
                 ended = body.distances_to_ends(&self.piece, from + trial, work.end(&self.at));
+                self.extend(body, &ended);
             }
-            if let Some(crossing) = first_crossing(body.switches(), &begun, &ended) {
+            if let Some(crossing) = self.first_crossing(switches, &begun, &ended) {
                 let Some((part, crossing)) =
                     self.find_first_boundary(body, work, from, trial, &begun, crossing)
                 else {
@@ -224,9 +216,7 @@ impl<V: Vector> Trajectory<V> {
                 let Crossing { switch, side, .. } = crossing;
                 let mode = &mut self.piece.modes[switch];
                 *mode = body.neighbour(switch, *mode, side);
-            } else if halvings < MOST_HALVINGS
-                && work.least_distances.iter().flatten().any(|&distance| distance < -ignored)
-            {
+            } else if halvings < MOST_HALVINGS && self.leaves_piece(body, &work.least_distances) {
                 halvings += 1;
                 carried = trial / 2.0;
                 continue;
@@ -246,6 +236,50 @@ impl<V: Vector> Trajectory<V> {
             work.begin(body, &self.piece, t + (h - left), &self.at);
         }
         Err(BudgetExhausted)
+    }
+
+    /// Takes the finite distances of a state into the extents.
+    fn extend<B: Body<Vector = V>>(&mut self, body: &B, distances: &Distances) {
+        if !body.has_jumps() {
+            return;
+        }
+        for (extent, distances) in self.extents.iter_mut().zip(distances) {
+            let finite = distances.iter().filter(|distance| distance.is_finite());
+            *extent = finite.fold(*extent, |most, distance| most.max(distance.abs()));
+        }
+    }
+
+    /// The crossing that seems first from the distances at both ends of a step: of boundaries beyond which
+    /// the step ends, unless it started further beyond.
+    fn first_crossing(
+        &self,
+        switches: usize,
+        begun: &Distances,
+        ended: &Distances,
+    ) -> Option<Crossing> {
+        let mut first: Option<(f64, Crossing)> = None;
+        for switch in 0..switches {
+            let noise = CROSSING_ROUNDING * self.extents[switch];
+            for side in 0..2 {
+                let (begun, ended) = (begun[switch][side], ended[switch][side]);
+                if ended < -noise && ended < begun {
+                    let part = if begun > 0.0 { begun / (begun - ended) } else { 0.0 };
+                    if first.is_none_or(|(earliest, _)| part < earliest) {
+                        first = Some((part, Crossing { switch, side, begun, ended }));
+                    }
+                }
+            }
+        }
+        first.map(|(_, crossing)| crossing)
+    }
+
+    /// Whether a step that ends in its piece left it on the way, by these least distances.
+    fn leaves_piece<B: Body<Vector = V>>(&self, body: &B, least: &Distances) -> bool {
+        least.iter().zip(self.extents).take(body.switches()).any(|(least, extent)| {
+            let ignored =
+                if body.has_jumps() { CROSSING_ROUNDING * extent } else { IGNORED_CROSSING };
+            least.iter().any(|&distance| distance < -ignored)
+        })
     }
 
     /// The fraction of the step `h` at which the first boundary is reached, and which boundary that is, given
@@ -269,7 +303,7 @@ impl<V: Vector> Trajectory<V> {
             whole *= self.find_boundary(body, work, t, whole * h, crossing)?;
             let mut ended = body.distances_to_ends(&self.piece, t + whole * h, work.end(&self.at));
             ended[crossing.switch][crossing.side] = f64::INFINITY;
-            match first_crossing(body.switches(), begun, &ended) {
+            match self.first_crossing(body.switches(), begun, &ended) {
                 Some(earlier) => crossing = earlier,
                 None => return Some((whole, crossing)),
             }
@@ -287,8 +321,10 @@ impl<V: Vector> Trajectory<V> {
         h: f64,
         Crossing { switch, side, begun, ended }: Crossing,
     ) -> Option<f64> {
-        let tolerance = if body.has_jumps() { JUMP_TOLERANCE } else { BOUNDARY_TOLERANCE };
-        let near = tolerance * (begun + ended.abs());
+        let near = match body.has_jumps() {
+            true => JUMP_TOLERANCE * (begun + ended.abs() + self.extents[switch]),
+            false => BOUNDARY_TOLERANCE * (begun + ended.abs()),
+        };
         let (mut inner, mut outer) = ((0.0, begun), (1.0, ended));
         let mut part = 1.0;
         for _ in 0..MOST_SEARCH_STEPS {

@@ -113,7 +113,8 @@ impl<'t> Table<'t> {
     ) -> Option<Vec<(Range<usize>, &'t str)>> {
         let value = self.value(field, wanted)?;
         let entries = value.get_ref().as_array();
-        let name = |entry: &'t Spanned<DeValue<'t>>| Some((entry.span(), entry.get_ref().as_str()?));
+        let name =
+            |entry: &'t Spanned<DeValue<'t>>| Some((entry.span(), entry.get_ref().as_str()?));
         let names = entries.and_then(|entries| entries.iter().map(name).collect());
         names.or_else(|| self.wrong_type(format!("`{}`", field.key), value, wanted.clone()))
     }

@@ -153,7 +153,8 @@ fn leak(law: &Law, state: &State<Vec<f64>>, scale: &mut f64) -> Option<[f64; 2]>
         law.acceleration(0.0, &there.q, &there.v, &mut a);
         let registers = law.registers.borrow();
         let parts = law.equations.power(&registers, [&there.q, &there.v, &a]);
-        let Some([moved, turned]) = parts.filter(|parts| parts.iter().all(|x| x.is_finite())) else {
+        let Some([moved, turned]) = parts.filter(|parts| parts.iter().all(|x| x.is_finite()))
+        else {
             continue;
         };
         let exchanged = moved.abs() + turned.abs();

@@ -66,7 +66,8 @@ fn kind(equations: &'static Equations) -> Kind {
         coordinates: Box::leak(Box::new(move |_: &[f64]| coordinates)),
         parameters: Vec::leak(parameters(equations)),
         inputs,
-        leading: leading(equations).map_or(first_key, |place| leaked(text.constants[place].clone())),
+        leading: leading(equations)
+            .map_or(first_key, |place| leaked(text.constants[place].clone())),
         truth: Truth::Reference,
         check: Box::leak(Box::new(check)),
         build: Box::leak(Box::new(move |values: &[f64], solver| {
@@ -123,7 +124,11 @@ fn leading(equations: &Equations) -> Option<usize> {
         let mut registers = Registers::new(equations, &values);
         let mut acceleration = |q: &[f64]| {
             let mut a = vec![0.0; n];
-            equations.accelerate(&mut registers, At { t: 0.0, steering: [1.0; 2], q, v: &v }, &mut a);
+            equations.accelerate(
+                &mut registers,
+                At { t: 0.0, steering: [1.0; 2], q, v: &v },
+                &mut a,
+            );
             a
         };
         let mut sum = 0.0;

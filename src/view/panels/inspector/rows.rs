@@ -129,7 +129,7 @@ mod tests {
         }
         kinds.sort_unstable();
         kinds.dedup();
-        assert_eq!(kinds, ["chain", "helm", "orbit", "pendulum", "ship", "spring"]);
+        assert_eq!(kinds, ["chain", "helm", "law", "orbit", "pendulum", "ship", "spring"]);
     }
 
     #[test]
