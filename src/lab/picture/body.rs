@@ -32,13 +32,13 @@ impl Seen<'_> {
     /// What does not move, of a body that is not seen.
     pub(super) fn still(&self, picture: &mut Picture) {
         let is_still = |mark: &&Mark| {
-            matches!(mark, Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rail { .. })
+            use Mark::{Anchor, Name, Rail, Wall};
+            matches!(mark, Wall { .. } | Anchor { .. } | Rail { .. } | Name { .. })
         };
         let marks = self.outline.marks.iter().filter(is_still).copied().collect();
         let outline = Outline { marks, at: self.outline.at };
         let nothing = Coat { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
-        Seen { outline: &outline, ..*self }.carried(&mut picture.shapes, nothing);
-        self.names(picture);
+        Seen { outline: &outline, ..*self }.carried(picture, nothing);
     }
 
     /// Writes a lane's number on its body, if that is one thing and has room.
@@ -62,8 +62,9 @@ impl Seen<'_> {
         });
     }
 
-    /// What carries the body: springs, rods, and what does not move. It is drawn below the exact solution.
-    pub(super) fn carried(&self, shapes: &mut Vec<Shape>, coat: Coat) {
+    /// What carries the body: springs, rods, and what does not move, with names. It is drawn below the exact solution.
+    pub(super) fn carried(&self, picture: &mut Picture, coat: Coat) {
+        let shapes = &mut picture.shapes;
         let (camera, clip) = (self.camera, self.camera.rect);
         let still = mixed(self.palette.chart, self.palette.sea[1], 0.35);
         for mark in &self.outline.marks {
@@ -93,10 +94,11 @@ impl Seen<'_> {
                 Mark::Disc { .. } | Mark::Hull { .. } | Mark::Name { .. } => {}
             }
         }
+        self.names(picture);
     }
 
     /// Writes the names of the rails, at their left ends.
-    pub(super) fn names(&self, picture: &mut Picture) {
+    fn names(&self, picture: &mut Picture) {
         for mark in &self.outline.marks {
             let Mark::Name { at, text } = *mark else { continue };
             let [x, y] = self.camera.points(at);

@@ -255,8 +255,7 @@ impl Band<'_> {
                 let left = Coat { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
                 seen.behind(&mut picture.shapes, left);
             }
-            shown.carried(&mut picture.shapes, coat);
-            shown.names(picture);
+            shown.carried(picture, coat);
             self.draw_ghost(picture, shows_ghost);
             shown.front(&mut picture.shapes, coat);
             if let Some(held) = held.filter(|held| held.lane == lane.lane_number) {

@@ -258,7 +258,7 @@ impl<'a> Band<'a> {
         let coat = || Coat { colour: self.colour, dash: SOLID, fill: 0.0 };
         // A coil would hide the frames before.
         if !self.is_recorded() {
-            seen.carried(&mut picture.shapes, coat());
+            seen.carried(picture, coat());
         }
         seen.front(&mut picture.shapes, coat());
     }

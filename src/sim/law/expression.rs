@@ -10,6 +10,7 @@ use super::table::Table;
 use super::token::{Token, tokens};
 
 mod call;
+mod nodes;
 
 /// The most bytes of an expression: several lines of a file.
 pub const MOST_BYTES: usize = 4096;
@@ -149,48 +150,6 @@ impl Parser<'_> {
             }
             _ => self.span(),
         }
-    }
-
-    fn push(&mut self, op: Op, arguments: &[usize], span: Range<usize>) -> usize {
-        let mut all = [0; 3];
-        all[..arguments.len()].copy_from_slice(arguments);
-        self.node(Node { op, arguments: all, number: 0.0, index: 0 }, span)
-    }
-
-    fn node(&mut self, node: Node, span: Range<usize>) -> usize {
-        self.expression.nodes.push(node);
-        self.expression.spans.push(span);
-        self.expression.nodes.len() - 1
-    }
-
-    fn number(&mut self, number: f64, span: Range<usize>) -> usize {
-        self.node(Node { op: Op::Number, arguments: [0; 3], number, index: 0 }, span)
-    }
-
-    fn span_of(&self, node: usize) -> Range<usize> {
-        self.expression.spans[node].clone()
-    }
-
-    fn is_truth(&self, node: usize) -> bool {
-        self.expression.nodes[node].op.is_truth()
-    }
-
-    fn want_number(&self, node: usize) -> Result<usize, Fault> {
-        if !self.is_truth(node) {
-            return Ok(node);
-        }
-        let span = self.span_of(node);
-        let what = format!("`{}` is true or false, not a number", quoted(&self.text[span.clone()]));
-        Err(Fault::new(span, what, "write `if(condition, 1, 0)` for a number"))
-    }
-
-    fn want_truth(&self, node: usize) -> Result<usize, Fault> {
-        if self.is_truth(node) {
-            return Ok(node);
-        }
-        let span = self.span_of(node);
-        let what = format!("`{}` is a number, not a condition", quoted(&self.text[span.clone()]));
-        Err(Fault::new(span, what, "compare it, such as `x > 0`"))
     }
 
     /// One level deeper into brackets, signs or functions.
