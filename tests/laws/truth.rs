@@ -155,3 +155,16 @@ fn under_dry_friction_at_rest_there_is_no_truth_and_the_verdict_says_so() {
     let verdict = Judge::new(&scene, 1.0).verdict(LaneSpec::plain(rk4), 60);
     assert!(verdict.to_string().starts_with("no truth"), "{verdict}");
 }
+
+#[test]
+fn a_motion_that_settles_at_a_difference_of_large_terms_keeps_its_truth() {
+    let law = body(
+        "[[law]]\n[law.coordinates.x]\nacceleration = '625*(2*9.81*1.2 - 1.2*9.81 - x) - 35*vx - 0.1*vx*abs(vx)'",
+    );
+    let mut truth = stepper(&law, Solver::Truth);
+    for tick in 0..3600 {
+        truth.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+    }
+    assert!((truth.q()[0] - 11.772).abs() < 1e-12, "{}", truth.q()[0]);
+    assert!(truth.truth_error().unwrap()[0] < 1e-10);
+}

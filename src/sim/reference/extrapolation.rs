@@ -46,6 +46,10 @@ pub(super) struct Extrapolation<V> {
     pub(super) least_distances: Distances,
     /// Evaluations so far.
     pub(super) evaluations: u64,
+    /// The largest coordinate and velocity at the starts of steps so far, of lengths and of angles, for a
+    /// body with [`Body::has_jumps`]. Its force may be the difference of large terms, whose rounding does
+    /// not become smaller as the motion settles.
+    pub(super) largest: [[f64; 2]; 2],
 }
 
 impl<V: Vector> Extrapolation<V> {
@@ -60,6 +64,7 @@ impl<V: Vector> Extrapolation<V> {
             stage: state(),
             least_distances: NO_BOUNDARIES,
             evaluations: 0,
+            largest: [[0.0; 2]; 2],
         }
     }
 
@@ -90,6 +95,11 @@ impl<V: Vector> Extrapolation<V> {
     ) {
         self.evaluations += 1;
         SmoothPiece { body, piece }.derivative(t, y, &mut self.begin);
+        for angles in [false, true].into_iter().filter(|_| body.has_jumps()) {
+            let of = |x: &V| largest(x, |i| body.is_angle(i) == angles);
+            let [q, v] = &mut self.largest[usize::from(angles)];
+            (*q, *v) = (q.max(of(&y.q)), v.max(of(&y.v)));
+        }
     }
 
     /// Attempts a step of `h` from `y` by the given piece of the force law. Returns how many columns it
@@ -135,7 +145,7 @@ impl<V: Vector> Extrapolation<V> {
         let system = SmoothPiece { body, piece };
         let switches = body.switches();
         let samples_room = switches > 0 && n > 2 * FIRST_SAMPLED;
-        let Self { table, begin, d, before, now, stage, least_distances, evaluations } = self;
+        let Self { table, begin, d, before, now, stage, least_distances, evaluations, .. } = self;
         let part = h / n as f64;
         fill(before, 0.0);
         fill(now, 0.0);
@@ -166,9 +176,9 @@ impl<V: Vector> Extrapolation<V> {
     /// Whether the last two columns agree to `tolerance`, relative to the magnitude of the state and
     /// its change. Angles and lengths are scaled separately.
     fn passes<B: Body<Vector = V>>(&self, body: &B, h: f64, y: &State<V>, tolerance: f64) -> bool {
-        let part = |y: &V, slope: &V, last: &V, before: &V, angles: bool| {
+        let part = |y: &V, slope: &V, last: &V, before: &V, angles: bool, most: f64| {
             let of = |x: &V| largest(x, |i| body.is_angle(i) == angles);
-            let scale = of(y) + h.abs() * of(slope);
+            let scale = (of(y) + h.abs() * of(slope)).max(most);
             let mut pairs = last.components().iter().zip(before.components()).enumerate();
             // Written so that a NaN does not pass.
             pairs
@@ -176,8 +186,9 @@ impl<V: Vector> Extrapolation<V> {
         };
         let Self { table, begin, .. } = self;
         [true, false].into_iter().all(|angles| {
-            part(&y.q, &begin.q, &table[0].q, &table[1].q, angles)
-                && part(&y.v, &begin.v, &table[0].v, &table[1].v, angles)
+            let [most_q, most_v] = self.largest[usize::from(angles)];
+            part(&y.q, &begin.q, &table[0].q, &table[1].q, angles, most_q)
+                && part(&y.v, &begin.v, &table[0].v, &table[1].v, angles, most_v)
         })
     }
 }
