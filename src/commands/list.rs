@@ -73,11 +73,30 @@ fn write<T>(columns: &[Column<T>], items: &[T], format: TableFormat) -> String {
     }
 }
 
+/// What a scene can write beside the bodies of the table.
+const LAWS: &str = "
+[[law]]: your own equation of motion
+  name = \"spring\"
+  constants = { m = 2.0, k = 80.0 }     # numbers, which the inspector and `set` change
+  plane = [\"x\", \"y\"]                  # draw these coordinates as a point; without it each has a rail
+  energy = \"...\"                       # in joules, if the law conserves it
+  [law.coordinates.x]                   # a table for each coordinate; the velocity of x is vx
+  acceleration = \"-k*x/m\"             # of coordinates, velocities, constants, t, throttle, rudder, pi
+  unit = \"m\"                          # or rad, km, cm, mm, deg, kg, N, J, V, A, C, K, 1
+  start = 0.5
+  start_velocity = 0.0
+  kick = 1.0                            # the change of vx by a kick
+  exact = \"x0*cos(sqrt(k/m)*t)\"       # of t, constants and starts, if the motion is known
+  Operators: + - * / ^ < <= > >= == != and or not
+  Functions: sqrt abs sign min max clamp floor exp ln sin cos tan asin acos atan atan2 tanh hypot
+             if(condition, a, b) step(x) table(x, [[x0, y0], [x1, y1]])
+";
+
 fn bodies_with_keys() -> String {
     let keys = BODIES.iter().map(|body| {
         format!("\n[[{}]]\n{}", body.id, table::text(PARAMETER, body.parameters, "  "))
     });
-    table::text(BODY, BODIES, "") + &keys.collect::<String>()
+    table::text(BODY, BODIES, "") + &keys.collect::<String>() + LAWS
 }
 
 const SCENE: &[Column<Scene>] = &[

@@ -19,6 +19,7 @@ mod edit;
 mod errors;
 mod fields;
 mod fitting;
+mod law;
 mod nearest;
 mod refusal;
 mod script;
@@ -198,4 +199,11 @@ pub static SCENES: &[BuiltIn] = &[
     BuiltIn { name: "helm", text: include_str!("../../assets/scenes/helm.toml") },
     BuiltIn { name: "follow", text: include_str!("../../assets/scenes/follow.toml") },
     BuiltIn { name: "lerp", text: include_str!("../../assets/scenes/lerp.toml") },
+    BuiltIn { name: "duffing", text: include_str!("../../assets/scenes/duffing.toml") },
+    BuiltIn { name: "quarter-car", text: include_str!("../../assets/scenes/quarter-car.toml") },
+    BuiltIn {
+        name: "bouncing-bungee",
+        text: include_str!("../../assets/scenes/bouncing-bungee.toml"),
+    },
+    BuiltIn { name: "lift", text: include_str!("../../assets/scenes/lift.toml") },
 ];

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::parameter::{self, ParameterOf};
+use super::piece::{Distances, NO_BOUNDARIES, Piece};
 use super::system::{State, System, Vector};
 
 /// Something that moves by an equation of motion.
@@ -20,6 +21,18 @@ pub trait Body: System + Clone + Send + 'static {
         parameter::write(&mut self, Self::PARAMETERS, values);
         self.prepare();
         self
+    }
+
+    /// Sets the parameter in this place, if it acts at once. Returns whether the body changed.
+    fn set_parameter(&mut self, place: usize, value: f64) -> bool {
+        let parameter = Self::PARAMETERS.get(place);
+        let Some(field) = parameter.and_then(ParameterOf::acting_at_once) else { return false };
+        let is_new = *field(self) != value;
+        if is_new {
+            *field(self) = value;
+            self.prepare();
+        }
+        is_new
     }
 
     /// Recomputes fields derived from the parameters. Called after parameters are written.
@@ -64,6 +77,13 @@ pub trait Body: System + Clone + Send + 'static {
         })
     }
 
+    /// Overwrites `to` with the exact state at time `t` (s) of a body that nobody has touched since the
+    /// start. Returns whether the body knows it. A body that knows [`Body::exact`] need not. Never
+    /// allocates.
+    fn exact_since_start(&self, _t: f64, _to: &mut State<Self::Vector>) -> bool {
+        false
+    }
+
     /// A bound on the rounding error of [`Body::exact_at`] over `dt` from `from` at time `_t` to `to`, for
     /// exact arguments: of a coordinate and of a velocity.
     fn exact_error(
@@ -87,24 +107,43 @@ pub trait Body: System + Clone + Send + 'static {
         false
     }
 
-    /// The index of the smooth piece of the force law at this state. A reference solution ends a step
-    /// at each boundary between pieces, so that no step contains a corner.
-    fn piece(&self, _state: &State<Self::Vector>) -> usize {
+    /// How many parts of the force law have corners or jumps.
+    fn switches(&self) -> usize {
         0
     }
 
-    /// Signed distances from a state to the boundary with the piece before and with the piece after,
-    /// scaled to the order of 1. A distance is negative if the state is beyond that boundary by more
-    /// than rounding.
-    fn distances_to_ends(&self, _piece: usize, _state: &State<Self::Vector>) -> [f64; 2] {
-        [f64::INFINITY; 2]
+    /// The smooth piece of the force law at this time and state. A reference solution ends a step at
+    /// each boundary between pieces, so that no step contains a corner.
+    fn piece(&self, _t: f64, _state: &State<Self::Vector>) -> Piece {
+        Piece::FIRST
+    }
+
+    /// The distances to the boundaries of a piece at this time and state.
+    fn distances_to_ends(
+        &self,
+        _piece: &Piece,
+        _t: f64,
+        _state: &State<Self::Vector>,
+    ) -> Distances {
+        NO_BOUNDARIES
+    }
+
+    /// The mode of a switch beyond the lower (`side` 0) or the upper (1) boundary of its mode.
+    fn neighbour(&self, _switch: usize, mode: i64, side: usize) -> i64 {
+        mode + 2 * side as i64 - 1
+    }
+
+    /// Whether the force can jump at a boundary between pieces. If it has corners only, a boundary need
+    /// not be met to rounding.
+    fn has_jumps(&self) -> bool {
+        false
     }
 
     /// The acceleration by this piece of the force law, continued smoothly beyond its boundaries.
     #[inline]
     fn acceleration_on(
         &self,
-        _piece: usize,
+        _piece: &Piece,
         t: f64,
         q: &Self::Vector,
         v: &Self::Vector,

@@ -6,8 +6,8 @@ use glam::DVec2;
 
 use super::body::{Body, Input};
 use super::exact_flow::ExactFlow;
+use super::exact_since_start::{ExactSinceStart, is_start};
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
-use super::parameter::ParameterOf;
 use super::propagator::{Jump, MethodPropagator, Propagator};
 use super::reference::Reference;
 use super::solver::Solver;
@@ -39,11 +39,21 @@ impl<B: Body> StepperParts<B> {
                 let propagator = ExactFlow::new(&self.state, t);
                 self.with_propagator(propagator)
             }
+            Solver::Truth if self.is_solved(t) => {
+                let propagator = ExactSinceStart::new(&self.state);
+                self.with_propagator(propagator)
+            }
             Solver::Truth => {
                 let propagator = Reference::new(&self.state);
                 self.with_propagator(propagator)
             }
         }
+    }
+
+    /// Whether the body stands at its start, and knows its exact motion from there.
+    fn is_solved(&self, t: f64) -> bool {
+        let body = &self.body.system;
+        is_start(body, t, &self.state) && body.exact_since_start(t, &mut self.state.clone())
     }
 
     fn with_propagator<D: Propagator<B>>(self, propagator: D) -> Box<dyn Stepper> {
@@ -132,16 +142,7 @@ impl<B: Body, D: Propagator<B>> Stepper for BodyStepper<B, D> {
     }
 
     fn set_parameter(&mut self, t: f64, place: usize, value: f64) -> bool {
-        let parameter = B::PARAMETERS.get(place);
-        let Some(field) = parameter.and_then(ParameterOf::acting_at_once) else { return false };
-        self.jump(Jump::Pushed, t, |body, _| {
-            let is_new = *field(body) != value;
-            if is_new {
-                *field(body) = value;
-                body.prepare();
-            }
-            is_new
-        })
+        self.jump(Jump::Pushed, t, |body, _| body.set_parameter(place, value))
     }
 
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {

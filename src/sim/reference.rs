@@ -76,19 +76,20 @@ impl<V: Vector> Reference<V> {
     fn place(&mut self) {
         self.has_begun = false;
         self.saved = MOST_SAVED_EVALUATIONS;
+        self.work.largest = [[0.0; 2]; 2];
         self.failed = None;
         self.elapsed = 0.0;
         (self.largest_difference, self.fastest) = ([0.0; 2], [0.0; 2]);
     }
 
-    /// Restarts from `state` after a change of a force or an impulse, and keeps the difference of the
+    /// Restarts from `state` at time `t` (s) after a change of a force or an impulse, and keeps the difference of the
     /// two solutions.
-    fn push<B: Body<Vector = V>>(&mut self, body: &B, state: &State<V>) {
+    fn push<B: Body<Vector = V>>(&mut self, body: &B, t: f64, state: &State<V>) {
         self.failed = None;
         if self.has_begun {
             self.check.subtract(&self.solution, &mut self.difference);
-            self.solution.begin(body, state);
-            self.check.begin_beside(body, &self.solution, &self.difference);
+            self.solution.begin(body, t, state);
+            self.check.begin_beside(body, t, &self.solution, &self.difference);
         }
     }
 
@@ -107,8 +108,8 @@ impl<V: Vector> Reference<V> {
         }
         let Self { solution, check, work, .. } = self;
         if !self.has_begun {
-            solution.begin(body, y);
-            check.begin(body, y);
+            solution.begin(body, t, y);
+            check.begin(body, t, y);
             self.has_begun = true;
         }
         self.saved = (self.saved + EVALUATIONS_PER_CALL).min(MOST_SAVED_EVALUATIONS);
@@ -165,7 +166,7 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
     fn jump(
         &mut self,
         jump: Jump,
-        _t: f64,
+        t: f64,
         body: &mut B,
         state: &mut State<B::Vector>,
         change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
@@ -174,7 +175,7 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
         match jump {
             _ if !is_changed => {}
             Jump::Placed => self.place(),
-            Jump::Pushed => self.push(body, state),
+            Jump::Pushed => self.push(body, t, state),
         }
         is_changed
     }

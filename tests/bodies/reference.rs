@@ -101,16 +101,20 @@ fn every_scenes_reference_agrees_with_runge_kutta_at_a_fine_step() {
         for body in scene.bodies.iter().filter(|body| body.kind.truth == Truth::Reference) {
             count += 1;
             let [q, v, scale] = sail(&scene, body, Solver::Truth, 1);
-            // 2 kHz: its error, as two rates tell, is some 1e-12.
+            // 4 kHz: its error, as two rates tell, is some 1e-12. A law with corners wants ten times that.
             let rk4 = Solver::Method(method("rk4").unwrap());
-            let substeps = 4000 / scene.tick_hz;
+            let has_corners = body.kind.law.is_some_and(|law| law.switches() > 0);
+            let rate_hz = if has_corners { 40_000 } else { 4000 };
+            let substeps = rate_hz / scene.tick_hz;
             let [q_fine, v_fine, _] = sail(&scene, body, rk4, substeps.min(1000));
             let off = |a: &[f64], b: &[f64], scale: f64| {
                 a.iter().zip(b).map(|(a, b)| (a - b).abs() / scale).fold(0.0, f64::max)
             };
             let worst = off(&q, &q_fine, scale[0]).max(off(&v, &v_fine, scale[1]));
             println!("{} in {}: {worst:.1e}", body.name, scene.name);
-            assert!(worst < MEASURED, "{worst:e} of {} in {}", body.name, scene.name);
+            // Runge-Kutta meets a corner within a step, which costs it digits at any rate.
+            let most = if has_corners { REFERENCE_ACCURACY } else { MEASURED };
+            assert!(worst < most, "{worst:e} of {} in {}", body.name, scene.name);
         }
     }
     assert!(count >= 2);

@@ -6,6 +6,7 @@ use super::Lab;
 use crate::lab::analysis::{AnalysisRequest, AnalysisWorker, Findings, MapRequest};
 use crate::lab::instrument::Instrument;
 use crate::lab::intervention::Interventions;
+use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Acts, Range};
 
 impl Lab {
@@ -42,9 +43,14 @@ impl Lab {
     /// The parameters of the displayed body that a stability map can show, by their places: those that act at once and
     /// are not negative, so that they have a logarithmic scale.
     pub fn mappable_parameters(&self) -> impl Iterator<Item = usize> {
-        let parameters = self.scene().bodies[self.display().body].kind.parameters.iter();
-        let is_mappable = |(_, parameter): &(usize, &crate::lab::Parameter)| {
-            let is_signless = matches!(parameter.range, Range::Positive(_) | Range::NonNegative(_));
+        let SceneBody { kind, values, .. } = &self.scene().bodies[self.display().body];
+        let parameters = kind.parameters.iter();
+        let is_mappable = |(place, parameter): &(usize, &crate::lab::Parameter)| {
+            // The constants of a law may have any sign, and a kick changes no motion.
+            let is_positive =
+                kind.law.is_some() && values[*place] > 0.0 && !parameter.key.contains('.');
+            let is_signless = is_positive
+                || matches!(parameter.range, Range::Positive(_) | Range::NonNegative(_));
             parameter.acts == Acts::AtOnce && is_signless
         };
         parameters.enumerate().filter(is_mappable).map(|(place, _)| place)

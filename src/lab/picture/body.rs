@@ -30,12 +30,15 @@ impl Seen<'_> {
     }
 
     /// What does not move, of a body that is not seen.
-    pub(super) fn still(&self, shapes: &mut Vec<Shape>) {
-        let is_still = |mark: &&Mark| matches!(mark, Mark::Wall { .. } | Mark::Anchor { .. });
+    pub(super) fn still(&self, picture: &mut Picture) {
+        let is_still = |mark: &&Mark| {
+            use Mark::{Anchor, Name, Rail, Wall};
+            matches!(mark, Wall { .. } | Anchor { .. } | Rail { .. } | Name { .. })
+        };
         let marks = self.outline.marks.iter().filter(is_still).copied().collect();
         let outline = Outline { marks, ..*self.outline };
         let nothing = Coat { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
-        Seen { outline: &outline, ..*self }.carried(shapes, nothing);
+        Seen { outline: &outline, ..*self }.carried(picture, nothing);
     }
 
     /// Writes a lane's number on its body, if that is one thing and has room.
@@ -43,7 +46,7 @@ impl Seen<'_> {
         let mut sizes = self.outline.marks.iter().filter_map(|mark| match *mark {
             Mark::Sprung => Some(0.42 * self.camera.block),
             Mark::Disc { radius, .. } => Some(1.1 * self.camera.length(radius)),
-            Mark::Hull { .. } | Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rod { .. } => None,
+            _ => None,
         });
         let (Some(size), None) = (sizes.next().filter(|size| *size >= 9.0), sizes.next()) else {
             return;
@@ -59,8 +62,9 @@ impl Seen<'_> {
         });
     }
 
-    /// What carries the body: springs, rods, and what does not move. It is drawn below the exact solution.
-    pub(super) fn carried(&self, shapes: &mut Vec<Shape>, coat: Coat) {
+    /// What carries the body: springs, rods, and what does not move, with names. It is drawn below the exact solution.
+    pub(super) fn carried(&self, picture: &mut Picture, coat: Coat) {
+        let shapes = &mut picture.shapes;
         let (camera, clip) = (self.camera, self.camera.rect);
         let still = mixed(self.palette.chart, self.palette.sea[1], 0.35);
         for mark in &self.outline.marks {
@@ -68,6 +72,10 @@ impl Seen<'_> {
                 Mark::Wall { from, to } => {
                     let ends = [from, to].map(|end| camera.points(end));
                     shapes.push(line(ends[0], ends[1], 5.0, still, clip));
+                }
+                Mark::Rail { from, to } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    shapes.push(line(ends[0], ends[1], 1.6, faded(still, 0.7), clip));
                 }
                 Mark::Rod { from, to } => {
                     let ends = [from, to].map(|end| camera.points(end));
@@ -83,8 +91,26 @@ impl Seen<'_> {
                 Mark::Anchor { centre, radius } => {
                     mass::ball(shapes, camera.points(centre), camera.length(radius), still, clip);
                 }
-                Mark::Disc { .. } | Mark::Hull { .. } => {}
+                Mark::Disc { .. } | Mark::Hull { .. } | Mark::Name { .. } => {}
             }
+        }
+        self.names(picture);
+    }
+
+    /// Writes the names of the rails, at their left ends.
+    fn names(&self, picture: &mut Picture) {
+        for mark in &self.outline.marks {
+            let Mark::Name { at, text } = *mark else { continue };
+            let [x, y] = self.camera.points(at);
+            picture.labels.push(Label {
+                at: [x - 6.0, y],
+                align: Align::Right,
+                size: 13.0,
+                colour: self.palette.text,
+                is_strong: true,
+                halo: faded(self.palette.sea[1], 0.85),
+                text: text.to_owned(),
+            });
         }
     }
 
@@ -108,7 +134,11 @@ impl Seen<'_> {
                 Mark::Hull { bow, length } => {
                     hull::ship(shapes, self.berth(bow, length), coat.colour, self.palette, clip);
                 }
-                Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rod { .. } => {}
+                Mark::Wall { .. }
+                | Mark::Anchor { .. }
+                | Mark::Rod { .. }
+                | Mark::Rail { .. }
+                | Mark::Name { .. } => {}
             }
         }
     }
@@ -132,7 +162,8 @@ impl Seen<'_> {
                 Mark::Hull { bow, length } => {
                     hull::hollow(shapes, self.berth(bow, length), coat, clip);
                 }
-                Mark::Wall { .. } | Mark::Anchor { .. } => {}
+                Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rail { .. } | Mark::Name { .. } => {
+                }
             }
         }
     }
@@ -155,7 +186,8 @@ impl Seen<'_> {
                 Mark::Hull { bow, length } => {
                     hull::ghost(shapes, self.berth(bow, length), palette, clip);
                 }
-                Mark::Wall { .. } | Mark::Anchor { .. } => {}
+                Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rail { .. } | Mark::Name { .. } => {
+                }
             }
         }
     }

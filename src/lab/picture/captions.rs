@@ -323,6 +323,6 @@ pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palett
         picture.shapes.push(line([x, y - 3.0], [x, y + 3.0], 1.5, colour, camera.rect));
     }
     let at = [(left + right) / 2.0, y - 10.0];
-    let words = format!("{} m", round(length_m, 4));
+    let words = format!("{} {}", round(length_m, 4), camera.unit);
     picture.labels.push(text(palette, at, Align::Centre, 11.0, colour, words));
 }

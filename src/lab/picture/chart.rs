@@ -157,7 +157,7 @@ pub(super) fn ruler(picture: &mut Picture, strip: Rect, camera: &Camera, palette
         }
         let metres = (i / 2) as f64 * step_m;
         let text = match i {
-            0 => "0 m".into(),
+            0 => format!("0 {}", camera.unit),
             _ if camera.quay_m != 0.0 && metres > 0.0 => format!("+{}", round(metres, 6)),
             _ => round(metres, 6),
         };

@@ -238,7 +238,7 @@ impl Band<'_> {
             if held.is_none() && !(stays && self.room().contains(at)) {
                 lost.push(Lost { flag, place: body.stepper.place() });
                 if is_front {
-                    seen.still(&mut picture.shapes);
+                    seen.still(picture);
                     self.draw_ghost(picture, shows_ghost);
                 }
                 continue;
@@ -255,7 +255,7 @@ impl Band<'_> {
                 let left = Coat { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
                 seen.behind(&mut picture.shapes, left);
             }
-            shown.carried(&mut picture.shapes, coat);
+            shown.carried(picture, coat);
             self.draw_ghost(picture, shows_ghost);
             shown.front(&mut picture.shapes, coat);
             if let Some(held) = held.filter(|held| held.lane == lane.lane_number) {

@@ -6,6 +6,7 @@ use super::moment::{Moment, turns};
 use super::sketch::Camera;
 use super::{Framing, Rect};
 use crate::lab::race::Entrant;
+use crate::sim::law::Equations;
 
 /// The head of a cell that a body with a fixed camera leaves to the caption, in points.
 const HEAD: f64 = 36.0;
@@ -71,7 +72,10 @@ pub(super) fn quay_width(cell: Rect) -> f32 {
 impl Moment<'_> {
     /// The camera of a cell that shows the body at this place of the scene, zoomed and panned as a person has it.
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &View) -> Camera {
-        self.fitted(rect, view).through(self.lab.display().zoom_pan(index))
+        let law = self.lab.race().truth().bodies()[index].kind.law;
+        let unit = law.map_or("m", Equations::drawn_unit);
+        let camera = Camera { unit, ..self.fitted(rect, view) };
+        camera.through(self.lab.display().zoom_pan(index))
     }
 
     fn fitted(&self, rect: Rect, view: &View) -> Camera {
@@ -85,6 +89,7 @@ impl Moment<'_> {
             paper: 0.0,
             block: (BLOCK * height as f32).clamp(BLOCKS.0, BLOCKS.1),
             quay_m: 0.0,
+            unit: "m",
         };
         match view.framing {
             Framing::Follow { width_m, height_m, .. } => {

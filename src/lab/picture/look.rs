@@ -6,12 +6,13 @@ use std::any::Any;
 use glam::DVec2;
 
 use super::outline::{Mark, Outline};
-use crate::sim::bodies::{Body, Chain, Follow, Helm, Kind, Orbit, Pendulum, Ship, Spring};
+use crate::sim::bodies::{Body, Chain, Follow, Helm, Kind, Law, Orbit, Pendulum, Ship, Spring};
 use crate::sim::{State, Stepper, Vector};
 
 mod chain;
 mod follow;
 mod helm;
+mod law;
 mod orbit;
 mod pendulum;
 mod ship;
@@ -108,6 +109,9 @@ static LOOKS: &[Look] = &[
     Look::of_type::<Follow>("follow"),
 ];
 
+/// The look of laws, whose kinds are not in that table.
+static LAW_LOOK: Look = Look::of_type::<Law>("law");
+
 impl Look {
     const fn of_type<B: Drawn>(kind: &'static str) -> Self {
         let outline = |body: &dyn Any, t: f64, q: &[f64]| {
@@ -133,6 +137,9 @@ impl Look {
 
     /// The look of bodies of this kind.
     pub fn of(kind: &Kind) -> &'static Look {
+        if kind.law.is_some() {
+            return &LAW_LOOK;
+        }
         let look = LOOKS.iter().find(|look| look.kind == kind.id);
         look.expect("the tests below find a look for every kind")
     }

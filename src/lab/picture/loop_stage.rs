@@ -201,6 +201,7 @@ impl<'a> Band<'a> {
             paper: 0.0,
             block: (BLOCK * height as f32).min(LARGEST_BLOCK),
             quay_m: 0.0,
+            unit: "m",
         };
         match self.framing() {
             Framing::Recorder { half_width_m } => {
@@ -269,7 +270,7 @@ impl<'a> Band<'a> {
         let coat = || Coat { colour: self.colour, dash: SOLID, fill: 0.0 };
         // A coil would hide the frames before.
         if !self.is_recorded() {
-            seen.carried(&mut picture.shapes, coat());
+            seen.carried(picture, coat());
         }
         seen.front(&mut picture.shapes, coat());
     }

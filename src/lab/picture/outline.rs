@@ -26,6 +26,20 @@ pub enum Mark {
         /// The other end.
         to: DVec2,
     },
+    /// A thin line that does not move, along which a bead goes.
+    Rail {
+        /// One end.
+        from: DVec2,
+        /// The other end.
+        to: DVec2,
+    },
+    /// What a rail is called.
+    Name {
+        /// Its end, left of which the name is written.
+        at: DVec2,
+        /// The name.
+        text: &'static str,
+    },
     /// A bead, a bob, a satellite.
     Disc {
         /// Its centre.

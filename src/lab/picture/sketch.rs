@@ -22,6 +22,8 @@ pub(super) struct Camera {
     pub(super) block: f32,
     /// Where the edge of the quay is, at which springs are moored, in metres.
     pub(super) quay_m: f64,
+    /// What a metre of the picture stands for: the unit of its scale.
+    pub(super) unit: &'static str,
 }
 
 impl Camera {

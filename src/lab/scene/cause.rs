@@ -99,6 +99,8 @@ pub(super) enum Cause {
     UnknownParameter { key: String, nearest: Option<&'static str>, known: Vec<&'static str> },
     #[error("`{key}` acts at the start only, and a command comes later")]
     ActsAtStart { key: &'static str, settable: Vec<&'static str> },
+    #[error("{what}")]
+    Law { what: String, remedy: String },
     #[error("`{key}` is {text:?}, not a hash")]
     NoHash { key: &'static str, text: String },
 }
@@ -135,6 +137,14 @@ pub(super) enum Wanted {
     Tables(&'static str),
     /// A table of this name.
     Table(&'static str),
+    /// A table of the numbers that expressions know by name.
+    Constants,
+    /// A table of this name for each coordinate.
+    Coordinates(&'static str),
+    /// An expression.
+    Expression,
+    /// The names of two coordinates.
+    Plane,
     /// `true` or `false`.
     Truth,
     /// A list of this many numbers.
@@ -152,7 +162,7 @@ impl Cause {
             Cause::Empty => {
                 "write `title`, `tick_hz`, `seconds` and a table such as `[[ship]]`".into()
             }
-            Cause::Syntax { remedy, .. } => remedy.clone(),
+            Cause::Syntax { remedy, .. } | Cause::Law { remedy, .. } => remedy.clone(),
             Cause::DuplicateKey { key, is_table: true } => {
                 format!("write `[[{}]]` each time", clip(key))
             }
@@ -253,13 +263,13 @@ impl Wanted {
 
     fn noun(&self) -> &'static str {
         match self {
-            Wanted::Text(_) | Wanted::Method | Wanted::Hash => "a string",
+            Wanted::Text(_) | Wanted::Method | Wanted::Hash | Wanted::Expression => "a string",
             Wanted::Number(_) => "a number",
             Wanted::Whole(_) => "an integer",
-            Wanted::Methods | Wanted::Curve(_) => "a list",
+            Wanted::Methods | Wanted::Curve(_) | Wanted::Plane => "a list",
             Wanted::Numbers(_) => "a list of numbers",
             Wanted::Truth => "a boolean",
-            Wanted::Table(_) => "a table",
+            Wanted::Table(_) | Wanted::Constants | Wanted::Coordinates(_) => "a table",
             Wanted::Point => "a pair of numbers",
             Wanted::Tables(_) => "an array of tables",
         }
@@ -286,6 +296,14 @@ impl fmt::Display for Wanted {
             Wanted::Numbers(1) => write!(f, "one number in brackets, such as [0.5]"),
             Wanted::Numbers(count) => write!(f, "{count} numbers in brackets, with commas between"),
             Wanted::Table(name) => write!(f, "`[{name}]` in brackets and its keys below"),
+            Wanted::Constants => {
+                write!(f, "names and numbers, such as {{ k = 18000.0, m = 250.0 }}")
+            }
+            Wanted::Coordinates(name) => {
+                write!(f, "`[{name}.x]` for a coordinate x, and its keys below")
+            }
+            Wanted::Expression => write!(f, "an expression in double quotes, such as \"-k*x/m\""),
+            Wanted::Plane => write!(f, "the names of two coordinates, such as [\"x\", \"y\"]"),
             Wanted::Tables(name) => write!(f, "`[[{name}]]` in double brackets and its keys below"),
         }
     }

@@ -5,6 +5,7 @@ use std::ops::Range as Span;
 use super::cause::Cause;
 use super::errors::position;
 use super::fields::{TOP, optional, required};
+use super::law::{LAW, read_law};
 use super::table::{Field, Table};
 use super::{MOST_BODIES, MOST_NAME_CHARS, SceneBody};
 use crate::sim::bodies::{BODIES, Kind, Parameter, Range};
@@ -13,7 +14,8 @@ const NAME: Field = optional("name");
 
 /// A body as the file describes it, faults included.
 pub(super) struct Described {
-    pub(super) kind: &'static Kind,
+    /// What it is; `None` for a law with faults.
+    pub(super) kind: Option<&'static Kind>,
     pub(super) name: Option<String>,
     /// The bytes of the name, or of the table's header where it has none.
     name_at: Span<usize>,
@@ -22,8 +24,11 @@ pub(super) struct Described {
 
 /// The bodies in the order of the file.
 pub(super) fn read_bodies(top: &mut Table<'_>) -> Vec<Described> {
-    let of_kind = |kind: &'static Kind| top.rows(kind.id).into_iter().map(move |row| (kind, row));
-    let mut rows: Vec<_> = BODIES.iter().flat_map(of_kind).collect();
+    let mut rows: Vec<(Option<&'static Kind>, Table<'_>)> = Vec::new();
+    for kind in BODIES {
+        rows.extend(top.rows(kind.id).into_iter().map(|row| (Some(kind), row)));
+    }
+    rows.extend(top.rows(LAW).into_iter().map(|row| (None, row)));
     rows.sort_by_key(|(_, row)| row.header.start);
     if let Some((_, row)) = rows.get(MOST_BODIES) {
         let cause = Cause::TooManyBodies { found: rows.len(), most: MOST_BODIES };
@@ -33,7 +38,10 @@ pub(super) fn read_bodies(top: &mut Table<'_>) -> Vec<Described> {
     for (kind, mut row) in rows.into_iter().take(MOST_BODIES) {
         let name = row.text(NAME, MOST_NAME_CHARS);
         let name_at = row.span(NAME.key);
-        let values = read_values(kind, &mut row);
+        let (kind, values) = match kind {
+            Some(kind) => (Some(kind), read_values(kind, &mut row)),
+            None => read_law(&mut row),
+        };
         bodies.push(Described { kind, name, name_at, values });
         top.adopt(row, &TOP);
     }
@@ -75,12 +83,13 @@ pub(super) fn check_names(text: &str, bodies: &[Described], top: &mut Table<'_>)
 /// Names the nameless after their kind, numbered where the kind has several bodies.
 pub(super) fn name_the_nameless(bodies: &mut [Described]) {
     let mut taken: Vec<String> = bodies.iter().filter_map(|body| body.name.clone()).collect();
-    let kinds: Vec<_> = bodies.iter().map(|body| body.kind.id).collect();
-    for Described { kind, name, .. } in bodies {
-        let is_alone = kinds.iter().filter(|id| **id == kind.id).count() == 1;
+    let id = |body: &Described| body.kind.map_or(LAW, |kind| kind.id);
+    let ids: Vec<_> = bodies.iter().map(id).collect();
+    for (Described { name, .. }, id) in bodies.iter_mut().zip(&ids) {
+        let is_alone = ids.iter().filter(|other| *other == id).count() == 1;
         let name = name.get_or_insert_with(|| {
-            let plain = is_alone.then(|| kind.id.to_owned());
-            let numbered = (1..).map(|number| format!("{}-{number}", kind.id));
+            let plain = is_alone.then(|| (*id).to_owned());
+            let numbered = (1..).map(|number| format!("{id}-{number}"));
             let free = plain.into_iter().chain(numbered).find(|name| !taken.contains(name));
             free.expect("there is always a next number")
         });
@@ -91,7 +100,7 @@ pub(super) fn name_the_nameless(bodies: &mut [Described]) {
 /// The bodies that have all their parameters.
 pub(super) fn finish_bodies(bodies: Vec<Described>) -> Vec<SceneBody> {
     let finish = |Described { kind, name, values, .. }| {
-        Some(SceneBody { name: name.expect("each has one by now"), kind, values: values? })
+        Some(SceneBody { name: name.expect("each has one by now"), kind: kind?, values: values? })
     };
     bodies.into_iter().filter_map(finish).collect()
 }

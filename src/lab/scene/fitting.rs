@@ -19,6 +19,7 @@ pub(super) fn check_method(
     table: &mut Table<'_>,
 ) {
     let refused = bodies.iter().find_map(|Described { kind, name, values, .. }| {
+        let kind = (*kind)?;
         let reason = refusal(method, kind, values.as_ref()?)?;
         let body = name.clone().unwrap_or_else(|| kind.id.into());
         Some(Refusal { method: method.id, body, reason })
@@ -31,7 +32,8 @@ pub(super) fn check_method(
 /// A plain lane for each method that steps all of these bodies.
 pub(super) fn every_lane(bodies: &[Described]) -> Vec<LaneSpec> {
     let steps = |method: &Method, body: &Described| {
-        body.values.as_ref().is_none_or(|values| refusal(method, body.kind, values).is_none())
+        let known = body.kind.zip(body.values.as_ref());
+        known.is_none_or(|(kind, values)| refusal(method, kind, values).is_none())
     };
     let fitting = METHODS.iter().filter(|method| bodies.iter().all(|body| steps(method, body)));
     fitting.map(LaneSpec::plain).collect()

@@ -10,10 +10,10 @@ const MOST_CHARS: usize = 64;
 /// The name that `written` is a part of, if of one only; else the name with the most similar spelling,
 /// if one is similar at all. A name may have several spellings; case, blanks and the kind of hyphen do
 /// not matter.
-pub fn nearest(
+pub fn nearest<'n>(
     written: &str,
-    names: impl Iterator<Item = (&'static str, &'static str)>,
-) -> Option<&'static str> {
+    names: impl Iterator<Item = (&'n str, &'n str)>,
+) -> Option<&'n str> {
     if written.chars().nth(MOST_CHARS).is_some() {
         return None;
     }

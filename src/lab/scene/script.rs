@@ -165,7 +165,10 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
         action = read(context, row, *field).or(action);
         if let Some(input) = *input
             && !context.bodies.is_empty()
-            && !context.bodies.iter().any(|body| body.kind.inputs.contains(&input))
+            && !context
+                .bodies
+                .iter()
+                .any(|body| body.kind.is_none_or(|kind| kind.inputs.contains(&input)))
         {
             row.complain(row.span(field.key), Cause::NoTaker { input });
         }
@@ -232,7 +235,7 @@ fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
     let key = set.text(KEY, MOST_NAME_CHARS);
     set.knows(VALUE.key);
     let (place, Described { kind, values, .. }) = body?;
-    let key = key?;
+    let (key, kind) = (key?, (*kind)?);
     let Some((parameter, &Parameter { key: known, range, acts, .. })) = kind.parameter(&key) else {
         let known: Vec<_> = kind.parameters.iter().map(|parameter| parameter.key).collect();
         let nearest = nearest(&key, known.iter().map(|name| (*name, *name)));
@@ -263,7 +266,7 @@ fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Actio
     let body = read_body(context, place);
     [Q, V].iter().for_each(|field| place.knows(field.key));
     let (at, Described { kind, values, .. }) = body?;
-    let count = (kind.coordinates)(values.as_ref()?).len();
+    let count = ((*kind)?.coordinates)(values.as_ref()?).len();
     let (q, v) = (place.coordinates(Q, count), place.coordinates(V, count));
     Some(Action::Place { body: at, q: q?.into(), v: v?.into() })
 }

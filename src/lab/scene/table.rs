@@ -13,6 +13,9 @@ use crate::sim::bodies;
 use crate::sim::integrators::{METHODS, Method};
 
 mod lists;
+mod named;
+
+pub(super) use named::{Named, Written};
 
 /// A key that a table may or must have.
 #[derive(Clone, Copy)]

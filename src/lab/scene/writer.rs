@@ -8,6 +8,7 @@ use super::{Check, Scene, SceneBody, Scripted};
 use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
+use crate::sim::law::LawText;
 
 impl Scene {
     /// Replaces the hashes in the checks of a scene file's `text`, in the order of the file. The rest of the text stays
@@ -132,7 +133,43 @@ fn write_lane(text: &mut String, spec: &LaneSpec) {
     }
 }
 
-fn write_body(text: &mut String, SceneBody { name, kind, values }: &SceneBody) {
+/// The table of a body that moves by a law.
+fn write_law(text: &mut String, SceneBody { name, values, .. }: &SceneBody, law: &LawText) {
+    *text += &format!("\n[[law]]\nname = {}\n", quoted(name));
+    if let Some(plane) = law.plane {
+        let names = plane.iter().map(|&place| quoted(&law.coordinates[place].name));
+        *text += &format!("plane = {}\n", list(names));
+    }
+    if let Some(energy) = &law.energy {
+        *text += &format!("energy = {}\n", quoted(energy));
+    }
+    let (constants, rest) = values.split_at(law.constants.len());
+    if !constants.is_empty() {
+        *text += "\n[law.constants]\n";
+        for (name, value) in law.constants.iter().zip(constants) {
+            *text += &format!("{name} = {}\n", number(*value));
+        }
+    }
+    let n = law.coordinates.len();
+    for (i, coordinate) in law.coordinates.iter().enumerate() {
+        *text += &format!("\n[law.coordinates.{}]\n", coordinate.name);
+        let mut line = |key: &str, value: String| *text += &format!("{key} = {value}\n");
+        line("unit", quoted(coordinate.unit));
+        line("start", number(rest[i]));
+        line("start_velocity", number(rest[n + i]));
+        line("kick", number(rest[2 * n + i]));
+        line("acceleration", quoted(&coordinate.acceleration));
+        if let Some(exact) = &coordinate.exact {
+            line("exact", quoted(exact));
+        }
+    }
+}
+
+fn write_body(text: &mut String, body: &SceneBody) {
+    let SceneBody { name, kind, values } = body;
+    if let Some(law) = kind.law {
+        return write_law(text, body, law.text());
+    }
     *text += &format!("\n[[{}]]\nname = {}\n", kind.id, quoted(name));
     for (parameter, place) in kind.parameters.iter().zip(0..) {
         let value = match parameter.range {

@@ -35,12 +35,12 @@ static COORDINATES: LazyLock<Vec<Coordinate>> = LazyLock::new(|| {
 pub(super) const KIND: Kind = Kind {
     id: "chain",
     about: "m xᵢ″ = Σ k (xⱼ - xᵢ) + c (xⱼ - xᵢ)′, j = i ± 1: masses joined by springs between two walls",
-    coordinates: |values| &COORDINATES[..values[0] as usize],
+    coordinates: &|values| &COORDINATES[..values[0] as usize],
     parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["kick"],
     leading: "stiffness_n_per_m",
     truth: Truth::Exact,
-    check: |values| match values {
+    check: &|values| match values {
         [masses, .., plucked, _, _] if plucked > masses => Err(Fault {
             key: "plucked_mass",
             what: format!("`plucked_mass` is {plucked}, of {masses} masses"),
@@ -48,7 +48,8 @@ pub(super) const KIND: Kind = Kind {
         }),
         _ => Ok(()),
     },
-    build: |values, solver| stepper(Chain::BLANK.with_parameters(values), solver),
+    build: &|values, solver| stepper(Chain::BLANK.with_parameters(values), solver),
+    law: None,
 };
 
 type Of = ParameterOf<Chain>;

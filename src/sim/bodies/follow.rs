@@ -16,13 +16,14 @@ use crate::sim::system::{Pursuit, State, System};
 pub(super) const KIND: Kind = Kind {
     id: "follow",
     about: "x′ = k (g - x) or x″ = k² (g - x) - 2 k x′: a camera that follows a target g(t)",
-    coordinates: |_| &[Coordinate { name: "x", velocity: "v", unit: "m" }],
+    coordinates: &|_| &[Coordinate { name: "x", velocity: "v", unit: "m" }],
     parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["kick"],
     leading: "rate_per_s",
     truth: Truth::Exact,
-    check: |_| Ok(()),
-    build: |values, solver| stepper(Follow::BLANK.with_parameters(values), solver),
+    check: &|_| Ok(()),
+    build: &|values, solver| stepper(Follow::BLANK.with_parameters(values), solver),
+    law: None,
 };
 
 type Of = ParameterOf<Follow>;

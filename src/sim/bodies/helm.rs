@@ -11,12 +11,13 @@ use super::kind::{Coordinate, Kind, Truth};
 use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{self, ParameterOf, Range};
+use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
 use crate::sim::system::{State, System};
 
 pub(super) const KIND: Kind = Kind {
     id: "helm",
     about: "m v′ = thrust(u) - C u ahead, - S w abeam; I r′ = rudder L u - D r: a ship that is steered",
-    coordinates: |_| {
+    coordinates: &|_| {
         &[
             Coordinate { name: "x", velocity: "vx", unit: "m" },
             Coordinate { name: "y", velocity: "vy", unit: "m" },
@@ -27,8 +28,9 @@ pub(super) const KIND: Kind = Kind {
     inputs: &["throttle", "rudder", "kick"],
     leading: "side_drag_n_s_per_m",
     truth: Truth::Reference,
-    check: |_| Ok(()),
-    build: |values, solver| stepper(Helm::BLANK.with_parameters(values), solver),
+    check: &|_| Ok(()),
+    build: &|values, solver| stepper(Helm::BLANK.with_parameters(values), solver),
+    law: None,
 };
 
 type Of = ParameterOf<Helm>;
@@ -226,24 +228,32 @@ impl Body for Helm {
         coordinate == 2
     }
 
-    fn piece(&self, state: &State<DVec3>) -> usize {
-        self.thrust.piece(surge(state))
+    fn switches(&self) -> usize {
+        1
     }
 
-    fn distances_to_ends(&self, piece: usize, state: &State<DVec3>) -> [f64; 2] {
+    fn piece(&self, _t: f64, state: &State<DVec3>) -> Piece {
+        let mut piece = Piece::FIRST;
+        piece.modes[0] = self.thrust.piece(surge(state)) as i64;
+        piece
+    }
+
+    fn distances_to_ends(&self, piece: &Piece, _t: f64, state: &State<DVec3>) -> Distances {
         let u = surge(state);
-        let (lower, upper) = self.thrust.ends(piece);
+        let (lower, upper) = self.thrust.ends(piece.modes[0] as usize);
         let unit = self.thrust.fastest();
         let distances_to_ends = |end: Option<&[f64; 2]>, sign: f64| {
             let distances_to_ends = |x: f64| sign * (u - x) + SPEED_ROUNDING * (u.abs() + x.abs());
             end.map_or(f64::INFINITY, |[x, _]| distances_to_ends(*x) / unit)
         };
-        [distances_to_ends(lower, 1.0), distances_to_ends(upper, -1.0)]
+        let mut distances = NO_BOUNDARIES;
+        distances[0] = [distances_to_ends(lower, 1.0), distances_to_ends(upper, -1.0)];
+        distances
     }
 
     #[inline]
-    fn acceleration_on(&self, piece: usize, _t: f64, q: &DVec3, v: &DVec3, a: &mut DVec3) {
-        *a = self.acceleration_under(|u| self.thrust.on(piece, u), q, v);
+    fn acceleration_on(&self, piece: &Piece, _t: f64, q: &DVec3, v: &DVec3, a: &mut DVec3) {
+        *a = self.acceleration_under(|u| self.thrust.on(piece.modes[0] as usize, u), q, v);
     }
 
     fn energy(&self, _state: &State<DVec3>) -> Option<f64> {

@@ -1,5 +1,8 @@
 //! The card of a kind of body.
 
+use std::fmt;
+
+use crate::sim::law::Equations;
 use crate::sim::parameter::{Fault, Parameter};
 use crate::sim::reference::REFERENCE_ACCURACY;
 use crate::sim::solver::Solver;
@@ -37,14 +40,13 @@ impl Truth {
 }
 
 /// A body kind's card: its name, its coordinates, and the keys by which a scene describes it.
-#[derive(Debug)]
 pub struct Kind {
     /// The name of its table array in a scene.
     pub id: &'static str,
     /// Its equation of motion, in one line.
     pub about: &'static str,
     /// The coordinates of a body with these parameter values, in state order.
-    pub coordinates: fn(&[f64]) -> &'static [Coordinate],
+    pub coordinates: &'static (dyn Fn(&[f64]) -> &'static [Coordinate] + Send + Sync),
     /// The keys of its table, in the order of the values that [`Kind::build`] expects.
     pub parameters: &'static [Parameter],
     /// The inputs that it accepts: `throttle`, `rudder`, `kick`.
@@ -55,10 +57,19 @@ pub struct Kind {
     /// Whether its truth is a closed form or a reference solution.
     pub truth: Truth,
     /// Checks values that are each in range for errors in combination.
-    pub check: fn(&[f64]) -> Result<(), Fault>,
+    pub check: &'static (dyn Fn(&[f64]) -> Result<(), Fault> + Send + Sync),
     /// Builds a body from these parameter values (see
     /// [`Body::with_parameters`](super::Body::with_parameters)), at its start under a solver.
-    pub build: fn(&[f64], Solver) -> Box<dyn Stepper>,
+    pub build: &'static (dyn Fn(&[f64], Solver) -> Box<dyn Stepper> + Send + Sync),
+    /// The equations of a [law](super::law_kind), which a scene writes itself; `None` for a kind of the
+    /// table.
+    pub law: Option<&'static Equations>,
+}
+
+impl fmt::Debug for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Kind").field("id", &self.id).field("about", &self.about).finish()
+    }
 }
 
 impl Kind {

@@ -9,6 +9,7 @@ mod follow;
 mod helm;
 mod kepler;
 mod kind;
+mod law;
 mod orbit;
 mod oscillator;
 mod pendulum;
@@ -20,6 +21,7 @@ pub use chain::Chain;
 pub use follow::Follow;
 pub use helm::{Helm, ThrustCurve};
 pub use kind::{Coordinate, Kind, Truth};
+pub use law::{Law, check_law, law_kind};
 pub use orbit::{Ellipse, Orbit};
 pub use pendulum::Pendulum;
 pub use refusal::refusal;
@@ -28,12 +30,13 @@ pub use spring::Spring;
 
 pub use super::body::{Body, Input};
 pub use super::parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
+pub use super::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 
 /// Every kind of body, in menu order.
 pub static BODIES: &[Kind] =
     &[ship::KIND, spring::KIND, chain::KIND, pendulum::KIND, orbit::KIND, helm::KIND, follow::KIND];
 
-/// The kind with this id.
+/// The kind with this id. A [law](law_kind) has a kind of its own, which is not in the table.
 pub fn kind(id: &str) -> Option<&'static Kind> {
     BODIES.iter().find(|kind| kind.id == id)
 }

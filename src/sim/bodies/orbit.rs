@@ -12,7 +12,7 @@ use crate::sim::system::{State, System};
 pub(super) const KIND: Kind = Kind {
     id: "orbit",
     about: "r″ = -μ r / |r|³: a satellite about a fixed centre, on an ellipse, parabola or hyperbola",
-    coordinates: |_| {
+    coordinates: &|_| {
         &[
             Coordinate { name: "x", velocity: "vx", unit: "m" },
             Coordinate { name: "y", velocity: "vy", unit: "m" },
@@ -22,7 +22,7 @@ pub(super) const KIND: Kind = Kind {
     inputs: &["kick"],
     leading: "mu_m3_per_s2",
     truth: Truth::Exact,
-    check: |values| match values {
+    check: &|values| match values {
         [_, 0.0, 0.0, ..] => Err(Fault {
             key: "x0_m",
             what: "the orbit starts at its centre, where the pull is infinite".into(),
@@ -30,7 +30,8 @@ pub(super) const KIND: Kind = Kind {
         }),
         _ => Ok(()),
     },
-    build: |values, solver| stepper(Orbit::BLANK.with_parameters(values), solver),
+    build: &|values, solver| stepper(Orbit::BLANK.with_parameters(values), solver),
+    law: None,
 };
 
 type Of = ParameterOf<Orbit>;

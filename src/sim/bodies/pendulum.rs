@@ -11,13 +11,14 @@ use crate::sim::system::{State, System};
 pub(super) const KIND: Kind = Kind {
     id: "pendulum",
     about: "m l² θ″ = -m g l sin θ - c θ′: a bob on a rod, at any angle",
-    coordinates: |_| &[Coordinate { name: "theta", velocity: "omega", unit: "rad" }],
+    coordinates: &|_| &[Coordinate { name: "theta", velocity: "omega", unit: "rad" }],
     parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["kick"],
     leading: "gravity_m_per_s2",
     truth: Truth::Reference,
-    check: |_| Ok(()),
-    build: |values, solver| stepper(Pendulum::BLANK.with_parameters(values), solver),
+    check: &|_| Ok(()),
+    build: &|values, solver| stepper(Pendulum::BLANK.with_parameters(values), solver),
+    law: None,
 };
 
 type Of = ParameterOf<Pendulum>;

@@ -11,13 +11,14 @@ use crate::sim::system::{State, System};
 pub(super) const KIND: Kind = Kind {
     id: "ship",
     about: "m s″ = T - C s′: full thrust times throttle, against linear drag",
-    coordinates: |_| &[Coordinate { name: "s", velocity: "v", unit: "m" }],
+    coordinates: &|_| &[Coordinate { name: "s", velocity: "v", unit: "m" }],
     parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["throttle", "kick"],
     leading: "drag_n_s_per_m",
     truth: Truth::Exact,
-    check: |_| Ok(()),
-    build: |values, solver| stepper(Ship::BLANK.with_parameters(values), solver),
+    check: &|_| Ok(()),
+    build: &|values, solver| stepper(Ship::BLANK.with_parameters(values), solver),
+    law: None,
 };
 
 type Of = ParameterOf<Ship>;

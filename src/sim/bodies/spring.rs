@@ -12,13 +12,14 @@ use crate::sim::system::{State, System};
 pub(super) const KIND: Kind = Kind {
     id: "spring",
     about: "m x″ = -k x - c x′: a mass on a spring with a dash-pot",
-    coordinates: |_| &[Coordinate { name: "x", velocity: "v", unit: "m" }],
+    coordinates: &|_| &[Coordinate { name: "x", velocity: "v", unit: "m" }],
     parameters: &parameter::descriptions(&PARAMETERS),
     inputs: &["kick"],
     leading: "stiffness_n_per_m",
     truth: Truth::Exact,
-    check: |_| Ok(()),
-    build: |values, solver| stepper(Spring::BLANK.with_parameters(values), solver),
+    check: &|_| Ok(()),
+    build: &|values, solver| stepper(Spring::BLANK.with_parameters(values), solver),
+    law: None,
 };
 
 type Of = ParameterOf<Spring>;

@@ -4,6 +4,7 @@
 //! Equations I*, II.9.
 
 use crate::sim::body::Body;
+use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
 use crate::sim::system::{State, System, Vector};
 
 /// The number of columns of the extrapolation table; the last has order 16. More gain nothing in `f64`.
@@ -16,7 +17,7 @@ const FIRST_SAMPLED: usize = 2;
 /// One smooth piece of the force law of a body, continued beyond its boundaries.
 struct SmoothPiece<'a, B> {
     body: &'a B,
-    piece: usize,
+    piece: &'a Piece,
 }
 
 impl<B: Body> System for SmoothPiece<'_, B> {
@@ -42,9 +43,13 @@ pub(super) struct Extrapolation<V> {
     now: State<V>,
     stage: State<V>,
     /// The smallest of [`Body::distances_to_ends`] at the intermediate states.
-    pub(super) least_distances: [f64; 2],
+    pub(super) least_distances: Distances,
     /// Evaluations so far.
     pub(super) evaluations: u64,
+    /// The largest coordinate and velocity at the starts of steps so far, of lengths and of angles, for a
+    /// body with [`Body::has_jumps`]. Its force may be the difference of large terms, whose rounding does
+    /// not become smaller as the motion settles.
+    pub(super) largest: [[f64; 2]; 2],
 }
 
 impl<V: Vector> Extrapolation<V> {
@@ -57,8 +62,9 @@ impl<V: Vector> Extrapolation<V> {
             before: state(),
             now: state(),
             stage: state(),
-            least_distances: [f64::INFINITY; 2],
+            least_distances: NO_BOUNDARIES,
             evaluations: 0,
+            largest: [[0.0; 2]; 2],
         }
     }
 
@@ -83,12 +89,17 @@ impl<V: Vector> Extrapolation<V> {
     pub(super) fn begin<B: Body<Vector = V>>(
         &mut self,
         body: &B,
-        piece: usize,
+        piece: &Piece,
         t: f64,
         y: &State<V>,
     ) {
         self.evaluations += 1;
         SmoothPiece { body, piece }.derivative(t, y, &mut self.begin);
+        for angles in [false, true].into_iter().filter(|_| body.has_jumps()) {
+            let of = |x: &V| largest(x, |i| body.is_angle(i) == angles);
+            let [q, v] = &mut self.largest[usize::from(angles)];
+            (*q, *v) = (q.max(of(&y.q)), v.max(of(&y.v)));
+        }
     }
 
     /// Attempts a step of `h` from `y` by the given piece of the force law. Returns how many columns it
@@ -98,13 +109,13 @@ impl<V: Vector> Extrapolation<V> {
     pub(super) fn attempt<B: Body<Vector = V>>(
         &mut self,
         body: &B,
-        piece: usize,
+        piece: &Piece,
         t: f64,
         h: f64,
         y: &State<V>,
         tolerance: f64,
     ) -> Option<usize> {
-        self.least_distances = [f64::INFINITY; 2];
+        self.least_distances = NO_BOUNDARIES;
         for column in 0..COLUMNS {
             self.midpoint(body, piece, t, h, 2 * (column + 1), y);
             // Aitken and Neville: afterwards `table[0]` has the highest order and `table[1]` the next.
@@ -125,15 +136,16 @@ impl<V: Vector> Extrapolation<V> {
     fn midpoint<B: Body<Vector = V>>(
         &mut self,
         body: &B,
-        piece: usize,
+        piece: &Piece,
         t: f64,
         h: f64,
         n: usize,
         y: &State<V>,
     ) {
         let system = SmoothPiece { body, piece };
-        let samples_room = n > 2 * FIRST_SAMPLED;
-        let Self { table, begin, d, before, now, stage, least_distances, evaluations } = self;
+        let switches = body.switches();
+        let samples_room = switches > 0 && n > 2 * FIRST_SAMPLED;
+        let Self { table, begin, d, before, now, stage, least_distances, evaluations, .. } = self;
         let part = h / n as f64;
         fill(before, 0.0);
         fill(now, 0.0);
@@ -142,9 +154,10 @@ impl<V: Vector> Extrapolation<V> {
             stage.assign_sum(y, 1.0, now);
             system.derivative(t + part * i as f64, stage, d);
             if samples_room {
-                let distances = body.distances_to_ends(piece, stage);
-                *least_distances =
-                    [least_distances[0].min(distances[0]), least_distances[1].min(distances[1])];
+                let distances = body.distances_to_ends(piece, t + part * i as f64, stage);
+                for (least, distance) in least_distances.iter_mut().zip(distances).take(switches) {
+                    *least = [least[0].min(distance[0]), least[1].min(distance[1])];
+                }
             }
             if i < n {
                 before.add_scaled(2.0 * part, d);
@@ -163,9 +176,9 @@ impl<V: Vector> Extrapolation<V> {
     /// Whether the last two columns agree to `tolerance`, relative to the magnitude of the state and
     /// its change. Angles and lengths are scaled separately.
     fn passes<B: Body<Vector = V>>(&self, body: &B, h: f64, y: &State<V>, tolerance: f64) -> bool {
-        let part = |y: &V, slope: &V, last: &V, before: &V, angles: bool| {
+        let part = |y: &V, slope: &V, last: &V, before: &V, angles: bool, most: f64| {
             let of = |x: &V| largest(x, |i| body.is_angle(i) == angles);
-            let scale = of(y) + h.abs() * of(slope);
+            let scale = (of(y) + h.abs() * of(slope)).max(most);
             let mut pairs = last.components().iter().zip(before.components()).enumerate();
             // Written so that a NaN does not pass.
             pairs
@@ -173,8 +186,9 @@ impl<V: Vector> Extrapolation<V> {
         };
         let Self { table, begin, .. } = self;
         [true, false].into_iter().all(|angles| {
-            part(&y.q, &begin.q, &table[0].q, &table[1].q, angles)
-                && part(&y.v, &begin.v, &table[0].v, &table[1].v, angles)
+            let [most_q, most_v] = self.largest[usize::from(angles)];
+            part(&y.q, &begin.q, &table[0].q, &table[1].q, angles, most_q)
+                && part(&y.v, &begin.v, &table[0].v, &table[1].v, angles, most_v)
         })
     }
 }

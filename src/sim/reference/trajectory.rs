@@ -3,6 +3,7 @@
 use super::extrapolation::Extrapolation;
 use crate::sim::body::Body;
 use crate::sim::double_double::{DoubleDouble, TWO_PI};
+use crate::sim::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 use crate::sim::system::{State, Vector};
 
 /// A step accepted with at most this many columns was too short: the next is twice as long.
@@ -18,6 +19,17 @@ const LARGEST_ANGLE: f64 = 3.3;
 /// How close a step must end to the boundary of a piece of the force law, relative to its distance. The
 /// error of the state is of second order in this.
 const BOUNDARY_TOLERANCE: f64 = 1e-9;
+
+/// The same where the force jumps: the error of the state is of first order in this.
+const JUMP_TOLERANCE: f64 = 2e-15;
+
+/// A boundary crossed by less than this part of the switch's extent is rounding, where the force can jump: a
+/// motion that comes to rest at a corner would otherwise cross it for ever.
+const CROSSING_ROUNDING: f64 = 1e-13;
+
+/// The largest number of boundaries crossed one after another without a step. A motion that is pushed back
+/// to a jump of the force from both sides, such as one at rest under dry friction, crosses it for ever.
+const MOST_STANDS: usize = 4 * MOST_SWITCHES;
 
 /// The largest number of attempts to end a step at a boundary; the search converges superlinearly.
 const MOST_SEARCH_STEPS: u32 = 60;
@@ -52,7 +64,19 @@ impl StepControl {
 /// The largest fraction of the remaining time for an uneven first step.
 const FIRST_UNEVEN_STEP: f64 = 0.57;
 
-/// The budget of evaluations is exhausted.
+/// A boundary that a step crosses.
+#[derive(Clone, Copy, Debug)]
+struct Crossing {
+    /// The switch whose mode changes.
+    switch: usize,
+    /// To the mode below (0) or above (1).
+    side: usize,
+    /// The distance to the boundary at the start of the step and at its end.
+    begun: f64,
+    ended: f64,
+}
+
+/// The budget of evaluations is exhausted, or the motion does not get on.
 #[derive(Debug)]
 pub(super) struct BudgetExhausted;
 
@@ -67,7 +91,9 @@ pub(super) struct Trajectory<V> {
     /// The step to try next; `None` for all the remaining time.
     step: Option<f64>,
     /// The current piece of the force law.
-    piece: usize,
+    piece: Piece,
+    /// The largest distance of each switch to a boundary so far, where the force can jump; otherwise 0.
+    extents: [f64; MOST_SWITCHES],
     control: StepControl,
 }
 
@@ -79,26 +105,29 @@ impl<V: Vector> Trajectory<V> {
             low: state.clone(),
             turns: state.q,
             step: None,
-            piece: 0,
+            piece: Piece::FIRST,
+            extents: [0.0; MOST_SWITCHES],
             control,
         }
     }
 
-    /// Starts at `state`, taken as exact.
-    pub(super) fn begin<B: Body<Vector = V>>(&mut self, body: &B, state: &State<V>) {
+    /// Starts at `state` at time `t` (s), taken as exact.
+    pub(super) fn begin<B: Body<Vector = V>>(&mut self, body: &B, t: f64, state: &State<V>) {
         self.at.assign(state);
         for half in [&mut self.low.q, &mut self.low.v, &mut self.turns] {
             half.components_mut().fill(0.0);
         }
         self.step = None;
+        self.extents = [0.0; MOST_SWITCHES];
         self.unwind(body);
-        self.piece = body.piece(&self.at);
+        self.piece = body.piece(t, &self.at);
     }
 
-    /// Starts at the state of `other` plus `offset`.
+    /// Starts at the state of `other` plus `offset`, at time `t` (s).
     pub(super) fn begin_beside<B: Body<Vector = V>>(
         &mut self,
         body: &B,
+        t: f64,
         other: &Self,
         offset: &State<V>,
     ) {
@@ -107,7 +136,7 @@ impl<V: Vector> Trajectory<V> {
         self.turns.assign(&other.turns);
         self.add(offset);
         self.step = None;
-        self.piece = body.piece(&self.at);
+        self.piece = body.piece(t, &self.at);
     }
 
     /// Writes the current state, rounded once.
@@ -143,8 +172,10 @@ impl<V: Vector> Trajectory<V> {
         let mut carried = self.step.map_or(h, |step| step.copysign(h));
         let mut left = h;
         let mut halvings = 0;
+        let mut stands = 0;
+        let switches = body.switches();
         let tolerance = self.control.tolerance();
-        work.begin(body, self.piece, t, &self.at);
+        work.begin(body, &self.piece, t, &self.at);
         while work.evaluations < budget {
             let is_first = left.abs() > 0.5 * h.abs();
             let most = if self.control == StepControl::Uneven && is_first {
@@ -154,35 +185,38 @@ impl<V: Vector> Trajectory<V> {
             };
             let trial = if carried.abs() < most.abs() { carried } else { most };
             let from = t + (h - left);
-            let Some(columns) = work.attempt(body, self.piece, from, trial, &self.at, tolerance)
+            let Some(columns) = work.attempt(body, &self.piece, from, trial, &self.at, tolerance)
             else {
                 carried = REJECTED_FACTOR * trial;
                 continue;
             };
             let mut stepped = trial;
-            if let Some(side) = self.crossed_side(body, work) {
-                let begun = body.distances_to_ends(self.piece, &self.at)[side];
-                let ended = body.distances_to_ends(self.piece, work.end(&self.at))[side];
-                // Already beyond the boundary and moving away: change the piece without a step.
-                let part = if begun < 0.0 {
-                    0.0
-                } else {
-                    let Some(part) =
-                        self.find_boundary(body, work, from, trial, side, [begun, ended])
-                    else {
-                        carried = REJECTED_FACTOR * trial;
-                        continue;
-                    };
-                    part
+            let mut begun = NO_BOUNDARIES;
+            let mut ended = NO_BOUNDARIES;
+            if switches > 0 {
+                begun = body.distances_to_ends(&self.piece, from, &self.at);
+                ended = body.distances_to_ends(&self.piece, from + trial, work.end(&self.at));
+                self.extend(body, &ended);
+            }
+            if let Some(crossing) = self.first_crossing(switches, &begun, &ended) {
+                let Some((part, crossing)) =
+                    self.find_first_boundary(body, work, from, trial, &begun, crossing)
+                else {
+                    carried = REJECTED_FACTOR * trial;
+                    continue;
                 };
                 stepped = part * trial;
+                stands = if part > 0.0 { 0 } else { stands + 1 };
+                if stands > MOST_STANDS {
+                    return Err(BudgetExhausted);
+                }
                 if part > 0.0 {
                     self.add(work.added());
                 }
-                self.piece = if side == 0 { self.piece - 1 } else { self.piece + 1 };
-            } else if work.least_distances.iter().any(|&distance| distance < -IGNORED_CROSSING)
-                && halvings < MOST_HALVINGS
-            {
+                let Crossing { switch, side, .. } = crossing;
+                let mode = &mut self.piece.modes[switch];
+                *mode = body.neighbour(switch, *mode, side);
+            } else if halvings < MOST_HALVINGS && self.leaves_piece(body, &work.least_distances) {
                 halvings += 1;
                 carried = trial / 2.0;
                 continue;
@@ -199,41 +233,105 @@ impl<V: Vector> Trajectory<V> {
             }
             halvings = 0;
             left -= stepped;
-            work.begin(body, self.piece, t + (h - left), &self.at);
+            work.begin(body, &self.piece, t + (h - left), &self.at);
         }
         Err(BudgetExhausted)
     }
 
-    /// The boundary beyond which the last attempt ends, unless it started further beyond.
-    fn crossed_side<B: Body<Vector = V>>(
+    /// Takes the finite distances of a state into the extents.
+    fn extend<B: Body<Vector = V>>(&mut self, body: &B, distances: &Distances) {
+        if !body.has_jumps() {
+            return;
+        }
+        for (extent, distances) in self.extents.iter_mut().zip(distances) {
+            let finite = distances.iter().filter(|distance| distance.is_finite());
+            *extent = finite.fold(*extent, |most, distance| most.max(distance.abs()));
+        }
+    }
+
+    /// The crossing that seems first from the distances at both ends of a step: of boundaries beyond which
+    /// the step ends, unless it started further beyond.
+    fn first_crossing(
+        &self,
+        switches: usize,
+        begun: &Distances,
+        ended: &Distances,
+    ) -> Option<Crossing> {
+        let mut first: Option<(f64, Crossing)> = None;
+        for switch in 0..switches {
+            let noise = CROSSING_ROUNDING * self.extents[switch];
+            for side in 0..2 {
+                let (begun, ended) = (begun[switch][side], ended[switch][side]);
+                if ended < -noise && ended < begun {
+                    let part = if begun > 0.0 { begun / (begun - ended) } else { 0.0 };
+                    if first.is_none_or(|(earliest, _)| part < earliest) {
+                        first = Some((part, Crossing { switch, side, begun, ended }));
+                    }
+                }
+            }
+        }
+        first.map(|(_, crossing)| crossing)
+    }
+
+    /// Whether a step that ends in its piece left it on the way, by these least distances.
+    fn leaves_piece<B: Body<Vector = V>>(&self, body: &B, least: &Distances) -> bool {
+        least.iter().zip(self.extents).take(body.switches()).any(|(least, extent)| {
+            let ignored =
+                if body.has_jumps() { CROSSING_ROUNDING * extent } else { IGNORED_CROSSING };
+            least.iter().any(|&distance| distance < -ignored)
+        })
+    }
+
+    /// The fraction of the step `h` at which the first boundary is reached, and which boundary that is, given
+    /// the distances at the start and the crossing that seems first. The last attempt is then the step to
+    /// that boundary, unless the fraction is 0. `None` if an attempt fails.
+    fn find_first_boundary<B: Body<Vector = V>>(
         &self,
         body: &B,
         work: &mut Extrapolation<V>,
-    ) -> Option<usize> {
-        let begun = body.distances_to_ends(self.piece, &self.at);
-        let ended = body.distances_to_ends(self.piece, work.end(&self.at));
-        (0..2).find(|&side| ended[side] < 0.0 && ended[side] < begun[side])
+        t: f64,
+        h: f64,
+        begun: &Distances,
+        mut crossing: Crossing,
+    ) -> Option<(f64, Crossing)> {
+        let mut whole = 1.0;
+        for _ in 0..MOST_SWITCHES {
+            // Already beyond the boundary and moving away: change the piece without a step.
+            if crossing.begun < 0.0 {
+                return Some((0.0, crossing));
+            }
+            whole *= self.find_boundary(body, work, t, whole * h, crossing)?;
+            let mut ended = body.distances_to_ends(&self.piece, t + whole * h, work.end(&self.at));
+            ended[crossing.switch][crossing.side] = f64::INFINITY;
+            match self.first_crossing(body.switches(), begun, &ended) {
+                Some(earlier) => crossing = earlier,
+                None => return Some((whole, crossing)),
+            }
+        }
+        None
     }
 
-    /// The fraction of the step `h` at which the boundary on `side` is reached, given the distances at
-    /// both ends of the step: the Illinois variant of regula falsi. The last attempt is then the step
-    /// to the boundary.
+    /// The fraction of the step `h` at which a boundary is reached that the step crosses: the Illinois
+    /// variant of regula falsi. The last attempt is then the step to the boundary.
     fn find_boundary<B: Body<Vector = V>>(
         &self,
         body: &B,
         work: &mut Extrapolation<V>,
         t: f64,
         h: f64,
-        side: usize,
-        [begun, ended]: [f64; 2],
+        Crossing { switch, side, begun, ended }: Crossing,
     ) -> Option<f64> {
-        let near = BOUNDARY_TOLERANCE * (begun + ended.abs());
+        let near = match body.has_jumps() {
+            true => JUMP_TOLERANCE * (begun + ended.abs() + self.extents[switch]),
+            false => BOUNDARY_TOLERANCE * (begun + ended.abs()),
+        };
         let (mut inner, mut outer) = ((0.0, begun), (1.0, ended));
         let mut part = 1.0;
         for _ in 0..MOST_SEARCH_STEPS {
             part = inner.0 + (outer.0 - inner.0) * (inner.1 / (inner.1 - outer.1));
-            work.attempt(body, self.piece, t, part * h, &self.at, self.control.tolerance())?;
-            let distance = body.distances_to_ends(self.piece, work.end(&self.at))[side];
+            work.attempt(body, &self.piece, t, part * h, &self.at, self.control.tolerance())?;
+            let ended = work.end(&self.at);
+            let distance = body.distances_to_ends(&self.piece, t + part * h, ended)[switch][side];
             if distance.abs() <= near || part == inner.0 || part == outer.0 {
                 break;
             }

@@ -129,7 +129,10 @@ mod tests {
         }
         kinds.sort_unstable();
         kinds.dedup();
-        assert_eq!(kinds, ["chain", "follow", "helm", "orbit", "pendulum", "ship", "spring"]);
+        assert_eq!(
+            kinds,
+            ["chain", "follow", "helm", "law", "orbit", "pendulum", "ship", "spring"]
+        );
     }
 
     #[test]

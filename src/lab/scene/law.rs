@@ -1,0 +1,231 @@
+//! Reads a `[[law]]`: an equation of motion that the scene writes itself.
+
+use std::ops::Range as Span;
+
+use super::cause::{Cause, Wanted};
+use super::fields::{TOP, optional, required};
+use super::nearest::nearest;
+use super::table::{Field, Named, Table, Written};
+use crate::sim::bodies::{Kind, Range, check_law, law_kind};
+use crate::sim::law::{
+    CoordinateText, LawText, MOST_CONSTANTS, MOST_COORDINATES, Part, Refusal, Remedy, UNITS,
+};
+
+/// The name of the table array.
+pub(super) const LAW: &str = "law";
+
+const CONSTANTS: Field = optional("constants");
+const COORDINATES: Field = required("coordinates", "what moves");
+const ENERGY: Field = optional("energy");
+const PLANE: Field = optional("plane");
+const UNIT: Field = optional("unit");
+const START: Field = optional("start");
+const START_VELOCITY: Field = optional("start_velocity");
+const ACCELERATION: Field = required("acceleration", "its second derivative by time");
+const EXACT: Field = optional("exact");
+const KICK: Field = optional("kick");
+
+/// The most characters of the name of a unit.
+const MOST_UNIT_CHARS: usize = 16;
+
+/// A law as the file writes it.
+struct WrittenLaw {
+    constants: Vec<(String, Span<usize>)>,
+    coordinates: Vec<WrittenCoordinate>,
+    energy: Option<Written>,
+    plane: Option<[usize; 2]>,
+}
+
+struct WrittenCoordinate {
+    name: String,
+    span: Span<usize>,
+    unit: &'static str,
+    acceleration: Option<Written>,
+    exact: Option<Written>,
+    start: Option<f64>,
+    start_velocity: Option<f64>,
+    kick: Option<f64>,
+}
+
+/// The kind of a law and the values of its parameters; each is `None` where there is a fault.
+pub(super) fn read_law(row: &mut Table<'_>) -> (Option<&'static Kind>, Option<Vec<f64>>) {
+    let (constants, numbers) = read_constants(row);
+    let coordinates = read_coordinates(row);
+    let energy = row.expression(ENERGY);
+    let plane = coordinates.as_ref().and_then(|coordinates| read_plane(row, coordinates));
+    let Some(coordinates) = coordinates else { return (None, None) };
+    let law = WrittenLaw { constants, coordinates, energy, plane };
+    let Some(text) = law.text() else { return (None, None) };
+    let kind = match law_kind(text) {
+        Ok(kind) => kind,
+        Err(refusals) => {
+            refusals.into_iter().for_each(|refusal| law.complain(row, refusal));
+            return (None, None);
+        }
+    };
+    let values = law.values(numbers);
+    if let (Some(values), Some(equations)) = (&values, kind.law)
+        && row.is_faultless()
+        && let Err(refusal) = check_law(equations, values)
+    {
+        law.complain(row, refusal);
+    }
+    (Some(kind), values)
+}
+
+/// The names of the constants, and their values unless one has a fault.
+fn read_constants(row: &mut Table<'_>) -> (Vec<(String, Span<usize>)>, Option<Vec<f64>>) {
+    let entries = row.entries(CONSTANTS, &Wanted::Constants).unwrap_or_default();
+    check_count(row, "constants", &entries, MOST_CONSTANTS);
+    let entries = &entries[..entries.len().min(MOST_CONSTANTS)];
+    let numbers: Vec<_> = entries.iter().map(|entry| row.number_of(entry, Range::ANY)).collect();
+    let names = entries.iter().map(|entry| (entry.key.to_owned(), entry.span.clone()));
+    (names.collect(), numbers.into_iter().collect())
+}
+
+fn check_count(row: &mut Table<'_>, what: &str, entries: &[Named<'_>], most: usize) {
+    if let Some(entry) = entries.get(most) {
+        let what = format!("the law has {} {what}", entries.len());
+        row.complain(
+            entry.span.clone(),
+            Cause::Law { what, remedy: format!("keep at most {most}") },
+        );
+    }
+}
+
+fn read_coordinates(row: &mut Table<'_>) -> Option<Vec<WrittenCoordinate>> {
+    let place = "law.coordinates";
+    let entries = row.entries(COORDINATES, &Wanted::Coordinates(place))?;
+    check_count(row, "coordinates", &entries, MOST_COORDINATES);
+    if entries.is_empty() {
+        let cause = Cause::Law {
+            what: "the law has no coordinate".into(),
+            remedy: format!("write {}", Wanted::Coordinates(place)),
+        };
+        row.complain(row.span(COORDINATES.key), cause);
+        return None;
+    }
+    let mut coordinates = Vec::new();
+    for (n, entry) in entries.iter().enumerate().take(MOST_COORDINATES) {
+        let mut table = row.table_of(entry, place)?;
+        let number = |table: &mut Table<'_>, field: Field, default: f64| match table.has(field.key)
+        {
+            true => table.number(field, Range::ANY),
+            false => {
+                table.knows(field.key);
+                Some(default)
+            }
+        };
+        coordinates.push(WrittenCoordinate {
+            name: entry.key.into(),
+            span: entry.span.clone(),
+            unit: read_unit(&mut table),
+            start: number(&mut table, START, 0.0),
+            start_velocity: number(&mut table, START_VELOCITY, 0.0),
+            acceleration: table.expression(ACCELERATION),
+            exact: table.expression(EXACT),
+            kick: number(&mut table, KICK, f64::from(u8::from(n == 0))),
+        });
+        row.adopt(table, &TOP);
+    }
+    Some(coordinates)
+}
+
+fn read_unit(table: &mut Table<'_>) -> &'static str {
+    let Some(written) = table.text(UNIT, MOST_UNIT_CHARS) else { return UNITS[0] };
+    if let Some(unit) = UNITS.iter().find(|unit| **unit == written) {
+        return unit;
+    }
+    let what = format!("unknown unit {written:?}");
+    let remedy = offer(&written, &UNITS);
+    table.complain(table.span(UNIT.key), Cause::Law { what, remedy });
+    UNITS[0]
+}
+
+fn read_plane(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Option<[usize; 2]> {
+    let names = row.names(PLANE, &Wanted::Plane)?;
+    let known: Vec<&str> = coordinates.iter().map(|coordinate| &*coordinate.name).collect();
+    let mut places = Vec::new();
+    for (span, name) in &names {
+        match known.iter().position(|known| known == name) {
+            Some(place) => places.push(place),
+            None => {
+                let what = format!("no coordinate is called {name:?}");
+                let cause = Cause::Law { what, remedy: offer(name, &known) };
+                row.complain(span.clone(), cause);
+                return None;
+            }
+        }
+    }
+    match places[..] {
+        [x, y] if x != y => Some([x, y]),
+        _ => {
+            let what = "`plane` does not name two coordinates".into();
+            let remedy = format!("write {}", Wanted::Plane);
+            row.complain(row.span(PLANE.key), Cause::Law { what, remedy });
+            None
+        }
+    }
+}
+
+fn offer(written: &str, known: &[&str]) -> String {
+    match nearest(written, known.iter().map(|name| (*name, *name))) {
+        Some(name) => format!("did you mean `{name}`?"),
+        None => {
+            let known: Vec<_> = known.iter().map(|name| format!("`{name}`")).collect();
+            format!("write one of {}", known.join(", "))
+        }
+    }
+}
+
+impl WrittenLaw {
+    /// `None` if an acceleration is missing.
+    fn text(&self) -> Option<LawText> {
+        let text = |written: &Written| written.text.clone();
+        let coordinate = |of: &WrittenCoordinate| {
+            Some(CoordinateText {
+                name: of.name.clone(),
+                unit: of.unit,
+                acceleration: text(of.acceleration.as_ref()?),
+                exact: of.exact.as_ref().map(text),
+            })
+        };
+        Some(LawText {
+            constants: self.constants.iter().map(|(name, _)| name.clone()).collect(),
+            coordinates: self.coordinates.iter().map(coordinate).collect::<Option<_>>()?,
+            energy: self.energy.as_ref().map(text),
+            plane: self.plane,
+        })
+    }
+
+    fn values(&self, constants: Option<Vec<f64>>) -> Option<Vec<f64>> {
+        let of = |read: fn(&WrittenCoordinate) -> Option<f64>| {
+            self.coordinates.iter().map(read).collect::<Option<Vec<f64>>>()
+        };
+        let [starts, velocities, kicks] =
+            [of(|it| it.start)?, of(|it| it.start_velocity)?, of(|it| it.kick)?];
+        Some([constants?, starts, velocities, kicks].concat())
+    }
+
+    /// Reports what is wrong with a part of the law at its place in the file.
+    fn complain(&self, row: &mut Table<'_>, refusal: Refusal) {
+        let Refusal { part, span, what, remedy } = refusal;
+        let within = |written: &Option<Written>| {
+            written.as_ref().map_or(row.header.clone(), |written| written.within(&span))
+        };
+        let at = match part {
+            Part::Constant(i) => self.constants[i].1.clone(),
+            Part::Coordinate(i) => self.coordinates[i].span.clone(),
+            Part::Acceleration(i) => within(&self.coordinates[i].acceleration),
+            Part::Exact(i) => within(&self.coordinates[i].exact),
+            Part::Energy => within(&self.energy),
+        };
+        let remedy = match remedy {
+            Remedy::Words(words) => words,
+            Remedy::Name { written, known } => {
+                offer(&written, &known.iter().map(String::as_str).collect::<Vec<_>>())
+            }
+        };
+        row.complain(at, Cause::Law { what, remedy });
+    }
+}

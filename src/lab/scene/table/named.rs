@@ -1,0 +1,121 @@
+//! Tables whose keys the file chooses, and expressions.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::{Field, Table, number};
+use crate::lab::scene::cause::{Cause, Place, Wanted};
+use crate::lab::scene::clip::clip;
+use crate::sim::bodies;
+
+/// An entry whose key the file chooses.
+pub(in crate::lab::scene) struct Named<'t> {
+    pub(in crate::lab::scene) key: &'t str,
+    /// The bytes of the key.
+    pub(in crate::lab::scene) span: Range<usize>,
+    value: &'t Spanned<DeValue<'t>>,
+}
+
+/// An expression with its place in the file.
+pub(in crate::lab::scene) struct Written {
+    pub(in crate::lab::scene) text: String,
+    /// The bytes of the string, quotes included.
+    span: Range<usize>,
+    /// The byte at which the text stands as it is; `None` if the string has escapes.
+    start: Option<usize>,
+}
+
+impl Written {
+    /// The bytes of the file that hold these bytes of the expression.
+    pub(in crate::lab::scene) fn within(&self, span: &Range<usize>) -> Range<usize> {
+        match self.start {
+            Some(start) if !span.is_empty() => start + span.start..start + span.end,
+            _ => self.span.clone(),
+        }
+    }
+}
+
+impl<'t> Table<'t> {
+    /// The entries of the table under this key, in the order of the file.
+    pub(in crate::lab::scene) fn entries(
+        &mut self,
+        field: Field,
+        wanted: &Wanted,
+    ) -> Option<Vec<Named<'t>>> {
+        let value = self.value(field, wanted)?;
+        let Some(entries) = value.get_ref().as_table() else {
+            return self.wrong_type(format!("`{}`", field.key), value, wanted.clone());
+        };
+        let named = |(key, value): (&'t Spanned<_>, &'t Spanned<DeValue<'t>>)| {
+            let text: &std::borrow::Cow<'t, str> = key.get_ref();
+            Named { key: text, span: key.span(), value }
+        };
+        let mut entries: Vec<_> = entries.iter().map(named).collect();
+        entries.sort_by_key(|entry| entry.span.start);
+        Some(entries)
+    }
+
+    /// The number of an entry.
+    pub(in crate::lab::scene) fn number_of(
+        &mut self,
+        entry: &Named<'t>,
+        range: bodies::Range,
+    ) -> Option<f64> {
+        let (wanted, subject) = (Wanted::Number(range), format!("`{}`", clip(entry.key)));
+        let Some(number) = number(entry.value) else {
+            return self.wrong_type(subject, entry.value, wanted);
+        };
+        if !range.contains(number) {
+            let written = clip(&self.text[entry.value.span()]);
+            let what = format!("{subject} is {written}, out of range");
+            let cause = Cause::Law { what, remedy: format!("write {wanted}") };
+            self.complain(entry.value.span(), cause);
+        }
+        range.contains(number).then_some(number)
+    }
+
+    /// The table of an entry, which stands in the table `place`.
+    pub(in crate::lab::scene) fn table_of(
+        &mut self,
+        entry: &Named<'t>,
+        place: &'static str,
+    ) -> Option<Table<'t>> {
+        match entry.value.get_ref().as_table() {
+            Some(entries) => {
+                Some(Table::new(self.text, Place::Within(place), entry.span.clone(), entries))
+            }
+            None => {
+                let subject = format!("`{}`", clip(entry.key));
+                self.wrong_type(subject, entry.value, Wanted::Coordinates(place))
+            }
+        }
+    }
+
+    /// An expression. A line break in it counts as a space.
+    pub(in crate::lab::scene) fn expression(&mut self, field: Field) -> Option<Written> {
+        let value = self.value(field, &Wanted::Expression)?;
+        let Some(text) = value.get_ref().as_str() else {
+            return self.wrong_type(format!("`{}`", field.key), value, Wanted::Expression);
+        };
+        let span = value.span();
+        let start = self.text[span.clone()].find(text).map(|at| span.start + at);
+        let text = text.replace(['\n', '\r', '\t'], " ");
+        Some(Written { text, span, start })
+    }
+
+    /// The names in a list of texts, with their bytes.
+    pub(in crate::lab::scene) fn names(
+        &mut self,
+        field: Field,
+        wanted: &Wanted,
+    ) -> Option<Vec<(Range<usize>, &'t str)>> {
+        let value = self.value(field, wanted)?;
+        let entries = value.get_ref().as_array();
+        let name =
+            |entry: &'t Spanned<DeValue<'t>>| Some((entry.span(), entry.get_ref().as_str()?));
+        let names = entries.and_then(|entries| entries.iter().map(name).collect());
+        names.or_else(|| self.wrong_type(format!("`{}`", field.key), value, wanted.clone()))
+    }
+}

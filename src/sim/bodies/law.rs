@@ -1,0 +1,219 @@
+//! A body whose equation of motion a scene writes itself.
+
+use std::cell::{OnceCell, RefCell};
+
+use glam::DVec2;
+
+use crate::sim::body::{Body, Input};
+use crate::sim::law::{At, Equations, Registers};
+use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
+use crate::sim::system::{State, System};
+
+mod claims;
+mod kind;
+mod survey;
+
+pub use claims::check_law;
+pub use kind::law_kind;
+
+/// A body that moves by a law of a scene.
+#[derive(Clone, Debug)]
+pub struct Law {
+    equations: &'static Equations,
+    /// As [`law_kind`]'s parameters.
+    values: Vec<f64>,
+    /// Throttle and rudder: from -1 to 1.
+    steering: [f64; 2],
+    registers: RefCell<Registers>,
+    /// Whether the law's energy is conserved with these values.
+    conserves: bool,
+    /// Whether the law's exact solution is one with these values.
+    is_solved: bool,
+    ranges: OnceCell<Vec<(f64, f64)>>,
+}
+
+impl Law {
+    /// A body with full throttle, the rudder amidships, and these values of [`law_kind`]'s parameters.
+    ///
+    /// If the number of values is wrong.
+    pub fn new(equations: &'static Equations, values: &[f64]) -> Self {
+        let text = equations.text();
+        let most = text.constants.len() + 3 * text.coordinates.len();
+        assert_eq!(values.len(), most, "a law is given a value for each parameter");
+        let mut law = Self {
+            equations,
+            values: values.into(),
+            steering: [1.0, 0.0],
+            registers: RefCell::new(Registers::new(equations, known(equations, values))),
+            conserves: false,
+            is_solved: false,
+            ranges: OnceCell::new(),
+        };
+        law.prepare();
+        law
+    }
+
+    /// The law.
+    pub fn equations(&self) -> &'static Equations {
+        self.equations
+    }
+
+    /// The least and the largest value of each coordinate in the first seconds of the motion, for drawing.
+    pub fn ranges(&self) -> &[(f64, f64)] {
+        self.ranges.get_or_init(|| survey::ranges(self))
+    }
+
+    fn coordinates(&self) -> usize {
+        self.equations.text().coordinates.len()
+    }
+
+    /// The starts of the coordinates, of the velocities, and the kicks.
+    fn starts(&self) -> [&[f64]; 3] {
+        let n = self.coordinates();
+        let (starts, rest) = self.values[self.equations.text().constants.len()..].split_at(n);
+        let (velocities, kicks) = rest.split_at(n);
+        [starts, velocities, kicks]
+    }
+
+    fn at<'a>(&self, t: f64, q: &'a [f64], v: &'a [f64]) -> At<'a> {
+        At { t, steering: self.steering, q, v }
+    }
+}
+
+/// The values that expressions know: all but the kicks.
+fn known<'v>(equations: &Equations, values: &'v [f64]) -> &'v [f64] {
+    &values[..values.len() - equations.text().coordinates.len()]
+}
+
+impl System for Law {
+    type Vector = Vec<f64>;
+
+    #[inline]
+    fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        self.equations.accelerate(&mut self.registers.borrow_mut(), self.at(t, q, v), a);
+    }
+}
+
+impl Body for Law {
+    fn with_parameters(self, values: &[f64]) -> Self {
+        Self::new(self.equations, values)
+    }
+
+    fn set_parameter(&mut self, place: usize, value: f64) -> bool {
+        let n = self.coordinates();
+        let constants = self.equations.text().constants.len();
+        let acts_at_once = place < constants || place >= constants + 2 * n;
+        match self.values.get_mut(place) {
+            Some(old) if acts_at_once && *old != value => *old = value,
+            _ => return false,
+        }
+        self.prepare();
+        true
+    }
+
+    fn prepare(&mut self) {
+        let values = known(self.equations, &self.values);
+        self.registers.get_mut().set(self.equations, values);
+        self.ranges.take();
+        self.conserves = claims::conserves(self);
+        self.is_solved = claims::is_solved(self);
+    }
+
+    fn heap_bytes(&self) -> usize {
+        let ranges = self.ranges.get().map_or(0, |ranges| size_of_val(&ranges[..]));
+        size_of_val(&self.values[..]) + self.registers.borrow().heap_bytes() + ranges
+    }
+
+    fn start(&self) -> State<Vec<f64>> {
+        let [q, v, _] = self.starts();
+        State { q: q.into(), v: v.into() }
+    }
+
+    fn exact(&self, _dt: f64, _from: &State<Vec<f64>>) -> Option<State<Vec<f64>>> {
+        None
+    }
+
+    fn exact_since_start(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
+        if !self.is_solved {
+            return false;
+        }
+        self.equations.solve(&mut self.registers.borrow_mut(), t, |i, [q, v, _]| {
+            (to.q[i], to.v[i]) = (q, v);
+        })
+    }
+
+    fn is_linear(&self) -> bool {
+        self.equations.is_linear()
+    }
+
+    fn is_angle(&self, coordinate: usize) -> bool {
+        self.equations.is_angle(coordinate)
+    }
+
+    fn switches(&self) -> usize {
+        self.equations.switches()
+    }
+
+    fn piece(&self, t: f64, state: &State<Vec<f64>>) -> Piece {
+        let mut piece = Piece::FIRST;
+        let at = self.at(t, &state.q, &state.v);
+        self.equations.write_modes(&mut self.registers.borrow_mut(), at, &mut piece.modes);
+        piece
+    }
+
+    fn distances_to_ends(&self, piece: &Piece, t: f64, state: &State<Vec<f64>>) -> Distances {
+        let mut distances = NO_BOUNDARIES;
+        let (at, registers) = (self.at(t, &state.q, &state.v), &mut self.registers.borrow_mut());
+        self.equations.write_distances(&piece.modes, registers, at, &mut distances);
+        distances
+    }
+
+    fn neighbour(&self, switch: usize, mode: i64, side: usize) -> i64 {
+        self.equations.neighbour(switch, mode, side)
+    }
+
+    fn has_jumps(&self) -> bool {
+        true
+    }
+
+    fn acceleration_on(&self, piece: &Piece, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        let (at, registers) = (self.at(t, q, v), &mut self.registers.borrow_mut());
+        self.equations.accelerate_on(&piece.modes, registers, at, a);
+    }
+
+    fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
+        let energy = || {
+            let mut registers = self.registers.borrow_mut();
+            self.equations.energy(&mut registers, &state.q, Some(&state.v))
+        };
+        self.conserves.then(energy)?
+    }
+
+    fn kinetic_energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
+        let all = self.energy(state)?;
+        let still = self.equations.energy(&mut self.registers.borrow_mut(), &state.q, None)?;
+        Some(all - still)
+    }
+
+    fn input(&mut self, input: Input, state: &mut State<Vec<f64>>) -> bool {
+        let [takes_throttle, takes_rudder] = self.equations.is_steered();
+        match input {
+            Input::Throttle(part) if takes_throttle => self.steering[0] = part,
+            Input::Rudder(part) if takes_rudder => self.steering[1] = part,
+            Input::Throttle(_) | Input::Rudder(_) => return false,
+            Input::Kick(times) => {
+                let [.., kicks] = self.starts();
+                state.v.iter_mut().zip(kicks).for_each(|(v, kick)| *v += times * kick);
+            }
+        }
+        true
+    }
+
+    /// The coordinates of the plane, or the first coordinate to the right.
+    fn place(&self, q: &Vec<f64>) -> DVec2 {
+        match self.equations.text().plane {
+            Some([x, y]) => DVec2::new(q[x], q[y]),
+            None => DVec2::new(q[0], 0.0),
+        }
+    }
+}

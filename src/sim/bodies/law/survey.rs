@@ -1,0 +1,45 @@
+//! How far the coordinates of a law go, found by a short run.
+
+use super::Law;
+use crate::sim::body::Body;
+use crate::sim::integrators::{integrator, method};
+use crate::sim::system::Counted;
+
+/// How long the motion is followed, in ticks and seconds: as long as people look before they judge.
+const TICKS: u32 = 1200;
+const TICK_S: f64 = 1.0 / 60.0;
+
+/// The most evaluations: a few milliseconds.
+const MOST_EVALUATIONS: u64 = 30_000;
+
+/// A coordinate beyond this many times its reach in the first second has run away.
+const RUNAWAY: f64 = 1e4;
+
+/// The least and the largest value of each coordinate in the first seconds.
+pub(super) fn ranges(law: &Law) -> Vec<(f64, f64)> {
+    let mut state = law.start();
+    let mut ranges: Vec<(f64, f64)> = state.q.iter().map(|&q| (q, q)).collect();
+    let body = Counted::new(law.clone());
+    let method = method("dormand-prince-54").expect("a method of the table");
+    let mut solver = integrator::<Counted<Law>>(method, &state.q);
+    let mut first_second: Vec<f64> = vec![f64::INFINITY; state.q.len()];
+    for tick in 0..TICKS {
+        let stepped = solver.step(&body, f64::from(tick) * TICK_S, TICK_S, &mut state);
+        let is_near = |(q, most): (&f64, &f64)| q.abs() <= *most;
+        if stepped.is_err()
+            || body.evaluations() > MOST_EVALUATIONS
+            || !state.q.iter().all(|q| q.is_finite())
+            || !state.q.iter().zip(&first_second).all(is_near)
+        {
+            break;
+        }
+        for (range, &q) in ranges.iter_mut().zip(&state.q) {
+            *range = (range.0.min(q), range.1.max(q));
+        }
+        if tick == 60 {
+            let reach = |range: &(f64, f64)| RUNAWAY * range.0.abs().max(range.1.abs()).max(1e-9);
+            first_second = ranges.iter().map(reach).collect();
+        }
+    }
+    ranges
+}

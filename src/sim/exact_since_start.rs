@@ -1,0 +1,85 @@
+//! The truth of a body that knows its exact motion from the start, but not from any state: after an
+//! input, an edit or a placing it is a reference solution.
+
+use super::body::Body;
+use super::integrators::StepFailure;
+use super::propagator::{Jump, Propagator};
+use super::reference::Reference;
+use super::system::{Counted, State, Vector};
+
+/// The rounding of a closed form whose operations are not known, relative to its value.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The exact motion since the start, or the reference solution since somebody intervened.
+#[derive(Clone, Debug)]
+pub(super) struct ExactSinceStart<V> {
+    is_untouched: bool,
+    /// The time of the current state, in seconds.
+    t: f64,
+    reference: Reference<V>,
+}
+
+impl<V: Vector> ExactSinceStart<V> {
+    /// The motion of a body that stands at its start at time 0.
+    pub(super) fn new(like: &State<V>) -> Self {
+        Self { is_untouched: true, t: 0.0, reference: Reference::new(like) }
+    }
+}
+
+/// Whether `state` at time `t` (s) is the start of `body`.
+pub(super) fn is_start<B: Body>(body: &B, t: f64, state: &State<B::Vector>) -> bool {
+    let start = body.start();
+    let is_equal = |a: &B::Vector, b: &B::Vector| a.components() == b.components();
+    t == 0.0 && is_equal(&start.q, &state.q) && is_equal(&start.v, &state.v)
+}
+
+impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
+    fn advance(
+        &mut self,
+        body: &Counted<B>,
+        t: f64,
+        h: f64,
+        substeps: u32,
+        state: &mut State<B::Vector>,
+    ) -> Result<(), StepFailure> {
+        self.t = t + h;
+        if self.is_untouched && body.system.exact_since_start(self.t, state) {
+            return Ok(());
+        }
+        self.reference.advance(body, t, h, substeps, state)
+    }
+
+    fn jump(
+        &mut self,
+        jump: Jump,
+        t: f64,
+        body: &mut B,
+        state: &mut State<B::Vector>,
+        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
+    ) -> bool {
+        let is_changed = self.reference.jump(jump, t, body, state, change);
+        if is_changed {
+            self.is_untouched = jump == Jump::Placed && is_start(body, t, state);
+            self.t = t;
+        }
+        is_changed
+    }
+
+    fn truth_error(&self, body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
+        if !self.is_untouched {
+            return self.reference.truth_error(body, state);
+        }
+        let largest =
+            |x: &B::Vector| x.components().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let mut a = state.v.clone();
+        body.system.acceleration(self.t, &state.q, &state.v, &mut a);
+        let late = f64::EPSILON * self.t;
+        let of =
+            |size: &B::Vector, rate: &B::Vector| ROUNDING * largest(size) + late * largest(rate);
+        Some([of(&state.q, &state.v), of(&state.v, &a)])
+    }
+
+    fn heap_bytes(&self) -> usize {
+        Propagator::<B>::heap_bytes(&self.reference)
+    }
+}

@@ -1,0 +1,381 @@
+//! Equations of motion as text: `z = "-k*z/m"`, compiled to a flat tape.
+//!
+//! The parser and the evaluator are our own. The crates that read expressions evaluate them with std's
+//! mathematics, which differs from platform to platform; here every function is `libm`'s. The order of
+//! the operations is that of the text: `a + b + c` is `(a + b) + c`. A whole exponent up to 16 is
+//! written out, so that `x^2` has the bits of `x*x` and `x^3` those of `x*x*x`, and `x^-2` those of
+//! `1/(x*x)`; any other exponent is `libm::pow`'s. The parser calls itself for brackets, signs and
+//! functions, at most [`MOST_DEPTH`] within each other.
+
+use crate::sim::piece::Distances;
+
+use compile::{Compiler, check_names};
+use form::{is_angle, is_linear};
+use jet::Jet;
+use tape::Tape;
+
+mod compile;
+mod diagnosis;
+mod expression;
+mod form;
+mod jet;
+mod op;
+mod refusal;
+mod switch;
+mod table;
+mod tape;
+mod token;
+
+pub use expression::{MOST_BYTES, MOST_DEPTH};
+pub use refusal::{Part, Refusal, Remedy};
+pub use tape::MOST_OPERATIONS;
+
+/// The most coordinates of a law: as many as can be told apart on a stage.
+pub const MOST_COORDINATES: usize = 16;
+
+/// The most constants of a law.
+pub const MOST_CONSTANTS: usize = 64;
+
+/// The units that a coordinate can have.
+pub const UNITS: [&str; 14] =
+    ["m", "rad", "km", "cm", "mm", "deg", "kg", "N", "J", "V", "A", "C", "K", "1"];
+
+/// The text of a law: its structure, names and expressions, but no values.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct LawText {
+    /// The names of the constants.
+    pub constants: Vec<String>,
+    /// The coordinates, one or more.
+    pub coordinates: Vec<CoordinateText>,
+    /// The conserved energy in joules, of coordinates, velocities and constants.
+    pub energy: Option<String>,
+    /// The places of the coordinates that are drawn as x and y of one point.
+    pub plane: Option<[usize; 2]>,
+}
+
+/// The text of one coordinate.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CoordinateText {
+    /// Its name; its velocity is called `v` and this.
+    pub name: String,
+    /// One of [`UNITS`].
+    pub unit: &'static str,
+    /// Its acceleration.
+    pub acceleration: String,
+    /// Where it is at time `t`, of `t`, constants and starts, as long as nobody intervenes.
+    pub exact: Option<String>,
+}
+
+/// A compiled law.
+///
+/// Its inputs, in the order of their slots: the time, throttle and rudder, coordinates, velocities,
+/// constants, and the coordinates and velocities at the start.
+#[derive(Debug)]
+pub struct Equations {
+    text: LawText,
+    motion: Tape,
+    energy: Option<Tape>,
+    exact: Option<Tape>,
+    is_linear: bool,
+    angles: Vec<bool>,
+    is_steered: [bool; 2],
+}
+
+/// The slots of the inputs.
+const T: usize = 0;
+const THROTTLE: usize = 1;
+const RUDDER: usize = 2;
+const FIRST_COORDINATE: usize = 3;
+
+impl Equations {
+    /// Compiles a law.
+    ///
+    /// # Errors
+    /// All faults of the text, each with its place.
+    pub fn new(text: LawText) -> Result<Self, Vec<Refusal>> {
+        let mut refusals = check_names(&text);
+        let compiler = Compiler { text: &text };
+        let motion = compiler.motion();
+        let energy = text.energy.as_ref().map(|_| compiler.energy()).transpose();
+        let is_given = text.coordinates.iter().any(|coordinate| coordinate.exact.is_some());
+        let exact = is_given.then(|| compiler.exact()).transpose();
+        match (motion, energy, exact) {
+            (Ok(motion), Ok(energy), Ok(exact)) if refusals.is_empty() => {
+                let n = text.coordinates.len();
+                let inputs = inputs(&text);
+                let moves = FIRST_COORDINATE..FIRST_COORDINATE + 2 * n;
+                let uses = |input: usize| motion.reads(input);
+                Ok(Self {
+                    is_linear: is_linear(&motion, inputs, T, |input| moves.contains(&input)),
+                    angles: (0..n)
+                        .map(|i| {
+                            let in_energy = energy.as_ref().is_none_or(|tape| {
+                                !tape.reads(FIRST_COORDINATE + i)
+                                    || is_angle(tape, FIRST_COORDINATE + i)
+                            });
+                            is_angle(&motion, FIRST_COORDINATE + i) && in_energy
+                        })
+                        .collect(),
+                    is_steered: [uses(THROTTLE), uses(RUDDER)],
+                    text,
+                    motion,
+                    energy,
+                    exact,
+                })
+            }
+            (motion, energy, exact) => {
+                refusals.extend(motion.err().into_iter().flatten());
+                refusals.extend(energy.err().into_iter().flatten());
+                refusals.extend(exact.err().into_iter().flatten());
+                Err(refusals)
+            }
+        }
+    }
+
+    /// The text.
+    pub fn text(&self) -> &LawText {
+        &self.text
+    }
+
+    /// Whether the motion depends on the throttle and on the rudder.
+    pub fn is_steered(&self) -> [bool; 2] {
+        self.is_steered
+    }
+
+    /// Whether the accelerations are linear in coordinates and velocities, apart from a constant.
+    pub fn is_linear(&self) -> bool {
+        self.is_linear
+    }
+
+    /// Whether a full turn of this coordinate changes nothing: it is used as the argument of a sine, cosine
+    /// or tangent alone.
+    pub fn is_angle(&self, coordinate: usize) -> bool {
+        self.angles[coordinate]
+    }
+
+    /// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate.
+    pub fn drawn_unit(&self) -> &'static str {
+        let drawn = self.text.plane.map_or(0, |[x, _]| x);
+        match self.text.coordinates[drawn].unit {
+            "1" => "",
+            unit => unit,
+        }
+    }
+
+    /// The text of a part.
+    pub fn part(&self, part: Part) -> &str {
+        let text = &self.text;
+        match part {
+            Part::Constant(i) => &text.constants[i],
+            Part::Coordinate(i) => &text.coordinates[i].name,
+            Part::Acceleration(i) => &text.coordinates[i].acceleration,
+            Part::Exact(i) => text.coordinates[i].exact.as_deref().unwrap_or_default(),
+            Part::Energy => text.energy.as_deref().unwrap_or_default(),
+        }
+    }
+
+    /// Whether the law gives an energy.
+    pub fn has_energy(&self) -> bool {
+        self.energy.is_some()
+    }
+
+    /// Whether the law gives an exact solution.
+    pub fn has_exact(&self) -> bool {
+        self.exact.is_some()
+    }
+
+    /// How many operations are evaluated for an acceleration.
+    pub fn operations(&self) -> usize {
+        self.motion.operations().count()
+    }
+
+    /// How many parts of the accelerations have a corner or a jump.
+    pub fn switches(&self) -> usize {
+        self.motion.switches()
+    }
+
+    /// The mode of a switch beyond the lower (`side` 0) or the upper (1) boundary of a mode.
+    pub(super) fn neighbour(&self, switch: usize, mode: i64, side: usize) -> i64 {
+        self.motion.neighbour(switch, mode, side)
+    }
+
+    fn coordinates(&self) -> usize {
+        self.text.coordinates.len()
+    }
+
+    fn first_constant(&self) -> usize {
+        FIRST_COORDINATE + 2 * self.coordinates()
+    }
+}
+
+/// How many inputs the tapes of a law have.
+fn inputs(text: &LawText) -> usize {
+    FIRST_COORDINATE + 4 * text.coordinates.len() + text.constants.len()
+}
+
+/// The registers of one copy of a law, and its values: constants, then the coordinates at the start, then
+/// the velocities at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Registers {
+    motion: Vec<f64>,
+    energy: Vec<f64>,
+    exact: Vec<Jet>,
+}
+
+impl Registers {
+    /// The registers for these values.
+    pub fn new(equations: &Equations, values: &[f64]) -> Self {
+        let slots = |tape: Option<&Tape>| tape.map_or(0, |tape| tape.slots);
+        let mut registers = Self {
+            motion: vec![0.0; slots(Some(&equations.motion))],
+            energy: vec![0.0; slots(equations.energy.as_ref())],
+            exact: vec![[0.0; 3]; slots(equations.exact.as_ref())],
+        };
+        registers.set(equations, values);
+        registers
+    }
+
+    /// Sets the values. Never allocates.
+    pub fn set(&mut self, equations: &Equations, values: &[f64]) {
+        let from = equations.first_constant();
+        self.motion[from..from + values.len()].copy_from_slice(values);
+        equations.motion.prepare(&mut self.motion);
+        if let Some(tape) = &equations.energy {
+            self.energy[from..from + values.len()].copy_from_slice(values);
+            tape.prepare(&mut self.energy);
+        }
+        if equations.exact.is_some() {
+            for (slot, &value) in self.exact[from..].iter_mut().zip(values) {
+                *slot = [value, 0.0, 0.0];
+            }
+        }
+    }
+
+    /// Memory on the heap, in bytes.
+    pub fn heap_bytes(&self) -> usize {
+        let numbers = size_of_val(&self.motion[..]) + size_of_val(&self.energy[..]);
+        numbers + size_of_val(&self.exact[..])
+    }
+}
+
+/// A moment of a motion.
+#[derive(Clone, Copy, Debug)]
+pub struct At<'a> {
+    /// The time in seconds.
+    pub t: f64,
+    /// Throttle and rudder.
+    pub steering: [f64; 2],
+    /// The coordinates.
+    pub q: &'a [f64],
+    /// The velocities.
+    pub v: &'a [f64],
+}
+
+impl Equations {
+    #[inline]
+    fn write_inputs(&self, registers: &mut Registers, at: At<'_>) {
+        let slots = &mut registers.motion;
+        slots[T] = at.t;
+        [slots[THROTTLE], slots[RUDDER]] = at.steering;
+        let (q, v) = slots[FIRST_COORDINATE..].split_at_mut(at.q.len());
+        q.copy_from_slice(at.q);
+        v[..at.v.len()].copy_from_slice(at.v);
+    }
+
+    #[inline]
+    fn read(&self, registers: &Registers, a: &mut [f64]) {
+        for (a, &slot) in a.iter_mut().zip(&self.motion.outputs) {
+            *a = registers.motion[slot as usize];
+        }
+    }
+
+    /// Overwrites `a` with the accelerations. Never allocates.
+    #[inline]
+    pub fn accelerate(&self, registers: &mut Registers, at: At<'_>, a: &mut [f64]) {
+        self.write_inputs(registers, at);
+        self.motion.evaluate(&mut registers.motion);
+        self.read(registers, a);
+    }
+
+    /// Overwrites `a` with the accelerations by the piece of these modes, continued beyond its boundaries.
+    pub(super) fn accelerate_on(
+        &self,
+        modes: &[i64],
+        registers: &mut Registers,
+        at: At<'_>,
+        a: &mut [f64],
+    ) {
+        self.write_inputs(registers, at);
+        self.motion.evaluate_on(modes, &mut registers.motion);
+        self.read(registers, a);
+    }
+
+    /// Overwrites the modes of the switches with those at this moment.
+    pub(super) fn write_modes(&self, registers: &mut Registers, at: At<'_>, modes: &mut [i64]) {
+        self.write_inputs(registers, at);
+        self.motion.evaluate(&mut registers.motion);
+        self.motion.write_modes(&registers.motion, modes);
+    }
+
+    /// Overwrites the distances of this moment to the boundaries of the piece of these modes.
+    pub(super) fn write_distances(
+        &self,
+        modes: &[i64],
+        registers: &mut Registers,
+        at: At<'_>,
+        distances: &mut Distances,
+    ) {
+        self.write_inputs(registers, at);
+        self.motion.evaluate_on(modes, &mut registers.motion);
+        self.motion.write_distances(&registers.motion, modes, distances);
+    }
+
+    /// The energy in joules, at rest without velocities; `None` if the law gives none. Never allocates.
+    pub fn energy(&self, registers: &mut Registers, q: &[f64], v: Option<&[f64]>) -> Option<f64> {
+        let tape = self.energy.as_ref()?;
+        let slots = &mut registers.energy[FIRST_COORDINATE..];
+        slots[..q.len()].copy_from_slice(q);
+        match v {
+            Some(v) => slots[q.len()..2 * q.len()].copy_from_slice(v),
+            None => slots[q.len()..2 * q.len()].fill(0.0),
+        }
+        tape.evaluate(&mut registers.energy);
+        Some(registers.energy[*tape.outputs.first()? as usize])
+    }
+
+    /// Passes the exact solution at time `t` (s) to `to`: each coordinate's place among the coordinates, and
+    /// its value, velocity and acceleration. Returns whether the law gives one. Never allocates.
+    pub(super) fn solve(
+        &self,
+        registers: &mut Registers,
+        t: f64,
+        mut to: impl FnMut(usize, Jet),
+    ) -> bool {
+        let Some(tape) = &self.exact else { return false };
+        let slots = &mut registers.exact;
+        slots[T] = [t, 1.0, 0.0];
+        jet::evaluate(tape, slots);
+        for (i, &slot) in tape.outputs.iter().enumerate() {
+            to(i, slots[slot as usize]);
+        }
+        true
+    }
+
+    /// The rates at which the energy changes by the velocities and by the accelerations, in watts; together
+    /// they are 0 where the energy is conserved. `None` if the law gives no energy.
+    pub(super) fn power(&self, registers: &Registers, [q, v, a]: [&[f64]; 3]) -> Option<[f64; 2]> {
+        let tape = self.energy.as_ref()?;
+        let n = q.len();
+        let mut slots: Vec<Jet> = registers.energy.iter().map(|&x| [x, 0.0, 0.0]).collect();
+        let mut rate = |by_velocity: bool| {
+            for i in 0..n {
+                let (moves, turns) = if by_velocity { (v[i], 0.0) } else { (0.0, a[i]) };
+                slots[FIRST_COORDINATE + i] = [q[i], moves, 0.0];
+                slots[FIRST_COORDINATE + n + i] = [v[i], turns, 0.0];
+            }
+            jet::evaluate(tape, &mut slots);
+            tape.outputs.first().map(|&slot| slots[slot as usize][1])
+        };
+        Some([rate(true)?, rate(false)?])
+    }
+}

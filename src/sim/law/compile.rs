@@ -1,0 +1,197 @@
+//! From the text of a law to its tapes: which names each part may use.
+
+use std::ops::Range;
+
+use super::expression::{Expression, Scope, parse};
+use super::op::{FUNCTIONS, WORDS};
+use super::refusal::{Fault, Part, Refusal, Remedy};
+use super::tape::{MOST_OPERATIONS, MOST_SWITCHES, Tape};
+use super::token::is_name_start;
+use super::{FIRST_COORDINATE, LawText, RUDDER, T, THROTTLE, inputs};
+
+/// The most characters of a name, which labels a marker.
+const MOST_NAME_CHARS: usize = 24;
+
+/// Compiles the parts of one text.
+pub(super) struct Compiler<'t> {
+    pub(super) text: &'t LawText,
+}
+
+/// The names that one part may use.
+struct PartScope<'t> {
+    text: &'t LawText,
+    part: Part,
+}
+
+impl PartScope<'_> {
+    /// All names with the slots of their inputs.
+    fn all(&self) -> impl Iterator<Item = (String, usize)> {
+        let n = self.text.coordinates.len();
+        let first_constant = FIRST_COORDINATE + 2 * n;
+        let first_start = first_constant + self.text.constants.len();
+        let names = self.text.coordinates.iter().map(|coordinate| &coordinate.name);
+        let plain = [("t".to_owned(), T), ("throttle".into(), THROTTLE), ("rudder".into(), RUDDER)];
+        let coordinates = names.clone().cloned().zip(FIRST_COORDINATE..);
+        let velocities = names.clone().map(|name| format!("v{name}")).zip(FIRST_COORDINATE + n..);
+        let constants = self.text.constants.iter().cloned().zip(first_constant..);
+        let starts = names.clone().map(|name| format!("{name}0")).zip(first_start..);
+        let pushes = names.map(|name| format!("v{name}0")).zip(first_start + n..);
+        // A constant comes before a start of the same name.
+        plain
+            .into_iter()
+            .chain(coordinates)
+            .chain(velocities)
+            .chain(constants)
+            .chain(starts)
+            .chain(pushes)
+    }
+
+    fn may_use(&self, slot: usize) -> bool {
+        let n = self.text.coordinates.len();
+        let moves = FIRST_COORDINATE..FIRST_COORDINATE + 2 * n;
+        let constants = moves.end..moves.end + self.text.constants.len();
+        match self.part {
+            Part::Acceleration(_) => slot < constants.end,
+            Part::Energy => moves.contains(&slot) || constants.contains(&slot),
+            _ => slot == T || slot >= constants.start,
+        }
+    }
+}
+
+impl Scope for PartScope<'_> {
+    fn input(&self, name: &str) -> Option<usize> {
+        let mut rows = self.all().filter(|(known, slot)| known == name && self.may_use(*slot));
+        rows.next().map(|(_, slot)| slot)
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.all().filter(|(_, slot)| self.may_use(*slot)).map(|(name, _)| name).collect()
+    }
+
+    fn why_not(&self, name: &str) -> Option<String> {
+        let (_, slot) = self.all().find(|(known, _)| known == name)?;
+        let moves = FIRST_COORDINATE..FIRST_COORDINATE + 2 * self.text.coordinates.len();
+        Some(match self.part {
+            Part::Acceleration(_) => {
+                format!("`{name}` is the start of a coordinate, which only `exact` knows")
+            }
+            Part::Energy => {
+                format!("an energy that is conserved does not depend on `{name}`")
+            }
+            _ if moves.contains(&slot) => {
+                format!(
+                    "`{name}` is what `exact` finds, of `t`, constants and starts such as `{name}0`"
+                )
+            }
+            _ => format!("an exact solution does not depend on `{name}`"),
+        })
+    }
+}
+
+impl Compiler<'_> {
+    /// The tape of the accelerations.
+    pub(super) fn motion(&self) -> Result<Tape, Vec<Refusal>> {
+        let rows = self.text.coordinates.iter().enumerate();
+        self.tape(rows.map(|(i, row)| (Part::Acceleration(i), &*row.acceleration)).collect())
+    }
+
+    pub(super) fn energy(&self) -> Result<Tape, Vec<Refusal>> {
+        self.tape(self.text.energy.iter().map(|text| (Part::Energy, &**text)).collect())
+    }
+
+    /// The tape of the exact solution, which every coordinate must have.
+    pub(super) fn exact(&self) -> Result<Tape, Vec<Refusal>> {
+        let rows = self.text.coordinates.iter().enumerate();
+        let missing = rows.clone().filter(|(_, row)| row.exact.is_none());
+        let missing: Vec<Refusal> = missing
+            .map(|(i, row)| {
+                let what = format!("`{}` has no `exact`, and another coordinate has", row.name);
+                let remedy = "give it one, or remove the others";
+                Fault::new(0..row.name.len(), what, remedy).of(Part::Coordinate(i))
+            })
+            .collect();
+        let given = rows.filter_map(|(i, row)| Some((Part::Exact(i), row.exact.as_deref()?)));
+        let tape = self.tape(given.collect());
+        if missing.is_empty() {
+            return tape;
+        }
+        Err(missing.into_iter().chain(tape.err().into_iter().flatten()).collect())
+    }
+
+    fn tape(&self, parts: Vec<(Part, &str)>) -> Result<Tape, Vec<Refusal>> {
+        let mut refusals = Vec::new();
+        let mut expressions: Vec<(Part, Expression)> = Vec::new();
+        for (part, text) in &parts {
+            match parse(text, &PartScope { text: self.text, part: *part }) {
+                Ok(expression) => expressions.push((*part, expression)),
+                Err(fault) => refusals.push(fault.of(*part)),
+            }
+        }
+        if !refusals.is_empty() {
+            return Err(refusals);
+        }
+        let n = self.text.coordinates.len();
+        let first_constant = FIRST_COORDINATE + 2 * n;
+        let expressions: Vec<_> = expressions.iter().map(|(part, of)| (*part, of)).collect();
+        let tape = Tape::new(inputs(self.text), |input| input >= first_constant, &expressions);
+        tape.map_err(|long| {
+            let (part, text) = parts[long.expression];
+            let (what, most) = if long.are_switches {
+                ("corners and jumps", MOST_SWITCHES)
+            } else {
+                ("operations", MOST_OPERATIONS)
+            };
+            let what = format!("the law has more than {most} {what}");
+            vec![Fault::new(0..text.len(), what, format!("keep at most {most}")).of(part)]
+        })
+    }
+}
+
+/// The faults of the names of constants and coordinates.
+pub(super) fn check_names(text: &LawText) -> Vec<Refusal> {
+    let constants = text.constants.iter().enumerate().map(|(i, name)| (Part::Constant(i), name));
+    let coordinates = text.coordinates.iter().map(|coordinate| &coordinate.name);
+    let coordinates = coordinates.enumerate().map(|(i, name)| (Part::Coordinate(i), name));
+    let mut taken: Vec<(String, String)> = Vec::new();
+    let mut refusals = Vec::new();
+    for (part, name) in coordinates.chain(constants) {
+        let mut refuse = |what: String, remedy: &str| {
+            let span: Range<usize> = 0..name.len();
+            let remedy = Remedy::Words(remedy.into());
+            refusals.push(Refusal { part, span, what, remedy });
+        };
+        let mut meanings = vec![(name.clone(), format!("`{name}`"))];
+        if let Part::Coordinate(_) = part {
+            meanings.push((format!("v{name}"), format!("the velocity of `{name}`")));
+        }
+        let shown = super::refusal::quoted(name);
+        if !is_name(name) {
+            let remedy = "write letters, digits and `_`, beginning with a letter";
+            refuse(format!("`{}` cannot be a name", shown.escape_debug()), remedy);
+        } else if name.chars().count() > MOST_NAME_CHARS {
+            refuse(format!("the name `{shown}` has {} characters", name.len()), "keep at most 24");
+        } else if is_reserved(name) {
+            refuse(
+                format!("`{name}` has a meaning of its own in expressions"),
+                "give it another name",
+            );
+        } else if let Some((known, owner)) =
+            taken.iter().find(|(known, _)| meanings.iter().any(|(meaning, _)| meaning == known))
+        {
+            refuse(
+                format!("the name `{known}` is that of {owner} already"),
+                "give it another name",
+            );
+        }
+        taken.extend(meanings);
+    }
+    refusals
+}
+
+fn is_name(name: &str) -> bool {
+    name.starts_with(is_name_start) && name.chars().all(|c| is_name_start(c) || c.is_ascii_digit())
+}
+
+fn is_reserved(name: &str) -> bool {
+    WORDS.contains(&name) || FUNCTIONS.iter().any(|function| function.name == name)
+}

@@ -1,0 +1,61 @@
+//! What the form of a tape tells of the motion: whether it is linear, and which coordinates are angles.
+
+use super::op::Op;
+use super::tape::Tape;
+
+/// How a slot depends on the coordinates and velocities.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Dependence {
+    Constant,
+    Linear,
+    Any,
+}
+
+/// Whether every output is a linear function of the inputs that `moves` names, apart from a constant, with
+/// coefficients that do not change in time. `t` is the input that is the time.
+pub(super) fn is_linear(
+    tape: &Tape,
+    inputs: usize,
+    t: usize,
+    moves: impl Fn(usize) -> bool,
+) -> bool {
+    let mut of = vec![Dependence::Constant; tape.slots];
+    for (input, of) in of.iter_mut().enumerate().take(inputs) {
+        *of = match input {
+            _ if input == t => Dependence::Any,
+            _ if moves(input) => Dependence::Linear,
+            _ => Dependence::Constant,
+        };
+    }
+    for (op, operands, to, _) in tape.operations() {
+        let operand = |n: usize| of[operands[n] as usize];
+        of[to as usize] = match op {
+            Op::Negate => operand(0),
+            Op::Add | Op::Subtract => operand(0).max(operand(1)),
+            Op::Multiply => match (operand(0), operand(1)) {
+                (Dependence::Constant, other) | (other, Dependence::Constant) => other,
+                _ => Dependence::Any,
+            },
+            Op::Divide if operand(1) == Dependence::Constant => operand(0),
+            _ => match operands.iter().map(|&slot| of[slot as usize]).max() {
+                None | Some(Dependence::Constant) => Dependence::Constant,
+                _ => Dependence::Any,
+            },
+        };
+    }
+    tape.outputs.iter().all(|&output| of[output as usize] < Dependence::Any)
+}
+
+/// Whether this input is used, and by sines, cosines and tangents alone, so that a full turn of it changes
+/// nothing.
+pub(super) fn is_angle(tape: &Tape, input: usize) -> bool {
+    let is_it = |slot: &u16| usize::from(*slot) == input;
+    let mut uses = tape.operations().filter(|(_, operands, ..)| operands.iter().any(is_it));
+    let is_periodic = |op: Op| matches!(op, Op::Sin | Op::Cos | Op::Tan);
+    let mut is_used = false;
+    let are_periodic = uses.all(|(op, ..)| {
+        is_used = true;
+        is_periodic(op)
+    });
+    is_used && are_periodic && !tape.outputs.iter().any(is_it)
+}

@@ -1,0 +1,81 @@
+//! Why the text of a law is refused.
+
+use std::ops::Range;
+
+/// A part of a law's text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// The name of the constant in this place.
+    Constant(usize),
+    /// The name of the coordinate in this place.
+    Coordinate(usize),
+    /// The acceleration of the coordinate in this place.
+    Acceleration(usize),
+    /// The exact solution of the coordinate in this place.
+    Exact(usize),
+    /// The energy.
+    Energy,
+}
+
+/// A fault of a law's text. Messages are in lower case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refusal {
+    /// The part at fault.
+    pub part: Part,
+    /// The bytes of that part at fault, within its text.
+    pub span: Range<usize>,
+    /// What is wrong.
+    pub what: String,
+    /// How to fix it.
+    pub remedy: Remedy,
+}
+
+/// How to fix a fault.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Remedy {
+    /// In these words.
+    Words(String),
+    /// Write a known name instead of an unknown one.
+    Name {
+        /// The unknown name.
+        written: String,
+        /// The names known in its place.
+        known: Vec<String>,
+    },
+}
+
+/// A fault of one expression.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Fault {
+    pub(super) span: Range<usize>,
+    pub(super) what: String,
+    pub(super) remedy: Remedy,
+}
+
+impl Fault {
+    pub(super) fn new(
+        span: Range<usize>,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self { span, what: what.into(), remedy: Remedy::Words(remedy.into()) }
+    }
+
+    /// The fault of this part of a law.
+    pub(super) fn of(self, part: Part) -> Refusal {
+        let Self { span, what, remedy } = self;
+        Refusal { part, span, what, remedy }
+    }
+}
+
+/// The most characters of an expression in one message.
+const MOST_QUOTED_CHARS: usize = 40;
+
+/// Text of an expression for a message, shortened.
+pub(super) fn quoted(text: &str) -> String {
+    let mut quoted: String = text.chars().take(MOST_QUOTED_CHARS).collect();
+    if text.chars().nth(MOST_QUOTED_CHARS).is_some() {
+        quoted.push('…');
+    }
+    quoted
+}

@@ -1,0 +1,296 @@
+//! A flat tape of operations, evaluated from the first to the last.
+//!
+//! What depends on constants alone is a prelude, which is evaluated only when a constant changes. Equal
+//! operations on equal operands are done once. Neither changes a bit of the result.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::expression::{Expression, Node};
+use super::op::Op;
+use super::refusal::Part;
+use super::switch;
+use super::table::Table;
+
+/// The most operations of a tape: a step of ten microseconds.
+pub const MOST_OPERATIONS: usize = 4096;
+
+/// The most switches of a tape, so that a [`Piece`](crate::sim::bodies::Piece) is small.
+pub(super) use crate::sim::piece::MOST_SWITCHES;
+
+/// One operation: reads up to three slots and writes one.
+#[derive(Clone, Copy, Debug)]
+struct Instruction {
+    op: Op,
+    to: u16,
+    operands: [u16; 3],
+    /// The place of its table.
+    table: u16,
+}
+
+/// Where an operation stands in the text.
+#[derive(Clone, Debug)]
+pub(super) struct Origin {
+    pub(super) part: Part,
+    pub(super) span: Range<usize>,
+}
+
+/// The operations of one or more expressions over the same inputs. The first slots hold the inputs.
+#[derive(Clone, Debug)]
+pub(super) struct Tape {
+    numbers: Vec<(u16, f64)>,
+    prelude: Vec<Instruction>,
+    main: Vec<Instruction>,
+    /// The slots of the expressions' values, in their order.
+    pub(super) outputs: Vec<u16>,
+    pub(super) slots: usize,
+    /// The switches of the main part.
+    switches: Vec<Instruction>,
+    tables: Vec<Table>,
+    /// Where each operation comes from, by its slot.
+    origins: HashMap<u16, Origin>,
+}
+
+/// A tape is too long, or has too many switches, from the expression in this place on.
+pub(super) struct TooLong {
+    pub(super) expression: usize,
+    pub(super) are_switches: bool,
+}
+
+/// What an operation does, by which equal ones are found.
+type Key = (Op, [u16; 3], u64, Vec<[u64; 2]>);
+
+impl Tape {
+    /// The tape of these expressions over `inputs` inputs, of which those that are `fixed` change only when
+    /// a parameter does.
+    pub(super) fn new(
+        inputs: usize,
+        fixed: impl Fn(usize) -> bool,
+        expressions: &[(Part, &Expression)],
+    ) -> Result<Self, TooLong> {
+        let mut tape = Self {
+            numbers: Vec::new(),
+            prelude: Vec::new(),
+            main: Vec::new(),
+            outputs: Vec::new(),
+            slots: inputs,
+            switches: Vec::new(),
+            tables: Vec::new(),
+            origins: HashMap::new(),
+        };
+        let mut is_fixed: Vec<bool> = (0..inputs).map(&fixed).collect();
+        let mut known: HashMap<Key, u16> = HashMap::new();
+        for (place, (part, expression)) in expressions.iter().enumerate() {
+            let used = used(expression);
+            let mut slots = vec![0; expression.nodes.len()];
+            let rows = expression.nodes.iter().zip(&expression.spans).zip(used).enumerate();
+            for (n, ((node, span), _)) in rows.filter(|(_, (_, is_used))| *is_used) {
+                let count = arguments(node.op);
+                let operands =
+                    [0, 1, 2].map(|i| if i < count { slots[node.arguments[i]] } else { 0 });
+                let origin = Origin { part: *part, span: span.clone() };
+                slots[n] = match node.op {
+                    Op::Input => node.index as u16,
+                    _ => tape.place(node, operands, expression, &mut is_fixed, &mut known, origin),
+                };
+                let are_switches = tape.switches.len() > MOST_SWITCHES;
+                if are_switches || tape.slots > MOST_OPERATIONS {
+                    return Err(TooLong { expression: place, are_switches });
+                }
+            }
+            tape.outputs.extend(slots.last());
+        }
+        Ok(tape)
+    }
+
+    /// The slot of an operation, which is a new one unless an equal operation has one.
+    fn place(
+        &mut self,
+        node: &Node,
+        operands: [u16; 3],
+        expression: &Expression,
+        is_fixed: &mut Vec<bool>,
+        known: &mut HashMap<Key, u16>,
+        origin: Origin,
+    ) -> u16 {
+        let table = (node.op == Op::Table).then(|| &expression.tables[node.index]);
+        let points = table.map_or(vec![], Table::bits);
+        let key = (node.op, operands, node.number.to_bits(), points);
+        if let Some(&slot) = known.get(&key) {
+            return slot;
+        }
+        let to = self.slots as u16;
+        self.slots += 1;
+        known.insert(key, to);
+        self.origins.insert(to, origin);
+        let is_constant =
+            operands[..arguments(node.op)].iter().all(|&slot| is_fixed[slot as usize]);
+        is_fixed.push(is_constant);
+        let place = self.tables.len() as u16;
+        self.tables.extend(table.cloned());
+        let instruction = Instruction { op: node.op, to, operands, table: place };
+        match node.op {
+            Op::Number => self.numbers.push((to, node.number)),
+            _ if is_constant => self.prelude.push(instruction),
+            _ => {
+                self.main.push(instruction);
+                if node.op.is_switch() {
+                    self.switches.push(instruction);
+                }
+            }
+        }
+        to
+    }
+
+    /// Writes the numbers and all that depends on constants alone, once the constants are in their slots.
+    pub(super) fn prepare(&self, slots: &mut [f64]) {
+        self.numbers.iter().for_each(|&(slot, number)| slots[slot as usize] = number);
+        self.run(&self.prelude, slots, Self::natural_value);
+    }
+
+    /// Evaluates the tape.
+    #[inline]
+    pub(super) fn evaluate(&self, slots: &mut [f64]) {
+        self.run(&self.main, slots, Self::natural_value);
+    }
+
+    /// Evaluates the tape with every switch in its mode of `modes`.
+    pub(super) fn evaluate_on(&self, modes: &[i64], slots: &mut [f64]) {
+        let mut modes = modes.iter();
+        self.run(&self.main, slots, |tape, instruction, a, b| {
+            let mode = modes.next().copied().unwrap_or(0);
+            switch::value(instruction.op, mode, a, b, tape.table(instruction))
+        });
+    }
+
+    /// The modes of the switches at the values of the last evaluation.
+    pub(super) fn write_modes(&self, slots: &[f64], modes: &mut [i64]) {
+        for (instruction, to) in self.switches.iter().zip(modes) {
+            let [a, b, _] = instruction.operands.map(|slot| slots[slot as usize]);
+            *to = switch::mode(instruction.op, a, b, self.table(instruction));
+        }
+    }
+
+    /// The distances of the switches to the boundaries of these modes, at the values of the last evaluation.
+    pub(super) fn write_distances(&self, slots: &[f64], modes: &[i64], to: &mut [[f64; 2]]) {
+        for ((instruction, &mode), to) in self.switches.iter().zip(modes).zip(to) {
+            let [a, b, _] = instruction.operands.map(|slot| slots[slot as usize]);
+            *to = switch::distances(instruction.op, mode, a, b, self.table(instruction));
+        }
+    }
+
+    /// How many switches there are.
+    pub(super) fn switches(&self) -> usize {
+        self.switches.len()
+    }
+
+    /// The mode of the switch in this place beyond a boundary of its mode.
+    pub(super) fn neighbour(&self, place: usize, mode: i64, side: usize) -> i64 {
+        switch::neighbour(self.switches[place].op, mode, side)
+    }
+
+    /// The operations of the prelude and of the main part, with their operands and where they write.
+    pub(super) fn operations(&self) -> impl Iterator<Item = (Op, &[u16], u16, Option<&Table>)> {
+        self.prelude.iter().chain(&self.main).map(|instruction| {
+            let operands = &instruction.operands[..arguments(instruction.op)];
+            (instruction.op, operands, instruction.to, self.table(instruction))
+        })
+    }
+
+    /// Whether an operation reads this slot, or it is a value.
+    pub(super) fn reads(&self, slot: usize) -> bool {
+        let is_it = |read: &u16| usize::from(*read) == slot;
+        self.operations().any(|(_, operands, ..)| operands.iter().any(is_it))
+            || self.outputs.iter().any(is_it)
+    }
+
+    /// The slots that hold numbers of the text.
+    pub(super) fn numbers(&self) -> &[(u16, f64)] {
+        &self.numbers
+    }
+
+    /// Where the operation that writes this slot stands; `None` for an input.
+    pub(super) fn origin(&self, slot: u16) -> Option<&Origin> {
+        self.origins.get(&slot)
+    }
+
+    fn table(&self, instruction: &Instruction) -> Option<&Table> {
+        (instruction.op == Op::Table).then(|| &self.tables[instruction.table as usize])
+    }
+
+    #[inline]
+    fn natural_value(&self, instruction: &Instruction, a: f64, b: f64) -> f64 {
+        let (op, table) = (instruction.op, self.table(instruction));
+        match op {
+            Op::Floor => libm::floor(a),
+            _ => switch::value(op, switch::mode(op, a, b, table), a, b, table),
+        }
+    }
+
+    #[inline]
+    fn run(
+        &self,
+        instructions: &[Instruction],
+        slots: &mut [f64],
+        mut switched: impl FnMut(&Self, &Instruction, f64, f64) -> f64,
+    ) {
+        for instruction in instructions {
+            let [a, b, c] = instruction.operands.map(|slot| slots[slot as usize]);
+            slots[instruction.to as usize] = match instruction.op {
+                Op::Negate => -a,
+                Op::Add => a + b,
+                Op::Subtract => a - b,
+                Op::Multiply => a * b,
+                Op::Divide => a / b,
+                Op::Power => libm::pow(a, b),
+                Op::Sqrt => a.sqrt(),
+                Op::Exp => libm::exp(a),
+                Op::Ln => libm::log(a),
+                Op::Sin => libm::sin(a),
+                Op::Cos => libm::cos(a),
+                Op::Tan => libm::tan(a),
+                Op::Asin => libm::asin(a),
+                Op::Acos => libm::acos(a),
+                Op::Atan => libm::atan(a),
+                Op::Tanh => libm::tanh(a),
+                Op::Atan2 => libm::atan2(a, b),
+                Op::Hypot => libm::hypot(a, b),
+                Op::And => a * b,
+                Op::Or => f64::from(u8::from(a + b > 0.0)),
+                Op::Not => 1.0 - a,
+                Op::If if a == 1.0 => b,
+                Op::If => c,
+                _ => switched(self, instruction, a, b),
+            };
+        }
+    }
+}
+
+/// How many arguments an operation has.
+fn arguments(op: Op) -> usize {
+    use Op::{
+        Add, And, Atan2, Divide, Equal, Hypot, If, Input, Less, LessEqual, Max, Min, Multiply,
+        NotEqual, Number, Or, Power, Subtract,
+    };
+    match op {
+        Number | Input => 0,
+        Add | Subtract | Multiply | Divide | Power | Atan2 | Hypot | Min | Max | Less
+        | LessEqual | Equal | NotEqual | And | Or => 2,
+        If => 3,
+        _ => 1,
+    }
+}
+
+/// Whether the value depends on each node.
+fn used(expression: &Expression) -> Vec<bool> {
+    let mut used = vec![false; expression.nodes.len()];
+    if let Some(last) = used.last_mut() {
+        *last = true;
+    }
+    for (n, node) in expression.nodes.iter().enumerate().rev() {
+        if used[n] {
+            node.arguments[..arguments(node.op)].iter().for_each(|&argument| used[argument] = true);
+        }
+    }
+    used
+}

@@ -1,0 +1,115 @@
+//! The tokens of an expression.
+
+use std::ops::Range;
+
+use super::refusal::Fault;
+
+/// One token.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Token {
+    /// A finite number.
+    Number(f64),
+    /// A name or a word such as `and`; its text is that of the span.
+    Name,
+    /// An operator, a bracket or a comma.
+    Symbol(&'static str),
+    /// The end of the text.
+    End,
+}
+
+/// The operators, brackets and commas; a longer one is before its beginning.
+const SYMBOLS: [&str; 16] =
+    ["<=", ">=", "==", "!=", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", "<", ">"];
+
+/// Signs of other notations, and what to write for them.
+const FOREIGN: [(&str, &str); 11] = [
+    ("**", "^"),
+    ("&&", "and"),
+    ("||", "or"),
+    ("&", "and"),
+    ("|", "or"),
+    ("!", "not"),
+    ("=", "=="),
+    ("−", "-"),
+    ("·", "*"),
+    ("×", "*"),
+    ("÷", "/"),
+];
+
+/// The tokens of `text` with their bytes; the last is [`Token::End`].
+pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Range<usize>)>, Fault> {
+    let mut tokens = Vec::new();
+    let mut at = 0;
+    while let Some(first) = text[at..].chars().next() {
+        let rest = &text[at..];
+        if first.is_ascii_whitespace() {
+            at += 1;
+            continue;
+        }
+        let (token, length) = if first.is_ascii_digit() || first == '.' {
+            number(rest, at)?
+        } else if is_name_start(first) {
+            (Token::Name, span_of(rest, |c| is_name_start(c) || c.is_ascii_digit()))
+        } else if let Some((sign, meant)) = foreign(rest) {
+            let what = format!("`{sign}` has no meaning here");
+            return Err(Fault::new(at..at + sign.len(), what, format!("write `{meant}`")));
+        } else if let Some(symbol) = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol)) {
+            (Token::Symbol(symbol), symbol.len())
+        } else {
+            let what = format!("`{}` cannot be in an expression", first.escape_debug());
+            return Err(Fault::new(at..at + first.len_utf8(), what, "remove it"));
+        };
+        tokens.push((token, at..at + length));
+        at += length;
+    }
+    tokens.push((Token::End, text.len()..text.len()));
+    Ok(tokens)
+}
+
+/// Whether this can be the first character of a name.
+pub(super) fn is_name_start(character: char) -> bool {
+    character.is_ascii_alphabetic() || character == '_'
+}
+
+fn foreign(rest: &str) -> Option<(&'static str, &'static str)> {
+    let is_ours = rest.starts_with("==") || rest.starts_with("!=");
+    FOREIGN.into_iter().find(|(sign, _)| !is_ours && rest.starts_with(sign))
+}
+
+/// The length in bytes of the first characters of `text` that are `wanted`.
+fn span_of(text: &str, wanted: impl Fn(char) -> bool) -> usize {
+    text.find(|c| !wanted(c)).unwrap_or(text.len())
+}
+
+/// A number at the beginning of `rest`, which begins at byte `at`, and its length.
+fn number(rest: &str, at: usize) -> Result<(Token, usize), Fault> {
+    let mut length = span_of(rest, |c| c.is_ascii_digit() || c == '.');
+    if rest[length..].starts_with(['e', 'E']) {
+        let sign = usize::from(rest[length + 1..].starts_with(['+', '-']));
+        let digits = span_of(&rest[length + 1 + sign..], |c| c.is_ascii_digit());
+        length += if digits > 0 { 1 + sign + digits } else { 0 };
+    }
+    let (span, text) = (at..at + length, &rest[..length]);
+    let number = match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => number,
+        Ok(_) => {
+            return Err(Fault::new(
+                span,
+                format!("`{text}` is too large"),
+                "write a smaller number",
+            ));
+        }
+        Err(_) => {
+            let remedy = "write it with one point, such as `0.5`";
+            return Err(Fault::new(span, format!("`{text}` is no number"), remedy));
+        }
+    };
+    let after = span_of(&rest[length..], |c| is_name_start(c) || c.is_ascii_digit());
+    if after > 0 {
+        let unit = &rest[length..length + after];
+        let remedy = format!("write `{text}*{unit}`, or a `{text}` alone");
+        let what = format!("`{text}{unit}` is neither a number nor a name");
+        return Err(Fault::new(at..at + length + after, what, remedy));
+    }
+    Ok((Token::Number(number), length))
+}

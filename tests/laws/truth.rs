@@ -1,0 +1,170 @@
+//! What a law claims of its motion, and the truth that methods are compared with.
+
+use regatta::lab::{Judge, LaneSpec};
+use regatta::sim::Solver;
+use regatta::sim::bodies::Input;
+use regatta::sim::integrators::METHODS;
+
+use super::{body, parse, stepper};
+
+#[test]
+fn a_claim_that_is_false_is_refused_and_a_true_one_is_not() {
+    let with = |c: &str, energy: &str, more: &str| {
+        let text = format!(
+            "[[law]]\nconstants = {{ m = 2, k = 8, c = {c} }}\n{energy}\n[law.coordinates.x]\nstart = 0.5\n\
+             acceleration = '-(k*x + c*vx)/m'\n{more}"
+        );
+        parse(&text).map(|_| ()).unwrap_or_else(|errors| panic!("{errors}"))
+    };
+    let refused = |c: &str, energy: &str, more: &str| {
+        let text = format!(
+            "[[law]]\nconstants = {{ m = 2, k = 8, c = {c} }}\n{energy}\n[law.coordinates.x]\nstart = 0.5\n\
+             acceleration = '-(k*x + c*vx)/m'\n{more}"
+        );
+        parse(&text).expect_err(&text)
+    };
+    let energy = "energy = 'm*vx^2/2 + k*x^2/2'";
+    with("0", energy, "exact = 'x0*cos(sqrt(k/m)*t) + vx0*sin(sqrt(k/m)*t)/sqrt(k/m)'");
+    with("0.0", energy, "");
+    let lossy = refused("0.01", energy, "");
+    assert!(lossy.starts_with("mine.toml:6:11: the energy is not conserved"), "{lossy}");
+    let half = refused("0", "energy = 'm*vx^2/2 + k*x^2'", "");
+    assert!(half.contains("not conserved"), "{half}");
+    let slow = refused("0", "", "exact = 'x0*cos(sqrt(k/m)*1.0000001*t)'");
+    assert!(slow.contains("its second derivative is"), "{slow}");
+    let elsewhere = refused("0", "", "exact = '0.4*cos(sqrt(k/m)*t)'");
+    assert!(elsewhere.contains("`x` begins at 0.4, and `start` is 0.5"), "{elsewhere}");
+    let moving = refused("0", "", "exact = 'x0*cos(sqrt(k/m)*t) + sin(sqrt(k/m)*t)'");
+    assert!(moving.contains("`vx` begins at 2, and `start_velocity` is 0"), "{moving}");
+}
+
+#[test]
+fn an_exact_solution_is_the_truth_until_somebody_intervenes() {
+    let law = body(
+        "[[law]]\nconstants = { w = 3 }\n[law.coordinates.x]\nstart = 0.5\nacceleration = '-w*w*x'\n\
+         exact = 'x0*cos(w*t) + vx0*sin(w*t)/w'",
+    );
+    let mut truth = stepper(&law, Solver::Truth);
+    for tick in 0..600 {
+        truth.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+    }
+    let exact = 0.5 * libm::cos(3.0 * (599.0 / 60.0 + 1.0 / 60.0));
+    assert_eq!(truth.q()[0], exact);
+    let before = truth.truth_error().unwrap();
+    assert!(before[0] > 0.0 && before[0] < 1e-13);
+    // After a kick the reference goes on from the same state.
+    truth.input(10.0, Input::Kick(1.0));
+    let (q, v) = (truth.q()[0], truth.v()[0]);
+    truth.advance(10.0, 1.0, 1).unwrap();
+    let after = q * libm::cos(3.0) + v * libm::sin(3.0) / 3.0;
+    assert!((truth.q()[0] - after).abs() < 1e-12, "{} and {after}", truth.q()[0]);
+    assert!(truth.truth_error().unwrap()[0] < 1e-10);
+}
+
+#[test]
+fn the_reference_meets_corners_and_jumps() {
+    // A ball on a floor of stiff springs, against the closed form: parabolas and halves of sines.
+    let law = body(
+        "[[law]]\nconstants = { g = 9.81, w2 = 400 }\n[law.coordinates.y]\nstart = 1\n\
+         acceleration = 'if(y < 0, -w2*y, 0) - g'",
+    );
+    let mut truth = stepper(&law, Solver::Truth);
+    let (g, w2) = (9.81_f64, 400.0_f64);
+    let fall = (2.0 / g).sqrt();
+    let speed = (2.0 * g).sqrt();
+    // About its rest -g/w2 it swings from 0 downwards and back to 0.
+    let rest = g / w2;
+    let w = w2.sqrt();
+    let contact = 2.0 * (std::f64::consts::PI - libm::atan2(speed / w, rest)) / w;
+    let contact = if contact > 0.0 { contact } else { f64::NAN };
+    let period = 2.0 * fall + contact;
+    let mut t = 0.0;
+    let mut worst = 0.0_f64;
+    for tick in 0..1200 {
+        truth.advance(t, 1.0 / 60.0, 1).unwrap();
+        t = f64::from(tick + 1) / 60.0;
+        let phase = t % period;
+        let expected = if phase <= fall {
+            1.0 - g * phase * phase / 2.0
+        } else if phase >= fall + contact {
+            let back = period - phase;
+            1.0 - g * back * back / 2.0
+        } else {
+            let s = phase - fall;
+            -rest + rest * libm::cos(w * s) - speed / w * libm::sin(w * s)
+        };
+        worst = worst.max((truth.q()[0] - expected).abs());
+    }
+    let said = truth.truth_error().unwrap()[0];
+    assert!(worst < 1e-9, "{worst:e} m, {said:e} m said");
+    assert!(said < 1e-8, "{said:e} m said");
+    // A force that jumps: y″ = -sign(y), whose period from y = 1/2 is 4.
+    let law = body("[[law]]\n[law.coordinates.y]\nstart = 0.5\nacceleration = '-sign(y)'");
+    let mut truth = stepper(&law, Solver::Truth);
+    for tick in 0..480 {
+        truth.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+    }
+    assert!((truth.q()[0] - 0.5).abs() < 1e-11, "{}", truth.q()[0]);
+    // A pulse that begins and ends between two ticks.
+    let law =
+        body("[[law]]\n[law.coordinates.y]\nacceleration = 'if(t > 0.105 and t < 0.112, 1000, 0)'");
+    let mut truth = stepper(&law, Solver::Truth);
+    for tick in 0..60 {
+        truth.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+    }
+    assert!((truth.v()[0] - 7.0).abs() < 1e-10, "{}", truth.v()[0]);
+}
+
+#[test]
+fn a_jump_lowers_the_measured_order_and_the_verdict_claims_no_more() {
+    // RK4 has order 4 on the smooth law, and about 1 with a jump that it meets at any part of a step.
+    let error = |acceleration: &str, hz: u32| {
+        let law = body(&format!(
+            "[[law]]\n[law.coordinates.x]\nstart = 0.7\nacceleration = '{acceleration}'"
+        ));
+        let method = METHODS.iter().find(|method| method.id == "rk4").unwrap();
+        let [mut lane, mut truth] =
+            [Solver::Method(method), Solver::Truth].map(|solver| stepper(&law, solver));
+        let mut worst = 0.0_f64;
+        for tick in 0..10 * hz {
+            let (t, h) = (f64::from(tick) / f64::from(hz), 1.0 / f64::from(hz));
+            [&mut lane, &mut truth].into_iter().for_each(|it| it.advance(t, h, 1).unwrap());
+            worst = worst.max((lane.q()[0] - truth.q()[0]).abs());
+        }
+        assert!(truth.truth_error().unwrap()[0] < 1e-9);
+        worst
+    };
+    let order =
+        |acceleration: &str| (error(acceleration, 25) / error(acceleration, 400)).log2() / 4.0;
+    let (smooth, jumping) = (order("-x - 2*tanh(x)"), order("-x - 2*sign(x)"));
+    assert!((3.7..4.5).contains(&smooth), "{smooth}");
+    assert!((0.5..2.2).contains(&jumping), "{jumping}");
+    let scene = parse("[[law]]\n[law.coordinates.x]\nstart = 0.7\nacceleration = '-x - 2*sign(x)'")
+        .unwrap();
+    let rk4 = METHODS.iter().find(|method| method.id == "rk4").unwrap();
+    let verdict = Judge::new(&scene, 1.0).verdict(LaneSpec::plain(rk4), 25);
+    assert!(verdict.error > 1e-4, "{verdict}");
+}
+
+#[test]
+fn under_dry_friction_at_rest_there_is_no_truth_and_the_verdict_says_so() {
+    let scene =
+        parse("[[law]]\n[law.coordinates.x]\nstart = 1\nacceleration = '-x - 0.3*sign(vx)'")
+            .unwrap();
+    let rk4 = METHODS.iter().find(|method| method.id == "rk4").unwrap();
+    let verdict = Judge::new(&scene, 1.0).verdict(LaneSpec::plain(rk4), 60);
+    assert!(verdict.to_string().starts_with("no truth"), "{verdict}");
+}
+
+#[test]
+fn a_motion_that_settles_at_a_difference_of_large_terms_keeps_its_truth() {
+    let law = body(
+        "[[law]]\n[law.coordinates.x]\nacceleration = '625*(2*9.81*1.2 - 1.2*9.81 - x) - 35*vx - 0.1*vx*abs(vx)'",
+    );
+    let mut truth = stepper(&law, Solver::Truth);
+    for tick in 0..3600 {
+        truth.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+    }
+    assert!((truth.q()[0] - 11.772).abs() < 1e-12, "{}", truth.q()[0]);
+    assert!(truth.truth_error().unwrap()[0] < 1e-10);
+}
