@@ -28,9 +28,12 @@ const KICK: Field = optional("kick");
 /// The most characters of the name of a unit.
 const MOST_UNIT_CHARS: usize = 16;
 
+/// A name and its bytes in the file.
+type WrittenName = (String, Span<usize>);
+
 /// A law as the file writes it.
 struct WrittenLaw {
-    constants: Vec<(String, Span<usize>)>,
+    constants: Vec<WrittenName>,
     coordinates: Vec<WrittenCoordinate>,
     energy: Option<Written>,
     plane: Option<[usize; 2]>,
@@ -74,7 +77,7 @@ pub(super) fn read_law(row: &mut Table<'_>) -> (Option<&'static Kind>, Option<Ve
 }
 
 /// The names of the constants, and their values unless one has a fault.
-fn read_constants(row: &mut Table<'_>) -> (Vec<(String, Span<usize>)>, Option<Vec<f64>>) {
+fn read_constants(row: &mut Table<'_>) -> (Vec<WrittenName>, Option<Vec<f64>>) {
     let entries = row.entries(CONSTANTS, &Wanted::Constants).unwrap_or_default();
     check_count(row, "constants", &entries, MOST_CONSTANTS);
     let entries = &entries[..entries.len().min(MOST_CONSTANTS)];

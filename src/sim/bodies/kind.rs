@@ -39,6 +39,9 @@ impl Truth {
     }
 }
 
+/// Builds a body from the values of its parameters, under a solver.
+pub type Build = dyn Fn(&[f64], Solver) -> Box<dyn Stepper> + Send + Sync;
+
 /// A body kind's card: its name, its coordinates, and the keys by which a scene describes it.
 pub struct Kind {
     /// The name of its table array in a scene.
@@ -60,7 +63,7 @@ pub struct Kind {
     pub check: &'static (dyn Fn(&[f64]) -> Result<(), Fault> + Send + Sync),
     /// Builds a body from these parameter values (see
     /// [`Body::with_parameters`](super::Body::with_parameters)), at its start under a solver.
-    pub build: &'static (dyn Fn(&[f64], Solver) -> Box<dyn Stepper> + Send + Sync),
+    pub build: &'static Build,
     /// The equations of a [law](super::law_kind), which a scene writes itself; `None` for a kind of the
     /// table.
     pub law: Option<&'static Equations>,

@@ -20,7 +20,7 @@ mod spring;
 pub use chain::Chain;
 pub use follow::Follow;
 pub use helm::{Helm, ThrustCurve};
-pub use kind::{Coordinate, Kind, Truth};
+pub use kind::{Build, Coordinate, Kind, Truth};
 pub use law::{Law, check_law, law_kind};
 pub use orbit::{Ellipse, Orbit};
 pub use pendulum::Pendulum;
