@@ -19,7 +19,7 @@ use super::plot::Plot;
 use super::scene_file;
 use super::terminal::tell;
 use super::trace_source::traces;
-use crate::lab::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate};
+use crate::lab::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate, trace_card};
 use crate::lab::{Clock, LaneSpec, Scene};
 use crate::sim::integrators::Method;
 
@@ -92,7 +92,7 @@ pub(super) struct LoopArgs {
     method: &'static Method,
 
     /// Length of each run in seconds of real time; a trace from a file may end before [default: the
-    /// scene's, and the whole of a file]
+    /// scene's, but at least 10, and the whole of a file]
     #[arg(long, value_name = "S", value_parser = some_seconds, allow_negative_numbers = true)]
     seconds: Option<f64>,
 
@@ -143,6 +143,8 @@ enum LoopError {
         "two outputs would go to the same place; give each of --out, --frames and --plot its own"
     )]
     SamePlace,
+    #[error("{} is read as a trace; give the output another name", .path.display())]
+    OwnInput { path: PathBuf },
 }
 
 impl Cause for LoopError {
@@ -150,6 +152,9 @@ impl Cause for LoopError {
         2
     }
 }
+
+/// The least length that is taken for a run by default, in seconds: what happens once in a trace is over by then.
+const LEAST_S: f64 = 10.0;
 
 pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     if let Some(card) = args.show {
@@ -168,6 +173,11 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
         places.into_iter().flatten().map(|path| same_file_path(path)).collect();
     if (1..places.len()).any(|n| places[..n].contains(&places[n])) {
         return Err(LoopError::SamePlace.into());
+    }
+    let files = args.traces.iter().filter(|path| path.to_str().and_then(trace_card).is_none());
+    let read: Vec<PathBuf> = files.map(|path| same_file_path(path)).collect();
+    if let Some(path) = places.iter().find(|place| read.contains(place)) {
+        return Err(LoopError::OwnInput { path: path.clone() }.into());
     }
     let interrupted = watch_for_interrupt();
     let stop = || interrupted.load(Ordering::Relaxed);
@@ -237,7 +247,7 @@ impl LoopArgs {
     fn until_ns(&self, scene: &Scene, trace: &FrameTrace) -> i64 {
         match self.seconds {
             None if trace.ends() => i64::MAX,
-            seconds => (seconds.unwrap_or(scene.seconds) * 1e9).round() as i64,
+            seconds => (seconds.unwrap_or(scene.seconds.max(LEAST_S)) * 1e9).round() as i64,
         }
     }
 }

@@ -197,6 +197,13 @@ impl LoopLab {
     pub fn now_ns(&self) -> i64 {
         self.now_ns
     }
+    /// How far a frame that the display holds now is behind, in milliseconds: at the moment of its display, or now if it
+    /// has been held for more than two refreshes.
+    pub fn late_ms(&self, frame: &LoopFrame) -> f64 {
+        let held_ms = (self.now_ns - frame.displayed_ns) as f64 / 1e6;
+        let refresh_ms = 1000.0 / self.traces[self.trace].refresh().hz();
+        frame.latency_ms() + if held_ms > 2.0 * refresh_ms { held_ms } else { 0.0 }
+    }
     /// The last moment, in nanoseconds.
     pub fn end_ns(&self) -> i64 {
         self.end_ns

@@ -100,6 +100,12 @@ pub struct Palette {
     methods: [Rgba; 7],
 }
 
+/// Whether black is read better on it than white.
+pub(super) fn is_bright([r, g, b, _]: Rgba) -> bool {
+    let [r, g, b] = [r, g, b].map(u32::from);
+    2 * r + 5 * g + b > 8 * 112
+}
+
 const fn rgb(hex: u32) -> Rgba {
     [(hex >> 16) as u8, (hex >> 8) as u8, hex as u8, 255]
 }

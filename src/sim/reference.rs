@@ -76,7 +76,6 @@ impl<V: Vector> Reference<V> {
     fn place(&mut self) {
         self.has_begun = false;
         self.saved = MOST_SAVED_EVALUATIONS;
-        self.work.largest = [[0.0; 2]; 2];
         self.failed = None;
         self.elapsed = 0.0;
         (self.largest_difference, self.fastest) = ([0.0; 2], [0.0; 2]);

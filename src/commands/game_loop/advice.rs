@@ -23,8 +23,8 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
             ));
         }
         None => tell(&format!(
-            "{trace}: none of these policies is as fast at any frame rate with a mean latency of {latency_ms} ms or \
-             less; try more policies, or a larger --latency-ms"
+            "{trace}: no policy here keeps the game's speed at half the frame rate, stays stable, and has a mean latency \
+             of {latency_ms} ms or less; try more policies, or a larger --latency-ms"
         )),
     }
     let depends = rows.iter().filter_map(|row| {
@@ -35,7 +35,7 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     if !depends.is_empty() {
         let listed = depends.join(", ");
         tell(&format!(
-            "  at half the frame rate the motion ends elsewhere, in amplitudes: {listed}"
+            "  at half the frame rate the motion is another, by up to so many amplitudes: {listed}"
         ));
     }
 }

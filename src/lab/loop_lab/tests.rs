@@ -71,6 +71,20 @@ fn a_display_holds_a_frame_until_the_next() {
 }
 
 #[test]
+fn a_frame_that_stands_still_is_further_and_further_behind() {
+    let mut lab = lab();
+    let place = lab.traces().iter().position(|trace| trace.name() == "alt-tab-5s").unwrap();
+    lab.choose_trace(place);
+    let frames = lab.lanes()[lab.selected()].frames();
+    let longest = frames.windows(2).max_by_key(|pair| pair[1].displayed_ns - pair[0].displayed_ns);
+    let held = longest.unwrap()[0].clone();
+    lab.seek(held.displayed_ns + 5_000_000);
+    assert_eq!(lab.late_ms(&held), held.latency_ms());
+    lab.seek(held.displayed_ns + 1_500_000_000);
+    assert!((lab.late_ms(&held) - held.latency_ms() - 1500.0).abs() < 1e-9);
+}
+
+#[test]
 fn it_plays_slowly_and_begins_again_at_its_end() {
     let mut lab = lab();
     lab.advance(80_000_000);

@@ -8,8 +8,11 @@ const ALIKE_MS: f64 = 1e-3;
 /// The largest [difference](PacingReport::time_difference_ms) of a game that is as fast at any frame rate: a few ticks.
 const AS_FAST_MS: f64 = 100.0;
 
-/// The loop with the least animation error among those that are as fast at any frame rate and whose mean latency is at most
-/// `latency_ms`. Between loops alike in that, one whose physics is the same to the bit is better, and then the one whose
+/// A motion that is further off than this, in amplitudes, has blown up: what is shown late is off by two at most.
+const BLOWN_UP: f64 = 4.0;
+
+/// The loop with the least animation error among those that are as fast at any frame rate, whose motion stays bounded, and
+/// whose mean latency is at most `latency_ms`. Between loops alike in that, one whose physics is the same to the bit is better, and then the one whose
 /// pictures are nearer to the exact solution. Returns its place in `measured`.
 pub fn advised_loop(
     measured: &[(&'static PolicyCard, PacingReport)],
@@ -18,6 +21,7 @@ pub fn advised_loop(
     let fits = |report: &PacingReport| {
         report.latency_mean_ms.is_some_and(|latency| latency <= latency_ms + ALIKE_MS)
             && report.time_difference_ms.is_some_and(|difference| difference.abs() <= AS_FAST_MS)
+            && report.position_error_rms.is_none_or(|distance| distance <= BLOWN_UP)
     };
     let rank = |card: &PolicyCard, report: &PacingReport| {
         let error = (report.animation_error_rms_ms? / ALIKE_MS).round();

@@ -5,7 +5,7 @@ use super::metrics::{FrameRecord, PacingMeter, PacingReport};
 use super::paced_lane::PacedLane;
 use super::pacer::Pacer;
 use super::policy::{PolicyCard, Steps};
-use super::scripted_truth::ScriptedTruth;
+use super::scripted_truth::{Furthest, ScriptedTruth};
 use super::time_base::TimeBase;
 use super::timed_script::TimedScript;
 use super::trace::{FrameTrace, Frames};
@@ -140,7 +140,8 @@ impl LoopRun {
     }
 
     /// Runs on to `until_ns`, and returns what was seen with the [difference](PacingReport::state_difference) to the same
-    /// game at half the frame rate. Both are compared at a frame that both have.
+    /// game at half the frame rate. Both are compared at every frame that both have: at one moment alone, two motions that
+    /// are whole periods apart would look alike.
     pub fn measure(
         mut self,
         until_ns: i64,
@@ -148,18 +149,31 @@ impl LoopRun {
         mut seen: impl FnMut(&Self, &FrameRecord),
     ) -> PacingReport {
         let mut half = self.clone().at_half_the_rate();
-        let common_ns = half.run_until(until_ns, stop, |_, _| {});
-        self.run_until(common_ns.min(until_ns), stop, &mut seen);
-        let report = (common_ns > until_ns).then(|| self.report());
-        self.run_until(common_ns, stop, |_, _| {});
-        let state_difference = self.truth.distance(self.lane.lane(), half.lane.lane());
+        let mut furthest = Furthest::default();
+        let mut report = None;
+        while (half.began_ns() < until_ns || half.last.is_none()) && !stop() {
+            if half.next_frame().is_none() {
+                break;
+            }
+            let common_ns = half.began_ns();
+            self.run_until(common_ns.min(until_ns), stop, &mut seen);
+            if common_ns > until_ns {
+                report = Some(self.report());
+                self.run_until(common_ns, stop, |_, _| {});
+            }
+            self.truth.widen(&mut furthest, self.lane.lane(), half.lane.lane());
+        }
         let [simulated, at_half] = [&self, &half].map(|run| run.lane.pacer().simulated());
         let time_difference = self.lane.pacer().base().milliseconds(simulated - at_half);
         let report = report.unwrap_or_else(|| {
             self.run_until(until_ns, stop, seen);
             self.report()
         });
-        PacingReport { state_difference, time_difference_ms: Some(time_difference), ..report }
+        PacingReport {
+            state_difference: self.truth.in_amplitudes(&furthest),
+            time_difference_ms: Some(time_difference),
+            ..report
+        }
     }
 
     /// What was seen so far.

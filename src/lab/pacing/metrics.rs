@@ -36,7 +36,8 @@ pub struct PacingReport {
     pub ticks: u64,
     /// Evaluations of the bodies' accelerations.
     pub evaluations: u64,
-    /// How far the bodies end from where they end at half the frame rate, in amplitudes; `None` where it was not measured.
+    /// The furthest that the bodies come from where they are at half the frame rate, at a frame that both have, in
+    /// amplitudes; `None` where it was not measured.
     pub state_difference: Option<f64>,
     /// The time simulated beyond that at half the frame rate; `None` where it was not measured.
     pub time_difference_ms: Option<f64>,
@@ -147,7 +148,7 @@ pub const PACING_METRICS: &[PacingMetric] = &[
         id: "state_difference",
         name: "difference at half the frame rate",
         unit: "amplitudes",
-        about: "how far the bodies end from where they end if every second frame is left out",
+        about: "the furthest that the bodies come from where they are if every second frame is left out",
         measure: |report| report.state_difference,
     },
 ];

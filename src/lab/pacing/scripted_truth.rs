@@ -15,6 +15,10 @@ pub(super) struct ScriptedTruth {
     errors: Vec<BodyError>,
 }
 
+/// The furthest that each body of two lanes has been apart, in the unit of its first coordinate.
+#[derive(Default)]
+pub(super) struct Furthest(Vec<f64>);
+
 /// The errors of a body's pictures.
 #[derive(Clone, Copy)]
 struct BodyError {
@@ -69,13 +73,20 @@ impl ScriptedTruth {
         &self.lane.bodies()[body]
     }
 
-    /// The largest distance between the bodies of two lanes, in amplitudes.
-    pub(super) fn distance(&self, one: &Lane, other: &Lane) -> Option<f64> {
-        let bodies = one.bodies().iter().zip(other.bodies()).zip(&self.errors);
-        let distances = bodies.filter_map(|((one, other), error)| {
-            Some(distance(one, one.stepper.q(), other.stepper.q()) / error.amplitude()?)
-        });
-        distances.reduce(f64::max)
+    /// Takes in how far the bodies of two lanes are apart.
+    pub(super) fn widen(&self, furthest: &mut Furthest, one: &Lane, other: &Lane) {
+        furthest.0.resize(one.bodies().len(), 0.0);
+        let bodies = one.bodies().iter().zip(other.bodies()).zip(&mut furthest.0);
+        for ((one, other), most) in bodies {
+            *most = most.max(distance(one, one.stepper.q(), other.stepper.q()));
+        }
+    }
+
+    /// The furthest in amplitudes, of the worst body.
+    pub(super) fn in_amplitudes(&self, furthest: &Furthest) -> Option<f64> {
+        let bodies = furthest.0.iter().zip(&self.errors);
+        let shares = bodies.filter_map(|(most, error)| Some(most / error.amplitude()?));
+        shares.reduce(f64::max)
     }
 
     fn advance(&mut self, t: f64) {

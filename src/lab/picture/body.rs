@@ -5,7 +5,7 @@ use super::hull::{self, Berth};
 use super::mass::{self, Coat};
 use super::sketch::{Camera, SOLID, line, path};
 use super::{Align, Label, Mark, Outline, Picture, Shape};
-use crate::lab::palette::{Palette, faded, mixed};
+use crate::lab::palette::{Palette, Rgba, faded, is_bright, mixed};
 
 /// An outline as one camera sees it.
 #[derive(Clone, Copy)]
@@ -41,8 +41,8 @@ impl Seen<'_> {
         Seen { outline: &outline, ..*self }.carried(picture, nothing);
     }
 
-    /// Writes a lane's number on its body, if that is one thing and has room.
-    pub(super) fn number(&self, picture: &mut Picture, number: usize) {
+    /// Writes a lane's number on its body of this colour, if that is one thing and has room.
+    pub(super) fn number(&self, picture: &mut Picture, number: usize, on: Rgba) {
         let mut sizes = self.outline.marks.iter().filter_map(|mark| match *mark {
             Mark::Sprung => Some(0.42 * self.camera.block),
             Mark::Disc { radius, .. } => Some(1.1 * self.camera.length(radius)),
@@ -55,7 +55,7 @@ impl Seen<'_> {
             at: self.camera.points(self.outline.at),
             align: Align::Centre,
             size: size.min(26.0),
-            colour: [16, 24, 32, 255],
+            colour: if is_bright(on) { [16, 24, 32, 255] } else { [255; 4] },
             is_strong: true,
             halo: [0; 4],
             text: number.to_string(),

@@ -263,7 +263,7 @@ impl Band<'_> {
                 picture.shapes.push(line(handle, hand, 1.0, palette.text, camera.rect));
             }
             if self.lanes.len() > 1 {
-                shown.number(picture, lane.entry + 1);
+                shown.number(picture, lane.entry + 1, colour);
             }
         }
         if shows_ghost {

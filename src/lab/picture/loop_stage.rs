@@ -121,15 +121,15 @@ fn overlay(picture: &mut Picture, lab: &Lab, loops: &LoopLab, ground: Rect) -> O
         band.name(
             picture,
             y,
-            &format!("{} {} · {}", place + 1, band.lane.card().name, lateness(frame)),
+            &format!("{} {} · {}", place + 1, band.lane.card().name, lateness(loops, frame)),
         );
     }
     front.is_recorded().then_some(camera)
 }
 
-/// How far a frame is behind the moment of its display.
-fn lateness(frame: &LoopFrame) -> String {
-    match frame.latency_ms() {
+/// How far a frame is behind.
+fn lateness(loops: &LoopLab, frame: &LoopFrame) -> String {
+    match loops.late_ms(frame) {
         late if late.abs() < 0.05 => "on time".into(),
         late if late > 0.0 => format!("{} ms behind", round(late, 3)),
         early => format!("{} ms ahead", round(-early, 3)),
@@ -242,7 +242,7 @@ impl<'a> Band<'a> {
         }
         let drawn = self.shown(frame);
         self.body(picture, &camera, &drawn);
-        self.seen(&camera, &drawn).number(picture, self.place + 1);
+        self.seen(&camera, &drawn).number(picture, self.place + 1, self.colour);
         self.words(picture, &camera, frame, [drawn.at, exact.at]);
         self.is_recorded().then_some(camera)
     }
@@ -348,7 +348,7 @@ impl<'a> Band<'a> {
                 true => (right.max(60.0), Align::Left),
                 false => (drawn[0].min(exact[0]).min(width) - 8.0, Align::Right),
             };
-            let words = self.label([x, above], align, 12.0, lateness(frame));
+            let words = self.label([x, above], align, 12.0, lateness(self.loops, frame));
             picture.labels.push(Label { colour: accent, ..words });
         }
     }

@@ -48,7 +48,8 @@ pub(super) struct Extrapolation<V> {
     pub(super) evaluations: u64,
     /// The largest coordinate and velocity at the starts of steps so far, of lengths and of angles, for a
     /// body with [`Body::has_jumps`]. Its force may be the difference of large terms, whose rounding does
-    /// not become smaller as the motion settles.
+    /// not become smaller as the motion settles. It is kept when the body is placed, which the curve between ticks
+    /// does at every tick.
     pub(super) largest: [[f64; 2]; 2],
 }
 

@@ -9,7 +9,7 @@ use super::super::tracks::Detail;
 use super::super::{ink_of, loops};
 use super::layout::{Cell, MARKS_APART, NUMBER, NUMBERS, TITLE, WORDS, cells};
 use super::sheet::Sheet;
-use super::sheet_of;
+use super::{by_loop, sheet_of};
 use crate::lab::{Instrument, Lab};
 use crate::view::curves::{Curve, arrow_corners};
 use crate::view::plot::{Arrow, Switch, SwitchMark, on_screen};
@@ -69,7 +69,10 @@ fn quoted(text: &str) -> String {
 
 /// The plots of the chosen instrument as an SVG file; `None` if it has none.
 pub(in crate::view) fn svg(lab: &Lab) -> Option<String> {
-    let sheet = sheet_of(lab, Detail::Samples)?;
+    let sheet = match (lab.loop_lab(), lab.display().instrument) {
+        (Some(loops), Instrument::Loop) => by_loop::moments(lab, loops),
+        _ => sheet_of(lab, Detail::Samples)?,
+    };
     let mut drawing = Svg { text: String::new(), ink: ink_of(lab.display().theme) };
     let [width, height] = SIZE;
     let ink = drawing.ink;

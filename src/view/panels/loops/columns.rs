@@ -107,6 +107,8 @@ impl Cell {
 const AMPLITUDES: &str = "amplitudes";
 /// From here on milliseconds are told in seconds.
 const MANY_MS: f64 = 10_000.0;
+/// From here on a share of the amplitude is that of a motion that has blown up.
+const LOST_PERCENT: f64 = 1e5;
 /// Less is not told from nothing by three decimals.
 const LEAST: f64 = 1e-3;
 /// From here on three digits have no more than two decimals.
@@ -120,6 +122,7 @@ pub(super) fn shown(value: f64, unit: &str) -> String {
         _ => (value, unit),
     };
     let number = match value.abs() {
+        lost if unit == "%" && lost >= LOST_PERCENT => return "lost".into(),
         0.0 => "0".into(),
         small if small < LEAST => "<0.001".into(),
         small if small < SMALL => round(libm::round(value * 1000.0) / 1000.0, 3),

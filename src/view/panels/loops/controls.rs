@@ -1,14 +1,21 @@
 //! What is chosen in the loop lab, in the top bar: how slow it is played, and on which display.
 
-use egui::{ComboBox, RichText, TextWrapMode, Ui};
+use egui::{ComboBox, FontId, Rangef, RichText, TextWrapMode, Ui};
 
 use crate::lab::number::round;
 use crate::lab::pacing::TRACES;
 use crate::lab::{Command, LoopCommand, LoopLab, SLOWNESS};
 use crate::view::panels::ink;
+use crate::view::theme::TYPE;
 
 /// From this width of the window on, in points, the top bar has the menu of traces; else the instrument has it.
 const ROOM_FOR_TRACES: f32 = 1180.0;
+
+/// The least and the greatest width of the menu of traces, and what its arrow takes of that, in points.
+const MENU: Rangef = Rangef { min: 112.0, max: 164.0 };
+const ARROW: f32 = 34.0;
+/// A name of a trace with more characters leaves no room for the number of the frame.
+const LONG_NAME: usize = 14;
 
 /// Whether the top bar has the menu of traces.
 pub(in crate::view::panels) fn has_trace_menu_above(ui: &Ui) -> bool {
@@ -60,7 +67,11 @@ pub(in crate::view::panels) fn trace_menu(
     commands: &mut Vec<Command>,
 ) {
     let chosen = loops.traces()[loops.trace()].name();
-    let menu = ComboBox::from_id_salt("trace").selected_text(chosen).width(112.0).height(480.0);
+    let words =
+        ui.painter().layout_no_wrap(chosen.into(), FontId::proportional(TYPE), ink(ui).text);
+    let width = (words.size().x + ARROW).clamp(MENU.min, MENU.max);
+    let menu = ComboBox::from_id_salt("trace").selected_text(chosen).width(width).truncate();
+    let menu = menu.height(480.0);
     let response = menu.show_ui(ui, |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         for (place, trace) in loops.traces().iter().enumerate() {
@@ -71,7 +82,8 @@ pub(in crate::view::panels) fn trace_menu(
             }
         }
     });
-    let about = format!("frames of the display (T for the next): {}", about_trace(chosen));
+    let about =
+        format!("{chosen}, frames of the display (T for the next): {}", about_trace(chosen));
     response.response.on_hover_text(about);
 }
 
@@ -79,9 +91,11 @@ pub(in crate::view::panels) fn trace_menu(
 pub(in crate::view::panels) fn moment(loops: &LoopLab, is_wide: bool) -> String {
     let t_s = loops.now_ns() as f64 / 1e9;
     let frame = loops.lanes()[loops.selected()].frame_at(loops.now_ns()).unwrap_or_default();
-    match is_wide {
-        true => format!("t = {t_s:.3} s · frame {frame}"),
-        false => format!("{t_s:.3} s"),
+    let is_long = loops.traces()[loops.trace()].name().chars().count() > LONG_NAME;
+    match (is_wide, is_long) {
+        (true, false) => format!("t = {t_s:.3} s · frame {frame}"),
+        (true, true) => format!("t = {t_s:.3} s"),
+        (false, _) => format!("{t_s:.3} s"),
     }
 }
 

@@ -95,13 +95,12 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
                 number(bar.center().x, bar.top(), share, series.colour);
             }
         }
-        // Else one number over the group.
-        if let Some(first) = series.iter().find(|series| series.is_first)
-            && width < ROOM_FOR_NUMBER
-        {
-            let highest = series.iter().map(|series| series.shares_percent[count]);
-            let y = top_of(highest.fold(0.0, f64::max));
-            number(middle, y, first.shares_percent[count], first.colour);
+        // Else one number, over the bar that it is of.
+        let first = series.iter().position(|series| series.is_first);
+        if let Some(i) = first.filter(|_| width < ROOM_FOR_NUMBER) {
+            let x = middle - group * BARS / 2.0 + width * (i as f32 + 0.5);
+            let share = series[i].shares_percent[count];
+            number(x, top_of(share), share, series[i].colour);
         }
     }
     let at = pos2(rect.center().x, room.bottom());

@@ -42,7 +42,7 @@ fn frames<'a>(loops: &LoopLab, lane: &'a LoopLane) -> &'a [LoopFrame] {
 /// How far a lane is off the plot, in words, if it is.
 pub(super) fn off_the_plot(loops: &LoopLab, lane: &LoopLane) -> Option<String> {
     let frame = &lane.frames()[lane.frame_at(loops.now_ns())?];
-    let late_ms = frame.latency_ms();
+    let late_ms = loops.late_ms(frame);
     let is_off = late_ms.abs() > FURTHEST * length_ms(loops);
     let side = if late_ms > 0.0 { "behind" } else { "ahead" };
     is_off.then(|| format!("{} s {side}", round(late_ms.abs() / 1000.0, 2)))
