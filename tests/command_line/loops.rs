@@ -141,10 +141,28 @@ fn advice_names_a_policy_within_the_latency_with_its_constants() {
     assert!(!at_once.contains("take whole-refresh"), "{at_once}");
     // A game in lockstep with the display has no error on it, and another speed on any other.
     let lockstep = told("--trace edge --policy lockstep --seconds 5");
-    assert!(lockstep.contains("none of these policies is as fast"), "{lockstep}");
+    assert!(lockstep.contains("no policy here keeps the game's speed"), "{lockstep}");
     let variable = told("--trace steady-144 --policy variable --policy fixed --seconds 5");
-    assert!(variable.contains("in amplitudes: variable by"), "{variable}");
+    assert!(variable.contains("amplitudes: variable by"), "{variable}");
     assert!(variable.contains("take variable") && !variable.contains("fixed by"), "{variable}");
+    // Whole periods of the spring later it is where it was, but not on the way there.
+    let periods = told("--trace steady-60 --policy lockstep --seconds 20");
+    assert!(periods.contains("lockstep by 2"), "{periods}");
+    // A step of five seconds is as smooth as any, and throws the spring out of the world.
+    let thrown = told("--trace alt-tab-5s --policy variable");
+    assert!(!thrown.contains("take variable"), "{thrown}");
+}
+
+#[test]
+fn a_trace_is_not_overwritten_by_what_is_measured_on_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("log.csv");
+    let text = "MsBetweenPresents,MsBetweenDisplayChange\n16.7,16.7\n16.7,16.7\n";
+    fs::write(&log, text).unwrap();
+    let output = run_in(folder.path(), "loop --trace log.csv --out ./log.csv --force");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("is read as a trace"), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(&log).unwrap(), text);
 }
 
 #[test]

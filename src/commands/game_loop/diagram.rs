@@ -50,31 +50,34 @@ fn curve(place: usize, row: &Measured, dots: f32, points: Vec<[f64; 2]>) -> Figu
 
 /// The moment shown against the moment of display, as the display holds each picture until the next.
 fn shown(rows: &[Measured], before: &str) -> Chart {
-    let ends = rows.iter().filter_map(|row| row.first.last()).map(|last| last[0]);
-    let end = ends.fold(1.0, f64::max);
+    let along = rows.iter().flat_map(|row| &row.drawn).map(|point| point[0]);
+    let start = along.clone().reduce(f64::min).unwrap_or(0.0);
+    let end = along.fold(start + 1.0, f64::max);
     let steps = |row: &Measured| -> Vec<[f64; 2]> {
-        let pairs = row.first.windows(2);
+        let pairs = row.drawn.windows(2);
         let held = pairs.flat_map(|pair| [pair[0], [pair[1][0], pair[0][1]]]);
-        held.chain(row.first.last().copied()).collect()
+        held.chain(row.drawn.last().copied()).collect()
     };
     let ideal = FigureCurve {
         name: "the moment of display".into(),
         colour: Theme::Dark.palette().text,
         dash: [1.0, 0.0],
         dots: 0.0,
-        points: vec![[0.0, 0.0], [end, end]],
+        points: vec![[start; 2], [end; 2]],
     };
     let curves = rows.iter().enumerate().map(|(n, row)| curve(n, row, 0.0, steps(row)));
-    let least = rows.iter().flat_map(|row| &row.first).map(|point| point[1]).fold(0.0, f64::min);
-    let mark = 10.0_f64.powf((end / 4.0).log10().floor());
-    let mark =
-        [5.0, 2.0, 1.0].map(|times| times * mark).into_iter().find(|mark| *mark <= end / 4.0);
-    let mark = mark.unwrap_or(end);
+    let near = start - (end - start);
+    let shown = rows.iter().flat_map(|row| &row.drawn).map(|point| point[1]);
+    let least = shown.filter(|shown| *shown >= near).fold(start, f64::min);
+    let apart = (end - start) / 4.0;
+    let decade = 10.0_f64.powf(apart.log10().floor());
+    let marks = [5.0, 2.0, 1.0].map(|times| times * decade);
+    let mark = marks.into_iter().find(|mark| *mark <= apart).unwrap_or(apart);
     Chart {
         title: sentence(before, "moment shown against moment of display"),
         legend: Legend::Shared,
         axes: [
-            Axis { name: "moment of display (ms)", view: [0.0, end], marks: Marks::Every(mark) },
+            Axis { name: "moment of display (ms)", view: [start, end], marks: Marks::Every(mark) },
             Axis { name: "moment shown (ms)", view: [least, end], marks: Marks::Every(mark) },
         ],
         curves: [ideal].into_iter().chain(curves).collect(),
@@ -134,8 +137,12 @@ fn sentence(before: &str, title: &str) -> String {
 /// The loop with the least error of each trace.
 fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
     let error = |row: &Measured| row.report.animation_error_rms_ms.unwrap_or(f64::INFINITY);
+    let is_near = |row: &&Measured| {
+        row.report.latency_mean_ms.is_some_and(|ms| ms.abs() <= LARGEST_LATENCY_MS)
+    };
     let least = by_trace.iter().filter_map(|rows| {
-        let best = rows.iter().min_by(|one, other| error(one).total_cmp(&error(other)))?;
+        let best =
+            rows.iter().filter(is_near).min_by(|one, other| error(one).total_cmp(&error(other)))?;
         Some(format!("{}: {} {}", best.trace, best.card.id, round(error(best), 3)))
     });
     let least = least.collect::<Vec<_>>().join("; ");
@@ -144,7 +151,22 @@ fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
         1 => " One more trace is in the table only.".into(),
         more => format!(" {more} more traces are in the table only."),
     };
-    format!("{EXPLAINED}. The least RMS in ms on each trace: {least}.{left_out}")
+    let outside = outside(by_trace.iter().copied().flatten());
+    format!(
+        "{EXPLAINED}. The least RMS in ms on each trace, of the loops in its chart: {least}.{outside}{left_out}"
+    )
+}
+
+/// The loops whose latency is beyond the charts.
+fn outside<'r>(rows: impl Iterator<Item = &'r Measured>) -> String {
+    let late = rows.filter_map(|row| {
+        let latency = row.report.latency_mean_ms.filter(|ms| ms.abs() > LARGEST_LATENCY_MS)?;
+        Some(format!("{} {} ms", row.card.id, round(latency, 3)))
+    });
+    match late.collect::<Vec<_>>().join(", ").as_str() {
+        "" => String::new(),
+        listed => format!(" Latencies that the charts do not show: {listed}."),
+    }
 }
 
 /// The ranking.
@@ -155,15 +177,7 @@ fn note(rows: &[Measured]) -> String {
         .collect();
     ranked.sort_by(|(_, one), (_, other)| one.total_cmp(other));
     let listed = ranked.iter().map(|(id, error)| format!("{id} {}", round(*error, 3)));
-    let outside = rows.iter().filter_map(|row| {
-        let latency = row.report.latency_mean_ms.filter(|ms| ms.abs() > LARGEST_LATENCY_MS)?;
-        Some(format!("{} {} ms", row.card.id, round(latency, 3)))
-    });
-    let outside = outside.collect::<Vec<_>>().join(", ");
-    let outside = match outside.as_str() {
-        "" => String::new(),
-        listed => format!(" Later than the chart shows: {listed}."),
-    };
+    let outside = outside(rows.iter());
     let listed = listed.collect::<Vec<_>>().join(", ");
     format!("{EXPLAINED}. RMS in ms, from the least: {listed}.{outside}")
 }

@@ -1,13 +1,19 @@
 //! A loop measured over a trace.
 
 use std::fmt::Write;
+use std::iter;
 
 use crate::commands::output::table::csv_cell;
 use crate::lab::pacing::{FrameRecord, FrameTrace, LoopRun, PacingReport, PolicyCard, RefreshRate};
 use crate::lab::{LaneSpec, Scene};
 
-/// How many frames the picture of a run shows.
+/// How many frames the picture of a run shows, and how many of them are before a long one.
 const DRAWN: usize = 30;
+const BEFORE: usize = 8;
+/// A frame is long from so many refreshes on.
+const LONG: f64 = 2.5;
+/// The most frames that are searched for a long one.
+const MOST_SEARCHED: usize = 100_000;
 
 /// A row of the table.
 pub(super) struct Measured {
@@ -16,8 +22,8 @@ pub(super) struct Measured {
     pub(super) refresh: RefreshRate,
     pub(super) tick_hz: u32,
     pub(super) report: PacingReport,
-    /// The moments of display and the moments shown of the first frames, in milliseconds.
-    pub(super) first: Vec<[f64; 2]>,
+    /// The moments of display and the moments shown of the frames that are drawn, in milliseconds.
+    pub(super) drawn: Vec<[f64; 2]>,
 }
 
 /// Measures a policy on a trace until `stop` says so, and writes a line for each frame to `lines`.
@@ -30,18 +36,37 @@ pub(super) fn measure(
     stop: &dyn Fn() -> bool,
     mut lines: Option<&mut String>,
 ) -> Measured {
-    let mut first = Vec::new();
+    let (mut drawn, from_ns) = (Vec::new(), drawn_from_ns(trace, until_ns));
     let name = csv_cell(trace.name());
     let report = LoopRun::new(scene, spec, card, trace).measure(until_ns, stop, |run, record| {
-        if let Some(displayed_ns) = record.frame.displayed_ns.filter(|_| first.len() <= DRAWN) {
-            first.push([displayed_ns as f64 / 1e6, record.shown_ms]);
+        if let Some(displayed_ns) = record.frame.displayed_ns
+            && displayed_ns >= from_ns
+            && drawn.len() <= DRAWN
+        {
+            drawn.push([displayed_ns as f64 / 1e6, record.shown_ms]);
         }
         if let Some(lines) = &mut lines {
             write_frame(lines, &format!("{name},{}", card.id), run, record);
         }
     });
     let (trace, refresh, tick_hz) = (trace.name().to_owned(), trace.refresh(), scene.tick_hz);
-    Measured { card, trace, refresh, tick_hz, report, first }
+    Measured { card, trace, refresh, tick_hz, report, drawn }
+}
+
+/// When the frames that are drawn begin to be displayed: at the start, or shortly before the longest frame if one is long.
+fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
+    let mut frames = trace.frames();
+    let displayed: Vec<i64> = iter::from_fn(|| frames.next(0))
+        .take_while(|frame| frame.began_ns < until_ns)
+        .take(MOST_SEARCHED)
+        .filter_map(|frame| frame.displayed_ns)
+        .collect();
+    let gaps = displayed.windows(2).map(|pair| pair[1] - pair[0]).enumerate();
+    let refresh_ns = 1e9 / trace.refresh().hz();
+    let long = gaps.filter(|(_, gap)| *gap as f64 > LONG * refresh_ns);
+    // The first of those that are as long.
+    let longest = long.min_by_key(|(_, gap)| -gap);
+    longest.map_or(0, |(place, _)| displayed[place.saturating_sub(BEFORE)])
 }
 
 fn write_frame(lines: &mut String, of: &str, run: &LoopRun, record: &FrameRecord) {
