@@ -53,8 +53,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
         return;
     };
     if !map.is_possible {
-        let why = "No stability map: this body has no position of rest about which its forces could be \
-                   linearised. The lanes below say how each method does on the motion itself.";
+        let why = "No stability map: this body does not rest at its origin, or damping couples its modes there. The \
+                   lanes below say how each method does on the motion itself.";
         ui.add(Label::new(RichText::new(why).color(ink(ui).dim)).wrap());
         return;
     }
