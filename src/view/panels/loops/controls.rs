@@ -1,19 +1,17 @@
 //! What is chosen in the loop lab, in the top bar: how slow it is played, and on which display.
 
-use egui::{ComboBox, FontId, Rangef, RichText, TextWrapMode, Ui};
+use egui::{ComboBox, RichText, TextWrapMode, Ui};
 
 use crate::lab::number::round;
 use crate::lab::pacing::TRACES;
 use crate::lab::{Command, LoopCommand, LoopLab, SLOWNESS};
 use crate::view::panels::ink;
-use crate::view::theme::TYPE;
 
 /// From this width of the window on, in points, the top bar has the menu of traces; else the instrument has it.
 const ROOM_FOR_TRACES: f32 = 1180.0;
 
-/// The least and the greatest width of the menu of traces, and what its arrow takes of that, in points.
-const MENU: Rangef = Rangef { min: 112.0, max: 164.0 };
-const ARROW: f32 = 34.0;
+/// The most characters of a trace's name in the closed menu.
+const MOST_CHARS: usize = 18;
 /// A name of a trace with more characters leaves no room for the number of the frame.
 const LONG_NAME: usize = 14;
 
@@ -52,6 +50,14 @@ pub(in crate::view::panels) fn speed_menu(
     response.response.on_hover_text(about);
 }
 
+/// A trace's name as it fits into the closed menu.
+fn short(name: &str) -> String {
+    match name.chars().count() {
+        0..=MOST_CHARS => name.into(),
+        _ => name.chars().take(MOST_CHARS - 1).chain(['…']).collect(),
+    }
+}
+
 /// What happens in the trace of this name.
 fn about_trace(name: &str) -> &'static str {
     let built_in = TRACES.iter().find(|card| card.id == name);
@@ -67,10 +73,7 @@ pub(in crate::view::panels) fn trace_menu(
     commands: &mut Vec<Command>,
 ) {
     let chosen = loops.traces()[loops.trace()].name();
-    let words =
-        ui.painter().layout_no_wrap(chosen.into(), FontId::proportional(TYPE), ink(ui).text);
-    let width = (words.size().x + ARROW).clamp(MENU.min, MENU.max);
-    let menu = ComboBox::from_id_salt("trace").selected_text(chosen).width(width).truncate();
+    let menu = ComboBox::from_id_salt("trace").selected_text(short(chosen)).width(112.0);
     let menu = menu.height(480.0);
     let response = menu.show_ui(ui, |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
@@ -114,6 +117,12 @@ mod tests {
     fn slow_motions_are_named_by_their_fraction() {
         let names: Vec<String> = SLOWNESS.into_iter().map(speed).collect();
         assert_eq!(names, ["1×", "½×", "¼×", "⅛×", "1/16×", "1/32×"]);
+    }
+
+    #[test]
+    fn a_long_name_of_a_trace_takes_no_more_room_than_a_short_one() {
+        assert!(TRACES.iter().all(|card| short(card.id) == card.id));
+        assert_eq!(short("log.csv:PresentBench.exe-24892"), "log.csv:PresentBe…");
     }
 
     #[test]
