@@ -19,7 +19,7 @@ use super::plot::Plot;
 use super::scene_file;
 use super::terminal::tell;
 use super::trace_source::traces;
-use crate::lab::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate, trace_card};
+use crate::lab::pacing::{FrameTrace, LEAST_RUN_S, POLICIES, PolicyCard, RefreshRate, trace_card};
 use crate::lab::{Clock, LaneSpec, Scene};
 use crate::sim::integrators::Method;
 
@@ -27,7 +27,7 @@ mod advice;
 mod diagram;
 mod measured;
 
-use measured::{Measured, measure};
+use measured::{Measured, Stretch, drawn_from_ns, measure};
 
 const ABOUT: &str = "\
 One row for each trace and policy, in the order asked for:
@@ -153,9 +153,6 @@ impl Cause for LoopError {
     }
 }
 
-/// The least length that is taken for a run by default, in seconds: what happens once in a trace is over by then.
-const LEAST_S: f64 = 10.0;
-
 pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     if let Some(card) = args.show {
         return Ok(print(snippet(card, &args.language)?)?);
@@ -199,12 +196,14 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let mut rows = Vec::new();
     for trace in &traces {
         let from = rows.len();
+        let until_ns = args.until_ns(&scene, trace);
+        let drawn_from_ns = plot.as_ref().map(|_| drawn_from_ns(trace, until_ns));
+        let stretch = Stretch { until_ns, drawn_from_ns };
         for card in args.policies() {
             let spec = LaneSpec::plain(args.method);
             let mut lines = String::new();
             let each = frames.is_some().then_some(&mut lines);
-            let until_ns = args.until_ns(&scene, trace);
-            rows.push(measure(&scene, spec, card, trace, until_ns, &stop, each));
+            rows.push(measure(&scene, spec, card, trace, stretch, &stop, each));
             if stop() {
                 return Err(Interrupted::NothingWritten.into());
             }
@@ -247,7 +246,7 @@ impl LoopArgs {
     fn until_ns(&self, scene: &Scene, trace: &FrameTrace) -> i64 {
         match self.seconds {
             None if trace.ends() => i64::MAX,
-            seconds => (seconds.unwrap_or(scene.seconds.max(LEAST_S)) * 1e9).round() as i64,
+            seconds => (seconds.unwrap_or(scene.seconds.max(LEAST_RUN_S)) * 1e9).round() as i64,
         }
     }
 }

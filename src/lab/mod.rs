@@ -42,7 +42,7 @@ mod viewer;
 mod zoom_pan;
 
 pub use crate::sim::Clock;
-pub use crate::sim::bodies::{Acts, Parameter, Range};
+pub use crate::sim::bodies::{Acts, Coordinate, Parameter, Range};
 pub use action::Action;
 pub use analysis::{
     Advice, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, ChaseFinding, Coverage, Criterion,

@@ -220,15 +220,15 @@ fn bad_shapes_are_seen() {
     let bad = [
         ("tests/common/mod.rs", lines(1)),
         ("src/lab/utils.rs", lines(1)),
-        ("src/lab/clock.rs", "pub(crate) mod helpers;".into()),
-        ("src/lab/clock.rs", lines(MOST_LINES + 1)),
+        ("src/sim/clock.rs", "pub(crate) mod helpers;".into()),
+        ("src/sim/clock.rs", lines(MOST_LINES + 1)),
         ("tests/words.rs", lines(MOST_LINES_ELSEWHERE + 1)),
     ];
     for (path, text) in bad {
         assert_eq!(shapes(&source(path, &text)).len(), 1, "{path}");
     }
     let good =
-        [("src/lab/clock.rs", lines(MOST_LINES)), ("tests/words.rs", lines(MOST_LINES_ELSEWHERE))];
+        [("src/sim/clock.rs", lines(MOST_LINES)), ("tests/words.rs", lines(MOST_LINES_ELSEWHERE))];
     for (path, text) in good {
         none(shapes(&source(path, &text)));
     }

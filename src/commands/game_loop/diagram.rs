@@ -137,12 +137,11 @@ fn sentence(before: &str, title: &str) -> String {
 /// The loop with the least error of each trace.
 fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
     let error = |row: &Measured| row.report.animation_error_rms_ms.unwrap_or(f64::INFINITY);
-    let is_near = |row: &&Measured| {
-        row.report.latency_mean_ms.is_some_and(|ms| ms.abs() <= LARGEST_LATENCY_MS)
-    };
     let least = by_trace.iter().filter_map(|rows| {
-        let best =
-            rows.iter().filter(is_near).min_by(|one, other| error(one).total_cmp(&error(other)))?;
+        let best = rows
+            .iter()
+            .filter(|row| beyond_chart_ms(row).is_none())
+            .min_by(|one, other| error(one).total_cmp(&error(other)))?;
         Some(format!("{}: {} {}", best.trace, best.card.id, round(error(best), 3)))
     });
     let least = least.collect::<Vec<_>>().join("; ");
@@ -157,11 +156,16 @@ fn note_on_several(by_trace: &[&[Measured]], left_out: usize) -> String {
     )
 }
 
+/// The mean latency of a loop, if the charts do not show it.
+fn beyond_chart_ms(row: &Measured) -> Option<f64> {
+    row.report.latency_mean_ms.filter(|ms| ms.abs() > LARGEST_LATENCY_MS)
+}
+
 /// The loops whose latency is beyond the charts.
 fn outside<'r>(rows: impl Iterator<Item = &'r Measured>) -> String {
     let late = rows.filter_map(|row| {
-        let latency = row.report.latency_mean_ms.filter(|ms| ms.abs() > LARGEST_LATENCY_MS)?;
-        Some(format!("{} {} ms", row.card.id, round(latency, 3)))
+        let latency_ms = beyond_chart_ms(row)?;
+        Some(format!("{} {} ms", row.card.id, round(latency_ms, 3)))
     });
     match late.collect::<Vec<_>>().join(", ").as_str() {
         "" => String::new(),

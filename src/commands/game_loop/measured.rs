@@ -26,21 +26,30 @@ pub(super) struct Measured {
     pub(super) drawn: Vec<[f64; 2]>,
 }
 
+/// What of a trace is measured.
+#[derive(Clone, Copy)]
+pub(super) struct Stretch {
+    /// Where it ends.
+    pub(super) until_ns: i64,
+    /// From where on frames are kept for a picture, if there is to be one.
+    pub(super) drawn_from_ns: Option<i64>,
+}
+
 /// Measures a policy on a trace until `stop` says so, and writes a line for each frame to `lines`.
 pub(super) fn measure(
     scene: &Scene,
     spec: LaneSpec,
     card: &'static PolicyCard,
     trace: &FrameTrace,
-    until_ns: i64,
+    Stretch { until_ns, drawn_from_ns }: Stretch,
     stop: &dyn Fn() -> bool,
     mut lines: Option<&mut String>,
 ) -> Measured {
-    let (mut drawn, from_ns) = (Vec::new(), drawn_from_ns(trace, until_ns));
+    let mut drawn = Vec::new();
     let name = csv_cell(trace.name());
     let report = LoopRun::new(scene, spec, card, trace).measure(until_ns, stop, |run, record| {
         if let Some(displayed_ns) = record.frame.displayed_ns
-            && displayed_ns >= from_ns
+            && drawn_from_ns.is_some_and(|from_ns| displayed_ns >= from_ns)
             && drawn.len() <= DRAWN
         {
             drawn.push([displayed_ns as f64 / 1e6, record.shown_ms]);
@@ -54,7 +63,7 @@ pub(super) fn measure(
 }
 
 /// When the frames that are drawn begin to be displayed: at the start, or shortly before the longest frame if one is long.
-fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
+pub(super) fn drawn_from_ns(trace: &FrameTrace, until_ns: i64) -> i64 {
     let mut frames = trace.frames();
     let displayed: Vec<i64> = iter::from_fn(|| frames.next(0))
         .take_while(|frame| frame.began_ns < until_ns)

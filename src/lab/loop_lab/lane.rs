@@ -2,13 +2,13 @@
 
 use crate::lab::lane::LaneBody;
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::pacing::{FrameTrace, LoopRun, PacingReport, PolicyCard};
+use crate::lab::pacing::{FrameTrace, LEAST_RUN_S, LoopRun, PacingReport, PolicyCard};
 use crate::lab::past::Energies;
 use crate::lab::scene::Scene;
 use crate::sim::integrators::Method;
 
-/// The shortest and the longest run, in seconds of the display: what happens once in a trace is over by then.
-const SECONDS: (f64, f64) = (10.0, 20.0);
+/// The longest run, in seconds of the display.
+const LONGEST_S: f64 = 20.0;
 
 /// The body in one loop: all its frames.
 pub struct LoopLane {
@@ -72,7 +72,7 @@ impl LoopLane {
     ) -> Self {
         let mut frames: Vec<LoopFrame> = Vec::new();
         let mut ticks = 0;
-        let until_ns = (scene.seconds.clamp(SECONDS.0, SECONDS.1) * 1e9) as i64;
+        let until_ns = (scene.seconds.clamp(LEAST_RUN_S, LONGEST_S) * 1e9) as i64;
         let run = LoopRun::new(scene, LaneSpec::plain(method), card, trace);
         let report = run.measure(until_ns, &|| false, |run, record| {
             ticks += record.steps.count;

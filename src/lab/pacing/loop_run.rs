@@ -13,6 +13,9 @@ use crate::lab::lane::{Lane, LaneBody};
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 
+/// The least length of a run whose length nobody chose, in seconds: what happens once in a built-in trace is over by then.
+pub const LEAST_RUN_S: f64 = 10.0;
+
 /// A scene under one method in one loop, frame by frame.
 ///
 /// The first frame starts the clock and shows the start; each later frame makes the steps that the loop decides on. The

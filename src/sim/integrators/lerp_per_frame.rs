@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use super::card::{FIRST_ORDER_FOLLOWER, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use super::shared::chase::{approach, head_for, pursuit};
+use super::shared::chase::{each, lerp, pursuit};
 use crate::sim::system::{Pursuit, State, System};
 
 pub(super) const CARD: Method = Method {
@@ -39,9 +39,7 @@ impl<S: System> Integrator<S> for LerpPerFrame<S::Vector> {
         state: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         let Pursuit { target: g, rate: k, .. } = pursuit(&CARD, system, t + h)?;
-        let State { q: x, v } = state;
-        approach(PART, &g, x);
-        head_for(&g, k, x, v);
+        each(&g, state, lerp(PART, k));
         Ok(())
     }
 }

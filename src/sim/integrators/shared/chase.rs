@@ -19,20 +19,13 @@ pub(in crate::sim::integrators) fn pursuit<S: System>(
     pursuit.ok_or(StepFailure::Refused { reason: only.reason })
 }
 
-/// Moves `x` by this part of the way to the target `g`.
+/// A step of [`each`] that goes this part of the way to the target, and has the velocity there that the law of
+/// first order has at the rate `k` (1/s).
 #[inline]
-pub(in crate::sim::integrators) fn approach<V: Vector>(part: f64, g: &V, x: &mut V) {
-    for (x, g) in x.components_mut().iter_mut().zip(g.components()) {
-        *x += part * (g - *x);
-    }
-}
-
-/// Sets the velocity `v` that the law of first order has at `x`: `k (g - x)`.
-#[inline]
-pub(in crate::sim::integrators) fn head_for<V: Vector>(g: &V, k: f64, x: &V, v: &mut V) {
-    v.assign_sum(g, -1.0, x);
-    for v in v.components_mut() {
-        *v *= k;
+pub(in crate::sim::integrators) fn lerp(part: f64, k: f64) -> impl Fn(f64, f64, f64) -> (f64, f64) {
+    move |g, x, _v| {
+        let end = x + part * (g - x);
+        (end, k * (g - end))
     }
 }
 

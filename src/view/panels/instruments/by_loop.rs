@@ -7,7 +7,7 @@ use super::super::roster::Roster;
 use super::super::tracks::{Look, Track};
 use super::error::capitalised;
 use super::phase::SAMPLES;
-use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet};
+use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, time_in_view};
 use crate::lab::{
     Energies, FRAME_METRICS, Instrument, Lab, LoopFrame, LoopLab, LoopLane, METRICS, Scale,
 };
@@ -69,8 +69,7 @@ impl Plots<'_> {
         let exact = self.exact(|t, frame| [t, frame.exact[0]]);
         let range = self.loops.range();
         let y = ranges::around_truth(range.into_iter(), &tracks, 1, HEALTHY);
-        let coordinate = &self.loops.body().coordinates[0];
-        let up = PlotAxis::new(coordinate.name, coordinate.unit, AxisScale::Linear);
+        let up = PlotAxis::of(&self.loops.body().coordinates[0]);
         self.over_time("motion by loop", up, tracks, Some(exact), (self.last_frames(), y))
     }
 
@@ -120,19 +119,11 @@ impl Plots<'_> {
         let [x, y] =
             [0, 1].map(|axis| ranges::around_orbit(exact.values(axis), &tracks, axis, HEALTHY));
         let coordinate = &self.loops.body().coordinates[0];
-        let axes = [
-            PlotAxis::new(coordinate.name, coordinate.unit, AxisScale::Linear),
-            PlotAxis::new(
-                coordinate.velocity,
-                &format!("{}/s", coordinate.unit),
-                AxisScale::Linear,
-            ),
-        ];
         PlotModel {
             id: "phase portrait by loop".into(),
             title: self.title(STEPPED),
             body: self.lab.display().body,
-            axes,
+            axes: [PlotAxis::of(coordinate), PlotAxis::of_velocity(coordinate)],
             fit: PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]),
             tracks,
             look: Look { width: FRONT, dots: Dots::Sparse, bounded: [true; 2] },
@@ -176,12 +167,8 @@ impl Plots<'_> {
         [(self.now_s() - FRAMES_S).max(0.0), self.now_s().max(FRAMES_S)]
     }
 
-    /// A quarter of the trace, then half of it, then all of it.
     fn time_in_view(self) -> [f64; 2] {
-        let end_s = self.loops.end_ns() as f64 / 1e9;
-        let windows = [0.25, 0.5, 1.0].map(|part| part * end_s);
-        let to = windows.into_iter().find(|&to| self.now_s() <= to).unwrap_or(end_s);
-        [0.0, to]
+        time_in_view(self.loops.end_ns() as f64 / 1e9, self.now_s())
     }
 
     /// A track for each loop on the stage, of a value over time that each frame has until the next.

@@ -6,7 +6,6 @@ use super::super::tracks::{Detail, Look, Track};
 use super::error::capitalised;
 use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet, over_time};
 use crate::lab::{Lab, Mode};
-use crate::view::axis_scale::AxisScale;
 use crate::view::curves::Dots;
 use crate::view::plot::SwitchMark;
 
@@ -40,10 +39,7 @@ fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
             None => name,
         },
         body,
-        axes: [
-            PlotAxis::time(),
-            PlotAxis::new(coordinate.name, coordinate.unit, AxisScale::Linear),
-        ],
+        axes: [PlotAxis::time(), PlotAxis::of(coordinate)],
         fit: over_time(lab, y),
         tracks,
         look: Look { width: FRONT, dots: Dots::SparseAlongX, bounded: [false, true] },

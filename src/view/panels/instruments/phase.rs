@@ -9,7 +9,6 @@ use super::error::capitalised;
 use super::motion::healthy;
 use super::sheet::{ExactLine, FRONT, PlotAxis, PlotModel, Sheet};
 use crate::lab::Lab;
-use crate::view::axis_scale::AxisScale;
 use crate::view::curves::Dots;
 use crate::view::plot::SwitchMark;
 
@@ -28,15 +27,11 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
     let [x, y] = [0, 1]
         .map(|axis| ranges::around_orbit(exact.fitted(lab, axis), &fitted, axis, healthy(lab)));
     let coordinate = &lab.race().truth().bodies()[body].coordinates[0];
-    let velocity_unit = format!("{}/s", coordinate.unit);
     let plot = PlotModel {
         id: format!("phase portrait of {body}"),
         title: capitalised(&lab.scene().bodies[body].name),
         body,
-        axes: [
-            PlotAxis::new(coordinate.name, coordinate.unit, AxisScale::Linear),
-            PlotAxis::new(coordinate.velocity, &velocity_unit, AxisScale::Linear),
-        ],
+        axes: [PlotAxis::of(coordinate), PlotAxis::of_velocity(coordinate)],
         fit: PlotBounds::from_min_max([x.0, y.0], [x.1, y.1]),
         tracks,
         look: Look { width: FRONT, dots: Dots::Sparse, bounded: [true; 2] },

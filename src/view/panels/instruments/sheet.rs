@@ -10,7 +10,7 @@ use super::super::ink_of;
 use super::super::roster::{Roster, Runner};
 use super::super::tracks::{self, Look, Track};
 use crate::lab::number::significant;
-use crate::lab::{Lab, LaneBody, TruthCurve, TruthSample};
+use crate::lab::{Coordinate, Lab, LaneBody, TruthCurve, TruthSample, Unit};
 use crate::view::axis_scale::AxisScale;
 use crate::view::curves::{Curve, Dots};
 use crate::view::plot::{Drawing, SwitchMark};
@@ -82,6 +82,16 @@ pub(super) struct Readout {
 impl PlotAxis {
     pub(super) fn new(quantity: &str, unit: &str, scale: AxisScale) -> Self {
         Self { quantity: quantity.into(), unit: unit.into(), scale }
+    }
+
+    /// A coordinate.
+    pub(super) fn of(coordinate: &Coordinate) -> Self {
+        Self::new(coordinate.name, coordinate.unit, AxisScale::Linear)
+    }
+
+    /// The velocity of a coordinate.
+    pub(super) fn of_velocity(coordinate: &Coordinate) -> Self {
+        Self::new(coordinate.velocity, &Unit::Velocity.on(coordinate), AxisScale::Linear)
     }
 
     pub(super) fn time() -> Self {
@@ -294,12 +304,16 @@ impl Sheet {
     }
 }
 
-/// The time in view and the given range of values: at first a quarter of the scene, then half of it, then all that has
-/// passed in the scene's length.
+/// The time in view and the given range of values.
 pub(super) fn over_time(lab: &Lab, (low, high): (f64, f64)) -> PlotBounds {
-    let span = lab.scene().seconds;
-    let now = lab.race().t();
-    let windows = [0.25, 0.5, 1.0].map(|part| part * span);
-    let end = windows.into_iter().find(|&end| now <= end).unwrap_or(now);
-    PlotBounds::from_min_max([(end - span).max(0.0), low], [end, high])
+    let [from, to] = time_in_view(lab.scene().seconds, lab.race().t());
+    PlotBounds::from_min_max([from, low], [to, high])
+}
+
+/// The time in view of a run of this length, in seconds: at first a quarter of it, then half of it, then all that has
+/// passed in its length.
+pub(super) fn time_in_view(length_s: f64, now_s: f64) -> [f64; 2] {
+    let windows = [0.25, 0.5, 1.0].map(|part| part * length_s);
+    let to = windows.into_iter().find(|&to| now_s <= to).unwrap_or(now_s);
+    [(to - length_s).max(0.0), to]
 }
