@@ -112,3 +112,6 @@ pub mod sim;
 pub mod view;
 #[cfg(feature = "desktop")]
 pub mod window;
+
+#[cfg(feature = "lab")]
+pub use sim::conformance;

@@ -10,6 +10,6 @@ pub use crate::lab::{
 };
 pub use crate::sim::bodies::{BODIES, Body, Input};
 pub use crate::sim::integrators::{
-    Family, Integrator, METHODS, Method, StepFailure, integrator, method,
+    Family, Integrator, METHODS, Method, StepFailure, integrator, method, own_integrator,
 };
 pub use crate::sim::{Clock, Due, Solver, State, Stepper, System, Vector, stepper};

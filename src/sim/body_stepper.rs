@@ -65,8 +65,11 @@ impl<B: Body> StepperParts<B> {
 impl<B: Body> Construct<Counted<B>> for StepperParts<B> {
     type Output = Box<dyn Stepper>;
 
-    fn of<I: Integrator<Counted<B>> + Clone + 'static>(self) -> Self::Output {
-        let mut integrator = I::new(&self.state.q);
+    fn of<I: Integrator<Counted<B>> + Clone + 'static>(
+        self,
+        new: impl FnOnce(&B::Vector) -> I,
+    ) -> Self::Output {
+        let mut integrator = new(&self.state.q);
         if let Some(tolerance) = self.tolerance {
             integrator.set_tolerance(tolerance);
         }
@@ -87,7 +90,10 @@ struct Recording<'a, V: Vector> {
 impl<'a, V: Vector> Construct<Recorded<'a, V>> for Recording<'a, V> {
     type Output = Option<RecordedTick>;
 
-    fn of<I: Integrator<Recorded<'a, V>> + Clone + 'static>(self) -> Self::Output {
+    fn of<I: Integrator<Recorded<'a, V>> + Clone + 'static>(
+        self,
+        _new: impl FnOnce(&V) -> I,
+    ) -> Self::Output {
         // An integrator's type depends on the vector and not on the system, so that the one that steps
         // the body can step the recorded system too.
         let MethodPropagator(integrator) = self.propagator.downcast_ref::<MethodPropagator<I>>()?;

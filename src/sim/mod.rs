@@ -9,6 +9,8 @@ pub mod bodies;
 mod body;
 mod body_stepper;
 mod clock;
+#[cfg(feature = "lab")]
+pub mod conformance;
 mod double_double;
 mod exact_flow;
 mod exact_since_start;

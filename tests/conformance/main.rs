@@ -6,14 +6,14 @@
 mod abouts;
 mod adaptive;
 mod cards;
+mod claims;
 mod cost;
 mod followers;
-mod geometry;
+
 mod implicit;
 mod limits;
 mod long_run;
 mod memory;
-mod order;
-mod stability;
+mod orbit;
 mod systems;
 mod vectors;

@@ -22,37 +22,6 @@ fn run(integrator: &mut dyn Integrator<Spring>, state: &mut State<f64>, h: f64, 
 }
 
 #[test]
-fn a_reset_clears_all_memory() {
-    for method in GENERAL_METHODS {
-        let (mut used, mut elsewhere) = (fresh(method), State { q: 100.0, v: 3.0 });
-        run(&mut *used, &mut elsewhere, 0.05, 57);
-        used.reset();
-        let mut reset = State { q: -0.3, v: 11.0 };
-        let mut new = reset.clone();
-        run(&mut *used, &mut reset, 0.05, 20);
-        run(&mut *fresh(method), &mut new, 0.05, 20);
-        assert_eq!(bits(&reset), bits(&new), "{}", method.id);
-    }
-}
-
-#[test]
-fn methods_with_a_restart_and_no_others_have_memory() {
-    for method in GENERAL_METHODS {
-        let mut left_alone = State { q: -0.3, v: 11.0 };
-        let mut interrupted = left_alone.clone();
-        let [mut going_on, mut beginning_anew] = [fresh(method), fresh(method)];
-        for _ in 0..20 {
-            run(&mut *going_on, &mut left_alone, 0.03, 1);
-            beginning_anew.reset();
-            run(&mut *beginning_anew, &mut interrupted, 0.03, 1);
-        }
-        assert!(left_alone.q.is_finite() && interrupted.q.is_finite(), "{}", method.id);
-        let carries = bits(&left_alone) != bits(&interrupted);
-        assert_eq!(carries, method.restart.is_some(), "{}", method.id);
-    }
-}
-
-#[test]
 fn memory_is_dropped_for_a_state_that_was_changed() {
     assert!(methods_with_memory().count() >= 7);
     for method in methods_with_memory() {

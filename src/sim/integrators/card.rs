@@ -5,6 +5,7 @@
 
 use std::fmt;
 
+use super::own::OwnIntegrator;
 use super::tolerance::Tolerance;
 
 /// The families of methods, for menus and tables.
@@ -34,6 +35,18 @@ impl Family {
             Family::Implicit => "implicit",
             Family::AsPrinted => "as-printed",
             Family::Follower => "follower",
+        }
+    }
+
+    /// The card that a method of the family starts from. It has no name, source, order and evaluations yet.
+    pub const fn card(self) -> Method {
+        match self {
+            Family::Explicit => EXPLICIT,
+            Family::Symplectic => SYMPLECTIC,
+            Family::Adaptive => ADAPTIVE,
+            Family::Implicit => IMPLICIT,
+            Family::AsPrinted => AS_PRINTED,
+            Family::Follower => FIRST_ORDER_FOLLOWER,
         }
     }
 }
@@ -96,6 +109,9 @@ pub struct Method {
     pub only: Option<Only>,
     /// Where the method comes from.
     pub source: &'static str,
+    /// How a method of one's own is built, which is not in [`METHODS`](super::METHODS): [`own_integrator`](super::own_integrator) of its
+    /// type. `None` for those of the table.
+    pub own: Option<fn(usize) -> Box<dyn OwnIntegrator>>,
 }
 
 impl Method {
@@ -128,6 +144,7 @@ const PLAIN: Method = Method {
     keeps_time: true,
     only: None,
     source: "",
+    own: None,
 };
 
 /// An explicit method: an undamped oscillator grows at every step.

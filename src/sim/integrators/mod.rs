@@ -3,8 +3,9 @@
 //! A method implements [`Integrator`] for every [`System`] and describes itself on a [`Method`] card. If it
 //! is for some bodies [only](Only), its card says which, and its step fails on others.
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
-//! of each card, both ways. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
+//! of each card, both ways. A method of [one's own](Method::own) needs no place in the table. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
 
+use own::Own;
 use reset_on_change::ResetOnChange;
 
 use super::system::System;
@@ -31,6 +32,7 @@ mod lerp_dt;
 mod lerp_per_frame;
 mod midpoint;
 mod newmark;
+mod own;
 mod pefrl;
 mod position_verlet;
 mod reset_on_change;
@@ -67,6 +69,7 @@ pub use lerp_dt::LerpDt;
 pub use lerp_per_frame::LerpPerFrame;
 pub use midpoint::Midpoint;
 pub use newmark::Newmark;
+pub use own::{AnySystem, OwnIntegrator, own_integrator};
 pub use pefrl::Pefrl;
 pub use position_verlet::PositionVerlet;
 pub use rk4::Rk4;
@@ -84,8 +87,12 @@ pub use yoshida4::Yoshida4;
 pub trait Construct<S: System> {
     /// The result.
     type Output;
-    /// Builds the result from the integrator type `I`.
-    fn of<I: Integrator<S> + Clone + 'static>(self) -> Self::Output;
+    /// Builds the result from integrators of the type `I`, which `new` makes for coordinate vectors shaped like the
+    /// one that it is given.
+    fn of<I: Integrator<S> + Clone + 'static>(
+        self,
+        new: impl FnOnce(&S::Vector) -> I,
+    ) -> Self::Output;
 }
 
 macro_rules! methods {
@@ -96,12 +103,15 @@ macro_rules! methods {
         /// Calls `construct` with the integrator type of `method`.
         ///
         /// # Panics
-        /// If `method` is not from [`METHODS`].
+        /// If `method` is neither from [`METHODS`] nor [one's own](Method::own).
         pub fn construct<S: System, C: Construct<S>>(method: &Method, construct: C) -> C::Output {
+            if let Some(build) = method.own {
+                return construct.of(|like| Own::new(build, like));
+            }
             $(if method.id == $file::CARD.id {
-                return construct.of::<$Type<S::Vector>>();
+                return construct.of(<$Type<S::Vector> as Integrator<S>>::new);
             })+
-            panic!("{} is not in METHODS", method.id)
+            panic!("{} is not in METHODS, and its card has no `own`", method.id)
         }
     };
 }
@@ -174,8 +184,11 @@ pub fn integrator<S: System + 'static>(
     struct Boxed<'a, V>(&'a V);
     impl<S: System + 'static> Construct<S> for Boxed<'_, S::Vector> {
         type Output = Box<dyn Integrator<S>>;
-        fn of<I: Integrator<S> + Clone + 'static>(self) -> Self::Output {
-            Box::new(ResetOnChange::<I, _>::new(self.0))
+        fn of<I: Integrator<S> + Clone + 'static>(
+            self,
+            new: impl FnOnce(&S::Vector) -> I,
+        ) -> Self::Output {
+            Box::new(ResetOnChange::around(new(self.0), self.0))
         }
     }
     construct::<S, _>(method, Boxed(like))

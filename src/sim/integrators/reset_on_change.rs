@@ -12,6 +12,11 @@ pub(super) struct ResetOnChange<I, V> {
 }
 
 impl<I, V: Vector> ResetOnChange<I, V> {
+    /// This method, on states shaped `like` this.
+    pub(super) fn around(method: I, like: &V) -> Self {
+        Self { method, returned: State { q: like.clone(), v: like.clone() } }
+    }
+
     #[inline]
     fn advance<S: System<Vector = V>>(
         &mut self,
@@ -33,7 +38,7 @@ impl<I, V: Vector> ResetOnChange<I, V> {
 
 impl<S: System, I: Integrator<S>> Integrator<S> for ResetOnChange<I, S::Vector> {
     fn new(like: &S::Vector) -> Self {
-        Self { method: I::new(like), returned: State { q: like.clone(), v: like.clone() } }
+        Self::around(I::new(like), like)
     }
 
     fn step(

@@ -1,0 +1,140 @@
+//! Holds the card of a method against measurements, each claim both ways.
+//!
+//! A method that does better than its card says is as wrong as one that does worse. What is measured are
+//! the [problems] with known solutions, and nothing is taken from the method's family.
+
+use std::fmt;
+
+use super::integrators::{METHODS, Method};
+
+mod cost;
+mod geometry;
+mod memory;
+mod order;
+pub mod problems;
+mod stability;
+mod tolerance;
+
+/// A claim of a card, and what was measured.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Claim {
+    /// The field of [`Method`].
+    pub field: &'static str,
+    /// What the card says.
+    pub claimed: String,
+    /// What was measured, in words.
+    pub measured: String,
+    /// Whether the two agree.
+    pub holds: bool,
+}
+
+/// The claims of a card, measured.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Conformance {
+    /// The method's id.
+    pub method: &'static str,
+    /// Its claims in the order of the card.
+    pub claims: Vec<Claim>,
+}
+
+impl Conformance {
+    /// Whether all claims hold.
+    pub fn holds(&self) -> bool {
+        self.claims.iter().all(|claim| claim.holds)
+    }
+
+    /// The claims that do not hold.
+    pub fn broken(&self) -> impl Iterator<Item = &Claim> {
+        self.claims.iter().filter(|claim| !claim.holds)
+    }
+}
+
+/// A line for each claim.
+impl fmt::Display for Conformance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let broken = self.broken().count();
+        match broken {
+            0 => writeln!(f, "{}: its card holds", self.method)?,
+            1 => writeln!(f, "{}: a claim of its card does not hold", self.method)?,
+            _ => writeln!(f, "{}: {broken} claims of its card do not hold", self.method)?,
+        }
+        for Claim { field, claimed, measured, holds } in &self.claims {
+            let word = if *holds { "ok" } else { "NO" };
+            writeln!(f, "  {word}  {field:<15} {claimed:<10} {measured}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Measures every claim of a card: its orders, evaluations, stability limit, whether it is symplectic and
+/// reversible, its tolerance, its memory, and whether it keeps time. It takes about a second.
+///
+/// A method that steps some bodies [only](Method::only) cannot be measured on these problems, and its result
+/// says so: it does not hold.
+///
+/// ```
+/// use regatta::conformance::check;
+/// use regatta::prelude::*;
+///
+/// let found = check(method("midpoint").expect("a built-in method"));
+/// assert!(found.holds(), "{found}");
+/// ```
+pub fn check(method: &Method) -> Conformance {
+    let claims = match method.only {
+        Some(only) => vec![Claim {
+            field: "only",
+            claimed: only.to_string(),
+            measured: format!("not measured: {}", only.reason),
+            holds: false,
+        }],
+        // Nothing can be built by such a card.
+        None if !is_listed(method) && method.own.is_none() => vec![named(method)],
+        None => vec![
+            named(method),
+            order::without_drag(method),
+            order::with_drag(method),
+            cost::evaluations(method),
+            geometry::symplectic(method),
+            geometry::reversible(method),
+            stability::limit(method),
+            tolerance::tolerance(method),
+            memory::restart(method),
+            cost::keeps_time(method),
+        ],
+    };
+    Conformance { method: method.id, claims }
+}
+
+/// Whether a method of the table has its id.
+fn is_listed(method: &Method) -> bool {
+    METHODS.iter().any(|listed| listed.id == method.id)
+}
+
+/// Whether the card can be told from others.
+fn named(method: &Method) -> Claim {
+    let Method { id, name, .. } = *method;
+    let is_kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    let is_listed = is_listed(method);
+    let (measured, holds) = if id.is_empty() || !id.chars().all(is_kebab) {
+        ("an id has lower-case letters, digits and hyphens".to_owned(), false)
+    } else if name.is_empty() {
+        ("it has no name".to_owned(), false)
+    } else if is_listed && method.own.is_some() {
+        ("a method of the table has this id".to_owned(), false)
+    } else if !is_listed && method.own.is_none() {
+        ("it is not in the table, and `own` does not say how it is built".to_owned(), false)
+    } else {
+        (format!("{name:?}"), true)
+    };
+    Claim { field: "id", claimed: id.to_owned(), measured, holds }
+}
+
+/// A claim that something is so or is not so, where `found` is what it is and why.
+fn yes_or_no(field: &'static str, claimed: bool, found: Result<(bool, String), String>) -> Claim {
+    let word = if claimed { "yes" } else { "no" };
+    let (measured, holds) = match found {
+        Ok((is_so, how)) => (how, is_so == claimed),
+        Err(failure) => (failure, false),
+    };
+    Claim { field, claimed: word.to_owned(), measured, holds }
+}

@@ -1,0 +1,101 @@
+//! The cost of a step, and its length.
+
+use std::collections::BTreeSet;
+
+use glam::DVec2;
+
+use super::problems::{Kepler, fresh, kepler_orbit, spring};
+use super::{Claim, yes_or_no};
+use crate::sim::integrators::{Method, StepFailure, integrator};
+use crate::sim::system::{Counted, State, System};
+
+/// The evaluations of the first step, and of each of `steps` steps after it.
+fn costs<S: System + 'static>(
+    method: &Method,
+    system: S,
+    mut state: State<S::Vector>,
+    h: f64,
+    steps: u32,
+) -> Result<(u64, BTreeSet<u64>), StepFailure> {
+    let counted = Counted::new(system);
+    let mut integrator = integrator::<Counted<S>>(method, &state.q);
+    integrator.step(&counted, 0.0, h, &mut state)?;
+    let (first, mut before, mut others) =
+        (counted.evaluations(), counted.evaluations(), BTreeSet::new());
+    for step in 1..=steps {
+        integrator.step(&counted, h * f64::from(step), h, &mut state)?;
+        others.insert(counted.evaluations() - before);
+        before = counted.evaluations();
+    }
+    Ok((first, others))
+}
+
+/// The evaluations of a step: always as many as the card says, or not always as many.
+pub(super) fn evaluations(method: &Method) -> Claim {
+    const STEPS: u32 = 100;
+    let damped = costs(method, spring(5.0, 0.1), State { q: 1.0, v: 0.0 }, 0.25, STEPS);
+    let orbit = costs(method, Kepler, kepler_orbit(0.3, 0.0), 0.05, 30);
+    let claimed = method.evaluations.map_or("it decides".to_owned(), |count| count.to_string());
+    let (measured, holds) = match (damped, orbit) {
+        (Err(failure), _) | (_, Err(failure)) => (failure.to_string(), false),
+        (Ok((first, mut counts)), Ok((_, others))) => {
+            counts.extend(others);
+            let (least, most) = (counts.first().copied(), counts.last().copied());
+            let [least, most] = [least, most].map(|count| count.expect("of many steps"));
+            // A method that reuses what it has evaluated owes one evaluation more at its first step.
+            let owed = u64::from(method.restart.is_some());
+            let holds = match method.evaluations.map(u64::from) {
+                Some(count) => (least, most, first) == (count, count, count + owed),
+                None => least != most,
+            };
+            let range = if least == most { most.to_string() } else { format!("{least} to {most}") };
+            (format!("{range} a step, {first} at the first"), holds)
+        }
+    };
+    Claim { field: "evaluations", claimed, measured, holds }
+}
+
+/// A coordinate at an even speed of 1, which tells the time, beside a damped spring.
+struct ClockAndDrag;
+
+impl System for ClockAndDrag {
+    type Vector = DVec2;
+    fn acceleration(&self, _t: f64, q: &DVec2, v: &DVec2, a: &mut DVec2) {
+        *a = DVec2::new(0.0, -400.0 * q.y - 4.0 * v.y);
+    }
+}
+
+/// Whether a step of `h` takes `h`, and what is left out is reported.
+pub(super) fn keeps_time(method: &Method) -> Claim {
+    let measure = || {
+        let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(1.0, 0.0) };
+        let system = Counted::new(ClockAndDrag);
+        let mut integrator = integrator::<Counted<ClockAndDrag>>(method, &state.q);
+        for tick in 0..30 {
+            integrator.reset();
+            let stepped = integrator.step(&system, 0.1 * f64::from(tick), 0.1, &mut state);
+            stepped.map_err(|failure| failure.to_string())?;
+        }
+        let (clock, lost) = (state.q.x, system.counts().lost_time);
+        let off = (clock + lost - 3.0).abs();
+        if off.is_nan() || off >= 1e-12 {
+            return Err(format!("3 s take {clock:.6} s, of which it reports {lost:.6} s lost"));
+        }
+        Ok((lost == 0.0, format!("3 s take {clock:.6} s")))
+    };
+    let mut claim = yes_or_no("keeps_time", method.keeps_time, measure());
+    if claim.holds && method.keeps_time {
+        claim.holds = substeps_add_up(method);
+    }
+    claim
+}
+
+/// Whether the parts of a tick add up to it.
+fn substeps_add_up(method: &Method) -> bool {
+    [1, 2, 7, 16].into_iter().all(|n| {
+        let still = spring(0.0, 0.0);
+        let mut state = State { q: 0.0, v: 1.0 };
+        let stepped = fresh(method).steps(&still, 5.0, 0.3, n, &mut state);
+        stepped.is_ok() && (state.q - 0.3).abs() < 1e-14
+    })
+}

@@ -1,0 +1,81 @@
+//! Phase-space area, and reversibility.
+
+use super::problems::{Pendulum, spring, unbound};
+use super::{Claim, yes_or_no};
+use crate::sim::integrators::{Method, StepFailure};
+use crate::sim::system::{State, System};
+
+/// Large enough that a violation is far above round-off.
+const STEP: f64 = 0.8;
+const FROM: State<f64> = State { q: 1.2, v: 0.5 };
+
+/// An area or a return that is off by less is kept; rounding of the differences is 3e-13.
+const KEPT: f64 = 1e-12;
+
+/// What is off by more is not kept; the nearest to keeping area, Dormand-Prince, is 5e-5 off.
+const LOST: f64 = 1e-5;
+
+/// One step of a fresh method.
+fn map<S: System<Vector = f64> + 'static>(
+    method: &Method,
+    system: &S,
+    mut state: State<f64>,
+) -> Result<State<f64>, StepFailure> {
+    unbound::<S>(method, &0.0).step(system, 0.0, STEP, &mut state)?;
+    Ok(state)
+}
+
+/// The determinant of the one-step map's Jacobian, by central differences of fourth order.
+fn area<S: System<Vector = f64> + 'static>(
+    method: &Method,
+    system: &S,
+) -> Result<f64, StepFailure> {
+    let d = 1e-3;
+    let column = |dq: f64, dv: f64| {
+        let at = |n: f64| map(method, system, State { q: FROM.q + n * dq, v: FROM.v + n * dv });
+        let [far_behind, behind, ahead, far_ahead] = [at(-2.0)?, at(-1.0)?, at(1.0)?, at(2.0)?];
+        let slope = |part: fn(&State<f64>) -> f64| {
+            let near = 8.0 * (part(&ahead) - part(&behind));
+            (near - part(&far_ahead) + part(&far_behind)) / (12.0 * d)
+        };
+        Ok([slope(|state| state.q), slope(|state| state.v)])
+    };
+    let (by_q, by_v) = (column(d, 0.0)?, column(0.0, d)?);
+    Ok(by_q[0] * by_v[1] - by_q[1] * by_v[0])
+}
+
+/// Whether two quantities that should be 0 are, where nothing lies between being 0 and not.
+fn both_kept(off: [Result<f64, StepFailure>; 2], what: &str) -> Result<(bool, String), String> {
+    let [straight, curved] = off;
+    let off = [straight, curved].map(|off| off.map_err(|failure| failure.to_string()));
+    let [straight, curved] = off;
+    let off = [straight?, curved?];
+    let words = format!("{what} {:.1e} on a spring, {:.1e} on a pendulum", off[0], off[1]);
+    let is_decided = off.iter().all(|off| *off < KEPT || *off > LOST && off.is_finite());
+    if is_decided { Ok((off.iter().all(|off| *off < KEPT), words)) } else { Err(words) }
+}
+
+/// Whether a step conserves phase-space area, on a linear and on a nonlinear system.
+pub(super) fn symplectic(method: &Method) -> Claim {
+    let off = [area(method, &spring(1.0, 0.0)), area(method, &Pendulum)];
+    let off = off.map(|area| area.map(|area| (area - 1.0).abs()));
+    yes_or_no("symplectic", method.symplectic, both_kept(off, "area changes by"))
+}
+
+/// How far from its start a step of `h` and a step of `-h` leave the state.
+fn there_and_back<S: System<Vector = f64> + 'static>(
+    method: &Method,
+    system: &S,
+) -> Result<f64, StepFailure> {
+    let mut integrator = unbound::<S>(method, &0.0);
+    let mut state = FROM;
+    integrator.step(system, 0.0, STEP, &mut state)?;
+    integrator.step(system, STEP, -STEP, &mut state)?;
+    Ok((state.q - FROM.q).abs().max((state.v - FROM.v).abs()))
+}
+
+/// Whether a step back undoes a step, on a linear and on a nonlinear system.
+pub(super) fn reversible(method: &Method) -> Claim {
+    let off = [there_and_back(method, &spring(1.0, 0.0)), there_and_back(method, &Pendulum)];
+    yes_or_no("reversible", method.reversible, both_kept(off, "there and back it is off by"))
+}

@@ -1,0 +1,61 @@
+//! Whether a method carries something from step to step.
+
+use super::problems::{fresh, spring};
+use super::{Claim, yes_or_no};
+use crate::sim::bodies::Spring;
+use crate::sim::integrators::{Integrator, Method, StepFailure};
+use crate::sim::system::State;
+
+/// One step of a lively damped spring.
+fn step(
+    integrator: &mut dyn Integrator<Spring>,
+    state: &mut State<f64>,
+) -> Result<(), StepFailure> {
+    integrator.step(&spring(20.0, 0.1), 0.0, 0.03, state)
+}
+
+/// Whether a method that is reset before every step goes another way than one that is not.
+fn carries(method: &Method) -> Result<bool, StepFailure> {
+    let mut left_alone = State { q: -0.3, v: 11.0 };
+    let mut interrupted = left_alone.clone();
+    let [mut going_on, mut beginning_anew] = [fresh(method), fresh(method)];
+    for _ in 0..20 {
+        step(&mut *going_on, &mut left_alone)?;
+        beginning_anew.reset();
+        step(&mut *beginning_anew, &mut interrupted)?;
+    }
+    Ok(left_alone != interrupted)
+}
+
+/// Whether [`Integrator::reset`] makes a used method equal to a fresh one.
+fn forgets(method: &Method) -> Result<bool, StepFailure> {
+    let (mut used, mut elsewhere) = (fresh(method), State { q: 100.0, v: 3.0 });
+    for _ in 0..57 {
+        step(&mut *used, &mut elsewhere)?;
+    }
+    used.reset();
+    let mut reset = State { q: -0.3, v: 11.0 };
+    let mut new = reset.clone();
+    let mut fresh = fresh(method);
+    for _ in 0..20 {
+        step(&mut *used, &mut reset)?;
+        step(&mut *fresh, &mut new)?;
+    }
+    Ok(reset == new)
+}
+
+/// Whether the method has a memory, which a reset clears.
+pub(super) fn restart(method: &Method) -> Claim {
+    let measure = || -> Result<(bool, String), StepFailure> {
+        let carries = carries(method)?;
+        let words = if carries { "its steps depend on those before" } else { "it has no memory" };
+        Ok((carries, words.to_owned()))
+    };
+    let found = measure().map_err(|failure| failure.to_string());
+    let found = found.and_then(|found| match forgets(method) {
+        Ok(true) => Ok(found),
+        Ok(false) => Err("a reset leaves some of its memory".to_owned()),
+        Err(failure) => Err(failure.to_string()),
+    });
+    yes_or_no("restart", method.restart.is_some(), found)
+}

@@ -1,0 +1,79 @@
+//! Systems with known solutions, and ways to put a method on them.
+
+use glam::DVec2;
+
+use crate::sim::bodies::{Ship, Spring};
+use crate::sim::integrators::{Integrator, Method, Tolerance, integrator};
+use crate::sim::system::{State, System};
+
+/// A fresh integrator for systems of one coordinate.
+pub fn fresh<S: System<Vector = f64> + 'static>(method: &Method) -> Box<dyn Integrator<S>> {
+    integrator(method, &0.0)
+}
+
+/// A fresh integrator that takes the steps it is given: an adaptive one gets a tolerance that does not bind.
+pub fn unbound<S: System + 'static>(method: &Method, like: &S::Vector) -> Box<dyn Integrator<S>> {
+    let mut integrator = integrator(method, like);
+    integrator.set_tolerance(Tolerance::uniform(1e100));
+    integrator
+}
+
+/// A spring of this angular frequency (rad/s) and damping ratio.
+pub fn spring(omega: f64, damping_ratio: f64) -> Spring {
+    Spring {
+        mass: 1.0,
+        stiffness: omega * omega,
+        damping: 2.0 * damping_ratio * omega,
+        x0: 1.0,
+        v0: 0.7 * omega,
+        kick: 1.0,
+    }
+}
+
+/// The chapter's ship.
+pub const SHIP: Ship = Ship {
+    thrust: 20_000.0,
+    throttle: 1.0,
+    drag: 1_000.0,
+    mass: 10_000.0,
+    s0: 0.0,
+    v0: 0.0,
+    kick: 20_000.0,
+};
+
+/// `q″ = -sin q`.
+#[derive(Clone, Copy, Debug)]
+pub struct Pendulum;
+
+impl System for Pendulum {
+    type Vector = f64;
+    fn acceleration(&self, _t: f64, q: &f64, _v: &f64, a: &mut f64) {
+        *a = -libm::sin(*q);
+    }
+}
+
+/// A point about a fixed centre of attraction, `q″ = -q / |q|³`.
+#[derive(Clone, Copy, Debug)]
+pub struct Kepler;
+
+impl System for Kepler {
+    type Vector = DVec2;
+    fn acceleration(&self, _t: f64, q: &DVec2, _v: &DVec2, a: &mut DVec2) {
+        *a = -*q / (q.length_squared() * q.length());
+    }
+}
+
+/// The state on [`Kepler`]'s orbit of half axis 1 and this eccentricity, from 0 to below 1, at time `t` after
+/// periapsis; the period is 2π.
+pub fn kepler_orbit(eccentricity: f64, t: f64) -> State<DVec2> {
+    let e = eccentricity;
+    // Kepler's equation E - e sin E = t by Newton's method, which converges from E = π for every e.
+    let mut anomaly = std::f64::consts::PI;
+    for _ in 0..50 {
+        let (sin, cos) = (libm::sin(anomaly), libm::cos(anomaly));
+        anomaly -= (anomaly - e * sin - t) / (1.0 - e * cos);
+    }
+    let (sin, cos, b) = (libm::sin(anomaly), libm::cos(anomaly), (1.0 - e * e).sqrt());
+    let rate = 1.0 / (1.0 - e * cos);
+    State { q: DVec2::new(cos - e, b * sin), v: DVec2::new(-sin, b * cos) * rate }
+}

@@ -1,0 +1,82 @@
+//! Whether a method that chooses its steps meets its tolerance, and not by far.
+
+use super::problems::{Kepler, fresh, kepler_orbit, spring};
+use super::{Claim, yes_or_no};
+use crate::sim::body::Body;
+use crate::sim::integrators::{Method, StepFailure, Tolerance, integrator};
+use crate::sim::system::{State, System, Vector};
+
+/// What the error may be, in units of the tolerance: less is wasted work.
+const MET: std::ops::Range<f64> = 0.1..3.0;
+
+/// The error after an arc of one time unit begun on the true course, averaged over where it begins, in
+/// units of what is allowed.
+fn error_an_arc<S: System + 'static>(
+    method: &Method,
+    system: &S,
+    tolerance: f64,
+    truth: &dyn Fn(f64) -> State<S::Vector>,
+) -> Result<f64, StepFailure> {
+    const ARCS: u32 = 32;
+    let mut sum = 0.0;
+    for arc in 0..ARCS {
+        let t = f64::from(arc) * std::f64::consts::TAU / f64::from(ARCS);
+        let mut state = truth(t);
+        let mut integrator = integrator::<S>(method, &state.q);
+        integrator.set_tolerance(Tolerance::uniform(tolerance));
+        integrator.step(system, t, 1.0, &mut state)?;
+        let end = truth(t + 1.0);
+        let found = state.q.components().iter().chain(state.v.components());
+        let wanted = end.q.components().iter().chain(end.v.components());
+        let errors = found.zip(wanted).map(|(found, wanted)| {
+            let error = (found - wanted).abs() / (tolerance * (1.0 + wanted.abs()));
+            if error.is_nan() { f64::INFINITY } else { error }
+        });
+        sum += errors.fold(0.0, f64::max);
+    }
+    Ok(sum / f64::from(ARCS))
+}
+
+/// Whether a tolerance changes what the method does.
+fn heeds(method: &Method) -> Result<bool, StepFailure> {
+    let run = |tolerance: f64| {
+        let mut state = State { q: 1.0, v: 0.0 };
+        let mut integrator = fresh(method);
+        integrator.set_tolerance(Tolerance::uniform(tolerance));
+        integrator.step(&spring(20.0, 0.1), 0.0, 0.1, &mut state)?;
+        Ok(state)
+    };
+    Ok(run(1e-3)? != run(1e-7)?)
+}
+
+/// The errors on a spring and on an orbit for each of several tolerances.
+fn arcs(method: &Method) -> Result<(bool, String), StepFailure> {
+    let spring = spring(1.0, 0.0);
+    let swing = |t| spring.exact(t, &spring.start()).expect("a closed form");
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for tolerance in [1e-5, 1e-6, 1e-7, 1e-8] {
+        let on_spring = error_an_arc(method, &spring, tolerance, &swing)?;
+        let on_orbit = error_an_arc(method, &Kepler, tolerance, &|t| kepler_orbit(0.3, t))?;
+        least = least.min(on_spring).min(on_orbit);
+        most = most.max(on_spring).max(on_orbit);
+    }
+    let holds = MET.contains(&least) && MET.contains(&most);
+    Ok((holds, format!("its error is {least:.2} to {most:.2} times the tolerance")))
+}
+
+/// Whether the method has a tolerance, and meets it. A listing of the chapter is held to heeding it only.
+pub(super) fn tolerance(method: &Method) -> Claim {
+    let heeded = heeds(method).map_err(|failure| failure.to_string());
+    let found = heeded.and_then(|heeds| {
+        if !heeds || method.tolerance.is_none() || method.is_as_printed() {
+            let words = if heeds { "it heeds one" } else { "it heeds none" };
+            return Ok((heeds, words.to_owned()));
+        }
+        match arcs(method) {
+            Ok((true, words)) => Ok((true, words)),
+            Ok((false, words)) => Err(words),
+            Err(failure) => Err(failure.to_string()),
+        }
+    });
+    yes_or_no("tolerance", method.tolerance.is_some(), found)
+}

@@ -1,0 +1,215 @@
+//! Methods of one's own: they are in no table, and their cards say how they are built.
+
+use std::cell::RefCell;
+
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use super::tolerance::Tolerance;
+use crate::sim::system::{Pursuit, State, System, Vector};
+
+/// A system of any type with its coordinates in a `Vec`: what a method of one's own steps.
+#[derive(Clone, Copy)]
+pub struct AnySystem<'a>(&'a dyn System<Vector = Vec<f64>>);
+
+impl System for AnySystem<'_> {
+    type Vector = Vec<f64>;
+
+    fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        self.0.acceleration(t, q, v, a);
+    }
+
+    fn pursuit(&self, t: f64) -> Option<Pursuit<Vec<f64>>> {
+        self.0.pursuit(t)
+    }
+
+    fn skipped(&self, h: f64) {
+        self.0.skipped(h);
+    }
+}
+
+/// A method of one's own behind a pointer. Every `Clone` [`Integrator`] of systems with a `Vec` is one.
+pub trait OwnIntegrator: Send {
+    /// As [`Integrator::step`].
+    ///
+    /// # Errors
+    /// As [`Integrator::step`].
+    fn step(
+        &mut self,
+        system: AnySystem<'_>,
+        t: f64,
+        h: f64,
+        state: &mut State<Vec<f64>>,
+    ) -> Result<(), StepFailure>;
+    /// As [`Integrator::reset`].
+    fn reset(&mut self);
+    /// As [`Integrator::set_tolerance`].
+    fn set_tolerance(&mut self, tolerance: Tolerance);
+    /// Memory in bytes, without its coordinate vectors.
+    fn bytes(&self) -> usize;
+    /// A copy with the same memory.
+    fn boxed_clone(&self) -> Box<dyn OwnIntegrator>;
+}
+
+impl<I> OwnIntegrator for I
+where
+    I: for<'a> Integrator<AnySystem<'a>> + Clone + 'static,
+{
+    fn step(
+        &mut self,
+        system: AnySystem<'_>,
+        t: f64,
+        h: f64,
+        state: &mut State<Vec<f64>>,
+    ) -> Result<(), StepFailure> {
+        Integrator::step(self, &system, t, h, state)
+    }
+    fn reset(&mut self) {
+        Integrator::reset(self);
+    }
+    fn set_tolerance(&mut self, tolerance: Tolerance) {
+        Integrator::set_tolerance(self, tolerance);
+    }
+    fn bytes(&self) -> usize {
+        size_of::<I>() + Integrator::heap_bytes(self)
+    }
+    fn boxed_clone(&self) -> Box<dyn OwnIntegrator> {
+        Box::new(self.clone())
+    }
+}
+
+/// What the card of a method of one's own gives as [`Method::own`](super::Method::own): it builds the
+/// integrator `I`, for as many coordinates as it is given.
+///
+/// ```
+/// use regatta::prelude::*;
+///
+/// /// Explicit Euler's step.
+/// #[derive(Clone)]
+/// struct Plain<V>(State<V>);
+///
+/// impl<S: System> Integrator<S> for Plain<S::Vector> {
+///     fn new(like: &S::Vector) -> Self {
+///         Self(State { q: like.clone(), v: like.clone() })
+///     }
+///     fn step(
+///         &mut self,
+///         system: &S,
+///         t: f64,
+///         h: f64,
+///         state: &mut State<S::Vector>,
+///     ) -> Result<(), StepFailure> {
+///         system.derivative(t, state, &mut self.0);
+///         state.add_scaled(h, &self.0);
+///         Ok(())
+///     }
+/// }
+///
+/// static PLAIN: Method = Method {
+///     id: "plain",
+///     name: "Plain",
+///     order: 1,
+///     order_with_drag: 1,
+///     evaluations: Some(1),
+///     own: Some(own_integrator::<Plain<Vec<f64>>>),
+///     ..Family::Explicit.card()
+/// };
+/// assert_eq!(PLAIN.stability_limit, Some(0.0));
+/// ```
+pub fn own_integrator<I: OwnIntegrator + for<'a> Integrator<AnySystem<'a>> + 'static>(
+    coordinates: usize,
+) -> Box<dyn OwnIntegrator> {
+    Box::new(I::new(&vec![0.0; coordinates]))
+}
+
+/// A method of one's own on systems with coordinates in a `V`.
+pub(super) struct Own<V> {
+    integrator: Box<dyn OwnIntegrator>,
+    state: State<Vec<f64>>,
+    scratch: RefCell<[V; 3]>,
+}
+
+impl<V: Vector> Own<V> {
+    /// The method that `build` builds, for coordinates shaped `like` these.
+    pub(super) fn new(build: fn(usize) -> Box<dyn OwnIntegrator>, like: &V) -> Self {
+        let zero = vec![0.0; like.components().len()];
+        Self {
+            integrator: build(zero.len()),
+            state: State { q: zero.clone(), v: zero },
+            scratch: RefCell::new([(); 3].map(|()| like.clone())),
+        }
+    }
+}
+
+impl<V: Clone> Clone for Own<V> {
+    fn clone(&self) -> Self {
+        let Self { integrator, state, scratch } = self;
+        Self {
+            integrator: integrator.boxed_clone(),
+            state: state.clone(),
+            scratch: scratch.clone(),
+        }
+    }
+}
+
+impl<S: System> Integrator<S> for Own<S::Vector> {
+    fn new(_like: &S::Vector) -> Self {
+        unreachable!("a method of one's own is built by its card")
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        state: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { integrator, state: many, scratch } = self;
+        many.q.copy_from_slice(state.q.components());
+        many.v.copy_from_slice(state.v.components());
+        let stepped = integrator.step(AnySystem(&Spread { system, scratch }), t, h, many);
+        state.q.components_mut().copy_from_slice(&many.q);
+        state.v.components_mut().copy_from_slice(&many.v);
+        stepped
+    }
+
+    fn reset(&mut self) {
+        self.integrator.reset();
+    }
+
+    fn set_tolerance(&mut self, tolerance: Tolerance) {
+        self.integrator.set_tolerance(tolerance);
+    }
+
+    fn heap_bytes(&self) -> usize {
+        // An upper bound: as if every field were a coordinate vector.
+        let fields = self.integrator.bytes();
+        fields + (2 + fields / size_of::<Vec<f64>>()) * size_of_val(&self.state.q[..])
+    }
+}
+
+/// A system with its coordinates in a `Vec`.
+struct Spread<'a, S: System> {
+    system: &'a S,
+    scratch: &'a RefCell<[S::Vector; 3]>,
+}
+
+impl<S: System> System for Spread<'_, S> {
+    type Vector = Vec<f64>;
+
+    fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        let [own_q, own_v, own_a] = &mut *self.scratch.borrow_mut();
+        own_q.components_mut().copy_from_slice(q);
+        own_v.components_mut().copy_from_slice(v);
+        self.system.acceleration(t, own_q, own_v, own_a);
+        a.copy_from_slice(own_a.components());
+    }
+
+    fn pursuit(&self, t: f64) -> Option<Pursuit<Vec<f64>>> {
+        let Pursuit { target, rate, order, is_still } = self.system.pursuit(t)?;
+        Some(Pursuit { target: target.components().to_vec(), rate, order, is_still })
+    }
+
+    fn skipped(&self, h: f64) {
+        self.system.skipped(h);
+    }
+}
