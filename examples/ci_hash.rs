@@ -21,7 +21,7 @@ const HASHES: [(&str, u64); 2] =
 
 fn main() {
     let scene = Scene::parse("stiff.toml", SCENE).expect("the scene above");
-    let mut race = Race::of(&scene);
+    let mut race = Race::of_scene(&scene);
     race.run(600);
     let found: Vec<(&str, u64)> = race.hashes_by_method().collect();
     for (method, hash) in &found {

@@ -114,4 +114,6 @@ pub mod view;
 pub mod window;
 
 #[cfg(feature = "lab")]
+pub use lab::advise;
+#[cfg(feature = "lab")]
 pub use sim::conformance;

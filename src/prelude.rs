@@ -5,11 +5,16 @@
 pub use glam;
 
 #[cfg(feature = "lab")]
+pub use crate::lab::picture::Mark;
+#[cfg(feature = "lab")]
 pub use crate::lab::{
-    Adviser, CRITERIA, Judge, Lane, LaneSpec, METRICS, Race, SCENES, Scene, Session, Verdict,
+    Adviser, CRITERIA, Judge, Lane, LaneSpec, METRICS, Options, Race, Report, SCENES, Scene,
+    Session, Verdict,
 };
-pub use crate::sim::bodies::{BODIES, Body, Input};
+pub use crate::sim::bodies::{BODIES, Body, Extras, Input, ParameterOf, Range};
 pub use crate::sim::integrators::{
     Family, Integrator, METHODS, Method, StepFailure, integrator, method, own_integrator,
 };
 pub use crate::sim::{Clock, Due, Solver, State, Stepper, System, Vector, stepper};
+#[cfg(feature = "desktop")]
+pub use crate::window::Window;

@@ -15,7 +15,7 @@ const OTHER: &str = "midpoint";
 /// The test as the README prints it.
 fn recipe() -> &'static str {
     let blocks = README.split("```rust\n").skip(1).map(|rest| rest.split("```").next().unwrap());
-    let mut tests = blocks.filter(|block| block.contains("Race::of"));
+    let mut tests = blocks.filter(|block| block.contains("Race::of_scene"));
     tests.next().expect("the README prints a test")
 }
 
@@ -138,7 +138,7 @@ fn with_another(id: &str) -> String {
 #[test]
 fn another_method_shows_in_its_own_hash_and_in_no_other() {
     let hashes = |text: &str| {
-        let mut race = Race::of(&Scene::parse("stiff.toml", text).unwrap());
+        let mut race = Race::of_scene(&Scene::parse("stiff.toml", text).unwrap());
         race.run(600);
         race.lane_hashes().collect::<Vec<_>>()
     };

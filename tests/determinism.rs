@@ -298,7 +298,7 @@ fn the_hash_sees_which_body_halted_and_when() {
         let text = format!(
             "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n{spring} {one}\n{spring} {other}\n"
         );
-        let mut race = Race::of(&Scene::parse("twins.toml", &text).unwrap());
+        let mut race = Race::of_scene(&Scene::parse("twins.toml", &text).unwrap());
         race.run(when);
         race.input(Input::Kick(1e300));
         race.run(10 - when);
@@ -321,7 +321,7 @@ fn a_race_of_a_scene_is_the_race_that_the_program_runs() {
     let plain = SCENES.iter().map(|scene| built_in(scene.name));
     let scripted = SCENES.iter().map(|scene| scripted(scene.name, script()));
     for scene in plain.chain(scripted) {
-        let mut race = Race::of(&scene);
+        let mut race = Race::of_scene(&scene);
         let mut lab = Lab::new(scene);
         lab.apply(Command::ToggleRace);
         for _ in 0..20 {

@@ -107,7 +107,7 @@ fn error_percent(id: &str, tick_hz: u32) -> f64 {
 
 #[test]
 fn the_ship_reaches_20_m_per_s() {
-    let mut race = Race::of(&Scene::built_in("ship").unwrap());
+    let mut race = Race::of_scene(&Scene::built_in("ship").unwrap());
     race.run(120);
     let speed = race.truth().bodies()[0].stepper.v()[0];
     assert!((19.9..20.0).contains(&speed), "{speed}");
@@ -152,7 +152,7 @@ fn the_ships_settle_at_half_the_step_only() {
     let run = |tick_hz: u32, seconds: u64| -> Vec<f64> {
         let mut scene = Scene::built_in("surge").unwrap();
         scene.tick_hz = tick_hz;
-        let mut race = Race::of(&scene);
+        let mut race = Race::of_scene(&scene);
         race.run(u64::from(tick_hz) * seconds);
         let bodies = race.entrants()[0].lane.bodies().iter();
         bodies.map(|body| (body.stepper.v()[0] - 20.0).abs()).collect()

@@ -19,7 +19,7 @@ use super::terminal::tell;
 use super::{clip, scene_file, state_log};
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
-use crate::lab::{Lab, RecordingTooLong};
+use crate::lab::{Lab, RecordingError};
 use crate::view::Panels;
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
@@ -89,7 +89,7 @@ impl Cause for RecordOverScene {
     }
 }
 
-impl Cause for RecordingTooLong {
+impl Cause for RecordingError {
     fn exit_code(&self) -> u8 {
         1
     }

@@ -9,7 +9,7 @@ use super::past::{History, Past};
 use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
 use super::scene_list::SceneList;
-use super::session::{RecordingTooLong, Timeline};
+use super::session::{RecordingError, Session, Timeline};
 use super::start::StartSettings;
 use super::viewer::Viewer;
 use crate::sim::Clock;
@@ -67,6 +67,18 @@ impl Lab {
             run_before: None,
             start,
         }
+    }
+
+    /// Goes on with a run, where it is, in its mode.
+    pub fn of_session(session: Session) -> Self {
+        let tick = session.race().tick();
+        let mut lab = Self::new((**session.scene()).clone());
+        lab.start = StartSettings::of_session(&session);
+        lab.clock = Clock::new(lab.start.tick_hz);
+        lab.viewer = Viewer::new(session.race().entrants()[0].lane_number);
+        lab.timeline = Timeline::new(session.from_the_start());
+        (0..tick).for_each(|_| lab.timeline.tick());
+        lab
     }
 
     /// The open scene with the parameters and the length that a person has set.
@@ -207,7 +219,7 @@ impl Lab {
     ///
     /// # Errors
     /// As [`Session::recording_text`](super::Session::recording_text).
-    pub fn recording(&self) -> Result<String, RecordingTooLong> {
+    pub fn recording(&self) -> Result<String, RecordingError> {
         self.timeline.session().recording_text(self.timeline.end())
     }
 }

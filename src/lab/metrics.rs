@@ -192,7 +192,7 @@ mod tests {
             "title = 'x'\ntick_hz = 100\nseconds = 10\nmethods = ['{id}']\n\
              [[spring]]\nmass_kg = 2\nstiffness_n_per_m = 8\nkick_n_s = 4\nx0_m = {x0}\nv0_m_per_s = {v0}\n"
         );
-        Race::of(&Scene::parse("x.toml", &text).unwrap())
+        Race::of_scene(&Scene::parse("x.toml", &text).unwrap())
     }
 
     fn measured(id: &str, race: &Race) -> Option<f64> {
@@ -240,7 +240,7 @@ mod tests {
         let drifts = |bodies: &str, tick_hz: u32| {
             let head = "seconds = 60\nmethods = ['rk4', 'semi-implicit-euler']";
             let text = format!("title = 'x'\ntick_hz = {tick_hz}\n{head}\n{bodies}");
-            let mut race = Race::of(&Scene::parse("x.toml", &text).unwrap());
+            let mut race = Race::of_scene(&Scene::parse("x.toml", &text).unwrap());
             let mut drifts = Vec::new();
             for _ in 0..60 * tick_hz {
                 race.step();
@@ -273,7 +273,8 @@ mod tests {
             "[[chain]]\nmasses = 8\nmass_kg = 1\nstiffness_n_per_m = 400\nx0_m = 1\n",
         ] {
             let head = "title = 'x'\ntick_hz = 60\nseconds = 60\nmethods = ['implicit-euler']";
-            let mut race = Race::of(&Scene::parse("x.toml", &format!("{head}\n{body}")).unwrap());
+            let mut race =
+                Race::of_scene(&Scene::parse("x.toml", &format!("{head}\n{body}")).unwrap());
             for _ in 0..3600 {
                 race.step();
                 let drift = measured("energy_drift", &race);

@@ -29,11 +29,13 @@ mod metrics;
 mod notices;
 pub mod number;
 mod one_step;
+mod own;
 pub mod pacing;
 pub mod palette;
 mod past;
 pub mod picture;
 mod race;
+mod report;
 mod scene;
 mod scene_list;
 mod session;
@@ -71,11 +73,13 @@ pub use loop_lab::{
 };
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use one_step::{FORMULAS, Formula, OneStep, Slope};
+pub use own::{Draw, Options, OptionsError};
 pub use past::{
     CAPACITY, Energies, History, Past, Run, Sample, Samples, Summary, SweptRange, TruthCurve,
     TruthSample,
 };
 pub use race::{Entrant, Mode, Observer, Race};
+pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
 pub use scene::{
     BuiltIn, Check, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES,
     MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, Refusal, SCENES, Scene,
@@ -83,8 +87,6 @@ pub use scene::{
     parameter_named,
 };
 pub use scene_list::SceneList;
-pub use session::{
-    Event, EventKind, RecordingTooLong, SNAPSHOT_BYTES, Session, TimeScale, Timeline,
-};
+pub use session::{Event, EventKind, RecordingError, SNAPSHOT_BYTES, Session, TimeScale, Timeline};
 pub use viewer::{Dialog, Viewer};
 pub use zoom_pan::{ZOOMS, ZoomPan};

@@ -46,8 +46,8 @@ impl Theme {
     /// The colour of a method, and its dash pattern as the second cue: drawn length and gap in points, a
     /// gap of 0 being solid.
     pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
-        let place = METHODS.iter().position(|listed| listed == method).unwrap_or(0);
-        let (colour, dash) = STYLES[place];
+        let place = METHODS.iter().position(|listed| listed == method);
+        let (colour, dash) = place.map_or_else(|| own_style(method), |place| STYLES[place]);
         (self.palette().methods[colour], DASHES[dash])
     }
 
@@ -191,6 +191,13 @@ const WARM: [usize; 3] = [0, 3, 5];
 /// Whether two colours could be taken for each other.
 fn are_alike(a: usize, b: usize) -> bool {
     a == b || WARM.contains(&a) && WARM.contains(&b)
+}
+
+/// The places of the colour and the dash of a method that is not in the table: always the same, by its id, and no
+/// solid line, which those that people know best have.
+fn own_style(method: &Method) -> (usize, usize) {
+    let sum = method.id.bytes().fold(0, |sum: usize, byte| (31 * sum + usize::from(byte)) % 9973);
+    (sum % DARK.methods.len(), 1 + sum % (DASHES.len() - 1))
 }
 
 /// The places of each method's colour and dash. No method has a colour like that of a neighbour in the table.

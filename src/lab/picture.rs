@@ -25,6 +25,7 @@ mod trails;
 
 pub use compose::compose;
 pub use grasp::{Cell, Grasp, Grip, Whose};
+pub(super) use look::Drawing;
 pub use look::{Framing, Handle, Look, Pull};
 pub use outline::{Mark, Outline};
 

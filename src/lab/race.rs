@@ -83,13 +83,13 @@ impl Race {
     /// use regatta::lab::{Race, Scene};
     ///
     /// let scene = Scene::built_in("stiff").expect("a built-in scene");
-    /// let mut race = Race::of(&scene);
+    /// let mut race = Race::of_scene(&scene);
     /// race.run(600);
     /// for (method, hash) in race.hashes_by_method() {
     ///     println!("{method} {hash:016x}");
     /// }
     /// ```
-    pub fn of(scene: &Scene) -> Self {
+    pub fn of_scene(scene: &Scene) -> Self {
         let lanes = equal_cost::lanes_that_race(scene);
         Self::new(scene, lanes.into_iter().enumerate()).with_script(&scene.script)
     }

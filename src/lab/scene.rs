@@ -169,6 +169,15 @@ impl Scene {
         self.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
     }
 
+    /// The name of a body, or the id of a lane's method, that is written in Rust, so that no scene file holds it; `None`
+    /// if there is none.
+    pub fn in_rust(&self) -> Option<&str> {
+        let mut bodies = self.bodies.iter().filter(|body| body.kind.own.is_some());
+        let mut lanes = self.lanes.iter().filter(|lane| lane.method.own.is_some());
+        let body = bodies.next().map(|body| &*body.name);
+        body.or_else(|| lanes.next().map(|lane| lane.method.id))
+    }
+
     /// The scene of [`SCENES`] with this name.
     pub fn built_in(name: &str) -> Option<Scene> {
         let BuiltIn { name, text } = SCENES.iter().find(|scene| scene.name == name)?;

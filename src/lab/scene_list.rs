@@ -3,7 +3,7 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use super::scene::{SCENES, Scene};
+use super::scene::{BuiltIn, SCENES, Scene};
 
 /// The list of scenes, and which of them is open.
 #[derive(Clone, Debug)]
@@ -34,7 +34,8 @@ impl SceneFile {
 impl SceneList {
     /// The built-in scenes, of which the one with the name of `scene` is open.
     pub(super) fn of(scene: &Scene) -> Self {
-        let open = SCENES.iter().position(|built_in| built_in.name == scene.name);
+        let is_open = |built_in: &BuiltIn| built_in.name == scene.name && scene.in_rust().is_none();
+        let open = SCENES.iter().position(is_open);
         Self { files: Vec::new(), open }
     }
 

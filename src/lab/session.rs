@@ -11,7 +11,7 @@ mod recording;
 mod time_scale;
 mod timeline;
 
-pub use recording::RecordingTooLong;
+pub use recording::RecordingError;
 pub use time_scale::TimeScale;
 pub use timeline::{Event, EventKind, SNAPSHOT_BYTES, Timeline};
 
@@ -41,7 +41,7 @@ impl Session {
     /// assert_eq!(copy.race().state_hash(), session.race().state_hash());
     /// ```
     pub fn racing(scene: Arc<Scene>) -> Self {
-        let race = Race::of(&scene);
+        let race = Race::of_scene(&scene);
         Self::new(scene, race)
     }
 
@@ -57,6 +57,13 @@ impl Session {
     pub fn solo(scene: Arc<Scene>, entry: usize) -> Self {
         let race = Race::solo(&scene, scene.method_list(), entry);
         Self::new(scene, race)
+    }
+
+    /// The same run before its first tick, with all its actions to come.
+    pub(super) fn from_the_start(&self) -> Self {
+        let mut race = self.start().clone();
+        race.set_journal(self.journal().clone());
+        Self { race, ..self.clone() }
     }
 
     /// The race at its start, before any action; without its journal.

@@ -45,6 +45,19 @@ impl StartSettings {
         }
     }
 
+    /// The settings with which this run began.
+    pub(super) fn of_session(session: &Session) -> Self {
+        let entrants = session.race().entrants();
+        Self {
+            mode: session.mode(),
+            lanes: entrants.iter().map(|entrant| entrant.entry).collect(),
+            entry: entrants[0].entry,
+            list: session.race().list().to_vec(),
+            tick_hz: session.race().tick_hz(),
+            ..Self::of((**session.scene()).clone())
+        }
+    }
+
     /// A run at its start.
     pub(super) fn session(&self) -> Session {
         let race = match self.mode {

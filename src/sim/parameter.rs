@@ -188,6 +188,11 @@ impl<B> ParameterOf<B> {
         self
     }
 
+    /// The parameter without its field.
+    pub(super) fn parameter(&self) -> Parameter {
+        self.parameter
+    }
+
     /// The field of a parameter that acts at once; `None` for other parameters.
     pub(super) fn acting_at_once(&self) -> Option<fn(&mut B) -> &mut f64> {
         match self.slot {

@@ -6,7 +6,8 @@ use super::judged::{Row, best};
 use crate::commands::output::table::{self, Column};
 use crate::lab::number::round;
 use crate::lab::{
-    Adviser, CRITERIA, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS, Scene, Verdict,
+    Adviser, CRITERIA, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS, Recommendation, Scene,
+    Verdict,
 };
 
 /// The answer as text: the methods that meet each criterion with their costs, then the recommendations.
@@ -40,7 +41,10 @@ pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
     for (i, criterion) in CRITERIA.iter().enumerate() {
         text += &format!("at {} Hz: {}: ", adviser.tick_hz(), criterion.id());
         text += &match best(rows, i) {
-            Some((row, met)) => line(row, met),
+            Some((row, met)) => {
+                let (method, with) = (row.advised.spec.method.id, met.clone());
+                Recommendation { method, with }.to_string()
+            }
             None if rows.iter().all(|row| row.advised.met[i] == CriterionResult::No) => format!(
                 "none of these with up to {MOST_ADVISED_SUBSTEPS} substeps; raise the tick rate, soften the \
                  stiffest of {}, or damp it",
@@ -57,20 +61,6 @@ pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
         text.push('\n');
     }
     text
-}
-
-/// A recommendation in one line, for a design note.
-fn line(row: &Row, met: &CriterionMet) -> String {
-    let more = if met.stiffness_factor >= 10_000.0 { "more than " } else { "" };
-    format!(
-        "{} ×{} ({} evaluations/s; holds down to {} Hz, or {more}{} × {})",
-        row.advised.spec.method.id,
-        met.substeps,
-        met.evaluations_per_s.round(),
-        met.slowest_hz,
-        round(met.stiffness_factor, 3),
-        met.limited_by,
-    )
 }
 
 /// The answer as JSON.

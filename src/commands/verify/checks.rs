@@ -233,7 +233,7 @@ fn replay(scene: &Scene, observer: &mut impl Observer) -> Vec<Reached> {
 /// Runs the race of a scene, and compares every lane with its checks.
 fn compare(scene: &Scene) -> Vec<JudgedLane> {
     let mut methods = MethodsSeen(vec![Vec::new(); scene.lanes.len()]);
-    methods.look(&Race::of(scene));
+    methods.look(&Race::of_scene(scene));
     let all_reached = replay(scene, &mut methods);
     let lanes = methods.0.into_iter().zip(1..).map(|(methods, number)| JudgedLane {
         number,

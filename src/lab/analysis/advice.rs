@@ -70,6 +70,7 @@ const WORK_WHEN_STIFFER: u64 = 5_000_000;
 
 /// The fewest substeps with which a method meets a criterion, and its margins.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CriterionMet {
     /// Steps per tick.
     pub substeps: u32,

@@ -261,7 +261,7 @@ mod tests {
             answer(&mut worker, &AnalysisRequest { tick_hz: 20, ..first.clone() });
         assert_eq!(count, GENERAL_METHODS.len());
         assert!(coarse != fine);
-        let mut race = Race::of(&first.scene);
+        let mut race = Race::of_scene(&first.scene);
         race.act(Action::Throttle(0.5), &mut ());
         let by_hand = Interventions::in_race(&race);
         let slower = AnalysisRequest { tick_hz: 20, by_hand, ..first.clone() };

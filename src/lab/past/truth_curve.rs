@@ -282,7 +282,7 @@ mod tests {
 
     #[test]
     fn points_between_samples_are_on_the_exact_motion() {
-        let race = Race::of(&Scene::built_in("spring").unwrap());
+        let race = Race::of_scene(&Scene::built_in("spring").unwrap());
         let truth = &race.truth().bodies()[0];
         let tau = std::f64::consts::TAU;
         let sample = |t: f64| TruthSample {

@@ -6,7 +6,6 @@ use super::moment::{Moment, turns};
 use super::sketch::Camera;
 use super::{Framing, Rect};
 use crate::lab::race::Entrant;
-use crate::sim::law::Equations;
 
 /// The head of a cell that a body with a fixed camera leaves to the caption, in points.
 const HEAD: f64 = 36.0;
@@ -72,8 +71,7 @@ pub(super) fn quay_width(cell: Rect) -> f32 {
 impl Moment<'_> {
     /// The camera of a cell that shows the body at this place of the scene, zoomed and panned as a person has it.
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &View) -> Camera {
-        let law = self.lab.race().truth().bodies()[index].kind.law;
-        let unit = law.map_or("m", Equations::drawn_unit);
+        let unit = self.lab.race().truth().bodies()[index].kind.drawn_unit();
         let camera = Camera { unit, ..self.fitted(rect, view) };
         camera.through(self.lab.display().zoom_pan(index))
     }

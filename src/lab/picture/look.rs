@@ -6,17 +6,23 @@ use std::any::Any;
 use glam::DVec2;
 
 use super::outline::{Mark, Outline};
-use crate::sim::bodies::{Body, Chain, Follow, Helm, Kind, Law, Orbit, Pendulum, Ship, Spring};
+use crate::sim::bodies::{
+    Body, Chain, Follow, Helm, Kind, Law, Orbit, Own, Pendulum, Ship, Spring,
+};
 use crate::sim::{State, Stepper, Vector};
 
+mod beads;
 mod chain;
 mod follow;
 mod helm;
 mod law;
 mod orbit;
+mod own;
 mod pendulum;
 mod ship;
 mod spring;
+
+pub(in crate::lab) use own::Drawing;
 
 /// What part of a body's world the stage shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,6 +118,9 @@ static LOOKS: &[Look] = &[
 /// The look of laws, whose kinds are not in that table.
 static LAW_LOOK: Look = Look::of_type::<Law>("law");
 
+/// The look of bodies of one's own, whose kinds are not in it either.
+static OWN_LOOK: Look = Look::of_type::<Own>("own");
+
 impl Look {
     const fn of_type<B: Drawn>(kind: &'static str) -> Self {
         let outline = |body: &dyn Any, t: f64, q: &[f64]| {
@@ -139,6 +148,9 @@ impl Look {
     pub fn of(kind: &Kind) -> &'static Look {
         if kind.law.is_some() {
             return &LAW_LOOK;
+        }
+        if kind.own.is_some() {
+            return &OWN_LOOK;
         }
         let look = LOOKS.iter().find(|look| look.kind == kind.id);
         look.expect("the tests below find a look for every kind")

@@ -11,25 +11,37 @@ const MOST_CHECKS: usize = 8_000;
 /// The tolerance in seconds for the end of a second: times may be off by their last bits.
 const ON_TIME_S: f64 = 1e-6;
 
-/// A recording that is too long to be read as a scene.
+/// Why a run cannot be recorded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "this run has so many actions that its file would be {bytes} bytes long, and a scene file may be at most {LARGEST_FILE}; record a shorter run"
-)]
-pub struct RecordingTooLong {
-    /// The size of its file.
-    pub bytes: usize,
+pub enum RecordingError {
+    /// It is too long to be read as a scene.
+    #[error(
+        "this run has so many actions that its file would be {bytes} bytes long, and a scene file may be at most {LARGEST_FILE}; record a shorter run"
+    )]
+    TooLong {
+        /// The size of its file.
+        bytes: usize,
+    },
+    /// It has a body or a method that is written in Rust.
+    #[error("{what} is written in Rust, and a scene file cannot hold it; compare hashes instead")]
+    InRust {
+        /// The name of the body, or the id of the method.
+        what: String,
+    },
 }
 
 impl Session {
     /// The text of the [recording](Session::recording) to tick `end`.
     ///
     /// # Errors
-    /// If it is too long for a scene file.
-    pub fn recording_text(&self, end: u64) -> Result<String, RecordingTooLong> {
+    /// If it is too long for a scene file, or if a file cannot say what it is of.
+    pub fn recording_text(&self, end: u64) -> Result<String, RecordingError> {
+        if let Some(what) = self.scene.in_rust() {
+            return Err(RecordingError::InRust { what: what.to_owned() });
+        }
         let text = self.recording(end).to_toml();
         let bytes = text.len();
-        if bytes > LARGEST_FILE { Err(RecordingTooLong { bytes }) } else { Ok(text) }
+        if bytes > LARGEST_FILE { Err(RecordingError::TooLong { bytes }) } else { Ok(text) }
     }
 
     /// A scene whose race repeats this run to the bit, from its start to tick `end`: as long as that, or as the scene if no

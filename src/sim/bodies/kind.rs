@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::own::OwnSheet;
 use crate::sim::law::Equations;
 use crate::sim::parameter::{Fault, Parameter};
 use crate::sim::reference::REFERENCE_ACCURACY;
@@ -67,6 +68,8 @@ pub struct Kind {
     /// The equations of a [law](super::law_kind), which a scene writes itself; `None` for a kind of the
     /// table.
     pub law: Option<&'static Equations>,
+    /// What is known of a [body of one's own](super::own_kind); `None` for a kind of the table.
+    pub own: Option<&'static OwnSheet>,
 }
 
 impl fmt::Debug for Kind {
@@ -80,6 +83,15 @@ impl Kind {
     pub fn plain_coordinates(&self) -> &'static [Coordinate] {
         let default = |parameter: &Parameter| parameter.default.unwrap_or(1.0);
         (self.coordinates)(&self.parameters.iter().map(default).collect::<Vec<_>>())
+    }
+
+    /// The unit of what is drawn in its own scale, for people; empty if it has none.
+    pub fn drawn_unit(&self) -> &'static str {
+        match (self.law, self.own) {
+            (Some(law), _) => law.drawn_unit(),
+            (_, Some(sheet)) => sheet.drawn_unit(),
+            (None, None) => "m",
+        }
     }
 
     /// The parameter with this key, and its index in [`Kind::parameters`].

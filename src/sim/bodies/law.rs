@@ -4,6 +4,7 @@ use std::cell::{OnceCell, RefCell};
 
 use glam::DVec2;
 
+use super::survey::ranges;
 use crate::sim::body::{Body, Input};
 use crate::sim::law::{At, Equations, Registers};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
@@ -11,7 +12,6 @@ use crate::sim::system::{State, System};
 
 mod claims;
 mod kind;
-mod survey;
 
 pub use claims::check_law;
 pub use kind::law_kind;
@@ -60,7 +60,7 @@ impl Law {
 
     /// The least and the largest value of each coordinate in the first seconds of the motion, for drawing.
     pub fn ranges(&self) -> &[(f64, f64)] {
-        self.ranges.get_or_init(|| survey::ranges(self))
+        self.ranges.get_or_init(|| ranges(self))
     }
 
     fn coordinates(&self) -> usize {

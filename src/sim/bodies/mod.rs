@@ -12,10 +12,12 @@ mod kind;
 mod law;
 mod orbit;
 mod oscillator;
+mod own;
 mod pendulum;
 mod refusal;
 mod ship;
 mod spring;
+mod survey;
 
 pub use chain::Chain;
 pub use follow::Follow;
@@ -23,6 +25,7 @@ pub use helm::{Helm, ThrustCurve};
 pub use kind::{Build, Coordinate, Kind, Truth};
 pub use law::{Law, check_law, law_kind};
 pub use orbit::{Ellipse, Orbit};
+pub use own::{Energy, Exact, Extras, Own, OwnFault, OwnSheet, own_kind};
 pub use pendulum::Pendulum;
 pub use refusal::refusal;
 pub use ship::Ship;
@@ -36,7 +39,8 @@ pub use super::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 pub static BODIES: &[Kind] =
     &[ship::KIND, spring::KIND, chain::KIND, pendulum::KIND, orbit::KIND, helm::KIND, follow::KIND];
 
-/// The kind with this id. A [law](law_kind) has a kind of its own, which is not in the table.
+/// The kind with this id. A [law](law_kind) and a [body of one's own](own_kind) have kinds of their own, which are
+/// not in the table.
 pub fn kind(id: &str) -> Option<&'static Kind> {
     BODIES.iter().find(|kind| kind.id == id)
 }

@@ -76,10 +76,14 @@ pub(super) fn limit(method: &Method) -> Claim {
     let (measured, holds) = match found {
         Err(failure) => (failure.to_string(), false),
         Ok(Some(contradiction)) => (contradiction, false),
-        Ok(None) if method.stability_limit.is_some() => {
-            ("bounded up to 0.99 of it, and grows at 1.01 of it".to_owned(), true)
+        Ok(None) => {
+            let words = match method.stability_limit {
+                Some(limit) if limit > 0.0 => "bounded up to 0.99 of it, and grows at 1.01 of it",
+                Some(_) => "grows at every step",
+                None => "bounded at h ω = 10",
+            };
+            (words.to_owned(), true)
         }
-        Ok(None) => ("bounded at h ω = 10".to_owned(), true),
     };
     Claim { field: "stability_limit", claimed, measured, holds }
 }

@@ -1,154 +1,30 @@
-//! A law: a bead for each coordinate on a rail of its own, or one bead in a plane.
+//! A law: beads on rails, or in a plane.
 
-use glam::DVec2;
-
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::beads::Beads;
+use super::{Drawn, Framing, Handle, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::Law;
 
-/// The radius of a bead in halves of the picture's width, on a rail and in a plane.
-const BEAD: f64 = 0.055;
-const BEAD_IN_PLANE: f64 = 0.045;
-
-/// The distance of two rails, and the room above and below them, in halves of the width.
-const RAILS_APART: f64 = 0.3;
-const MARGIN: f64 = 0.2;
-
-/// How far a rail reaches beyond the motion, in halves of the motion's range.
-const BEYOND: f64 = 1.25;
-
-/// How long the trail in a plane is, in seconds.
-const TRAIL_S: f64 = 4.0;
-
-/// One rail: its coordinate's place of rest in the picture, and how long its unit is there.
-#[derive(Clone, Copy)]
-struct Rail {
-    /// The middle of the coordinate's range.
-    middle: f64,
-    /// Half of that range.
-    half: f64,
-    /// Where the middle is drawn.
-    at: DVec2,
-    /// Metres of the picture for a unit of the coordinate.
-    scale: f64,
-}
-
-impl Rail {
-    fn place(&self, q: f64) -> DVec2 {
-        DVec2::new(self.at.x + (q - self.middle) * self.scale, self.at.y)
-    }
-
-    fn coordinate(&self, x: f64) -> f64 {
-        self.middle + (x - self.at.x) / self.scale
-    }
-
-    /// Where both ends are drawn.
-    fn ends(&self) -> [DVec2; 2] {
-        [-1.0, 1.0].map(|side| self.place(self.middle + side * BEYOND * self.half))
-    }
-}
-
-/// The middle and half of a range; of one without extent its size, and of nothing 1.
-fn middle_and_half(&(low, high): &(f64, f64)) -> [f64; 2] {
-    let (middle, half) = (low + (high - low) / 2.0, (high - low) / 2.0);
-    let half = if half > 1e-9 * middle.abs() { half } else { middle.abs() };
-    [middle, if half > 0.0 { half } else { 1.0 }]
-}
-
-/// The rails from the top down. The first has the scale of the picture; those of its unit share its scale
-/// and zero, so that the coordinates can be compared, and the others have one of their own.
-fn rails(law: &Law) -> Vec<Rail> {
-    let coordinates = &law.equations().text().coordinates;
-    let unit = coordinates[0].unit;
-    let alike = law.ranges().iter().zip(coordinates).filter(|(_, of)| of.unit == unit);
-    let shared = alike.map(|(range, _)| *range);
-    let shared = shared.reduce(|all, next| (all.0.min(next.0), all.1.max(next.1)));
-    let [middle, half] = middle_and_half(&shared.unwrap_or((0.0, 0.0)));
-    let rail = |(n, (range, of)): (usize, (&(f64, f64), &crate::sim::law::CoordinateText))| {
-        let at = DVec2::new(middle, -RAILS_APART * half * n as f64);
-        if of.unit == unit {
-            return Rail { middle, half, at, scale: 1.0 };
-        }
-        let [own_middle, own_half] = middle_and_half(range);
-        Rail { middle: own_middle, half: own_half, at, scale: half / own_half }
-    };
-    law.ranges().iter().zip(coordinates).enumerate().map(rail).collect()
-}
-
-/// The middle of the plane's picture, and half its width and height.
-fn plane_room(law: &Law, plane: [usize; 2]) -> [DVec2; 2] {
-    let [x, y] = plane.map(|place| middle_and_half(&law.ranges()[place]));
-    let half = x[1].max(y[1]);
-    let near = |own: f64| own.max(0.4 * half);
-    [DVec2::new(x[0], y[0]), BEYOND * DVec2::new(near(x[1]), near(y[1]))]
+fn beads(law: &Law) -> Beads<'_> {
+    let text = law.equations().text();
+    let coordinates = text.coordinates.iter().map(|of| [&*of.name, of.unit]).collect();
+    Beads { coordinates, ranges: law.ranges(), plane: text.plane }
 }
 
 impl Drawn for Law {
     fn draw(&self, q: &Vec<f64>, outline: &mut Outline) {
-        let text = self.equations().text();
-        if let Some(plane) = text.plane {
-            let [_, half] = plane_room(self, plane);
-            let radius = BEAD_IN_PLANE * half.max_element();
-            outline.marks.push(Mark::Disc { centre: outline.at, radius });
-            return;
-        }
-        let rails = rails(self);
-        let radius = BEAD * BEYOND * rails[0].half;
-        for (rail, of) in rails.iter().zip(&text.coordinates) {
-            let [from, to] = rail.ends();
-            outline.marks.push(Mark::Rail { from, to });
-            outline.marks.push(Mark::Name { at: from, text: &of.name });
-            if rail.ends()[0].x <= rail.place(0.0).x && rail.place(0.0).x <= rail.ends()[1].x {
-                let tick = DVec2::new(0.0, 0.9 * radius);
-                let zero = rail.place(0.0);
-                outline.marks.push(Mark::Rail { from: zero - tick, to: zero + tick });
-            }
-        }
-        for (rail, &q) in rails.iter().zip(q) {
-            outline.marks.push(Mark::Disc { centre: rail.place(q), radius });
-        }
+        beads(self).draw(q, outline);
     }
 
     fn framing(&self) -> Framing {
-        if let Some(plane) = self.equations().text().plane {
-            let [centre_m, half_m] = plane_room(self, plane);
-            return Framing::Fixed { centre_m, half_m, trail_s: TRAIL_S };
-        }
-        let rails = rails(self);
-        let half = rails[0].half;
-        let [first, last] = [rails[0].at, rails[rails.len() - 1].at];
-        let height = (first.y - last.y) / 2.0 + MARGIN * half;
-        Framing::Fixed {
-            centre_m: (first + last) / 2.0,
-            half_m: DVec2::new(1.12 * BEYOND * half, height),
-            trail_s: 0.0,
-        }
+        beads(self).framing()
     }
 
     fn handles(&self, q: &Vec<f64>) -> Vec<Handle> {
-        let text = self.equations().text();
-        if let Some(plane) = text.plane {
-            let [_, half] = plane_room(self, plane);
-            let at = DVec2::new(q[plane[0]], q[plane[1]]);
-            return vec![Handle { at, radius: BEAD_IN_PLANE * half.max_element() }];
-        }
-        let rails = rails(self);
-        let radius = BEAD * BEYOND * rails[0].half;
-        rails.iter().zip(q).map(|(rail, &q)| Handle { at: rail.place(q), radius }).collect()
+        beads(self).handles(q)
     }
 
-    /// The other coordinates keep their places and their velocities.
     fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        match self.equations().text().plane {
-            Some([x, y]) => {
-                (state.q[x], state.q[y]) = (pull.to.x, pull.to.y);
-                (state.v[x], state.v[y]) = (pull.velocity.x, pull.velocity.y);
-            }
-            None => {
-                let rail = rails(self)[pull.handle];
-                state.q[pull.handle] = rail.coordinate(pull.to.x);
-                state.v[pull.handle] = pull.velocity.x / rail.scale;
-            }
-        }
+        beads(self).pull(state, pull);
     }
 }

@@ -1,6 +1,5 @@
-//! How far the coordinates of a law go, found by a short run.
+//! How far the coordinates of a body go, found by a short run.
 
-use super::Law;
 use crate::sim::body::Body;
 use crate::sim::integrators::{integrator, method};
 use crate::sim::system::Counted;
@@ -16,12 +15,12 @@ const MOST_EVALUATIONS: u64 = 30_000;
 const RUNAWAY: f64 = 1e4;
 
 /// The least and the largest value of each coordinate in the first seconds.
-pub(super) fn ranges(law: &Law) -> Vec<(f64, f64)> {
-    let mut state = law.start();
+pub(super) fn ranges(body: &impl Body<Vector = Vec<f64>>) -> Vec<(f64, f64)> {
+    let mut state = body.start();
     let mut ranges: Vec<(f64, f64)> = state.q.iter().map(|&q| (q, q)).collect();
-    let body = Counted::new(law.clone());
+    let body = Counted::new(body.clone());
     let method = method("dormand-prince-54").expect("a method of the table");
-    let mut solver = integrator::<Counted<Law>>(method, &state.q);
+    let mut solver = integrator(method, &state.q);
     let mut first_second: Vec<f64> = vec![f64::INFINITY; state.q.len()];
     for tick in 0..TICKS {
         let stepped = solver.step(&body, f64::from(tick) * TICK_S, TICK_S, &mut state);

@@ -1,0 +1,228 @@
+//! An experiment on a body of one's own: a [`System`] and a start are enough.
+
+use std::any::Any;
+use std::fmt;
+use std::sync::{Mutex, PoisonError};
+
+use super::lane_spec::LaneSpec;
+use super::picture::{Drawing, Mark};
+use super::race::Race;
+use super::scene::{
+    LEAST_SECONDS, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS, MOST_TICK_HZ, Scene, SceneBody,
+};
+use crate::sim::bodies::{Extras, OwnFault, own_kind, refusal};
+use crate::sim::integrators::{METHODS, Method};
+use crate::sim::{State, System, Vector};
+
+/// Draws a system whose coordinates are these, in metres, x right and y up.
+pub type Draw<S> = fn(&S, &<S as System>::Vector) -> Vec<Mark>;
+
+/// The experiment on a body of one's own. Take [`Options::default`] for what need not be said.
+pub struct Options<S: System> {
+    /// The name of the body, for people: at most [`MOST_NAME_CHARS`] characters. The default is `body`.
+    pub name: &'static str,
+    /// Ticks per second, 1 to [`MOST_TICK_HZ`]. The default is 60.
+    pub tick_hz: u32,
+    /// How long it runs, in seconds, from [`LEAST_SECONDS`] to [`MOST_SECONDS`]. The default is 20. Verdicts are
+    /// on the first minute.
+    pub seconds: f64,
+    /// The methods, at most [`MOST_LANES`], from [`METHODS`] or one's own. Empty: all that step such a body.
+    pub methods: Vec<&'static Method>,
+    /// What is known of the body beyond its equation.
+    pub extras: Extras<S>,
+    /// Draws the body. `None`: a bead in the plane, or one on a rail for each coordinate.
+    pub draw: Option<Draw<S>>,
+}
+
+impl<S: System> Default for Options<S> {
+    fn default() -> Self {
+        Self {
+            name: "body",
+            tick_hz: 60,
+            seconds: 20.0,
+            methods: Vec::new(),
+            extras: Extras::default(),
+            draw: None,
+        }
+    }
+}
+
+/// An option that cannot be, or that is not so.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OptionsError {
+    /// The field of [`Options`] or [`Extras`], or `start`.
+    pub field: &'static str,
+    /// What is wrong.
+    pub what: String,
+    /// How to mend it.
+    pub remedy: String,
+}
+
+impl fmt::Display for OptionsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { field, what, remedy } = self;
+        write!(f, "`{field}`: {what}; {remedy}")
+    }
+}
+
+impl std::error::Error for OptionsError {}
+
+impl From<OwnFault> for OptionsError {
+    fn from(OwnFault { field, what, remedy }: OwnFault) -> Self {
+        Self { field, what, remedy: remedy.to_owned() }
+    }
+}
+
+fn error(field: &'static str, what: String, remedy: impl Into<String>) -> OptionsError {
+    OptionsError { field, what, remedy: remedy.into() }
+}
+
+impl Scene {
+    /// The scene of one body that moves as `system` does, from `start`. It has all that a scene from a file has but a
+    /// text: it cannot be recorded.
+    ///
+    /// Each call keeps some hundred bytes until the program ends.
+    ///
+    /// # Errors
+    /// If an option is out of its range or unfit, or if an energy or an exact solution is not one.
+    pub fn of<S>(
+        system: &S,
+        start: State<S::Vector>,
+        options: Options<S>,
+    ) -> Result<Scene, OptionsError>
+    where
+        S: System + Clone + Send + 'static,
+    {
+        let Options { name, tick_hz, seconds, methods, extras, draw } = options;
+        if name.is_empty() || name.chars().count() > MOST_NAME_CHARS {
+            let what = format!("{name:?} has {} characters", name.chars().count());
+            return Err(error("name", what, format!("give it 1 to {MOST_NAME_CHARS}")));
+        }
+        if !(1..=MOST_TICK_HZ).contains(&tick_hz) {
+            let remedy = format!("give a rate from 1 to {MOST_TICK_HZ} Hz");
+            return Err(error("tick_hz", tick_hz.to_string(), remedy));
+        }
+        if !(LEAST_SECONDS..=MOST_SECONDS).contains(&seconds) {
+            let remedy = format!("give a length from {LEAST_SECONDS} to {MOST_SECONDS} s");
+            return Err(error("seconds", seconds.to_string(), remedy));
+        }
+        let drawing = draw.map(|draw| drawing::<S>(draw, start.q.clone()));
+        let kind = own_kind(system, &start, &extras, drawing)?;
+        let values: Vec<f64> =
+            kind.parameters.iter().map(|parameter| parameter.default.unwrap_or(1.0)).collect();
+        let steps = |method: &&'static Method| refusal(method, kind, &values).is_none();
+        let lanes = match &methods[..] {
+            [] => METHODS.iter().filter(steps).map(LaneSpec::plain).collect(),
+            chosen => {
+                check_methods(chosen)?;
+                if let Some(method) = chosen.iter().find(|method| !steps(method)) {
+                    let reason = refusal(method, kind, &values).unwrap_or_default();
+                    return Err(error(
+                        "methods",
+                        format!("{}: {reason}", method.id),
+                        "leave it out",
+                    ));
+                }
+                chosen.iter().map(|method| LaneSpec::plain(method)).collect()
+            }
+        };
+        Ok(Scene {
+            name: name.to_owned(),
+            title: name.to_owned(),
+            about: String::new(),
+            hint: None,
+            tick_hz,
+            seconds,
+            lanes,
+            opening_method: None,
+            equal_cost: false,
+            opens_as_race: methods.len() != 1,
+            bodies: vec![SceneBody { name: name.to_owned(), kind, values }],
+            script: Vec::new(),
+            checks: Vec::new(),
+        })
+    }
+}
+
+impl Race {
+    /// The race of a body that moves as `system` does, from `start`: a lane for each method of the options, and the
+    /// truth.
+    ///
+    /// ```
+    /// use regatta::prelude::*;
+    ///
+    /// #[derive(Clone)]
+    /// struct Spring;
+    ///
+    /// impl System for Spring {
+    ///     type Vector = f64;
+    ///     fn acceleration(&self, _t: f64, q: &f64, _v: &f64, a: &mut f64) {
+    ///         *a = -40.0 * q;
+    ///     }
+    /// }
+    ///
+    /// let mut race = Race::of(&Spring, State { q: 1.0, v: 0.0 }, Options::default());
+    /// race.run(600);
+    /// assert!(race.hashes_by_method().any(|(method, _)| method == "rk4"));
+    /// ```
+    ///
+    /// # Panics
+    /// If an option cannot be; [`Scene::of`] returns an error instead.
+    pub fn of<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Self
+    where
+        S: System + Clone + Send + 'static,
+    {
+        Race::of_scene(&scene(system, start, options))
+    }
+}
+
+/// The scene of these options.
+///
+/// # Panics
+/// As [`Race::of`].
+pub(super) fn scene<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Scene
+where
+    S: System + Clone + Send + 'static,
+{
+    Scene::of(system, start, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {
+    if chosen.len() > MOST_LANES {
+        let remedy = format!("name at most {MOST_LANES}");
+        return Err(error("methods", format!("these are {}", chosen.len()), remedy));
+    }
+    for (i, method) in chosen.iter().enumerate() {
+        if chosen[..i].contains(method) {
+            return Err(error("methods", format!("two have the id {:?}", method.id), "rename one"));
+        }
+        let is_listed = METHODS.iter().any(|listed| listed.id == method.id);
+        if is_listed && method.own.is_some() {
+            let what = format!("a method of the table has the id {:?} too", method.id);
+            return Err(error("methods", what, "give yours another id"));
+        }
+        if !is_listed && method.own.is_none() {
+            let what = format!("{:?} is not in the table", method.id);
+            return Err(error(
+                "methods",
+                what,
+                "say in the field `own` of its card how it is built",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// What the picture draws such a body by. It is kept as long as the program runs.
+fn drawing<S: System + 'static>(
+    draw: Draw<S>,
+    like: S::Vector,
+) -> &'static (dyn Any + Send + Sync) {
+    let like = Mutex::new(like);
+    let draw = move |system: &dyn Any, q: &[f64]| {
+        let mut own_q = like.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        own_q.components_mut().copy_from_slice(q);
+        system.downcast_ref().map_or_else(Vec::new, |system| draw(system, &own_q))
+    };
+    Box::leak(Box::new(Drawing(Box::new(draw))))
+}

@@ -1,0 +1,206 @@
+//! Advice on a body of one's own as a value: to print, to test, or to write as JSON.
+
+use std::fmt;
+
+use super::analysis::{
+    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS,
+    MethodAdvice, recommended,
+};
+use super::number::round;
+use super::own::{Options, scene};
+use super::scene::Scene;
+use crate::sim::{State, System};
+
+/// One value for each [`Criterion`].
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+pub struct Criteria<T> {
+    /// Of [`Criterion::Bounded`].
+    pub bounded: T,
+    /// Of [`Criterion::LooksRight`].
+    pub looks_right: T,
+    /// Of [`Criterion::Accurate`].
+    pub accurate: T,
+}
+
+impl<T> Criteria<T> {
+    fn of(value: impl FnMut(Criterion) -> T) -> Self {
+        let [bounded, looks_right, accurate] = CRITERIA.map(value);
+        Self { bounded, looks_right, accurate }
+    }
+
+    /// The value of a criterion.
+    pub fn get(&self, criterion: Criterion) -> &T {
+        match criterion {
+            Criterion::Bounded => &self.bounded,
+            Criterion::LooksRight => &self.looks_right,
+            Criterion::Accurate => &self.accurate,
+        }
+    }
+}
+
+/// What is advised for a body at a tick rate.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Report {
+    /// The body's name.
+    pub name: String,
+    /// The tick rate in Hz.
+    pub tick_hz: u32,
+    /// The simulated seconds over which the methods were judged.
+    pub horizon_s: f64,
+    /// Every method, in the order of the table or as they were given.
+    pub methods: Vec<MethodReport>,
+    /// The cheapest method that meets each criterion, by its evaluations; `None` if none does, or if it is not known.
+    pub recommended: Criteria<Option<Recommendation>>,
+    /// The ids of the methods of which it is not known whether they meet a criterion: there is no truth, or it takes too
+    /// much work.
+    pub not_known: Criteria<Vec<&'static str>>,
+}
+
+/// What is found of one method.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct MethodReport {
+    /// Its id.
+    pub method: &'static str,
+    /// Its [outcome](super::Outcome) in a word.
+    pub word: &'static str,
+    /// The verdict in a sentence.
+    pub verdict: String,
+    /// The largest error in amplitudes; `None` if it failed.
+    pub error: Option<f64>,
+    /// How it meets each criterion with the fewest substeps; `None` if it does not, or if it is not known.
+    pub criteria: Criteria<Option<CriterionMet>>,
+}
+
+/// A method for a criterion.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Recommendation {
+    /// The method's id.
+    pub method: &'static str,
+    /// How it meets the criterion.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub with: CriterionMet,
+}
+
+/// One line, for a design note.
+impl fmt::Display for Recommendation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { method, with } = self;
+        let more = if with.stiffness_factor >= 10_000.0 { "more than " } else { "" };
+        write!(
+            f,
+            "{method} ×{} ({} evaluations/s; holds down to {} Hz, or {more}{} × {})",
+            with.substeps,
+            with.evaluations_per_s.round(),
+            with.slowest_hz,
+            round(with.stiffness_factor, 3),
+            with.limited_by,
+        )
+    }
+}
+
+/// Costs that differ by less than this factor are equal.
+const BLUR: f64 = 1.0;
+
+/// Judges methods on a body that moves as `system` does, from `start`, and recommends one. Costs are counted in
+/// evaluations of the acceleration.
+///
+/// ```
+/// use regatta::prelude::*;
+///
+/// #[derive(Clone)]
+/// struct Spring;
+///
+/// impl System for Spring {
+///     type Vector = f64;
+///     fn acceleration(&self, _t: f64, q: &f64, _v: &f64, a: &mut f64) {
+///         *a = -40.0 * q;
+///     }
+/// }
+///
+/// let start = State { q: 1.0, v: 0.0 };
+/// let report = regatta::advise(&Spring, start, Options { tick_hz: 60, ..Options::default() });
+/// println!("{report}");
+/// let bounded = report.recommended.bounded.expect("some method is bounded");
+/// assert_eq!(bounded.with.substeps, 1);
+/// ```
+///
+/// # Panics
+/// If an option cannot be; [`Scene::of`] returns an error instead, and [`Report::of_scene`] goes on from there.
+pub fn advise<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Report
+where
+    S: System + Clone + Send + 'static,
+{
+    Report::of_scene(&scene(system, start, options))
+}
+
+impl Report {
+    /// The advice on the methods of a scene's lanes at its tick rate, under full throttle.
+    pub fn of_scene(scene: &Scene) -> Self {
+        let adviser = Adviser::new(scene, 1.0, scene.tick_hz);
+        let judged = scene.lanes.iter().map(|&spec| MethodAdvice {
+            spec,
+            verdict: adviser.verdict(spec),
+            met: CRITERIA.map(|criterion| adviser.meets(spec, criterion)),
+        });
+        let judged: Vec<MethodAdvice> = judged.collect();
+        let place = |criterion| CRITERIA.iter().position(|one| *one == criterion).unwrap_or(0);
+        Self {
+            name: scene.name.clone(),
+            tick_hz: adviser.tick_hz(),
+            horizon_s: adviser.judge().horizon_s(),
+            recommended: Criteria::of(|criterion| {
+                let cost = |_: &MethodAdvice, met: &CriterionMet| met.evaluations_per_s;
+                let advice = &judged[recommended(&judged, place(criterion), BLUR, cost)?];
+                let with = advice.met[place(criterion)].met()?.clone();
+                Some(Recommendation { method: advice.spec.method.id, with })
+            }),
+            not_known: Criteria::of(|criterion| {
+                let is_open = |advice: &&MethodAdvice| {
+                    advice.met[place(criterion)] == CriterionResult::Unknown
+                };
+                judged.iter().filter(is_open).map(|advice| advice.spec.method.id).collect()
+            }),
+            methods: judged.iter().map(|advice| method(advice, &place)).collect(),
+        }
+    }
+}
+
+fn method(advice: &MethodAdvice, place: &dyn Fn(Criterion) -> usize) -> MethodReport {
+    let verdict = &advice.verdict;
+    MethodReport {
+        method: advice.spec.method.id,
+        word: verdict.outcome.id(),
+        verdict: verdict.to_string(),
+        error: Some(verdict.error).filter(|error| error.is_finite()),
+        criteria: Criteria::of(|criterion| advice.met[place(criterion)].met().cloned()),
+    }
+}
+
+/// The verdicts, then a recommendation for each criterion.
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ids = self.methods.iter().map(|row| row.method.len());
+        let width = ids.max().unwrap_or(0);
+        for MethodReport { method, verdict, .. } in &self.methods {
+            writeln!(f, "{method:width$}  {verdict}")?;
+        }
+        writeln!(f)?;
+        for criterion in CRITERIA {
+            write!(f, "{} at {} Hz: {}: ", self.name, self.tick_hz, criterion.id())?;
+            match self.recommended.get(criterion) {
+                Some(recommendation) => writeln!(f, "{recommendation}")?,
+                None if self.not_known.get(criterion).is_empty() => {
+                    writeln!(f, "none of these with up to {MOST_ADVISED_SUBSTEPS} substeps")?;
+                }
+                None => {
+                    writeln!(f, "not known of {}", self.not_known.get(criterion).join(", "))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,162 @@
+//! A body of one's own: any [`System`] with a start.
+
+use std::any::Any;
+use std::cell::OnceCell;
+
+use glam::DVec2;
+
+use super::survey::ranges;
+use crate::sim::body::{Body, Input};
+use crate::sim::system::{State, System};
+
+mod claims;
+mod extras;
+mod kind;
+mod motion;
+
+pub use claims::OwnFault;
+pub use extras::{Energy, Exact, Extras};
+pub use kind::own_kind;
+use motion::Motion;
+
+/// What is known of a body of one's own beside its motion.
+#[derive(Debug)]
+pub struct OwnSheet {
+    /// The name and the unit of each coordinate.
+    pub coordinates: Vec<[&'static str; 2]>,
+    /// The coordinates that are x and y of a plane, if it is drawn in one.
+    pub plane: Option<[usize; 2]>,
+    /// How it is drawn, for a layer that knows the type; `None` for the usual look.
+    pub drawing: Option<&'static (dyn Any + Send + Sync)>,
+}
+
+impl OwnSheet {
+    /// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate.
+    pub fn drawn_unit(&self) -> &'static str {
+        let [_, unit] = self.coordinates[self.plane.map_or(0, |[x, _]| x)];
+        if unit == "1" { "" } else { unit }
+    }
+}
+
+/// A body of one's own. The type of its system is forgotten, so that it needs no code of its own here.
+#[derive(Debug)]
+pub struct Own {
+    motion: Box<dyn Motion>,
+    sheet: &'static OwnSheet,
+    start: State<Vec<f64>>,
+    /// The change of the velocity by one kick.
+    kick: Vec<f64>,
+    /// Whether the energy is conserved with the present parameters.
+    conserves: bool,
+    /// Whether the exact solution is one with the present parameters.
+    is_solved: bool,
+    ranges: OnceCell<Vec<(f64, f64)>>,
+}
+
+impl Clone for Own {
+    fn clone(&self) -> Self {
+        let Self { motion, sheet, start, kick, conserves, is_solved, ranges } = self;
+        Self {
+            motion: motion.boxed_clone(),
+            sheet,
+            start: start.clone(),
+            kick: kick.clone(),
+            conserves: *conserves,
+            is_solved: *is_solved,
+            ranges: ranges.clone(),
+        }
+    }
+}
+
+impl Own {
+    /// What is known of it beside its motion.
+    pub fn sheet(&self) -> &'static OwnSheet {
+        self.sheet
+    }
+
+    /// The system with its present parameters; its type is the one that it was made of.
+    pub fn system(&self) -> &dyn Any {
+        self.motion.system()
+    }
+
+    /// The least and the largest value of each coordinate in the first seconds of the motion, for drawing.
+    pub fn ranges(&self) -> &[(f64, f64)] {
+        self.ranges.get_or_init(|| ranges(self))
+    }
+}
+
+impl System for Own {
+    type Vector = Vec<f64>;
+
+    fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        self.motion.acceleration(t, q, v, a);
+    }
+}
+
+impl Body for Own {
+    fn with_parameters(mut self, values: &[f64]) -> Self {
+        for (place, &value) in values.iter().enumerate() {
+            self.motion.set(place, value);
+        }
+        self.prepare();
+        self
+    }
+
+    fn set_parameter(&mut self, place: usize, value: f64) -> bool {
+        let is_new = self.motion.set(place, value);
+        if is_new {
+            self.prepare();
+        }
+        is_new
+    }
+
+    fn prepare(&mut self) {
+        self.ranges.take();
+        self.conserves = claims::find_leak(self).is_none();
+        self.is_solved = claims::find_unsolved(self).is_none();
+    }
+
+    fn heap_bytes(&self) -> usize {
+        let vectors = 3 + self.motion.vectors();
+        let ranges = self.ranges.get().map_or(0, |ranges| size_of_val(&ranges[..]));
+        self.motion.bytes() + vectors * size_of_val(&self.start.q[..]) + ranges
+    }
+
+    fn start(&self) -> State<Vec<f64>> {
+        self.start.clone()
+    }
+
+    fn exact(&self, _dt: f64, _from: &State<Vec<f64>>) -> Option<State<Vec<f64>>> {
+        None
+    }
+
+    fn exact_since_start(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
+        self.is_solved && self.motion.exact(t, to)
+    }
+
+    fn is_angle(&self, coordinate: usize) -> bool {
+        self.sheet.coordinates[coordinate][1] == "rad"
+    }
+
+    fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
+        if self.conserves { self.motion.energy(&state.q, Some(&state.v)) } else { None }
+    }
+
+    fn kinetic_energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
+        Some(self.energy(state)? - self.motion.energy(&state.q, None)?)
+    }
+
+    fn input(&mut self, input: Input, state: &mut State<Vec<f64>>) -> bool {
+        let Input::Kick(times) = input else { return false };
+        state.v.iter_mut().zip(&self.kick).for_each(|(v, kick)| *v += times * kick);
+        true
+    }
+
+    /// The coordinates of the plane, or the first coordinate to the right.
+    fn place(&self, q: &Vec<f64>) -> DVec2 {
+        match self.sheet.plane {
+            Some([x, y]) => DVec2::new(q[x], q[y]),
+            None => DVec2::new(q[0], 0.0),
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! The kind of a body of one's own: made for each, and kept as long as the program runs.
+
+use std::any::Any;
+use std::cell::OnceCell;
+use std::sync::{Mutex, PoisonError};
+
+use super::motion::Typed;
+use super::{Extras, Own, OwnFault, OwnSheet, claims};
+use crate::sim::bodies::kind::{Coordinate, Kind, Truth};
+use crate::sim::body::Body;
+use crate::sim::body_stepper::stepper;
+use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range};
+use crate::sim::system::{State, System, Vector};
+
+/// The key of the parameter that bodies without parameters of their own have.
+const FORCE: &str = "force";
+
+/// The largest number of coordinates. More are a matter for a body that knows which of them act on each other.
+const MOST_COORDINATES: usize = 256;
+
+/// The kind of bodies that move as `system` does, from `start`. What a layer above needs to draw them is in
+/// `drawing`. Its parameters have the numbers of `system` as defaults. The kind is kept as long as the
+/// program runs.
+///
+/// # Errors
+/// If the start, a name or a unit is unfit, or if something that is told in `extras` is not so.
+pub fn own_kind<S>(
+    system: &S,
+    start: &State<S::Vector>,
+    extras: &Extras<S>,
+    drawing: Option<&'static (dyn Any + Send + Sync)>,
+) -> Result<&'static Kind, OwnFault>
+where
+    S: System + Clone + Send + 'static,
+{
+    let many = State { q: start.q.components().to_vec(), v: start.v.components().to_vec() };
+    let n = many.q.len();
+    let fault = |field, what: String, remedy| Err(OwnFault { field, what, remedy });
+    if n == 0 || n > MOST_COORDINATES || many.v.len() != n {
+        let what = format!("it has {n} coordinates and {} velocities", many.v.len());
+        return fault("start", what, "give it as many of both, 1 to 256");
+    }
+    let coordinates = coordinates(&extras.coordinates, n)?;
+    let plane = plane(extras.plane, &coordinates)?;
+    let parameters: Vec<Parameter> = match &extras.parameters[..] {
+        [] => vec![FORCE_PARAMETER],
+        own => own.iter().map(|parameter| told_parameter(parameter, system)).collect(),
+    };
+    check_keys(&parameters)?;
+    let mut kick = vec![0.0; n];
+    match &extras.kick {
+        Some(own) if own.components().len() == n => kick.copy_from_slice(own.components()),
+        Some(_) => {
+            return fault("kick", "it has another length".into(), "give it one velocity each");
+        }
+        None => kick[0] = 1.0,
+    }
+    let sheet: &'static OwnSheet = Box::leak(Box::new(OwnSheet { coordinates, plane, drawing }));
+    let mut own = Own {
+        motion: Box::new(Typed::new(system.clone(), start, extras)),
+        sheet,
+        start: many,
+        kick,
+        conserves: false,
+        is_solved: false,
+        ranges: OnceCell::new(),
+    };
+    claims::check(&own)?;
+    own.prepare();
+    Ok(kind(own, sheet, parameters))
+}
+
+/// The parameter, with the number of `system` as its default.
+fn told_parameter<S: System + Clone>(parameter: &ParameterOf<S>, system: &S) -> Parameter {
+    let default = parameter.acting_at_once().map(|field| *field(&mut system.clone()));
+    Parameter { default, ..parameter.parameter() }
+}
+
+const FORCE_PARAMETER: Parameter = Parameter {
+    key: FORCE,
+    about: "what its acceleration is multiplied by",
+    unit: "",
+    default: Some(1.0),
+    range: Range::POSITIVE,
+    acts: Acts::AtOnce,
+};
+
+fn kind(own: Own, sheet: &'static OwnSheet, parameters: Vec<Parameter>) -> &'static Kind {
+    let coordinate = |[name, unit]: &[&'static str; 2]| Coordinate {
+        name,
+        velocity: String::leak(format!("v{name}")),
+        unit,
+    };
+    let coordinates: &'static [Coordinate] =
+        Vec::leak(sheet.coordinates.iter().map(coordinate).collect());
+    let parameters: &'static [Parameter] = Vec::leak(parameters);
+    let leading = parameters[0].key;
+    // A system need not be shared between threads: each body gets a copy.
+    let template: &'static Mutex<Own> = Box::leak(Box::new(Mutex::new(own)));
+    let copy = |values: &[f64]| {
+        let own = template.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        own.with_parameters(values)
+    };
+    let check = move |values: &[f64]| {
+        let own = copy(values);
+        let State { q, v } = own.start();
+        let mut a = v.clone();
+        own.acceleration(0.0, &q, &v, &mut a);
+        let unfit = a.iter().position(|a| !a.is_finite());
+        unfit.map_or(Ok(()), |i| {
+            let what =
+                format!("the acceleration of {} is {} at the start", coordinates[i].name, a[i]);
+            Err(Fault { key: leading, what, remedy: "take values with a finite one".into() })
+        })
+    };
+    Box::leak(Box::new(Kind {
+        id: "own",
+        about: "a body written in Rust",
+        coordinates: Box::leak(Box::new(move |_: &[f64]| coordinates)),
+        parameters,
+        inputs: &["kick"],
+        leading,
+        truth: Truth::Reference,
+        check: Box::leak(Box::new(check)),
+        build: Box::leak(Box::new(move |values: &[f64], solver| stepper(copy(values), solver))),
+        law: None,
+        own: Some(sheet),
+    }))
+}
+
+/// The names and units of `n` coordinates.
+fn coordinates(
+    told: &[(&'static str, &'static str)],
+    n: usize,
+) -> Result<Vec<[&'static str; 2]>, OwnFault> {
+    let fault = |what: String| {
+        let remedy = "give each a name of its own of letters, digits and underscores";
+        Err(OwnFault { field: "coordinates", what, remedy })
+    };
+    if told.is_empty() {
+        let name = |i: usize| match n {
+            ..=3 => ["x", "y", "z"][i],
+            _ => String::leak(format!("q{}", i + 1)),
+        };
+        return Ok((0..n).map(|i| [name(i), "m"]).collect());
+    }
+    if told.len() != n {
+        return fault(format!("it names {} coordinates, and the start has {n}", told.len()));
+    }
+    for (i, (name, _)) in told.iter().enumerate() {
+        if !is_name(name) || told[..i].iter().any(|(earlier, _)| earlier == name) {
+            return fault(format!("{name:?} is no name for a coordinate, or the second"));
+        }
+    }
+    Ok(told.iter().map(|&(name, unit)| [name, unit]).collect())
+}
+
+fn is_name(name: &str) -> bool {
+    let is_letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(is_letter)
+}
+
+/// The plane that was told, or that of two coordinates in metres.
+fn plane(
+    told: Option<[usize; 2]>,
+    coordinates: &[[&'static str; 2]],
+) -> Result<Option<[usize; 2]>, OwnFault> {
+    match (told, coordinates) {
+        (Some([x, y]), _) if x == y || x.max(y) >= coordinates.len() => Err(OwnFault {
+            field: "plane",
+            what: format!("coordinates {x} and {y} of {} make no plane", coordinates.len()),
+            remedy: "name two coordinates by their places, from 0",
+        }),
+        (None, [[_, "m"], [_, "m"]]) => Ok(Some([0, 1])),
+        (told, _) => Ok(told),
+    }
+}
+
+fn check_keys(parameters: &[Parameter]) -> Result<(), OwnFault> {
+    for (i, Parameter { key, acts, range, default, .. }) in parameters.iter().enumerate() {
+        let is_taken = parameters[..i].iter().any(|earlier| earlier.key == *key);
+        let is_number =
+            *acts == Acts::AtOnce && !matches!(range, Range::Count(_) | Range::Curve { .. });
+        if !is_name(key) || is_taken || !is_number {
+            return Err(OwnFault {
+                field: "parameters",
+                what: format!("{key:?} is no name for a number that acts at once, or the second"),
+                remedy: "give each a name of its own, and make it by `ParameterOf::number`",
+            });
+        }
+        let value = default.unwrap_or(f64::NAN);
+        if !range.contains(value) {
+            return Err(OwnFault {
+                field: "parameters",
+                what: format!("{key} is {value}, and its range is {range}"),
+                remedy: "give the system another number, or the parameter a wider range",
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,121 @@
+//! A system of any type behind a pointer, with its coordinates as plain numbers.
+
+use std::any::Any;
+use std::cell::RefCell;
+use std::fmt;
+
+use super::extras::{Energy, Exact, Extras};
+use crate::sim::parameter::ParameterOf;
+use crate::sim::system::{State, System, Vector};
+
+/// The motion of a body of one's own.
+pub(super) trait Motion: Send {
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
+    /// The energy of a state, or of the same place at rest; `None` if nobody has said what it is.
+    fn energy(&self, q: &[f64], v: Option<&[f64]>) -> Option<f64>;
+    /// Overwrites `to` with the exact state at time `t` (s). Returns whether anybody has said what it is.
+    fn exact(&self, t: f64, to: &mut State<Vec<f64>>) -> bool;
+    /// Sets the parameter in this place. Returns whether that is new.
+    fn set(&mut self, place: usize, value: f64) -> bool;
+    fn system(&self) -> &dyn Any;
+    fn boxed_clone(&self) -> Box<dyn Motion>;
+    /// Its size, without coordinates on the heap.
+    fn bytes(&self) -> usize;
+    /// The number of coordinate vectors that it holds.
+    fn vectors(&self) -> usize;
+}
+
+impl fmt::Debug for dyn Motion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Motion")
+    }
+}
+
+/// A system with what was told of it.
+#[derive(Clone)]
+pub(super) struct Typed<S: System> {
+    system: S,
+    /// Multiplies the acceleration of a system without parameters.
+    force: f64,
+    parameters: Vec<fn(&mut S) -> &mut f64>,
+    energy: Option<Energy<S>>,
+    exact: Option<Exact<S>>,
+    scratch: RefCell<Scratch<S::Vector>>,
+}
+
+#[derive(Clone)]
+struct Scratch<V> {
+    state: State<V>,
+    a: V,
+}
+
+impl<S: System> Typed<S> {
+    pub(super) fn new(system: S, like: &State<S::Vector>, extras: &Extras<S>) -> Self {
+        Self {
+            system,
+            force: 1.0,
+            parameters: extras.parameters.iter().filter_map(ParameterOf::acting_at_once).collect(),
+            energy: extras.energy,
+            exact: extras.exact,
+            scratch: RefCell::new(Scratch { state: like.clone(), a: like.v.clone() }),
+        }
+    }
+}
+
+impl<S: System + Clone + Send + 'static> Motion for Typed<S> {
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        let Scratch { state, a: own } = &mut *self.scratch.borrow_mut();
+        state.q.components_mut().copy_from_slice(q);
+        state.v.components_mut().copy_from_slice(v);
+        self.system.acceleration(t, &state.q, &state.v, own);
+        for (a, own) in a.iter_mut().zip(own.components()) {
+            *a = self.force * own;
+        }
+    }
+
+    fn energy(&self, q: &[f64], v: Option<&[f64]>) -> Option<f64> {
+        let energy = self.energy?;
+        let state = &mut self.scratch.borrow_mut().state;
+        state.q.components_mut().copy_from_slice(q);
+        match v {
+            Some(v) => state.v.components_mut().copy_from_slice(v),
+            None => state.v.components_mut().fill(0.0),
+        }
+        Some(energy(&self.system, state))
+    }
+
+    fn exact(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
+        let Some(exact) = self.exact else { return false };
+        let State { q, v } = exact(&self.system, t);
+        to.q.copy_from_slice(q.components());
+        to.v.copy_from_slice(v.components());
+        true
+    }
+
+    fn set(&mut self, place: usize, value: f64) -> bool {
+        let field = match self.parameters.get(place) {
+            Some(field) => field(&mut self.system),
+            None if place == 0 => &mut self.force,
+            None => return false,
+        };
+        let is_new = *field != value;
+        *field = value;
+        is_new
+    }
+
+    fn system(&self) -> &dyn Any {
+        &self.system
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Motion> {
+        Box::new(self.clone())
+    }
+
+    fn bytes(&self) -> usize {
+        size_of::<Self>() + size_of_val(&self.parameters[..])
+    }
+
+    fn vectors(&self) -> usize {
+        3
+    }
+}
