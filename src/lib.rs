@@ -87,6 +87,22 @@
 #![doc = include_str!("../examples/game_loop.rs")]
 //! ```
 //!
+//! # Bodies and methods of one's own
+//!
+//! A [`System`](sim::System) and a start are enough for [`advise`], [`Race::of`](lab::Race::of),
+//! [`Scene::of`](lab::Scene::of) and `Window::run`; [`Options`](lab::Options) and [`Extras`](sim::bodies::Extras) say more:
+//!
+//! ```
+#![doc = include_str!("../examples/own_body.rs")]
+//! ```
+//!
+//! A method of one's own is an [`Integrator`](sim::integrators::Integrator) and a card, which
+//! [`conformance::check`] measures:
+//!
+//! ```
+#![doc = include_str!("../examples/own_method.rs")]
+//! ```
+//!
 //! # In continuous integration
 //!
 //! A race of a scene gives the same hashes for ever, unless its physics changes:

@@ -4,9 +4,11 @@
 use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
 use std::cell::Cell;
 
-use regatta::lab::{Action, Command, Lab, Past, Race, SCENES, Scene};
+use regatta::lab::{Action, Command, Lab, Options, Past, Race, SCENES, Scene};
 use regatta::sim::bodies::{Follow, Spring};
-use regatta::sim::integrators::{GENERAL_METHODS, METHODS, Method, integrator};
+use regatta::sim::integrators::{
+    GENERAL_METHODS, ImplicitMidpoint, METHODS, Method, Rk4, integrator, method, own_integrator,
+};
 use regatta::sim::{Solver, State, System, Vector};
 
 struct Counting;
@@ -105,6 +107,24 @@ fn no_method_allocates_in_a_thousand_steps_on_any_vector() {
     steps_without_allocating(&plane, &glam::DVec2::ONE);
     let many = Springs(std::marker::PhantomData);
     steps_without_allocating(&many, &vec![1.0; 50]);
+}
+
+#[test]
+fn neither_a_method_nor_a_body_of_ones_own_allocates() {
+    let card = |own| Method { id: "mine", own: Some(own), ..*method("rk4").expect("a method") };
+    let mine = [
+        card(own_integrator::<Rk4<Vec<f64>>>),
+        Method { id: "mine-too", ..card(own_integrator::<ImplicitMidpoint<Vec<f64>>>) },
+    ];
+    let springs = Springs(std::marker::PhantomData);
+    all_step_without_allocating(&mine, &springs, &glam::DVec2::ONE);
+    let spring = Spring { mass: 1.0, stiffness: 400.0, damping: 1.0, x0: 1.0, v0: 0.0, kick: 1.0 };
+    all_step_without_allocating(&mine, &spring, &1.0);
+
+    let start = State { q: 1.0, v: 0.0 };
+    let mut race = Race::of(&spring, start, Options::default());
+    race.run(10);
+    assert_eq!(allocations_in(|| race.run(1000)), 0);
 }
 
 #[test]

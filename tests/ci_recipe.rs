@@ -12,11 +12,21 @@ const SCENE: &str = include_str!("../assets/scenes/stiff.toml");
 /// No lane of the scene.
 const OTHER: &str = "midpoint";
 
+/// What the README prints in Rust.
+fn blocks() -> impl Iterator<Item = &'static str> {
+    README.split("```rust\n").skip(1).map(|rest| rest.split("```").next().unwrap())
+}
+
 /// The test as the README prints it.
 fn recipe() -> &'static str {
-    let blocks = README.split("```rust\n").skip(1).map(|rest| rest.split("```").next().unwrap());
-    let mut tests = blocks.filter(|block| block.contains("Race::of_scene"));
+    let mut tests = blocks().filter(|block| block.contains("#[test]"));
     tests.next().expect("the README prints a test")
+}
+
+/// The body of one's own as the README prints it, as a program.
+fn own_body() -> String {
+    let mut bodies = blocks().filter(|block| block.contains("impl System for"));
+    format!("fn main() {{\n{}}}\n", bodies.next().expect("the README prints a body"))
 }
 
 /// The dependencies as the README prints them, on this source tree.
@@ -55,6 +65,7 @@ impl Stranger {
         for (name, text) in examples() {
             write(&format!("examples/{name}.rs"), &text);
         }
+        write("examples/printed_body.rs", &own_body());
         Self { folder, target }
     }
 
@@ -119,6 +130,12 @@ fn the_examples_run_in_a_package_of_their_own() {
         let output = stranger.cargo(&["run", "--quiet", "--offline", "--example", &name]);
         assert!(output.status.success() && !output.stdout.is_empty(), "{}", said(&output));
     }
+    let output = stranger.cargo(&["run", "--quiet", "--offline", "--example", "printed_body"]);
+    assert!(
+        output.status.success() && said(&output).contains("body at 30 Hz"),
+        "{}",
+        said(&output)
+    );
 }
 
 /// The scene with another method in this one's lane.

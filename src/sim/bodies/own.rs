@@ -46,6 +46,8 @@ pub struct Own {
     start: State<Vec<f64>>,
     /// The change of the velocity by one kick.
     kick: Vec<f64>,
+    /// Whether the acceleration is linear.
+    is_linear: bool,
     /// Whether the energy is conserved with the present parameters.
     conserves: bool,
     /// Whether the exact solution is one with the present parameters.
@@ -55,12 +57,13 @@ pub struct Own {
 
 impl Clone for Own {
     fn clone(&self) -> Self {
-        let Self { motion, sheet, start, kick, conserves, is_solved, ranges } = self;
+        let Self { motion, sheet, start, kick, is_linear, conserves, is_solved, ranges } = self;
         Self {
             motion: motion.boxed_clone(),
             sheet,
             start: start.clone(),
             kick: kick.clone(),
+            is_linear: *is_linear,
             conserves: *conserves,
             is_solved: *is_solved,
             ranges: ranges.clone(),
@@ -132,6 +135,10 @@ impl Body for Own {
 
     fn exact_since_start(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
         self.is_solved && self.motion.exact(t, to)
+    }
+
+    fn is_linear(&self) -> bool {
+        self.is_linear
     }
 
     fn is_angle(&self, coordinate: usize) -> bool {

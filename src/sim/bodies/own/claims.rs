@@ -132,6 +132,45 @@ pub(super) fn find_leak(own: &Own) -> Option<OwnFault> {
     None
 }
 
+/// Where a body that was told to be linear is not; `None` if it is, or if nobody has said so.
+fn find_bend(own: &Own) -> Option<OwnFault> {
+    if !own.is_linear {
+        return None;
+    }
+    let n = own.start.q.len();
+    let acceleration = |t: f64, state: &[f64]| {
+        let (q, v) = state.split_at(n);
+        let mut a = vec![0.0; n];
+        own.motion.acceleration(t, q, v, &mut a);
+        a
+    };
+    let mut dice = Dice(0x2545_F491_4F6C_DD1D);
+    let still = vec![0.0; 2 * n];
+    for t in TIMES {
+        // From far inside to far outside the motion: beyond its corners, if it has any.
+        for reach in [1e-3, 0.03, 1.0, 30.0, 1e3] {
+            let mut state = || (0..2 * n).map(|_| reach * dice.next()).collect::<Vec<_>>();
+            let [one, other] = [state(), state()];
+            let sum: Vec<f64> = one.iter().zip(&other).map(|(a, b)| a + b).collect();
+            let at = [&still, &one, &other, &sum].map(|state| acceleration(t, state));
+            let [none, one, other, sum] = at;
+            for i in 0..n {
+                let parts = [one[i] - none[i], other[i] - none[i], acceleration(0.0, &still)[i]];
+                let size = parts.iter().fold(sum[i].abs(), |size, part| size.max(part.abs()));
+                let off = [sum[i] - none[i] - parts[0] - parts[1], none[i] - parts[2]];
+                if off.iter().any(|off| off.is_nan() || off.abs() > 1e-9 * size) {
+                    let [name, _] = own.sheet.coordinates[i];
+                    let what =
+                        format!("the acceleration of {name} is not linear at {reach} from 0");
+                    let remedy = "leave it out: the default is no";
+                    return Some(OwnFault { field: "is_linear", what, remedy });
+                }
+            }
+        }
+    }
+    None
+}
+
 /// Checks a body of one's own at its start, and what is told of it.
 pub(super) fn check(own: &Own) -> Result<(), OwnFault> {
     let State { q, v } = own.start();
@@ -144,7 +183,8 @@ pub(super) fn check(own: &Own) -> Result<(), OwnFault> {
             return Err(OwnFault { field: "start", what, remedy: "begin with finite numbers" });
         }
     }
-    find_unsolved(own).or_else(|| find_leak(own)).map_or(Ok(()), Err)
+    let fault = find_unsolved(own).or_else(|| find_leak(own)).or_else(|| find_bend(own));
+    fault.map_or(Ok(()), Err)
 }
 
 /// Numbers between -1 and 1, the same on every run: an xorshift.

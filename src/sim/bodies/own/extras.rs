@@ -25,6 +25,9 @@ pub struct Extras<S: System> {
     pub energy: Option<Energy<S>>,
     /// The exact state at time t (s) after the start. `None`: the truth is a numerical reference solution.
     pub exact: Option<Exact<S>>,
+    /// Whether the acceleration is a linear function of coordinates and velocities, apart from a constant, at all
+    /// times. Methods are then judged by the normal modes, for any length of time. The default is no.
+    pub is_linear: bool,
     /// The change of the velocity by one kick. `None`: 1 per second in the first coordinate.
     pub kick: Option<S::Vector>,
 }
@@ -37,6 +40,7 @@ impl<S: System> Default for Extras<S> {
             parameters: Vec::new(),
             energy: None,
             exact: None,
+            is_linear: false,
             kick: None,
         }
     }

@@ -61,6 +61,7 @@ where
         sheet,
         start: many,
         kick,
+        is_linear: extras.is_linear,
         conserves: false,
         is_solved: false,
         ranges: OnceCell::new(),

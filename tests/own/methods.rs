@@ -1,0 +1,114 @@
+//! Own methods in a race, a verdict and a run that is gone back in.
+
+use regatta::lab::{Adviser, Criterion, Judge, LaneSpec, Race, Scene, Session, Timeline};
+use regatta::sim::integrators::{
+    AdamsBashforth2, BogackiShampine32, Family, ImplicitMidpoint, Integrator, Method, Rk4,
+    StepFailure, VelocityVerlet, method, own_integrator,
+};
+use regatta::sim::{State, System};
+
+/// Copies of built-in methods under other ids.
+fn copies() -> [(&'static Method, Method); 5] {
+    let copy = |id: &str, new_id: &'static str, own| {
+        let card = method(id).expect("a method");
+        (card, Method { id: new_id, name: new_id, own: Some(own), ..*card })
+    };
+    [
+        copy("rk4", "my-rk4", own_integrator::<Rk4<Vec<f64>>>),
+        copy("velocity-verlet", "my-verlet", own_integrator::<VelocityVerlet<Vec<f64>>>),
+        copy("adams-bashforth-2", "my-ab2", own_integrator::<AdamsBashforth2<Vec<f64>>>),
+        copy("bogacki-shampine-32", "my-bs32", own_integrator::<BogackiShampine32<Vec<f64>>>),
+        copy("implicit-midpoint", "my-midpoint", own_integrator::<ImplicitMidpoint<Vec<f64>>>),
+    ]
+}
+
+/// The scene with a lane for each original and one for each copy after it.
+fn with_copies(scene: &str) -> Scene {
+    let pairs = copies().map(|(card, copy)| [card, Box::leak(Box::new(copy))]);
+    let lanes = pairs.into_iter().flatten().map(LaneSpec::plain).collect();
+    let scene = Scene::built_in(scene).expect("a built-in scene");
+    Scene { lanes, opening_method: None, equal_cost: false, ..scene }
+}
+
+#[test]
+fn a_copy_of_a_built_in_method_has_its_bits_on_every_kind_of_vector() {
+    // One coordinate, two in a plane, many, and a law; with scripted kicks in some.
+    for name in ["spring", "surge", "helm", "orbit", "chain", "duffing"] {
+        let scene = with_copies(name);
+        let mut race = Race::of_scene(&scene);
+        race.run(300);
+        let hashes: Vec<u64> = race.lane_hashes().collect();
+        for (pair, lanes) in hashes.chunks(2).zip(scene.lanes.chunks(2)) {
+            assert_eq!(pair[0], pair[1], "{} on {name}", lanes[1].method.id);
+        }
+        assert_ne!(hashes[0], hashes[2], "{name}");
+    }
+}
+
+#[test]
+fn a_copy_is_judged_and_advised_as_its_original() {
+    let scene = with_copies("spring");
+    let judge = Judge::new(&scene, 1.0);
+    let adviser = Adviser::new(&scene, 1.0, 60);
+    for pair in scene.lanes.chunks(2) {
+        let [a, b] = [pair[0], pair[1]].map(|lane| judge.verdict(lane, 60).to_string());
+        assert_eq!(a, b, "{}", pair[1].method.id);
+        let [a, b] = [pair[0], pair[1]].map(|lane| adviser.meets(lane, Criterion::LooksRight));
+        assert_eq!(a, b, "{}", pair[1].method.id);
+    }
+}
+
+#[test]
+fn a_run_with_own_methods_is_gone_back_in_and_copied_to_the_bit() {
+    let scene = with_copies("surge");
+    let mut timeline = Timeline::new(Session::racing(scene.into()));
+    let mut hashes = Vec::new();
+    for _ in 0..400 {
+        hashes.push(timeline.session().race().state_hash());
+        timeline.tick();
+    }
+    for tick in [399, 17, 200, 0, 333] {
+        timeline.seek(tick);
+        assert_eq!(timeline.session().race().state_hash(), hashes[tick as usize], "tick {tick}");
+    }
+}
+
+/// A method that forgets to halve: of first order, as its card does not say.
+#[derive(Clone)]
+struct Hasty<V>(State<V>);
+
+impl<S: System> Integrator<S> for Hasty<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self(State { q: like.clone(), v: like.clone() })
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        state: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        system.derivative(t, state, &mut self.0);
+        state.add_scaled(h, &self.0);
+        Ok(())
+    }
+}
+
+#[test]
+fn a_card_that_claims_too_much_is_told_where() {
+    let card = Method {
+        id: "hasty",
+        name: "Hasty",
+        order: 2,
+        order_with_drag: 1,
+        evaluations: Some(1),
+        symplectic: true,
+        own: Some(own_integrator::<Hasty<Vec<f64>>>),
+        ..Family::Explicit.card()
+    };
+    let found = regatta::conformance::check(&card);
+    let broken: Vec<_> = found.broken().map(|claim| claim.field).collect();
+    assert_eq!(broken, ["order", "symplectic"], "{found}");
+    assert!(found.to_string().contains("1.00 and 1.00 on the undamped spring"), "{found}");
+}

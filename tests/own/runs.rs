@@ -1,0 +1,105 @@
+//! Reports, recordings, pictures and the lab on an own body.
+
+use glam::DVec2;
+use regatta::lab::picture::{Look, Mark, Outline};
+use regatta::lab::{Adviser, CRITERIA, Lab, LaneSpec, Mode, RecordingError, Report};
+use regatta::prelude::{Options, Scene, Session, State};
+use regatta::sim::Solver;
+use regatta::sim::integrators::method;
+
+use super::{Orbit, Spring};
+
+const SPRING: Spring = Spring { mass: 1.0, stiffness: 40.0, damping: 0.4 };
+
+fn scene() -> Scene {
+    let ids = ["explicit-euler", "semi-implicit-euler", "rk4"];
+    let methods = ids.map(|id| method(id).unwrap()).into();
+    let options = Options { methods, tick_hz: 30, ..Options::default() };
+    Scene::of(&SPRING, State { q: 1.0, v: 0.0 }, options).unwrap()
+}
+
+#[test]
+fn a_report_says_what_the_adviser_finds() {
+    let scene = scene();
+    let report = Report::of_scene(&scene);
+    let adviser = Adviser::new(&scene, 1.0, 30);
+    assert_eq!((report.tick_hz, report.horizon_s, report.methods.len()), (30, 20.0, 3));
+    for (lane, row) in scene.lanes.iter().zip(&report.methods) {
+        assert_eq!(row.method, lane.method.id);
+        assert_eq!(row.verdict, adviser.verdict(*lane).to_string());
+        for criterion in CRITERIA {
+            let found = adviser.meets(LaneSpec::plain(lane.method), criterion);
+            assert_eq!(row.criteria.get(criterion).as_ref(), found.met(), "{}", row.method);
+        }
+    }
+    for criterion in CRITERIA {
+        let best = report.recommended.get(criterion).as_ref().expect("one meets it");
+        let costs = report.methods.iter().filter_map(|row| row.criteria.get(criterion).as_ref());
+        let least = costs.map(|met| met.evaluations_per_s).fold(f64::INFINITY, f64::min);
+        assert_eq!(best.with.evaluations_per_s, least);
+        let line = format!("body at 30 Hz: {}: {best}\n", criterion.id());
+        assert!(report.to_string().contains(&line), "{report}");
+    }
+}
+
+#[cfg(feature = "desktop")]
+#[test]
+fn a_report_is_written_as_json_with_the_keys_of_the_command() {
+    let value = serde_json::to_value(Report::of_scene(&scene())).unwrap();
+    assert_eq!(value["tick_hz"], 30);
+    assert_eq!(value["methods"][2]["method"], "rk4");
+    let criteria = &value["methods"][2]["criteria"]["looks-right"];
+    for key in ["substeps", "evaluations_per_s", "slowest_hz", "stiffness_factor", "limited_by"] {
+        assert!(!criteria[key].is_null(), "{key}: {criteria}");
+    }
+    assert!(value["recommended"]["accurate"]["method"].is_string(), "{value}");
+}
+
+#[test]
+fn a_run_of_an_own_body_is_not_recorded_and_the_reason_is_told() {
+    let mut session = Session::racing(scene().into());
+    session.run(30);
+    let error = session.recording_text(30).expect_err("no file can hold it");
+    assert_eq!(error, RecordingError::InRust { what: "body".into() });
+    assert!(error.to_string().contains("written in Rust"), "{error}");
+}
+
+#[test]
+fn the_lab_goes_on_with_a_run_where_it_is() {
+    let mut session = Session::racing(scene().into());
+    session.act(regatta::lab::Action::Kick(2.0));
+    session.run(100);
+    let mut lab = Lab::of_session(session.clone());
+    assert_eq!((lab.mode(), lab.race().tick()), (Mode::Race, 100));
+    assert_eq!(lab.race().state_hash(), session.race().state_hash());
+    lab.tick();
+    session.tick();
+    assert_eq!(lab.race().state_hash(), session.race().state_hash());
+    assert_eq!(lab.scene_list().open(), None, "it is in no list");
+}
+
+#[test]
+fn an_own_body_is_drawn_as_its_author_says_or_as_beads() {
+    let outline = |draw| {
+        let start = State { q: DVec2::new(3.0, 0.0), v: DVec2::new(0.0, 3.0) };
+        let options = Options { draw, ..Options::default() };
+        let scene = Scene::of(&Orbit { mu: 40.0 }, start, options).unwrap();
+        let body = &scene.bodies[0];
+        let stepper = (body.kind.build)(&body.values, Solver::Truth);
+        Look::of(body.kind).outline(&*stepper, 0.0, stepper.q())
+    };
+    let Outline { marks, at, .. } = outline(None);
+    assert_eq!(at, DVec2::new(3.0, 0.0));
+    assert!(matches!(marks[..], [Mark::Disc { centre, .. }] if centre == at), "{marks:?}");
+    let Outline { marks, .. } = outline(Some(|orbit: &Orbit, q: &DVec2| {
+        vec![
+            Mark::Rod { from: DVec2::ZERO, to: *q },
+            Mark::Anchor { centre: DVec2::ZERO, radius: orbit.mu },
+        ]
+    }));
+    let wanted = [
+        Mark::Rod { from: DVec2::ZERO, to: DVec2::new(3.0, 0.0) },
+        Mark::Anchor { centre: DVec2::ZERO, radius: 40.0 },
+    ];
+    assert_eq!(marks, wanted);
+}
