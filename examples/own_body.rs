@@ -33,6 +33,7 @@ fn main() {
     let options = || Options {
         name: "hover craft",
         tick_hz: 60,
+        seconds: 5.0,
         methods: methods.map(|id| method(id).expect("a built-in method")).into(),
         // All that follows is optional: here two sliders in the window.
         extras: Extras { parameters: sliders(), ..Extras::default() },

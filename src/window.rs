@@ -4,8 +4,6 @@
 //! A frame is drawn when something has changed: always while time runs, and after an event while it is paused. A
 //! hidden window draws nothing and continues to simulate.
 
-use std::fs;
-use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -14,7 +12,7 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, WindowId};
 
-use crate::lab::{Command, DriverRequest, Lab, Scene, Session};
+use crate::lab::{Command, DriverRequest, Lab};
 
 mod analysis_thread;
 mod canvas;
@@ -27,6 +25,7 @@ mod new_file;
 mod opening;
 mod pace;
 mod recording;
+mod run_of_session;
 mod schedule;
 mod screenshot;
 mod settings;
@@ -35,6 +34,7 @@ mod watch;
 
 pub use error::WindowError;
 pub use opening::{ReadScene, SceneFiles};
+pub use run_of_session::Window;
 pub use settings::{Closed, WindowSettings};
 
 use analysis_thread::AnalysisThread;
@@ -51,36 +51,6 @@ use watch::FileWatch;
 const LONGEST_WAIT: Duration = Duration::from_millis(100);
 /// The simulated length of the first frame after a pause, whose real length includes the pause.
 const FIRST_FRAME: Duration = Duration::ZERO;
-
-/// The window of the program.
-#[derive(Debug)]
-pub struct Window;
-
-impl Window {
-    /// Opens the window on a run, where it is, until it is closed. What is open in it then is returned. Scene files can be
-    /// opened in it as in the program's.
-    ///
-    /// ```no_run
-    /// use regatta::prelude::*;
-    ///
-    /// let scene = Scene::built_in("spring").expect("a built-in scene");
-    /// Window::run(Session::racing(scene.into()))?;
-    /// # Ok::<(), regatta::window::WindowError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`run`].
-    pub fn run(session: Session) -> Result<Closed, WindowError> {
-        let read = |path: &Path| {
-            let name = path.display().to_string();
-            let bytes = fs::read(path).map_err(|error| format!("cannot read {name}: {error}"))?;
-            let scene = Scene::from_bytes(&name, &bytes).map_err(|errors| errors.to_string())?;
-            Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
-        };
-        let files = SceneFiles { read: Arc::new(read), opened: None };
-        run(Lab::of_session(session), WindowSettings::default(), files)
-    }
-}
 
 /// Opens a window on `lab` and runs it until it is closed. `files` reads the scene files that are opened in the window.
 ///

@@ -132,7 +132,7 @@ fn the_examples_run_in_a_package_of_their_own() {
     }
     let output = stranger.cargo(&["run", "--quiet", "--offline", "--example", "printed_body"]);
     assert!(
-        output.status.success() && said(&output).contains("body at 30 Hz"),
+        output.status.success() && said(&output).contains("body at 60 Hz"),
         "{}",
         said(&output)
     );

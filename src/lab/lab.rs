@@ -76,7 +76,7 @@ impl Lab {
         lab.start = StartSettings::of_session(&session);
         lab.clock = Clock::new(lab.start.tick_hz);
         lab.viewer = Viewer::new(session.race().entrants()[0].lane_number);
-        lab.timeline = Timeline::new(session.from_the_start());
+        lab.timeline = Timeline::new(session.before_its_first_tick());
         (0..tick).for_each(|_| lab.timeline.tick());
         lab
     }

@@ -60,7 +60,7 @@ impl Session {
     }
 
     /// The same run before its first tick, with all its actions to come.
-    pub(super) fn from_the_start(&self) -> Self {
+    pub(super) fn before_its_first_tick(&self) -> Self {
         let mut race = self.start().clone();
         race.set_journal(self.journal().clone());
         Self { race, ..self.clone() }

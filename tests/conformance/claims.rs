@@ -63,7 +63,7 @@ fn each_claim_that_is_changed_is_seen_and_no_other() {
             let follows =
                 |other: &&str| [field, "restart"] == ["restart", field] && *other == "evaluations";
             assert!(
-                broken.iter().all(|other| *other == field || follows(&other)),
+                broken.iter().all(|other| *other == field || follows(other)),
                 "{field}: {found}"
             );
         }

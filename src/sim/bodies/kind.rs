@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::own::OwnSheet;
+use super::own_sheet::OwnSheet;
 use crate::sim::law::Equations;
 use crate::sim::parameter::{Fault, Parameter};
 use crate::sim::reference::REFERENCE_ACCURACY;

@@ -5,6 +5,7 @@ use std::cell::OnceCell;
 
 use glam::DVec2;
 
+use super::own_sheet::OwnSheet;
 use super::survey::ranges;
 use crate::sim::body::{Body, Input};
 use crate::sim::system::{State, System};
@@ -18,25 +19,6 @@ pub use claims::OwnFault;
 pub use extras::{Energy, Exact, Extras};
 pub use kind::own_kind;
 use motion::Motion;
-
-/// What is known of a body of one's own beside its motion.
-#[derive(Debug)]
-pub struct OwnSheet {
-    /// The name and the unit of each coordinate.
-    pub coordinates: Vec<[&'static str; 2]>,
-    /// The coordinates that are x and y of a plane, if it is drawn in one.
-    pub plane: Option<[usize; 2]>,
-    /// How it is drawn, for a layer that knows the type; `None` for the usual look.
-    pub drawing: Option<&'static (dyn Any + Send + Sync)>,
-}
-
-impl OwnSheet {
-    /// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate.
-    pub fn drawn_unit(&self) -> &'static str {
-        let [_, unit] = self.coordinates[self.plane.map_or(0, |[x, _]| x)];
-        if unit == "1" { "" } else { unit }
-    }
-}
 
 /// A body of one's own. The type of its system is forgotten, so that it needs no code of its own here.
 #[derive(Debug)]

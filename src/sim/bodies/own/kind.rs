@@ -5,8 +5,9 @@ use std::cell::OnceCell;
 use std::sync::{Mutex, PoisonError};
 
 use super::motion::Typed;
-use super::{Extras, Own, OwnFault, OwnSheet, claims};
+use super::{Extras, Own, OwnFault, claims};
 use crate::sim::bodies::kind::{Coordinate, Kind, Truth};
+use crate::sim::bodies::own_sheet::OwnSheet;
 use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range};

@@ -1,0 +1,38 @@
+//! The window on a run that a program of one's own has made.
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{Closed, SceneFiles, WindowError, WindowSettings, run};
+use crate::lab::{Lab, Scene, Session};
+
+/// The window of the program.
+#[derive(Debug)]
+pub struct Window;
+
+impl Window {
+    /// Opens the window on a run, where it is, until it is closed. What is open in it then is returned. Scene files can be
+    /// opened in it as in the program's.
+    ///
+    /// ```no_run
+    /// use regatta::prelude::*;
+    ///
+    /// let scene = Scene::built_in("spring").expect("a built-in scene");
+    /// Window::run(Session::racing(scene.into()))?;
+    /// # Ok::<(), regatta::window::WindowError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`run`].
+    pub fn run(session: Session) -> Result<Closed, WindowError> {
+        let read = |path: &Path| {
+            let name = path.display().to_string();
+            let bytes = fs::read(path).map_err(|error| format!("cannot read {name}: {error}"))?;
+            let scene = Scene::from_bytes(&name, &bytes).map_err(|errors| errors.to_string())?;
+            Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
+        };
+        let files = SceneFiles { read: Arc::new(read), opened: None };
+        run(Lab::of_session(session), WindowSettings::default(), files)
+    }
+}
