@@ -13,7 +13,7 @@ use crate::lab::{
     Action, Command, Coverage, Lab, MapRequest, Parameter, StabilityMap, edited_values,
 };
 use crate::view::curves::{self, Curve, Dots};
-use words::{each_method, letter, point_in_words, sentence, short_sentence};
+use words::{each_method, letter, no_map, point_in_words, sentence, short_sentence};
 
 mod words;
 
@@ -52,9 +52,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
         ui.label(RichText::new("Working out the map …").color(ink(ui).dim));
         return;
     };
-    if !map.is_possible {
-        let why = "No stability map: this body does not rest at its origin, or damping couples its modes there. The \
-                   lanes below say how each method does on the motion itself.";
+    if let Some(why) = map.refused {
+        let why = no_map(why);
         ui.add(Label::new(RichText::new(why).color(ink(ui).dim)).wrap());
         return;
     }
