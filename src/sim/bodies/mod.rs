@@ -21,7 +21,7 @@ pub use chain::Chain;
 pub use follow::Follow;
 pub use helm::{Helm, ThrustCurve};
 pub use kind::{Build, Coordinate, Kind, Truth};
-pub use law::{Law, check_law, law_kind};
+pub use law::{FalseClaims, Law, check_law, law_kind};
 pub use orbit::{Ellipse, Orbit};
 pub use pendulum::Pendulum;
 pub use refusal::refusal;
