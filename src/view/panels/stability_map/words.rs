@@ -18,6 +18,12 @@ pub(super) fn letter(parameter: &Parameter) -> String {
     letter.map_or_else(|| parameter.quantity(), str::to_owned)
 }
 
+/// The name of a parameter with its letter, if it has one: `stiffness k`.
+pub(super) fn full_name(parameter: &Parameter) -> String {
+    let (quantity, letter) = (parameter.quantity(), letter(parameter));
+    if letter == quantity { quantity } else { format!("{quantity} {letter}") }
+}
+
 /// A point of the map: `20 Hz, k = 90 N/m`.
 pub(super) fn point_in_words(lab: &Lab, place: usize, tick_hz: u32, value: f64) -> String {
     let parameter = super::parameter(lab, place);
