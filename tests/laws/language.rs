@@ -193,6 +193,9 @@ fn kicks_and_constants_act_at_once_and_starts_do_not() {
         "[[law]]\n[law.coordinates.x]\nacceleration = '0*t'\n[law.coordinates.y]\nacceleration = '0*t'",
     );
     assert_eq!(whole.values, [0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    let defaults =
+        ["x.kick", "y.kick", "y.start"].map(|key| whole.kind.parameter(key).unwrap().1.default);
+    assert_eq!(defaults, [Some(1.0), Some(0.0), Some(0.0)]);
 }
 
 #[test]
