@@ -10,6 +10,7 @@ use crate::lab::pacing::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use crate::lab::{Binding, KEYS, METRICS, Metric, SCENES, Scale, Scene};
 use crate::sim::bodies::{BODIES, Coordinate, Kind, Parameter};
 use crate::sim::integrators::{METHODS, Method};
+use crate::sim::law::{UNITS, functions, operators, values};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -74,29 +75,49 @@ fn write<T>(columns: &[Column<T>], items: &[T], format: TableFormat) -> String {
 }
 
 /// What a scene can write beside the bodies of the table.
-const LAWS: &str = "
+fn laws() -> String {
+    let values: Vec<&str> = values().collect();
+    let (first, others) = UNITS.split_first().expect("there are units");
+    let (values, others) = (values.join(", "), others.join(", "));
+    let operators = operators().collect::<Vec<_>>().join(" ");
+    let mut rows: Vec<String> = Vec::new();
+    for function in functions() {
+        match rows.last_mut() {
+            Some(row) if row.len() + function.len() <= FUNCTIONS_WIDTH => {
+                *row = format!("{row}  {function}");
+            }
+            _ => rows.push(function.to_owned()),
+        }
+    }
+    let functions = rows.join("\n             ");
+    format!(
+        "
 [[law]]: your own equation of motion
   name = \"spring\"
-  constants = { m = 2.0, k = 80.0 }     # numbers, which the inspector and `set` change
-  plane = [\"x\", \"y\"]                  # draw these coordinates as a point; without it each has a rail
-  energy = \"...\"                       # in joules, if the law conserves it
+  constants = {{ m = 2.0, k = 80.0 }}     # numbers, which the inspector and `set` change
+  plane = [\"x\", \"y\"]                    # draw these coordinates as a point; without it each has a rail
+  energy = \"...\"                        # in joules, if the law conserves it
   [law.coordinates.x]                   # a table for each coordinate; the velocity of x is vx
-  acceleration = \"-k*x/m\"             # of coordinates, velocities, constants, t, throttle, rudder, pi
-  unit = \"m\"                          # or rad, km, cm, mm, deg, kg, N, J, V, A, C, K, 1
+  acceleration = \"-k*x/m\"               # of coordinates, velocities, constants, {values}
+  unit = \"{first}\"                            # or {others}
   start = 0.5
   start_velocity = 0.0
   kick = 1.0                            # the change of vx by a kick
-  exact = \"x0*cos(sqrt(k/m)*t)\"       # of t, constants and starts, if the motion is known
-  Operators: + - * / ^ < <= > >= == != and or not
-  Functions: sqrt abs sign min max clamp floor exp ln sin cos tan asin acos atan atan2 tanh hypot
-             if(condition, a, b) step(x) table(x, [[x0, y0], [x1, y1]])
-";
+  exact = \"x0*cos(sqrt(k/m)*t)\"         # of t, constants and starts, if the motion is known
+  Operators: {operators}
+  Functions: {functions}
+"
+    )
+}
+
+/// Characters of a row of functions: with the margin it fits a line of a terminal.
+const FUNCTIONS_WIDTH: usize = 80;
 
 fn bodies_with_keys() -> String {
     let keys = BODIES.iter().map(|body| {
         format!("\n[[{}]]\n{}", body.id, table::text(PARAMETER, body.parameters, "  "))
     });
-    table::text(BODY, BODIES, "") + &keys.collect::<String>() + LAWS
+    table::text(BODY, BODIES, "") + &keys.collect::<String>() + &laws()
 }
 
 const SCENE: &[Column<Scene>] = &[

@@ -12,7 +12,7 @@ use super::interrupt::watch_for_interrupt;
 use super::output::table::{self, Column, RowFormat};
 use super::output::{AtomicOutput, Older, Place, STDOUT, finish};
 use super::plot::Plot;
-use super::scene_file::{self, SceneFileError};
+use super::scene_file;
 use crate::lab::{Clock, SCENES, Scene, SceneBody};
 use crate::sim::bodies::refusal;
 use crate::sim::integrators::{METHODS, Method};
@@ -20,8 +20,10 @@ use crate::sim::integrators::{METHODS, Method};
 mod diagrams;
 mod grid;
 mod round_off;
+mod varied;
 
 use grid::{Grid, Row, Swept};
+use varied::{Varied, varied};
 
 const ABOUT: &str = "\
 One row for each scene, body, method and tick rate, in that order whatever the number of threads:
@@ -35,6 +37,10 @@ One row for each scene, body, method and tick rate, in that order whatever the n
   verdict               rounding, accurate, out-of-phase, loses-energy, gains-energy, blew-up, gave-up,
                         no-truth or not-judged
   halted                why, if it blew up or gave up: a method that blows up is a row like others
+  half_life_ms          the time in which a follower covers half of the way to a target that stays;
+                        empty where it does not, and of other bodies
+  overshoot_percent     the furthest that it goes beyond the target, in percent of the way
+  parameter, value      what --vary sets; empty of a body that has no such parameter
 
 A method that is for some bodies only has rows of those (`regatta list methods`).
 A body is judged as `regatta advise` judges it, from its start and with the inputs of the scene's script.
@@ -65,6 +71,11 @@ pub(super) struct SweepArgs {
     #[arg(long, value_name = "N", value_delimiter = ',')]
     #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
     tick_hz: Vec<u32>,
+
+    /// Values of a parameter, of every body that has it (`regatta list bodies`), or of a constant of a law:
+    /// a row for each
+    #[arg(long, value_name = "KEY=V,V,...", value_parser = varied, conflicts_with = "plot")]
+    vary: Option<Varied>,
 
     /// Length of each run in simulated seconds, to the nearest tick, one at least [default: the
     /// scene's, 60 at most]
@@ -122,7 +133,7 @@ pub(super) fn run(args: &SweepArgs) -> Result<(), Error> {
 
 impl SweepArgs {
     /// The scenes, methods and rates asked for, without repetitions.
-    fn load(&self) -> Result<Swept, SceneFileError> {
+    fn load(&self) -> Result<Swept, Error> {
         let built_in = || SCENES.iter().map(|scene| PathBuf::from(scene.name)).collect();
         let paths = if self.scenes.is_empty() { built_in() } else { self.scenes.clone() };
         let mut scenes: Vec<(String, Scene)> = Vec::new();
@@ -144,7 +155,10 @@ impl SweepArgs {
                 scene_file::check_method(&scenes[0].1, method)?;
             }
         }
-        Ok(Swept { scenes, methods, rates, seconds: self.seconds })
+        if let Some(varied) = &self.vary {
+            varied.check(&scenes)?;
+        }
+        Ok(Swept { scenes, methods, rates, seconds: self.seconds, varied: self.vary.clone() })
     }
 }
 
@@ -168,4 +182,16 @@ const COLUMNS: &[Column<Row>] = &[
         heading: None,
         value: |row| json!(row.verdict.failure.as_ref().map(|failure| failure.cause.to_string())),
     },
+    Column {
+        key: "half_life_ms",
+        heading: None,
+        value: |row| json!(row.verdict.chase.and_then(|it| it.half_life_s).map(|s| 1e3 * s)),
+    },
+    Column {
+        key: "overshoot_percent",
+        heading: None,
+        value: |row| json!(row.verdict.chase.map(|chase| chase.overshoot_percent)),
+    },
+    Column { key: "parameter", heading: None, value: |row| json!(row.varied.map(|(key, _)| key)) },
+    Column { key: "value", heading: None, value: |row| json!(row.varied.map(|(_, value)| value)) },
 ];

@@ -158,8 +158,9 @@ pub enum Command {
     Escape,
 }
 
-/// The tick rates of the bracket keys in Hz: the usual ones, and 49 and 50 next to the limit of the stiff spring.
-pub const TICK_LADDER: [u32; 13] = [2, 5, 10, 15, 20, 30, 49, 50, 60, 100, 120, 240, 1000];
+/// The tick rates of the bracket keys in Hz: the usual ones of games and screens, and 49 and 50 next to the limit of the
+/// stiff spring.
+pub const TICK_LADDER: [u32; 14] = [2, 5, 10, 15, 20, 30, 49, 50, 60, 100, 120, 144, 240, 1000];
 
 /// The speeds of the keys `-` and `=`, in percent of real time.
 pub const SPEED_LADDER: [u32; 6] = [25, 50, 100, 200, 400, 1600];

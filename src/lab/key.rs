@@ -131,13 +131,13 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "↑ ↓",
-        about: "throttle (ship, helm)",
+        about: "throttle (ship, helm, a law that uses it)",
         keys: &[(Key::Up, Command::ThrottleUp), (Key::Down, Command::ThrottleDown)],
         repeats: true,
     },
     Binding {
         shown: "← →",
-        about: "rudder (helm)",
+        about: "rudder (helm, a law that uses it)",
         keys: &[(Key::Left, Command::RudderLeft), (Key::Right, Command::RudderRight)],
         repeats: true,
     },
@@ -291,4 +291,29 @@ pub fn command_for(key: Key) -> Option<(Command, &'static Binding)> {
         let (_, command) = binding.keys.iter().find(|(bound, _)| *bound == key)?;
         Some((command.clone(), binding))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::bodies::BODIES;
+
+    #[test]
+    fn the_keys_of_an_input_name_the_bodies_that_take_it_and_no_others() {
+        for (input, key) in [("throttle", Key::Up), ("rudder", Key::Left)] {
+            let (_, binding) = command_for(key).unwrap();
+            let words: Vec<&str> = binding.about.split(|c: char| !c.is_alphabetic()).collect();
+            assert!(words.contains(&"law"), "{}", binding.about);
+            for body in BODIES {
+                let is_named = words.contains(&body.id);
+                assert_eq!(
+                    is_named,
+                    body.inputs.contains(&input),
+                    "{}: {}",
+                    body.id,
+                    binding.about
+                );
+            }
+        }
+    }
 }

@@ -8,7 +8,7 @@ use super::chase::Chase;
 use super::extent::Extent;
 use super::number::superscript;
 use super::scene::Scene;
-use crate::sim::bodies::{Coordinate, Input, Kind, Truth};
+use crate::sim::bodies::{Coordinate, FalseClaims, Input, Kind, Law, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
 
@@ -74,6 +74,11 @@ pub struct LaneBody {
 }
 
 impl LaneBody {
+    /// The claims of a [`Law`] that do not hold with the present constants; of other bodies none.
+    pub fn false_claims(&self) -> FalseClaims {
+        self.stepper.body().downcast_ref::<Law>().map(Law::false_claims).unwrap_or_default()
+    }
+
     /// A body of `kind` with `values` at its start, under `solver`.
     pub(super) fn new(kind: &'static Kind, values: &[f64], solver: Solver) -> Self {
         let stepper = (kind.build)(values, solver);

@@ -67,6 +67,19 @@ pub struct Metric {
     pub measure: fn(lane: &LaneBody, truth: &LaneBody) -> Option<f64>,
 }
 
+impl Metric {
+    /// The text shown if no lane has a value on this body, which is the one in truth.
+    pub fn absent_on(&self, truth: &LaneBody) -> &'static str {
+        if self.id == ENERGY_DRIFT && truth.false_claims().energy {
+            "No drift to show: with these constants the law's `energy` is not conserved."
+        } else {
+            self.absent
+        }
+    }
+}
+
+const ENERGY_DRIFT: &str = "energy_drift";
+
 /// Every metric, the one that lanes are ranked by first.
 pub const METRICS: &[Metric] = &[
     Metric {
@@ -107,7 +120,7 @@ pub const METRICS: &[Metric] = &[
         },
     },
     Metric {
-        id: "energy_drift",
+        id: ENERGY_DRIFT,
         name: "energy drift",
         absent: "No drift to show: this body does not conserve its energy.",
         unit: Unit::Of("%"),

@@ -45,6 +45,7 @@ mod zoom_pan;
 
 pub use crate::sim::Clock;
 pub use crate::sim::bodies::{Acts, Coordinate, Parameter, Range};
+pub use crate::sim::stability::NoSmallMotion;
 pub use action::Action;
 pub use analysis::{
     Advice, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, ChaseFinding, Coverage, Criterion,

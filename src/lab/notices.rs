@@ -4,6 +4,7 @@ use super::action::Action;
 use super::lane::{Halt, Resumed, ResumedFrom};
 use super::race::{Observer, Race};
 use super::scene::Scene;
+use crate::sim::bodies::FalseClaims;
 
 /// Collects notices from a race.
 pub(super) struct Notices<'s> {
@@ -25,8 +26,9 @@ impl<'s> Notices<'s> {
 }
 
 impl Observer for Notices<'_> {
-    fn after(&mut self, _race: &Race, _action: &Action, resumed: &[Resumed]) {
+    fn after(&mut self, race: &Race, action: &Action, resumed: &[Resumed]) {
         self.tell(of_taken_up(self.scene, resumed));
+        self.tell(of_claims(self.scene, race, action));
     }
 
     fn ticked(&mut self, race: &Race) {
@@ -69,9 +71,23 @@ fn of_taken_up(scene: &Scene, resumed: &[Resumed]) -> Option<String> {
     (!resumed.is_empty()).then(|| told.collect::<Vec<_>>().join("; "))
 }
 
+/// A notice about the claims of a law that do not hold with the constants that an action has set.
+fn of_claims(scene: &Scene, race: &Race, action: &Action) -> Option<String> {
+    let &Action::Set { body, .. } = action else { return None };
+    let FalseClaims { energy, exact } = race.truth().bodies()[body].false_claims();
+    let told = [
+        energy.then_some("its `energy` is not conserved, and is not shown"),
+        exact.then_some("its `exact` does not solve the equation: the truth is the reference"),
+    ];
+    let told: Vec<&str> = told.into_iter().flatten().collect();
+    (!told.is_empty())
+        .then(|| format!("{}: with these constants {}", scene.bodies[body].name, told.join("; ")))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::{Command, Lab, METRICS};
     use crate::sim::integrators::StepFailure;
 
     #[test]
@@ -92,5 +108,31 @@ mod tests {
             "helm had blown up: resumed from its last good state"
         );
         assert_eq!(of_taken_up(&scene, &[]), None);
+    }
+
+    #[test]
+    fn a_constant_with_which_a_claim_fails_is_told_of_and_one_with_which_it_holds_is_not() {
+        let text = "title = 'x'\ntick_hz = 60\nseconds = 5\nmethods = ['rk4']\n[[law]]\nname = 'spring'\n\
+            constants = { k = 9.0, c = 0.0, a = 1.0 }\nenergy = 'vx^2/2 + k*x^2/2'\n[law.coordinates.x]\nstart = 0.3\n\
+            acceleration = '-k*x - c*vx'\nexact = 'a*x0*cos(sqrt(k)*t)'";
+        let mut lab = Lab::new(Scene::parse("x.toml", text).unwrap());
+        let mut set = |parameter: usize, value: f64| {
+            lab.apply(Command::Act(Action::Set { body: 0, parameter, value }));
+            let drift = METRICS.iter().find(|metric| metric.id == "energy_drift").unwrap();
+            let absent = drift.absent_on(&lab.race().truth().bodies()[0]);
+            (lab.viewer.notice.take(), absent.contains("with these constants"))
+        };
+        assert_eq!(set(0, 16.0), (None, false));
+        let (damped, is_said) = set(1, 0.5);
+        assert_eq!(
+            damped.unwrap(),
+            "spring: with these constants its `energy` is not conserved, and is not shown; its `exact` does not solve \
+             the equation: the truth is the reference"
+        );
+        assert!(is_said);
+        assert_eq!(set(1, 0.0), (None, false));
+        let (unsolved, is_said) = set(2, 1.1);
+        assert!(unsolved.unwrap().starts_with("spring: with these constants its `exact` does not"));
+        assert!(!is_said);
     }
 }

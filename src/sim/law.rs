@@ -40,6 +40,21 @@ pub const MOST_CONSTANTS: usize = 64;
 pub const UNITS: [&str; 14] =
     ["m", "rad", "km", "cm", "mm", "deg", "kg", "N", "J", "V", "A", "C", "K", "1"];
 
+/// The operators of expressions: signs and words.
+pub fn operators() -> impl Iterator<Item = &'static str> {
+    token::operator_signs().chain(op::OPERATOR_WORDS)
+}
+
+/// The functions of expressions, each as it is called: `min(a, b)`.
+pub fn functions() -> impl Iterator<Item = &'static str> {
+    op::FUNCTIONS.iter().map(|function| function.usage)
+}
+
+/// The names that every acceleration can use: the time, the inputs and π.
+pub fn values() -> impl Iterator<Item = &'static str> {
+    op::VALUE_WORDS.into_iter()
+}
+
 /// The text of a law: its structure, names and expressions, but no values.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LawText {

@@ -10,7 +10,7 @@ use super::propagator::{Jump, Propagator};
 use super::system::{Counted, State, Vector};
 
 use extrapolation::Extrapolation;
-use trajectory::{StepControl, Trajectory};
+use trajectory::{Ended, StepControl, Trajectory};
 
 mod extrapolation;
 mod trajectory;
@@ -118,8 +118,11 @@ impl<V: Vector> Reference<V> {
             [self.fastest[0].max(largest(&y.v)), self.fastest[1].max(largest(&work.begin.v))];
         let solved = solved.and_then(|()| check.advance(body, t, h, work, self.saved));
         self.saved = self.saved.saturating_sub(work.evaluations);
-        if solved.is_err() {
-            let failure = StepFailure::ReferenceFailed { evaluations: work.evaluations };
+        if let Err(ended) = solved {
+            let failure = match ended {
+                Ended::Budget => StepFailure::ReferenceFailed { evaluations: work.evaluations },
+                Ended::Sticks => StepFailure::Sticks,
+            };
             self.failed = Some(failure.clone());
             return Err(failure);
         }

@@ -3,6 +3,7 @@
 use regatta::lab::{KEYS, METRICS, SCENES};
 use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::METHODS;
+use regatta::sim::law::{UNITS, functions, operators, values};
 use serde_json::Value;
 
 use crate::{run, stdout_of};
@@ -74,6 +75,11 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
     let text = stdout_of("list bodies");
     assert!(text.contains("[[spring]]\n"), "{text}");
     assert!(text.contains("  stiffness_n_per_m  "), "{text}");
+    let of_laws = text.split("[[law]]").nth(1).expect("a list of what laws are made of");
+    for word in functions().chain(operators()).chain(values()).chain(UNITS) {
+        assert!(of_laws.contains(word), "{word}: {of_laws}");
+    }
+    assert!(of_laws.lines().all(|line| line.chars().count() <= 110), "{of_laws}");
 }
 
 #[test]

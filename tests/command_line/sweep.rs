@@ -16,7 +16,7 @@ use crate::capture::{dimensions, drawn_or_skip, names};
 use crate::{refusal, regatta, run_in, stderr, stdout_of};
 
 const HEADER: &str = "scene,body,method,tick_hz,seconds,error,energy_drift_percent,\
-                      evaluations_per_s,ns_per_s,verdict,halted";
+                      evaluations_per_s,ns_per_s,verdict,halted,half_life_ms,overshoot_percent,parameter,value";
 
 /// The rows of `sweep` with these options, by column.
 fn rows(options: &str) -> Vec<Value> {
@@ -51,7 +51,7 @@ fn every_scene_body_method_and_rate_has_a_row_in_that_order() {
     assert_eq!(lines.len(), expected.len());
     for (line, start) in lines.into_iter().zip(expected) {
         assert!(line.starts_with(&start), "{line} is not {start}");
-        assert_eq!(line.split(',').count(), 11, "{line}");
+        assert_eq!(line.split(',').count(), 15, "{line}");
     }
 }
 
@@ -66,6 +66,45 @@ fn without_options_all_methods_sweep_all_scenes_by_octaves() {
     assert_eq!(rates, [15, 30, 60, 120, 240, 480]);
     let ids: Vec<&str> = of_spring().step_by(6).map(|row| text(row, "method")).collect();
     assert_eq!(ids, GENERAL_METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
+}
+
+#[test]
+fn a_followers_row_has_its_half_life_and_overshoot_and_a_springs_has_none() {
+    let rows = rows("--scene lerp --scene spring --method lerp-dt --method rk4 --tick-hz 60");
+    let of = |id: &str| rows.iter().find(|row| text(row, "method") == id).unwrap();
+    let half_life = number(of("lerp-dt"), "half_life_ms");
+    let rate = Scene::built_in("lerp").unwrap().bodies[0].values[1];
+    // Within a step it is a straight line in the logarithm.
+    let wanted = 1e3 / 60.0 * 0.5_f64.ln() / (1.0 - rate / 60.0).ln();
+    assert!((half_life - wanted).abs() < 1e-6, "{half_life} ms, not {wanted} ms");
+    assert_eq!(number(of("lerp-dt"), "overshoot_percent"), 0.0);
+    let spring = rows.iter().find(|row| row["scene"] == "spring").unwrap();
+    assert!(spring["half_life_ms"].is_null() && spring["overshoot_percent"].is_null(), "{spring}");
+}
+
+#[test]
+fn a_constant_of_a_law_is_varied_like_a_parameter_of_a_body() {
+    let rows = rows(
+        "--scene quarter-car --scene ship --method semi-implicit-euler --tick-hz 100 --vary kt=1.6e6,1.6e5",
+    );
+    let told: Vec<_> =
+        rows.iter().map(|row| (text(row, "scene"), row["parameter"].as_str())).collect();
+    let car = ("quarter-car", Some("kt"));
+    assert_eq!(told, [car, car, ("ship", None)]);
+    assert_eq!([0, 1].map(|row| number(&rows[row], "value")), [1.6e5, 1.6e6]);
+    assert!(rows[2]["value"].is_null());
+    // ω h of the wheel is 0.7 and 2.
+    assert_eq!([0, 1].map(|row| text(&rows[row], "verdict")), ["out-of-phase", "blew-up"]);
+    for (options, why) in [
+        ("--scene ship --vary kt=1", "no body has a parameter \"kt\""),
+        ("--scene ship --vary kt", "has no `=`"),
+        ("--scene ship --vary kt=1,x", "\"x\" is no number"),
+        ("--scene ship --vary mass_kg=-1", "--vary mass_kg=-1 on \"ship\""),
+        ("--scene ship --vary mass_kg=1 --plot x.png", "cannot be used with"),
+    ] {
+        let said = refusal(&format!("sweep {options}"), 2);
+        assert!(said.contains(why), "{options}: {said}");
+    }
 }
 
 #[test]

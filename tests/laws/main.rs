@@ -1,12 +1,13 @@
 //! Equations of motion that a scene writes itself.
 
-use regatta::lab::{Judge, LaneSpec, Scene, SceneBody};
+use regatta::lab::{Judge, LaneSpec, Scene, SceneBody, TICK_LADDER};
 use regatta::sim::bodies::kind;
 use regatta::sim::integrators::METHODS;
 use regatta::sim::{Solver, Stepper};
 
 #[path = "../dice/mod.rs"]
 mod dice;
+mod language;
 mod random;
 mod truth;
 
@@ -228,4 +229,33 @@ fn a_law_of_any_text_has_one_kind_and_the_table_of_bodies_has_none() {
         a[0]
     });
     assert_eq!(accelerations, [-2.0, -2.0]);
+}
+
+#[test]
+fn the_drone_is_lost_or_hovers_as_its_hint_says() {
+    let scene = Scene::built_in("lift").unwrap();
+    let place = TICK_LADDER.iter().position(|hz| *hz == scene.tick_hz).unwrap();
+    assert_eq!(scene.tick_hz, 30);
+    // How far the altitude still moves in the last three seconds.
+    let moves = |id: &str, hz: u32| {
+        let method = METHODS.iter().find(|method| method.id == id).unwrap();
+        let mut drone = stepper(&scene.bodies[0], Solver::Method(method));
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for tick in 0..15 * hz {
+            let h = 1.0 / f64::from(hz);
+            if drone.advance(f64::from(tick) * h, h, 1).is_err() || drone.q()[0].abs() > 1e6 {
+                return f64::INFINITY;
+            }
+            if tick >= 12 * hz {
+                (least, most) = (least.min(drone.q()[0]), most.max(drone.q()[0]));
+            }
+        }
+        most - least
+    };
+    let ids = ["semi-implicit-euler", "velocity-verlet", "rk4"];
+    assert_eq!([1, 2, 3].map(|lane| scene.lanes[lane].method.id), ids);
+    let hovers = |hz: u32| ids.map(|id| moves(id, hz) < 0.01);
+    assert_eq!(hovers(30), [true, false, true]);
+    assert_eq!(hovers(TICK_LADDER[place - 1]), [false, false, true]);
+    assert_eq!(moves("velocity-verlet", 30), f64::INFINITY);
 }

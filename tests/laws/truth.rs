@@ -153,7 +153,9 @@ fn under_dry_friction_at_rest_there_is_no_truth_and_the_verdict_says_so() {
             .unwrap();
     let rk4 = METHODS.iter().find(|method| method.id == "rk4").unwrap();
     let verdict = Judge::new(&scene, 1.0).verdict(LaneSpec::plain(rk4), 60);
-    assert!(verdict.to_string().starts_with("no truth"), "{verdict}");
+    let said = verdict.to_string();
+    assert!(said.starts_with("no truth: the true motion is not known: it sticks where"), "{said}");
+    assert!(said.contains("dry friction") && said.contains("tanh(v/0.01)"), "{said}");
 }
 
 #[test]

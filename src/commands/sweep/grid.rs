@@ -6,12 +6,13 @@ use std::time::Duration;
 
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
+use super::varied::Varied;
 use crate::commands::error::{Cause, Error};
 use crate::commands::interrupt::Interrupted;
 use crate::commands::jobs;
 use crate::commands::stopwatch;
 use crate::commands::terminal::progress;
-use crate::lab::{Clock, Judge, LONGEST_HORIZON_S, LaneSpec, Scene, Verdict};
+use crate::lab::{Clock, Judge, LONGEST_HORIZON_S, LaneSpec, Scene, SceneBody, Verdict};
 use crate::sim::integrators::Method;
 
 /// The system cannot start the threads.
@@ -35,6 +36,8 @@ pub(super) struct Swept {
     pub(super) rates: Vec<u32>,
     /// The length of every run; `None` for each scene's own.
     pub(super) seconds: Option<f64>,
+    /// The parameter that takes several values; `None` for each body as its scene has it.
+    pub(super) varied: Option<Varied>,
 }
 
 /// One body, alone in its scene: bodies do not feel each other.
@@ -42,6 +45,8 @@ struct Subject {
     /// The scene, as it was asked for.
     scene_name: String,
     alone: Scene,
+    /// The key and the value of the parameter that is varied, if the body has it.
+    varied: Option<(&'static str, f64)>,
     judge: Judge,
 }
 
@@ -67,6 +72,7 @@ pub(super) struct Row {
     pub(super) tick_hz: u32,
     pub(super) verdict: Verdict,
     pub(super) ns_per_s: Option<f64>,
+    pub(super) varied: Option<(&'static str, f64)>,
 }
 
 impl Row {
@@ -97,8 +103,9 @@ impl Grid {
             let horizon_s = swept.seconds.unwrap_or(scene.seconds.min(LONGEST_HORIZON_S));
             let own = octaves(scene.tick_hz);
             let rates = if swept.rates.is_empty() { &own } else { &swept.rates };
-            for body in &scene.bodies {
-                let alone = Scene { bodies: vec![body.clone()], ..scene.clone() };
+            let bodies = scene.bodies.iter().flat_map(|body| variants(body, &swept.varied));
+            for (body, varied) in bodies {
+                let alone = Scene { bodies: vec![body], ..scene.clone() };
                 let fits = |method: &&&Method| alone.refusal(method).is_none();
                 for method in swept.methods.iter().filter(fits) {
                     grid.cells.extend(rates.iter().map(|&tick_hz| Cell {
@@ -111,6 +118,7 @@ impl Grid {
                     scene_name: name.clone(),
                     judge: Judge::over(&alone, 1.0, horizon_s),
                     alone,
+                    varied,
                 });
             }
         }
@@ -141,7 +149,7 @@ impl Grid {
 
     fn row(&self, cell: &Cell, verdict: Verdict) -> Row {
         let &Cell { subject, spec, tick_hz } = cell;
-        let Subject { scene_name, alone, .. } = &self.subjects[subject];
+        let Subject { scene_name, alone, varied, .. } = &self.subjects[subject];
         let mut row = Row {
             scene: scene_name.clone(),
             body: alone.bodies[0].name.clone(),
@@ -149,11 +157,30 @@ impl Grid {
             tick_hz,
             verdict,
             ns_per_s: None,
+            varied: *varied,
         };
         let ticks = (row.seconds() * f64::from(tick_hz)).round() as u64;
         row.ns_per_s = stopwatch::ns_per_s(alone, spec, tick_hz, ticks, EFFORT);
         row
     }
+}
+
+/// A body with each value of the parameter that is varied, or as it is.
+fn variants(
+    body: &SceneBody,
+    varied: &Option<Varied>,
+) -> Vec<(SceneBody, Option<(&'static str, f64)>)> {
+    let found = varied.as_ref().and_then(|varied| {
+        let (place, parameter) = body.kind.parameter(&varied.key)?;
+        Some((place, parameter.key, &varied.values))
+    });
+    let Some((place, key, values)) = found else { return vec![(body.clone(), None)] };
+    let variant = |&value: &f64| {
+        let mut body = body.clone();
+        body.values[place] = value;
+        (body, Some((key, value)))
+    };
+    values.iter().map(variant).collect()
 }
 
 /// The duration for which a run is timed: a thousand runs take seconds.

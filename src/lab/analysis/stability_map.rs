@@ -1,14 +1,17 @@
 //! The stability map: for each method the tick rates and the values of a parameter at which it is stable on a body.
 //!
-//! A method is stable on a linear body if it is stable on each of its normal modes, and each of those is a spring. A
-//! nonlinear body is linearised about rest. A method that chooses its own steps has no region: no tick rate bounds it.
+//! A method is stable on a linear body if it is stable on each of its normal modes, and each of those is a spring. Where
+//! damping couples the modes, the map of a step of the whole body decides. A nonlinear body is linearised about rest. A
+//! method that chooses its own steps has no region: no tick rate bounds it.
 
 use contour::{Corners, contour};
 
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Kind, kind};
-use crate::sim::stability::{NormalMode, Stability, Tick, modes_about_rest, normal_modes};
+use crate::sim::stability::{
+    CoupledMotion, NoSmallMotion, NormalMode, SmallMotion, Stability, Tick,
+};
 use crate::sim::{Solver, Stepper};
 
 mod contour;
@@ -22,6 +25,11 @@ const FROM_NOTHING: [f64; 2] = [0.01, 1000.0];
 /// Points at which a method is tried, along the rates and along the values. Boundaries between them are bisected, so
 /// that more points only find narrower regions.
 const CORNERS: [usize; 2] = [37, 33];
+/// The same for a body of many coupled coordinates: a region takes tens of milliseconds with 2, and would take seconds
+/// with 16.
+const FEWER_CORNERS: [usize; 2] = [19, 17];
+/// From this many coupled coordinates on.
+const MANY_COUPLED: usize = 9;
 
 /// A map that is wanted.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,31 +148,86 @@ pub struct StabilityMap {
     pub regions: Vec<Region>,
     /// What each method of the request does at the present point; empty until it is known.
     pub here: Vec<Here>,
-    /// Whether the body can be mapped: it is linear, or it can be linearised about rest.
-    pub is_possible: bool,
+    /// Why the body cannot be mapped, if it is neither linear nor can be linearised about rest.
+    pub refused: Option<NoSmallMotion>,
     /// Whether the body is linear, so that the map holds at any amplitude.
     pub is_linear: bool,
+    /// Whether the true motion grows at the present point. Such growth is not counted against a method.
+    pub truth_grows: bool,
+}
+
+/// What a method is tried on.
+enum Motion {
+    /// The normal modes, the fastest first.
+    Modes(Vec<NormalMode>),
+    /// All coordinates together: damping couples the modes, or one grows.
+    Coupled(CoupledMotion),
+}
+
+impl Motion {
+    fn of(body: &dyn Stepper) -> Result<Self, NoSmallMotion> {
+        let small = SmallMotion::of(body)?;
+        if let Some(mut modes) = small.normal_modes() {
+            modes.sort_by(|a, b| b.omega_squared.total_cmp(&a.omega_squared));
+            return Ok(Self::Modes(modes));
+        }
+        small.coupled().map(Self::Coupled).ok_or(NoSmallMotion::NotFinite)
+    }
+
+    /// The stability of a method on each mode, or on all together. `None` where the method fails.
+    fn under<'a>(
+        &'a self,
+        spec: &'a LaneSpec,
+        hz: f64,
+    ) -> impl Iterator<Item = Option<Stability>> + 'a {
+        let (modes, coupled) = match self {
+            Self::Modes(modes) => (&modes[..], None),
+            Self::Coupled(coupled) => (&[][..], Some(coupled)),
+        };
+        let together = coupled
+            .into_iter()
+            .map(move |coupled| coupled.stability(spec.method, 1.0 / hz, spec.substeps).ok());
+        modes.iter().map(move |mode| stability(spec, mode, hz)).chain(together)
+    }
+
+    fn is_stable(&self, spec: &LaneSpec, hz: f64) -> bool {
+        self.under(spec, hz).all(|found| found.is_some_and(|stability| stability.is_bounded()))
+    }
+
+    fn is_undamped(&self) -> bool {
+        matches!(self, Self::Modes(modes) if modes.iter().all(NormalMode::is_conserved))
+    }
+
+    /// Whether the true motion grows.
+    fn grows(&self) -> bool {
+        matches!(self, Self::Coupled(coupled) if coupled.grows())
+    }
 }
 
 /// A map being computed, method by method.
 pub(super) struct MapWork {
     kind: &'static Kind,
     map: StabilityMap,
-    /// The normal modes at each value along the map.
-    rows: Vec<Vec<NormalMode>>,
+    /// How many points are tried along the rates and along the values.
+    corners: [usize; 2],
+    /// The motion at each value along the map; `None` where the body cannot be linearised.
+    rows: Vec<Option<Motion>>,
 }
 
 impl MapWork {
     pub(super) fn new(kind: &'static Kind, request: MapRequest) -> Self {
         let body = (kind.build)(&request.values, Solver::Truth);
+        let found = Motion::of(&*body);
+        let is_slow = matches!(found, Ok(Motion::Coupled(_))) && body.q().len() >= MANY_COUPLED;
         let map = StabilityMap {
             regions: Vec::new(),
             here: Vec::new(),
-            is_possible: modes(&*body).is_some(),
+            truth_grows: found.as_ref().is_ok_and(Motion::grows),
+            refused: found.err(),
             is_linear: body.is_linear(),
             request,
         };
-        Self { kind, map, rows: Vec::new() }
+        Self { kind, map, corners: if is_slow { FEWER_CORNERS } else { CORNERS }, rows: Vec::new() }
     }
 
     /// Replaces the request. Regions that answer the new one too are kept.
@@ -188,7 +251,8 @@ impl MapWork {
 
     pub(super) fn is_done(&self) -> bool {
         let wanted = self.map.request.specs.len();
-        !self.map.is_possible || self.map.here.len() == wanted && self.map.regions.len() == wanted
+        self.map.refused.is_some()
+            || self.map.here.len() == wanted && self.map.regions.len() == wanted
     }
 
     /// Finds what each method does at the present point, or else the next region.
@@ -198,9 +262,11 @@ impl MapWork {
             return;
         }
         if self.map.here.len() < request.specs.len() {
-            let modes = self.modes_at(request.value()).unwrap_or_default();
+            let motion = self.motion_at(request.value());
             let hz = f64::from(request.tick_hz);
-            self.map.here = request.specs.iter().map(|(_, spec)| here(spec, &modes, hz)).collect();
+            self.map.here =
+                request.specs.iter().map(|(_, spec)| here(spec, motion.as_ref(), hz)).collect();
+            self.map.truth_grows = motion.is_some_and(|motion| motion.grows());
         } else if let Some((_, spec)) = request.specs.get(self.map.regions.len()) {
             let spec = *spec;
             let region = if chooses_steps(&spec) {
@@ -215,40 +281,34 @@ impl MapWork {
 
     fn region(&mut self, spec: &LaneSpec) -> Region {
         let MapRequest { rates_hz, range, .. } = &self.map.request;
-        let corners = Corners::new(CORNERS, [rates_hz, range].map(|ends| ends.map(libm::log10)));
+        let corners =
+            Corners::new(self.corners, [rates_hz, range].map(|ends| ends.map(libm::log10)));
         if self.rows.is_empty() {
-            let row = |j| self.modes_at(libm::pow(10.0, corners.at([0, j])[1])).unwrap_or_default();
-            self.rows = (0..CORNERS[1]).map(row).collect();
+            let row = |j| self.motion_at(libm::pow(10.0, corners.at([0, j])[1]));
+            self.rows = (0..self.corners[1]).map(row).collect();
         }
-        let stable = |modes: &[NormalMode], x: f64| {
-            let hz = libm::pow(10.0, x);
-            modes.iter().all(|mode| stability(spec, mode, hz).is_some_and(|s| s.is_bounded()))
+        let stable = |motion: Option<&Motion>, x: f64| {
+            motion.is_some_and(|motion| motion.is_stable(spec, libm::pow(10.0, x)))
         };
         let region = contour(
             &corners,
-            |[i, j]| stable(&self.rows[j], corners.at([i, j])[0]),
-            |x, j| stable(&self.rows[j], x),
-            |[x, y]| stable(&self.modes_at(libm::pow(10.0, y)).unwrap_or_default(), x),
+            |[i, j]| stable(self.rows[j].as_ref(), corners.at([i, j])[0]),
+            |x, j| stable(self.rows[j].as_ref(), x),
+            |[x, y]| stable(self.motion_at(libm::pow(10.0, y)).as_ref(), x),
         );
-        let is_undamped = self.rows.iter().flatten().all(NormalMode::is_conserved);
+        let is_undamped = self.rows.iter().flatten().all(Motion::is_undamped);
         let of_step = spec.method.stability_limit.filter(|limit| is_undamped && *limit > 0.0);
         Region { limit: of_step.map(|limit| limit * f64::from(spec.substeps)), ..region }
     }
 
-    /// The modes of the body with this value of the mapped parameter, the fastest first.
-    fn modes_at(&self, value: f64) -> Option<Vec<NormalMode>> {
+    /// The motion of the body with this value of the mapped parameter.
+    fn motion_at(&self, value: f64) -> Option<Motion> {
         let MapRequest { values, parameter, .. } = &self.map.request;
         let mut values = values.clone();
         values[*parameter] = value;
-        let mut modes = modes(&*(self.kind.build)(&values, Solver::Truth))?;
-        modes.sort_by(|a, b| b.omega_squared.total_cmp(&a.omega_squared));
-        Some(modes)
+        let body = (self.kind.build)(&values, Solver::Truth);
+        Motion::of(&*body).ok()
     }
-}
-
-/// The modes of a linear body, or of small deviations from rest.
-fn modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
-    if body.is_linear() { normal_modes(body) } else { modes_about_rest(body) }
 }
 
 fn chooses_steps(spec: &LaneSpec) -> bool {
@@ -271,13 +331,13 @@ fn stability(spec: &LaneSpec, mode: &NormalMode, hz: f64) -> Option<Stability> {
     Stability::of(&*body, spec.solver(), tick).ok()
 }
 
-fn here(spec: &LaneSpec, modes: &[NormalMode], hz: f64) -> Here {
+fn here(spec: &LaneSpec, motion: Option<&Motion>, hz: f64) -> Here {
     if chooses_steps(spec) {
         return Here::OwnSteps;
     }
-    let growths = modes.iter().map(|mode| match stability(spec, mode, hz) {
-        Some(stability) => stability.doubling_s().unwrap_or(f64::INFINITY),
-        None => 0.0,
+    let growths = motion.into_iter().flat_map(|motion| motion.under(spec, hz)).map(|found| {
+        let doubling = |stability: Stability| stability.doubling_s().unwrap_or(f64::INFINITY);
+        found.map_or(0.0, doubling)
     });
     let doubling_s = growths.fold(f64::INFINITY, f64::min);
     if doubling_s.is_finite() { Here::Doubles(doubling_s) } else { Here::Stable }

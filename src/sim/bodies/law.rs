@@ -32,6 +32,15 @@ pub struct Law {
     ranges: OnceCell<Vec<(f64, f64)>>,
 }
 
+/// Which claims of a law's text do not hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FalseClaims {
+    /// That the energy is conserved.
+    pub energy: bool,
+    /// That the exact solution satisfies the equation.
+    pub exact: bool,
+}
+
 impl Law {
     /// A body with full throttle, the rudder amidships, and these values of [`law_kind`]'s parameters.
     ///
@@ -61,6 +70,14 @@ impl Law {
     /// The least and the largest value of each coordinate in the first seconds of the motion, for drawing.
     pub fn ranges(&self) -> &[(f64, f64)] {
         self.ranges.get_or_init(|| ranges(self))
+    }
+
+    /// The claims of the text that do not hold with the present constants.
+    pub fn false_claims(&self) -> FalseClaims {
+        FalseClaims {
+            energy: self.equations.has_energy() && !self.conserves,
+            exact: self.equations.has_exact() && !self.is_solved,
+        }
     }
 
     fn coordinates(&self) -> usize {

@@ -24,7 +24,7 @@ pub use chain::Chain;
 pub use follow::Follow;
 pub use helm::{Helm, ThrustCurve};
 pub use kind::{Build, Coordinate, Kind, Truth};
-pub use law::{Law, check_law, law_kind};
+pub use law::{FalseClaims, Law, check_law, law_kind};
 pub use orbit::{Ellipse, Orbit};
 pub use own::{Energy, Exact, Extras, Own, OwnFault, own_kind};
 pub use own_sheet::OwnSheet;

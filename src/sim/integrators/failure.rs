@@ -21,6 +21,8 @@ pub enum StepFailure {
         /// The evaluations spent.
         evaluations: u64,
     },
+    /// The force jumps back and forth where the motion stands, so that it has no solution in the usual sense.
+    Sticks,
     /// The method is not for this body; see [`Only`](super::Only).
     Refused {
         /// Why, as on the method's card.
@@ -60,6 +62,10 @@ impl fmt::Display for StepFailure {
                 f,
                 "has no reference solution: {evaluations} evaluations of the acceleration did not reach the end of a \
                  tick; soften the body"
+            ),
+            Self::Sticks => f.write_str(
+                "sticks where its force jumps back and forth, as under dry friction at rest, and an equation of motion \
+                 has no solution there; make the jump a slope, such as tanh(v/0.01) for sign(v)",
             ),
             Self::Refused { reason } => write!(f, "cannot be stepped by this method: {reason}"),
             Self::NotFinite { coordinate, value } => {

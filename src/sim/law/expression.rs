@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::op::{FUNCTIONS, Op, WORDS};
+use super::op::{FUNCTIONS, Op, is_word};
 use super::refusal::{Fault, Remedy, quoted};
 use super::table::Table;
 use super::token::{Token, tokens};
@@ -354,7 +354,7 @@ impl Parser<'_> {
         if let Some(why) = self.scope.why_not(&name) {
             return Err(Fault::new(span, why, "remove it"));
         }
-        if WORDS.contains(&&*name) {
+        if is_word(&name) {
             let what = format!("`{name}` stands where a number or a name is missing");
             return Err(Fault::new(span, what, "write one before it"));
         }

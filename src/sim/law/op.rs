@@ -112,5 +112,13 @@ const fn function(
     Function { name, usage, arguments, body }
 }
 
-/// The words of the language that are not functions.
-pub(super) const WORDS: [&str; 7] = ["and", "or", "not", "pi", "t", "throttle", "rudder"];
+/// The operators that are words.
+pub(super) const OPERATOR_WORDS: [&str; 3] = ["and", "or", "not"];
+
+/// The names that every law knows.
+pub(super) const VALUE_WORDS: [&str; 4] = ["t", "throttle", "rudder", "pi"];
+
+/// Whether the language takes this name for something else than a function.
+pub(super) fn is_word(name: &str) -> bool {
+    OPERATOR_WORDS.contains(&name) || VALUE_WORDS.contains(&name)
+}

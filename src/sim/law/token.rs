@@ -21,6 +21,11 @@ pub(super) enum Token {
 const SYMBOLS: [&str; 16] =
     ["<=", ">=", "==", "!=", "+", "-", "*", "/", "^", "(", ")", "[", "]", ",", "<", ">"];
 
+/// Of those, the signs that stand between or before values.
+pub(super) fn operator_signs() -> impl Iterator<Item = &'static str> {
+    SYMBOLS.into_iter().filter(|symbol| !["(", ")", "[", "]", ","].contains(symbol))
+}
+
 /// Signs of other notations, and what to write for them.
 const FOREIGN: [(&str, &str); 11] = [
     ("**", "^"),

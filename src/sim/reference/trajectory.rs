@@ -76,9 +76,14 @@ struct Crossing {
     ended: f64,
 }
 
-/// The budget of evaluations is exhausted, or the motion does not get on.
+/// Why a trajectory ends.
 #[derive(Debug)]
-pub(super) struct BudgetExhausted;
+pub(super) enum Ended {
+    /// The budget of evaluations is exhausted.
+    Budget,
+    /// The motion is pushed back to a jump of the force from both sides.
+    Sticks,
+}
 
 #[derive(Clone, Debug)]
 pub(super) struct Trajectory<V> {
@@ -167,7 +172,7 @@ impl<V: Vector> Trajectory<V> {
         h: f64,
         work: &mut Extrapolation<V>,
         budget: u64,
-    ) -> Result<(), BudgetExhausted> {
+    ) -> Result<(), Ended> {
         self.unwind(body);
         let mut carried = self.step.map_or(h, |step| step.copysign(h));
         let mut left = h;
@@ -208,7 +213,7 @@ impl<V: Vector> Trajectory<V> {
                 stepped = part * trial;
                 stands = if part > 0.0 { 0 } else { stands + 1 };
                 if stands > MOST_STANDS {
-                    return Err(BudgetExhausted);
+                    return Err(Ended::Sticks);
                 }
                 if part > 0.0 {
                     self.add(work.added());
@@ -235,7 +240,7 @@ impl<V: Vector> Trajectory<V> {
             left -= stepped;
             work.begin(body, &self.piece, t + (h - left), &self.at);
         }
-        Err(BudgetExhausted)
+        Err(Ended::Budget)
     }
 
     /// Takes the finite distances of a state into the extents.

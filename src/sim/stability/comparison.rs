@@ -63,6 +63,11 @@ impl Mode {
     pub(super) fn new(value: Eigenvalue, h: f64) -> Self {
         Self { growth_per_s: libm::log(value.modulus) / h, frequency: value.angle / h }
     }
+
+    /// Whether no force acts on it.
+    pub(super) fn is_still(&self) -> bool {
+        self.growth_per_s == 0.0 && self.frequency == 0.0
+    }
 }
 
 /// A growth per tick below this is zero: it is the rounding of the differences.

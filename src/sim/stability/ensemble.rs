@@ -67,6 +67,18 @@ impl Ensemble {
         Self::of(acceleration, n, method, count)
     }
 
+    /// One body whose acceleration is `jacobian` times its coordinates and velocities, one row per coordinate.
+    pub(super) fn linear(jacobian: DMatrix<f64>, method: &Method) -> Self {
+        let n = jacobian.nrows();
+        let acceleration: Acceleration = Box::new(move |_, q, v, a| {
+            for (i, a) in a.iter_mut().enumerate() {
+                let row = |j: usize| jacobian[(i, j)] * q[j] + jacobian[(i, n + j)] * v[j];
+                *a = (0..n).map(row).sum();
+            }
+        });
+        Self::of(acceleration, n, method, 1)
+    }
+
     fn of(acceleration: Acceleration, n: usize, method: &Method, count: usize) -> Self {
         let state = State { q: vec![0.0; n * count], v: vec![0.0; n * count] };
         let integrator = integrator(method, &state.q);

@@ -13,7 +13,7 @@ use crate::lab::{
     Action, Command, Coverage, Lab, MapRequest, Parameter, StabilityMap, edited_values,
 };
 use crate::view::curves::{self, Curve, Dots};
-use words::{each_method, letter, point_in_words, sentence, short_sentence};
+use words::{each_method, full_name, no_map, point_in_words, sentence, short_sentence};
 
 mod words;
 
@@ -52,9 +52,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
         ui.label(RichText::new("Working out the map …").color(ink(ui).dim));
         return;
     };
-    if !map.is_possible {
-        let why = "No stability map: this body does not rest at its origin, or damping couples its modes there. The \
-                   lanes below say how each method does on the motion itself.";
+    if let Some(why) = map.refused {
+        let why = no_map(why);
         ui.add(Label::new(RichText::new(why).color(ink(ui).dim)).wrap());
         return;
     }
@@ -78,11 +77,7 @@ fn head(ui: &mut Ui, lab: &Lab, place: usize, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let title = RichText::new(format!("Stability: {} over", body.name));
         ui.add(Label::new(title.font(strong_font(13.0))).truncate());
-        let name = |place: usize| {
-            let parameter = parameter(lab, place);
-            let (quantity, letter) = (parameter.quantity(), letter(parameter));
-            if letter == quantity { quantity } else { format!("{quantity} {letter}") }
-        };
+        let name = |place: usize| full_name(parameter(lab, place));
         let menu = ComboBox::from_id_salt("mapped parameter").selected_text(name(place));
         let menu = menu.show_ui(ui, |ui| {
             for other in lab.mappable_parameters() {
@@ -117,7 +112,7 @@ fn plot(ui: &mut Ui, lab: &Lab, map: &StabilityMap, size: Vec2, commands: &mut V
         let parameter = parameter(lab, map.request.parameter);
         let unit =
             if parameter.unit.is_empty() { String::new() } else { format!(", {}", parameter.unit) };
-        let name = format!("{} {}{unit}", parameter.quantity(), letter(parameter));
+        let name = format!("{}{unit}", full_name(parameter));
         let small = FontId::proportional(11.5);
         painter.text(whole.left_top(), Align2::LEFT_TOP, name, small.clone(), ink.dim);
         let below = pos2(rect.center().x, whole.bottom());

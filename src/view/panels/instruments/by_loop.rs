@@ -103,7 +103,8 @@ impl Plots<'_> {
         let view = self.time_in_view();
         let plot = self.over_time("energy by loop", up, tracks, Some(exact), (view, y));
         let drift = METRICS.iter().find(|metric| metric.id == "energy_drift");
-        let why = drift.filter(|_| is_empty).map(|metric| metric.absent.to_owned());
+        let truth = &self.lab.race().truth().bodies()[self.lab.display().body];
+        let why = drift.filter(|_| is_empty).map(|metric| metric.absent_on(truth).to_owned());
         PlotModel { title: self.title(STEPPED), nothing: why, ..plot }
     }
 

@@ -52,7 +52,7 @@ pub(super) fn plot(lab: &Lab, body: usize, place: usize, title: String) -> PlotM
     };
     let is_empty = tracks.iter().all(Track::is_empty);
     let has_values = values.iter().any(|track| !track.is_empty());
-    let nothing = if has_values { NO_ERROR } else { metric.absent };
+    let nothing = if has_values { NO_ERROR } else { metric.absent_on(truth) };
     PlotModel {
         id: format!("{} of {body}", metric.id),
         title,

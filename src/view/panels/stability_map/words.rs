@@ -6,7 +6,9 @@ use egui::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Galley, TextFormat, Ui};
 
 use crate::lab::number::round;
-use crate::lab::{Coverage, Here, Lab, MapRequest, Parameter, StabilityMap, duration};
+use crate::lab::{
+    Coverage, Here, Lab, MapRequest, NoSmallMotion, Parameter, StabilityMap, duration,
+};
 use crate::view::panels::{ink, strong_font};
 
 /// The letter of a parameter in the equation of motion, or else its name.
@@ -14,6 +16,12 @@ pub(super) fn letter(parameter: &Parameter) -> String {
     let first = parameter.about.split_once(',').map(|(first, _)| first);
     let letter = first.filter(|first| first.chars().count() <= 2);
     letter.map_or_else(|| parameter.quantity(), str::to_owned)
+}
+
+/// The name of a parameter with its letter, if it has one: `stiffness k`.
+pub(super) fn full_name(parameter: &Parameter) -> String {
+    let (quantity, letter) = (parameter.quantity(), letter(parameter));
+    if letter == quantity { quantity } else { format!("{quantity} {letter}") }
 }
 
 /// A point of the map: `20 Hz, k = 90 N/m`.
@@ -123,6 +131,25 @@ pub(super) fn counted(map: &StabilityMap) -> String {
     format!("{stable} of {all} {noun} {verb} stable.{}", fastest.unwrap_or_default())
 }
 
+/// Why a body has no map.
+pub(super) fn no_map(why: NoSmallMotion) -> String {
+    let why = match why {
+        NoSmallMotion::NoRest => {
+            "this body rests neither at its origin nor near its start, and a map is of small motions about rest."
+        }
+        NoSmallMotion::Corner => {
+            "the force has a corner or a jump where this body rests, so that it does not behave as a spring there."
+        }
+        NoSmallMotion::Unsteady => "the stiffness or the damping of this body changes in time.",
+        NoSmallMotion::NotFinite => {
+            "the force or its slope is not a finite number where this body rests."
+        }
+    };
+    format!(
+        "No stability map: {why} The lanes below say how each method does on the motion itself."
+    )
+}
+
 /// What the map does not draw.
 pub(super) fn notes(map: &StabilityMap) -> String {
     let named = |coverage: Coverage| {
@@ -141,6 +168,9 @@ pub(super) fn notes(map: &StabilityMap) -> String {
     }
     if !map.is_linear {
         notes += " The map holds for small motions about rest.";
+    }
+    if map.truth_grows {
+        notes += " The true motion grows too; only growth beyond that counts.";
     }
     notes
 }

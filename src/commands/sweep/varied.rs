@@ -1,0 +1,60 @@
+//! A parameter that takes several values in a sweep.
+
+use crate::commands::error::Cause;
+use crate::lab::{Scene, edited_values};
+
+/// A parameter by its key, and its values.
+#[derive(Clone, Debug)]
+pub(super) struct Varied {
+    pub(super) key: String,
+    pub(super) values: Vec<f64>,
+}
+
+/// The sweep cannot vary a parameter as it is asked to.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum CannotVary {
+    #[error(
+        "no body has a parameter {key:?}; give one of `regatta list bodies`, or a constant of a law"
+    )]
+    Unknown { key: String },
+    #[error("--vary {key}={value} on {body:?}: {why}")]
+    Refused { key: String, value: f64, body: String, why: String },
+}
+
+impl Cause for CannotVary {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
+
+/// Reads `KEY=V,V,...`.
+pub(super) fn varied(text: &str) -> Result<Varied, String> {
+    let (key, values) =
+        text.split_once('=').ok_or("has no `=`; write `stiffness_n_per_m=90,900`")?;
+    let number = |text: &str| {
+        let number = text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        number.ok_or_else(|| format!("{text:?} is no number; write `{key}=90,900`"))
+    };
+    let mut values = values.split(',').map(number).collect::<Result<Vec<f64>, _>>()?;
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    Ok(Varied { key: key.trim().to_owned(), values })
+}
+
+impl Varied {
+    /// Checks that a body has the parameter, and that each that has it can have each value.
+    pub(super) fn check(&self, scenes: &[(String, Scene)]) -> Result<(), CannotVary> {
+        let mut is_known = false;
+        for body in scenes.iter().flat_map(|(_, scene)| &scene.bodies) {
+            let Some((place, _)) = body.kind.parameter(&self.key) else { continue };
+            is_known = true;
+            for &value in &self.values {
+                edited_values(body.kind, &body.values, place, value).map_err(|error| {
+                    let (key, body, why) = (self.key.clone(), body.name.clone(), error.to_string());
+                    CannotVary::Refused { key, value, body, why }
+                })?;
+            }
+        }
+        is_known.then_some(()).ok_or_else(|| CannotVary::Unknown { key: self.key.clone() })
+    }
+}

@@ -1,0 +1,372 @@
+//! Small motions of a body about rest, all coordinates together: also of a body that has no normal modes,
+//! because its damping couples them.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::comparison::{Mode, Stability, compare};
+use super::ensemble::Ensemble;
+use super::modes::{NormalMode, linear_jacobian, modes_of, unforced};
+use super::spectrum::{self, Derivatives, Eigenvalue};
+use super::tick::Tick;
+use crate::sim::Stepper;
+use crate::sim::integrators::{Method, StepFailure};
+
+/// The equation of small deviations of a body from rest, `x″ = A x + B x′`, without throttle. On a linear body it
+/// holds for deviations of any size.
+#[derive(Clone, Debug)]
+pub struct SmallMotion {
+    /// A, and B to its right.
+    jacobian: DMatrix<f64>,
+}
+
+/// A [`SmallMotion`] with its true modes, whose coordinates a method steps together.
+#[derive(Clone, Debug)]
+pub struct CoupledMotion {
+    jacobian: DMatrix<f64>,
+    truth: Vec<Mode>,
+    /// The unit of velocity, per second: in it the fastest mode makes circles.
+    rate: f64,
+}
+
+/// Why a body has no small motions about rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoSmallMotion {
+    /// It rests neither at its origin nor near its start.
+    NoRest,
+    /// Its force has a corner or a jump where it rests, so that no linear equation describes it there.
+    Corner,
+    /// Its stiffness or its damping changes in time.
+    Unsteady,
+    /// Its force or the derivative of that is not finite where it rests.
+    NotFinite,
+}
+
+impl SmallMotion {
+    /// The small motions of `body` about its origin if it rests there, or else about a place of rest near its start.
+    /// A linear body needs no place of rest.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn of(body: &dyn Stepper) -> Result<Self, NoSmallMotion> {
+        let free = unforced(body);
+        let jacobian = if body.is_linear() {
+            linear_jacobian(&*free)
+        } else {
+            let rest = place_of_rest(&*free)?;
+            let jacobian = smooth_jacobian(&*free, &rest, 0.0)?;
+            for t in LATER_S {
+                // A corner that comes to rest later is one that a drive brings there.
+                let later =
+                    smooth_jacobian(&*free, &rest, t).map_err(|_| NoSmallMotion::Unsteady)?;
+                if !agree(&jacobian, &later) {
+                    return Err(NoSmallMotion::Unsteady);
+                }
+            }
+            jacobian
+        };
+        if jacobian.iter().any(|x| !x.is_finite()) {
+            return Err(NoSmallMotion::NotFinite);
+        }
+        Ok(Self { jacobian })
+    }
+
+    /// Its normal modes; `None` if damping couples them, or if a mode grows.
+    pub fn normal_modes(&self) -> Option<Vec<NormalMode>> {
+        let n = self.jacobian.nrows();
+        let half = |first: usize| -self.jacobian.columns(first, n).into_owned();
+        modes_of(half(0), &half(n))
+    }
+
+    /// The motion of all coordinates together. `None` if its modes cannot be found: their rates overflow.
+    pub fn coupled(self) -> Option<CoupledMotion> {
+        let (truth, rate) = true_modes(&self.jacobian)?;
+        Some(CoupledMotion { jacobian: self.jacobian, truth, rate })
+    }
+}
+
+impl CoupledMotion {
+    /// Whether the true motion grows without bound.
+    pub fn grows(&self) -> bool {
+        self.truth.iter().any(|mode| mode.growth_per_s > 0.0)
+    }
+
+    /// Stability of `method` with equal steps on this motion, from the map of all coordinates over a step. Growth that
+    /// the true motion has too is not counted, nor is the frequency compared beyond half a turn in a step.
+    ///
+    /// # Errors
+    /// The failure of the method in the first steps.
+    pub fn stability(
+        &self,
+        method: &'static Method,
+        h: f64,
+        substeps: u32,
+    ) -> Result<Stability, StepFailure> {
+        // The map of a tick is a power of that of a step, in which the modes turn less.
+        let tick = Tick { t: 0.0, h: h / f64::from(substeps), substeps: 1 };
+        let n = self.jacobian.nrows();
+        let mut ensemble = Ensemble::linear(self.jacobian.clone(), method);
+        let mut maps: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(2 * n, 2 * n));
+        for column in 0..2 * n {
+            let mut state = vec![0.0; 2 * n];
+            state[column] = if column < n { 1.0 } else { self.rate };
+            ensemble.set(&[state]);
+            for (k, map) in maps.iter_mut().enumerate() {
+                ensemble.advance(tick.h * k as f64, tick.h, tick.substeps)?;
+                let reached = ensemble.state(0).into_iter().enumerate();
+                let in_units = reached.map(|(i, x)| if i < n { x } else { x / self.rate });
+                map.set_column(column, &DVector::from_iterator(2 * n, in_units));
+            }
+        }
+        let later = [maps[0].clone(), maps[1].clone()];
+        let Some(mut values) = spectrum::eigenvalues(&Derivatives { now: maps, later }) else {
+            return Ok(Stability::OVERFLOW);
+        };
+        self.keep_what_drifts(&mut values);
+        let mut stability = compare(&self.truth, &values, tick.h);
+        stability.spectral_radius = stability.spectral_radius.powi(substeps as i32);
+        Ok(stability)
+    }
+
+    /// Takes the eigenvalues nearest to 1 for 1, one for each true mode without a force: no method changes what rests or
+    /// drifts freely, but rounding splits a double eigenvalue by its root.
+    fn keep_what_drifts(&self, values: &mut [Eigenvalue]) {
+        let distance = |value: &Eigenvalue| {
+            let re = value.modulus * libm::cos(value.angle);
+            libm::hypot(re - 1.0, value.modulus * libm::sin(value.angle))
+        };
+        values.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let still = self.truth.iter().filter(|mode| mode.is_still()).count();
+        for value in values.iter_mut().take(still).filter(|value| distance(value) < SPLIT) {
+            *value = Eigenvalue { modulus: 1.0, angle: 0.0 };
+        }
+    }
+}
+
+/// Times in seconds at which the derivatives of the force must be those of the start.
+const LATER_S: [f64; 2] = [0.37, 2.9];
+
+/// A true rate below this fraction of the largest is none: twice the digits that a double eigenvalue keeps.
+const STILL: f64 = 1e-7;
+
+/// The furthest that rounding moves a double eigenvalue.
+const SPLIT: f64 = 1e-6;
+
+/// A true growth below this fraction of the largest rate is rounding.
+const NO_GROWTH: f64 = 1e-10;
+
+/// The modes of `x″ = A x + B x′`, and the unit of velocity.
+fn true_modes(jacobian: &DMatrix<f64>) -> Option<(Vec<Mode>, f64)> {
+    let n = jacobian.nrows();
+    let stiffness = jacobian.columns(0, n).amax();
+    let unit = if stiffness > 0.0 { stiffness.sqrt() } else { 1.0 };
+    let system = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i.checked_sub(n), j < n) {
+        (Some(i), true) => jacobian[(i, j)] / unit,
+        (Some(i), false) => jacobian[(i, j)],
+        (None, _) => unit * f64::from(u8::from(j == i + n)),
+    });
+    let values = spectrum::eigenvalues_of_map(&system)?;
+    let largest = values.iter().map(|value| value.modulus).fold(0.0, f64::max);
+    let mode = |value: &Eigenvalue| {
+        let growth = value.modulus * libm::cos(value.angle);
+        let is_still = value.modulus <= STILL * largest;
+        let is_rounding = is_still || growth.abs() <= NO_GROWTH * largest;
+        Mode {
+            growth_per_s: if is_rounding { 0.0 } else { growth },
+            frequency: if is_still || !value.is_complex() {
+                0.0
+            } else {
+                value.modulus * libm::sin(value.angle)
+            },
+        }
+    };
+    let rate = if largest > 0.0 { largest } else { 1.0 };
+    Some((values.iter().map(mode).collect(), rate))
+}
+
+/// A place where `free` rests at any time: the origin, if it rests there at the start, or else what Newton's iteration
+/// finds from the start.
+fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
+    let n = free.q().len();
+    let origin = vec![0.0; n];
+    let push = |q: &[f64], t: f64| {
+        let mut a = vec![0.0; n];
+        free.acceleration(t, q, &origin, &mut a);
+        DVector::from_vec(a)
+    };
+    if push(&origin, 0.0).iter().all(|&a| a == 0.0) {
+        return Ok(origin);
+    }
+    let mut q = free.q().to_vec();
+    for _ in 0..MOST_ITERATIONS {
+        let columns: Vec<DVector<f64>> = (0..n)
+            .map(|j| {
+                let moved = |sign: f64| {
+                    let mut q = q.clone();
+                    q[j] += sign * DISTANCES[0][0];
+                    q
+                };
+                (push(&moved(1.0), 0.0) - push(&moved(-1.0), 0.0)) / (2.0 * DISTANCES[0][0])
+            })
+            .collect();
+        let step = DMatrix::from_columns(&columns).lu().solve(&push(&q, 0.0));
+        let step = step.filter(|step| step.iter().all(|x| x.is_finite()));
+        let step = step.ok_or(NoSmallMotion::NoRest)?;
+        let is_near = step.iter().zip(&q).all(|(step, q)| step.abs() <= AT_REST * (1.0 + q.abs()));
+        q.iter_mut().zip(step.iter()).for_each(|(q, step)| *q -= step);
+        if is_near {
+            // Under a drive it is a place of rest for a moment only.
+            let still = LATER_S.iter().all(|&t| (push(&q, t) - push(&q, 0.0)).amax() == 0.0);
+            return if still { Ok(q) } else { Err(NoSmallMotion::NoRest) };
+        }
+    }
+    Err(NoSmallMotion::NoRest)
+}
+
+/// Steps of Newton's iteration: from a start with the right stiffness about 5 are enough.
+const MOST_ITERATIONS: u32 = 30;
+
+/// The last step of Newton's iteration, relative to the coordinate: the next would be at rounding level.
+const AT_REST: f64 = 1e-9;
+
+/// The Jacobian of the force at rest at `q`, if its differences over two distances and on either side agree, or come
+/// together as the distances shrink.
+fn smooth_jacobian(free: &dyn Stepper, q: &[f64], t: f64) -> Result<DMatrix<f64>, NoSmallMotion> {
+    let n = q.len();
+    let acceleration = |moved: Option<(usize, f64)>| {
+        let mut state = [q, &vec![0.0; n]].concat();
+        if let Some((place, by)) = moved {
+            state[place] += by;
+        }
+        let mut a = vec![0.0; n];
+        free.acceleration(t, &state[..n], &state[n..], &mut a);
+        DVector::from_vec(a)
+    };
+    let here = acceleration(None);
+    let slopes = |by: f64| {
+        let column = |j: usize| (acceleration(Some((j, by))) - &here) / by;
+        DMatrix::from_columns(&(0..2 * n).map(column).collect::<Vec<_>>())
+    };
+    let mut wider: Option<Vec<f64>> = None;
+    for [far, near] in DISTANCES {
+        let found = [slopes(far), slopes(-far), slopes(near), slopes(-near)];
+        if found.iter().flatten().any(|x| !x.is_finite()) {
+            return Err(NoSmallMotion::NotFinite);
+        }
+        let jacobian = (&found[2] + &found[3]) / 2.0;
+        let spread: Vec<f64> = (0..n).map(|row| spread(&found, row)).collect();
+        let shrinks =
+            |row: usize| wider.as_ref().is_some_and(|wider| spread[row] <= wider[row] / 2.0);
+        let is_smooth =
+            |row: usize| spread[row] <= SMOOTH * jacobian.row(row).amax() || shrinks(row);
+        if (0..n).all(is_smooth) {
+            return Ok(jacobian);
+        }
+        wider = Some(spread);
+    }
+    Err(NoSmallMotion::Corner)
+}
+
+/// The largest difference between Jacobians in a row.
+fn spread(found: &[DMatrix<f64>; 4], row: usize) -> f64 {
+    let off = |other: &DMatrix<f64>| (found[0].row(row) - other.row(row)).amax();
+    found.iter().map(off).fold(0.0, f64::max)
+}
+
+/// Pairs of distances of the differences, in the units of the coordinates. A smooth force that bends over the first pair
+/// is straight over the second.
+const DISTANCES: [[f64; 2]; 2] = [[1e-5, 1e-6], [1e-7, 1e-8]];
+
+/// Whether two Jacobians agree in each row.
+fn agree(a: &DMatrix<f64>, b: &DMatrix<f64>) -> bool {
+    let rows = a.row_iter().zip(b.row_iter());
+    rows.into_iter().all(|(a, b)| (a - b).amax() <= SMOOTH * a.amax().max(b.amax()))
+}
+
+/// Slopes agree to this part of the largest in the row: far above their rounding, and far below a corner.
+const SMOOTH: f64 = 1e-3;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::Solver;
+    use crate::sim::bodies::kind;
+    use crate::sim::integrators::{GENERAL_METHODS, method};
+
+    fn body(id: &str, values: &[f64]) -> Box<dyn Stepper> {
+        (kind(id).unwrap().build)(values, Solver::Truth)
+    }
+
+    #[test]
+    fn a_pendulum_at_rest_swings_as_a_spring_and_an_orbit_has_no_rest() {
+        let pendulum = body("pendulum", &[2.0, 3.0, 9.81, 0.6, 1.2, 0.5, 1.0]);
+        let modes = SmallMotion::of(&*pendulum).unwrap().normal_modes().unwrap();
+        assert_eq!(modes.len(), 1);
+        assert!((modes[0].omega_squared / (9.81 / 2.0) - 1.0).abs() < 1e-6, "{modes:?}");
+        // c / (m l²), with l = 2 m and m = 3 kg.
+        assert!((modes[0].damping_per_s / (0.6 / 12.0) - 1.0).abs() < 1e-6, "{modes:?}");
+        let orbit = SmallMotion::of(&*body("orbit", &[1000.0, 9.0, 2.0, 1.5, 10.0, 0.3]));
+        assert_eq!(orbit.err(), Some(NoSmallMotion::NoRest));
+    }
+
+    #[test]
+    fn the_coordinates_of_a_chain_together_are_as_stable_as_its_modes() {
+        for damping in [0.0, 0.3] {
+            let chain = unforced(&*body("chain", &[4.0, 0.5, 200.0, damping, 2.0, 0.7, 2.0]));
+            let small = SmallMotion::of(&*chain).unwrap();
+            let modes = small.normal_modes().unwrap();
+            let coupled = small.coupled().unwrap();
+            assert!(!coupled.grows());
+            for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
+                for (h, substeps) in [(0.02, 1), (0.04, 2), (0.06, 1)] {
+                    let tick = Tick { t: 0.0, h, substeps };
+                    let found = coupled.stability(method, h, substeps).unwrap();
+                    let (mut growth, mut radius) = (f64::NEG_INFINITY, 0.0_f64);
+                    for mode in &modes {
+                        let alone = mode.stability(&*chain, Solver::Method(method), tick).unwrap();
+                        growth = growth.max(alone.growth_per_s);
+                        radius = radius.max(alone.spectral_radius);
+                    }
+                    let what = format!("{}, c = {damping}, {h} s", method.id);
+                    let off = (found.growth_per_s - growth).abs();
+                    assert!(off <= 1e-6 * (1.0 + growth.abs()), "{what}: {found:?}, {growth}");
+                    let off = (found.spectral_radius / radius - 1.0).abs();
+                    assert!(off <= 1e-6, "{what}: {found:?}, {radius}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn true_growth_is_not_counted_unless_a_method_is_off_by_a_tenth() {
+        let motion = SmallMotion { jacobian: DMatrix::from_row_slice(1, 2, &[4.0, 0.0]) };
+        assert!(motion.normal_modes().is_none());
+        let motion = motion.coupled().unwrap();
+        assert!(motion.grows());
+        let euler = method("explicit-euler").unwrap();
+        // x″ = 4 x grows as e^2t in truth, and by 1 + 2 h per step of explicit Euler.
+        for (h, excess) in [(0.05, 0.0), (0.5, libm::log(2.0) / 0.5 - 2.0)] {
+            let found = motion.stability(euler, h, 1).unwrap();
+            assert!((found.growth_per_s - excess).abs() < 1e-9, "{h}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn a_free_drift_stays_neutral() {
+        // Two masses of 1 and 3 kg with a spring and a damper between them.
+        let (k, c) = (30.0, 2.0);
+        let rows = [-k, k, -c, c, k / 3.0, -k / 3.0, c / 3.0, -c / 3.0];
+        let motion = SmallMotion { jacobian: DMatrix::from_row_slice(2, 4, &rows) };
+        assert!(motion.normal_modes().is_none());
+        let motion = motion.coupled().unwrap();
+        assert_eq!(motion.truth.iter().filter(|mode| mode.is_still()).count(), 2);
+        for id in ["semi-implicit-euler", "rk4", "implicit-midpoint", "bdf2"] {
+            let found = motion.stability(method(id).unwrap(), 0.01, 1).unwrap();
+            assert!(found.is_bounded(), "{id}: {found:?}");
+            assert_eq!(found.spectral_radius, 1.0, "{id}");
+        }
+        // Explicit Euler multiplies the swing, of ω² = 40 and damping 8/3, by √(1 - 8/3 h + 40 h²).
+        let found = motion.stability(method("explicit-euler").unwrap(), 0.1, 1).unwrap();
+        let wanted = libm::log(1.0 - 8.0 / 30.0 + 0.4) / 0.2;
+        assert!((found.growth_per_s - wanted).abs() < 1e-9, "{found:?}, not {wanted}");
+    }
+}
