@@ -8,7 +8,7 @@ use super::chase::Chase;
 use super::extent::Extent;
 use super::number::superscript;
 use super::scene::Scene;
-use crate::sim::bodies::{Coordinate, FalseClaims, Input, Kind, Law, Truth};
+use crate::sim::bodies::{Coordinate, FalseClaims, Input, Kind, Law, Own, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
 
@@ -74,9 +74,12 @@ pub struct LaneBody {
 }
 
 impl LaneBody {
-    /// The claims of a [`Law`] that do not hold with the present constants; of other bodies none.
+    /// The claims of a [`Law`], or of a body of one's [`Own`], that do not hold with the present parameters; of other
+    /// bodies none.
     pub fn false_claims(&self) -> FalseClaims {
-        self.stepper.body().downcast_ref::<Law>().map(Law::false_claims).unwrap_or_default()
+        let body = self.stepper.body();
+        let law = || body.downcast_ref().map(Law::false_claims);
+        body.downcast_ref().map(Own::false_claims).or_else(law).unwrap_or_default()
     }
 
     /// A body of `kind` with `values` at its start, under `solver`.

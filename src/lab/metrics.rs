@@ -71,7 +71,7 @@ impl Metric {
     /// The text shown if no lane has a value on this body, which is the one in truth.
     pub fn absent_on(&self, truth: &LaneBody) -> &'static str {
         if self.id == ENERGY_DRIFT && truth.false_claims().energy {
-            "No drift to show: with these constants the law's `energy` is not conserved."
+            "No drift to show: with these constants the body's `energy` is not conserved."
         } else {
             self.absent
         }

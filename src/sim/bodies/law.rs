@@ -4,6 +4,7 @@ use std::cell::{OnceCell, RefCell};
 
 use glam::DVec2;
 
+use super::false_claims::FalseClaims;
 use super::survey::ranges;
 use crate::sim::body::{Body, Input};
 use crate::sim::law::{At, Equations, Registers};
@@ -30,15 +31,6 @@ pub struct Law {
     /// Whether the law's exact solution is one with these values.
     is_solved: bool,
     ranges: OnceCell<Vec<(f64, f64)>>,
-}
-
-/// Which claims of a law's text do not hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct FalseClaims {
-    /// That the energy is conserved.
-    pub energy: bool,
-    /// That the exact solution satisfies the equation.
-    pub exact: bool,
 }
 
 impl Law {

@@ -5,6 +5,7 @@
 //! drawn. To add one, copy `spring.rs`, declare it, and name it in [`BODIES`].
 
 mod chain;
+mod false_claims;
 mod follow;
 mod helm;
 mod kepler;
@@ -21,10 +22,11 @@ mod spring;
 mod survey;
 
 pub use chain::Chain;
+pub use false_claims::FalseClaims;
 pub use follow::Follow;
 pub use helm::{Helm, ThrustCurve};
 pub use kind::{Build, Coordinate, Kind, Truth};
-pub use law::{FalseClaims, Law, check_law, law_kind};
+pub use law::{Law, check_law, law_kind};
 pub use orbit::{Ellipse, Orbit};
 pub use own::{Energy, Exact, Extras, Own, OwnFault, own_kind};
 pub use own_sheet::OwnSheet;

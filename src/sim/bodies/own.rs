@@ -5,6 +5,7 @@ use std::cell::OnceCell;
 
 use glam::DVec2;
 
+use super::false_claims::FalseClaims;
 use super::own_sheet::OwnSheet;
 use super::survey::ranges;
 use crate::sim::body::{Body, Input};
@@ -62,6 +63,19 @@ impl Own {
     /// The system with its present parameters; its type is the one that it was made of.
     pub fn system(&self) -> &dyn Any {
         self.motion.system()
+    }
+
+    /// What was told of it and does not hold with the present parameters.
+    pub fn false_claims(&self) -> FalseClaims {
+        let has_energy = || {
+            let State { q, v } = &self.start;
+            self.motion.energy(q, Some(v)).is_some()
+        };
+        let has_exact = || self.motion.exact(0.0, &mut self.start.clone());
+        FalseClaims {
+            energy: !self.conserves && has_energy(),
+            exact: !self.is_solved && has_exact(),
+        }
     }
 
     /// The least and the largest value of each coordinate in the first seconds of the motion, for drawing.
