@@ -28,6 +28,8 @@ impl Scene {
 
     /// The text of a scene file that [reads](Scene::parse) as this scene.
     ///
+    /// No text can say what a body or a method [in Rust](Scene::in_rust) is: that of such a scene cannot be read again.
+    ///
     /// ```
     /// use regatta::lab::Scene;
     ///
