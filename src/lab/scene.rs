@@ -21,6 +21,7 @@ mod fields;
 mod fitting;
 mod law;
 mod nearest;
+mod net;
 mod refusal;
 mod script;
 mod syntax;

@@ -176,6 +176,10 @@ impl<B: Body, D: Propagator<B>> Stepper for BodyStepper<B, D> {
         self.body.system.kinetic_energy(&self.state)
     }
 
+    fn mechanical_energy(&self) -> Option<f64> {
+        self.body.system.mechanical_energy(&self.state)
+    }
+
     fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
         let Pursuit { target, rate, order, is_still } = self.body.system.pursuit(t)?;
         Some(Pursuit { target: target.components()[0], rate, order, is_still })

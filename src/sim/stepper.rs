@@ -69,6 +69,10 @@ pub trait Stepper: Send {
     /// The kinetic part of [`Stepper::energy`], in joules. Never allocates.
     fn kinetic_energy(&self) -> Option<f64>;
 
+    /// The kinetic and the potential energy in joules, conserved or not; `None` if the body does not know
+    /// it. Never allocates.
+    fn mechanical_energy(&self) -> Option<f64>;
+
     /// What the body follows at time `t` (s), in its first coordinate; `None` if it follows nothing. It is not
     /// counted as an evaluation.
     fn pursuit(&self, t: f64) -> Option<Pursuit<f64>>;

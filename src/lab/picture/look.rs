@@ -6,13 +6,16 @@ use std::any::Any;
 use glam::DVec2;
 
 use super::outline::{Mark, Outline};
-use crate::sim::bodies::{Body, Chain, Follow, Helm, Kind, Law, Orbit, Pendulum, Ship, Spring};
+use crate::sim::bodies::{
+    Body, Chain, Follow, Helm, Kind, Law, Net, Orbit, Pendulum, Ship, Spring,
+};
 use crate::sim::{State, Stepper, Vector};
 
 mod chain;
 mod follow;
 mod helm;
 mod law;
+mod net;
 mod orbit;
 mod pendulum;
 mod ship;
@@ -109,15 +112,17 @@ static LOOKS: &[Look] = &[
     Look::of_type::<Follow>("follow"),
 ];
 
-/// The look of laws, whose kinds are not in that table.
+/// The looks of laws and of nets, whose kinds are not in that table.
 static LAW_LOOK: Look = Look::of_type::<Law>("law");
+static NET_LOOK: Look = Look::of_type::<Net>("net");
 
 impl Look {
     const fn of_type<B: Drawn>(kind: &'static str) -> Self {
         let outline = |body: &dyn Any, t: f64, q: &[f64]| {
             let body = typed::<B>(body);
             let shown = vector::<B>(body, q);
-            let mut outline = Outline { t, at: body.place(&shown), marks: Vec::new() };
+            let mut outline =
+                Outline { t, at: body.place(&shown), marks: Vec::new(), threads: Vec::new() };
             body.draw(&shown, &mut outline);
             outline
         };
@@ -139,6 +144,9 @@ impl Look {
     pub fn of(kind: &Kind) -> &'static Look {
         if kind.law.is_some() {
             return &LAW_LOOK;
+        }
+        if kind.net.is_some() {
+            return &NET_LOOK;
         }
         let look = LOOKS.iter().find(|look| look.kind == kind.id);
         look.expect("the tests below find a look for every kind")

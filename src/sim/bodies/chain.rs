@@ -50,6 +50,7 @@ pub(super) const KIND: Kind = Kind {
     },
     build: &|values, solver| stepper(Chain::BLANK.with_parameters(values), solver),
     law: None,
+    net: None,
 };
 
 type Of = ParameterOf<Chain>;

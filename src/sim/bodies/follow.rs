@@ -24,6 +24,7 @@ pub(super) const KIND: Kind = Kind {
     check: &|_| Ok(()),
     build: &|values, solver| stepper(Follow::BLANK.with_parameters(values), solver),
     law: None,
+    net: None,
 };
 
 type Of = ParameterOf<Follow>;

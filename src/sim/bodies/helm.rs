@@ -31,6 +31,7 @@ pub(super) const KIND: Kind = Kind {
     check: &|_| Ok(()),
     build: &|values, solver| stepper(Helm::BLANK.with_parameters(values), solver),
     law: None,
+    net: None,
 };
 
 type Of = ParameterOf<Helm>;

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::sim::law::Equations;
+use crate::sim::net_plan::NetPlan;
 use crate::sim::parameter::{Fault, Parameter};
 use crate::sim::reference::REFERENCE_ACCURACY;
 use crate::sim::solver::Solver;
@@ -67,6 +68,8 @@ pub struct Kind {
     /// The equations of a [law](super::law_kind), which a scene writes itself; `None` for a kind of the
     /// table.
     pub law: Option<&'static Equations>,
+    /// The nodes and springs of a [net](super::net_kind), which a scene lays out; `None` for any other kind.
+    pub net: Option<&'static NetPlan>,
 }
 
 impl fmt::Debug for Kind {

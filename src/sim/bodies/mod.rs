@@ -10,6 +10,7 @@ mod helm;
 mod kepler;
 mod kind;
 mod law;
+mod net;
 mod orbit;
 mod oscillator;
 mod pendulum;
@@ -22,6 +23,7 @@ pub use follow::Follow;
 pub use helm::{Helm, ThrustCurve};
 pub use kind::{Build, Coordinate, Kind, Truth};
 pub use law::{Law, check_law, law_kind};
+pub use net::{Net, net_kind};
 pub use orbit::{Ellipse, Orbit};
 pub use pendulum::Pendulum;
 pub use refusal::refusal;
@@ -29,6 +31,9 @@ pub use ship::Ship;
 pub use spring::Spring;
 
 pub use super::body::{Body, Input};
+pub use super::net_plan::{
+    Form, Grid, Lists, MOST_NODES, MOST_SPRINGS, NetFault, NetPart, NetPlan, Pin, PlannedSpring,
+};
 pub use super::parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
 pub use super::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 

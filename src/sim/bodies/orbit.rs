@@ -32,6 +32,7 @@ pub(super) const KIND: Kind = Kind {
     },
     build: &|values, solver| stepper(Orbit::BLANK.with_parameters(values), solver),
     law: None,
+    net: None,
 };
 
 type Of = ParameterOf<Orbit>;

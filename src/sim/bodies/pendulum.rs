@@ -19,6 +19,7 @@ pub(super) const KIND: Kind = Kind {
     check: &|_| Ok(()),
     build: &|values, solver| stepper(Pendulum::BLANK.with_parameters(values), solver),
     law: None,
+    net: None,
 };
 
 type Of = ParameterOf<Pendulum>;

@@ -20,6 +20,7 @@ pub(super) const KIND: Kind = Kind {
     check: &|_| Ok(()),
     build: &|values, solver| stepper(Spring::BLANK.with_parameters(values), solver),
     law: None,
+    net: None,
 };
 
 type Of = ParameterOf<Spring>;

@@ -74,6 +74,7 @@ fn kind(equations: &'static Equations) -> Kind {
             stepper(Law::new(equations, values), solver)
         })),
         law: Some(equations),
+        net: None,
     }
 }
 

@@ -5,6 +5,9 @@
 //! convergence is slow. The iteration continues to round-off, because a method conserves a quantity
 //! only as well as its equations are solved. If it does not converge, the solution is continued from a
 //! shorter step.
+//!
+//! A body of many coordinates that feel few others each has a [sparse vector](Vector::IS_SPARSE), and no
+//! matrix: its linear equations are solved by an iteration of their own.
 
 use crate::sim::integrators::failure::StepFailure;
 use crate::sim::system::{State, System, Vector};
@@ -14,6 +17,8 @@ pub(in crate::sim::integrators) use iteration::{Newton, Stages};
 mod continuation;
 mod curve;
 mod iteration;
+mod krylov;
+mod sparse;
 
 impl<V: Vector> Newton<V, 1> {
     /// Replaces `y` by the solution of `Y = y + c f(t, Y)`.
@@ -43,6 +48,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         for a in &mut self.a {
             a.components_mut().fill(0.0);
         }
+        self.krylov.iter_mut().for_each(|krylov| krylov.begin_step());
         if self.iterate(system, stages) || self.solve_by_continuation(system, stages) {
             return Ok(());
         }

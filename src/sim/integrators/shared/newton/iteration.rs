@@ -1,6 +1,7 @@
 //! Newton's iteration, and the equations that it solves.
 
 use super::curve::Curve;
+use super::krylov::Krylov;
 use crate::sim::integrators::shared::lu::Lu;
 use crate::sim::system::{State, System, Vector};
 
@@ -33,8 +34,10 @@ pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
     pub(super) perturbed: [V; S],
     /// The state at which a stage is evaluated.
     pub(super) stage: State<V>,
-    /// The Jacobian of `A - evaluated`, factored.
+    /// The Jacobian of `A - evaluated`, factored; empty for a sparse vector.
     pub(super) jacobian: Lu,
+    /// Solves the linear equations of a sparse vector.
+    pub(super) krylov: Option<Box<Krylov<V, S>>>,
     /// The residual `evaluated - A`, and then the correction of `A`.
     pub(super) residual: Vec<f64>,
     /// The scale of the rounding error of `evaluated`, in units of round-off.
@@ -45,6 +48,7 @@ pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
 
 /// The times of the stages, and the weights α and β of the accelerations in their coordinates and
 /// velocities.
+#[derive(Clone, Copy)]
 pub(in crate::sim::integrators) struct Stages<const S: usize> {
     pub(in crate::sim::integrators) t: [f64; S],
     pub(in crate::sim::integrators) alpha: [[f64; S]; S],
@@ -62,9 +66,10 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             evaluated: vectors(),
             perturbed: vectors(),
             stage: state,
-            jacobian: Lu::new(size),
+            jacobian: Lu::new(if V::IS_SPARSE { 0 } else { size }),
+            krylov: V::IS_SPARSE.then(|| Box::new(Krylov::new(like))),
             residual: vec![0.0; size],
-            rounding_scale: vec![0.0; size],
+            rounding_scale: vec![0.0; if V::IS_SPARSE { 0 } else { size }],
             curve: Curve::new(size),
         }
     }
@@ -72,12 +77,16 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     /// Memory in bytes, without its own size and that of its coordinate vectors.
     pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
         let vectors = size_of_val(&self.residual[..]) + size_of_val(&self.rounding_scale[..]);
-        self.jacobian.heap_bytes() + self.curve.heap_bytes() + vectors
+        let krylov = self.krylov.as_ref().map_or(0, |krylov| krylov.heap_bytes());
+        self.jacobian.heap_bytes() + self.curve.heap_bytes() + vectors + krylov
     }
 
     /// Iterates from the current `A`. Returns whether it converged.
     #[inline(always)]
     pub(super) fn iterate(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) -> bool {
+        if V::IS_SPARSE {
+            return self.iterate_sparsely(system, stages);
+        }
         let mut is_stale = true;
         // No convergence rate is known before the second correction.
         let mut last = f64::NAN;
@@ -182,6 +191,22 @@ impl<const S: usize> Stages<S> {
         Self { t: self.t, alpha: scaled(self.alpha), beta: scaled(self.beta) }
     }
 
+    /// Overwrites `stage` with the state at stage `i`.
+    #[inline]
+    pub(super) fn place<V: Vector>(
+        &self,
+        i: usize,
+        known: &[State<V>; S],
+        a: &[V; S],
+        stage: &mut State<V>,
+    ) {
+        stage.assign(&known[i]);
+        for ((alpha, beta), a) in self.alpha[i].iter().zip(&self.beta[i]).zip(a) {
+            stage.q.add_scaled(*alpha, a);
+            stage.v.add_scaled(*beta, a);
+        }
+    }
+
     #[inline]
     pub(super) fn evaluate<V: Vector>(
         &self,
@@ -192,11 +217,7 @@ impl<const S: usize> Stages<S> {
         evaluated: &mut [V; S],
     ) {
         for i in 0..S {
-            stage.assign(&known[i]);
-            for ((alpha, beta), a) in self.alpha[i].iter().zip(&self.beta[i]).zip(a) {
-                stage.q.add_scaled(*alpha, a);
-                stage.v.add_scaled(*beta, a);
-            }
+            self.place(i, known, a, stage);
             system.acceleration(self.t[i], &stage.q, &stage.v, &mut evaluated[i]);
         }
     }
