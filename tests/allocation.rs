@@ -7,7 +7,7 @@ use std::cell::Cell;
 use regatta::lab::{Action, Command, Lab, Past, Race, SCENES, Scene};
 use regatta::sim::bodies::{Follow, Spring};
 use regatta::sim::integrators::{GENERAL_METHODS, METHODS, Method, integrator};
-use regatta::sim::{Solver, State, System, Vector};
+use regatta::sim::{Points, Solver, State, System, Vector};
 
 struct Counting;
 
@@ -105,6 +105,9 @@ fn no_method_allocates_in_a_thousand_steps_on_any_vector() {
     steps_without_allocating(&plane, &glam::DVec2::ONE);
     let many = Springs(std::marker::PhantomData);
     steps_without_allocating(&many, &vec![1.0; 50]);
+    // Solved by iteration, with slopes by differences.
+    let sparse = Springs(std::marker::PhantomData);
+    steps_without_allocating(&sparse, &Points(vec![1.0; 50]));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //! runs of it.
 
 mod advice;
+mod by_energy;
 mod change;
 mod chase_finding;
 mod energy;
@@ -23,6 +24,7 @@ pub use advice::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS,
     MethodAdvice, recommended,
 };
+pub use by_energy::EnergyFinding;
 pub use chase_finding::ChaseFinding;
 pub use judge::{Judge, LONGEST_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};

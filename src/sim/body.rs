@@ -163,10 +163,11 @@ pub trait Body: System + Clone + Send + 'static {
         Some(self.energy(state)? - self.energy(&still)?)
     }
 
-    /// The kinetic and the potential energy in joules, conserved or not; `None` if it is not known. What
-    /// damps the motion only takes of it.
-    fn mechanical_energy(&self, state: &State<Self::Vector>) -> Option<f64> {
-        self.energy(state)
+    /// The kinetic and the potential energy in joules, conserved or not; `None` if they are not known. Of
+    /// their sum, what damps the motion can only take.
+    fn mechanical_energy(&self, state: &State<Self::Vector>) -> Option<[f64; 2]> {
+        let kinetic = self.kinetic_energy(state)?;
+        Some([kinetic, self.energy(state)? - kinetic])
     }
 
     /// An estimate of the work of a reference solution: evaluations of the parts of the force law for each

@@ -9,7 +9,7 @@ use super::exact_flow::ExactFlow;
 use super::exact_since_start::{ExactSinceStart, is_start};
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
 use super::propagator::{Jump, MethodPropagator, Propagator};
-use super::reference::Reference;
+use super::reference::{MOST_REFERENCE_WORK, Reference};
 use super::solver::Solver;
 use super::stepper::{RecordedTick, Stepper};
 use super::system::{Counted, Counts, Pursuit, Recorded, State, Vector};
@@ -166,6 +166,12 @@ impl<B: Body, D: Propagator<B>> Stepper for BodyStepper<B, D> {
     fn is_linear(&self) -> bool {
         self.body.system.is_linear()
     }
+    fn is_beyond_reference(&self) -> bool {
+        self.body.system.reference_work() > MOST_REFERENCE_WORK
+    }
+    fn is_sparse(&self) -> bool {
+        B::Vector::IS_SPARSE
+    }
     fn truth_error(&self) -> Option<[f64; 2]> {
         self.propagator.truth_error(&self.body, &self.state)
     }
@@ -176,7 +182,7 @@ impl<B: Body, D: Propagator<B>> Stepper for BodyStepper<B, D> {
         self.body.system.kinetic_energy(&self.state)
     }
 
-    fn mechanical_energy(&self) -> Option<f64> {
+    fn mechanical_energy(&self) -> Option<[f64; 2]> {
         self.body.system.mechanical_energy(&self.state)
     }
 

@@ -25,8 +25,8 @@ pub enum Form {
     Lists(Lists),
 }
 
-/// Nodes in rows and columns, each joined to the next in its row and in its column. They are numbered from 0
-/// at the top left, row by row; the first stands at the origin.
+/// Nodes in rows and columns, each joined to the next in its row and in its column, unless both are
+/// fixed. They are numbered from 0 at the top left, row by row; the first stands at the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     /// How many columns there are.
@@ -149,18 +149,20 @@ impl Grid {
         let places = (0..rows).flat_map(|row| {
             (0..columns).map(move |column| [column as f64 * spacing, -(row as f64) * spacing])
         });
-        let fixed = match pin {
-            None => vec![],
-            Some(Pin::Top) => (0..columns).collect(),
-            Some(Pin::Corners) if columns == 1 => vec![0],
-            Some(Pin::Corners) => vec![0, columns - 1],
+        let is_fixed = |node: usize| match pin {
+            None => false,
+            Some(Pin::Top) => node < columns,
+            Some(Pin::Corners) => node == 0 || node + 1 == columns,
         };
+        let fixed = (0..columns).filter(|&node| is_fixed(node)).collect();
         let mut springs = Vec::new();
         for row in 0..rows {
             for column in 0..columns {
                 let (right, down) = (column + 1 < columns, row + 1 < rows);
                 let mut join = |from: usize, to: usize| {
-                    springs.push(PlannedSpring { between: [from, to], ..Default::default() });
+                    if !(is_fixed(from) && is_fixed(to)) {
+                        springs.push(PlannedSpring { between: [from, to], ..Default::default() });
+                    }
                 };
                 if right {
                     join(node(column, row), node(column + 1, row));
@@ -193,6 +195,10 @@ impl Lists {
             let what = format!("the net has {nodes} node{}", if nodes == 1 { "" } else { "s" });
             let remedy = format!("give it 2 to {MOST_NODES}");
             return vec![fault(NetPart::Nodes, what, &remedy)];
+        }
+        if (0..nodes).all(|node| self.fixed.contains(&node)) {
+            let what = "every node is fixed, so that nothing moves".into();
+            return vec![fault(NetPart::Nodes, what, "free a node")];
         }
         if !(1..=MOST_SPRINGS).contains(&self.springs.len()) {
             let what = format!("the net has {} springs", self.springs.len());
@@ -244,10 +250,6 @@ impl Lists {
             let what = format!("nodes {a} and {b} are joined by spring {} already", pair[0].1);
             let remedy = "remove one of the two, or give one the stiffness of both";
             faults.push(fault(NetPart::Spring(pair[1].1), what, remedy));
-        }
-        if is_fixed.iter().all(|fixed| *fixed) {
-            let what = "every node is fixed, so that nothing moves".into();
-            faults.push(fault(NetPart::Nodes, what, "free a node"));
         }
         faults
     }

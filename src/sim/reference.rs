@@ -37,7 +37,7 @@ const MOST_SAVED_EVALUATIONS: u64 = 4_000_000;
 
 /// The most [work](Body::reference_work) for which a body has a reference solution, per simulated second:
 /// about as long as the second itself in an unoptimised build, and a tenth of that in an optimised one.
-pub const MOST_REFERENCE_WORK: f64 = 2e7;
+pub const MOST_REFERENCE_WORK: f64 = 1e6;
 
 /// A reference solution.
 #[derive(Clone, Debug)]

@@ -1,58 +1,67 @@
-//! Nets of masses and springs.
+//! Nets of masses and springs: what their motion keeps, what a scene may write, and what is said of one that
+//! has no reference solution.
 
 use regatta::sim::bodies::{Form, Grid, Lists, NetPlan, Pin, PlannedSpring, net_kind};
 use regatta::sim::integrators::method;
 use regatta::sim::{Solver, Stepper};
 
-fn build(plan: NetPlan, values: &[f64], solver: Solver) -> Box<dyn Stepper> {
-    let kind = net_kind(plan).unwrap();
-    (kind.build)(values, solver)
-}
-fn grid(columns: usize, rows: usize, pin: Option<Pin>) -> NetPlan {
-    NetPlan {
-        form: Form::Grid(Grid { columns, rows, spacing: 0.1, shear: true, pin }),
-        kicked: None,
-    }
+mod files;
+mod implicit;
+mod motion;
+mod verdicts;
+
+/// The parameters of a net of nodes of 20 g, without gravity, damping and drag.
+const PLAIN: Values = Values {
+    mass: 0.02,
+    stiffness: 200.0,
+    damping: 0.0,
+    drag: 0.0,
+    gravity: 0.0,
+    rest_ratio: 1.0,
+    kick: [3.0, 0.0],
+};
+
+#[derive(Clone, Copy)]
+struct Values {
+    mass: f64,
+    stiffness: f64,
+    damping: f64,
+    drag: f64,
+    gravity: f64,
+    rest_ratio: f64,
+    kick: [f64; 2],
 }
 
-#[test]
-fn probe() {
-    let ids = std::env::var("IDS").unwrap_or("implicit-euler".into());
-    let hz: f64 = std::env::var("HZ").map_or(10.0, |x| x.parse().unwrap());
-    let k: f64 = std::env::var("K").map_or(2000.0, |x| x.parse().unwrap());
-    let c: f64 = std::env::var("C").map_or(0.0, |x| x.parse().unwrap());
-    for id in ids.split(',') {
-        let mut body = build(
-            grid(24, 16, Some(Pin::Corners)),
-            &[0.02, k, c, 0.0, 9.81, 1.0, 3.0, 0.0],
-            Solver::Method(method(id).unwrap()),
-        );
-        let e0 = body.mechanical_energy().unwrap();
-        let started = std::time::Instant::now();
-        let mut last = 0;
-        for tick in 0..(5.0 * hz) as u64 {
-            let r = body.advance(tick as f64 / hz, 1.0 / hz, 1);
-            let n = body.evaluations() - last;
-            last = body.evaluations();
-            if let Err(e) = r {
-                println!("{id}: tick {tick}: {e}, {n}");
-                break;
-            }
-            if tick % (hz as u64 / 2).max(1) == 0 {
-                println!(
-                    "{id} tick {tick}: evals {n}, energy {:.4}",
-                    body.mechanical_energy().unwrap() - e0
-                );
-            }
-            if !body.q()[0].is_finite() {
-                break;
-            }
-        }
-        println!(
-            "{id}: {:?} for {} evaluations, {:.1} us each",
-            started.elapsed(),
-            body.evaluations(),
-            started.elapsed().as_secs_f64() * 1e6 / body.evaluations() as f64
-        );
+fn with(id: &str) -> Solver {
+    Solver::Method(method(id).unwrap())
+}
+
+fn build(plan: &NetPlan, values: Values, solver: Solver) -> Box<dyn Stepper> {
+    let Values { mass, stiffness, damping, drag, gravity, rest_ratio, kick: [x, y] } = values;
+    let kind = net_kind(plan.clone()).unwrap();
+    (kind.build)(&[mass, stiffness, damping, drag, gravity, rest_ratio, x, y], solver)
+}
+
+fn grid(columns: usize, rows: usize, pin: Option<Pin>) -> NetPlan {
+    let grid = Grid { columns, rows, spacing: 0.1, shear: true, pin };
+    NetPlan { form: Form::Grid(grid), kicked: None }
+}
+
+fn lists(nodes: &[[f64; 2]], fixed: &[usize], springs: &[PlannedSpring]) -> NetPlan {
+    let (nodes, fixed, springs) = (nodes.to_vec(), fixed.to_vec(), springs.to_vec());
+    NetPlan { form: Form::Lists(Lists { nodes, fixed, springs }), kicked: None }
+}
+
+fn energy(body: &dyn Stepper) -> f64 {
+    let [kinetic, potential] = body.mechanical_energy().unwrap();
+    kinetic + potential
+}
+
+/// Advances by whole ticks from tick 0, and calls `see` after each.
+fn run(body: &mut dyn Stepper, hz: f64, ticks: u32, mut see: impl FnMut(u32, &dyn Stepper)) {
+    for tick in 0..ticks {
+        body.advance(f64::from(tick) / hz, 1.0 / hz, 1).unwrap();
+        assert!(body.q().iter().chain(body.v()).all(|x| x.is_finite()), "tick {tick}");
+        see(tick + 1, body);
     }
 }

@@ -248,7 +248,12 @@ impl MapWork {
 
 /// The modes of a linear body, or of small deviations from rest.
 fn modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
-    if body.is_linear() { normal_modes(body) } else { modes_about_rest(body) }
+    match body.is_linear() {
+        true => normal_modes(body),
+        // Its nodes do not rest in one place.
+        false if body.is_sparse() => None,
+        false => modes_about_rest(body),
+    }
 }
 
 fn chooses_steps(spec: &LaneSpec) -> bool {

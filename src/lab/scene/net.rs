@@ -118,12 +118,10 @@ fn read_lists(row: &mut Table<'_>, spans: &mut Spans) -> Option<Lists> {
             }
             None => None,
         };
-        planned.push(ends.map(|between| PlannedSpring {
-            between,
-            stiffness: spring.number(STIFFNESS, Range::POSITIVE),
-            damping: spring.number(DAMPING, Range::NON_NEGATIVE),
-            rest: spring.number(REST, Range::NON_NEGATIVE),
-        }));
+        let stiffness = spring.number(STIFFNESS, Range::POSITIVE);
+        let damping = spring.number(DAMPING, Range::NON_NEGATIVE);
+        let rest = spring.number(REST, Range::NON_NEGATIVE);
+        planned.push(ends.map(|between| PlannedSpring { between, stiffness, damping, rest }));
         row.adopt(spring, &TOP);
     }
     let (fixed_spans, fixed) = fixed.unwrap_or_default().into_iter().unzip();

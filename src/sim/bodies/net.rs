@@ -213,8 +213,8 @@ impl System for Net {
         let between = |x: &[[f64; 2]], i: usize, j: usize| [x[j][0] - x[i][0], x[j][1] - x[i][1]];
         for ([i, j], constants) in ends.iter().zip(inner) {
             let (i, j) = (*i as usize, *j as usize);
-            let of = |x: &[[f64; 2]]| between(x, i, j);
-            let f = pull_slope(constants, [of(q), of(v)], [of(dq), of(dv)]);
+            let apart = |x: &[[f64; 2]]| between(x, i, j);
+            let f = pull_slope(constants, [apart(q), apart(v)], [apart(dq), apart(dv)]);
             slope[i] = [slope[i][0] + f[0], slope[i][1] + f[1]];
             slope[j] = [slope[j][0] - f[0], slope[j][1] - f[1]];
         }
@@ -287,15 +287,16 @@ impl Body for Net {
     }
 
     fn energy(&self, state: &State<Points>) -> Option<f64> {
-        (self.springs.are_elastic && self.drag == 0.0).then(|| self.mechanical(state))
+        let is_conserved = self.springs.are_elastic && self.drag == 0.0;
+        is_conserved.then(|| self.kinetic(state) + self.potential(state))
     }
 
     fn kinetic_energy(&self, state: &State<Points>) -> Option<f64> {
         (self.springs.are_elastic && self.drag == 0.0).then(|| self.kinetic(state))
     }
 
-    fn mechanical_energy(&self, state: &State<Points>) -> Option<f64> {
-        Some(self.mechanical(state))
+    fn mechanical_energy(&self, state: &State<Points>) -> Option<[f64; 2]> {
+        Some([self.kinetic(state), self.potential(state)])
     }
 
     fn input(&mut self, input: Input, state: &mut State<Points>) -> bool {
@@ -315,7 +316,7 @@ impl Body for Net {
 
 /// Evaluations of both solutions of a reference for each radian of the fastest motion, as measured on the
 /// nets of the scenes.
-const EVALUATIONS_PER_RADIAN: f64 = 12.0;
+const EVALUATIONS_PER_RADIAN: f64 = 16.0;
 
 impl Net {
     fn kinetic(&self, state: &State<Points>) -> f64 {
@@ -323,15 +324,13 @@ impl Net {
         self.mass * squares.sum::<f64>() / 2.0
     }
 
-    /// Kinetic and potential energy, in joules.
-    fn mechanical(&self, state: &State<Points>) -> f64 {
+    fn potential(&self, state: &State<Points>) -> f64 {
         let heights = state.q.pairs().iter().map(|q| q[1]);
         let stretched = self.spring_ends(&state.q).zip(&self.springs.constants);
         let elastic = stretched.map(|([a, b], [k, _, rest])| {
             let stretch = (b - a).length() - rest;
             k * stretch * stretch
         });
-        let potential = self.gravity * heights.sum::<f64>() + elastic.sum::<f64>() / 2.0;
-        self.kinetic(state) + self.mass * potential
+        self.mass * (self.gravity * heights.sum::<f64>() + elastic.sum::<f64>() / 2.0)
     }
 }

@@ -15,25 +15,30 @@ const BEAD: f64 = 0.13;
 const PIN: f64 = 0.16;
 const GRIP: f64 = 0.45;
 
+/// The largest radius of a bead and of a pin, in units of the picture's width.
+const LARGEST_BEAD: f64 = 0.01;
+
 /// The room around the motion, as a part of it.
-const MARGIN: f64 = 0.06;
+const MARGIN: f64 = 0.12;
 
 /// How long the trail of the marked node is, in seconds.
 const TRAIL_S: f64 = 1.2;
 
 impl Drawn for Net {
     fn draw(&self, q: &Points, outline: &mut Outline) {
-        let shortest = self.shortest();
+        let [low, high] = self.range();
+        let largest = LARGEST_BEAD * (high - low).max_element();
+        let radius = |part: f64| (part * self.shortest()).min(largest);
         outline.threads.extend(
             self.threads(q)
                 .map(|(points, is_border)| Thread { points: points.collect(), is_border }),
         );
         for centre in self.fixed() {
-            outline.marks.push(Mark::Anchor { centre, radius: PIN * shortest });
+            outline.marks.push(Mark::Anchor { centre, radius: radius(PIN) });
         }
         let beads = q.pairs().len() <= MOST_BEADS;
         for &node in q.pairs().iter().filter(|_| beads) {
-            outline.marks.push(Mark::Disc { centre: DVec2::from(node), radius: BEAD * shortest });
+            outline.marks.push(Mark::Disc { centre: DVec2::from(node), radius: radius(BEAD) });
         }
     }
 

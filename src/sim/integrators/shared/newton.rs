@@ -49,7 +49,11 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             a.components_mut().fill(0.0);
         }
         self.krylov.iter_mut().for_each(|krylov| krylov.begin_step());
-        if self.iterate(system, stages) || self.solve_by_continuation(system, stages) {
+        let is_solved = match V::IS_SPARSE {
+            true => self.iterate_sparsely(system, stages),
+            false => self.iterate(system, stages) || self.solve_by_continuation(system, stages),
+        };
+        if is_solved {
             return Ok(());
         }
         Err(StepFailure::NewtonFailed { limit: MAX_ITERATIONS })

@@ -25,8 +25,6 @@ const MOST_CORRECTIONS: u32 = 6;
 /// The size of the last correction. It can be coarse, because the end of the curve is solved to
 /// round-off.
 const CORRECTOR_TOLERANCE: f64 = 1e-6;
-/// The relative residual to which linear equations without a matrix are solved on the curve.
-const CURVE_TOLERANCE: f64 = 1e-8;
 /// The change of λ for the derivative with respect to it.
 const LAMBDA_DIFFERENCE: f64 = 1e-6;
 
@@ -67,9 +65,6 @@ impl<V: Vector, const S: usize> Newton<V, S> {
 
         let mut step = longest;
         for _ in 0..MOST_STEPS {
-            if self.krylov.as_ref().is_some_and(|krylov| krylov.is_spent()) {
-                return false;
-            }
             self.update_tangent(system, stages);
             let Self { a, curve, .. } = self;
             for (start, a) in curve.start.iter_mut().zip(components(a)) {
@@ -140,11 +135,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         for _ in 0..MOST_CORRECTIONS {
             self.linearise_on_curve(system, stages);
             self.compute_residual();
-            let Self { a, residual, curve, jacobian, krylov, .. } = self;
-            match krylov {
-                Some(krylov) => krylov.solve(system, CURVE_TOLERANCE, residual),
-                None => jacobian.solve(residual),
-            }
+            self.jacobian.solve(&mut self.residual);
+            let Self { a, residual, curve, .. } = self;
             let Curve { lambda, scale, slope_by_lambda, tangent, tangent_lambda, .. } = curve;
             let unit = *scale * *scale;
             let across = dot(tangent, slope_by_lambda) / unit + *tangent_lambda;
@@ -179,10 +171,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             let Self { known, a, evaluated, stage, .. } = self;
             here.evaluate(system, known, a, stage, evaluated);
         }
-        if !V::IS_SPARSE {
-            self.factor_jacobian(system, &here, stages);
-        }
-        let Self { known, a, evaluated, perturbed, stage, curve, jacobian, krylov, .. } = self;
+        self.factor_jacobian(system, &here, stages);
+        let Self { known, a, evaluated, perturbed, stage, curve, jacobian, .. } = self;
         curve.scale = curve.scale.max(largest(components(evaluated)));
         stages.scaled(lambda + LAMBDA_DIFFERENCE).evaluate(system, known, a, stage, perturbed);
         let rows = components(perturbed).zip(components(evaluated));
@@ -190,13 +180,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         {
             *slope_by_lambda = (perturbed - evaluated) / LAMBDA_DIFFERENCE;
         }
-        match krylov {
-            Some(krylov) => {
-                krylov.linearise(&here, known, a);
-                krylov.solve(system, CURVE_TOLERANCE, &mut curve.slope_by_lambda);
-            }
-            None => jacobian.solve(&mut curve.slope_by_lambda),
-        }
+        jacobian.solve(&mut curve.slope_by_lambda);
     }
 }
 

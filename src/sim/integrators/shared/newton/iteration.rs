@@ -84,9 +84,6 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     /// Iterates from the current `A`. Returns whether it converged.
     #[inline(always)]
     pub(super) fn iterate(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) -> bool {
-        if V::IS_SPARSE {
-            return self.iterate_sparsely(system, stages);
-        }
         let mut is_stale = true;
         // No convergence rate is known before the second correction.
         let mut last = f64::NAN;

@@ -11,9 +11,11 @@ use crate::sim::system::{State, System, Vector};
 
 /// The most products of matrix and vector in one step of a method. A soft net needs tens and a stiff one
 /// hundreds; without a limit, equations that have no solution would never end.
-const MOST_PRODUCTS: u32 = 4_000;
+const MOST_PRODUCTS: u32 = 12_000;
 /// Products in one iteration.
 const PRODUCTS: u32 = 4;
+/// The relative residual of the linear equations of a descent.
+const DESCENT_TOLERANCE: f64 = 1e-2;
 /// The relative difference for slopes of a force without a formula: the square root of round-off.
 const DIFFERENCE: f64 = 1.5e-8;
 
@@ -120,6 +122,44 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
         for (b, x) in b.iter_mut().zip(self.x.iter().flat_map(V::components)) {
             *b = *x;
         }
+    }
+
+    /// Overwrites the residual `b` with a direction down the energy whose gradient it is: the solution by
+    /// conjugate gradients, as far as the energy curves upwards (Steihaug, *The conjugate gradient method and
+    /// trust regions in large scale optimization*, 1983). Returns whether it does so along all that was tried.
+    pub(super) fn descend(&mut self, system: &impl System<Vector = V>, b: &mut [f64]) -> bool {
+        let Self { matrix, x, r, u: p, v: product, .. } = self;
+        for (r, b) in r.iter_mut().flat_map(V::components_mut).zip(b.iter()) {
+            *r = *b;
+        }
+        x.iter_mut().for_each(|x| x.components_mut().fill(0.0));
+        assign(p, r);
+        let mut size = dot(r, r);
+        let enough = DESCENT_TOLERANCE * DESCENT_TOLERANCE * size;
+        let mut curves_upwards = true;
+        while matrix.left >= PRODUCTS && size > enough {
+            matrix.multiply(system, p, product);
+            let curvature = dot(p, product);
+            // Written so that a NaN ends it.
+            if !(curvature > 0.0) {
+                curves_upwards = false;
+                break;
+            }
+            let alpha = size / curvature;
+            add(x, alpha, p);
+            add(r, -alpha, product);
+            let next = dot(r, r);
+            assign_sum(p, r, next / size);
+            size = next;
+        }
+        // Of an energy that curves downwards at once, the steepest direction.
+        if dot(x, x) == 0.0 {
+            assign(x, r);
+        }
+        for (b, x) in b.iter_mut().zip(x.iter().flat_map(V::components)) {
+            *b = *x;
+        }
+        curves_upwards
     }
 
     /// The iteration by its textbook letters: `x` the solution, `r` the residual, `u` a direction, and `v`,
