@@ -6,6 +6,7 @@ mod by_energy;
 mod change;
 mod chase_finding;
 mod energy;
+mod energy_finding;
 mod frequency;
 mod judge;
 mod limits;
@@ -24,8 +25,8 @@ pub use advice::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS,
     MethodAdvice, recommended,
 };
-pub use by_energy::EnergyFinding;
 pub use chase_finding::ChaseFinding;
+pub use energy_finding::EnergyFinding;
 pub use judge::{Judge, LONGEST_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 pub use outcome::{Outcome, Severity};

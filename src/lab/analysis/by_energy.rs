@@ -1,67 +1,20 @@
 //! The verdict on a body that has no reference solution, because that would take too much work: it rests on
 //! the energy of the run, which nothing but a method adds to, and on the spectral radius of a tick.
 
-use std::fmt;
-
 use super::change::{Change, amplitude};
 use super::energy::Means;
+use super::energy_finding::EnergyFinding;
 use super::limits::VISIBLE;
 use super::run::work;
 use super::truth::{BodyTruth, ticks};
 use super::verdict::RunFailure;
 use crate::lab::lane::check;
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::number::round;
 use crate::sim::Stepper;
 use crate::sim::stability::{Tick, spectral_radius};
 
 /// The part of the work of a run that the spectral radius may take too.
 const WORK_OF_RADIUS: u64 = 6;
-
-/// A radius above this is growth: the power iteration tells it to a thousandth where it gets through, and to
-/// some thousandths where each tick is dear.
-const GROWING_RADIUS: f64 = 1.01;
-
-/// What the energy and the spectral radius say of a lane.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EnergyFinding {
-    /// The mean change of the kinetic and potential energy in the last quarter of the run, in units of the
-    /// largest kinetic energy or of the most that was lost. What an input brings does not count.
-    pub change: f64,
-    /// Whether the body conserves its energy, so that a loss is the method's too.
-    pub is_conserved: bool,
-    /// The spectral radius of a tick about the start; `None` for a method with memory or steps of its own,
-    /// and where it takes too much work.
-    pub spectral_radius: Option<f64>,
-}
-
-impl EnergyFinding {
-    /// Whether the energy neither grows, nor would a small deviation.
-    pub(super) fn is_bounded(&self, change: Change) -> bool {
-        change != Change::Grows && self.spectral_radius.is_none_or(|radius| radius < GROWING_RADIUS)
-    }
-}
-
-impl EnergyFinding {
-    /// What becomes of the energy where it neither grows nor is lost in a way that can be seen.
-    pub(super) fn kept(&self, horizon: &str) -> String {
-        let percent = round(100.0 * self.change.abs(), 2);
-        match self.is_conserved {
-            true => format!("keeps its energy to {percent} % in {horizon}"),
-            false => format!("gains no energy in {horizon}"),
-        }
-    }
-}
-
-impl fmt::Display for EnergyFinding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("no reference: by energy")?;
-        match self.spectral_radius {
-            Some(radius) => write!(f, " and spectral radius {}", round(radius, 4)),
-            None => f.write_str(" alone"),
-        }
-    }
-}
 
 /// A run without a truth.
 pub(super) struct EnergyRun {
@@ -73,6 +26,15 @@ pub(super) struct EnergyRun {
     pub(super) is_too_much: bool,
     pub(super) evaluations: u64,
     pub(super) seconds: f64,
+}
+
+impl EnergyRun {
+    /// Whether neither the energy nor a small deviation grows.
+    pub(super) fn is_bounded(&self) -> bool {
+        self.failure.is_none()
+            && self.change != Change::Grows
+            && !self.finding.has_growing_deviations()
+    }
 }
 
 /// Runs `truth`'s body under `spec` over the horizon, with its inputs.

@@ -214,7 +214,7 @@ impl Judge {
             Outcome::NotJudged => None,
             Outcome::BlewUp | Outcome::GaveUp => Some(false),
             // A run over the horizon does not show that nothing grows later.
-            _ => (!run.finding.is_bounded(run.change)).then_some(false),
+            _ => (!run.is_bounded()).then_some(false),
         };
         let is_whole = run.failure.is_none() && not_judged.is_none();
         Verdict {
@@ -250,7 +250,7 @@ impl Judge {
         self.each(tick_hz, |truth| {
             if truth.is_too_dear() {
                 let run = follow_energy(truth, spec, tick_hz, self.most_work);
-                return match run.failure.is_none() && run.finding.is_bounded(run.change) {
+                return match run.is_bounded() {
                     _ if run.is_too_much => Err(CriterionMiss::Unknown),
                     true => Ok(run.evaluations as f64 / run.seconds),
                     false => Err(CriterionMiss::Fails),

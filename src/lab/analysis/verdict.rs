@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::by_energy::EnergyFinding;
 use super::chase_finding::ChaseFinding;
+use super::energy_finding::EnergyFinding;
 use super::limits::TOLERANCE;
 use super::outcome::Outcome;
 use crate::lab::number::{round, significant, superscript};

@@ -12,13 +12,15 @@
 use crate::sim::integrators::failure::StepFailure;
 use crate::sim::system::{State, System, Vector};
 use iteration::MAX_ITERATIONS;
-pub(in crate::sim::integrators) use iteration::{Newton, Stages};
+pub(in crate::sim::integrators) use iteration::Newton;
+pub(in crate::sim::integrators) use stages::Stages;
 
 mod continuation;
 mod curve;
 mod iteration;
 mod krylov;
 mod sparse;
+mod stages;
 
 impl<V: Vector> Newton<V, 1> {
     /// Replaces `y` by the solution of `Y = y + c f(t, Y)`.

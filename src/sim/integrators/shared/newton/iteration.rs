@@ -2,6 +2,7 @@
 
 use super::curve::Curve;
 use super::krylov::Krylov;
+use super::stages::{Stages, components, largest};
 use crate::sim::integrators::shared::lu::Lu;
 use crate::sim::system::{State, System, Vector};
 
@@ -44,15 +45,6 @@ pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
     rounding_scale: Vec<f64>,
     /// For steps at which the iteration alone fails.
     pub(super) curve: Curve,
-}
-
-/// The times of the stages, and the weights α and β of the accelerations in their coordinates and
-/// velocities.
-#[derive(Clone, Copy)]
-pub(in crate::sim::integrators) struct Stages<const S: usize> {
-    pub(in crate::sim::integrators) t: [f64; S],
-    pub(in crate::sim::integrators) alpha: [[f64; S]; S],
-    pub(in crate::sim::integrators) beta: [[f64; S]; S],
 }
 
 impl<V: Vector, const S: usize> Newton<V, S> {
@@ -179,59 +171,4 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         }
         (largest(residual.iter()), largest(components(a)))
     }
-}
-
-impl<const S: usize> Stages<S> {
-    /// The stages with all weights multiplied by `factor`.
-    pub(super) fn scaled(&self, factor: f64) -> Self {
-        let scaled = |weights: [[f64; S]; S]| weights.map(|row| row.map(|weight| factor * weight));
-        Self { t: self.t, alpha: scaled(self.alpha), beta: scaled(self.beta) }
-    }
-
-    /// Overwrites `stage` with the state at stage `i`.
-    #[inline]
-    pub(super) fn place<V: Vector>(
-        &self,
-        i: usize,
-        known: &[State<V>; S],
-        a: &[V; S],
-        stage: &mut State<V>,
-    ) {
-        stage.assign(&known[i]);
-        for ((alpha, beta), a) in self.alpha[i].iter().zip(&self.beta[i]).zip(a) {
-            stage.q.add_scaled(*alpha, a);
-            stage.v.add_scaled(*beta, a);
-        }
-    }
-
-    #[inline]
-    pub(super) fn evaluate<V: Vector>(
-        &self,
-        system: &impl System<Vector = V>,
-        known: &[State<V>; S],
-        a: &[V; S],
-        stage: &mut State<V>,
-        evaluated: &mut [V; S],
-    ) {
-        for i in 0..S {
-            self.place(i, known, a, stage);
-            system.acceleration(self.t[i], &stage.q, &stage.v, &mut evaluated[i]);
-        }
-    }
-}
-
-#[inline]
-pub(super) fn components<V: Vector, const S: usize>(
-    vectors: &[V; S],
-) -> impl Iterator<Item = &f64> {
-    vectors.iter().flat_map(V::components)
-}
-
-/// The largest magnitude; NaN if a component is NaN.
-#[inline]
-pub(super) fn largest<'a>(components: impl Iterator<Item = &'a f64>) -> f64 {
-    components.fold(0.0, |largest: f64, component| {
-        let size = component.abs();
-        if size > largest || size.is_nan() { size } else { largest }
-    })
 }

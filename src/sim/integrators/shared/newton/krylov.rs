@@ -6,7 +6,7 @@
 //! GMRES keeps a vector for each iteration, and these vectors are in every snapshot. Written out because nalgebra-sparse has no solver for such a matrix, and faer is many times
 //! the size of this layer and chooses its sums by the processor: ours have the same bits everywhere.
 
-use super::iteration::{Stages, largest};
+use super::stages::{Stages, largest};
 use crate::sim::system::{State, System, Vector};
 
 /// The most products of matrix and vector in one step of a method. A soft net needs tens and a stiff one

@@ -6,7 +6,8 @@
 //! *Example-based elastic materials*, 2011), and so nearly are those of the others: a descent comes
 //! near a solution, from which Newton's iteration goes on.
 
-use super::iteration::{MAX_ITERATIONS, Newton, Stages, components, largest};
+use super::iteration::{MAX_ITERATIONS, Newton};
+use super::stages::{Stages, components, largest};
 use crate::sim::system::{System, Vector};
 
 /// The relative residual to which the linear equations of an iteration are solved. The next iteration
