@@ -31,7 +31,7 @@ fn implicit_euler_is_stable_at_10_hz_on_the_stiff_cloth() {
     explicit.input(0.0, Input::Kick(1.0));
     let blown = (0..60).any(|tick| {
         explicit.advance(f64::from(tick) / 10.0, 0.1, 1).unwrap();
-        explicit.q().iter().any(|x| !(x.abs() < 1e6))
+        explicit.q().iter().any(|x| x.is_nan() || x.abs() > 1e6)
     });
     assert!(blown, "what explicit methods bear is no test of an implicit one");
 }

@@ -140,8 +140,7 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
         while matrix.left >= PRODUCTS && size > enough {
             matrix.multiply(system, p, product);
             let curvature = dot(p, product);
-            // Written so that a NaN ends it.
-            if !(curvature > 0.0) {
+            if curvature <= 0.0 || curvature.is_nan() {
                 curves_upwards = false;
                 break;
             }
@@ -171,8 +170,7 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
         let (mut rho, mut alpha, mut omega2) = (1.0, 0.0, 1.0);
         let is_done = |r: &[V; S]| {
             let size = dot(r, r).sqrt();
-            // Written so that a NaN ends it.
-            !(size > enough)
+            size <= enough || size.is_nan()
         };
         while matrix.left >= PRODUCTS && !is_done(r) {
             rho *= -omega2;
@@ -227,9 +225,9 @@ impl<V: Vector, const S: usize> Matrix<V, S> {
             let Self { stages, at, along, slope, .. } = self;
             along.q.components_mut().fill(0.0);
             along.v.components_mut().fill(0.0);
-            for j in 0..S {
-                along.q.add_scaled(stages.alpha[i][j], &x[j]);
-                along.v.add_scaled(stages.beta[i][j], &x[j]);
+            for ((alpha, beta), x) in stages.alpha[i].iter().zip(&stages.beta[i]).zip(x) {
+                along.q.add_scaled(*alpha, x);
+                along.v.add_scaled(*beta, x);
             }
             if !system.acceleration_slope(stages.t[i], &at[i], along, slope) {
                 self.take_difference(system, i);

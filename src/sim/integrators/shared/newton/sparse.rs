@@ -132,8 +132,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
                     break;
                 }
                 part /= 2.0;
-                // Written so that a NaN ends it.
-                if !(part >= LEAST_PART) {
+                if part < LEAST_PART {
                     return false;
                 }
                 let rows = a.iter_mut().flat_map(V::components_mut);

@@ -43,9 +43,9 @@ impl<const S: usize> Stages<S> {
         stage: &mut State<V>,
         evaluated: &mut [V; S],
     ) {
-        for i in 0..S {
+        for (i, evaluated) in evaluated.iter_mut().enumerate() {
             self.place(i, known, a, stage);
-            system.acceleration(self.t[i], &stage.q, &stage.v, &mut evaluated[i]);
+            system.acceleration(self.t[i], &stage.q, &stage.v, evaluated);
         }
     }
 }
