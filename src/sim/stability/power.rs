@@ -83,8 +83,8 @@ fn radius(logs: &[f64]) -> Option<f64> {
     let peak = |window: std::ops::Range<usize>| {
         logs[window].iter().fold(f64::NEG_INFINITY, |most, log| most.max(*log))
     };
-    let [first, middle, last] =
-        [count / 8..count / 4, count / 4..count / 2, count / 2..count].map(peak);
+    // Windows of one length, so that a trend moves the peaks within them alike.
+    let [first, middle, last] = [count / 4, count / 2, count].map(|end| peak(end - count / 8..end));
     // A length of ρⁿ nᵖ: each of the differences has the same part from nᵖ.
     let rate = ((last - middle) - (middle - first)) / (count / 4) as f64;
     Some(libm::exp(rate))
