@@ -73,6 +73,8 @@
 //!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a person can grab it, in a file beside
 //!   `lab/picture/look/spring.rs`, and add that to `LOOKS`. `tests/exact_flows.rs` and `tests/bodies` hold its exact flow, or what stands in for one,
 //!   against its equation.
+//!   What a scene lays out itself, a [law](sim::bodies::law_kind) or a [net](sim::bodies::net_kind), has a kind of its own
+//!   that is made when the scene is read.
 //! - **A scene**: add a file to `assets/scenes` and its line to [`SCENES`](lab::SCENES).
 //! - **A game loop**: a file beside `lab/pacing/policies/whole_refresh.rs` if it has a memory, a card in
 //!   [`POLICIES`](lab::pacing::POLICIES), and its source in `assets/loops`. `tests/pacing_policies.rs` runs it for a day.

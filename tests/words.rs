@@ -22,6 +22,7 @@ fn plain(word: Outcome) -> Verdict {
         energy_drift: None,
         chase: None,
         failure: None,
+        by_energy: None,
         no_truth: None,
         not_judged: None,
         evaluations: 1,

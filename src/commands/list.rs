@@ -8,7 +8,7 @@ use super::output::print;
 use super::output::table::{self, Column, TableFormat};
 use crate::lab::pacing::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use crate::lab::{Binding, KEYS, METRICS, Metric, SCENES, Scale, Scene};
-use crate::sim::bodies::{BODIES, Coordinate, Kind, Parameter};
+use crate::sim::bodies::{BODIES, Coordinate, Kind, Net, Parameter};
 use crate::sim::integrators::{METHODS, Method};
 use crate::sim::law::{UNITS, functions, operators, values};
 
@@ -113,11 +113,27 @@ fn laws() -> String {
 /// Characters of a row of functions: with the margin it fits a line of a terminal.
 const FUNCTIONS_WIDTH: usize = 80;
 
+/// How a scene lays out a net; the keys of [`Net::DESCRIPTIONS`] follow.
+const NETS: &str = "
+[[net]]: masses joined by springs in the plane, as a grid or as lists
+  columns = 24                          # a grid, numbered from 0 at the top left, row by row
+  rows = 16
+  spacing_m = 0.1
+  shear = true                          # springs across each square too; false if not given
+  pin = \"top\"                         # fixes the top row, or \"corners\" both its ends
+  nodes = [[0.0, 0.0], [1.0, 0.0]]      # or where each node stands,
+  fixed = [0]                           # which of them stay there,
+  springs = [{ between = [0, 1] }]      # and which are joined; each may have stiffness_n_per_m,
+                                        # damping_n_s_per_m and rest_m of its own
+  kicked_node = 1                       # whose first coordinate plots show; without it a kick hits all
+";
+
 fn bodies_with_keys() -> String {
     let keys = BODIES.iter().map(|body| {
         format!("\n[[{}]]\n{}", body.id, table::text(PARAMETER, body.parameters, "  "))
     });
-    table::text(BODY, BODIES, "") + &keys.collect::<String>() + &laws()
+    let of_nets = table::text(PARAMETER, Net::DESCRIPTIONS, "  ");
+    table::text(BODY, BODIES, "") + &keys.collect::<String>() + &laws() + NETS + &of_nets
 }
 
 const SCENE: &[Column<Scene>] = &[

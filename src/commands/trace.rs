@@ -70,7 +70,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
         halts.note(&lab);
     }
     trace.finish()?;
-    tell_accuracy(&experiment.scene.bodies);
+    tell_accuracy(&experiment.scene.bodies, lab.race().truth());
     halts.lines.iter().for_each(|line| tell(line));
     Ok(())
 }
@@ -198,9 +198,11 @@ fn method_id(solver: Solver, kind: &Kind) -> &'static str {
 }
 
 /// What is known of the bodies that have no closed form.
-fn tell_accuracy(bodies: &[SceneBody]) {
-    for SceneBody { name, kind, .. } in bodies {
-        if let Some(accuracy) = kind.truth.aimed_accuracy() {
+fn tell_accuracy(bodies: &[SceneBody], truth: &Lane) {
+    for (SceneBody { name, kind, .. }, truth) in bodies.iter().zip(truth.bodies()) {
+        // What a halt says needs no aim.
+        let aim = kind.truth.aimed_accuracy().filter(|_| !truth.stepper.is_beyond_reference());
+        if let Some(accuracy) = aim {
             tell(&format!(
                 "lane 0, {name}: has no closed form; its {} aims at {accuracy:e}, relative",
                 kind.truth.id(),

@@ -2,9 +2,11 @@
 //! runs of it.
 
 mod advice;
+mod by_energy;
 mod change;
 mod chase_finding;
 mod energy;
+mod energy_finding;
 mod frequency;
 mod judge;
 mod limits;
@@ -24,6 +26,7 @@ pub use advice::{
     MethodAdvice, recommended,
 };
 pub use chase_finding::ChaseFinding;
+pub use energy_finding::EnergyFinding;
 pub use judge::{Judge, LONGEST_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 pub use outcome::{Outcome, Severity};

@@ -132,9 +132,13 @@ impl LaneBody {
     }
 
     /// How well the true motion is known, for people: `exact`, or the present error of the reference in the units of
-    /// the coordinates, if it has one yet.
+    /// the coordinates, if it has one yet; `no reference` where that would take too much work.
     pub fn truth_in_words(&self) -> String {
         let id = self.kind.truth.id();
+        if let Some(StepFailure::ReferenceTooDear { .. }) = self.halted().map(|halt| &halt.failure)
+        {
+            return format!("no {id}");
+        }
         match (self.kind.truth, self.stepper.truth_error()) {
             (Truth::Exact, _) | (_, None) => id.into(),
             // Of a body that starts at 0 nothing is rounded yet.

@@ -163,6 +163,20 @@ pub trait Body: System + Clone + Send + 'static {
         Some(self.energy(state)? - self.energy(&still)?)
     }
 
+    /// The kinetic and the potential energy in joules, conserved or not; `None` if they are not known. Of
+    /// their sum, what damps the motion can only take.
+    fn mechanical_energy(&self, state: &State<Self::Vector>) -> Option<[f64; 2]> {
+        let kinetic = self.kinetic_energy(state)?;
+        Some([kinetic, self.energy(state)? - kinetic])
+    }
+
+    /// An estimate of the work of a reference solution: evaluations of the parts of the force law for each
+    /// simulated second. If it is above [`MOST_REFERENCE_WORK`](super::MOST_REFERENCE_WORK), the body has no
+    /// truth.
+    fn reference_work(&self) -> f64 {
+        0.0
+    }
+
     /// Applies an input to the body or its state at once. Returns whether this kind of body accepts it.
     fn input(&mut self, input: Input, state: &mut State<Self::Vector>) -> bool;
 

@@ -9,7 +9,7 @@ use super::exact_flow::ExactFlow;
 use super::exact_since_start::{ExactSinceStart, is_start};
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
 use super::propagator::{Jump, MethodPropagator, Propagator};
-use super::reference::Reference;
+use super::reference::{MOST_REFERENCE_WORK, Reference};
 use super::solver::Solver;
 use super::stepper::{RecordedTick, Stepper};
 use super::system::{Counted, Counts, Pursuit, Recorded, State, Vector};
@@ -172,6 +172,12 @@ impl<B: Body, D: Propagator<B>> Stepper for BodyStepper<B, D> {
     fn is_linear(&self) -> bool {
         self.body.system.is_linear()
     }
+    fn is_beyond_reference(&self) -> bool {
+        self.body.system.reference_work() > MOST_REFERENCE_WORK
+    }
+    fn is_sparse(&self) -> bool {
+        B::Vector::IS_SPARSE
+    }
     fn truth_error(&self) -> Option<[f64; 2]> {
         self.propagator.truth_error(&self.body, &self.state)
     }
@@ -180,6 +186,10 @@ impl<B: Body, D: Propagator<B>> Stepper for BodyStepper<B, D> {
     }
     fn kinetic_energy(&self) -> Option<f64> {
         self.body.system.kinetic_energy(&self.state)
+    }
+
+    fn mechanical_energy(&self) -> Option<[f64; 2]> {
+        self.body.system.mechanical_energy(&self.state)
     }
 
     fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {

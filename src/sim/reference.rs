@@ -35,6 +35,10 @@ const EVALUATIONS_PER_CALL: u64 = 6_000;
 /// of a second of work.
 const MOST_SAVED_EVALUATIONS: u64 = 4_000_000;
 
+/// The most [work](Body::reference_work) for which a body has a reference solution, per simulated second:
+/// about as long as the second itself in an unoptimised build, and a tenth of that in an optimised one.
+pub const MOST_REFERENCE_WORK: f64 = 1e6;
+
 /// A reference solution.
 #[derive(Clone, Debug)]
 pub(super) struct Reference<V> {
@@ -104,6 +108,12 @@ impl<V: Vector> Reference<V> {
     ) -> Result<(), StepFailure> {
         if let Some(failure) = &self.failed {
             return Err(failure.clone());
+        }
+        let work_per_s = body.reference_work();
+        if work_per_s > MOST_REFERENCE_WORK {
+            let failure = StepFailure::ReferenceTooDear { work_per_s, most: MOST_REFERENCE_WORK };
+            self.failed = Some(failure.clone());
+            return Err(failure);
         }
         let Self { solution, check, work, .. } = self;
         if !self.has_begun {

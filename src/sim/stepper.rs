@@ -59,6 +59,10 @@ pub trait Stepper: Send {
     }
     /// Whether the equation of motion is linear apart from a constant.
     fn is_linear(&self) -> bool;
+    /// Whether a reference solution would take more than [`MOST_REFERENCE_WORK`](super::MOST_REFERENCE_WORK).
+    fn is_beyond_reference(&self) -> bool;
+    /// Whether implicit methods solve the body's equations without a matrix.
+    fn is_sparse(&self) -> bool;
     /// The error of the truth at the current state: the largest of a coordinate and of a velocity, in
     /// their own units. For a closed form it is a bound on rounding; for a reference solution it is an
     /// estimate from a second solution with other steps. Infinite if nothing is known. `None` under a
@@ -68,6 +72,10 @@ pub trait Stepper: Send {
     fn energy(&self) -> Option<f64>;
     /// The kinetic part of [`Stepper::energy`], in joules. Never allocates.
     fn kinetic_energy(&self) -> Option<f64>;
+
+    /// The kinetic and the potential energy in joules, conserved or not; `None` if the body does not know
+    /// them. Never allocates.
+    fn mechanical_energy(&self) -> Option<[f64; 2]>;
 
     /// What the body follows at time `t` (s), in its first coordinate; `None` if it follows nothing. It is not
     /// counted as an evaluation.

@@ -8,6 +8,10 @@ use std::cell::{Cell, RefCell};
 /// in space, `Vec<f64>` for many coordinates. A method is written once over this trait; it compiles to
 /// registers for the small types and to loops for `Vec`.
 pub trait Vector: Clone + Send + 'static {
+    /// Whether each component's acceleration depends on few others. Implicit methods then solve their
+    /// equations by iteration; else they factor the whole Jacobian.
+    const IS_SPARSE: bool = false;
+
     /// Copies `from`, which has as many components. Never allocates.
     fn assign(&mut self, from: &Self);
     /// `self += h x`, rounded after the product and after the sum.
@@ -191,6 +195,20 @@ pub trait System {
         self.acceleration(t, &state.q, &state.v, &mut d.v);
     }
 
+    /// Overwrites `slope` with the derivative of the acceleration at `state` in the direction `along`, if the
+    /// system has a formula for it. Returns whether it has; an implicit method takes differences if not. It
+    /// costs about as much as an evaluation, and counts as one.
+    #[inline]
+    fn acceleration_slope(
+        &self,
+        _t: f64,
+        _state: &State<Self::Vector>,
+        _along: &State<Self::Vector>,
+        _slope: &mut Self::Vector,
+    ) -> bool {
+        false
+    }
+
     /// What the body follows at time `t` (s), which counts as an evaluation; `None` if it follows nothing. A
     /// [follower](super::integrators::Family::Follower) steps by this alone.
     #[inline]
@@ -263,6 +281,19 @@ impl<S: System> System for Counted<S> {
     }
 
     #[inline]
+    fn acceleration_slope(
+        &self,
+        t: f64,
+        state: &State<S::Vector>,
+        along: &State<S::Vector>,
+        slope: &mut S::Vector,
+    ) -> bool {
+        let is_known = self.system.acceleration_slope(t, state, along, slope);
+        self.evaluations.set(self.evaluations.get() + u64::from(is_known));
+        is_known
+    }
+
+    #[inline]
     fn pursuit(&self, t: f64) -> Option<Pursuit<S::Vector>> {
         let pursuit = self.system.pursuit(t)?;
         self.evaluations.set(self.evaluations.get() + 1);
@@ -313,6 +344,17 @@ impl<V: Vector> System for Recorded<'_, V> {
         self.system.acceleration(t, q, v, a);
         let [q, v, a] = [q, v, a].map(|vector| vector.components().to_vec());
         self.evaluations.borrow_mut().push(Evaluation { t, q, v, a });
+    }
+
+    /// Not kept: it is no evaluation.
+    fn acceleration_slope(
+        &self,
+        t: f64,
+        state: &State<V>,
+        along: &State<V>,
+        slope: &mut V,
+    ) -> bool {
+        self.system.acceleration_slope(t, state, along, slope)
     }
 
     /// Kept as an evaluation at rest in the target.

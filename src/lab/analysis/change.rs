@@ -32,7 +32,7 @@ impl Change {
 
     /// The change of a swing whose amplitude, in units of the initial one, is `first` in the first quarter and `last` in
     /// the last. A change that happens at once and then stops does not count, unless it is a [leap](LEAP).
-    fn between(first: f64, last: f64) -> Self {
+    pub(super) fn between(first: f64, last: f64) -> Self {
         let trend = Change::of(last / first);
         match Change::of(last) {
             Change::Grows if trend == Change::Grows || last >= LEAP => Change::Grows,
@@ -70,7 +70,7 @@ pub(super) fn fill_from_run(
 }
 
 /// The amplitude, in units of the initial one, of a swing whose energy has changed by this part.
-fn amplitude(energy_change: f64) -> f64 {
+pub(super) fn amplitude(energy_change: f64) -> f64 {
     (1.0 + energy_change).max(0.0).sqrt()
 }
 

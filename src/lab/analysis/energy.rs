@@ -56,11 +56,11 @@ pub(super) struct Means {
 }
 
 impl Means {
-    fn over(end: u64) -> Self {
+    pub(super) fn over(end: u64) -> Self {
         Self { end, sums: [(0.0, 0.0); 4] }
     }
 
-    fn take_in(&mut self, tick: u64, value: f64) {
+    pub(super) fn take_in(&mut self, tick: u64, value: f64) {
         if tick > self.end {
             return;
         }

@@ -5,6 +5,7 @@
 //! times. Any other body is followed for [`LONG_RUN`](super::LONG_RUN) times the horizon, and its verdict claims nothing
 //! beyond that.
 
+use super::by_energy::follow_energy;
 use super::change::{Change, bounded, fill_from_run};
 use super::chase_finding::ChaseFinding;
 use super::frequency::frequency_error;
@@ -18,7 +19,6 @@ use super::verdict::{NoTruth, NotJudged, Verdict};
 use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
-use crate::sim::integrators::StepFailure;
 
 /// The fewest ticks per turn at which every turn shows its peak.
 const FEW_TICKS: f64 = 8.0;
@@ -132,6 +132,9 @@ impl Judge {
 
     fn of_body(&self, body: usize, spec: LaneSpec, tick_hz: u32) -> Verdict {
         let truth = &self.truths[body];
+        if truth.is_too_dear() {
+            return self.by_energy(body, spec, tick_hz);
+        }
         let found = Modes::of(truth, spec, tick_hz);
         let most_work = if found.is_ok() { self.most_work } else { 0 };
         let modes = found.ok().flatten();
@@ -154,6 +157,7 @@ impl Judge {
             energy_drift: run.energy_drift,
             chase: ChaseFinding::of(truth, spec, tick_hz, run.chase.as_ref()),
             failure: run.failure.clone(),
+            by_energy: None,
             no_truth: None,
             not_judged: None,
             evaluations: run.evaluations,
@@ -191,9 +195,67 @@ impl Judge {
         verdict
     }
 
+    /// The verdict on a body that has no reference solution.
+    fn by_energy(&self, body: usize, spec: LaneSpec, tick_hz: u32) -> Verdict {
+        let truth = &self.truths[body];
+        let run = follow_energy(truth, spec, tick_hz, self.most_work);
+        let not_judged = match ticks(self.horizon_s, tick_hz) {
+            0 => Some(NotJudged::ShorterThanATick),
+            _ => run.is_too_much.then_some(NotJudged::TooMuchWork),
+        };
+        let outcome = match (&run.failure, not_judged, run.change) {
+            (Some(failure), ..) => failure.outcome(),
+            (None, Some(_), _) => Outcome::NotJudged,
+            (None, None, Change::Grows) => Outcome::GainsEnergy,
+            (None, None, Change::Dies) => Outcome::LosesEnergy,
+            (None, None, Change::None) => Outcome::NoTruth,
+        };
+        let is_bounded = match outcome {
+            Outcome::NotJudged => None,
+            Outcome::BlewUp | Outcome::GaveUp => Some(false),
+            // A run over the horizon does not show that nothing grows later.
+            _ => (!run.is_bounded()).then_some(false),
+        };
+        let is_whole = run.failure.is_none() && not_judged.is_none();
+        Verdict {
+            outcome,
+            body,
+            body_name: (self.truths.len() > 1).then(|| truth.body.name.clone()),
+            error: f64::INFINITY,
+            error_at_s: run.seconds,
+            last_error: f64::INFINITY,
+            swings: false,
+            doubles_in_s: None,
+            halves_in_s: None,
+            parasite_doubles_in_s: None,
+            energy_change: Some(run.finding.change).filter(|_| is_whole),
+            frequency_error: None,
+            is_bounded,
+            energy_drift: None,
+            chase: None,
+            failure: run.failure,
+            by_energy: Some(run.finding),
+            no_truth: truth.failure.clone().map(NoTruth::Failed),
+            not_judged,
+            evaluations: run.evaluations,
+            seconds: run.seconds,
+            horizon_s: self.horizon_s,
+            starts_at_s: 0.0,
+            of_bodies: Vec::new(),
+        }
+    }
+
     /// Whether nothing grows that does not grow in truth, over the horizon and in the long run.
     pub(super) fn is_bounded(&self, spec: LaneSpec, tick_hz: u32) -> CriterionFinding {
         self.each(tick_hz, |truth| {
+            if truth.is_too_dear() {
+                let run = follow_energy(truth, spec, tick_hz, self.most_work);
+                return match run.is_bounded() {
+                    _ if run.is_too_much => Err(CriterionMiss::Unknown),
+                    true => Ok(run.evaluations as f64 / run.seconds),
+                    false => Err(CriterionMiss::Fails),
+                };
+            }
             if let Some(modes) = Modes::of(truth, spec, tick_hz)? {
                 if !modes.are_bounded() {
                     return Err(CriterionMiss::Fails);
@@ -277,10 +339,7 @@ impl Judge {
 /// The outcome of a run; `change` is that of its amplitude, `gap` the largest error of the truth.
 fn outcome_of(verdict: &Verdict, run: &Run, change: Change, gap: f64) -> Outcome {
     if let Some(failure) = &run.failure {
-        return match failure.cause {
-            StepFailure::Escaped { .. } | StepFailure::NotFinite { .. } => Outcome::BlewUp,
-            _ => Outcome::GaveUp,
-        };
+        return failure.outcome();
     }
     if verdict.not_judged.is_some() {
         return Outcome::NotJudged;

@@ -89,8 +89,12 @@ pub(super) struct Run {
 }
 
 /// The work done so far.
-fn work(stepper: &dyn Stepper, spec: LaneSpec) -> u64 {
-    work_of(stepper.evaluations(), stepper.q().len() as u64, spec)
+pub(super) fn work(stepper: &dyn Stepper, spec: LaneSpec) -> u64 {
+    let n = stepper.q().len() as u64;
+    if stepper.is_sparse() {
+        return stepper.evaluations().saturating_mul(n);
+    }
+    work_of(stepper.evaluations(), n, spec)
 }
 
 /// The work of `evaluations` evaluations of a body of `n` coordinates.

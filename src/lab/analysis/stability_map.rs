@@ -171,7 +171,7 @@ impl Motion {
             modes.sort_by(|a, b| b.omega_squared.total_cmp(&a.omega_squared));
             return Ok(Self::Modes(modes));
         }
-        small.coupled().map(Self::Coupled).ok_or(NoSmallMotion::NotFinite)
+        small.coupled().map(Self::Coupled)
     }
 
     /// The stability of a method on each mode, or on all together. `None` where the method fails.

@@ -210,6 +210,11 @@ impl BodyTruth {
         (0..2 * n).for_each(|i| self.reach[i].1 = largest_alike(coordinates, &halves, i));
     }
 
+    /// Whether a reference solution would take too much work, so that there is none.
+    pub(super) fn is_too_dear(&self) -> bool {
+        matches!(self.failure, Some(StepFailure::ReferenceTooDear { .. }))
+    }
+
     /// Whether the body is linear and all its modes are undamped oscillations.
     pub(super) fn is_oscillator(&self) -> bool {
         self.modes.as_ref().is_some_and(|modes| {

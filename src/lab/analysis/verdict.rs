@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::chase_finding::ChaseFinding;
+use super::energy_finding::EnergyFinding;
 use super::limits::TOLERANCE;
 use super::outcome::Outcome;
 use crate::lab::number::{round, significant, superscript};
@@ -15,6 +16,15 @@ pub struct RunFailure {
     pub t: f64,
     /// Why.
     pub cause: StepFailure,
+}
+
+impl RunFailure {
+    pub(super) fn outcome(&self) -> Outcome {
+        match self.cause {
+            StepFailure::Escaped { .. } | StepFailure::NotFinite { .. } => Outcome::BlewUp,
+            _ => Outcome::GaveUp,
+        }
+    }
 }
 
 /// Why a lane cannot be compared with the truth.
@@ -97,6 +107,9 @@ pub struct Verdict {
     pub chase: Option<ChaseFinding>,
     /// Why and when the run ended early, if it did.
     pub failure: Option<RunFailure>,
+    /// What the energy says of a body whose reference solution would take too much work; `None` if the truth
+    /// tells.
+    pub by_energy: Option<EnergyFinding>,
     /// Why there is no truth; `None` if there is one.
     pub no_truth: Option<NoTruth>,
     /// Why the lane is not judged; `None` if it is.
@@ -215,6 +228,9 @@ impl fmt::Display for Verdict {
             (Outcome::GaveUp, Some(failure), _) => {
                 write!(f, "gave up {}: {}", self.failed(failure.t), failure.cause)?;
             }
+            (Outcome::NoTruth, ..) if let Some(found) = self.by_energy => {
+                write!(f, "{}", found.kept(&horizon))?;
+            }
             (Outcome::NoTruth, _, Some(why)) => write!(f, "no truth: {why}")?,
             (word, ..) => f.write_str(word.text())?,
         }
@@ -232,6 +248,9 @@ impl fmt::Display for Verdict {
             self.parasite_doubles_in_s.filter(|_| self.outcome <= Outcome::GainsEnergy)
         {
             write!(f, "; a faint mode ×2 in {}", duration(seconds))?;
+        }
+        if let Some(found) = self.by_energy.filter(|_| self.outcome != Outcome::NotJudged) {
+            write!(f, "; {found}")?;
         }
         self.chase.as_ref().map_or(Ok(()), |chase| write!(f, "; {chase}"))
     }

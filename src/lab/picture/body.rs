@@ -3,9 +3,14 @@
 use super::coil::{Span, coil, silhouette};
 use super::hull::{self, Berth};
 use super::mass::{self, Coat};
+use super::outline::Thread;
 use super::sketch::{Camera, SOLID, line, path};
 use super::{Align, Label, Mark, Outline, Picture, Shape};
 use crate::lab::palette::{Palette, Rgba, faded, is_bright, mixed};
+
+/// The width of a thread of a net in front, in points: of the border, and within it.
+const BORDER: f32 = 2.2;
+const THREAD: f32 = 1.1;
 
 /// An outline as one camera sees it.
 #[derive(Clone, Copy)]
@@ -36,7 +41,7 @@ impl Seen<'_> {
             matches!(mark, Wall { .. } | Anchor { .. } | Rail { .. } | Name { .. })
         };
         let marks = self.outline.marks.iter().filter(is_still).copied().collect();
-        let outline = Outline { marks, ..*self.outline };
+        let outline = Outline { marks, threads: Vec::new(), ..*self.outline };
         let nothing = Coat { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
         Seen { outline: &outline, ..*self }.carried(picture, nothing);
     }
@@ -67,6 +72,18 @@ impl Seen<'_> {
         let shapes = &mut picture.shapes;
         let (camera, clip) = (self.camera, self.camera.rect);
         let still = mixed(self.palette.chart, self.palette.sea[1], 0.35);
+        let thread = mixed(coat.colour, self.palette.text, 0.15);
+        for Thread { points, is_border } in &self.outline.threads {
+            let points = points.iter().map(|point| camera.points(*point));
+            let width = if *is_border { BORDER } else { THREAD };
+            shapes.push(path(
+                points,
+                width,
+                faded(thread, if *is_border { 1.0 } else { 0.75 }),
+                SOLID,
+                clip,
+            ));
+        }
         for mark in &self.outline.marks {
             match *mark {
                 Mark::Wall { from, to } => {
@@ -146,6 +163,10 @@ impl Seen<'_> {
     /// A lane behind, hollow: what tells where it is, and nothing of what does not move.
     pub(super) fn behind(&self, shapes: &mut Vec<Shape>, coat: Coat) {
         let (camera, clip) = (self.camera, self.camera.rect);
+        for Thread { points, .. } in self.outline.threads.iter().filter(|it| it.is_border) {
+            let points = points.iter().map(|point| camera.points(*point));
+            shapes.push(path(points, 1.4, faded(coat.colour, 0.7), coat.dash, clip));
+        }
         for mark in &self.outline.marks {
             match *mark {
                 Mark::Rod { from, to } => {
@@ -171,6 +192,11 @@ impl Seen<'_> {
     /// The exact solution: one line round it.
     pub(super) fn ghost(&self, shapes: &mut Vec<Shape>) {
         let (camera, clip, palette) = (self.camera, self.camera.rect, self.palette);
+        for Thread { points, .. } in self.outline.threads.iter().filter(|it| it.is_border) {
+            let points = points.iter().map(|point| camera.points(*point));
+            shapes.push(path(points.clone(), 3.6, faded(palette.sea[1], 0.6), SOLID, clip));
+            shapes.push(path(points, 1.4, faded(palette.exact, 0.8), SOLID, clip));
+        }
         for mark in &self.outline.marks {
             match *mark {
                 Mark::Rod { from, to } => {

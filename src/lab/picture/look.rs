@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::outline::{Mark, Outline};
 use crate::sim::bodies::{
-    Body, Chain, Follow, Helm, Kind, Law, Orbit, Own, Pendulum, Ship, Spring,
+    Body, Chain, Follow, Helm, Kind, Law, Net, Orbit, Own, Pendulum, Ship, Spring,
 };
 use crate::sim::{State, Stepper, Vector};
 
@@ -16,6 +16,7 @@ mod chain;
 mod follow;
 mod helm;
 mod law;
+mod net;
 mod orbit;
 mod own;
 mod pendulum;
@@ -115,8 +116,9 @@ static LOOKS: &[Look] = &[
     Look::of_type::<Follow>("follow"),
 ];
 
-/// The look of laws, whose kinds are not in that table.
+/// The looks of laws and of nets, whose kinds are not in that table.
 static LAW_LOOK: Look = Look::of_type::<Law>("law");
+static NET_LOOK: Look = Look::of_type::<Net>("net");
 
 /// The look of bodies of one's own, whose kinds are not in it either.
 static OWN_LOOK: Look = Look::of_type::<Own>("own");
@@ -126,7 +128,8 @@ impl Look {
         let outline = |body: &dyn Any, t: f64, q: &[f64]| {
             let body = typed::<B>(body);
             let shown = vector::<B>(body, q);
-            let mut outline = Outline { t, at: body.place(&shown), marks: Vec::new() };
+            let mut outline =
+                Outline { t, at: body.place(&shown), marks: Vec::new(), threads: Vec::new() };
             body.draw(&shown, &mut outline);
             outline
         };
@@ -151,6 +154,9 @@ impl Look {
         }
         if kind.own.is_some() {
             return &OWN_LOOK;
+        }
+        if kind.net.is_some() {
+            return &NET_LOOK;
         }
         let look = LOOKS.iter().find(|look| look.kind == kind.id);
         look.expect("the tests below find a look for every kind")

@@ -59,11 +59,22 @@ pub enum Mark {
     },
 }
 
+/// A thread through nodes of a net.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Thread {
+    /// The nodes, in metres.
+    pub points: Vec<DVec2>,
+    /// Whether it is a part of the border, which is all that is drawn of a net behind.
+    pub is_border: bool,
+}
+
 /// The parts that show a body.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline {
     /// What is drawn, the first at the bottom.
     pub marks: Vec<Mark>,
+    /// The threads of a net, below the marks.
+    pub threads: Vec<Thread>,
     /// The moment shown, in seconds.
     pub t: f64,
     /// Where the body is, as its [`place`](crate::sim::bodies::Body::place) says.

@@ -101,6 +101,8 @@ pub(super) enum Cause {
     ActsAtStart { key: &'static str, settable: Vec<&'static str> },
     #[error("{what}")]
     Law { what: String, remedy: String },
+    #[error("{what}")]
+    Net { what: String, remedy: String },
     #[error("`{key}` is {text:?}, not a hash")]
     NoHash { key: &'static str, text: String },
 }
@@ -145,6 +147,14 @@ pub(super) enum Wanted {
     Expression,
     /// The names of two coordinates.
     Plane,
+    /// The places of nodes.
+    Places,
+    /// The numbers of nodes.
+    Nodes,
+    /// The numbers of two nodes.
+    Ends,
+    /// A list of springs.
+    Springs,
     /// `true` or `false`.
     Truth,
     /// A list of this many numbers.
@@ -162,7 +172,9 @@ impl Cause {
             Cause::Empty => {
                 "write `title`, `tick_hz`, `seconds` and a table such as `[[ship]]`".into()
             }
-            Cause::Syntax { remedy, .. } | Cause::Law { remedy, .. } => remedy.clone(),
+            Cause::Syntax { remedy, .. }
+            | Cause::Law { remedy, .. }
+            | Cause::Net { remedy, .. } => remedy.clone(),
             Cause::DuplicateKey { key, is_table: true } => {
                 format!("write `[[{}]]` each time", clip(key))
             }
@@ -267,6 +279,9 @@ impl Wanted {
             Wanted::Number(_) => "a number",
             Wanted::Whole(_) => "an integer",
             Wanted::Methods | Wanted::Curve(_) | Wanted::Plane => "a list",
+            Wanted::Places => "a list of pairs",
+            Wanted::Nodes | Wanted::Ends => "a list of whole numbers from 0",
+            Wanted::Springs => "a list of tables",
             Wanted::Numbers(_) => "a list of numbers",
             Wanted::Truth => "a boolean",
             Wanted::Table(_) | Wanted::Constants | Wanted::Coordinates(_) => "a table",
@@ -304,6 +319,12 @@ impl fmt::Display for Wanted {
             }
             Wanted::Expression => write!(f, "an expression in double quotes, such as \"-k*x/m\""),
             Wanted::Plane => write!(f, "the names of two coordinates, such as [\"x\", \"y\"]"),
+            Wanted::Places => {
+                write!(f, "the places of the nodes in metres, such as [[0.0, 0.0], [1.0, 0.0]]")
+            }
+            Wanted::Nodes => write!(f, "the numbers of nodes, such as [0, 3]"),
+            Wanted::Ends => write!(f, "the numbers of two nodes, such as [0, 1]"),
+            Wanted::Springs => write!(f, "a list such as [{{ between = [0, 1] }}]"),
             Wanted::Tables(name) => write!(f, "`[[{name}]]` in double brackets and its keys below"),
         }
     }

@@ -6,16 +6,19 @@ use super::cause::Cause;
 use super::errors::position;
 use super::fields::{TOP, optional, required};
 use super::law::{LAW, read_law};
+use super::net::{NET, read_net};
 use super::table::{Field, Table};
 use super::{MOST_BODIES, MOST_NAME_CHARS, SceneBody};
-use crate::sim::bodies::{BODIES, Kind, Parameter, Range};
+use crate::sim::bodies::{BODIES, Kind, Net, Parameter, Range, kind};
 
 const NAME: Field = optional("name");
 
 /// A body as the file describes it, faults included.
 pub(super) struct Described {
-    /// What it is; `None` for a law with faults.
+    /// What it is; `None` for a law or a net with faults.
     pub(super) kind: Option<&'static Kind>,
+    /// The name of its table array.
+    id: &'static str,
     pub(super) name: Option<String>,
     /// The bytes of the name, or of the table's header where it has none.
     name_at: Span<usize>,
@@ -24,31 +27,40 @@ pub(super) struct Described {
 
 /// The bodies in the order of the file.
 pub(super) fn read_bodies(top: &mut Table<'_>) -> Vec<Described> {
-    let mut rows: Vec<(Option<&'static Kind>, Table<'_>)> = Vec::new();
-    for kind in BODIES {
-        rows.extend(top.rows(kind.id).into_iter().map(|row| (Some(kind), row)));
+    let mut rows: Vec<(&'static str, Table<'_>)> = Vec::new();
+    for id in BODIES.iter().map(|kind| kind.id).chain([LAW, NET]) {
+        rows.extend(top.rows(id).into_iter().map(|row| (id, row)));
     }
-    rows.extend(top.rows(LAW).into_iter().map(|row| (None, row)));
     rows.sort_by_key(|(_, row)| row.header.start);
     if let Some((_, row)) = rows.get(MOST_BODIES) {
         let cause = Cause::TooManyBodies { found: rows.len(), most: MOST_BODIES };
         top.complain(row.header.clone(), cause);
     }
     let mut bodies = Vec::new();
-    for (kind, mut row) in rows.into_iter().take(MOST_BODIES) {
+    for (id, mut row) in rows.into_iter().take(MOST_BODIES) {
         let name = row.text(NAME, MOST_NAME_CHARS);
         let name_at = row.span(NAME.key);
-        let (kind, values) = match kind {
-            Some(kind) => (Some(kind), read_values(kind, &mut row)),
+        let (kind, values) = match kind(id) {
+            Some(kind) => (Some(kind), read_values(kind.parameters, &mut row)),
+            None if id == NET => {
+                let values = read_values(Net::DESCRIPTIONS, &mut row);
+                (read_net(&mut row), values)
+            }
             None => read_law(&mut row),
         };
-        bodies.push(Described { kind, name, name_at, values });
+        if let (Some(kind), Some(values)) = (kind, &values)
+            && let Err(fault) = (kind.check)(values)
+            && kind.law.is_none()
+        {
+            row.complain(row.span(fault.key), Cause::Fault(fault));
+        }
+        bodies.push(Described { kind, id, name, name_at, values });
         top.adopt(row, &TOP);
     }
     bodies
 }
 
-fn read_values(kind: &Kind, row: &mut Table<'_>) -> Option<Vec<f64>> {
+fn read_values(parameters: &[Parameter], row: &mut Table<'_>) -> Option<Vec<f64>> {
     let read = |parameter: &Parameter| {
         let Parameter { key, about, default, range, .. } = *parameter;
         let field = if default.is_some() { optional(key) } else { required(key, about) };
@@ -60,12 +72,8 @@ fn read_values(kind: &Kind, row: &mut Table<'_>) -> Option<Vec<f64>> {
         given.or(default.map(|number| vec![number]))
     };
     // All are read before any is missed, so that every fault is found.
-    let values: Vec<_> = kind.parameters.iter().map(read).collect();
-    let values = values.into_iter().collect::<Option<Vec<_>>>()?.concat();
-    if let Err(fault) = (kind.check)(&values) {
-        row.complain(row.span(fault.key), Cause::Fault(fault));
-    }
-    Some(values)
+    let values: Vec<_> = parameters.iter().map(read).collect();
+    Some(values.into_iter().collect::<Option<Vec<_>>>()?.concat())
 }
 
 /// Reports names that several bodies have.
@@ -83,8 +91,7 @@ pub(super) fn check_names(text: &str, bodies: &[Described], top: &mut Table<'_>)
 /// Names the nameless after their kind, numbered where the kind has several bodies.
 pub(super) fn name_the_nameless(bodies: &mut [Described]) {
     let mut taken: Vec<String> = bodies.iter().filter_map(|body| body.name.clone()).collect();
-    let id = |body: &Described| body.kind.map_or(LAW, |kind| kind.id);
-    let ids: Vec<_> = bodies.iter().map(id).collect();
+    let ids: Vec<_> = bodies.iter().map(|body| body.id).collect();
     for (Described { name, .. }, id) in bodies.iter_mut().zip(&ids) {
         let is_alone = ids.iter().filter(|other| *other == id).count() == 1;
         let name = name.get_or_insert_with(|| {

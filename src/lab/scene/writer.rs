@@ -7,7 +7,7 @@ use toml::de::DeTable;
 use super::{Check, Scene, SceneBody, Scripted};
 use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::bodies::Range;
+use crate::sim::bodies::{Form, Grid, Lists, NetPlan, PlannedSpring, Range};
 use crate::sim::law::LawText;
 
 impl Scene {
@@ -167,12 +167,41 @@ fn write_law(text: &mut String, SceneBody { name, values, .. }: &SceneBody, law:
     }
 }
 
+/// The nodes and springs of a net.
+fn write_plan(text: &mut String, NetPlan { form, kicked }: &NetPlan) {
+    let mut line = |key: &str, value: String| *text += &format!("{key} = {value}\n");
+    match form {
+        Form::Grid(Grid { columns, rows, spacing, shear, pin }) => {
+            line("columns", columns.to_string());
+            line("rows", rows.to_string());
+            line("spacing_m", number(*spacing));
+            line("shear", shear.to_string());
+            pin.iter().for_each(|pin| line("pin", quoted(pin.id())));
+        }
+        Form::Lists(Lists { nodes, fixed, springs }) => {
+            line("nodes", list(nodes.iter().map(|node| list(node.iter().map(|x| number(*x))))));
+            line("fixed", list(fixed.iter().map(usize::to_string)));
+            line("springs", format!("[\n{}]", springs.iter().map(spring).collect::<String>()));
+        }
+    }
+    kicked.iter().for_each(|node| line("kicked_node", node.to_string()));
+}
+
+/// A spring of a net in a line of its own.
+fn spring(PlannedSpring { between: [a, b], stiffness, damping, rest }: &PlannedSpring) -> String {
+    let own = [("stiffness_n_per_m", stiffness), ("damping_n_s_per_m", damping), ("rest_m", rest)];
+    let own = own.into_iter().filter_map(|(key, value)| Some((key, (*value)?)));
+    let own = own.map(|(key, value)| format!(", {key} = {}", number(value)));
+    format!("  {{ between = [{a}, {b}]{} }},\n", own.collect::<String>())
+}
+
 fn write_body(text: &mut String, body: &SceneBody) {
     let SceneBody { name, kind, values } = body;
     if let Some(law) = kind.law {
         return write_law(text, body, law.text());
     }
     *text += &format!("\n[[{}]]\nname = {}\n", kind.id, quoted(name));
+    kind.net.iter().for_each(|plan| write_plan(text, plan));
     for (parameter, place) in kind.parameters.iter().zip(0..) {
         let value = match parameter.range {
             // A curve is the last parameter, and takes all remaining values.

@@ -51,6 +51,7 @@ pub(super) const KIND: Kind = Kind {
     build: &|values, solver| stepper(Chain::BLANK.with_parameters(values), solver),
     law: None,
     own: None,
+    net: None,
 };
 
 type Of = ParameterOf<Chain>;

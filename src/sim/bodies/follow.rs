@@ -25,6 +25,7 @@ pub(super) const KIND: Kind = Kind {
     build: &|values, solver| stepper(Follow::BLANK.with_parameters(values), solver),
     law: None,
     own: None,
+    net: None,
 };
 
 type Of = ParameterOf<Follow>;

@@ -32,6 +32,7 @@ pub(super) const KIND: Kind = Kind {
     build: &|values, solver| stepper(Helm::BLANK.with_parameters(values), solver),
     law: None,
     own: None,
+    net: None,
 };
 
 type Of = ParameterOf<Helm>;

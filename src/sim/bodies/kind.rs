@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::own_sheet::OwnSheet;
 use crate::sim::law::Equations;
+use crate::sim::net_plan::NetPlan;
 use crate::sim::parameter::{Fault, Parameter};
 use crate::sim::reference::REFERENCE_ACCURACY;
 use crate::sim::solver::Solver;
@@ -70,6 +71,8 @@ pub struct Kind {
     pub law: Option<&'static Equations>,
     /// What is known of a [body of one's own](super::own_kind); `None` for a kind of the table.
     pub own: Option<&'static OwnSheet>,
+    /// The nodes and springs of a [net](super::net_kind), which a scene lays out; `None` for any other kind.
+    pub net: Option<&'static NetPlan>,
 }
 
 impl fmt::Debug for Kind {

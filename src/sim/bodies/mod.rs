@@ -11,6 +11,7 @@ mod helm;
 mod kepler;
 mod kind;
 mod law;
+mod net;
 mod orbit;
 mod oscillator;
 mod own;
@@ -27,6 +28,7 @@ pub use follow::Follow;
 pub use helm::{Helm, ThrustCurve};
 pub use kind::{Build, Coordinate, Kind, Truth};
 pub use law::{Law, check_law, law_kind};
+pub use net::{Net, net_kind};
 pub use orbit::{Ellipse, Orbit};
 pub use own::{Energy, Exact, Extras, Own, OwnFault, own_kind};
 pub use own_sheet::OwnSheet;
@@ -36,6 +38,9 @@ pub use ship::Ship;
 pub use spring::Spring;
 
 pub use super::body::{Body, Input};
+pub use super::net_plan::{
+    Form, Grid, Lists, MOST_NODES, MOST_SPRINGS, NetFault, NetPart, NetPlan, Pin, PlannedSpring,
+};
 pub use super::parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
 pub use super::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 

@@ -33,6 +33,7 @@ pub(super) const KIND: Kind = Kind {
     build: &|values, solver| stepper(Orbit::BLANK.with_parameters(values), solver),
     law: None,
     own: None,
+    net: None,
 };
 
 type Of = ParameterOf<Orbit>;

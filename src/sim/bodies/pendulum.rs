@@ -20,6 +20,7 @@ pub(super) const KIND: Kind = Kind {
     build: &|values, solver| stepper(Pendulum::BLANK.with_parameters(values), solver),
     law: None,
     own: None,
+    net: None,
 };
 
 type Of = ParameterOf<Pendulum>;

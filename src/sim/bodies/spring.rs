@@ -21,6 +21,7 @@ pub(super) const KIND: Kind = Kind {
     build: &|values, solver| stepper(Spring::BLANK.with_parameters(values), solver),
     law: None,
     own: None,
+    net: None,
 };
 
 type Of = ParameterOf<Spring>;

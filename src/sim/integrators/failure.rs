@@ -23,6 +23,15 @@ pub enum StepFailure {
     },
     /// The force jumps back and forth where the motion stands, so that it has no solution in the usual sense.
     Sticks,
+    /// A reference solution would take too much work.
+    ReferenceTooDear {
+        /// An estimate of it: evaluations of a spring for each simulated second.
+        work_per_s: f64,
+        /// The most that a reference solution may take, [`MOST_REFERENCE_WORK`].
+        ///
+        /// [`MOST_REFERENCE_WORK`]: crate::sim::MOST_REFERENCE_WORK
+        most: f64,
+    },
     /// The method is not for this body; see [`Only`](super::Only).
     Refused {
         /// Why, as on the method's card.
@@ -66,6 +75,13 @@ impl fmt::Display for StepFailure {
             Self::Sticks => f.write_str(
                 "sticks where its force jumps back and forth, as under dry friction at rest, and an equation of motion \
                  has no solution there; make the jump a slope, such as tanh(v/0.01) for sign(v)",
+            ),
+            Self::ReferenceTooDear { work_per_s, most } => write!(
+                f,
+                "has no reference solution, which would evaluate about {:.0} million springs per simulated second; at \
+                 most {:.0} million are spent",
+                work_per_s / 1e6,
+                most / 1e6
             ),
             Self::Refused { reason } => write!(f, "cannot be stepped by this method: {reason}"),
             Self::NotFinite { coordinate, value } => {

@@ -39,7 +39,12 @@ pub enum NoSmallMotion {
     Unsteady,
     /// Its force or the derivative of that is not finite where it rests.
     NotFinite,
+    /// It has more coordinates that act on each other than are taken together.
+    TooManyCoordinates,
 }
+
+/// The most coordinates that are stepped together: the work for a point grows as their cube.
+const MOST_COUPLED: usize = 16;
 
 impl SmallMotion {
     /// The small motions of `body` about its origin if it rests there, or else about a place of rest near its start.
@@ -48,6 +53,9 @@ impl SmallMotion {
     /// # Errors
     /// Why it has none.
     pub fn of(body: &dyn Stepper) -> Result<Self, NoSmallMotion> {
+        if body.is_sparse() {
+            return Err(NoSmallMotion::TooManyCoordinates);
+        }
         let free = unforced(body);
         let jacobian = if body.is_linear() {
             linear_jacobian(&*free)
@@ -77,10 +85,16 @@ impl SmallMotion {
         modes_of(half(0), &half(n))
     }
 
-    /// The motion of all coordinates together. `None` if its modes cannot be found: their rates overflow.
-    pub fn coupled(self) -> Option<CoupledMotion> {
-        let (truth, rate) = true_modes(&self.jacobian)?;
-        Some(CoupledMotion { jacobian: self.jacobian, truth, rate })
+    /// The motion of all coordinates together.
+    ///
+    /// # Errors
+    /// If there are too many, or if their modes cannot be found because the rates overflow.
+    pub fn coupled(self) -> Result<CoupledMotion, NoSmallMotion> {
+        if self.jacobian.nrows() > MOST_COUPLED {
+            return Err(NoSmallMotion::TooManyCoordinates);
+        }
+        let (truth, rate) = true_modes(&self.jacobian).ok_or(NoSmallMotion::NotFinite)?;
+        Ok(CoupledMotion { jacobian: self.jacobian, truth, rate })
     }
 }
 

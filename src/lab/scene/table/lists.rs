@@ -1,12 +1,14 @@
 //! Values that are lists of numbers: curves and vectors.
 
+use std::ops::Range as Span;
+
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::{Field, Table, number};
+use super::{Field, Table, integer, number};
 use crate::lab::scene::LARGEST_COORDINATE;
 use crate::lab::scene::cause::{Cause, Wanted};
-use crate::sim::bodies::{LARGEST, MOST_POINTS, Range};
+use crate::sim::bodies::{LARGEST, MOST_NODES, MOST_POINTS, Range};
 
 impl Table<'_> {
     /// The points of a curve, in rising order of their first numbers. At most [`MOST_POINTS`] are read.
@@ -49,6 +51,31 @@ impl Table<'_> {
             self.within(field, value, number, Wanted::Number(range))?;
         }
         Some(numbers)
+    }
+
+    /// A list of places in the plane. At most one more than [`MOST_NODES`] are read.
+    pub(in crate::lab::scene) fn points(&mut self, field: Field) -> Option<Vec<[f64; 2]>> {
+        let value = self.value(field, &Wanted::Places)?;
+        let Some(entries) = value.get_ref().as_array() else {
+            return self.wrong_type(format!("`{}`", field.key), value, Wanted::Places);
+        };
+        entries.iter().take(MOST_NODES + 1).map(|entry| self.point(field, entry)).collect()
+    }
+
+    /// The whole numbers from 0 in a list, with their bytes.
+    pub(in crate::lab::scene) fn wholes(
+        &mut self,
+        field: Field,
+        wanted: &Wanted,
+    ) -> Option<Vec<(Span<usize>, usize)>> {
+        let value = self.value(field, wanted)?;
+        let entries = value.get_ref().as_array();
+        let whole = |entry: &Spanned<DeValue<'_>>| {
+            let number = integer(entry).filter(|_| entry.get_ref().is_integer())?;
+            Some((entry.span(), usize::try_from(number).ok()?))
+        };
+        let wholes = entries.and_then(|entries| entries.iter().map(whole).collect());
+        wholes.or_else(|| self.wrong_type(format!("`{}`", field.key), value, wanted.clone()))
     }
 
     /// The coordinates or the velocities of a body that has `count` of them, each of a magnitude of at most

@@ -93,6 +93,22 @@ impl<'t> Table<'t> {
         }
     }
 
+    /// The tables in a list, in the order of the file.
+    pub(in crate::lab::scene) fn inline_rows(
+        &mut self,
+        field: Field,
+        wanted: &Wanted,
+    ) -> Option<Vec<Table<'t>>> {
+        let value = self.value(field, wanted)?;
+        let table = |entry: &'t Spanned<DeValue<'t>>| {
+            let entries = entry.get_ref().as_table()?;
+            Some(Table::new(self.text, Place::Within(field.key), entry.span(), entries))
+        };
+        let entries = value.get_ref().as_array();
+        let rows = entries.and_then(|entries| entries.iter().map(table).collect());
+        rows.or_else(|| self.wrong_type(format!("`{}`", field.key), value, wanted.clone()))
+    }
+
     /// An expression. A line break in it counts as a space.
     pub(in crate::lab::scene) fn expression(&mut self, field: Field) -> Option<Written> {
         let value = self.value(field, &Wanted::Expression)?;

@@ -75,6 +75,7 @@ fn kind(equations: &'static Equations) -> Kind {
         })),
         law: Some(equations),
         own: None,
+        net: None,
     }
 }
 

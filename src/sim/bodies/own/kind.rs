@@ -127,6 +127,7 @@ fn kind(own: Own, sheet: &'static OwnSheet, parameters: Vec<Parameter>) -> &'sta
         build: Box::leak(Box::new(move |values: &[f64], solver| stepper(copy(values), solver))),
         law: None,
         own: Some(sheet),
+        net: None,
     }))
 }
 

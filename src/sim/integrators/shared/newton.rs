@@ -5,15 +5,22 @@
 //! convergence is slow. The iteration continues to round-off, because a method conserves a quantity
 //! only as well as its equations are solved. If it does not converge, the solution is continued from a
 //! shorter step.
+//!
+//! A body of many coordinates that feel few others each has a [sparse vector](Vector::IS_SPARSE), and no
+//! matrix: its linear equations are solved by an iteration of their own.
 
 use crate::sim::integrators::failure::StepFailure;
 use crate::sim::system::{State, System, Vector};
 use iteration::MAX_ITERATIONS;
-pub(in crate::sim::integrators) use iteration::{Newton, Stages};
+pub(in crate::sim::integrators) use iteration::Newton;
+pub(in crate::sim::integrators) use stages::Stages;
 
 mod continuation;
 mod curve;
 mod iteration;
+mod krylov;
+mod sparse;
+mod stages;
 
 impl<V: Vector> Newton<V, 1> {
     /// Replaces `y` by the solution of `Y = y + c f(t, Y)`.
@@ -43,7 +50,12 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         for a in &mut self.a {
             a.components_mut().fill(0.0);
         }
-        if self.iterate(system, stages) || self.solve_by_continuation(system, stages) {
+        self.krylov.iter_mut().for_each(|krylov| krylov.begin_step());
+        let is_solved = match V::IS_SPARSE {
+            true => self.iterate_sparsely(system, stages),
+            false => self.iterate(system, stages) || self.solve_by_continuation(system, stages),
+        };
+        if is_solved {
             return Ok(());
         }
         Err(StepFailure::NewtonFailed { limit: MAX_ITERATIONS })

@@ -131,7 +131,7 @@ mod tests {
         kinds.dedup();
         assert_eq!(
             kinds,
-            ["chain", "follow", "helm", "law", "orbit", "pendulum", "ship", "spring"]
+            ["chain", "follow", "helm", "law", "net", "orbit", "pendulum", "ship", "spring"]
         );
     }
 

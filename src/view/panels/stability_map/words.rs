@@ -141,6 +141,9 @@ pub(super) fn no_map(why: NoSmallMotion) -> String {
             "the force has a corner or a jump where this body rests, so that it does not behave as a spring there."
         }
         NoSmallMotion::Unsteady => "the stiffness or the damping of this body changes in time.",
+        NoSmallMotion::TooManyCoordinates => {
+            "this body has too many coordinates that act on each other to take them all together at every point."
+        }
         NoSmallMotion::NotFinite => {
             "the force or its slope is not a finite number where this body rests."
         }

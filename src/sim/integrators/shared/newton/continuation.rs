@@ -8,7 +8,8 @@
 //! and smooth, the curve cannot end before λ = 1.
 
 use super::curve::Curve;
-use super::iteration::{Newton, Stages, components, largest};
+use super::iteration::Newton;
+use super::stages::{Stages, components, largest};
 use crate::sim::system::{System, Vector};
 
 /// The longest arc length of a step, in each of three attempts: longer steps can jump to a nearby curve

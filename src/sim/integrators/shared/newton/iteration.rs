@@ -1,6 +1,8 @@
 //! Newton's iteration, and the equations that it solves.
 
 use super::curve::Curve;
+use super::krylov::Krylov;
+use super::stages::{Stages, components, largest};
 use crate::sim::integrators::shared::lu::Lu;
 use crate::sim::system::{State, System, Vector};
 
@@ -33,22 +35,16 @@ pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
     pub(super) perturbed: [V; S],
     /// The state at which a stage is evaluated.
     pub(super) stage: State<V>,
-    /// The Jacobian of `A - evaluated`, factored.
+    /// The Jacobian of `A - evaluated`, factored; empty for a sparse vector.
     pub(super) jacobian: Lu,
+    /// Solves the linear equations of a sparse vector.
+    pub(super) krylov: Option<Box<Krylov<V, S>>>,
     /// The residual `evaluated - A`, and then the correction of `A`.
     pub(super) residual: Vec<f64>,
     /// The scale of the rounding error of `evaluated`, in units of round-off.
     rounding_scale: Vec<f64>,
     /// For steps at which the iteration alone fails.
     pub(super) curve: Curve,
-}
-
-/// The times of the stages, and the weights α and β of the accelerations in their coordinates and
-/// velocities.
-pub(in crate::sim::integrators) struct Stages<const S: usize> {
-    pub(in crate::sim::integrators) t: [f64; S],
-    pub(in crate::sim::integrators) alpha: [[f64; S]; S],
-    pub(in crate::sim::integrators) beta: [[f64; S]; S],
 }
 
 impl<V: Vector, const S: usize> Newton<V, S> {
@@ -62,9 +58,10 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             evaluated: vectors(),
             perturbed: vectors(),
             stage: state,
-            jacobian: Lu::new(size),
+            jacobian: Lu::new(if V::IS_SPARSE { 0 } else { size }),
+            krylov: V::IS_SPARSE.then(|| Box::new(Krylov::new(like))),
             residual: vec![0.0; size],
-            rounding_scale: vec![0.0; size],
+            rounding_scale: vec![0.0; if V::IS_SPARSE { 0 } else { size }],
             curve: Curve::new(size),
         }
     }
@@ -72,7 +69,8 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     /// Memory in bytes, without its own size and that of its coordinate vectors.
     pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
         let vectors = size_of_val(&self.residual[..]) + size_of_val(&self.rounding_scale[..]);
-        self.jacobian.heap_bytes() + self.curve.heap_bytes() + vectors
+        let krylov = self.krylov.as_ref().map_or(0, |krylov| krylov.heap_bytes());
+        self.jacobian.heap_bytes() + self.curve.heap_bytes() + vectors + krylov
     }
 
     /// Iterates from the current `A`. Returns whether it converged.
@@ -173,47 +171,4 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         }
         (largest(residual.iter()), largest(components(a)))
     }
-}
-
-impl<const S: usize> Stages<S> {
-    /// The stages with all weights multiplied by `factor`.
-    pub(super) fn scaled(&self, factor: f64) -> Self {
-        let scaled = |weights: [[f64; S]; S]| weights.map(|row| row.map(|weight| factor * weight));
-        Self { t: self.t, alpha: scaled(self.alpha), beta: scaled(self.beta) }
-    }
-
-    #[inline]
-    pub(super) fn evaluate<V: Vector>(
-        &self,
-        system: &impl System<Vector = V>,
-        known: &[State<V>; S],
-        a: &[V; S],
-        stage: &mut State<V>,
-        evaluated: &mut [V; S],
-    ) {
-        for i in 0..S {
-            stage.assign(&known[i]);
-            for ((alpha, beta), a) in self.alpha[i].iter().zip(&self.beta[i]).zip(a) {
-                stage.q.add_scaled(*alpha, a);
-                stage.v.add_scaled(*beta, a);
-            }
-            system.acceleration(self.t[i], &stage.q, &stage.v, &mut evaluated[i]);
-        }
-    }
-}
-
-#[inline]
-pub(super) fn components<V: Vector, const S: usize>(
-    vectors: &[V; S],
-) -> impl Iterator<Item = &f64> {
-    vectors.iter().flat_map(V::components)
-}
-
-/// The largest magnitude; NaN if a component is NaN.
-#[inline]
-pub(super) fn largest<'a>(components: impl Iterator<Item = &'a f64>) -> f64 {
-    components.fold(0.0, |largest: f64, component| {
-        let size = component.abs();
-        if size > largest || size.is_nan() { size } else { largest }
-    })
 }

@@ -1,0 +1,48 @@
+//! What the energy and the spectral radius of a tick say of a body that has no reference solution.
+
+use std::fmt;
+
+use crate::lab::number::round;
+
+/// A radius above this is growth: the power iteration tells it to a thousandth where it gets through, and to
+/// some thousandths where each tick is dear.
+const GROWING_RADIUS: f64 = 1.01;
+
+/// What the energy and the spectral radius say of a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnergyFinding {
+    /// The mean change of the kinetic and potential energy in the last quarter of the run, in units of the
+    /// largest kinetic energy or of the most that was lost. What an input brings does not count.
+    pub change: f64,
+    /// Whether the body conserves its energy, so that a loss is the method's too.
+    pub is_conserved: bool,
+    /// The spectral radius of a tick about the start; `None` for a method with memory or steps of its own,
+    /// and where it takes too much work.
+    pub spectral_radius: Option<f64>,
+}
+
+impl EnergyFinding {
+    /// Whether a small deviation grows, as far as the radius is known.
+    pub(super) fn has_growing_deviations(&self) -> bool {
+        self.spectral_radius.is_some_and(|radius| radius >= GROWING_RADIUS)
+    }
+
+    /// What becomes of the energy where it neither grows nor is lost in a way that can be seen.
+    pub(super) fn kept(&self, horizon: &str) -> String {
+        let percent = round(100.0 * self.change.abs(), 2);
+        match self.is_conserved {
+            true => format!("keeps its energy to {percent} % in {horizon}"),
+            false => format!("gains no energy in {horizon}"),
+        }
+    }
+}
+
+impl fmt::Display for EnergyFinding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("no reference: by energy")?;
+        match self.spectral_radius {
+            Some(radius) => write!(f, " and spectral radius {}", round(radius, 4)),
+            None => f.write_str(" alone"),
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! The spectral radius of the one-tick map of a body of many coordinates, by power iteration: without the
+//! map, from differences of the stepper itself.
+
+use super::tick::Tick;
+use crate::sim::integrators::StepFailure;
+use crate::sim::{Solver, Stepper};
+
+/// The most iterations: they tell the radius to a thousandth.
+const MOST_ITERATIONS: usize = 2048;
+/// The fewest that tell anything.
+const FEWEST_ITERATIONS: usize = 32;
+/// The displacement of the state, relative to its size: between rounding and the curvature of the forces.
+const DISPLACEMENT: f64 = 1e-7;
+
+/// The spectral radius of a tick of `solver` on `body`, linearised about its current state. `None` if
+/// less than a few dozen ticks take `most_evaluations`, and for a method with memory, whose map is not one of
+/// the state alone: it resets where the state is displaced.
+///
+/// Rounding apart, the product of many maps grows as ρⁿ nᵖ; the power p of a body that drifts is eliminated by
+/// two ratios.
+///
+/// # Errors
+/// The failure of the method.
+pub fn spectral_radius(
+    body: &dyn Stepper,
+    solver: Solver,
+    tick: Tick,
+    most_evaluations: u64,
+) -> Result<Option<f64>, StepFailure> {
+    let Some(method) = solver.method().filter(|it| it.keeps_time && it.tolerance.is_none()) else {
+        return Ok(None);
+    };
+    if method.restart.is_some() && method.id != "velocity-verlet" {
+        return Ok(None);
+    }
+    let Tick { t, h, substeps } = tick;
+    let mut stepper = body.with_solver(solver, t);
+    let [q, v] = [body.q().to_vec(), body.v().to_vec()];
+    let n = q.len();
+    let before = stepper.evaluations();
+    stepper.set(t, &q, &v);
+    stepper.advance(t, h, substeps)?;
+    let image = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
+    let size = q.iter().chain(&image[0]).fold(0.0, |most: f64, x| most.max(x.abs()));
+    let distance = DISPLACEMENT * if size > 0.0 { size } else { 1.0 };
+
+    // Coordinates, then velocities times the tick, so that both have one unit.
+    let mut direction = start_vector(2 * n);
+    let (mut sum, mut logs) = (0.0, Vec::with_capacity(MOST_ITERATIONS));
+    while logs.len() < MOST_ITERATIONS && stepper.evaluations() - before <= most_evaluations {
+        let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+        // Displaced by this much in the largest component.
+        let largest = direction.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        if largest == 0.0 || !length.is_finite() {
+            return Ok(None);
+        }
+        let part = distance / largest;
+        let moved = |x: &[f64], along: &[f64], unit: f64| -> Vec<f64> {
+            x.iter().zip(along).map(|(x, along)| x + part * along / unit).collect()
+        };
+        stepper.set(t, &moved(&q, &direction[..n], 1.0), &moved(&v, &direction[n..], h));
+        stepper.advance(t, h, substeps)?;
+        let images = [(stepper.q(), &image[0], 1.0), (stepper.v(), &image[1], h)];
+        let pushed = images.into_iter().flat_map(|(moved, still, unit)| {
+            moved.iter().zip(still).map(move |(a, b)| (a - b) * unit / part)
+        });
+        direction = pushed.collect();
+        let pushed = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
+        sum += libm::log(pushed / length);
+        logs.push(sum);
+        // A long product would overflow.
+        direction.iter_mut().for_each(|x| *x /= pushed);
+    }
+    Ok(radius(&logs))
+}
+
+/// The radius from the logarithms of the lengths after each iteration.
+fn radius(logs: &[f64]) -> Option<f64> {
+    let count = logs.len() / 8 * 8;
+    if count < FEWEST_ITERATIONS || !logs[count - 1].is_finite() {
+        return None;
+    }
+    let peak = |window: std::ops::Range<usize>| {
+        logs[window].iter().fold(f64::NEG_INFINITY, |most, log| most.max(*log))
+    };
+    // Windows of one length, so that a trend moves the peaks within them alike.
+    let [first, middle, last] = [count / 4, count / 2, count].map(|end| peak(end - count / 8..end));
+    // A length of ρⁿ nᵖ: each of the differences has the same part from nᵖ.
+    let rate = ((last - middle) - (middle - first)) / (count / 4) as f64;
+    Some(libm::exp(rate))
+}
+
+/// A vector with a part in every mode, the same on every run: an xorshift.
+fn start_vector(components: usize) -> Vec<f64> {
+    let mut bits = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut next = || {
+        bits ^= bits << 13;
+        bits ^= bits >> 7;
+        bits ^= bits << 17;
+        (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    (0..components).map(|_| next()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::bodies::kind;
+    use crate::sim::integrators::method;
+
+    /// The radius of a method on a chain of ω² = 800, whose fastest mode has ω² = 3200 sin²(5π/22).
+    fn radius_on_chain(id: &str, h: f64) -> Option<f64> {
+        let chain =
+            (kind("chain").unwrap().build)(&[10.0, 1.0, 800.0, 0.0, 3.0, 1.0, 1.0], Solver::Truth);
+        let solver = Solver::Method(method(id).unwrap());
+        let tick = Tick { t: 0.0, h, substeps: 1 };
+        spectral_radius(&*chain, solver, tick, u64::MAX).unwrap()
+    }
+
+    fn fastest() -> f64 {
+        2.0 * 800.0_f64.sqrt() * libm::sin(10.0 * std::f64::consts::PI / 22.0)
+    }
+
+    #[test]
+    fn the_radius_is_that_of_the_fastest_mode() {
+        for h in [0.01, 0.03, 0.1] {
+            let z = h * fastest();
+            let wanted = (1.0 + z * z).sqrt();
+            let found = radius_on_chain("explicit-euler", h).unwrap();
+            assert!((found / wanted - 1.0).abs() < 2e-3, "{h} s: {found}, not {wanted}");
+            // Both eigenvalues are real beyond z = 2.
+            let trace: f64 = z * z - 2.0;
+            let beyond = (trace + (trace * trace - 4.0).max(0.0).sqrt()) / 2.0;
+            let wanted = if z > 2.0 { beyond } else { 1.0 };
+            for id in ["semi-implicit-euler", "velocity-verlet"] {
+                let found = radius_on_chain(id, h).unwrap();
+                assert!((found / wanted - 1.0).abs() < 2e-3, "{id}, {h} s: {found}, not {wanted}");
+            }
+            let found = radius_on_chain("implicit-midpoint", h).unwrap();
+            assert!((found - 1.0).abs() < 2e-3, "{h} s: {found}");
+        }
+    }
+
+    #[test]
+    fn implicit_euler_shrinks_by_its_slowest_mode() {
+        let slowest = 2.0 * 800.0_f64.sqrt() * libm::sin(std::f64::consts::PI / 22.0);
+        let z = 0.05 * slowest;
+        let (found, wanted) =
+            (radius_on_chain("implicit-euler", 0.05).unwrap(), 1.0 / (1.0 + z * z).sqrt());
+        assert!((found / wanted - 1.0).abs() < 2e-3, "{found}, not {wanted}");
+    }
+
+    #[test]
+    fn a_drift_is_no_growth_and_memory_has_no_radius() {
+        let ship = (kind("ship").unwrap().build)(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0], Solver::Truth);
+        let tick = Tick { t: 0.0, h: 0.1, substeps: 1 };
+        let of = |id| {
+            spectral_radius(&*ship, Solver::Method(method(id).unwrap()), tick, u64::MAX).unwrap()
+        };
+        let found = of("explicit-euler").unwrap();
+        assert!((found - 1.0).abs() < 2e-3, "{found}");
+        for id in ["adams-bashforth-2", "bdf2", "dormand-prince-54"] {
+            assert_eq!(of(id), None, "{id}");
+        }
+    }
+}

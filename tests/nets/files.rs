@@ -1,0 +1,83 @@
+//! Nets in scene files.
+
+use regatta::lab::{Lab, LaneSpec, Race, Scene};
+use regatta::sim::integrators::method;
+
+fn parse(net: &str) -> Scene {
+    let text = format!("title = 't'\ntick_hz = 60\nseconds = 1\n[[net]]\n{net}\n");
+    Scene::parse("t", &text).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+const GRID: &str = "columns = 5\nrows = 3\nspacing_m = 0.25\nshear = true\npin = 'top'\n\
+                    mass_kg = 0.1\nstiffness_n_per_m = 90\nkicked_node = 9";
+const LISTS: &str = "nodes = [[0, 0], [1, 0.5], [2, -1e-3]]\nfixed = [2]\nmass_kg = 2\n\
+                     stiffness_n_per_m = 90\nrest_ratio = 0.9\n\
+                     springs = [{ between = [0, 1] }, { between = [2, 1], stiffness_n_per_m = 7, \
+                     damping_n_s_per_m = 0.5, rest_m = 0.0 }]";
+
+#[test]
+fn a_net_is_written_and_read_back_as_the_same_net() {
+    for net in [GRID, LISTS] {
+        let scene = parse(net);
+        let again = Scene::parse("t", &scene.to_toml()).unwrap();
+        assert_eq!(again.to_toml(), scene.to_toml());
+        assert!(std::ptr::eq(again.bodies[0].kind, scene.bodies[0].kind), "one plan, one kind");
+        assert_eq!(again.bodies[0].values, scene.bodies[0].values);
+    }
+    assert!(!std::ptr::eq(parse(GRID).bodies[0].kind, parse(LISTS).bodies[0].kind));
+}
+
+#[test]
+fn a_grid_has_the_nodes_springs_and_pins_that_it_says() {
+    let plan = parse(GRID).bodies[0].kind.net.unwrap();
+    let lists = plan.lists();
+    assert_eq!((lists.nodes.len(), &lists.fixed[..]), (15, &[0, 1, 2, 3, 4][..]));
+    assert_eq!((lists.nodes[0], lists.nodes[14]), ([0.0, 0.0], [1.0, -0.5]));
+    // Twelve along the rows, ten down the columns, and two across each of eight squares, of which those of
+    // the top row would join fixed nodes.
+    assert_eq!(lists.springs.len(), 12 + 10 + 16 - 4);
+    assert_eq!(plan.kicked, Some(9));
+}
+
+#[test]
+fn a_kick_of_the_script_reaches_the_net() {
+    let text = format!(
+        "title = 't'\ntick_hz = 60\nseconds = 1\n[[net]]\n{GRID}\ngravity_m_per_s2 = 0\n[[command]]\ntick = 3\nkick = 1\n"
+    );
+    let mut lab = Lab::new(Scene::parse("t", &text).unwrap());
+    let velocity = |lab: &Lab| lab.race().truth().bodies()[0].stepper.v()[0];
+    (0..3).for_each(|_| lab.tick());
+    assert_eq!(velocity(&lab), 0.0);
+    lab.tick();
+    assert!(velocity(&lab) > 1.0, "{}", velocity(&lab));
+}
+
+/// Whether a method gets through a built-in scene at a rate, without a coordinate running away.
+fn holds(name: &str, id: &str, tick_hz: u32) -> bool {
+    let scene = Scene { tick_hz, ..Scene::built_in(name).unwrap() };
+    let mut race = Race::new(&scene, [(0, LaneSpec::plain(method(id).unwrap()))]);
+    race.run(u64::from(tick_hz) * 4);
+    let body = &race.entrants()[0].lane.bodies()[0];
+    body.halted().is_none() && body.stepper.q().iter().all(|x| x.abs() < 100.0)
+}
+
+#[test]
+fn the_scenes_show_what_their_hints_promise() {
+    for (name, id, tick_hz, wanted) in [
+        ("rope", "explicit-euler", 120, false),
+        ("rope", "semi-implicit-euler", 120, true),
+        ("rope", "semi-implicit-euler", 100, false),
+        ("cloth", "semi-implicit-euler", 60, false),
+        ("cloth", "semi-implicit-euler", 120, false),
+        ("cloth", "semi-implicit-euler", 240, true),
+        ("cloth", "implicit-euler", 60, true),
+        ("cloth", "implicit-midpoint", 60, true),
+        ("bridge", "semi-implicit-euler", 60, false),
+        ("bridge", "rk4", 60, false),
+        ("bridge", "semi-implicit-euler", 100, false),
+        ("bridge", "semi-implicit-euler", 120, true),
+        ("bridge", "implicit-euler", 60, true),
+    ] {
+        assert_eq!(holds(name, id, tick_hz), wanted, "{name}, {id}, {tick_hz} Hz");
+    }
+}

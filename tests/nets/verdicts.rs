@@ -1,0 +1,104 @@
+//! What is said of a net that has no reference solution.
+
+use regatta::lab::{
+    Adviser, Criterion, CriterionResult, Judge, LaneSpec, Outcome, Race, Scene, Severity, Verdict,
+};
+use regatta::sim::integrators::{StepFailure, method};
+
+fn scene(stiffness: f64, more: &str) -> Scene {
+    let text = format!(
+        "title = 't'\ntick_hz = 60\nseconds = 4\nmethods = ['rk4', 'implicit-euler']\n\
+         [[net]]\ncolumns = 10\nrows = 8\nspacing_m = 0.1\nshear = true\npin = 'corners'\n\
+         mass_kg = 0.02\nstiffness_n_per_m = {stiffness}\n{more}"
+    );
+    Scene::parse("t", &text).unwrap()
+}
+
+fn verdict(scene: &Scene, id: &str) -> Verdict {
+    Judge::new(scene, 1.0).verdict(LaneSpec::plain(method(id).unwrap()), 60)
+}
+
+#[test]
+fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so() {
+    let scene = scene(1000.0, "");
+    for (id, outcome, radius) in [
+        ("explicit-euler", Outcome::BlewUp, 5.0..15.0),
+        ("semi-implicit-euler", Outcome::BlewUp, 50.0..200.0),
+        ("implicit-euler", Outcome::LosesEnergy, 0.8..1.005),
+        ("implicit-midpoint", Outcome::NoTruth, 0.99..1.01),
+    ] {
+        let verdict = verdict(&scene, id);
+        let said = verdict.to_string();
+        assert_eq!(verdict.outcome, outcome, "{id}: {said}");
+        let found = verdict.by_energy.expect("no truth tells");
+        let found_radius = found.spectral_radius.expect("it has no memory");
+        assert!(radius.contains(&found_radius), "{id}: {found_radius}");
+        assert!(said.contains("; no reference: by energy and spectral radius "), "{id}: {said}");
+        assert!(found.is_conserved && !verdict.is_accurate(), "{id}");
+        let why = verdict.no_truth.expect("there is none").to_string();
+        assert!(why.contains("has no reference solution"), "{why}");
+        let is_known = outcome != Outcome::NoTruth;
+        assert_eq!(verdict.outcome.severity() == Severity::Bad, is_known, "{id}");
+    }
+    let kept = verdict(&scene, "implicit-midpoint").to_string();
+    assert!(kept.starts_with("keeps its energy to "), "{kept}");
+    // The map of a method with memory is not one of the state alone.
+    let alone = verdict(&scene, "bdf2");
+    assert_eq!(alone.by_energy.unwrap().spectral_radius, None);
+    assert!(alone.to_string().ends_with("; no reference: by energy alone"), "{alone}");
+}
+
+#[test]
+fn a_damped_net_may_lose_energy_and_a_kick_may_bring_it() {
+    let scripted = "damping_n_s_per_m = 0.1\n[[command]]\ntick = 60\nkick = 0.3\n";
+    let scene = scene(1000.0, scripted);
+    for id in ["implicit-midpoint", "implicit-euler"] {
+        let verdict = verdict(&scene, id);
+        assert_eq!(verdict.outcome, Outcome::NoTruth, "{verdict}");
+        assert!(verdict.to_string().starts_with("gains no energy in 4 s"), "{verdict}");
+        let found = verdict.by_energy.unwrap();
+        assert!(!found.is_conserved && found.change < -0.01, "{found:?}");
+    }
+    assert_eq!(verdict(&scene, "rk4").outcome, Outcome::BlewUp);
+}
+
+#[test]
+fn a_soft_net_has_a_reference_with_which_methods_are_compared() {
+    let scene = scene(10.0, "");
+    let verdict = verdict(&scene, "velocity-verlet");
+    assert!(verdict.by_energy.is_none() && verdict.no_truth.is_none(), "{verdict}");
+    assert!(verdict.error.is_finite() && verdict.error > 0.0, "{verdict}");
+}
+
+#[test]
+fn the_race_goes_on_without_a_truth() {
+    let scene = scene(1000.0, "");
+    let mut race = Race::of_scene(&scene);
+    race.run(30);
+    let truth = race.truth().halted().expect("it has none");
+    assert!(matches!(truth.failure, StepFailure::ReferenceTooDear { .. }) && truth.tick == 0);
+    assert_eq!(race.truth().bodies()[0].truth_in_words(), "no reference");
+    let implicit = &race.entrants()[1].lane;
+    assert!(implicit.halted().is_none());
+    let fallen = implicit.bodies()[0].stepper.q()[1] + 0.7;
+    assert!(fallen < -0.01, "{fallen} m");
+}
+
+#[test]
+fn advice_without_a_truth_is_on_stability_only() {
+    let scene = scene(1000.0, "");
+    let adviser = Adviser::new(&scene, 1.0, 60);
+    let plain = |id: &str| LaneSpec::plain(method(id).unwrap());
+    for id in ["semi-implicit-euler", "implicit-euler"] {
+        for criterion in [Criterion::Accurate, Criterion::LooksRight] {
+            assert_eq!(adviser.meets(plain(id), criterion), CriterionResult::Unknown, "{id}");
+        }
+    }
+    let substeps = |id: &str| {
+        let result = adviser.meets(plain(id), Criterion::Bounded);
+        result.met().unwrap_or_else(|| panic!("{id}: {result:?}")).substeps
+    };
+    assert_eq!(substeps("implicit-euler"), 1);
+    // The fastest springs turn by h ω = 10.5 in a tick, and the method bears 2.
+    assert!((5..=6).contains(&substeps("semi-implicit-euler")));
+}
