@@ -49,6 +49,9 @@ use watch::FileWatch;
 /// The longest time between two simulation steps without a frame. It is well below the clock's longest frame, so that
 /// a window that is hidden, or not asked for frames by the window system, drops no ticks.
 const LONGEST_WAIT: Duration = Duration::from_millis(100);
+/// The longest time that a frame simulates: the ticks of a race that needs more are dropped, so that the window still
+/// answers.
+const LONGEST_SIMULATION: Duration = Duration::from_millis(50);
 /// The simulated length of the first frame after a pause, whose real length includes the pause.
 const FIRST_FRAME: Duration = Duration::ZERO;
 
@@ -212,7 +215,8 @@ impl App {
         let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
         self.last_frame = self.lab.running().then_some(now);
         let last = self.seconds.map_or(u64::MAX, |s| self.lab.nearest_tick(s));
-        self.lab.advance_to(last, i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX));
+        let frame_ns = i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX);
+        self.lab.advance_in_time(last, frame_ns, &mut || now.elapsed() < LONGEST_SIMULATION);
         self.lab.set_pace(self.meter.pace());
         if self.lab.race().tick() >= last {
             self.end(event_loop, Ok(()));

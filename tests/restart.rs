@@ -58,11 +58,11 @@ fn a_restart_owes_no_part_of_a_tick_and_keeps_the_speed() {
 #[test]
 fn a_frame_goes_no_further_than_it_may() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-    lab.advance_to(7, 100_000_000);
+    lab.advance_in_time(7, 100_000_000, &mut || true);
     assert_eq!(lab.race().tick(), 6);
-    lab.advance_to(7, 100_000_000);
+    lab.advance_in_time(7, 100_000_000, &mut || true);
     assert_eq!((lab.race().tick(), lab.timeline().end()), (7, 7));
-    lab.advance_to(7, 100_000_000);
+    lab.advance_in_time(7, 100_000_000, &mut || true);
     assert_eq!(lab.race().tick(), 7);
 }
 
@@ -89,4 +89,17 @@ fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
     assert_eq!(lab.race().state_hash(), hash, "with its past");
     lab.apply(Command::Undo);
     assert_eq!((lab.race().tick(), lab.race().journal().rows().len()), (5, 0));
+}
+
+#[test]
+fn a_frame_whose_time_is_up_drops_the_ticks_that_are_left() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    let mut made = 0;
+    let due = lab.advance_in_time(u64::MAX, 100_000_000, &mut || {
+        made += 1;
+        made < 2
+    });
+    assert_eq!((due.ticks, due.dropped, lab.dropped(), lab.race().tick()), (2, 4, 4, 2));
+    let due = lab.advance_in_time(u64::MAX, 50_000_000, &mut || true);
+    assert_eq!((due.ticks, due.dropped, lab.race().tick()), (3, 0, 5));
 }

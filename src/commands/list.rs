@@ -120,7 +120,7 @@ const NETS: &str = "
   rows = 16
   spacing_m = 0.1
   shear = true                          # springs across each square too; false if not given
-  pin = \"top\"                         # fixes the top row, or \"corners\" both its ends
+  pin = \"top\"                           # fixes the top row, or \"corners\" both its ends
   nodes = [[0.0, 0.0], [1.0, 0.0]]      # or where each node stands,
   fixed = [0]                           # which of them stay there,
   springs = [{ between = [0, 1] }]      # and which are joined; each may have stiffness_n_per_m,

@@ -36,7 +36,10 @@ pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
     }
     text.push('\n');
     if rows.len() < wanted {
-        text += &format!("interrupted: of the {} methods judged, of {wanted},\n", rows.len());
+        text += &format!("interrupted: {} of {wanted} methods were judged\n", rows.len());
+    }
+    if rows.is_empty() {
+        return text;
     }
     for (i, criterion) in CRITERIA.iter().enumerate() {
         text += &format!("at {} Hz: {}: ", adviser.tick_hz(), criterion.id());

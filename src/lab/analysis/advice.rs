@@ -208,8 +208,10 @@ impl Adviser {
     /// The lowest rate, going down from the requested one, at which the lane still meets the criterion; one hertz lower it
     /// does not.
     fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> u32 {
-        // The rates of a linear body have few gaps, all of them wide; of other bodies nearly every rate is tried.
-        let strides = if self.judge.is_linear() { 6 } else { 60 };
+        // The rates of a linear body have few gaps, all of them wide; of other bodies nearly every rate is tried, but of a
+        // net, whose runs are dear.
+        let has_net = self.scene.bodies.iter().any(|body| body.kind.net.is_some());
+        let strides = if self.judge.is_linear() || has_net { 6 } else { 60 };
         slowest_down(self.tick_hz, strides, |hz| holds(find(&self.judge, criterion, spec, hz)))
     }
 

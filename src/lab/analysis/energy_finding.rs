@@ -4,8 +4,7 @@ use std::fmt;
 
 use crate::lab::number::round;
 
-/// A radius above this is growth: the power iteration tells it to a thousandth where it gets through, and to
-/// some thousandths where each tick is dear.
+/// A radius above this is growth: the power iteration tells it to some thousandths.
 const GROWING_RADIUS: f64 = 1.01;
 
 /// What the energy and the spectral radius say of a lane.

@@ -14,17 +14,29 @@ impl Lab {
         self.advance_seen(frame_ns, &mut ())
     }
 
-    /// Like [`Lab::advance`], but stops at tick `last`.
-    pub fn advance_to(&mut self, last: u64, frame_ns: i64) -> Due {
-        self.advance_by(frame_ns, last, &mut ())
+    /// Like [`Lab::advance`], but stops at tick `last`. After each tick it asks whether there is time for another; if there
+    /// is not, it drops those that are still due.
+    pub fn advance_in_time(
+        &mut self,
+        last: u64,
+        frame_ns: i64,
+        is_time_left: &mut dyn FnMut() -> bool,
+    ) -> Due {
+        self.advance_by(frame_ns, last, is_time_left, &mut ())
     }
 
     /// Like [`Lab::advance`], with an observer.
     pub fn advance_seen(&mut self, frame_ns: i64, observer: &mut impl Observer) -> Due {
-        self.advance_by(frame_ns, u64::MAX, observer)
+        self.advance_by(frame_ns, u64::MAX, &mut || true, observer)
     }
 
-    fn advance_by(&mut self, frame_ns: i64, last: u64, observer: &mut impl Observer) -> Due {
+    fn advance_by(
+        &mut self,
+        frame_ns: i64,
+        last: u64,
+        is_time_left: &mut dyn FnMut() -> bool,
+        observer: &mut impl Observer,
+    ) -> Due {
         if !self.time_runs() {
             self.viewer.live.jump();
             return Due::default();
@@ -37,12 +49,17 @@ impl Lab {
         let ((), told) =
             self.watched(|timeline, notices| timeline.catch_up(&mut (notices, &mut *observer)));
         self.tell(told);
-        let due = self.clock.advance(frame_ns);
-        for _ in 0..due.ticks {
+        let mut due = self.clock.advance(frame_ns);
+        for made in 1..=due.ticks {
             if self.race().tick() >= last {
                 break;
             }
             self.tick_seen(observer);
+            if !is_time_left() {
+                due.dropped += u64::from(due.ticks - made);
+                due.ticks = made;
+                break;
+            }
         }
         if due.ticks > 0 {
             self.timeline.show_present();

@@ -26,19 +26,19 @@ type Of = ParameterOf<Net>;
 const PARAMETERS: [Of; 8] = [
     Of::number("mass_kg", Range::POSITIVE, |net| &mut net.mass).about("m, each node"),
     Of::number("stiffness_n_per_m", Range::POSITIVE, |net| &mut net.stiffness)
-        .about("k, the force of each spring for each metre of stretch, unless it has its own"),
+        .about("k, of each spring without its own"),
     Of::number("damping_n_s_per_m", Range::NON_NEGATIVE, |net| &mut net.damping)
         .or(0.0)
-        .about("c, the force along each spring for each metre per second of stretching, unless it has its own"),
+        .about("c, along each spring without its own"),
     Of::number("drag_n_s_per_m", Range::NON_NEGATIVE, |net| &mut net.drag)
         .or(0.0)
-        .about("b, the force on each node against its velocity, for each metre per second"),
+        .about("b, of each node"),
     Of::number("gravity_m_per_s2", Range::NON_NEGATIVE, |net| &mut net.gravity)
         .or(9.81)
         .about("g, downwards"),
     Of::number("rest_ratio", Range::POSITIVE, |net| &mut net.rest_ratio)
         .or(1.0)
-        .about("the springs' length at rest, in units of that at the start, unless they have their own"),
+        .about("the length at rest of springs without their own, over that at the start"),
     Of::number("kick_x_m_per_s", Range::ANY, |net| &mut net.kick.x)
         .or(3.0)
         .about("what one kick adds to the velocity to the right"),

@@ -8,12 +8,14 @@ use crate::sim::{Solver, Stepper};
 /// The most iterations: they tell the radius to a thousandth.
 const MOST_ITERATIONS: usize = 2048;
 /// The fewest that tell anything.
-const FEWEST_ITERATIONS: usize = 32;
+const FEWEST_ITERATIONS: usize = 64;
+/// By how much the radius after three quarters of the iterations may differ from that after all.
+const SETTLED: f64 = 2e-3;
 /// The displacement of the state, relative to its size: between rounding and the curvature of the forces.
 const DISPLACEMENT: f64 = 1e-7;
 
 /// The spectral radius of a tick of `solver` on `body`, linearised about its current state. `None` if
-/// less than a few dozen ticks take `most_evaluations`, and for a method with memory, whose map is not one of
+/// the iteration has not settled within `most_evaluations`, and for a method with memory, whose map is not one of
 /// the state alone: it resets where the state is displaced.
 ///
 /// Rounding apart, the product of many maps grows as ρⁿ nᵖ; the power p of a body that drifts is eliminated by
@@ -71,7 +73,14 @@ pub fn spectral_radius(
         // A long product would overflow.
         direction.iter_mut().for_each(|x| *x /= pushed);
     }
-    Ok(radius(&logs))
+    Ok(settled_radius(&logs))
+}
+
+/// The radius, if more iterations would not change it.
+fn settled_radius(logs: &[f64]) -> Option<f64> {
+    let [earlier, all] = [logs.len() * 3 / 4, logs.len()].map(|count| radius(&logs[..count]));
+    let (earlier, all) = (earlier?, all?);
+    ((earlier / all - 1.0).abs() <= SETTLED).then_some(all)
 }
 
 /// The radius from the logarithms of the lengths after each iteration.
