@@ -31,7 +31,7 @@ fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so
         let said = verdict.to_string();
         assert_eq!(verdict.outcome, outcome, "{id}: {said}");
         let found = verdict.by_energy.expect("no truth tells");
-        let found_radius = found.spectral_radius.expect("it has no memory");
+        let found_radius = found.spectral_radius.unwrap_or_else(|| panic!("{id} has no memory"));
         assert!(radius.contains(&found_radius), "{id}: {found_radius}");
         assert!(said.contains("; no reference: by energy and spectral radius "), "{id}: {said}");
         assert!(found.is_conserved && !verdict.is_accurate(), "{id}");

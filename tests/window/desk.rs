@@ -13,8 +13,9 @@ use x11rb::rust_connection::RustConnection;
 
 use crate::program::{Program, end};
 
-/// Software draws some ten frames a second where every core is busy; a start takes a few seconds.
-const PATIENCE: Duration = Duration::from_secs(30);
+/// Software draws some ten frames a second where every core is busy; a start takes a few seconds; and a race of a net
+/// that may keep 1 MB for going back in time takes most of a second for each tick back.
+const PATIENCE: Duration = Duration::from_secs(120);
 const POLL: Duration = Duration::from_millis(15);
 
 /// Waits for `found` to find something.

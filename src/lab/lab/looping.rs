@@ -5,16 +5,24 @@ use crate::lab::command::{Command, TICK_LADDER};
 use crate::lab::instrument::Instrument;
 use crate::lab::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
 use crate::lab::pacing::FrameTrace;
+use crate::lab::scene::SceneBody;
 use crate::sim::integrators::{Method, method};
 
 /// The method of the body at first: none that adds much of its own.
 const METHOD_AT_FIRST: &str = "rk4";
 
 impl Lab {
-    /// Opens the loop lab with the displayed body.
+    /// Opens the loop lab with the displayed body, unless that is a net: what is made ready for every loop would take too
+    /// long.
     pub(super) fn open_loop_lab(&mut self) {
         let method = method(METHOD_AT_FIRST).expect("a built-in method");
         let body = self.display().body;
+        let SceneBody { name, kind, .. } = &self.scene().bodies[body];
+        if kind.net.is_some() {
+            let notice =
+                format!("{name} is a net, which the loop lab does not take; open another scene");
+            return self.set_notice(notice);
+        }
         let mut loops = LoopLab::new(self.scene(), body, method);
         loops.offer(self.viewer.live.trace());
         loops.run_goes_on = self.running;

@@ -1,5 +1,6 @@
 use super::*;
 use crate::lab::pacing::policy;
+use crate::lab::{Command, Lab};
 use crate::sim::integrators::method;
 
 fn lab() -> LoopLab {
@@ -109,4 +110,12 @@ fn the_stage_holds_one_to_four_lanes_in_the_order_of_the_table() {
         }
     }
     assert_eq!(lab.on_stage().len(), 1);
+}
+
+#[test]
+fn a_net_is_not_taken_and_the_reason_is_told() {
+    let mut lab = Lab::new(Scene::built_in("rope").unwrap());
+    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    assert!(lab.loop_lab().is_none());
+    assert!(lab.viewer().notice.as_ref().is_some_and(|told| told.starts_with("rope is a net")));
 }

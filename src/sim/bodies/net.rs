@@ -38,7 +38,7 @@ const PARAMETERS: [Of; 8] = [
         .about("g, downwards"),
     Of::number("rest_ratio", Range::POSITIVE, |net| &mut net.rest_ratio)
         .or(1.0)
-        .about("the length at rest of springs without their own, over that at the start"),
+        .about("the length at rest over that at the start"),
     Of::number("kick_x_m_per_s", Range::ANY, |net| &mut net.kick.x)
         .or(3.0)
         .about("what one kick adds to the velocity to the right"),

@@ -10,7 +10,7 @@ const MOST_ITERATIONS: usize = 2048;
 /// The fewest that tell anything.
 const FEWEST_ITERATIONS: usize = 64;
 /// By how much the radius after three quarters of the iterations may differ from that after all.
-const SETTLED: f64 = 2e-3;
+const SETTLED: f64 = 5e-3;
 /// The displacement of the state, relative to its size: between rounding and the curvature of the forces.
 const DISPLACEMENT: f64 = 1e-7;
 
