@@ -1,6 +1,6 @@
 //! A restart goes back to the start line, and keeps what a person chose and nothing of what the script did.
 
-use regatta::lab::{Command, Lab, SCENES, Scene};
+use regatta::lab::{Action, Command, Lab, SCENES, Scene};
 
 /// The ship, whose script changes method and tick rate.
 fn scripted() -> Lab {
@@ -102,4 +102,18 @@ fn a_frame_whose_time_is_up_drops_the_ticks_that_are_left() {
     assert_eq!((due.ticks, due.dropped, lab.dropped(), lab.race().tick()), (2, 4, 4, 2));
     let due = lab.advance_in_time(u64::MAX, 50_000_000, &mut || true);
     assert_eq!((due.ticks, due.dropped, lab.race().tick()), (3, 0, 5));
+}
+
+#[test]
+fn what_a_hand_still_did_to_a_body_of_the_scene_before_changes_nothing() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.tick();
+    let before = lab.race().state_hash();
+    let place = Action::Place { body: 2, q: [1.0].into(), v: [0.0].into() };
+    let set = |parameter| Action::Set { body: 2, parameter, value: 3.0 };
+    for action in [place, set(0), set(99)] {
+        lab.apply(Command::Act(action));
+    }
+    lab.apply(Command::Act(Action::Set { body: 0, parameter: 99, value: 3.0 }));
+    assert_eq!(lab.race().state_hash(), before);
 }

@@ -177,7 +177,8 @@ impl Lab {
     /// Performs an action on the run by hand.
     fn act(&mut self, action: Action) {
         if let Action::Set { body, parameter, value } = action
-            && self.scene().bodies[body].kind.parameters[parameter].acts == Acts::AtStart
+            && let Some(of) = self.scene().bodies.get(body)
+            && of.kind.parameters.get(parameter).is_some_and(|it| it.acts == Acts::AtStart)
         {
             return self.start.set(body, parameter, value);
         }

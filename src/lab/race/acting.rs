@@ -54,9 +54,15 @@ impl Race {
         ActionResult::Done { released }
     }
 
-    /// Whether an action would change anything.
+    /// Whether an action would change anything. One on a body that the race does not have, as of a hand that still held
+    /// it when another scene was opened, changes nothing.
     pub fn changes(&self, action: &Action) -> bool {
         match action {
+            Action::Set { body, .. } | Action::Place { body, .. }
+                if *body >= self.truth.bodies().len() =>
+            {
+                false
+            }
             Action::Throttle(part) => {
                 self.takes("throttle") && self.throttle != part.clamp(-1.0, 1.0)
             }
