@@ -79,6 +79,12 @@ impl ExperimentArgs {
             if self.methods.len() > 1 {
                 scene.lanes = lanes_of(&scene, &self.methods);
             }
+            // The methods of engines are on the list of no scene that does not name one.
+            for &method in self.methods.iter().filter(|method| method.is_engine()) {
+                if scene.lanes.iter().all(|lane| lane.method != method) {
+                    scene.lanes.push(LaneSpec::plain(method));
+                }
+            }
         }
         scene.lanes = lanes_that_race(&scene);
         scene.equal_cost = false;

@@ -143,7 +143,10 @@ impl SweepArgs {
                 scenes.push((name, scene_file::load(&path)?.0));
             }
         }
-        let asked = |method: &&Method| self.methods.is_empty() || self.methods.contains(method);
+        let asked = |method: &&Method| match &self.methods[..] {
+            [] => !method.is_engine(),
+            named => named.contains(method),
+        };
         let mut rates = self.tick_hz.clone();
         rates.sort_unstable();
         rates.dedup();

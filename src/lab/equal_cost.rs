@@ -16,11 +16,15 @@ const MOST_COUNTED_TICKS: u64 = 600;
 /// it stands. Evaluations are counted at `tick_hz` from the scene's start until its script is over and step sizes have
 /// settled, 60 to 600 ticks.
 ///
-/// A lane whose bodies halt costs what it did until then.
+/// The substeps of an engine are its own, and stay. A lane whose bodies halt costs what it did until then.
 pub fn equal_cost(scene: &Scene, lanes: &[LaneSpec], tick_hz: u32) -> Vec<LaneSpec> {
     let cost = |spec: &LaneSpec, most| evaluations_per_tick(scene, spec, tick_hz, most);
     let dearest = lanes.iter().map(|spec| cost(spec, f64::INFINITY)).fold(0.0, f64::max);
-    lanes.iter().map(|spec| nearest(dearest, *spec, cost)).collect()
+    let equal = |spec: &LaneSpec| match spec.method.is_engine() {
+        true => *spec,
+        false => nearest(dearest, *spec, cost),
+    };
+    lanes.iter().map(equal).collect()
 }
 
 /// The lanes that race: those of the scene, of equal cost if it asks for that.

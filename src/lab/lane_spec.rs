@@ -16,9 +16,9 @@ pub struct LaneSpec {
 }
 
 impl LaneSpec {
-    /// A method with its card's tolerance and one step per tick.
+    /// A method with its card's tolerance and substeps.
     pub fn plain(method: &'static Method) -> Self {
-        Self { method, substeps: 1, tolerance: None }
+        Self { method, substeps: method.default_substeps, tolerance: None }
     }
 
     /// The solver of the lane's bodies.

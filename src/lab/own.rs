@@ -112,7 +112,12 @@ impl Scene {
             kind.parameters.iter().map(|parameter| parameter.default.unwrap_or(1.0)).collect();
         let steps = |method: &&'static Method| refusal(method, kind, &values).is_none();
         let lanes = match &methods[..] {
-            [] => METHODS.iter().filter(steps).map(LaneSpec::plain).collect(),
+            [] => METHODS
+                .iter()
+                .filter(|method| !method.is_engine())
+                .filter(steps)
+                .map(LaneSpec::plain)
+                .collect(),
             chosen => {
                 check_methods(chosen)?;
                 if let Some(method) = chosen.iter().find(|method| !steps(method)) {

@@ -48,7 +48,8 @@ impl Theme {
     pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
         let place = METHODS.iter().position(|listed| listed == method);
         let (colour, dash) = place.map_or_else(|| own_style(method), |place| STYLES[place]);
-        (self.palette().methods[colour], DASHES[dash])
+        let dashes: &[[f32; 2]] = if method.is_engine() { &ENGINE_DASHES } else { &DASHES };
+        (self.palette().methods[colour], dashes[dash])
     }
 
     /// The colour and the dash pattern of the game loop at this place of [`POLICIES`](super::pacing::POLICIES): seven
@@ -172,6 +173,9 @@ static LIGHT: Palette = Palette {
 /// share both.
 const DASHES: [[f32; 2]; 5] = [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0]];
 
+/// The dashes of engines, which race among themselves.
+const ENGINE_DASHES: [[f32; 2]; 3] = [[1.0, 0.0], [12.0, 2.5], [4.0, 2.5]];
+
 /// The places of the colours of game loops. No two warm ones are beside each other.
 const LOOPS: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
 
@@ -206,8 +210,11 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
         let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
         found.map(|&(_, colour, dash)| (colour, dash))
     };
-    let all = (0..).map(|n| (n % DARK.methods.len(), n % DASHES.len()));
-    let mut free: Vec<(usize, usize)> = all.take(DARK.methods.len() * DASHES.len()).collect();
+    let all = |dashes: usize| -> Vec<(usize, usize)> {
+        let colours = DARK.methods.len();
+        (0..colours * dashes).map(|n| (n % colours, n % dashes)).collect()
+    };
+    let (mut free, mut of_engines) = (all(DASHES.len()), all(ENGINE_DASHES.len()));
     free.retain(|style| !METHODS.iter().filter_map(classic).any(|taken| taken == *style));
     let mut styles: Vec<(usize, usize)> = Vec::new();
     for (i, method) in METHODS.iter().enumerate() {
@@ -216,6 +223,7 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
             beside.iter().flatten().all(|other| !are_alike(other.0, style.0))
         };
         let style = classic(method).unwrap_or_else(|| {
+            let free = if method.is_engine() { &mut of_engines } else { &mut free };
             let place = free.iter().position(differs).unwrap_or(0);
             free.remove(place)
         });
@@ -291,7 +299,10 @@ mod tests {
         let distance =
             |a: Rgba, b: Rgba| (0..3).map(|i| u32::from(a[i].abs_diff(b[i])).pow(2)).sum::<u32>();
         for (i, style) in STYLES.iter().enumerate() {
-            assert!(!STYLES[..i].contains(style), "{}", METHODS[i].id);
+            let is_taken = |(other, method): (&(usize, usize), &Method)| {
+                other == style && method.is_engine() == METHODS[i].is_engine()
+            };
+            assert!(!STYLES[..i].iter().zip(METHODS).any(is_taken), "{}", METHODS[i].id);
         }
         for theme in [Theme::Dark, Theme::Light] {
             for pair in METHODS.windows(2) {

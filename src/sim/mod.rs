@@ -37,4 +37,6 @@ pub use points::Points;
 pub use reference::{MOST_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
 pub use stepper::{RecordedTick, Stepper};
-pub use system::{Counted, Counts, Evaluation, Pursuit, Recorded, State, System, Vector};
+pub use system::{
+    Counted, Counts, EngineSettings, Evaluation, Pursuit, Recorded, State, System, Vector,
+};

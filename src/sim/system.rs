@@ -216,11 +216,55 @@ pub trait System {
         None
     }
 
+    /// How a physics engine is told of the body at the start of a tick: settings that its joint and its damping
+    /// take over, and the rest as a force of user code, with which `force` is overwritten. It counts as an
+    /// evaluation. `None` if an engine cannot express the body so. Unless a system says otherwise, everything is a
+    /// force of user code.
+    #[inline]
+    fn engine_settings(
+        &self,
+        t: f64,
+        state: &State<Self::Vector>,
+        force: &mut Self::Vector,
+    ) -> Option<EngineSettings> {
+        self.acceleration(t, &state.q, &state.v, force);
+        Some(EngineSettings::NONE)
+    }
+
     /// Reports that a method left out `h` (s) of a step, as a method that does not [keep
     /// time](super::integrators::Method::keeps_time) does. It does not affect the motion; [`Counted`]
     /// sums it.
     #[inline]
     fn skipped(&self, _h: f64) {}
+}
+
+/// The part of an acceleration that an engine's joint and its damping take over: `-(K q + c v) - C v`, the same for
+/// every coordinate, with the spring at rest where `q` is 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EngineSettings {
+    /// K, the stiffness of the joint for each kilogram, per second squared.
+    pub stiffness: f64,
+    /// c, the damping of the joint for each kilogram, per second.
+    pub damping: f64,
+    /// C, the damping setting of the body, per second.
+    pub drag: f64,
+}
+
+impl EngineSettings {
+    /// Everything is a force of user code.
+    pub const NONE: Self = Self { stiffness: 0.0, damping: 0.0, drag: 0.0 };
+
+    /// Whether there is a joint.
+    #[inline]
+    pub fn has_spring(&self) -> bool {
+        self.stiffness != 0.0 || self.damping != 0.0
+    }
+
+    /// `D = 1 + h c + h² K`, by which an implicit solve of a step of `h` (s) divides.
+    #[inline]
+    pub fn resistance(&self, h: f64) -> f64 {
+        1.0 + h * self.damping + h * h * self.stiffness
+    }
 }
 
 /// What a body follows at one moment, and how fast.
@@ -301,6 +345,17 @@ impl<S: System> System for Counted<S> {
     }
 
     #[inline]
+    fn engine_settings(
+        &self,
+        t: f64,
+        state: &State<S::Vector>,
+        force: &mut S::Vector,
+    ) -> Option<EngineSettings> {
+        self.evaluations.set(self.evaluations.get() + 1);
+        self.system.engine_settings(t, state, force)
+    }
+
+    #[inline]
     fn skipped(&self, h: f64) {
         self.lost_time.set(self.lost_time.get() + h);
     }
@@ -355,6 +410,12 @@ impl<V: Vector> System for Recorded<'_, V> {
         slope: &mut V,
     ) -> bool {
         self.system.acceleration_slope(t, state, along, slope)
+    }
+
+    /// Kept as an evaluation.
+    fn engine_settings(&self, t: f64, state: &State<V>, force: &mut V) -> Option<EngineSettings> {
+        self.acceleration(t, &state.q, &state.v, force);
+        self.system.engine_settings(t, state, force)
     }
 
     /// Kept as an evaluation at rest in the target.

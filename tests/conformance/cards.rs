@@ -19,6 +19,11 @@ fn ids_and_names_are_unique_and_found() {
 fn every_card_has_a_description_and_a_source() {
     for card in METHODS {
         assert!(card.about.len() > 20, "{}", card.id);
+        if card.is_engine() {
+            // The version is what dates an engine.
+            assert!(card.source.contains(|c: char| c.is_ascii_digit()), "{}", card.id);
+            continue;
+        }
         let year = card.source.as_bytes().windows(4).any(|w| w.iter().all(u8::is_ascii_digit));
         assert!(year || card.source.contains("Bourg & Bywalec"), "{}: {}", card.id, card.source);
     }
@@ -27,11 +32,13 @@ fn every_card_has_a_description_and_a_source() {
 #[test]
 fn families_agree_with_the_other_fields() {
     for card in METHODS {
-        assert_eq!(card.family == Family::Follower, card.only.is_some(), "{}", card.id);
+        let is_special = [Family::Follower, Family::Engine].contains(&card.family);
+        assert_eq!(is_special, card.only.is_some(), "{}", card.id);
+        assert_eq!(card.family == Family::Engine, card.engine.is_some(), "{}", card.id);
         let is_implicit = card.family == Family::Implicit;
         let asks_at_will = card.tolerance.is_some() || is_implicit;
         assert_eq!(asks_at_will, card.evaluations.is_none(), "{}", card.id);
-        if !card.is_as_printed() && card.family != Family::Follower {
+        if !card.is_as_printed() && !is_special {
             let adaptive = card.family == Family::Adaptive;
             assert_eq!(adaptive, card.tolerance.is_some(), "{}", card.id);
             assert_eq!(adaptive || is_implicit, card.stability_limit.is_none(), "{}", card.id);
@@ -43,12 +50,13 @@ fn families_agree_with_the_other_fields() {
 }
 
 #[test]
-fn the_table_runs_family_by_family_with_the_listings_and_the_followers_last() {
+fn the_table_runs_family_by_family_with_the_listings_the_followers_and_the_engines_last() {
     let mut families: Vec<Family> = METHODS.iter().map(|card| card.family).collect();
     families.dedup();
     let distinct: HashSet<_> = families.iter().map(|family| family.id()).collect();
     assert_eq!(families.len(), distinct.len(), "{families:?}");
-    assert_eq!(families[families.len() - 2..], [Family::AsPrinted, Family::Follower]);
+    let last = [Family::AsPrinted, Family::Follower, Family::Engine];
+    assert_eq!(families[families.len() - 3..], last);
     let general = METHODS.iter().filter(|card| card.only.is_none());
     assert!(GENERAL_METHODS.iter().eq(general), "those for every body come first");
 }

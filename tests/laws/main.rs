@@ -60,7 +60,8 @@ fn twins() -> impl Iterator<Item = (SceneBody, SceneBody)> {
 #[test]
 fn the_built_in_bodies_as_laws_have_the_same_bits_under_every_method() {
     for (built_in, law) in twins() {
-        for method in METHODS {
+        // An engine is told the stiffness of a spring, and of a law only the force.
+        for method in METHODS.iter().filter(|method| !method.is_engine()) {
             let [mut a, mut b] = [&built_in, &law].map(|it| stepper(it, Solver::Method(method)));
             for tick in 0..600 {
                 let t = f64::from(tick) / 60.0;
@@ -87,11 +88,13 @@ fn verdicts_on_the_built_in_bodies_as_laws_are_equal_to_the_last_printed_digit()
         let name = "twin".to_owned();
         scene.bodies = vec![SceneBody { name, ..body.clone() }];
         let judge = Judge::new(&scene, 1.0);
-        let verdicts = METHODS.iter().map(|method| judge.verdict(LaneSpec::plain(method), 60));
+        let methods = METHODS.iter().filter(|method| !method.is_engine());
+        let verdicts = methods.map(|method| judge.verdict(LaneSpec::plain(method), 60));
         verdicts.map(|verdict| verdict.to_string()).collect()
     };
     for (built_in, law) in twins() {
-        for ((method, a), b) in METHODS.iter().zip(judged(&built_in)).zip(judged(&law)) {
+        let methods = METHODS.iter().filter(|method| !method.is_engine());
+        for ((method, a), b) in methods.zip(judged(&built_in)).zip(judged(&law)) {
             assert_eq!(a, b, "{} under {}", built_in.kind.id, method.id);
         }
     }

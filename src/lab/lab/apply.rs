@@ -277,7 +277,11 @@ impl Lab {
             Some(before) => {
                 let of = |spec: &LaneSpec| {
                     let before = before.iter().find(|known| known.method == spec.method);
-                    LaneSpec { substeps: before.map_or(1, |known| known.substeps), ..*spec }
+                    LaneSpec {
+                        substeps: before
+                            .map_or(spec.method.default_substeps, |known| known.substeps),
+                        ..*spec
+                    }
                 };
                 let wanted: Vec<LaneSpec> = specs.iter().map(of).collect();
                 (wanted, None, "equal cost is off: lanes have their own substeps again")

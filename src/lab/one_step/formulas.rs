@@ -163,4 +163,99 @@ pub const FORMULAS: &[Formula] = &[
         &[],
     ),
     formula("implicit-spring", &["v′ = (v + h ω² (g − x)) / (1 + ω h)²", "x′ = x + h v′"], &[]),
+    formula(
+        "engine-box2d",
+        &[
+            "n times: p = v / (1 + h C) + h f",
+            "v = (p − h K x) / D, x = x + h v",
+            "v = (p − h K x) / D, D = 1 + h c + h² K",
+        ],
+        &[],
+    ),
+    formula(
+        "engine-rapier",
+        &[
+            "n times: v = (v + h f − h K x) / D",
+            "x = x + h v, D = 1 + h c + h² K",
+            "v′ = v / (1 + H C)",
+        ],
+        &[],
+    ),
+    formula(
+        "engine-avian",
+        &[
+            "n times: v = v / (1 + h C) + h f, x = x + h v",
+            "d = −x h² K / (1 + h² K), x = x + d",
+            "v = (v + d / h) (1 − h c)",
+        ],
+        &[],
+    ),
+    formula(
+        "engine-avian-motor",
+        &[
+            "v = v / (1 + h C) + h f, once + Σ d₋₁",
+            "n times: x = x + h v",
+            "d = −h² (K x + c v) / D, x = x + d, v = v + d / h",
+        ],
+        &[],
+    ),
+    formula(
+        "engine-jolt",
+        &[
+            "n times: v = (v + h f) (1 − h C)",
+            "v = (v − h K x) / D, x = x + h v",
+            "D = 1 + h c + h² K",
+        ],
+        &[],
+    ),
+    formula(
+        "engine-physx",
+        &["v = (v + H f) (1 − H C)", "v′ = (v − H K x) / D, x′ = x + H v′", "D = 1 + H c + H² K"],
+        &[],
+    ),
+    formula(
+        "engine-physx-tgs",
+        &[
+            "v = (v + H f) (1 − H C), d = 0",
+            "n times: v = (v − h K (x + d)) / D − E h c d",
+            "d = d + h v",
+            "x′ = x + d, v′ = v / D, E = 1 / (1 + h² (c + K))",
+        ],
+        &[],
+    ),
+    formula(
+        "engine-bullet",
+        &[
+            "n times: v = v e^(−C h)",
+            "v = v − h (K x + c v) + h f, x = x + h v",
+            "K ≤ 1 / (16 h²), c ≤ 1 / h",
+        ],
+        &[],
+    ),
+    formula(
+        "engine-pybullet",
+        &["d = 1 − e^(−C)", "v′ = v + H (f − d v (1 + |v|))", "x′ = x + H v′"],
+        &[],
+    ),
+    formula(
+        "engine-chipmunk",
+        &["x′ = x + H v", "v′ = ((v − H K x′) e^(−C H) + H f) e^(−c H)"],
+        &[],
+    ),
+    formula(
+        "engine-mujoco",
+        &["n times: v = (v + h (f − K x)) / (1 + h (c + C))", "x = x + h v"],
+        &[],
+    ),
+    formula(
+        "engine-mujoco-rk4",
+        &["f = held for the tick", "n times: rk4 on a = f − K x − (c + C) v"],
+        &[],
+    ),
+    formula(
+        "engine-godot",
+        &["v = v (1 − H C) + H f − H K x", "v′ = v e^(−8 c H), x′ = x + H v′"],
+        &[],
+    ),
+    formula("held-force", &["f = a(t, x, v), once", "n times: v = v + h f, x = x + h v"], &[]),
 ];

@@ -112,10 +112,13 @@ fn read_lanes(text: &str, bodies: &[Described], top: &mut Table<'_>) -> Vec<Lane
     let is_given = is_listed || !rows.is_empty();
     for mut row in rows.into_iter().take(MOST_LANES) {
         let method = row.method(LANE_METHOD);
-        let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS).unwrap_or(1);
+        let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS);
         let tolerance = read_tolerance(&mut row, method);
         let span = row.span(LANE_METHOD.key);
-        lanes.extend(method.map(|method| (span, LaneSpec { method, substeps, tolerance })));
+        lanes.extend(method.map(|method| {
+            let substeps = substeps.unwrap_or(method.default_substeps);
+            (span, LaneSpec { method, substeps, tolerance })
+        }));
         top.adopt(row, &TOP);
     }
 

@@ -29,12 +29,13 @@ pub(super) fn check_method(
     }
 }
 
-/// A plain lane for each method that steps all of these bodies.
+/// A plain lane for each method that steps all of these bodies, without those of engines.
 pub(super) fn every_lane(bodies: &[Described]) -> Vec<LaneSpec> {
     let steps = |method: &Method, body: &Described| {
         let known = body.kind.zip(body.values.as_ref());
         known.is_none_or(|(kind, values)| refusal(method, kind, values).is_none())
     };
-    let fitting = METHODS.iter().filter(|method| bodies.iter().all(|body| steps(method, body)));
+    let own = METHODS.iter().filter(|method| !method.is_engine());
+    let fitting = own.filter(|method| bodies.iter().all(|body| steps(method, body)));
     fitting.map(LaneSpec::plain).collect()
 }

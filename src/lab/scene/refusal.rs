@@ -1,6 +1,7 @@
 //! Methods that do not step every body: which of them a scene refuses, and why.
 
 use super::{Scene, SceneBody};
+use crate::lab::action::Action;
 use crate::sim::bodies::refusal;
 use crate::sim::integrators::{METHODS, Method};
 
@@ -25,8 +26,21 @@ impl Scene {
         })
     }
 
-    /// The methods of the table that step every body of this scene, in its order.
+    /// The methods of the table that step every body of this scene, in its order. Those of engines are among
+    /// them only if the scene names one.
     pub fn fitting_methods(&self) -> impl Iterator<Item = &'static Method> {
-        METHODS.iter().filter(|method| self.refusal(method).is_none())
+        let is_shown = |method: &&Method| !method.is_engine() || self.names_an_engine();
+        METHODS.iter().filter(is_shown).filter(|method| self.refusal(method).is_none())
+    }
+
+    /// Whether a lane or an action of the script is under the method of an engine.
+    fn names_an_engine(&self) -> bool {
+        let mut lanes = self.lanes.iter().map(|lane| lane.method);
+        let mut switches = self.script.iter().filter_map(|event| match &event.action {
+            Action::Method(method) => Some(*method),
+            Action::Lane { spec, .. } => Some(spec.method),
+            _ => None,
+        });
+        lanes.any(Method::is_engine) || switches.any(Method::is_engine)
     }
 }

@@ -209,7 +209,9 @@ fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
     let tolerance = read_tolerance(row, method);
     if [LANE, SUBSTEPS, TOLERANCE].iter().any(|field| row.has(field.key)) {
         let lane = read_lane(context, row)?;
-        let spec = LaneSpec { method: method?, substeps: substeps.unwrap_or(1), tolerance };
+        let method = method?;
+        let substeps = substeps.unwrap_or(method.default_substeps);
+        let spec = LaneSpec { method, substeps, tolerance };
         return Some(Action::Lane { lane, spec });
     }
     method.map(Action::Method)

@@ -82,7 +82,7 @@ impl Scene {
             Action::Lane { lane, spec } => {
                 line("lane", lane.to_string());
                 line("method", quoted(spec.method.id));
-                if spec.substeps != 1 {
+                if spec.substeps != spec.method.default_substeps {
                     line("substeps", spec.substeps.to_string());
                 }
                 spec.tolerance
@@ -127,7 +127,7 @@ impl Check {
 
 fn write_lane(text: &mut String, spec: &LaneSpec) {
     *text += &format!("\n[[lane]]\nmethod = {}\n", quoted(spec.method.id));
-    if spec.substeps != 1 {
+    if spec.substeps != spec.method.default_substeps {
         *text += &format!("substeps = {}\n", spec.substeps);
     }
     if let Some(tolerance) = spec.tolerance {

@@ -16,7 +16,7 @@ use super::oscillator;
 use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{self, Fault, ParameterOf, Range};
-use crate::sim::system::{State, System};
+use crate::sim::system::{EngineSettings, State, System};
 
 /// The largest number of masses: as many as can be told apart on a wide stage. The closed form needs of
 /// the order of its square multiplications per tick.
@@ -169,6 +169,16 @@ impl Chain {
 
 impl System for Chain {
     type Vector = Vec<f64>;
+
+    /// Solved joint by joint in sweeps.
+    fn engine_settings(
+        &self,
+        _t: f64,
+        _state: &State<Vec<f64>>,
+        _force: &mut Vec<f64>,
+    ) -> Option<EngineSettings> {
+        None
+    }
 
     #[inline]
     fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {

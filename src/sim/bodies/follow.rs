@@ -11,7 +11,7 @@ use super::kind::{Coordinate, Kind, Truth};
 use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{self, ParameterOf, Range};
-use crate::sim::system::{Pursuit, State, System};
+use crate::sim::system::{EngineSettings, Pursuit, State, System};
 
 pub(super) const KIND: Kind = Kind {
     id: "follow",
@@ -158,6 +158,16 @@ impl Follow {
 
 impl System for Follow {
     type Vector = f64;
+
+    /// No body.
+    fn engine_settings(
+        &self,
+        _t: f64,
+        _state: &State<f64>,
+        _force: &mut f64,
+    ) -> Option<EngineSettings> {
+        None
+    }
 
     /// The law of first order is differentiated once, and its defect `v - k (g - x)` dies away at the rate k:
     /// `x″ = k g′ - k x′ - k (x′ - k (g - x))`. The homogeneous part is that of the second order.

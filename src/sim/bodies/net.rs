@@ -11,7 +11,7 @@ use glam::DVec2;
 use crate::sim::Points;
 use crate::sim::body::{Body, Input};
 use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::system::{State, System};
+use crate::sim::system::{EngineSettings, State, System};
 use frame::{FIXED, Frame};
 
 mod frame;
@@ -168,6 +168,16 @@ impl Net {
 
 impl System for Net {
     type Vector = Points;
+
+    /// Solved joint by joint in sweeps.
+    fn engine_settings(
+        &self,
+        _t: f64,
+        _state: &State<Points>,
+        _force: &mut Points,
+    ) -> Option<EngineSettings> {
+        None
+    }
 
     #[inline]
     fn acceleration(&self, _t: f64, q: &Points, v: &Points, a: &mut Points) {

@@ -9,7 +9,7 @@ use super::false_claims::FalseClaims;
 use super::own_sheet::OwnSheet;
 use super::survey::ranges;
 use crate::sim::body::{Body, Input};
-use crate::sim::system::{State, System};
+use crate::sim::system::{EngineSettings, State, System};
 
 mod claims;
 mod extras;
@@ -89,6 +89,15 @@ impl System for Own {
 
     fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
         self.motion.acceleration(t, q, v, a);
+    }
+
+    fn engine_settings(
+        &self,
+        t: f64,
+        State { q, v }: &State<Vec<f64>>,
+        force: &mut Vec<f64>,
+    ) -> Option<EngineSettings> {
+        self.motion.engine_settings(t, q, v, force)
     }
 }
 

@@ -6,7 +6,7 @@ use super::kind::{Coordinate, Kind, Truth};
 use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{self, ParameterOf, Range};
-use crate::sim::system::{State, System};
+use crate::sim::system::{EngineSettings, State, System};
 
 pub(super) const KIND: Kind = Kind {
     id: "pendulum",
@@ -94,6 +94,16 @@ impl Pendulum {
 
 impl System for Pendulum {
     type Vector = f64;
+
+    /// A hinge.
+    fn engine_settings(
+        &self,
+        _t: f64,
+        _state: &State<f64>,
+        _force: &mut f64,
+    ) -> Option<EngineSettings> {
+        None
+    }
 
     #[inline]
     fn acceleration(&self, _t: f64, theta: &f64, omega: &f64, a: &mut f64) {

@@ -6,7 +6,7 @@ use super::kind::{Coordinate, Kind, Truth};
 use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{self, ParameterOf, Range};
-use crate::sim::system::{State, System};
+use crate::sim::system::{EngineSettings, State, System};
 
 pub(super) const KIND: Kind = Kind {
     id: "ship",
@@ -77,6 +77,18 @@ impl System for Ship {
         // stages would double the time of a step.
         let (push, rate) = (self.thrust * self.throttle / self.mass, self.drag / self.mass);
         *a = push - rate * v;
+    }
+
+    /// The drag is the damping setting of the body, and the thrust is held.
+    #[inline]
+    fn engine_settings(
+        &self,
+        _t: f64,
+        _state: &State<f64>,
+        force: &mut f64,
+    ) -> Option<EngineSettings> {
+        *force = self.thrust * self.throttle / self.mass;
+        Some(EngineSettings { drag: self.drag / self.mass, ..EngineSettings::NONE })
     }
 }
 

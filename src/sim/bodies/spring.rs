@@ -7,7 +7,7 @@ use super::oscillator;
 use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{self, ParameterOf, Range};
-use crate::sim::system::{State, System};
+use crate::sim::system::{EngineSettings, State, System};
 
 pub(super) const KIND: Kind = Kind {
     id: "spring",
@@ -86,6 +86,19 @@ impl System for Spring {
         // before the next tick.
         let (k, c) = (self.stiffness / self.mass, self.damping / self.mass + 0.0);
         *a = -k * x - c * v;
+    }
+
+    /// A joint.
+    #[inline]
+    fn engine_settings(
+        &self,
+        _t: f64,
+        _state: &State<f64>,
+        force: &mut f64,
+    ) -> Option<EngineSettings> {
+        *force = 0.0;
+        let (stiffness, damping) = (self.stiffness / self.mass, self.damping / self.mass);
+        Some(EngineSettings { stiffness, damping, drag: 0.0 })
     }
 }
 

@@ -23,9 +23,22 @@ pub enum Family {
     AsPrinted,
     /// Moves a body towards its target by a rule of its own, without the acceleration.
     Follower,
+    /// Does what a tick of a physics engine does.
+    Engine,
 }
 
 impl Family {
+    /// Every family, in the order of the table.
+    pub const ALL: [Family; 7] = [
+        Family::Explicit,
+        Family::Symplectic,
+        Family::Adaptive,
+        Family::Implicit,
+        Family::AsPrinted,
+        Family::Follower,
+        Family::Engine,
+    ];
+
     /// Its id: one lower-case word.
     pub fn id(self) -> &'static str {
         match self {
@@ -35,6 +48,7 @@ impl Family {
             Family::Implicit => "implicit",
             Family::AsPrinted => "as-printed",
             Family::Follower => "follower",
+            Family::Engine => "engine",
         }
     }
 
@@ -47,6 +61,7 @@ impl Family {
             Family::Implicit => IMPLICIT,
             Family::AsPrinted => AS_PRINTED,
             Family::Follower => FIRST_ORDER_FOLLOWER,
+            Family::Engine => ENGINE,
         }
     }
 }
@@ -67,6 +82,18 @@ impl fmt::Display for Only {
         f.write_str(&self.kinds.join(", "))?;
         self.with.map_or(Ok(()), |(key, value)| write!(f, " with {key} = {value}"))
     }
+}
+
+/// What the card of a physics engine says beside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Engine {
+    /// The tick rate that it runs at unless it is told another, in hertz; 60 where the caller gives the tick.
+    pub tick_hz: u32,
+    /// The damping ratio that a spring of 1 Hz without damping has at that rate and the card's substeps; negative if
+    /// it gains energy. `None` if the engine has no spring.
+    pub damping_ratio: Option<f64>,
+    /// Whether it substeps a tick by itself. If not, substeps are whole ticks that the caller makes.
+    pub has_substeps: bool,
 }
 
 /// The card of a method: its claims. `tests/conformance` measures every field.
@@ -107,7 +134,11 @@ pub struct Method {
     pub keeps_time: bool,
     /// The bodies that it is for; `None` if it steps every body.
     pub only: Option<Only>,
-    /// Where the method comes from.
+    /// The substeps of a lane that does not say how many.
+    pub default_substeps: u32,
+    /// What is known of the engine whose tick this is; `None` for any other method.
+    pub engine: Option<Engine>,
+    /// Where the method comes from; of an engine its version, and the files that the formula was read from.
     pub source: &'static str,
     /// How a method of one's own is built, which is not in [`METHODS`](super::METHODS): [`own_integrator`](super::own_integrator) of its
     /// type. `None` for those of the table.
@@ -118,6 +149,11 @@ impl Method {
     /// Whether this is a listing of the chapter with its faults.
     pub fn is_as_printed(&self) -> bool {
         self.family == Family::AsPrinted
+    }
+
+    /// Whether it does what a physics engine does. Such a method is used only where it is asked for.
+    pub fn is_engine(&self) -> bool {
+        self.family == Family::Engine
     }
 }
 
@@ -143,6 +179,8 @@ const PLAIN: Method = Method {
     restart: None,
     keeps_time: true,
     only: None,
+    default_substeps: 1,
+    engine: None,
     source: "",
     own: None,
 };
@@ -196,4 +234,19 @@ pub(super) const SECOND_ORDER_FOLLOWER: Method = Method {
         reason: "it moves towards a target with a velocity of its own, so that it steps only a `follow` of order 2",
     }),
     ..FIRST_ORDER_FOLLOWER
+};
+
+/// A tick of an engine, which reads the force once.
+pub(super) const ENGINE: Method = Method {
+    family: Family::Engine,
+    order: 1,
+    order_with_drag: 1,
+    evaluations: Some(1),
+    only: Some(Only {
+        kinds: &["spring", "ship", "helm", "orbit", "law", "own"],
+        with: None,
+        reason: "in an engine a pendulum is a hinge, a chain or a net is solved joint by joint in sweeps, and a \
+                 follower is no body",
+    }),
+    ..PLAIN
 };

@@ -5,6 +5,10 @@
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
 //! of each card, both ways. A method of [one's own](Method::own) needs no place in the table. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
 
+use engine::{
+    avian, avian_motor, box2d, bullet, chipmunk, godot, held_force, jolt, mujoco, mujoco_rk4,
+    physx, physx_tgs, pybullet, rapier,
+};
 use own::Own;
 use reset_on_change::ResetOnChange;
 
@@ -18,6 +22,7 @@ mod bogacki_shampine_32;
 mod card;
 mod critically_damped_spring;
 mod dormand_prince_54;
+mod engine;
 mod explicit_euler;
 mod exponential_decay;
 mod failure;
@@ -52,9 +57,24 @@ pub use adaptive_euler::AdaptiveEuler;
 pub use adaptive_euler_as_printed::AdaptiveEulerAsPrinted;
 pub use bdf2::Bdf2;
 pub use bogacki_shampine_32::BogackiShampine32;
-pub use card::{Family, Method, Only};
+pub use card::{Engine, Family, Method, Only};
 pub use critically_damped_spring::CriticallyDampedSpring;
 pub use dormand_prince_54::DormandPrince54;
+pub use engine::EngineMethod;
+pub use engine::avian::Avian;
+pub use engine::avian_motor::AvianMotor;
+pub use engine::box2d::Box2d;
+pub use engine::bullet::Bullet;
+pub use engine::chipmunk::Chipmunk;
+pub use engine::godot::Godot;
+pub use engine::held_force::HeldForce;
+pub use engine::jolt::Jolt;
+pub use engine::mujoco::Mujoco;
+pub use engine::mujoco_rk4::MujocoRk4;
+pub use engine::physx::Physx;
+pub use engine::physx_tgs::PhysxTgs;
+pub use engine::pybullet::Pybullet;
+pub use engine::rapier::Rapier;
 pub use explicit_euler::ExplicitEuler;
 pub use exponential_decay::ExponentialDecay;
 pub use failure::StepFailure;
@@ -146,6 +166,20 @@ methods! {
     smooth_damp::SmoothDamp,
     critically_damped_spring::CriticallyDampedSpring,
     implicit_spring::ImplicitSpring,
+    box2d::Box2d,
+    rapier::Rapier,
+    avian::Avian,
+    avian_motor::AvianMotor,
+    jolt::Jolt,
+    physx::Physx,
+    physx_tgs::PhysxTgs,
+    bullet::Bullet,
+    pybullet::Pybullet,
+    chipmunk::Chipmunk,
+    mujoco::Mujoco,
+    mujoco_rk4::MujocoRk4,
+    godot::Godot,
+    held_force::HeldForce,
 }
 
 /// The number of leading [`METHODS`] that step every body.

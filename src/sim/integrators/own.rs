@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
-use crate::sim::system::{Pursuit, State, System, Vector};
+use crate::sim::system::{EngineSettings, Pursuit, State, System, Vector};
 
 /// A system of any type with its coordinates in a `Vec`: what a method of one's own steps.
 #[derive(Clone, Copy)]
@@ -20,6 +20,15 @@ impl System for AnySystem<'_> {
 
     fn pursuit(&self, t: f64) -> Option<Pursuit<Vec<f64>>> {
         self.0.pursuit(t)
+    }
+
+    fn engine_settings(
+        &self,
+        t: f64,
+        state: &State<Vec<f64>>,
+        force: &mut Vec<f64>,
+    ) -> Option<EngineSettings> {
+        self.0.engine_settings(t, state, force)
     }
 
     fn skipped(&self, h: f64) {
@@ -125,7 +134,7 @@ pub fn own_integrator<I: OwnIntegrator + for<'a> Integrator<AnySystem<'a>> + 'st
 pub(super) struct Own<V> {
     integrator: Box<dyn OwnIntegrator>,
     state: State<Vec<f64>>,
-    scratch: RefCell<[V; 3]>,
+    scratch: RefCell<(State<V>, V)>,
 }
 
 impl<V: Vector> Own<V> {
@@ -135,7 +144,7 @@ impl<V: Vector> Own<V> {
         Self {
             integrator: build(zero.len()),
             state: State { q: zero.clone(), v: zero },
-            scratch: RefCell::new([(); 3].map(|()| like.clone())),
+            scratch: RefCell::new((State { q: like.clone(), v: like.clone() }, like.clone())),
         }
     }
 }
@@ -190,23 +199,37 @@ impl<S: System> Integrator<S> for Own<S::Vector> {
 /// A system with its coordinates in a `Vec`.
 struct Spread<'a, S: System> {
     system: &'a S,
-    scratch: &'a RefCell<[S::Vector; 3]>,
+    scratch: &'a RefCell<(State<S::Vector>, S::Vector)>,
 }
 
 impl<S: System> System for Spread<'_, S> {
     type Vector = Vec<f64>;
 
     fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        let [own_q, own_v, own_a] = &mut *self.scratch.borrow_mut();
-        own_q.components_mut().copy_from_slice(q);
-        own_v.components_mut().copy_from_slice(v);
-        self.system.acceleration(t, own_q, own_v, own_a);
+        let (own, own_a) = &mut *self.scratch.borrow_mut();
+        own.q.components_mut().copy_from_slice(q);
+        own.v.components_mut().copy_from_slice(v);
+        self.system.acceleration(t, &own.q, &own.v, own_a);
         a.copy_from_slice(own_a.components());
     }
 
     fn pursuit(&self, t: f64) -> Option<Pursuit<Vec<f64>>> {
         let Pursuit { target, rate, order, is_still } = self.system.pursuit(t)?;
         Some(Pursuit { target: target.components().to_vec(), rate, order, is_still })
+    }
+
+    fn engine_settings(
+        &self,
+        t: f64,
+        state: &State<Vec<f64>>,
+        force: &mut Vec<f64>,
+    ) -> Option<EngineSettings> {
+        let (own, own_force) = &mut *self.scratch.borrow_mut();
+        own.q.components_mut().copy_from_slice(&state.q);
+        own.v.components_mut().copy_from_slice(&state.v);
+        let settings = self.system.engine_settings(t, own, own_force)?;
+        force.copy_from_slice(own_force.components());
+        Some(settings)
     }
 
     fn skipped(&self, h: f64) {

@@ -6,11 +6,19 @@ use std::fmt;
 
 use super::extras::{Energy, Exact, Extras};
 use crate::sim::parameter::ParameterOf;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::system::{EngineSettings, State, System, Vector};
 
 /// The motion of a body of one's own.
 pub(super) trait Motion: Send {
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
+    /// As [`System::engine_settings`].
+    fn engine_settings(
+        &self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        f: &mut [f64],
+    ) -> Option<EngineSettings>;
     /// The energy of a state, or of the same place at rest; `None` if nobody has said what it is.
     fn energy(&self, q: &[f64], v: Option<&[f64]>) -> Option<f64>;
     /// Overwrites `to` with the exact state at time `t` (s). Returns whether anybody has said what it is.
@@ -71,6 +79,25 @@ impl<S: System + Clone + Send + 'static> Motion for Typed<S> {
         for (a, own) in a.iter_mut().zip(own.components()) {
             *a = self.force * own;
         }
+    }
+
+    fn engine_settings(
+        &self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        f: &mut [f64],
+    ) -> Option<EngineSettings> {
+        let Scratch { state, a: own } = &mut *self.scratch.borrow_mut();
+        state.q.components_mut().copy_from_slice(q);
+        state.v.components_mut().copy_from_slice(v);
+        let set = self.system.engine_settings(t, state, own)?;
+        for (f, own) in f.iter_mut().zip(own.components()) {
+            *f = self.force * own;
+        }
+        let [stiffness, damping, drag] =
+            [set.stiffness, set.damping, set.drag].map(|setting| self.force * setting);
+        Some(EngineSettings { stiffness, damping, drag })
     }
 
     fn energy(&self, q: &[f64], v: Option<&[f64]>) -> Option<f64> {

@@ -135,7 +135,10 @@ impl<'a> Row<'a> {
         let ticks = self.lab.race().tick();
         match self.evaluations().filter(|_| ticks > 0) {
             Some(count) => Some(count as f64 / ticks as f64),
-            None => Some(f64::from(self.spec.method.evaluations? * self.spec.substeps)),
+            None => {
+                let steps = if self.spec.method.is_engine() { 1 } else { self.spec.substeps };
+                Some(f64::from(self.spec.method.evaluations? * steps))
+            }
         }
     }
 }

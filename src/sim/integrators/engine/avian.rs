@@ -1,0 +1,69 @@
+//! Avian's distance joint: XPBD, with a damping that is explicit.
+
+use super::{EngineMethod, Rule, Tick, each};
+use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::system::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-avian",
+    name: "Avian",
+    about: "implicit Euler of its substep on a spring without damping; the joint's damping is explicit; ticks of whole \
+            nanoseconds",
+    default_substeps: 6,
+    engine: Some(Engine { tick_hz: 64, damping_ratio: Some(0.00818), has_substeps: true }),
+    source: "Avian 0.7.0: integrator/mod.rs, xpbd/plugin.rs, solver/plugin.rs joint_damping",
+    ..ENGINE
+};
+
+/// `n` times: `v = v/(1 + h C) + h f`, `x += h v`, `[δ = -x h² K/(1 + h² K), x += δ, v += δ/h,
+/// v *= 1 - min(1, h c)]`, where `H` and `h` are whole nanoseconds.
+pub type Avian<V> = EngineMethod<V, AvianRule>;
+
+/// The rule of [`Avian`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AvianRule;
+
+/// The substep of a tick of `length` (s), in seconds: both rounded to whole nanoseconds, halves down.
+#[inline]
+pub(super) fn substep(length: f64, substeps: u32) -> f64 {
+    let whole = |ns: f64| (ns - 0.5).ceil();
+    whole(whole(length * 1e9) / f64::from(substeps)) / 1e9
+}
+
+impl Rule for AvianRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
+        let (drag, stiff) = (1.0 + h * set.drag, h * h * set.stiffness);
+        let kept = 1.0 - (h * set.damping).min(1.0);
+        let has_spring = set.has_spring();
+        for _ in 0..tick.substeps {
+            each(tick.force, q, v, |x, v, f| {
+                *v = *v / drag + h * f;
+                *x += h * *v;
+                if has_spring {
+                    let correction = -*x * stiff / (1.0 + stiff);
+                    *x += correction;
+                    *v += correction / h;
+                    *v *= kept;
+                }
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::substep;
+
+    #[test]
+    fn ticks_and_substeps_are_whole_nanoseconds_and_halves_go_down() {
+        assert_eq!(substep(1.0 / 60.0, 1), 16_666_667e-9);
+        assert_eq!(substep(1.0 / 60.0, 6), 2_777_778e-9);
+        assert_eq!(substep(1.0 / 64.0, 6), 2_604_167e-9);
+        // Half a nanosecond over 7.
+        assert_eq!(substep(15e-9, 2), 7e-9);
+    }
+}

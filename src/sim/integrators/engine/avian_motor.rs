@@ -1,0 +1,53 @@
+//! Avian's motor as a spring: implicit, with the corrections of a tick added to the velocity of the next.
+
+use super::avian::substep;
+use super::{EngineMethod, Rule, Tick, each_with};
+use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::system::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-avian-motor",
+    name: "Avian, motor",
+    about: "Avian's spring-damper motor: its damping is implicit, but a tick's corrections in metres are added to the next \
+            tick's velocity",
+    restart: Some("without corrections of the tick before"),
+    default_substeps: 6,
+    engine: Some(Engine { tick_hz: 64, damping_ratio: Some(0.00813), has_substeps: true }),
+    source: "Avian 0.7.0: integrator/mod.rs, xpbd/plugin.rs, xpbd/joints/prismatic.rs",
+    ..ENGINE
+};
+
+/// `n` times: `v = v/(1 + h C) + h f`, `v += S` in the first, `x += h v`, `[δ = -h² (K x + c v)/D, x += δ,
+/// v += δ/h]`, where `S` is the sum of the `δ` of the tick before, and `H` and `h` are whole nanoseconds.
+pub type AvianMotor<V> = EngineMethod<V, AvianMotorRule>;
+
+/// The rule of [`AvianMotor`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct AvianMotorRule;
+
+impl Rule for AvianMotorRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
+        let (drag, resistance) = (1.0 + h * set.drag, set.resistance(h));
+        let has_spring = set.has_spring();
+        each_with(tick.force, spare, q, v, |sum, x, v, f| {
+            let before = std::mem::take(sum);
+            for i in 0..tick.substeps {
+                *v = *v / drag + h * f;
+                if i == 0 {
+                    *v += before;
+                }
+                *x += h * *v;
+                if has_spring {
+                    let correction = -h * h * (set.stiffness * *x + set.damping * *v) / resistance;
+                    *x += correction;
+                    *v += correction / h;
+                    *sum += correction;
+                }
+            }
+        });
+    }
+}

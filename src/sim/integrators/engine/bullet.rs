@@ -1,0 +1,57 @@
+//! Bullet: an explicit spring whose stiffness and damping are limited for the step.
+
+use super::{EngineMethod, Rule, Tick, each};
+use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::system::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-bullet",
+    name: "Bullet",
+    about: "semi-implicit Euler on a spring, which is softened to h ω = 1/4; a force that pulls with the spring counts only \
+            where it is the larger",
+    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.0), has_substeps: true }),
+    source: "Bullet 3 main 6c888f4: btRigidBody.cpp applyDamping, btGeneric6DofSpring2Constraint.cpp get_limit_motor_info2",
+    ..ENGINE
+};
+
+/// `n` times: `v *= e^(-C h)`, `[K' = K, but 1/(16 h²) where ω h > ¼; c' = min(c, 1/h); g = -h (K' x + c' v),
+/// b = -h c' v; J = g if f = 0, else g - h f between the least and the largest of 0, g and b; v += J]`, `v += h f`,
+/// `x += h v`.
+pub type Bullet<V> = EngineMethod<V, BulletRule>;
+
+/// The rule of [`Bullet`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct BulletRule;
+
+impl Rule for BulletRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, set) = (tick.substep(), tick.settings);
+        let softest = 1.0 / (16.0 * h * h);
+        let stiffness = set.stiffness.min(softest);
+        let damping = set.damping.min(1.0 / h);
+        let kept = libm::exp(-set.drag * h);
+        let has_spring = set.has_spring();
+        for _ in 0..tick.substeps {
+            each(tick.force, q, v, |x, v, f| {
+                *v *= kept;
+                if has_spring {
+                    let pull = -h * (stiffness * *x + damping * *v);
+                    let brake = -h * damping * *v;
+                    *v += match f {
+                        0.0 => pull,
+                        f => {
+                            let (least, most) =
+                                (pull.min(brake).min(0.0), pull.max(brake).max(0.0));
+                            (pull - h * f).max(least).min(most)
+                        }
+                    };
+                }
+                *v += h * f;
+                *x += h * *v;
+            });
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Chipmunk: the drift before the kick.
+
+use super::{EngineMethod, Rule, Tick, each};
+use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::system::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-chipmunk",
+    name: "Chipmunk",
+    about: "semi-implicit Euler on a spring, the drift first; a force of one's own is explicit Euler",
+    stability_limit: Some(2.0),
+    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.0), has_substeps: false }),
+    source: "Chipmunk 2.0.1 in pymunk 7.3.1: cpBodyUpdatePosition, cpBodyUpdateVelocity, cpDampedSpring.c",
+    ..ENGINE
+};
+
+/// `x += H v`, `[v -= H K x]`, `v = v e^(-C H) + H f`, `[v *= e^(-c H)]`.
+pub type Chipmunk<V> = EngineMethod<V, ChipmunkRule>;
+
+/// The rule of [`Chipmunk`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ChipmunkRule;
+
+impl Rule for ChipmunkRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, set) = (tick.length, tick.settings);
+        let (kept, damped) = (libm::exp(-set.drag * h), libm::exp(-set.damping * h));
+        each(tick.force, q, v, |x, v, f| {
+            *x += h * *v;
+            *v -= h * set.stiffness * *x;
+            *v = *v * kept + h * f;
+            *v *= damped;
+        });
+    }
+}

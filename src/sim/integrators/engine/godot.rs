@@ -1,0 +1,45 @@
+//! Godot's own 2D physics.
+
+use super::{EngineMethod, Rule, Tick, each};
+use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::system::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-godot",
+    name: "Godot",
+    about: "semi-implicit Euler on a spring, whose damping acts eight times; explicit drag, 0.1 unless it is set; read from \
+            the source, and not held against a log",
+    order_with_drag: 0,
+    stability_limit: Some(2.0),
+    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.0), has_substeps: false }),
+    source: "Godot 4.x: godot_body_2d.cpp, godot_joints_2d.cpp GodotDampedSpringJoint2D",
+    ..ENGINE
+};
+
+/// How often the damping of a spring acts in a tick: in every second of 16 iterations.
+const DAMPINGS: u32 = 8;
+
+/// `v = v max(0, 1 - H C) + H f`, `[v -= H K x, 8 times v *= e^(-c H)]`, `x += H v`.
+pub type Godot<V> = EngineMethod<V, GodotRule>;
+
+/// The rule of [`Godot`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct GodotRule;
+
+impl Rule for GodotRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, set) = (tick.length, tick.settings);
+        let (kept, damped) = ((1.0 - h * set.drag).max(0.0), libm::exp(-set.damping * h));
+        each(tick.force, q, v, |x, v, f| {
+            *v = *v * kept + h * f;
+            *v -= h * set.stiffness * *x;
+            for _ in 0..DAMPINGS {
+                *v *= damped;
+            }
+            *x += h * *v;
+        });
+    }
+}

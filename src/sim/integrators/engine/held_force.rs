@@ -1,0 +1,54 @@
+//! A force of one's own, applied once a tick over an engine's substeps.
+
+use super::{EngineMethod, Rule, Tick};
+use crate::sim::integrators::StepFailure;
+use crate::sim::integrators::card::{ENGINE, Engine, Method, Only};
+use crate::sim::system::{EngineSettings, State, System, Vector};
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "held-force",
+    name: "Held force",
+    about: "one's own force, applied once a tick over an engine's substeps: a spring gains energy, the faster the more \
+            substeps",
+    only: Some(Only {
+        kinds: &["spring", "ship", "helm", "orbit", "pendulum", "chain", "law", "own", "net"],
+        with: None,
+        reason: "a follower has no force",
+    }),
+    stability_limit: Some(0.0),
+    default_substeps: 4,
+    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(-0.01961), has_substeps: true }),
+    source: "what Box2D, Rapier and Avian do with a force that is applied before the step; Jolt, Bullet and MuJoCo too where \
+             they substep",
+    ..ENGINE
+};
+
+/// `f = a(t, x, v)` once, then `n` times: `v += h f`, `x += h v`.
+pub type HeldForce<V> = EngineMethod<V, HeldForceRule>;
+
+/// The rule of [`HeldForce`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct HeldForceRule;
+
+impl Rule for HeldForceRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let h = tick.substep();
+        for _ in 0..tick.substeps {
+            V::kick_and_drift(h, tick.force, v, h, q);
+        }
+    }
+
+    fn read<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        state: &State<S::Vector>,
+        force: &mut S::Vector,
+    ) -> Result<EngineSettings, StepFailure> {
+        system.acceleration(t, &state.q, &state.v, force);
+        Ok(EngineSettings::NONE)
+    }
+}

@@ -1,0 +1,47 @@
+//! Jolt: one implicit solve a substep, with drag and speed limit before it.
+
+use super::{EngineMethod, Rule, Tick, cap, each};
+use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::system::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-jolt",
+    name: "Jolt",
+    about: "implicit Euler on a spring; explicit drag; a body has a drag of 0.05 unless it is set to another",
+    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.05219), has_substeps: true }),
+    source: "Jolt 5.5.1 main 3b47ec3: MotionProperties.inl ApplyForceTorqueAndDragInternal, SpringPart.h",
+    ..ENGINE
+};
+
+/// Its speed limit, in metres per second.
+const FASTEST: f64 = 500.0;
+
+/// `n` times: `v = (v + h f) max(0, 1 - h C)`, `|v| ≤ 500`, `[v = (v - h K x)/D]`, `x += h v`.
+pub type Jolt<V> = EngineMethod<V, JoltRule>;
+
+/// The rule of [`Jolt`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct JoltRule;
+
+impl Rule for JoltRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, set) = (tick.substep(), tick.settings);
+        let (pull, resistance) = (h * set.stiffness, set.resistance(h));
+        let kept = (1.0 - h * set.drag).max(0.0);
+        let has_spring = set.has_spring();
+        for _ in 0..tick.substeps {
+            v.add_scaled(h, tick.force);
+            v.components_mut().iter_mut().for_each(|v| *v *= kept);
+            cap(v, FASTEST);
+            each(tick.force, q, v, |x, v, _| {
+                if has_spring {
+                    *v = (*v - pull * *x) / resistance;
+                }
+                *x += h * *v;
+            });
+        }
+    }
+}

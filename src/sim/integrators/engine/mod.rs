@@ -1,0 +1,170 @@
+//! What a tick of a physics engine does to one body.
+//!
+//! Each file has the formula of one engine, read from its source and held against logs of the engine
+//! itself (`tests/engines`). They share this: an engine is told the spring's stiffness and damping as
+//! settings of a joint and the drag as a setting of the body, and any other force once a tick, which it
+//! holds for all its substeps; see [`System::engine_settings`].
+//!
+//! Letters, as in the formulas: `H` a tick, `n` its substeps, `h = H/n`; `K` the stiffness, `c` the damping and
+//! `C` the drag, each per unit of mass; `f` the held force per unit of mass; `D = 1 + h c + h² K`. A part of a
+//! formula in brackets stands there only where there is a spring.
+
+use super::card::Method;
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{EngineSettings, State, System, Vector};
+
+pub(super) mod avian;
+pub(super) mod avian_motor;
+pub(super) mod box2d;
+pub(super) mod bullet;
+pub(super) mod chipmunk;
+pub(super) mod godot;
+pub(super) mod held_force;
+pub(super) mod jolt;
+pub(super) mod mujoco;
+pub(super) mod mujoco_rk4;
+pub(super) mod physx;
+pub(super) mod physx_tgs;
+pub(super) mod pybullet;
+pub(super) mod rapier;
+
+/// A tick of an engine: what it is told, and how it is divided.
+#[derive(Clone, Copy, Debug)]
+pub struct Tick<'a, V> {
+    /// H, in seconds.
+    length: f64,
+    /// n.
+    substeps: u32,
+    /// K, c and C.
+    settings: EngineSettings,
+    /// f, held through the tick.
+    force: &'a V,
+}
+
+impl<V> Tick<'_, V> {
+    /// h, in seconds.
+    fn substep(&self) -> f64 {
+        self.length / f64::from(self.substeps)
+    }
+}
+
+/// What a tick of an engine does.
+pub trait Rule: Clone + Default + Send + 'static {
+    /// The engine's card.
+    const CARD: &'static Method;
+
+    /// Advances the coordinates `q` and the velocities `v` by a tick. `spare` keeps its value from tick to tick,
+    /// and is 0 at the start.
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, spare: &mut V, q: &mut V, v: &mut V);
+
+    /// Overwrites `force` with what is to be held for a tick, and returns the settings that do the rest.
+    ///
+    /// # Errors
+    /// If the engine cannot express the system.
+    fn read<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        state: &State<S::Vector>,
+        force: &mut S::Vector,
+    ) -> Result<EngineSettings, StepFailure> {
+        let settings = system.engine_settings(t, state, force);
+        let only = Self::CARD.only.expect("an engine's card says which bodies it steps");
+        settings.ok_or(StepFailure::Refused { reason: only.reason })
+    }
+}
+
+/// An engine as a method: it reads the force at the start of a tick, and applies its rule.
+#[derive(Clone)]
+pub struct EngineMethod<V, R> {
+    rule: R,
+    force: V,
+    spare: V,
+}
+
+impl<S: System, R: Rule> Integrator<S> for EngineMethod<S::Vector, R> {
+    fn new(like: &S::Vector) -> Self {
+        let zero = || {
+            let mut zero = like.clone();
+            zero.components_mut().fill(0.0);
+            zero
+        };
+        Self { rule: R::default(), force: zero(), spare: zero() }
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        state: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { rule, force, spare } = self;
+        let settings = rule.read(system, t, state, force)?;
+        let State { q, v } = state;
+        rule.tick(Tick { length: h, substeps: 1, settings, force }, spare, q, v);
+        Ok(())
+    }
+
+    #[inline]
+    fn steps(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        n: u32,
+        state: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        if R::CARD.engine.is_some_and(|engine| !engine.has_substeps) {
+            let part = h / f64::from(n);
+            return (0..n)
+                .try_for_each(|i| self.step(system, t + part * f64::from(i), part, state));
+        }
+        let Self { rule, force, spare } = self;
+        let settings = rule.read(system, t, state, force)?;
+        let State { q, v } = state;
+        rule.tick(Tick { length: h, substeps: n, settings, force }, spare, q, v);
+        Ok(())
+    }
+
+    fn reset(&mut self) {
+        self.spare.components_mut().fill(0.0);
+    }
+}
+
+/// Calls `change` with each component's coordinate, velocity and force.
+#[inline]
+fn each<V: Vector>(force: &V, q: &mut V, v: &mut V, change: impl Fn(&mut f64, &mut f64, f64)) {
+    let moved = q.components_mut().iter_mut().zip(v.components_mut());
+    for ((x, v), f) in moved.zip(force.components()) {
+        change(x, v, *f);
+    }
+}
+
+/// As [`each`], with the spare component too.
+#[inline]
+fn each_with<V: Vector>(
+    force: &V,
+    spare: &mut V,
+    q: &mut V,
+    v: &mut V,
+    change: impl Fn(&mut f64, &mut f64, &mut f64, f64),
+) {
+    let moved = q.components_mut().iter_mut().zip(v.components_mut());
+    let known = spare.components_mut().iter_mut().zip(force.components());
+    for ((x, v), (spare, f)) in moved.zip(known) {
+        change(spare, x, v, *f);
+    }
+}
+
+/// Shortens a velocity longer than `most`, in metres per second.
+#[inline]
+fn cap<V: Vector>(v: &mut V, most: f64) {
+    let square: f64 = v.components().iter().map(|v| v * v).sum();
+    if square > most * most {
+        let part = most / square.sqrt();
+        v.components_mut().iter_mut().for_each(|v| *v *= part);
+    }
+}

@@ -1,0 +1,45 @@
+//! MuJoCo with its Runge-Kutta integrator, which holds what user code applies.
+
+use super::{EngineMethod, Rule, Tick, each};
+use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::system::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-mujoco-rk4",
+    name: "MuJoCo, RK4",
+    about: "the classical fourth order on springs and damping of its own; a force of one's own is held through its stages",
+    order: 4,
+    order_with_drag: 4,
+    stability_limit: Some(2.0 * std::f64::consts::SQRT_2),
+    engine: Some(Engine { tick_hz: 500, damping_ratio: Some(0.0), has_substeps: true }),
+    source: "MuJoCo 4.0.0: engine_forward.c mj_RungeKutta",
+    ..ENGINE
+};
+
+/// The classical Runge-Kutta method on `a = f - K x - (c + C) v`, with `f` held.
+pub type MujocoRk4<V> = EngineMethod<V, MujocoRk4Rule>;
+
+/// The rule of [`MujocoRk4`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MujocoRk4Rule;
+
+impl Rule for MujocoRk4Rule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, set) = (tick.substep(), tick.settings);
+        let damping = set.damping + set.drag;
+        for _ in 0..tick.substeps {
+            each(tick.force, q, v, |x, v, f| {
+                let a = |x: f64, v: f64| f - set.stiffness * x - damping * v;
+                let (v1, a1) = (*v, a(*x, *v));
+                let (v2, a2) = (*v + h / 2.0 * a1, a(*x + h / 2.0 * v1, *v + h / 2.0 * a1));
+                let (v3, a3) = (*v + h / 2.0 * a2, a(*x + h / 2.0 * v2, *v + h / 2.0 * a2));
+                let (v4, a4) = (*v + h * a3, a(*x + h * v3, *v + h * a3));
+                *x += h / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
+                *v += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+            });
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! PhysX with its default solver, projected Gauss-Seidel.
+
+use super::{EngineMethod, Rule, Tick, each};
+use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::system::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-physx",
+    name: "PhysX, PGS",
+    about: "implicit Euler of the whole tick on a spring: its position iterations do not change a single joint; explicit drag",
+    default_substeps: 4,
+    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.05219), has_substeps: true }),
+    source: "PhysX 5.1.3: the projected Gauss-Seidel solver, D6 drive and distance joint",
+    ..ENGINE
+};
+
+/// `v = (v + H f) max(0, 1 - H C)`, `[v = (v - H K x)/D]` with `D` of `H`, `x += H v`.
+pub type Physx<V> = EngineMethod<V, PhysxRule>;
+
+/// The rule of [`Physx`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PhysxRule;
+
+impl Rule for PhysxRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, set) = (tick.length, tick.settings);
+        let (pull, resistance) = (h * set.stiffness, set.resistance(h));
+        let kept = (1.0 - h * set.drag).max(0.0);
+        let has_spring = set.has_spring();
+        each(tick.force, q, v, |x, v, f| {
+            *v = (*v + h * f) * kept;
+            if has_spring {
+                *v = (*v - pull * *x) / resistance;
+            }
+            *x += h * *v;
+        });
+    }
+}

@@ -1,0 +1,57 @@
+//! PhysX with its temporal Gauss-Seidel solver.
+
+use super::{EngineMethod, Rule, Tick, each};
+use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::system::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-physx-tgs",
+    name: "PhysX, TGS",
+    about: "implicit Euler of a position iteration on a spring, and one iteration more that only slows it; explicit drag",
+    order_with_drag: 0,
+    default_substeps: 4,
+    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.01636), has_substeps: true }),
+    source: "PhysX 5.1.3: DyTGSContactPrep.cpp, DyCpuGpu1dConstraint.h",
+    ..ENGINE
+};
+
+/// Its velocity iterations, q.
+const VELOCITY_ITERATIONS: u32 = 1;
+
+/// `v = (v + H f) max(0, 1 - H C)`, `δ = 0`; `n` times: `v = (v - h K (x + δ))/D - E h c δ` with
+/// `E = 1/(1 + h² (c + K))`, `δ += h v`. Then `x += δ`, `v /= D^q`, q = 1. Here `n` counts position iterations.
+pub type PhysxTgs<V> = EngineMethod<V, PhysxTgsRule>;
+
+/// The rule of [`PhysxTgs`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PhysxTgsRule;
+
+impl Rule for PhysxTgsRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, set) = (tick.substep(), tick.settings);
+        let (pull, resistance) = (h * set.stiffness, set.resistance(h));
+        let bias = h * set.damping / (1.0 + h * h * (set.damping + set.stiffness));
+        let kept = (1.0 - tick.length * set.drag).max(0.0);
+        if !set.has_spring() {
+            return each(tick.force, q, v, |x, v, f| {
+                *v = (*v + tick.length * f) * kept;
+                *x += tick.length * *v;
+            });
+        }
+        each(tick.force, q, v, |x, v, f| {
+            *v = (*v + tick.length * f) * kept;
+            let mut moved = 0.0;
+            for _ in 0..tick.substeps {
+                *v = (*v - pull * (*x + moved)) / resistance - bias * moved;
+                moved += h * *v;
+            }
+            *x += moved;
+            for _ in 0..VELOCITY_ITERATIONS {
+                *v /= resistance;
+            }
+        });
+    }
+}

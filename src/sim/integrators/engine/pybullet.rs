@@ -1,0 +1,56 @@
+//! The multibody that pybullet loads a model as, unless it is told otherwise.
+
+use super::{EngineMethod, Rule, Tick, each};
+use crate::sim::integrators::StepFailure;
+use crate::sim::integrators::card::{ENGINE, Engine, Method, Only};
+use crate::sim::system::{EngineSettings, State, System, Vector};
+
+const ONLY: Only = Only {
+    kinds: &["ship", "helm", "orbit", "law", "own"],
+    with: None,
+    reason: "pybullet's multibody has no joint with a spring",
+};
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-pybullet",
+    name: "pybullet, multibody",
+    about: "explicit drag that also grows with the square of the speed, so that a driven body stops gaining early",
+    only: Some(ONLY),
+    engine: Some(Engine { tick_hz: 240, damping_ratio: None, has_substeps: false }),
+    source: "pybullet 3.2.7: btMultiBody.cpp, its default linear damping",
+    ..ENGINE
+};
+
+/// `v += H (f - d v (1 + |v|))` with `d = 1 - e^(-C·1 s)` per second, `x += H v`.
+pub type Pybullet<V> = EngineMethod<V, PybulletRule>;
+
+/// The rule of [`Pybullet`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PybulletRule;
+
+impl Rule for PybulletRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, d) = (tick.length, -libm::expm1(-tick.settings.drag));
+        let square: f64 = v.components().iter().map(|v| v * v).sum();
+        let drag = d * (1.0 + square.sqrt());
+        each(tick.force, q, v, |x, v, f| {
+            *v += h * (f - drag * *v);
+            *x += h * *v;
+        });
+    }
+
+    fn read<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        state: &State<S::Vector>,
+        force: &mut S::Vector,
+    ) -> Result<EngineSettings, StepFailure> {
+        let settings = system.engine_settings(t, state, force);
+        let settings = settings.filter(|settings| !settings.has_spring());
+        settings.ok_or(StepFailure::Refused { reason: ONLY.reason })
+    }
+}

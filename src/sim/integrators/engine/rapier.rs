@@ -1,0 +1,49 @@
+//! Rapier: implicit springs in every substep, and the drag once a tick.
+
+use super::{EngineMethod, Rule, Tick, cap, each};
+use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::system::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-rapier",
+    name: "Rapier",
+    about: "implicit Euler of its substep on a spring; the drag comes after the drift, so that a body moves faster than it \
+            says",
+    default_substeps: 4,
+    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.01309), has_substeps: true }),
+    source: "Rapier 0.36.1: staged_island_solver/worker.rs, motor_model.rs",
+    ..ENGINE
+};
+
+/// Its speed limit, in metres per second.
+const FASTEST: f64 = 400.0;
+
+/// `n` times: `v += h f`, `[v = (v - h K x)/D]`, `|v| ≤ 400`, `x += h v`. Then once: `v /= 1 + H C`.
+pub type Rapier<V> = EngineMethod<V, RapierRule>;
+
+/// The rule of [`Rapier`].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RapierRule;
+
+impl Rule for RapierRule {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+        let (h, set) = (tick.substep(), tick.settings);
+        let (pull, resistance) = (h * set.stiffness, set.resistance(h));
+        let has_spring = set.has_spring();
+        for _ in 0..tick.substeps {
+            each(tick.force, q, v, |x, v, f| {
+                *v += h * f;
+                if has_spring {
+                    *v = (*v - pull * *x) / resistance;
+                }
+            });
+            cap(v, FASTEST);
+            q.add_scaled(h, v);
+        }
+        let drag = 1.0 + tick.length * set.drag;
+        v.components_mut().iter_mut().for_each(|v| *v /= drag);
+    }
+}

@@ -1,0 +1,148 @@
+//! The claims of the engines' cards, measured both ways.
+
+use std::f64::consts::TAU;
+
+use regatta::sim::integrators::{METHODS, Method, integrator};
+use regatta::sim::{Counted, State};
+
+use crate::log::Body;
+
+fn engines() -> impl Iterator<Item = &'static Method> {
+    METHODS.iter().filter(|method| method.is_engine())
+}
+
+/// A held force is a spring of user code; pybullet's multibody has drag alone.
+fn spring_of(method: &Method, spring: [f64; 2]) -> Body {
+    Body { spring, drag: 0.0, push: 0.0, is_held: method.id == "held-force" }
+}
+
+fn has_spring(method: &Method) -> bool {
+    method.engine.expect("an engine").damping_ratio.is_some()
+}
+
+/// The state after `ticks` ticks of `h`.
+fn after(method: &Method, body: &Body, h: f64, ticks: u32, from: [f64; 2]) -> State<f64> {
+    let mut state = State { q: from[0], v: from[1] };
+    let mut engine = integrator::<Body>(method, &state.q);
+    for tick in 0..ticks {
+        engine.steps(body, f64::from(tick) * h, h, method.default_substeps, &mut state).unwrap();
+    }
+    state
+}
+
+/// The order of the error after 1 s, from 256 and 512 ticks, against the exact state.
+fn order(method: &Method, body: &Body, from: [f64; 2], exact: [f64; 2]) -> f64 {
+    let error = |ticks: u32| {
+        let State { q, v } = after(method, body, 1.0 / f64::from(ticks), ticks, from);
+        (q - exact[0]).abs().max((v - exact[1]).abs())
+    };
+    (error(256) / error(512)).log2()
+}
+
+/// The exact state of a damped oscillator after 1 s from (1, 0).
+fn oscillator(omega: f64, alpha: f64) -> [f64; 2] {
+    let turned = (omega * omega - alpha * alpha).sqrt();
+    let (sin, cos, decay) = (turned.sin(), turned.cos(), (-alpha).exp());
+    [decay * (cos + alpha / turned * sin), -decay * omega * omega / turned * sin]
+}
+
+#[test]
+fn the_order_of_an_engine_is_as_its_card_says_with_and_without_drag() {
+    for method in engines() {
+        let mut measured = Vec::new();
+        if has_spring(method) {
+            let undamped = spring_of(method, [4.0, 0.0]);
+            let straight = order(method, &undamped, [1.0, 0.0], oscillator(2.0, 0.0));
+            let damped = spring_of(method, [4.0, 1.0]);
+            let with_drag = order(method, &damped, [1.0, 0.0], oscillator(2.0, 0.5));
+            measured = vec![(straight, method.order), (with_drag, method.order_with_drag)];
+        } else {
+            let push = Body { spring: [0.0; 2], drag: 0.0, push: 1.0, is_held: false };
+            measured.push((order(method, &push, [0.0, 0.0], [0.5, 1.0]), method.order));
+        }
+        for (found, claimed) in measured {
+            let is_near = (found - f64::from(claimed)).abs() < 0.05;
+            assert!(is_near, "{}: {found}, not {claimed}", method.id);
+        }
+    }
+}
+
+/// The map of a tick, whose columns are the states after a tick from (1, 0) and from (0, 1).
+fn map(method: &Method, body: &Body, h: f64) -> [[f64; 2]; 2] {
+    let [x, v] = [[1.0, 0.0], [0.0, 1.0]].map(|from| after(method, body, h, 1, from));
+    [[x.q, v.q], [x.v, v.v]]
+}
+
+/// The damping ratio of a map whose eigenvalues are a pair.
+fn damping_ratio(map: [[f64; 2]; 2]) -> f64 {
+    let determinant = map[0][0] * map[1][1] - map[0][1] * map[1][0];
+    let real = (map[0][0] + map[1][1]) / 2.0;
+    let turned = (determinant - real * real).sqrt().atan2(real);
+    let decay = -determinant.ln() / 2.0;
+    decay / decay.hypot(turned)
+}
+
+#[test]
+fn the_damping_ratio_of_an_engine_is_what_a_spring_of_1_hz_has_at_its_defaults() {
+    for method in engines().filter(|method| has_spring(method)) {
+        let engine = method.engine.unwrap();
+        let body = spring_of(method, [TAU * TAU, 0.0]);
+        let h = 1.0 / f64::from(engine.tick_hz);
+        let found = if method.restart.is_none() {
+            damping_ratio(map(method, &body, h))
+        } else {
+            // It has a memory: from the mean amplitudes of two periods that are 10 s apart.
+            let mean = |second: u32| {
+                let ticks = second * engine.tick_hz..(second + 1) * engine.tick_hz;
+                let amplitude = |tick| {
+                    let State { q, v } = after(method, &body, h, tick, [1.0, 0.0]);
+                    (q * q + v * v / (TAU * TAU)).sqrt()
+                };
+                ticks.map(amplitude).sum::<f64>()
+            };
+            (mean(2) / mean(12)).ln() / (10.0 * TAU)
+        };
+        let claimed = engine.damping_ratio.unwrap();
+        assert!((found - claimed).abs() < 1e-5, "{}: {found:.6}, not {claimed}", method.id);
+    }
+}
+
+/// Whether an undamped spring stays within bounds for long.
+fn is_bounded(method: &Method, z: f64) -> bool {
+    let body = spring_of(method, [z * z, 0.0]);
+    let State { q, v } = after(method, &body, 1.0, 200_000, [1.0, 0.01]);
+    q.is_finite() && q.abs() < 1e3 && v.abs() < 1e3 * z.max(1.0)
+}
+
+#[test]
+fn an_undamped_spring_stays_bounded_up_to_the_stability_limit_of_an_engine() {
+    for method in engines().filter(|method| has_spring(method)) {
+        match method.stability_limit {
+            Some(limit) => {
+                let below = limit == 0.0 || is_bounded(method, limit - 0.01);
+                assert!(below && !is_bounded(method, limit + 0.02), "{}: {limit}", method.id);
+            }
+            None => {
+                for z in [0.1, 0.5, 1.0, 1.9, 2.1, 3.0, 7.0, 50.0, 1e3] {
+                    assert!(is_bounded(method, z), "{}: {z}", method.id);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn an_engine_reads_the_force_once_a_tick_however_many_its_substeps() {
+    for method in engines().filter(|method| method.engine.unwrap().has_substeps) {
+        let body = Body { spring: [0.0; 2], drag: 0.1, push: 1.0, is_held: false };
+        for substeps in [1, 4, 7] {
+            let counted = Counted::new(body.clone());
+            let mut state = State { q: 0.0, v: 0.0 };
+            let mut engine = integrator::<Counted<Body>>(method, &state.q);
+            for tick in 0..10 {
+                engine.steps(&counted, f64::from(tick), 1.0, substeps, &mut state).unwrap();
+            }
+            assert_eq!(counted.evaluations(), 10, "{}", method.id);
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! Logs of the engines in `../shared/engines`, and the body that each of them is of.
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::PathBuf;
+
+use regatta::sim::integrators::StepFailure;
+use regatta::sim::integrators::{Method, integrator, method};
+use regatta::sim::{EngineSettings, State, System};
+
+/// Where the logs are, with their manifest.
+fn folder() -> PathBuf {
+    PathBuf::from("tests/data/engines")
+}
+
+/// A body in an engine: a spring, drag and a constant force, any of which may be 0.
+#[derive(Clone, Debug)]
+pub(crate) struct Body {
+    /// K and c, per unit of mass.
+    pub(crate) spring: [f64; 2],
+    /// C, per second.
+    pub(crate) drag: f64,
+    /// The constant force, per unit of mass.
+    pub(crate) push: f64,
+    /// Whether user code applies the spring.
+    pub(crate) is_held: bool,
+}
+
+impl System for Body {
+    type Vector = f64;
+
+    fn acceleration(&self, _t: f64, x: &f64, v: &f64, a: &mut f64) {
+        let [stiffness, damping] = self.spring;
+        *a = self.push - (stiffness * x + damping * v) - self.drag * v;
+    }
+
+    fn engine_settings(
+        &self,
+        _t: f64,
+        State { q: x, v }: &State<f64>,
+        force: &mut f64,
+    ) -> Option<EngineSettings> {
+        let [stiffness, damping] = self.spring;
+        let drag = self.drag;
+        if self.is_held {
+            *force = self.push - (stiffness * x + damping * v);
+            return Some(EngineSettings { drag, ..EngineSettings::NONE });
+        }
+        *force = self.push;
+        Some(EngineSettings { stiffness, damping, drag })
+    }
+}
+
+/// A row of a log.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Row {
+    pub(crate) tick: u64,
+    pub(crate) x: f64,
+    pub(crate) v: f64,
+}
+
+/// A log of an engine.
+#[derive(Clone, Debug)]
+pub(crate) struct Log {
+    pub(crate) file: String,
+    /// The engine as the manifest calls it.
+    pub(crate) engine: String,
+    /// `f32` or `f64`.
+    pub(crate) precision: String,
+    /// The tick that the engine was given, in seconds.
+    pub(crate) tick_s: f64,
+    pub(crate) substeps: u32,
+    pub(crate) body: Body,
+    pub(crate) rows: Vec<Row>,
+}
+
+impl Log {
+    /// Every log of the manifest that is of a body without rotation.
+    pub(crate) fn all() -> Vec<Log> {
+        let text = fs::read_to_string(folder().join("manifest.csv")).expect("a manifest");
+        let mut lines = text.lines();
+        let keys: Vec<&str> = lines.next().expect("a heading").split(',').collect();
+        let logs: Vec<Log> = lines
+            .map(|line| keys.iter().copied().zip(line.split(',')).collect())
+            .filter(|row: &HashMap<&str, &str>| row["scenario"] != "tumble")
+            .map(|row| Log::of(&row))
+            .collect();
+        assert!(logs.len() >= 100, "{} logs", logs.len());
+        logs
+    }
+
+    fn of(row: &HashMap<&str, &str>) -> Log {
+        let number = |key: &str| -> f64 {
+            row[key].parse().unwrap_or_else(|error| panic!("{}: {key}: {error}", row["file"]))
+        };
+        let text = |key: &str| row[key].to_owned();
+        let mass = number("mass");
+        let has_spring = !matches!(row["scenario"], "ship" | "damp");
+        let of_spring = |key: &str| if has_spring { number(key) / mass } else { 0.0 };
+        let body = Body {
+            spring: ["k", "c"].map(of_spring),
+            drag: number("C"),
+            push: number("force") / mass,
+            is_held: row["scenario"] == "held",
+        };
+        Log {
+            file: text("file"),
+            engine: text("engine"),
+            precision: text("precision"),
+            tick_s: number("dt_s"),
+            substeps: row["n"].parse().expect("a number of substeps"),
+            body,
+            rows: rows(row["file"]),
+        }
+    }
+
+    /// The card that is to reproduce it.
+    pub(crate) fn method(&self) -> &'static Method {
+        let id = match &*self.engine {
+            "box2d" | "box2d-prismatic" => "engine-box2d",
+            "rapier2d" | "rapier3d" => "engine-rapier",
+            "avian" => "engine-avian",
+            "avian-motor" => "engine-avian-motor",
+            "jolt" | "jolt-slider" => "engine-jolt",
+            "physx-pgs" | "physx-pgs-acc" | "physx-pgs-distance" => "engine-physx",
+            "physx-tgs" => "engine-physx-tgs",
+            "bullet" => "engine-bullet",
+            "pybullet-multibody" => "engine-pybullet",
+            "chipmunk" => "engine-chipmunk",
+            "mujoco-Euler" | "mujoco-implicitfast" | "mujoco-implicitfast-actuator" => {
+                "engine-mujoco"
+            }
+            "mujoco-RK4" => "engine-mujoco-rk4",
+            // Without the limits of its spring, and with an actuator in place of a joint, all is explicit.
+            "bullet-unlimited" | "mujoco-Euler-actuator" => "semi-implicit-euler",
+            other => panic!("no card for {other}"),
+        };
+        method(id).expect("a method of the table")
+    }
+
+    /// What a row may be off by over one tick and over the run, in units of the largest coordinate or velocity.
+    pub(crate) fn tolerances(&self) -> [f64; 2] {
+        match (&*self.engine, &*self.precision) {
+            ("avian" | "avian-motor", _) => [3e-7, 2e-5],
+            (_, "f32") => [4e-6, 5e-5],
+            _ => [3e-14, 1e-12],
+        }
+    }
+
+    /// The largest |x| and |v|.
+    pub(crate) fn scale(&self) -> [f64; 2] {
+        let largest = |part: fn(&Row) -> f64| {
+            self.rows.iter().map(|row| part(row).abs()).fold(0.0_f64, f64::max)
+        };
+        [largest(|row| row.x), largest(|row| row.v)]
+    }
+
+    /// The run of its card from the first row, at the ticks of all rows.
+    pub(crate) fn run(&self) -> Result<Vec<Row>, StepFailure> {
+        let mut state = State { q: self.rows[0].x, v: self.rows[0].v };
+        let mut stepper = integrator::<Body>(self.method(), &state.q);
+        let mut tick = self.rows[0].tick;
+        let mut reached = Vec::new();
+        for row in &self.rows {
+            while tick < row.tick {
+                let t = tick as f64 * self.tick_s;
+                stepper.steps(&self.body, t, self.tick_s, self.substeps, &mut state)?;
+                tick += 1;
+            }
+            reached.push(Row { tick, x: state.q, v: state.v });
+        }
+        Ok(reached)
+    }
+}
+
+fn rows(file: &str) -> Vec<Row> {
+    let text = fs::read_to_string(folder().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"));
+    let mut lines = text.lines();
+    let keys: Vec<&str> = lines.next().expect("a heading").split(',').collect();
+    let place = |key| keys.iter().position(|known| *known == key).expect("a column");
+    let [tick, x, v] = ["tick", "x", "v"].map(place);
+    lines
+        .map(|line| {
+            let cells: Vec<&str> = line.split(',').collect();
+            let number = |place: usize| cells[place].parse::<f64>().expect("a number");
+            Row { tick: number(tick) as u64, x: number(x), v: number(v) }
+        })
+        .collect()
+}

@@ -1,0 +1,6 @@
+//! Engines: their cards against logs of the engines themselves, and which engine a log came from.
+
+mod cards;
+mod log;
+mod oracles;
+mod reproduced;
