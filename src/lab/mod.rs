@@ -14,6 +14,7 @@ mod equal_cost;
 mod extent;
 mod guide;
 mod held;
+mod identify;
 mod instrument;
 mod interpolation;
 mod intervention;
@@ -60,6 +61,10 @@ pub use display::{Arrangement, Display, DriverRequest, Pace};
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub use guide::{Goal, STOPS, Stop, Tour};
 pub use held::HeldBody;
+pub use identify::{
+    Candidate, Columns, Effective, Fitted, Identification, Log, LogError, LogRow, LoggedBody, Word,
+    identify,
+};
 pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
 pub use interpolation::Interpolation;
 pub use journal::{Journal, JournalRow, Source};

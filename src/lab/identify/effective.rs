@@ -1,0 +1,132 @@
+//! What a player sees: the frequency, the damping and the change of energy of a motion.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::Candidate;
+use super::log::Log;
+use super::motion::{LoggedBody, run};
+
+/// The motion that a player sees, as that of a damped spring or of a body that coasts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effective {
+    /// The angular frequency of an undamped spring with the same stiffness in rad/s; 0 without a spring.
+    pub omega: f64,
+    /// Half the rate at which the energy is lost, per second; negative if it is gained. Without a spring, the
+    /// rate at which the speed approaches its end.
+    pub decay: f64,
+}
+
+/// How long a run is from which the motion is read, in ticks: the fewest that show a slow spring turn.
+const TICKS: u64 = 400;
+
+impl Effective {
+    /// The frequency that is seen, in hertz; `None` if the motion does not swing.
+    pub fn frequency_hz(&self) -> Option<f64> {
+        let square = self.omega * self.omega - self.decay * self.decay;
+        (square > 0.0).then(|| square.sqrt() / std::f64::consts::TAU)
+    }
+
+    /// The damping ratio; negative if energy is gained; `None` without a spring.
+    pub fn damping_ratio(&self) -> Option<f64> {
+        (self.omega > 0.0).then(|| self.decay / self.omega)
+    }
+
+    /// The stiffness and the damping of a spring with this motion, for each kilogram.
+    pub fn spring(&self) -> Option<[f64; 2]> {
+        (self.omega > 0.0).then(|| [self.omega * self.omega, 2.0 * self.decay])
+    }
+
+    /// The time in which the energy halves in seconds, or the speed of a body without a spring; negative if it
+    /// doubles instead. `None` if it stays.
+    pub fn halves_s(&self) -> Option<f64> {
+        let rate = if self.omega > 0.0 { 2.0 * self.decay } else { self.decay };
+        let seconds = std::f64::consts::LN_2 / rate;
+        seconds.is_finite().then_some(seconds)
+    }
+
+    /// What the equation of motion says.
+    pub(super) fn exact(body: &LoggedBody) -> Option<Self> {
+        let [stiffness, damping] = body.spring?;
+        let loss = damping + body.drag;
+        let decay = if stiffness > 0.0 { loss / 2.0 } else { loss };
+        Some(Self { omega: stiffness.sqrt(), decay })
+    }
+
+    /// Whether frequency and damping are those of `exact` to within 1 %, and half a percent of critical damping.
+    pub(super) fn is_near(&self, exact: &Self) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() <= 0.01 * b.abs() + 1e-12;
+        match (self.damping_ratio(), exact.damping_ratio()) {
+            (Some(ratio), Some(wanted)) => {
+                near(self.omega, exact.omega) && (ratio - wanted).abs() <= 0.005
+            }
+            (None, None) => near(self.decay, exact.decay),
+            _ => false,
+        }
+    }
+
+    /// What is seen of a body under a candidate.
+    pub(super) fn of(
+        candidate: Candidate,
+        body: &LoggedBody,
+        start: [f64; 2],
+        tick_s: f64,
+    ) -> Option<Self> {
+        let states = run(candidate, body, start, tick_s, 0..TICKS)?;
+        let states: Vec<(u64, [f64; 2])> = (0..).zip(states).collect();
+        Self::of_states(&states, body, tick_s)
+    }
+
+    /// What is seen in a log.
+    pub(super) fn of_log(log: &Log, body: &LoggedBody, tick_s: f64) -> Option<Self> {
+        let rows = log.rows();
+        let mut states: Vec<(u64, [f64; 2])> =
+            rows.iter().map(|row| (row.tick, [row.x, row.v.unwrap_or(0.0)])).collect();
+        if rows[0].v.is_none() {
+            for place in 1..states.len() {
+                let (before, now) = (states[place - 1], states[place]);
+                states[place].1[1] =
+                    (now.1[0] - before.1[0]) / ((now.0 - before.0) as f64 * tick_s);
+            }
+        }
+        Self::of_states(&states, body, tick_s)
+    }
+
+    /// From the linear recurrence that states at successive ticks obey.
+    fn of_states(states: &[(u64, [f64; 2])], body: &LoggedBody, tick_s: f64) -> Option<Self> {
+        if !body.has_spring() {
+            // v′ = a v + b.
+            let pairs = states.windows(2).filter(|pair| pair[1].0 == pair[0].0 + 1);
+            let rows: Vec<([f64; 2], f64)> =
+                pairs.map(|pair| ([pair[0].1[1], 1.0], pair[1].1[1])).collect();
+            let driven = body.push != 0.0;
+            let kept = solve(&rows, if driven { 2 } else { 1 })?[0];
+            return (kept > 0.0).then(|| Self { omega: 0.0, decay: -kept.ln() / tick_s });
+        }
+        // x″ = a x′ + b x + c, after three ticks in a row.
+        let triples = states.windows(3).filter(|all| all[2].0 == all[0].0 + 2);
+        let rows: Vec<([f64; 3], f64)> =
+            triples.map(|all| ([all[1].1[0], all[0].1[0], 1.0], all[2].1[0])).collect();
+        let found = solve(&rows, if body.push == 0.0 { 2 } else { 3 })?;
+        let (half, product) = (found[0] / 2.0, -found[1]);
+        let square = half * half - product;
+        if square < 0.0 {
+            let decay = -product.ln() / 2.0 / tick_s;
+            let turned = (-square).sqrt().atan2(half) / tick_s;
+            return Some(Self { omega: decay.hypot(turned), decay });
+        }
+        let rates = [half + square.sqrt(), half - square.sqrt()].map(|kept| -kept.ln() / tick_s);
+        let (product, sum) = (rates[0] * rates[1], rates[0] + rates[1]);
+        (product > 0.0).then(|| Self { omega: product.sqrt(), decay: sum / 2.0 })
+    }
+}
+
+/// The least squares solution of equations in the first `unknowns` unknowns.
+fn solve<const N: usize>(rows: &[([f64; N], f64)], unknowns: usize) -> Option<Vec<f64>> {
+    if rows.len() < unknowns {
+        return None;
+    }
+    let matrix = DMatrix::from_fn(rows.len(), unknowns, |row, column| rows[row].0[column]);
+    let right = DVector::from_fn(rows.len(), |row, _| rows[row].1);
+    let found = matrix.svd(true, true).solve(&right, 1e-14).ok()?;
+    found.iter().all(|x| x.is_finite()).then(|| found.iter().copied().collect())
+}

@@ -1,0 +1,187 @@
+//! A candidate fitted to a log: the start, and what is not known of the body, by least squares.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::effective::Effective;
+use super::log::Log;
+use super::motion::{LoggedBody, run};
+use super::{Candidate, FOLLOWING, ROUNDING};
+
+/// The iterations of Gauss and Newton; a linear motion needs one, and a second for the last digits.
+const ITERATIONS: usize = 2;
+/// Those where the spring is fitted too.
+const ITERATIONS_FOR_SPRING: usize = 12;
+/// A displacement for the derivatives, in units of the scale.
+const DISPLACEMENT: f64 = 1e-4;
+/// Left over up to this, single precision may be all that there is.
+const PRECISE: f64 = 5e-5;
+/// How many rows apart what is left over is compared.
+const LAGS: usize = 3;
+
+/// A candidate's run beside a log.
+pub(super) struct Fit {
+    /// The body with what was fitted.
+    pub(super) body: LoggedBody,
+    pub(super) start: [f64; 2],
+    /// The run at the rows of the log, in units of the scale.
+    run: Vec<[f64; 2]>,
+    /// What is left over of the coordinate, and of the velocity if it was logged.
+    left: Vec<Vec<f64>>,
+}
+
+/// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
+fn scale(log: &Log) -> [f64; 2] {
+    let rows = log.rows();
+    let x = rows.iter().map(|row| row.x.abs()).fold(0.0, f64::max);
+    let v = rows.iter().filter_map(|row| row.v).map(f64::abs).fold(0.0, f64::max);
+    [x, v].map(|scale| if scale > 0.0 { scale } else { 1.0 })
+}
+
+/// The velocity at the start: the logged one, or the slope to the next row.
+fn first_velocity(log: &Log, tick_s: f64) -> f64 {
+    let [first, second] = [log.rows()[0], log.rows()[1]];
+    let slope = (second.x - first.x) / ((second.tick - first.tick) as f64 * tick_s);
+    first.v.unwrap_or(slope)
+}
+
+/// Fits `candidate`; `None` if it cannot be run on the body or its run leaves all scales.
+pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f64) -> Option<Fit> {
+    let tick_s = 1.0 / tick_hz;
+    let scale = scale(log);
+    let mut body = body.clone();
+    let is_spring_known = body.spring.is_some();
+    if !is_spring_known {
+        body.spring = Some(Effective::of_log(log, &body, tick_s)?.spring()?);
+    }
+    let mut start = [log.rows()[0].x, first_velocity(log, tick_s)];
+    let iterations = if is_spring_known { ITERATIONS } else { ITERATIONS_FOR_SPRING };
+    let go = |body: &LoggedBody, start: [f64; 2]| {
+        let ticks = log.rows().iter().map(|row| row.tick);
+        run(candidate, body, start, tick_s, ticks).map(|states| in_units(&states, scale))
+    };
+    let mut now = go(&body, start)?;
+    for _ in 0..iterations {
+        let unit = start_unit(scale, &body, tick_s);
+        let mut columns = Vec::new();
+        for (place, unit) in unit.iter().enumerate() {
+            let (mut there, mut other) = (start, body.clone());
+            match place {
+                0 | 1 => there[place] += DISPLACEMENT * unit,
+                _ => {
+                    if let Some(spring) = &mut other.spring {
+                        spring[place - 2] += DISPLACEMENT * unit;
+                    }
+                }
+            }
+            columns.push(go(&other, there)?);
+            if is_spring_known && place == 1 {
+                break;
+            }
+        }
+        let left = left_over(log, &now, scale).concat();
+        let flat = |states: &[[f64; 2]]| left_flat(log, states);
+        let base = flat(&now);
+        let jacobian = DMatrix::from_fn(left.len(), columns.len(), |row, column| {
+            (flat_at(log, &columns[column], row) - base[row]) / DISPLACEMENT
+        });
+        let normal = jacobian.transpose() * &jacobian;
+        let right = jacobian.transpose() * DVector::from_vec(left);
+        let Some(change) = normal.lu().solve(&right) else { break };
+        let mut next = (start, body.clone());
+        for (place, change) in change.iter().enumerate() {
+            match place {
+                0 | 1 => next.0[place] += change * unit[place],
+                _ => {
+                    if let Some(spring) = &mut next.1.spring {
+                        spring[place - 2] += change * unit[place];
+                    }
+                }
+            }
+        }
+        let Some(reached) = go(&next.1, next.0) else { break };
+        let worth = |states: &[[f64; 2]]| -> f64 {
+            left_over(log, states, scale).concat().iter().map(|left| left * left).sum()
+        };
+        if !(worth(&reached) < worth(&now)) {
+            break;
+        }
+        (start, body, now) = (next.0, next.1, reached);
+    }
+    let left = left_over(log, &now, scale);
+    let is_finite = left.iter().flatten().all(|left| left.is_finite());
+    is_finite.then_some(Fit { body, start, run: now, left })
+}
+
+/// The units of what is fitted: coordinate, velocity, stiffness and damping.
+fn start_unit(scale: [f64; 2], body: &LoggedBody, tick_s: f64) -> [f64; 4] {
+    let [stiffness, _] = body.spring.unwrap_or_default();
+    let stiffness = stiffness.abs().max(1e-6);
+    let v = if scale[1] == 1.0 { scale[0] / tick_s } else { scale[1] };
+    [scale[0], v, stiffness, stiffness.sqrt()]
+}
+
+fn in_units(states: &[[f64; 2]], scale: [f64; 2]) -> Vec<[f64; 2]> {
+    states.iter().map(|[x, v]| [x / scale[0], v / scale[1]]).collect()
+}
+
+/// All coordinates, then all logged velocities.
+fn left_flat(log: &Log, states: &[[f64; 2]]) -> Vec<f64> {
+    let x = states.iter().map(|state| state[0]);
+    let logged = states.iter().zip(log.rows()).filter(|(_, row)| row.v.is_some());
+    x.chain(logged.map(|(state, _)| state[1])).collect()
+}
+
+/// The value at a place of [`left_flat`]; velocities are logged in all rows or in none.
+fn flat_at(log: &Log, states: &[[f64; 2]], place: usize) -> f64 {
+    let rows = log.rows().len();
+    states[place % rows][place / rows]
+}
+
+fn left_over(log: &Log, states: &[[f64; 2]], scale: [f64; 2]) -> Vec<Vec<f64>> {
+    let rows = || log.rows().iter().zip(states);
+    let x = rows().map(|(row, state)| row.x / scale[0] - state[0]).collect();
+    let v: Vec<f64> =
+        rows().filter_map(|(row, state)| Some(row.v? / scale[1] - state[1])).collect();
+    if v.is_empty() { vec![x] } else { vec![x, v] }
+}
+
+fn mean_square(left: &[f64]) -> f64 {
+    left.iter().map(|left| left * left).sum::<f64>() / left.len() as f64
+}
+
+impl Fit {
+    /// The root mean square of all that is left over.
+    pub(super) fn residual(&self) -> f64 {
+        mean_square(&self.left.concat()).sqrt()
+    }
+
+    /// Minus twice the logarithm of the likelihood, up to a constant, where each column has a noise of its own and none
+    /// less than rounding.
+    pub(super) fn deviance(&self) -> f64 {
+        let of =
+            |left: &Vec<f64>| left.len() as f64 * (mean_square(left) + ROUNDING * ROUNDING).ln();
+        self.left.iter().map(of).sum()
+    }
+
+    /// The largest distance between two runs, in units of the scale.
+    pub(super) fn distance(&self, other: &Fit) -> f64 {
+        let apart = |(a, b): (&[f64; 2], &[f64; 2])| {
+            let velocities = if self.left.len() > 1 { (a[1] - b[1]).abs() } else { 0.0 };
+            (a[0] - b[0]).abs().max(velocities)
+        };
+        self.run.iter().zip(&other.run).map(apart).fold(0.0, f64::max)
+    }
+
+    /// Whether what is left over follows from row to row, so that it is no noise.
+    pub(super) fn is_systematic(&self) -> bool {
+        self.left.iter().any(|left| {
+            let square = mean_square(left);
+            let follows = |lag: usize| {
+                let pairs = left.iter().zip(&left[lag..]);
+                let mean = pairs.map(|(a, b)| a * b).sum::<f64>() / (left.len() - lag) as f64;
+                (mean / square).abs() > 5.0 / (left.len() as f64).sqrt() + FOLLOWING
+            };
+            square.sqrt() > PRECISE && (1..=LAGS).any(follows)
+        })
+    }
+}

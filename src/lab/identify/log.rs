@@ -1,0 +1,150 @@
+//! A log of one coordinate, from text.
+
+/// A row of a log.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LogRow {
+    /// The number of its tick.
+    pub tick: u64,
+    /// The coordinate, in metres.
+    pub x: f64,
+    /// The velocity in metres per second, if it was logged.
+    pub v: Option<f64>,
+}
+
+/// A log of a body: at least [`Log::LEAST_ROWS`] rows at rising ticks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Log {
+    rows: Vec<LogRow>,
+}
+
+/// The names of a log's columns.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Columns {
+    /// The number of the tick; it may be absent if there are times.
+    pub tick: String,
+    /// The time in seconds; it may be absent if there are ticks.
+    pub t: String,
+    /// The coordinate in metres.
+    pub x: String,
+    /// The velocity in metres per second; it may be absent.
+    pub v: String,
+}
+
+impl Default for Columns {
+    fn default() -> Self {
+        let [tick, t, x, v] = ["tick", "t", "x", "v"].map(str::to_owned);
+        Self { tick, t, x, v }
+    }
+}
+
+/// Why a log cannot be read, with its place and a remedy.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{name}:{line}: {fault}")]
+pub struct LogError {
+    /// What the caller calls the log.
+    pub name: String,
+    /// The line of the fault, from 1.
+    pub line: u64,
+    fault: String,
+}
+
+/// A time may be off its tick by this part of a tick.
+const OFF_TICK: f64 = 0.05;
+
+impl Log {
+    /// Fewer rows say too little.
+    pub const LEAST_ROWS: usize = 6;
+    /// Rows after this many ticks are not used.
+    pub const MOST_TICKS: u64 = 3000;
+
+    /// Reads a log from the text of a CSV file with a header; `name` is the file's, for messages.
+    ///
+    /// # Errors
+    /// The first fault of the text.
+    pub fn parse(name: &str, text: &str, columns: &Columns, tick_hz: f64) -> Result<Log, LogError> {
+        let error = |line: u64, fault: String| LogError { name: name.to_owned(), line, fault };
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut reader =
+            csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
+        let broken = |e: &csv::Error| {
+            let line = e.position().map_or(1, csv::Position::line);
+            error(line, format!("the row cannot be read: {e}; give each row the header's cells"))
+        };
+        let header = reader.headers().map_err(|e| broken(&e))?.clone();
+        let place = |wanted: &str| header.iter().position(|known| known == wanted);
+        let found = || {
+            let names: Vec<String> = header.iter().map(|name| format!("{name:?}")).collect();
+            if names.is_empty() { "there is no header".to_owned() } else { names.join(", ") }
+        };
+        let Some(x) = place(&columns.x) else {
+            let fault = format!(
+                "no column {:?}; here are {}; name the coordinate's with --x-column",
+                columns.x,
+                found()
+            );
+            return Err(error(1, fault));
+        };
+        let (tick, t, v) = (place(&columns.tick), place(&columns.t), place(&columns.v));
+        if tick.is_none() && t.is_none() {
+            let fault = format!(
+                "no column {:?} and none {:?}; here are {}; name one with --tick-column or --t-column",
+                columns.tick,
+                columns.t,
+                found()
+            );
+            return Err(error(1, fault));
+        }
+        let (mut rows, mut first): (Vec<LogRow>, Option<f64>) = (Vec::new(), None);
+        for record in reader.records() {
+            let record = record.map_err(|e| broken(&e))?;
+            let line = record.position().map_or(1, csv::Position::line);
+            let number = |place: usize| -> Result<f64, LogError> {
+                let cell = &record[place];
+                let found = cell.parse::<f64>().ok().filter(|number| number.is_finite());
+                found.ok_or_else(|| {
+                    let column = &header[place];
+                    error(line, format!("column {column:?}: {cell:?} is no number; write one, or cut the log before it"))
+                })
+            };
+            let at = match (tick, t) {
+                (Some(tick), _) => number(tick)?,
+                (None, Some(t)) => number(t)? * tick_hz,
+                (None, None) => unreachable!("one of them is there"),
+            };
+            let since = at - *first.get_or_insert(at);
+            let tick = since.round();
+            if tick < 0.0 || (since - tick).abs() > OFF_TICK {
+                let fault = format!(
+                    "the row is {since:.3} ticks of {tick_hz} Hz after the first; rows are at whole ticks: give the rate of the \
+                     log with --tick-hz"
+                );
+                return Err(error(line, fault));
+            }
+            let tick = tick as u64;
+            if rows.last().is_some_and(|before| before.tick >= tick) {
+                let fault =
+                    format!("tick {tick} does not follow the row before; put rows in order");
+                return Err(error(line, fault));
+            }
+            if tick > Self::MOST_TICKS {
+                break;
+            }
+            rows.push(LogRow { tick, x: number(x)?, v: v.map(number).transpose()? });
+        }
+        if rows.len() < Self::LEAST_ROWS {
+            let fault =
+                format!("{} rows are too few; log at least {}", rows.len(), Self::LEAST_ROWS);
+            return Err(error(1, fault));
+        }
+        let is_still = rows.iter().all(|row| row.x == rows[0].x && row.v.unwrap_or(0.0) == 0.0);
+        if is_still {
+            return Err(error(2, "nothing moves; log a motion".to_owned()));
+        }
+        Ok(Log { rows })
+    }
+
+    /// The rows, whose ticks count from the first.
+    pub fn rows(&self) -> &[LogRow] {
+        &self.rows
+    }
+}

@@ -1,0 +1,90 @@
+//! The body of a log, and its run under a candidate.
+
+use super::Candidate;
+use crate::sim::integrators::integrator;
+use crate::sim::{EngineSettings, State, System};
+
+/// A body on a line: a spring, drag and a constant push, any of which may be 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoggedBody {
+    /// k/m in 1/s² and c/m in 1/s of the spring; `None` if they are to be fitted.
+    pub spring: Option<[f64; 2]>,
+    /// The damping setting of the body, in 1/s.
+    pub drag: f64,
+    /// The constant force for each kilogram, in m/s².
+    pub push: f64,
+}
+
+impl LoggedBody {
+    /// Whether there is a spring, known or not.
+    pub fn has_spring(&self) -> bool {
+        self.spring != Some([0.0; 2])
+    }
+}
+
+/// A body whose numbers are known, as a system.
+#[derive(Clone, Debug)]
+pub(super) struct Known {
+    pub(super) spring: [f64; 2],
+    pub(super) drag: f64,
+    pub(super) push: f64,
+    pub(super) is_held: bool,
+}
+
+impl System for Known {
+    type Vector = f64;
+
+    fn acceleration(&self, _t: f64, x: &f64, v: &f64, a: &mut f64) {
+        let [stiffness, damping] = self.spring;
+        *a = self.push - (stiffness * x + damping * v) - self.drag * v;
+    }
+
+    fn engine_settings(
+        &self,
+        _t: f64,
+        State { q: x, v }: &State<f64>,
+        force: &mut f64,
+    ) -> Option<EngineSettings> {
+        let ([stiffness, damping], drag) = (self.spring, self.drag);
+        if self.is_held {
+            *force = self.push - (stiffness * x + damping * v);
+            return Some(EngineSettings { drag, ..EngineSettings::NONE });
+        }
+        *force = self.push;
+        Some(EngineSettings { stiffness, damping, drag })
+    }
+}
+
+/// A run is over where a value has left all scales.
+const LOST: f64 = 1e150;
+
+/// The states of a run at these ticks, which rise; `None` if the candidate cannot make it.
+pub(super) fn run(
+    candidate: Candidate,
+    body: &LoggedBody,
+    start: [f64; 2],
+    tick_s: f64,
+    ticks: impl Iterator<Item = u64>,
+) -> Option<Vec<[f64; 2]>> {
+    let known = Known {
+        spring: body.spring?,
+        drag: body.drag,
+        push: body.push,
+        is_held: candidate.is_held,
+    };
+    let mut state = State { q: start[0], v: start[1] };
+    let mut stepper = integrator::<Known>(candidate.method, &state.q);
+    let (mut now, mut states, mut first) = (0, Vec::new(), None);
+    for tick in ticks {
+        let tick = tick - *first.get_or_insert(tick);
+        while now < tick {
+            let t = now as f64 * tick_s;
+            stepper.steps(&known, t, tick_s, candidate.substeps, &mut state).ok()?;
+            now += 1;
+            let is_there = state.q.abs() < LOST && state.v.abs() < LOST;
+            is_there.then_some(())?;
+        }
+        states.push([state.q, state.v]);
+    }
+    Some(states)
+}
