@@ -96,7 +96,14 @@ fn a_constant_of_a_law_is_varied_like_a_parameter_of_a_body() {
     // ω h of the wheel is 0.7 and 2.
     assert_eq!([0, 1].map(|row| text(&rows[row], "verdict")), ["out-of-phase", "blew-up"]);
     for (options, why) in [
-        ("--scene ship --vary kt=1", "no body has a parameter \"kt\""),
+        (
+            "--scene ship --vary kt=1",
+            "no body has a parameter \"kt\"; give one of `regatta list bodies`",
+        ),
+        (
+            "--scene ship --vary mas_kg=1",
+            "no body has a parameter \"mas_kg\"; did you mean mass_kg?",
+        ),
         ("--scene ship --vary kt", "has no `=`"),
         ("--scene ship --vary kt=1,x", "\"x\" is no number"),
         ("--scene ship --vary mass_kg=-1", "--vary mass_kg=-1 on \"ship\""),
