@@ -31,7 +31,9 @@ One row for each scene, body, method and tick rate, in that order whatever the n
   seconds               how far the run came, in simulated seconds
   error                 the largest of a coordinate or a velocity on the way, as a part of its
                         amplitude; empty where the method did not come to the end
-  energy_drift_percent  the largest on the way; empty where the body conserves no energy
+  energy_drift_percent  the largest on the way, of the energy that the exact motion exchanges, or
+                        without a reference of the largest kinetic energy or the most lost; empty
+                        where the body conserves no energy
   evaluations_per_s     evaluations of the acceleration in a simulated second
   ns_per_s              nanoseconds for a simulated second, measured here and now, one run at a
                         time

@@ -143,7 +143,7 @@ impl LaneBody {
         let id = self.truth().id();
         if let Some(StepFailure::ReferenceTooDear { .. }) = self.halted().map(|halt| &halt.failure)
         {
-            return format!("no {id}");
+            return self.truth().missing().into();
         }
         match (self.truth(), self.stepper.truth_error()) {
             (Truth::Exact, _) | (_, None) => id.into(),

@@ -236,7 +236,7 @@ impl Judge {
             energy_change: Some(run.finding.change).filter(|_| is_whole),
             frequency_error: None,
             is_bounded,
-            energy_drift: None,
+            energy_drift: run.drift.filter(|_| is_whole),
             chase: None,
             failure: run.failure,
             by_energy: Some(run.finding),
