@@ -239,7 +239,7 @@ fn a_scene_is_judged_with_the_inputs_of_its_script() {
     assert!(found.error > 0.03, "{found}");
     let adviser = Adviser::new(&helm, 1.0, helm.tick_hz);
     let met = adviser.meets(spec("explicit-euler"), CRITERIA[BOUNDED]);
-    let factor = met.met().unwrap().stiffness_factor;
+    let factor = met.met().unwrap().stiffness_factor.expect("it is known");
     assert!((1.0..10.0).contains(&factor), "{factor} times the side drag");
 }
 

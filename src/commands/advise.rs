@@ -17,20 +17,24 @@ mod report;
 use judged::{judge_all, warn_of_load};
 
 const ABOUT: &str = "\
-Each method is judged on the scene from its start, with its script's inputs, against the exact solution, at
-the scene's tick rate or at --tick-hz. For each criterion the fewest substeps per tick, 1 to 64, are sought:
+Each method is judged on the scene from its start, with its script's inputs, against the exact
+solution, at the scene's tick rate or at --tick-hz. For each criterion the fewest substeps per
+tick, 1 to 64, are sought:
 
-  bounded      nothing grows that should not, over the scene and in the long run: no mode of a linear body
-               doubles within a year; any other body is followed for 20 times the scene's length
-  looks-right  over the scene the amplitude is within 5 % of the truth's and the frequency within 1 %; a
-               body that does not swing stays within 5 % of its range
+  bounded      nothing grows that should not, over the scene and in the long run: no mode of a
+               linear body doubles within a year; any other body is followed for 20 times the
+               scene's length
+  looks-right  over the scene the amplitude is within 5 % of the truth's and the frequency within
+               1 %; a body that does not swing stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
-A scene longer than a minute is judged over its first minute. Costs are those of all bodies per simulated
-second: evaluations of the acceleration, and time measured on this machine, the best of several runs. HOLDS
-FROM is the slowest whole tick rate, at or below the one judged, at which the criterion still holds with the
-same substeps; STIFFER BY is the largest factor, at most 10000, by which the named parameter may grow. The
-recommended method is the cheapest; between times within a fifth of each other, evaluations decide.
+A scene longer than a minute is judged over its first minute. Costs are those of all bodies per
+simulated second: evaluations of the acceleration, and time measured on this machine, the best of
+several runs. HOLDS FROM is the slowest whole tick rate, at or below the one judged, at which the
+criterion still holds with the same substeps; STIFFER BY is the largest factor, at most 10000, by
+which the named parameter may grow. Either is not known, and null in JSON, where the next run has
+no truth or takes too much work. The recommended method is the cheapest; between times within a
+fifth of each other, evaluations decide.
 
 Examples:
   regatta advise --scene harbour

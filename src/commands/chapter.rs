@@ -23,8 +23,8 @@ use figures::Diagram;
 use folder::{FigureFolder, FigureFolderError};
 
 const EXAMPLES: &str = "\
-A tick stands beside each number that equals the printed one to the last digit. Figures 7-5 and 7-8 show
-a spring whose parameters the chapter does not print; those are ours.
+A tick stands beside each number that equals the printed one to the last digit. Figures 7-5 and
+7-8 show a spring whose parameters the chapter does not print; those are ours.
 
 Examples:
   regatta chapter

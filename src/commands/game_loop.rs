@@ -33,22 +33,24 @@ const ABOUT: &str = "\
 One row for each trace and policy, in the order asked for:
   policy, trace, tick_hz
   frames                  frames made, displayed or not
-  animation_error_rms_ms  change of the moment shown minus change of the moment of display, from frame to
-  animation_error_max_ms  frame: judder (PresentMon's term)
+  animation_error_rms_ms  change of the moment shown minus change of the moment of display, from
+  animation_error_max_ms  frame to frame: judder (PresentMon's term)
   repeated_percent        displayed frames that show the same moment again
-  double_percent          displayed frames that show two ticks or more at once, half a tick or more ahead
+  double_percent          displayed frames that show two ticks or more at once, half a tick or
+                          more ahead
   latency_mean_ms         moment of display minus moment shown
   latency_max_ms
   dropped_ms              real time given up
   owed_max_ms             the most real time neither simulated nor given up
-  position_error_rms      distance from the exact solution at the moment of display, in amplitudes (half
-                          the range), of the worst body
+  position_error_rms      distance from the exact solution at the moment of display, in amplitudes
+                          (half the range), of the worst body
   ticks                   steps made, of whatever length
   evaluations             of the bodies' accelerations
 
---frames writes one line for each frame, policy and trace; q is the first coordinate of the scene's first
-body as the picture shows it. A trace from a file begins with its first row; a row that was never displayed
-steps the game and shows nothing. A file of several programs gives a trace for each.
+--frames writes one line for each frame, policy and trace; q is the first coordinate of the
+scene's first body as the picture shows it. A trace from a file begins with its first row; a row
+that was never displayed steps the game and shows nothing. A file of several programs gives a
+trace for each.
 
 Examples:
   regatta loop > loops.csv

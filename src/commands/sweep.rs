@@ -31,20 +31,23 @@ One row for each scene, body, method and tick rate, in that order whatever the n
   seconds               how far the run came, in simulated seconds
   error                 the largest of a coordinate or a velocity on the way, as a part of its
                         amplitude; empty where the method did not come to the end
-  energy_drift_percent  the largest on the way; empty where the body conserves no energy
+  energy_drift_percent  the largest on the way, of the energy that the exact motion exchanges, or
+                        without a reference of the largest kinetic energy or the most lost; empty
+                        where the body conserves no energy
   evaluations_per_s     evaluations of the acceleration in a simulated second
-  ns_per_s              nanoseconds for a simulated second, measured here and now, one run at a time
-  verdict               rounding, accurate, out-of-phase, loses-energy, gains-energy, blew-up, gave-up,
-                        no-truth or not-judged
+  ns_per_s              nanoseconds for a simulated second, measured here and now, one run at a
+                        time
+  verdict               rounding, accurate, out-of-phase, loses-energy, gains-energy, blew-up,
+                        gave-up, no-truth or not-judged
   halted                why, if it blew up or gave up: a method that blows up is a row like others
-  half_life_ms          the time in which a follower covers half of the way to a target that stays;
-                        empty where it does not, and of other bodies
+  half_life_ms          the time in which a follower covers half of the way to a target that
+                        stays; empty where it does not, and of other bodies
   overshoot_percent     the furthest that it goes beyond the target, in percent of the way
   parameter, value      what --vary sets; empty of a body that has no such parameter
 
-A method that is for some bodies only has rows of those (`regatta list methods`).
-A body is judged as `regatta advise` judges it, from its start and with the inputs of the scene's script.
-Octaves are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
+A method that is for some bodies only has rows of those (`regatta list methods`). A body is judged
+as `regatta advise` judges it, from its start and with the inputs of the scene's script. Octaves
+are a quarter, half, 1, 2, 4 and 8 times the scene's own rate, rounded down.
 
 Examples:
   regatta sweep > sweep.csv

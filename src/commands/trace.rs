@@ -8,19 +8,20 @@ use super::error::Error;
 use super::experiment::{self, ExperimentArgs, Lineup};
 use super::output::table::{RowFormat, csv_cell};
 use super::terminal::tell;
-use crate::lab::{Lab, Lane, METRICS, SceneBody};
+use crate::lab::{Lab, Lane, LaneBody, METRICS, SceneBody};
 use crate::sim::Solver;
-use crate::sim::bodies::Kind;
+use crate::sim::bodies::Truth;
 
 const EXAMPLES: &str = "\
 One row for each tick, lane, body and coordinate:
   tick,t,lane,method,body,coordinate,q,v
-Lane 0 is the truth: `exact`, or for a body without a closed form `reference`, whose aim is
-stated. q is in metres or radians, v the same a second, t in seconds. With --metrics a row for each
-metric follows, its id as coordinate, its value as q, and v empty.
+Lane 0 is the truth: `exact`, or `reference`, whose aim is stated, for a body without a closed
+form and for a law with `exact` from its first input, edit or placing on. q is in metres or
+radians, v the same a second, t in seconds. With --metrics a row for each metric follows, its id
+as coordinate, its value as q, and v empty.
 
-The scene's script is played. A method that it switches to is flown where one lane sails alone; in a
-race each lane keeps its own.
+The scene's script is played. A method that it switches to is flown where one lane sails alone; in
+a race each lane keeps its own.
 
 Examples:
   regatta trace --scene ship --method explicit-euler --seconds 8.5
@@ -61,6 +62,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     let mut trace = Trace::new(args, &experiment.scene.bodies);
     let mut halts = Halts::default();
 
+    let at_start: Vec<Truth> = lab.race().truth().bodies().iter().map(LaneBody::truth).collect();
     trace.begin()?;
     trace.tick(&lab)?;
     let last = lab.nearest_tick(seconds);
@@ -70,7 +72,7 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
         halts.note(&lab);
     }
     trace.finish()?;
-    tell_accuracy(&experiment.scene.bodies, lab.race().truth());
+    tell_accuracy(&experiment.scene.bodies, &at_start, lab.race().truth());
     halts.lines.iter().for_each(|line| tell(line));
     Ok(())
 }
@@ -140,7 +142,7 @@ impl Trace {
     fn lane(&mut self, number: usize, lane: &Lane, truth: Option<&Lane>) -> io::Result<()> {
         let bodies = lane.bodies().iter().enumerate();
         for (n, body) in bodies.filter(|(_, body)| body.halted().is_none()) {
-            let method = method_id(lane.solver(), body.kind);
+            let method = method_id(lane.solver(), body);
             let values = body.stepper.q().iter().zip(body.stepper.v());
             for (coordinate, (&q, &v)) in body.coordinates.iter().zip(values) {
                 self.row(number, method, n, coordinate.name, q, Some(v))?;
@@ -193,21 +195,24 @@ impl Trace {
     }
 }
 
-fn method_id(solver: Solver, kind: &Kind) -> &'static str {
-    solver.method().map_or(kind.truth.id(), |method| method.id)
+fn method_id(solver: Solver, body: &LaneBody) -> &'static str {
+    solver.method().map_or(body.truth().id(), |method| method.id)
 }
 
-/// What is known of the bodies that have no closed form.
-fn tell_accuracy(bodies: &[SceneBody], truth: &Lane) {
-    for (SceneBody { name, kind, .. }, truth) in bodies.iter().zip(truth.bodies()) {
+/// What is known of the bodies whose truth is a reference solution at the end; `at_start` is what it was at the start.
+fn tell_accuracy(bodies: &[SceneBody], at_start: &[Truth], truth: &Lane) {
+    for ((SceneBody { name, .. }, at_start), truth) in
+        bodies.iter().zip(at_start).zip(truth.bodies())
+    {
         // What a halt says needs no aim.
-        let aim = kind.truth.aimed_accuracy().filter(|_| !truth.stepper.is_beyond_reference());
-        if let Some(accuracy) = aim {
-            tell(&format!(
-                "lane 0, {name}: has no closed form; its {} aims at {accuracy:e}, relative",
-                kind.truth.id(),
-            ));
-        }
+        let aim = truth.truth().aimed_accuracy().filter(|_| !truth.stepper.is_beyond_reference());
+        let Some(accuracy) = aim else { continue };
+        let why = match at_start {
+            Truth::Exact => "is exact only up to its first input, edit or placing",
+            Truth::Reference => "has no closed form",
+        };
+        let id = truth.truth().id();
+        tell(&format!("lane 0, {name}: {why}; its {id} aims at {accuracy:e}, relative"));
     }
 }
 
@@ -227,7 +232,7 @@ impl Halts {
             let no_truth = if number == 0 { ", and so do its comparisons" } else { "" };
             self.lines.push(format!(
                 "lane {number}, {}, halted at tick {} (t = {:.3} s): {body} {}; its rows end there{no_truth}",
-                method_id(lane.solver(), lane.bodies()[halt.body].kind),
+                method_id(lane.solver(), &lane.bodies()[halt.body]),
                 halt.tick,
                 race.t() - race.last_step_s(),
                 halt.failure,

@@ -5,6 +5,7 @@ mod advice;
 mod by_energy;
 mod change;
 mod chase_finding;
+mod criterion_met;
 mod energy;
 mod energy_finding;
 mod frequency;

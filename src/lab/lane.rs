@@ -131,15 +131,21 @@ impl LaneBody {
         self.like_first(self.stepper.v()).fold(0.0, libm::hypot)
     }
 
+    /// What the true motion is at present, of a body under [`Solver::Truth`]: the law of a scene is
+    /// [exact](Truth::Exact) up to the first input if it gives its solution.
+    pub fn truth(&self) -> Truth {
+        if self.stepper.is_closed_form() { Truth::Exact } else { Truth::Reference }
+    }
+
     /// How well the true motion is known, for people: `exact`, or the present error of the reference in the units of
     /// the coordinates, if it has one yet; `no reference` where that would take too much work.
     pub fn truth_in_words(&self) -> String {
-        let id = self.kind.truth.id();
+        let id = self.truth().id();
         if let Some(StepFailure::ReferenceTooDear { .. }) = self.halted().map(|halt| &halt.failure)
         {
-            return format!("no {id}");
+            return self.truth().missing().into();
         }
-        match (self.kind.truth, self.stepper.truth_error()) {
+        match (self.truth(), self.stepper.truth_error()) {
             (Truth::Exact, _) | (_, None) => id.into(),
             // Of a body that starts at 0 nothing is rounded yet.
             (Truth::Reference, Some([0.0, _])) => id.into(),

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::chase::Chase;
 use super::lane::LaneBody;
-use crate::sim::bodies::Coordinate;
+use crate::sim::bodies::{Coordinate, Truth};
 
 /// How a metric is plotted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,6 +60,8 @@ pub struct Metric {
     pub unit: Unit,
     /// How it is plotted.
     pub scale: Scale,
+    /// Whether it compares the lane with the truth.
+    pub is_comparison: bool,
     /// What it is, in one line.
     pub about: &'static str,
     /// The value for a body in a lane and the same body in truth; `None` where it is undefined. A comparison is undefined
@@ -72,6 +74,13 @@ impl Metric {
     pub fn absent_on(&self, truth: &LaneBody) -> &'static str {
         if self.id == ENERGY_DRIFT && truth.false_claims().energy {
             "No drift to show: with these constants the body's `energy` is not conserved."
+        } else if self.id == ENERGY_DRIFT && truth.stepper.energy().is_none() {
+            self.absent
+        } else if self.is_comparison && truth.halted().is_some() {
+            match truth.truth() {
+                Truth::Exact => "Nothing to compare with: there is no exact solution.",
+                Truth::Reference => "Nothing to compare with: there is no reference.",
+            }
         } else {
             self.absent
         }
@@ -88,6 +97,7 @@ pub const METRICS: &[Metric] = &[
         absent: "Nothing to compare yet: no tick was made.",
         unit: Unit::Coordinate,
         scale: Scale::Log,
+        is_comparison: true,
         about: "largest difference from the truth in a coordinate",
         measure: |lane, truth| {
             let [q, exact] = both(lane, truth)?.map(|body| body.like_first(body.stepper.q()));
@@ -100,6 +110,7 @@ pub const METRICS: &[Metric] = &[
         absent: "Nothing to compare yet: no tick was made.",
         unit: Unit::Velocity,
         scale: Scale::Log,
+        is_comparison: true,
         about: "largest difference from the truth in a velocity",
         measure: |lane, truth| {
             let [v, exact] = both(lane, truth)?.map(|body| body.like_first(body.stepper.v()));
@@ -112,6 +123,7 @@ pub const METRICS: &[Metric] = &[
         absent: "No speed to compare: the exact motion stands still.",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
+        is_comparison: true,
         about: "speed beyond the truth's, in percent of the truth's largest speed so far",
         measure: |lane, truth| {
             let [speed, exact] = both(lane, truth)?.map(LaneBody::speed);
@@ -125,6 +137,7 @@ pub const METRICS: &[Metric] = &[
         absent: "No drift to show: this body does not conserve its energy.",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
+        is_comparison: true,
         about: "energy gained, in percent of what the true motion exchanges: the range of its kinetic energy, from when both its ends were seen",
         measure: |lane, truth| {
             let [lane, exact] = both(lane, truth)?;
@@ -138,6 +151,7 @@ pub const METRICS: &[Metric] = &[
         absent: "No evaluations yet: no tick was made.",
         unit: Unit::Of(""),
         scale: Scale::Linear,
+        is_comparison: false,
         about: "evaluations of this body's acceleration since the start",
         measure: |lane, _| Some(lane.stepper.evaluations() as f64),
     },
@@ -147,6 +161,7 @@ pub const METRICS: &[Metric] = &[
         absent: "No time lost: every method shown keeps time.",
         unit: Unit::Of("s"),
         scale: Scale::Linear,
+        is_comparison: false,
         about: "time by which this body is behind, under a method that does not keep it",
         measure: |lane, _| Some(lane.stepper.counts().lost_time).filter(|&lost| lost > 0.0),
     },
@@ -156,6 +171,7 @@ pub const METRICS: &[Metric] = &[
         absent: "No half-life: this body follows no target that stays, or is not yet half-way.",
         unit: Unit::Of("ms"),
         scale: Scale::Linear,
+        is_comparison: false,
         about: "time in which this body covered half of the way to a target that stays, since the last input or placement",
         measure: |lane, _| Some(1e3 * lane.chase()?.half_life_s()?),
     },
@@ -165,6 +181,7 @@ pub const METRICS: &[Metric] = &[
         absent: "No overshoot: this body follows no target that stays.",
         unit: Unit::Of("%"),
         scale: Scale::Linear,
+        is_comparison: false,
         about: "furthest that this body went beyond a target that stays, in percent of the way, since the last input or placement",
         measure: |lane, _| lane.chase().map(Chase::overshoot_percent),
     },

@@ -40,6 +40,7 @@ impl Observer for Notices<'_> {
 fn of_halts(scene: &Scene, race: &Race) -> Option<String> {
     race.just_halted().next()?;
     let told = race.just_halted().map(|(place, Halt { tick, body, failure })| {
+        let truth = race.truth().bodies()[*body].truth().id();
         let body = &scene.bodies[*body];
         match place {
             Some(place) => {
@@ -47,7 +48,7 @@ fn of_halts(scene: &Scene, race: &Race) -> Option<String> {
                 format!("{method} halted at tick {tick}: {} {failure}", body.name)
             }
             None => {
-                let (truth, name) = (body.kind.truth.id(), &body.name);
+                let name = &body.name;
                 format!(
                     "the {truth} solution halted at tick {tick}: {name} {failure}; nothing is compared with it any more"
                 )

@@ -6,7 +6,6 @@ use super::analysis::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS,
     MethodAdvice, recommended,
 };
-use super::number::round;
 use super::own::{Options, scene};
 use super::scene::Scene;
 use crate::sim::{State, System};
@@ -89,16 +88,8 @@ pub struct Recommendation {
 impl fmt::Display for Recommendation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { method, with } = self;
-        let more = if with.stiffness_factor >= 10_000.0 { "more than " } else { "" };
-        write!(
-            f,
-            "{method} ×{} ({} evaluations/s; holds down to {} Hz, or {more}{} × {})",
-            with.substeps,
-            with.evaluations_per_s.round(),
-            with.slowest_hz,
-            round(with.stiffness_factor, 3),
-            with.limited_by,
-        )
+        let evaluations = with.evaluations_per_s.round();
+        write!(f, "{method} ×{} ({evaluations} evaluations/s; {})", with.substeps, with.margins())
     }
 }
 

@@ -183,7 +183,7 @@ impl Scene {
     pub fn built_in(name: &str) -> Option<Scene> {
         let BuiltIn { name, text } = SCENES.iter().find(|scene| scene.name == name)?;
         let scene = Scene::parse(name, text);
-        Some(scene.expect("tests/scenes.rs parses every built-in scene"))
+        Some(scene.expect("tests/scenes parses every built-in scene"))
     }
 }
 

@@ -178,6 +178,9 @@ impl<B: Body, D: Propagator<B>> Stepper for BodyStepper<B, D> {
     fn is_sparse(&self) -> bool {
         B::Vector::IS_SPARSE
     }
+    fn is_closed_form(&self) -> bool {
+        self.propagator.is_closed_form()
+    }
     fn truth_error(&self) -> Option<[f64; 2]> {
         self.propagator.truth_error(&self.body, &self.state)
     }

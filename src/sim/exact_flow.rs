@@ -108,6 +108,10 @@ impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
         is_changed
     }
 
+    fn is_closed_form(&self) -> bool {
+        true
+    }
+
     fn truth_error(&self, body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
         let mut scratch = state.clone();
         Some(self.anchor.error(&body.system, self.t, state, &mut scratch))

@@ -65,6 +65,10 @@ impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
         is_changed
     }
 
+    fn is_closed_form(&self) -> bool {
+        self.is_untouched
+    }
+
     fn truth_error(&self, body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
         if !self.is_untouched {
             return self.reference.truth_error(body, state);

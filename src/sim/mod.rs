@@ -11,6 +11,7 @@ mod body_stepper;
 mod clock;
 #[cfg(feature = "lab")]
 pub mod conformance;
+mod dice;
 mod double_double;
 mod exact_flow;
 mod exact_since_start;

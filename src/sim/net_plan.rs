@@ -103,6 +103,8 @@ pub struct NetFault {
 pub enum NetPart {
     /// The nodes or the counts of the grid.
     Nodes,
+    /// The distance of neighbours in the grid.
+    Spacing,
     /// An entry of the fixed nodes.
     Fixed(usize),
     /// The springs as a whole.
@@ -113,6 +115,9 @@ pub enum NetPart {
     Kicked,
 }
 
+/// What is wrong with a net without a free node.
+const ALL_FIXED: &str = "every node is fixed, so that nothing moves";
+
 impl NetPlan {
     /// The nodes and the springs one by one.
     pub fn lists(&self) -> Lists {
@@ -122,14 +127,12 @@ impl NetPlan {
         }
     }
 
-    /// The first fault of each kind; empty if a net can be built.
+    /// One fault of the net as a whole, else all of its entries; empty if a net can be built.
     pub fn faults(&self) -> Vec<NetFault> {
         if let Form::Grid(grid) = &self.form
-            && grid.columns.saturating_mul(grid.rows) > MOST_NODES
+            && let Some(fault) = grid.fault()
         {
-            let what = format!("the grid has {} nodes", grid.columns.saturating_mul(grid.rows));
-            let remedy = format!("keep at most {MOST_NODES}: fewer `columns` or fewer `rows`");
-            return vec![NetFault { part: NetPart::Nodes, what, remedy }];
+            return vec![fault];
         }
         let lists = self.lists();
         let mut faults = lists.faults();
@@ -143,17 +146,40 @@ impl NetPlan {
 }
 
 impl Grid {
+    /// The fault of the counts, the pin or the spacing, if there is one.
+    fn fault(&self) -> Option<NetFault> {
+        let Self { columns, rows, spacing, pin, .. } = *self;
+        let nodes = columns.saturating_mul(rows);
+        let (part, what, remedy) = if nodes > MOST_NODES {
+            let remedy = format!("keep at most {MOST_NODES}: fewer `columns` or fewer `rows`");
+            (NetPart::Nodes, format!("the grid has {nodes} nodes"), remedy)
+        } else if nodes > 1 && pin.is_some_and(|pin| (0..nodes).all(|node| self.pins(pin, node))) {
+            let remedy = "give the grid more `rows`, or remove `pin`".into();
+            (NetPart::Nodes, ALL_FIXED.into(), remedy)
+        } else if nodes > 1 && spacing * spacing < f64::MIN_POSITIVE {
+            let what = "neighbours stand so near that a spring between them has no length".into();
+            (NetPart::Spacing, what, "write a larger `spacing_m`".into())
+        } else {
+            return None;
+        };
+        Some(NetFault { part, what, remedy })
+    }
+
+    /// Whether `pin` fixes the node of this number.
+    fn pins(&self, pin: Pin, node: usize) -> bool {
+        match pin {
+            Pin::Top => node < self.columns,
+            Pin::Corners => node == 0 || node + 1 == self.columns,
+        }
+    }
+
     fn lists(&self) -> Lists {
         let Self { columns, rows, spacing, shear, pin } = *self;
         let node = |column: usize, row: usize| row * columns + column;
         let places = (0..rows).flat_map(|row| {
             (0..columns).map(move |column| [column as f64 * spacing, -(row as f64) * spacing])
         });
-        let is_fixed = |node: usize| match pin {
-            None => false,
-            Some(Pin::Top) => node < columns,
-            Some(Pin::Corners) => node == 0 || node + 1 == columns,
-        };
+        let is_fixed = |node: usize| pin.is_some_and(|pin| self.pins(pin, node));
         let fixed = (0..columns).filter(|&node| is_fixed(node)).collect();
         let mut springs = Vec::new();
         for row in 0..rows {
@@ -197,8 +223,7 @@ impl Lists {
             return vec![fault(NetPart::Nodes, what, &remedy)];
         }
         if (0..nodes).all(|node| self.fixed.contains(&node)) {
-            let what = "every node is fixed, so that nothing moves".into();
-            return vec![fault(NetPart::Nodes, what, "free a node")];
+            return vec![fault(NetPart::Nodes, ALL_FIXED.into(), "free a node")];
         }
         if !(1..=MOST_SPRINGS).contains(&self.springs.len()) {
             let what = format!("the net has {} springs", self.springs.len());

@@ -45,6 +45,11 @@ pub(super) trait Propagator<B: Body>: Clone + Send + 'static {
         change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
     ) -> bool;
 
+    /// As [`Stepper::is_closed_form`](super::Stepper::is_closed_form).
+    fn is_closed_form(&self) -> bool {
+        false
+    }
+
     /// As [`Stepper::truth_error`](super::Stepper::truth_error), at the current `state`.
     fn truth_error(&self, _body: &Counted<B>, _state: &State<B::Vector>) -> Option<[f64; 2]> {
         None

@@ -63,6 +63,9 @@ pub trait Stepper: Send {
     fn is_beyond_reference(&self) -> bool;
     /// Whether implicit methods solve the body's equations without a matrix.
     fn is_sparse(&self) -> bool;
+    /// Whether the current state is that of a closed form; `false` under a reference solution or a method. A body
+    /// that knows its exact motion from the start only has none after an input, an edit or a placing.
+    fn is_closed_form(&self) -> bool;
     /// The error of the truth at the current state: the largest of a coordinate and of a velocity, in
     /// their own units. For a closed form it is a bound on rounding; for a reference solution it is an
     /// estimate from a second solution with other steps. Infinite if nothing is known. `None` under a

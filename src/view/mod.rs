@@ -15,6 +15,7 @@ mod gpu;
 mod legibility;
 mod lines;
 mod meshes;
+mod missing_glyph;
 mod offscreen;
 mod offscreen_renderer;
 mod panels;

@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use egui::{Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Stroke, Ui};
 
+use super::missing_glyph;
 use crate::lab::palette::{Palette, Theme};
 use crate::lab::picture::Rgba;
 use crate::lab::{Display, LaneSpec};
@@ -126,6 +127,7 @@ pub(super) fn quantity_font(size: f32) -> FontId {
 /// The look of every widget. Set once for each context.
 pub(super) fn dress(context: &egui::Context) {
     context.set_fonts(fonts());
+    context.add_glyph_rasterizer(missing_glyph::rasterizer());
     // The keys for the size of type are ours.
     context.options_mut(|options| options.zoom_with_keyboard = false);
     for theme in [Theme::Dark, Theme::Light] {

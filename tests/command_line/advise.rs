@@ -138,6 +138,27 @@ fn a_scene_that_nothing_holds_is_told_so() {
 }
 
 #[test]
+fn a_margin_whose_search_ends_at_too_much_work_is_not_known() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 60\nseconds = 60\n[[net]]\ncolumns = 10\nrows = 8\nspacing_m = 0.1\n\
+                 shear = true\npin = 'corners'\nmass_kg = 0.02\nstiffness_n_per_m = 1000\n";
+    fs::write(folder.path().join("net.toml"), scene).unwrap();
+    let said = |format: &str| {
+        let arguments = format!("advise --scene net.toml --method rk4 --format {format}");
+        String::from_utf8(run_in(folder.path(), &arguments).stdout).unwrap()
+    };
+    // The run at the rate asked for is affordable. The many runs of a stiffer net may each take a tenth of its work.
+    let advice: Value = serde_json::from_str(&said("json")).unwrap();
+    let bounded = &row(&advice, "rk4")["criteria"]["bounded"];
+    assert!(bounded["stiffness_factor"].is_null() && bounded["limited_by"].is_null(), "{bounded}");
+    let slowest_hz = bounded["slowest_hz"].as_u64().expect("slower runs are cheaper");
+    assert!((50..=60).contains(&slowest_hz), "{slowest_hz} Hz");
+    let text = said("text");
+    assert!(text.lines().any(|line| line.ends_with(" Hz       not known")), "{text}");
+    assert!(text.contains(" Hz; how much stiffer, is not known)\n"), "{text}");
+}
+
+#[test]
 fn mistakes_are_refused_as_elsewhere() {
     assert!(refusal("advise --scene shp", 2).contains("did you mean ship?"));
     assert!(refusal("advise --format xml", 2).contains("text, json"));

@@ -17,6 +17,7 @@ mod mishaps;
 mod mistakes;
 mod recordings;
 mod sweep;
+mod sweep_plots;
 mod trace;
 mod verify;
 mod verify_reports;

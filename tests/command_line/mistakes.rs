@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use clap::CommandFactory;
+use regatta::commands::Cli;
 use regatta::lab::Scene;
 
 use crate::{refusal, regatta, run, run_in, stderr, stdout_of};
@@ -154,14 +156,22 @@ fn the_first_example_names_the_method_that_the_harbour_opens_with() {
 }
 
 #[test]
-fn every_help_fits_a_hundred_columns_and_has_examples() {
-    for command in
-        ["play", "capture", "verify", "trace", "advise", "sweep", "chapter", "list", "completions"]
-    {
-        let output = regatta().args([command, "--help"]).env("COLUMNS", "200").output().unwrap();
-        let help = String::from_utf8(output.stdout).unwrap();
-        assert!(help.contains("Examples:\n  regatta "), "{help}");
-        let widest = help.lines().map(|line| line.chars().count()).max();
-        assert!(widest <= Some(100), "{command}: {widest:?} columns");
+fn every_help_fits_a_hundred_columns_and_breaks_lines_where_it_is_written_to() {
+    let cli = Cli::command();
+    for command in [&cli].into_iter().chain(cli.get_subcommands()) {
+        let name = command.get_name();
+        let called: &[&str] = if name == cli.get_name() { &[] } else { &[name] };
+        for (help, columns) in [("-h", None), ("--help", None), ("--help", Some("200"))] {
+            let mut program = regatta();
+            program.args(called).arg(help);
+            columns.map(|columns| program.env("COLUMNS", columns));
+            let said = String::from_utf8(program.output().unwrap().stdout).unwrap();
+            let widest = said.lines().map(|line| line.chars().count()).max();
+            assert!(widest <= Some(100), "{name} {help}: {widest:?} columns");
+            assert!(said.contains("Examples:\n  regatta"), "{name} {help}: {said}");
+            let after = command.get_after_help().unwrap().to_string();
+            let broken = after.lines().find(|line| !said.lines().any(|shown| shown == *line));
+            assert_eq!(broken, None, "{name} {help}");
+        }
     }
 }

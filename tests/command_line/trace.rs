@@ -78,6 +78,26 @@ fn a_body_without_a_closed_form_has_a_reference_for_truth_and_its_accuracy_is_to
 }
 
 #[test]
+fn a_law_that_gives_its_solution_has_an_exact_truth_up_to_its_first_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let law = "title = 'x'\ntick_hz = 10\nseconds = 0.3\n[[law]]\nname = 'swing'\n[law.coordinates.x]\n\
+               start = 1\nacceleration = '-x'\nexact = 'cos(t)'\n";
+    let kick = "[[command]]\ntick = 1\nkick = 1.0\n";
+    let aim = "lane 0, swing: is exact only up to its first input, edit or placing; its reference aims at 1e-10, relative\n";
+    for (text, methods, said) in [
+        (law.to_owned(), ["exact"; 4], ""),
+        (format!("{law}{kick}"), ["exact", "exact", "reference", "reference"], aim),
+    ] {
+        fs::write(folder.path().join("law.toml"), text).unwrap();
+        let output = run_in(folder.path(), "trace --scene law.toml --method rk4");
+        let csv = String::from_utf8(output.stdout.clone()).unwrap();
+        let truth: Vec<&str> =
+            rows(&csv).into_iter().filter(|row| row[2] == "0").map(|row| row[3]).collect();
+        assert_eq!((truth, stderr(&output).as_str()), (methods.to_vec(), said));
+    }
+}
+
+#[test]
 fn a_chain_has_a_row_for_each_of_its_masses() {
     let csv = stdout_of("trace --scene chain --method rk4 --seconds 0");
     let names: Vec<_> = rows(&csv).iter().map(|row| row[5].to_owned()).collect();

@@ -49,6 +49,18 @@ fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so
 }
 
 #[test]
+fn the_drift_of_a_conserved_energy_is_told_without_a_reference_too() {
+    let elastic = scene(1000.0, "");
+    let drift = |scene: &Scene, id: &str| verdict(scene, id).energy_drift;
+    let lost = drift(&elastic, "implicit-euler").expect("it conserves its energy");
+    assert!((-101.0..-50.0).contains(&lost), "{lost} %");
+    let kept = drift(&elastic, "implicit-midpoint").expect("it conserves its energy");
+    assert!(kept != 0.0 && kept.abs() < 5.0, "{kept} %");
+    assert_eq!(drift(&elastic, "explicit-euler"), None, "it blew up");
+    assert_eq!(drift(&scene(1000.0, "damping_n_s_per_m = 0.1\n"), "implicit-midpoint"), None);
+}
+
+#[test]
 fn a_damped_net_may_lose_energy_and_a_kick_may_bring_it() {
     let scripted = "damping_n_s_per_m = 0.1\n[[command]]\ntick = 60\nkick = 0.3\n";
     let scene = scene(1000.0, scripted);

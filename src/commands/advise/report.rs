@@ -172,6 +172,9 @@ impl MetRow {
     }
 }
 
+/// What stands for a margin whose search ended at a run that has no truth or takes too much work.
+const NOT_KNOWN: &str = "not known";
+
 const METS: &[Column<MetRow>] = &[
     Column { key: "method", heading: Some("METHOD"), value: |row| json!(row.id) },
     Column {
@@ -192,13 +195,17 @@ const METS: &[Column<MetRow>] = &[
     Column {
         key: "slowest_hz",
         heading: Some("HOLDS FROM"),
-        value: |row| json!(format!("{} Hz", row.met.slowest_hz)),
+        value: |row| json!(row.met.slowest_hz.map_or(NOT_KNOWN.into(), |hz| format!("{hz} Hz"))),
     },
     Column {
         key: "stiffness_factor",
         heading: Some("STIFFER BY"),
         value: |row| {
-            json!(format!("{} × {}", round(row.met.stiffness_factor, 3), row.met.limited_by))
+            let CriterionMet { stiffness_factor, limited_by, .. } = &row.met;
+            json!(match (stiffness_factor, limited_by) {
+                (Some(factor), Some(parameter)) => format!("{} × {parameter}", round(*factor, 3)),
+                _ => NOT_KNOWN.into(),
+            })
         },
     },
 ];

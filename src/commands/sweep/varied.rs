@@ -1,7 +1,7 @@
 //! A parameter that takes several values in a sweep.
 
 use crate::commands::error::Cause;
-use crate::lab::{Scene, edited_values};
+use crate::lab::{Scene, edited_values, nearest};
 
 /// A parameter by its key, and its values.
 #[derive(Clone, Debug)]
@@ -13,10 +13,8 @@ pub(super) struct Varied {
 /// The sweep cannot vary a parameter as it is asked to.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CannotVary {
-    #[error(
-        "no body has a parameter {key:?}; give one of `regatta list bodies`, or a constant of a law"
-    )]
-    Unknown { key: String },
+    #[error("no body has a parameter {key:?}; {}", remedy(*.nearest))]
+    Unknown { key: String, nearest: Option<&'static str> },
     #[error("--vary {key}={value} on {body:?}: {why}")]
     Refused { key: String, value: f64, body: String, why: String },
 }
@@ -24,6 +22,13 @@ pub(super) enum CannotVary {
 impl Cause for CannotVary {
     fn exit_code(&self) -> u8 {
         2
+    }
+}
+
+fn remedy(nearest: Option<&str>) -> String {
+    match nearest {
+        Some(key) => format!("did you mean {key}?"),
+        None => "give one of `regatta list bodies`, or a constant of a law".into(),
     }
 }
 
@@ -55,6 +60,11 @@ impl Varied {
                 })?;
             }
         }
-        is_known.then_some(()).ok_or_else(|| CannotVary::Unknown { key: self.key.clone() })
+        if is_known {
+            return Ok(());
+        }
+        let bodies = scenes.iter().flat_map(|(_, scene)| &scene.bodies);
+        let keys = bodies.flat_map(|body| body.kind.parameters.iter().map(|it| (it.key, it.key)));
+        Err(CannotVary::Unknown { key: self.key.clone(), nearest: nearest(&self.key, keys) })
     }
 }

@@ -4,6 +4,8 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
+pub use super::criterion_met::CriterionMet;
+use super::criterion_met::MOST_STIFFER;
 use super::judge::{CriterionFinding, Judge};
 use super::searches::{furthest, slowest_down, tried_substeps};
 use super::verdict::Verdict;
@@ -68,23 +70,6 @@ pub const MOST_ADVISED_SUBSTEPS: u32 = 64;
 /// The most work for one run of a stiffer scene, in the unit of [`MOST_WORK`](super::MOST_WORK). There are many such runs.
 const WORK_WHEN_STIFFER: u64 = 5_000_000;
 
-/// The fewest substeps with which a method meets a criterion, and its margins.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct CriterionMet {
-    /// Steps per tick.
-    pub substeps: u32,
-    /// Evaluations of all bodies' accelerations per simulated second.
-    pub evaluations_per_s: f64,
-    /// The lowest tick rate in Hz, going down from the requested one, at which the criterion still holds with as many
-    /// substeps.
-    pub slowest_hz: u32,
-    /// The largest factor by which the bodies may be stiffer, 1 to 10 000, to two digits.
-    pub stiffness_factor: f64,
-    /// The parameter that the factor multiplies, of the body that fails first beyond it.
-    pub limited_by: String,
-}
-
 /// The advice on one method on a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MethodAdvice {
@@ -136,7 +121,7 @@ const DECADES: usize = 4;
 
 /// The factor at this place among all that are tried, 1 to 10 000.
 fn factor(place: usize) -> f64 {
-    DECADE[place % DECADE.len()] * [1.0, 10.0, 100.0, 1000.0, 10_000.0][place / DECADE.len()]
+    DECADE[place % DECADE.len()] * [1.0, 10.0, 100.0, 1000.0, MOST_STIFFER][place / DECADE.len()]
 }
 
 impl Adviser {
@@ -188,7 +173,7 @@ impl Adviser {
             }
         }
         let spec = with(substeps);
-        let (stiffness_factor, limited_by) = self.stiffest(spec, criterion);
+        let (stiffness_factor, limited_by) = self.stiffest(spec, criterion).unzip();
         let slowest_hz = self.slowest_down(spec, criterion);
         CriterionResult::With(CriterionMet {
             substeps,
@@ -205,30 +190,44 @@ impl Adviser {
         RateSearch::run(|hz| holds(find(&self.judge, criterion, spec, hz)))
     }
 
-    /// The lowest rate, going down from the requested one, at which the lane still meets the criterion; one hertz lower it
-    /// does not.
-    fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> u32 {
+    /// The lowest rate, going down from the requested one, at which the lane still meets the criterion: one hertz lower
+    /// it does not, or no tick fits into the horizon. `None` if that is not known.
+    fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
         // The rates of a linear body have few gaps, all of them wide; of other bodies nearly every rate is tried, but of a
         // net, whose runs are dear.
         let has_net = self.scene.bodies.iter().any(|body| body.kind.net.is_some());
         let strides = if self.judge.is_linear() || has_net { 6 } else { 60 };
-        slowest_down(self.tick_hz, strides, |hz| holds(find(&self.judge, criterion, spec, hz)))
-    }
-
-    /// The largest factor tried by which every body may be stiffer, and the parameter that limits it.
-    fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> (f64, String) {
-        let mut culprit = None;
-        let place = furthest(DECADE.len() * DECADES, |place| {
-            let Some(judge) = self.stiffer(place) else { return false };
-            let finding = find(&judge, criterion, spec, self.tick_hz);
-            if let CriterionFinding::Fails { body } = finding {
-                culprit = Some(body);
+        // The last miss of the search is that next to its result.
+        let mut is_known = true;
+        let slowest = slowest_down(self.tick_hz, strides, |hz| {
+            let finding = find(&self.judge, criterion, spec, hz);
+            if !holds(finding) {
+                is_known = finding != CriterionFinding::Unknown || !self.judge.has_ticks(hz);
             }
             holds(finding)
         });
+        is_known.then_some(slowest)
+    }
+
+    /// The largest factor tried by which every body may be stiffer, and the parameter that limits it; `None` if it is not
+    /// known whether the criterion holds with the next.
+    fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> Option<(f64, String)> {
+        let mut culprit = None;
+        let mut is_known = true;
+        let place = furthest(DECADE.len() * DECADES, |place| {
+            let finding =
+                self.stiffer(place).map(|judge| find(&judge, criterion, spec, self.tick_hz));
+            match finding {
+                Some(CriterionFinding::Holds { .. }) => return true,
+                Some(CriterionFinding::Fails { body }) => culprit = Some(body),
+                Some(CriterionFinding::Unknown) | None => {}
+            }
+            is_known = finding != Some(CriterionFinding::Unknown);
+            false
+        });
         let body =
             culprit.or_else(|| self.stiff_bodies().next().map(|(body, _)| body)).unwrap_or(0);
-        (factor(place), self.stiffness_name(body))
+        is_known.then(|| (factor(place), self.stiffness_name(body)))
     }
 
     /// Each body with the place of its leading parameter.
@@ -310,19 +309,36 @@ mod tests {
     use super::*;
     use crate::sim::integrators::method;
 
+    fn met(slowest_hz: Option<u32>, stiffness_factor: Option<f64>) -> CriterionMet {
+        let limited_by = stiffness_factor.map(|_| "stiffness".into());
+        CriterionMet {
+            substeps: 1,
+            evaluations_per_s: 60.0,
+            slowest_hz,
+            stiffness_factor,
+            limited_by,
+        }
+    }
+
+    #[test]
+    fn margins_are_told_as_far_as_they_are_known() {
+        for (slowest_hz, stiffness_factor, told) in [
+            (Some(50), Some(1.4), "holds down to 50 Hz, or 1.4 × stiffness"),
+            (Some(50), Some(1e4), "holds down to 50 Hz, or more than 10000 × stiffness"),
+            (Some(50), None, "holds down to 50 Hz; how much stiffer, is not known"),
+            (None, Some(1.4), "holds up to 1.4 × stiffness; how much slower, is not known"),
+            (None, None, "how much slower or stiffer, is not known"),
+        ] {
+            assert_eq!(met(slowest_hz, stiffness_factor).margins(), told);
+        }
+    }
+
     #[test]
     fn evaluations_decide_between_similar_costs_and_listings_as_printed_are_left_out() {
         let judge = Judge::new(&Scene::built_in("spring").unwrap(), 1.0);
         let advised = |id: &str, evaluations_per_s: f64| {
             let spec = LaneSpec::plain(method(id).unwrap());
-            let limited_by = "stiffness".into();
-            let met = CriterionMet {
-                substeps: 1,
-                evaluations_per_s,
-                slowest_hz: 60,
-                stiffness_factor: 1.0,
-                limited_by,
-            };
+            let met = CriterionMet { evaluations_per_s, ..met(Some(60), Some(1.0)) };
             let met = [CriterionResult::With(met), CriterionResult::No, CriterionResult::Unknown];
             MethodAdvice { spec, verdict: judge.verdict(spec, 60), met }
         };
@@ -361,7 +377,7 @@ mod tests {
     fn factors_rise_from_one_to_ten_thousand() {
         let factors: Vec<f64> = (0..=DECADE.len() * DECADES).map(factor).collect();
         assert!(factors.is_sorted_by(|a, b| a < b));
-        assert_eq!((factors[0], factors[factors.len() - 1]), (1.0, 10_000.0));
+        assert_eq!((factors[0], factors[factors.len() - 1]), (1.0, MOST_STIFFER));
         assert!(factors.windows(2).all(|pair| pair[1] / pair[0] < 1.22), "{factors:?}");
     }
 }

@@ -22,6 +22,8 @@ pub(super) struct EnergyRun {
     /// How the energy changes.
     pub(super) change: Change,
     pub(super) failure: Option<RunFailure>,
+    /// The change of a conserved energy of largest magnitude, in percent of the unit of [`EnergyFinding::change`].
+    pub(super) drift: Option<f64>,
     /// Whether the run was stopped within the horizon because it took too much work.
     pub(super) is_too_much: bool,
     pub(super) evaluations: u64,
@@ -59,6 +61,7 @@ pub(super) fn follow_energy(
         },
         change: Change::None,
         failure: None,
+        drift: None,
         is_too_much: false,
         evaluations: 0,
         seconds: 0.0,
@@ -67,8 +70,8 @@ pub(super) fn follow_energy(
     let sum = |[kinetic, potential]: [f64; 2]| kinetic + potential;
     let mut start = sum(energy(&*stepper));
     let mut means = Means::over(horizon);
-    // The largest kinetic energy, and the most energy that was lost.
-    let (mut fastest, mut lost) = (0.0_f64, 0.0_f64);
+    // The largest kinetic energy, the most energy that was lost, and the most that was gained.
+    let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
     for tick in 1..=horizon {
         let before = sum(energy(&*stepper));
         truth.apply_inputs(&mut *stepper, tick - 1, tick_hz);
@@ -80,8 +83,9 @@ pub(super) fn follow_energy(
         }
         (run.seconds, run.evaluations) = (tick as f64 / hz, stepper.evaluations());
         let now = energy(&*stepper);
-        (fastest, lost) = (fastest.max(now[0]), lost.max(start - sum(now)));
-        means.take_in(tick, sum(now) - start);
+        let gain = sum(now) - start;
+        (fastest, lost, gained) = (fastest.max(now[0]), lost.max(-gain), gained.max(gain));
+        means.take_in(tick, gain);
         if work(&*stepper, spec) > most_work {
             run.is_too_much = tick < horizon;
             break;
@@ -91,6 +95,8 @@ pub(super) fn follow_energy(
     if scale > 0.0 && scale.is_finite() {
         let [first, .., last] = means.means().map(|mean| mean / scale);
         run.finding.change = last;
+        let drift = if gained > lost { gained } else { -lost };
+        run.drift = is_conserved.then_some(100.0 * drift / scale);
         run.change = if is_conserved {
             Change::between(amplitude(first), amplitude(last))
         } else if last > first.max(0.0) + 2.0 * VISIBLE {

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::lab::number::round;
+use crate::sim::bodies::Truth;
 
 /// A radius above this is growth: the power iteration tells it to some thousandths.
 const GROWING_RADIUS: f64 = 1.01;
@@ -38,7 +39,7 @@ impl EnergyFinding {
 
 impl fmt::Display for EnergyFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("no reference: by energy")?;
+        write!(f, "{}: by energy", Truth::Reference.missing())?;
         match self.spectral_radius {
             Some(radius) => write!(f, " and spectral radius {}", round(radius, 4)),
             None => f.write_str(" alone"),

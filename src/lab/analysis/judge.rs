@@ -104,6 +104,11 @@ impl Judge {
         self.truths.iter().all(|truth| truth.modes.is_some())
     }
 
+    /// Whether a tick at this rate fits into the horizon.
+    pub(super) fn has_ticks(&self, tick_hz: u32) -> bool {
+        ticks(self.horizon_s, tick_hz) > 0
+    }
+
     /// The throttle under which the scene is judged.
     pub fn throttle(&self) -> f64 {
         self.throttle
@@ -231,7 +236,7 @@ impl Judge {
             energy_change: Some(run.finding.change).filter(|_| is_whole),
             frequency_error: None,
             is_bounded,
-            energy_drift: None,
+            energy_drift: run.drift.filter(|_| is_whole),
             chase: None,
             failure: run.failure,
             by_energy: Some(run.finding),
@@ -316,7 +321,7 @@ impl Judge {
         tick_hz: u32,
         of: impl Fn(&BodyTruth) -> Result<f64, CriterionMiss>,
     ) -> CriterionFinding {
-        if ticks(self.horizon_s, tick_hz) == 0 {
+        if !self.has_ticks(tick_hz) {
             return CriterionFinding::Unknown;
         }
         let mut evaluations_per_s = 0.0;

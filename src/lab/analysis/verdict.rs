@@ -7,6 +7,7 @@ use super::energy_finding::EnergyFinding;
 use super::limits::TOLERANCE;
 use super::outcome::Outcome;
 use crate::lab::number::{round, significant, superscript};
+use crate::sim::bodies::Truth;
 use crate::sim::integrators::StepFailure;
 
 /// Why and when a body's run ended early.
@@ -100,8 +101,8 @@ pub struct Verdict {
     pub frequency_error: Option<f64>,
     /// Whether nothing grows that does not grow in truth, in the long run too; `None` if that is not known.
     pub is_bounded: Option<bool>,
-    /// The energy drift of largest magnitude, in percent of the energy that the motion exchanges; `None` if energy is not
-    /// conserved.
+    /// The energy drift of largest magnitude, in percent of the energy that the motion exchanges, or without a reference
+    /// solution of the lane's largest kinetic energy or of the most that was lost; `None` if energy is not conserved.
     pub energy_drift: Option<f64>,
     /// How the body closes on a target that stays; `None` if it follows none.
     pub chase: Option<ChaseFinding>,
@@ -131,6 +132,12 @@ impl Verdict {
     /// Whether the error stays within the tolerance over the horizon.
     pub fn is_accurate(&self) -> bool {
         self.outcome <= Outcome::Accurate
+    }
+
+    /// What it lacks, if it rests on the energy for want of a reference solution: `no reference`.
+    pub fn missing_truth(&self) -> Option<&'static str> {
+        let rests_on_energy = self.by_energy.is_some() && self.outcome != Outcome::NotJudged;
+        rests_on_energy.then(|| Truth::Reference.missing())
     }
 
     /// The same verdict on a part of a run that begins at this time of the run, in seconds.
@@ -249,7 +256,7 @@ impl fmt::Display for Verdict {
         {
             write!(f, "; a faint mode ×2 in {}", duration(seconds))?;
         }
-        if let Some(found) = self.by_energy.filter(|_| self.outcome != Outcome::NotJudged) {
+        if let Some(found) = self.by_energy.filter(|_| self.missing_truth().is_some()) {
             write!(f, "; {found}")?;
         }
         self.chase.as_ref().map_or(Ok(()), |chase| write!(f, "; {chase}"))

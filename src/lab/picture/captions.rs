@@ -99,7 +99,7 @@ pub(super) fn halts<'h>(
     let of_bodies = (!of_bodies.is_empty()).then(|| of_bodies.join(" · "));
     let of_truth = truth
         .halted()
-        .map(|halt| format!("no {} solution from tick {} on", truth.kind.truth.id(), halt.tick));
+        .map(|halt| format!("{} from tick {} on", truth.truth().missing(), halt.tick));
     for (words, y) in of_bodies.into_iter().chain(of_truth).zip([12.0, 27.0]) {
         let at = [rect.min[0] + 9.0 + inset(rect), rect.max[1] - y];
         picture.labels.push(text(palette, at, Align::Left, 11.0, palette.bad, words));

@@ -7,7 +7,7 @@ use super::LARGEST_FILE;
 use super::clip::clip;
 use super::refusal::Refusal;
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::bodies::{self, BODIES, Fault};
+use crate::sim::bodies::{self, BODIES, Fault, Pin};
 use crate::sim::integrators::METHODS;
 
 /// A fault of a scene file. Its display says what is wrong, and [`Cause::remedy`] what to do.
@@ -47,6 +47,8 @@ pub(super) enum Cause {
     WrongType { subject: String, found: String, wanted: Wanted },
     #[error("`{key}` is {value}, out of range")]
     OutOfRange { key: &'static str, value: String, wanted: Wanted },
+    #[error("{subject} is {value}, out of range")]
+    ItemOutOfRange { subject: String, value: String, wanted: Wanted },
     #[error("`{key}` has {found} point{}", if *found == 1 { "" } else { "s" })]
     PointCount { key: &'static str, found: usize, wanted: Wanted },
     #[error("`{key}` has {found} number{}", if *found == 1 { "" } else { "s" })]
@@ -151,10 +153,16 @@ pub(super) enum Wanted {
     Places,
     /// The numbers of nodes.
     Nodes,
+    /// The number of a node.
+    Node,
     /// The numbers of two nodes.
     Ends,
     /// A list of springs.
     Springs,
+    /// A spring in such a list.
+    Spring,
+    /// The name of a [`Pin`].
+    Pin,
     /// `true` or `false`.
     Truth,
     /// A list of this many numbers.
@@ -191,6 +199,7 @@ impl Cause {
             Cause::UnknownMethod { nearest, known, .. } => offer(*nearest, known, '"'),
             Cause::WrongType { wanted, .. }
             | Cause::OutOfRange { wanted, .. }
+            | Cause::ItemOutOfRange { wanted, .. }
             | Cause::PointCount { wanted, .. }
             | Cause::NumberCount { wanted, .. }
             | Cause::EmptyText { wanted, .. }
@@ -275,13 +284,17 @@ impl Wanted {
 
     fn noun(&self) -> &'static str {
         match self {
-            Wanted::Text(_) | Wanted::Method | Wanted::Hash | Wanted::Expression => "a string",
+            Wanted::Text(_) | Wanted::Method | Wanted::Hash | Wanted::Expression | Wanted::Pin => {
+                "a string"
+            }
             Wanted::Number(_) => "a number",
             Wanted::Whole(_) => "an integer",
             Wanted::Methods | Wanted::Curve(_) | Wanted::Plane => "a list",
             Wanted::Places => "a list of pairs",
             Wanted::Nodes | Wanted::Ends => "a list of whole numbers from 0",
+            Wanted::Node => "a whole number from 0",
             Wanted::Springs => "a list of tables",
+            Wanted::Spring => "a table",
             Wanted::Numbers(_) => "a list of numbers",
             Wanted::Truth => "a boolean",
             Wanted::Table(_) | Wanted::Constants | Wanted::Coordinates(_) => "a table",
@@ -323,8 +336,11 @@ impl fmt::Display for Wanted {
                 write!(f, "the places of the nodes in metres, such as [[0.0, 0.0], [1.0, 0.0]]")
             }
             Wanted::Nodes => write!(f, "the numbers of nodes, such as [0, 3]"),
+            Wanted::Node => write!(f, "the number of a node, such as 3"),
             Wanted::Ends => write!(f, "the numbers of two nodes, such as [0, 1]"),
             Wanted::Springs => write!(f, "a list such as [{{ between = [0, 1] }}]"),
+            Wanted::Spring => write!(f, "a spring in braces, such as {{ between = [0, 1] }}"),
+            Wanted::Pin => write!(f, "{}", list(&Pin::ALL.map(Pin::id), '"', " or ")),
             Wanted::Tables(name) => write!(f, "`[[{name}]]` in double brackets and its keys below"),
         }
     }

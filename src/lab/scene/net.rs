@@ -47,12 +47,13 @@ pub(super) fn read_net(row: &mut Table<'_>) -> Option<&'static Kind> {
     let mut spans = Spans::default();
     let given = |keys: &[Field], row: &Table<'_>| keys.iter().find(|it| row.has(it.key)).copied();
     let lists = given(&LIST_KEYS, row);
+    GRID_KEYS.iter().chain(&LIST_KEYS).chain(&[KICKED]).for_each(|field| row.knows(field.key));
     if let (Some(list), Some(of_grid)) = (lists, given(&GRID_KEYS, row)) {
         let what = format!("the net is given twice, by `{}` and by `{}`", list.key, of_grid.key);
-        let remedy = "keep the grid, or the lists `nodes`, `fixed` and `springs`".into();
-        row.complain(row.span(of_grid.key), Cause::Net { what, remedy });
+        let remedy = "keep the grid, whose fixed nodes `pin` names, or the lists `nodes`, `fixed` and `springs`";
+        row.complain(row.span(of_grid.key), Cause::Net { what, remedy: remedy.into() });
+        return None;
     }
-    GRID_KEYS.iter().chain(&LIST_KEYS).for_each(|field| row.knows(field.key));
     let form = match lists {
         Some(_) => read_lists(row, &mut spans).map(Form::Lists),
         None => read_grid(row).map(Form::Grid),
@@ -83,16 +84,14 @@ fn read_grid(row: &mut Table<'_>) -> Option<Grid> {
 }
 
 fn read_pin(row: &mut Table<'_>) -> Option<Pin> {
-    let written = row.text(PIN, MOST_PIN_CHARS)?;
+    let written = row.text_for(PIN, MOST_PIN_CHARS, Wanted::Pin)?;
     let pin = Pin::ALL.into_iter().find(|pin| pin.id() == written);
     if pin.is_none() {
         let known = Pin::ALL.map(Pin::id);
         let what = format!("unknown `pin` {written:?}");
         let remedy = match nearest(&written, known.into_iter().map(|id| (id, id))) {
             Some(id) => format!("did you mean {id:?}?"),
-            None => {
-                format!("write {:?} or {:?}, or remove it and no node is fixed", known[0], known[1])
-            }
+            None => format!("write {}, or remove it and no node is fixed", Wanted::Pin),
         };
         row.complain(row.span(PIN.key), Cause::Net { what, remedy });
     }
@@ -101,13 +100,13 @@ fn read_pin(row: &mut Table<'_>) -> Option<Pin> {
 
 fn read_lists(row: &mut Table<'_>, spans: &mut Spans) -> Option<Lists> {
     let nodes = row.points(Field { needed_as: Some("where each node stands"), ..NODES });
-    let fixed = row.wholes(FIXED, &Wanted::Nodes);
-    let springs = row.inline_rows(SPRINGS, &Wanted::Springs);
+    let fixed = row.node_numbers(FIXED, &Wanted::Nodes);
+    let springs = row.spring_rows(SPRINGS, &Wanted::Springs);
     let is_whole = fixed.is_some() || !row.has(FIXED.key);
     let mut planned = Vec::new();
     for mut spring in springs? {
         spans.springs.push(spring.header.clone());
-        let between = spring.wholes(BETWEEN, &Wanted::Ends);
+        let between = spring.node_numbers(BETWEEN, &Wanted::Ends);
         let ends = match between.as_deref() {
             Some([(_, a), (_, b)]) => Some([*a, *b]),
             Some(_) => {
@@ -136,11 +135,12 @@ fn complain(row: &mut Table<'_>, spans: &Spans, are_lists: bool, fault: NetFault
     let at = match part {
         NetPart::Nodes if are_lists => row.span(NODES.key),
         NetPart::Nodes => row.span(COLUMNS.key),
+        NetPart::Spacing => row.span(SPACING.key),
         NetPart::Springs if are_lists => row.span(SPRINGS.key),
         NetPart::Springs => row.span(COLUMNS.key),
         NetPart::Fixed(place) => spans.fixed.get(place).cloned().unwrap_or(row.span(PIN.key)),
         NetPart::Spring(place) => {
-            spans.springs.get(place).cloned().unwrap_or(row.span(SPACING.key))
+            spans.springs.get(place).cloned().unwrap_or(row.span(COLUMNS.key))
         }
         NetPart::Kicked => row.span(KICKED.key),
     };

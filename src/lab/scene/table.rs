@@ -83,7 +83,16 @@ impl<'t> Table<'t> {
     }
 
     pub(super) fn text(&mut self, field: Field, most_chars: usize) -> Option<String> {
-        let wanted = Wanted::Text(most_chars);
+        self.text_for(field, most_chars, Wanted::Text(most_chars))
+    }
+
+    /// A text that is to be what is `wanted`.
+    pub(super) fn text_for(
+        &mut self,
+        field: Field,
+        most_chars: usize,
+        wanted: Wanted,
+    ) -> Option<String> {
         let value = self.value(field, &wanted)?;
         let (span, key) = (value.span(), field.key);
         let Some(text) = value.get_ref().as_str() else {

@@ -30,6 +30,14 @@ impl Truth {
         }
     }
 
+    /// What is said where it is missing, for people.
+    pub fn missing(self) -> &'static str {
+        match self {
+            Truth::Exact => "no exact solution",
+            Truth::Reference => "no reference",
+        }
+    }
+
     /// The error that a reference solution aims at, [`REFERENCE_ACCURACY`]; `None` for an exact truth.
     ///
     /// [`REFERENCE_ACCURACY`]: crate::sim::REFERENCE_ACCURACY

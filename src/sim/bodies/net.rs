@@ -36,7 +36,7 @@ const PARAMETERS: [Of; 8] = [
     Of::number("gravity_m_per_s2", Range::NON_NEGATIVE, |net| &mut net.gravity)
         .or(9.81)
         .about("g, downwards"),
-    Of::number("rest_ratio", Range::POSITIVE, |net| &mut net.rest_ratio)
+    Of::number("rest_ratio", Range::NON_NEGATIVE, |net| &mut net.rest_ratio)
         .or(1.0)
         .about("the length at rest over that at the start"),
     Of::number("kick_x_m_per_s", Range::ANY, |net| &mut net.kick.x)

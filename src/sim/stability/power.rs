@@ -2,6 +2,7 @@
 //! map, from differences of the stepper itself.
 
 use super::tick::Tick;
+use crate::sim::dice::Dice;
 use crate::sim::integrators::StepFailure;
 use crate::sim::{Solver, Stepper};
 
@@ -99,16 +100,10 @@ fn radius(logs: &[f64]) -> Option<f64> {
     Some(libm::exp(rate))
 }
 
-/// A vector with a part in every mode, the same on every run: an xorshift.
+/// A vector with a part in every mode, the same on every run.
 fn start_vector(components: usize) -> Vec<f64> {
-    let mut bits = 0x9E37_79B9_7F4A_7C15_u64;
-    let mut next = || {
-        bits ^= bits << 13;
-        bits ^= bits >> 7;
-        bits ^= bits << 17;
-        (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    (0..components).map(|_| next()).collect()
+    let mut dice = Dice::new(0x9E37_79B9_7F4A_7C15);
+    (0..components).map(|_| dice.next()).collect()
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use egui::{Grid, Label, Response, RichText, ScrollArea, Ui};
 
 use super::{ink, tone};
-use crate::lab::number::{round, significant};
+use crate::lab::number::significant;
 use crate::lab::{
     Advice, CRITERIA, Command, CriterionMet, CriterionResult, Lab, LaneSpec, MOST_ADVISED_SUBSTEPS,
     MethodAdvice, recommended,
@@ -90,13 +90,11 @@ fn row(
 /// What is behind a cell.
 fn told(met: &CriterionMet) -> String {
     format!(
-        "use this: {} substep{} a tick, {} evaluations per simulated second; holds down to {} Hz, or {} × {}",
+        "use this: {} substep{} a tick, {} evaluations per simulated second; {}",
         met.substeps,
         if met.substeps == 1 { "" } else { "s" },
         whole(met.evaluations_per_s),
-        met.slowest_hz,
-        round(met.stiffness_factor, 3),
-        met.limited_by,
+        met.margins(),
     )
 }
 

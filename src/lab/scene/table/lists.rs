@@ -8,6 +8,7 @@ use toml::de::DeValue;
 use super::{Field, Table, integer, number};
 use crate::lab::scene::LARGEST_COORDINATE;
 use crate::lab::scene::cause::{Cause, Wanted};
+use crate::lab::scene::clip::clip;
 use crate::sim::bodies::{LARGEST, MOST_NODES, MOST_POINTS, Range};
 
 impl Table<'_> {
@@ -40,11 +41,7 @@ impl Table<'_> {
     }
 
     fn point(&mut self, field: Field, entry: &Spanned<DeValue<'_>>) -> Option<[f64; 2]> {
-        let pair = entry.get_ref().as_array().filter(|pair| pair.len() == 2);
-        let numbers = pair.and_then(|pair| Some([number(&pair[0])?, number(&pair[1])?]));
-        let (Some(pair), Some(numbers)) = (pair, numbers) else {
-            return self.wrong_type(format!("a point of `{}`", field.key), entry, Wanted::Point);
-        };
+        let (pair, numbers) = self.pair(format!("a point of `{}`", field.key), entry)?;
         let range = Range::Within(LARGEST);
         for (value, number) in pair.iter().zip(numbers) {
             let number = range.contains(number).then_some(number);
@@ -53,29 +50,68 @@ impl Table<'_> {
         Some(numbers)
     }
 
+    /// The two numbers of a pair, with their places in the file.
+    fn pair<'e>(
+        &mut self,
+        subject: String,
+        entry: &'e Spanned<DeValue<'e>>,
+    ) -> Option<([&'e Spanned<DeValue<'e>>; 2], [f64; 2])> {
+        let pair = match entry.get_ref().as_array() {
+            Some(pair) if pair.len() == 2 => Some([&pair[0], &pair[1]]),
+            _ => None,
+        };
+        let read = pair.and_then(|pair| Some((pair, [number(pair[0])?, number(pair[1])?])));
+        read.or_else(|| self.wrong_type(subject, entry, Wanted::Point))
+    }
+
     /// A list of places in the plane. At most one more than [`MOST_NODES`] are read.
     pub(in crate::lab::scene) fn points(&mut self, field: Field) -> Option<Vec<[f64; 2]>> {
         let value = self.value(field, &Wanted::Places)?;
         let Some(entries) = value.get_ref().as_array() else {
             return self.wrong_type(format!("`{}`", field.key), value, Wanted::Places);
         };
-        entries.iter().take(MOST_NODES + 1).map(|entry| self.point(field, entry)).collect()
+        let read = entries.iter().take(MOST_NODES + 1).enumerate();
+        read.map(|(node, entry)| self.place(node, entry)).collect()
     }
 
-    /// The whole numbers from 0 in a list, with their bytes.
-    pub(in crate::lab::scene) fn wholes(
+    /// The place of a node of this number.
+    fn place(&mut self, node: usize, entry: &Spanned<DeValue<'_>>) -> Option<[f64; 2]> {
+        let (pair, numbers) = self.pair(format!("the place of node {node}"), entry)?;
+        let range = Range::Within(LARGEST);
+        let far = pair.iter().zip(numbers).find(|(_, number)| !range.contains(*number));
+        if let Some((value, _)) = far {
+            let subject = format!("a coordinate of node {node}");
+            let written = clip(&self.text[value.span()]);
+            let cause =
+                Cause::ItemOutOfRange { subject, value: written, wanted: Wanted::Number(range) };
+            self.complain(value.span(), cause);
+            return None;
+        }
+        Some(numbers)
+    }
+
+    /// The numbers of nodes in a list, with their bytes.
+    pub(in crate::lab::scene) fn node_numbers(
         &mut self,
         field: Field,
         wanted: &Wanted,
     ) -> Option<Vec<(Span<usize>, usize)>> {
         let value = self.value(field, wanted)?;
-        let entries = value.get_ref().as_array();
-        let whole = |entry: &Spanned<DeValue<'_>>| {
-            let number = integer(entry).filter(|_| entry.get_ref().is_integer())?;
-            Some((entry.span(), usize::try_from(number).ok()?))
+        let Some(entries) = value.get_ref().as_array() else {
+            return self.wrong_type(format!("`{}`", field.key), value, wanted.clone());
         };
-        let wholes = entries.and_then(|entries| entries.iter().map(whole).collect());
-        wholes.or_else(|| self.wrong_type(format!("`{}`", field.key), value, wanted.clone()))
+        let mut numbers = Vec::new();
+        for entry in entries {
+            let number = integer(entry).and_then(|number| usize::try_from(number).ok());
+            match number {
+                Some(number) => numbers.push((entry.span(), number)),
+                None => {
+                    let subject = format!("an entry of `{}`", field.key);
+                    self.wrong_type::<()>(subject, entry, Wanted::Node);
+                }
+            }
+        }
+        (numbers.len() == entries.len()).then_some(numbers)
     }
 
     /// The coordinates or the velocities of a body that has `count` of them, each of a magnitude of at most

@@ -93,20 +93,30 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// The tables in a list, in the order of the file.
-    pub(in crate::lab::scene) fn inline_rows(
+    /// The tables of springs in a list, in the order of the file.
+    pub(in crate::lab::scene) fn spring_rows(
         &mut self,
         field: Field,
         wanted: &Wanted,
     ) -> Option<Vec<Table<'t>>> {
         let value = self.value(field, wanted)?;
-        let table = |entry: &'t Spanned<DeValue<'t>>| {
-            let entries = entry.get_ref().as_table()?;
-            Some(Table::new(self.text, Place::Within(field.key), entry.span(), entries))
+        let Some(entries) = value.get_ref().as_array() else {
+            return self.wrong_type(format!("`{}`", field.key), value, wanted.clone());
         };
-        let entries = value.get_ref().as_array();
-        let rows = entries.and_then(|entries| entries.iter().map(table).collect());
-        rows.or_else(|| self.wrong_type(format!("`{}`", field.key), value, wanted.clone()))
+        let mut rows = Vec::new();
+        for entry in entries {
+            match entry.get_ref().as_table() {
+                Some(entries) => {
+                    let place = Place::Within(field.key);
+                    rows.push(Table::new(self.text, place, entry.span(), entries));
+                }
+                None => {
+                    let subject = format!("an entry of `{}`", field.key);
+                    self.wrong_type::<()>(subject, entry, Wanted::Spring);
+                }
+            }
+        }
+        (rows.len() == entries.len()).then_some(rows)
     }
 
     /// An expression. A line break in it counts as a space.

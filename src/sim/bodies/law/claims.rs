@@ -3,6 +3,7 @@
 use super::Law;
 use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
+use crate::sim::dice::Dice;
 use crate::sim::law::{At, CoordinateText, Equations, Part, Refusal, Remedy};
 use crate::sim::solver::Solver;
 use crate::sim::system::{State, System};
@@ -141,7 +142,7 @@ pub(super) fn conserves(law: &Law) -> bool {
 /// where it leaks most; `None` if it does not leak. `scale` is the largest power that has been seen.
 fn leak(law: &Law, state: &State<Vec<f64>>, scale: &mut f64) -> Option<[f64; 2]> {
     let n = law.coordinates();
-    let mut dice = Dice(0x9E37_79B9_7F4A_7C15);
+    let mut dice = Dice::new(0x9E37_79B9_7F4A_7C15);
     let mut worst: Option<[f64; 2]> = None;
     for trial in 0..STATES {
         let mut there = state.clone();
@@ -205,18 +206,6 @@ fn check_energy(law: &Law) -> Result<(), Refusal> {
         }
     }
     Ok(())
-}
-
-/// Numbers between -1 and 1, the same on every run: an xorshift.
-struct Dice(u64);
-
-impl Dice {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
 }
 
 /// The key of a parameter for a fault of the text as a whole: the first.

@@ -2,6 +2,7 @@
 
 use super::Own;
 use crate::sim::body::Body;
+use crate::sim::dice::Dice;
 use crate::sim::system::{State, System};
 
 /// What is told of a body of one's own, and is not so. Messages are in lower case.
@@ -94,7 +95,7 @@ pub(super) fn find_leak(own: &Own) -> Option<OwnFault> {
     if !first.is_finite() {
         return fault(format!("it is {first} at the start"));
     }
-    let mut dice = Dice(0x9E37_79B9_7F4A_7C15);
+    let mut dice = Dice::new(0x9E37_79B9_7F4A_7C15);
     for trial in 0..STATES {
         let mut there = start.clone();
         for x in there.q.iter_mut().chain(&mut there.v).filter(|_| trial > 0) {
@@ -144,7 +145,7 @@ fn find_bend(own: &Own) -> Option<OwnFault> {
         own.motion.acceleration(t, q, v, &mut a);
         a
     };
-    let mut dice = Dice(0x2545_F491_4F6C_DD1D);
+    let mut dice = Dice::new(0x2545_F491_4F6C_DD1D);
     let still = vec![0.0; 2 * n];
     for t in TIMES {
         // From far inside to far outside the motion: beyond its corners, if it has any.
@@ -185,16 +186,4 @@ pub(super) fn check(own: &Own) -> Result<(), OwnFault> {
     }
     let fault = find_unsolved(own).or_else(|| find_leak(own)).or_else(|| find_bend(own));
     fault.map_or(Ok(()), Err)
-}
-
-/// Numbers between -1 and 1, the same on every run: an xorshift.
-struct Dice(u64);
-
-impl Dice {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
 }

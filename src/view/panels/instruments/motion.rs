@@ -35,7 +35,7 @@ fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
     PlotModel {
         id: format!("motion of {body}"),
         title: match truth.halted() {
-            Some(_) => format!("{name}, no exact solution"),
+            Some(_) => format!("{name}, {}", truth.truth().missing()),
             None => name,
         },
         body,

@@ -161,7 +161,9 @@ pub(super) static COLUMNS: &[Column] = &[
         turn: 3,
         is_wanted: has_energies,
         cell: Cell::Number(|row| {
-            let drift = row.measure("energy_drift")?;
+            let Some(drift) = row.measure("energy_drift") else {
+                return row.no_truth().filter(|_| row.conserves_energy());
+            };
             let sign = if drift > 0.0 { "+" } else { "" };
             Some(format!("{sign}{} %", significant(drift, 3)))
         }),

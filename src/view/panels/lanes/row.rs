@@ -104,6 +104,11 @@ impl<'a> Row<'a> {
         is_lost.then(|| "no truth".into())
     }
 
+    /// Whether the body conserves its energy, if it is flown.
+    pub(super) fn conserves_energy(&self) -> bool {
+        self.flown_body().is_some_and(|body| body.stepper.energy().is_some())
+    }
+
     /// A metric of the body, if it is flown.
     pub(super) fn measure(&self, id: &str) -> Option<f64> {
         let metric = METRICS.iter().find(|metric| metric.id == id)?;

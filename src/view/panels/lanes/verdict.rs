@@ -52,7 +52,7 @@ impl Said {
             Some(body) => Verdict { body_name: None, ..verdict.of_bodies.get(body)?.clone() },
             None => verdict.clone(),
         };
-        let full = verdict.to_string();
+        let (full, missing) = (verdict.to_string(), verdict.missing_truth());
         let name = verdict.body_name.map(|name| format!(" ({name})")).unwrap_or_default();
         let first = full.split(';').next().unwrap_or_default().to_owned();
         let bare = first.split(" (").next().unwrap_or_default();
@@ -60,7 +60,16 @@ impl Said {
         let outcome = verdict.outcome;
         let shorter = bare.strip_prefix("stable, ").unwrap_or(&bare).to_owned();
         let shortest = format!("{}{name}", outcome.text());
-        Some(Self { outcome, wordings: vec![full, first, bare, shorter, shortest] })
+        let Some(missing) = missing else {
+            return Some(Self { outcome, wordings: vec![full, first, bare, shorter, shortest] });
+        };
+        // Without its reason such a verdict would look like any other.
+        let why = |said: &str| format!("{said}; {missing}");
+        let wordings = match outcome {
+            Outcome::NoTruth => vec![why(&first), why(&shorter), missing.into()],
+            _ => vec![why(&first), why(&shorter), why(&shortest), shortest],
+        };
+        Some(Self { outcome, wordings: [vec![full], wordings].concat() })
     }
 
     /// Everything.

@@ -3,8 +3,9 @@
 //!
 //! The matrix is not symmetric where springs are damped, and indefinite where they are compressed, which
 //! rules out conjugate gradients; that of several stages has complex eigenvalues, at which BiCGSTAB stalls;
-//! GMRES keeps a vector for each iteration, and these vectors are in every snapshot. Written out because nalgebra-sparse has no solver for such a matrix, and faer is many times
-//! the size of this layer and chooses its sums by the processor: ours have the same bits everywhere.
+//! GMRES keeps a vector for each iteration, and these vectors are in every snapshot. Written out because
+//! nalgebra-sparse has no solver for such a matrix, and faer is many times the size of this layer and chooses
+//! its sums by the processor: ours have the same bits everywhere.
 
 use super::stages::{Stages, largest};
 use crate::sim::system::{State, System, Vector};
