@@ -196,3 +196,28 @@ fn runge_kutta_on_the_ship_comes_within_rounding_and_then_more_ticks_take_no_err
     // Truncation alone would be three million times smaller.
     assert!(finest > 0.1 * fine, "{fine} {finest}");
 }
+
+#[test]
+fn engines_do_to_a_spring_what_the_guide_says() {
+    let kept = |id: &str, substeps: u32, seconds: u64, scene: &str| {
+        let mut scene = Scene::built_in(scene).unwrap();
+        scene.bodies.truncate(1);
+        let spec = LaneSpec { substeps, ..LaneSpec::plain(method(id).unwrap()) };
+        let mut race = Race::new(&scene, [(0, spec)]);
+        race.run(60 * seconds);
+        let stepper = &race.entrants()[0].lane.bodies()[0].stepper;
+        let omega = std::f64::consts::TAU;
+        stepper.q()[0].hypot(stepper.v()[0] / omega)
+    };
+    let engine = |id: &str| kept(id, method(id).unwrap().default_substeps, 4, "engines");
+    assert!((0.45..0.55).contains(&engine("engine-box2d")));
+    for id in ["engine-jolt", "engine-physx"] {
+        assert!(engine(id) < 0.3, "{id}");
+    }
+    for id in ["engine-bullet", "engine-chipmunk", "engine-mujoco"] {
+        assert!((0.98..1.02).contains(&engine(id)), "{id}");
+    }
+    let held = [1, 4, 8].map(|substeps| kept("held-force", substeps, 6, "held-force"));
+    assert!((0.98..1.02).contains(&held[0]) && (1.9..2.3).contains(&held[1]), "{held:?}");
+    assert!(held[2] > held[1], "{held:?}");
+}

@@ -9,7 +9,9 @@ use super::experiment::{ExperimentArgs, Lineup};
 use super::interrupt::{Interrupted, watch_for_interrupt};
 use super::output::print;
 use super::output::table::TableFormat;
-use crate::lab::{Adviser, LaneSpec};
+use super::scene_file;
+use crate::lab::{Adviser, LaneSpec, Scene, nearest};
+use crate::sim::integrators::{Family, METHODS};
 
 mod judged;
 mod report;
@@ -39,7 +41,8 @@ fifth of each other, evaluations decide.
 Examples:
   regatta advise --scene harbour
   regatta advise --scene my.toml --tick-hz 50 --format json
-  regatta advise --scene spring --method rk4 --method semi-implicit-euler --rates";
+  regatta advise --scene spring --method rk4 --method semi-implicit-euler --rates
+  regatta advise --scene engines --family engine";
 
 /// Recommend a method and its substeps for a scene at its tick rate
 #[derive(Debug, Args)]
@@ -53,18 +56,48 @@ pub(super) struct AdviseArgs {
     #[arg(long)]
     rates: bool,
 
+    /// Judge the methods of this family: explicit, symplectic, adaptive, implicit, as-printed,
+    /// follower or engine, which nothing else judges unasked
+    #[arg(long, value_name = "FAMILY", value_parser = known_family, conflicts_with = "methods")]
+    family: Option<Family>,
+
     /// The format: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
     format: TableFormat,
 }
 
+/// A lane for each method of a family that steps the scene, as the scene lists it.
+fn of_family(scene: &Scene, family: Family) -> Result<Vec<LaneSpec>, Error> {
+    let listed = |method| scene.lanes.iter().find(|lane| lane.method == method).copied();
+    let fitting = scene.methods_of(family);
+    let specs: Vec<_> = fitting.map(|m| listed(m).unwrap_or(LaneSpec::plain(m))).collect();
+    if specs.is_empty() {
+        let method = METHODS.iter().find(|method| method.family == family);
+        scene_file::check_method(scene, method.expect("each family has a method"))?;
+    }
+    Ok(specs)
+}
+
+fn known_family(id: &str) -> Result<Family, String> {
+    let ids = || Family::ALL.map(|family| (family.id(), family.id()));
+    Family::ALL.into_iter().find(|family| family.id() == id).ok_or_else(|| {
+        let all = Family::ALL.map(Family::id).join(", ");
+        match nearest(id, ids().into_iter()) {
+            Some(meant) => format!("no such family; did you mean {meant}? There are {all}"),
+            None => format!("no such family. There are {all}"),
+        }
+    })
+}
+
 pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(Lineup::Everyone)?;
     let scene = &experiment.scene;
-    let specs: Vec<LaneSpec> = if args.experiment.names_no_method() {
-        scene.fitting_methods().map(LaneSpec::plain).collect()
-    } else {
-        args.experiment.lanes_named(scene)
+    let specs: Vec<LaneSpec> = match args.family {
+        Some(family) => of_family(scene, family)?,
+        None if args.experiment.names_no_method() => {
+            scene.own_methods().map(LaneSpec::plain).collect()
+        }
+        None => args.experiment.lanes_named(scene),
     };
     let wanted = specs.len();
     let interrupted = watch_for_interrupt();

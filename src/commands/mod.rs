@@ -15,6 +15,7 @@ mod capture;
 mod chapter;
 mod completions;
 mod game_loop;
+mod identify;
 mod list;
 mod play;
 mod sweep;
@@ -53,6 +54,7 @@ use chapter::ChapterArgs;
 use completions::CompletionsArgs;
 pub use error::{Cause, Error};
 use game_loop::LoopArgs;
+use identify::IdentifyArgs;
 use list::ListArgs;
 use play::PlayArgs;
 use sweep::SweepArgs;
@@ -70,6 +72,7 @@ Examples:
   regatta advise --scene stiff
   regatta sweep --scene spring --plot spring.png > spring.csv
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
+  regatta identify spring.csv --tick-hz 60 --k 40
   regatta chapter --out figures
   regatta verify clip
   regatta list methods
@@ -96,6 +99,7 @@ enum Command {
     Advise(AdviseArgs),
     Sweep(SweepArgs),
     Loop(LoopArgs),
+    Identify(IdentifyArgs),
     Chapter(ChapterArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
@@ -114,6 +118,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Advise(args) => advise::run(&args),
         Command::Sweep(args) => sweep::run(&args),
         Command::Loop(args) => game_loop::run(&args),
+        Command::Identify(args) => identify::run(&args),
         Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args, &mut Cli::command()),

@@ -81,6 +81,8 @@ pub struct Identification {
     pub runner_up: Option<Fitted>,
     /// The body, with what was fitted of it.
     pub body: LoggedBody,
+    /// Whether its spring was fitted.
+    pub is_spring_fitted: bool,
     /// What a player sees.
     pub effective: Option<Effective>,
     /// What the equation of motion says.
@@ -94,8 +96,12 @@ pub struct Identification {
 const SUBSTEPS: [u32; 5] = [1, 2, 4, 8, 16];
 /// The id of the method whose force is held whatever the body.
 const HELD: &str = "held-force";
-/// What single precision leaves over in a run, in units of the largest values. Nothing below it tells candidates apart.
-const ROUNDING: f64 = 3e-5;
+/// What rounding leaves over in a run, in units of the largest values: the least, in double precision, and the most, in
+/// single precision.
+const ROUNDING: [f64; 2] = [1e-9, 3e-5];
+/// Nothing below this many times what the closest candidate leaves over tells candidates apart, up to the most that
+/// rounding leaves over.
+const TIMES_CLOSEST: f64 = 10.0;
 /// Candidates whose runs are nowhere farther apart do the same.
 const SAME: f64 = 1e-5;
 /// The least difference of twice the logarithm of the likelihood that tells candidates apart: four standard deviations.
@@ -144,15 +150,18 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
         Some((candidate, fit))
     });
     let fits: Vec<(Candidate, Fit)> = fits.collect();
-    let closest = fits.iter().min_by(|(_, a), (_, b)| a.deviance().total_cmp(&b.deviance()))?;
-    let is_plausible = |fit: &Fit| fit.deviance() - closest.1.deviance() < DECISIVE;
+    let least = fits.iter().map(|(_, fit)| fit.residual()).fold(f64::INFINITY, f64::min);
+    let rounding = (TIMES_CLOSEST * least).clamp(ROUNDING[0], ROUNDING[1]);
+    let deviance = |fit: &Fit| fit.deviance(rounding);
+    let closest = fits.iter().min_by(|(_, a), (_, b)| deviance(a).total_cmp(&deviance(b)))?;
+    let is_plausible = |fit: &Fit| deviance(fit) - deviance(&closest.1) < DECISIVE;
     let is_same = |fit: &Fit| fit.distance(&closest.1) <= SAME;
     let mut same: Vec<&(Candidate, Fit)> =
         fits.iter().filter(|(_, fit)| is_plausible(fit) && is_same(fit)).collect();
     same.sort_by_key(|(candidate, _)| preference(candidate));
     let (best, best_fit) = same.first()?;
     let others = fits.iter().filter(|(_, fit)| !(is_plausible(fit) && is_same(fit)));
-    let runner_up = others.min_by(|(_, a), (_, b)| a.deviance().total_cmp(&b.deviance()));
+    let runner_up = others.min_by(|(_, a), (_, b)| deviance(a).total_cmp(&deviance(b)));
 
     let mut also: Vec<Candidate> = Vec::new();
     for (candidate, _) in &same {
@@ -172,6 +181,7 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
         candidate: *candidate,
         residual: fit.residual(),
     };
+    let is_spring_fitted = body.spring.is_none();
     let body = best_fit.body.clone();
     let tick_s = 1.0 / tick_hz;
     let effective = match word {
@@ -182,7 +192,17 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
     let recommended = recommended(&body, best_fit.start, tick_s, exact);
     let runner_up = runner_up.map(fitted);
     let best = Fitted { candidate: *best, residual: best_fit.residual() };
-    Some(Identification { word, best, also, runner_up, body, effective, exact, recommended })
+    Some(Identification {
+        word,
+        best,
+        also,
+        runner_up,
+        body,
+        is_spring_fitted,
+        effective,
+        exact,
+        recommended,
+    })
 }
 
 /// The cheapest methods under which the motion is what the equation says.

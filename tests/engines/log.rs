@@ -10,7 +10,7 @@ use regatta::sim::{EngineSettings, State, System};
 
 /// Where the logs are, with their manifest.
 fn folder() -> PathBuf {
-    PathBuf::from("tests/data/engines")
+    PathBuf::from(std::env::var("FULL").unwrap_or("tests/data/engines".into()))
 }
 
 /// A body in an engine: a spring, drag and a constant force, any of which may be 0.
@@ -67,6 +67,8 @@ pub(crate) struct Log {
     pub(crate) engine: String,
     /// `f32` or `f64`.
     pub(crate) precision: String,
+    /// `spring`, `ship`, `damp`, `held` or `combo`.
+    pub(crate) scenario: String,
     /// The tick that the engine was given, in seconds.
     pub(crate) tick_s: f64,
     pub(crate) substeps: u32,
@@ -107,6 +109,7 @@ impl Log {
             file: text("file"),
             engine: text("engine"),
             precision: text("precision"),
+            scenario: text("scenario"),
             tick_s: number("dt_s"),
             substeps: row["n"].parse().expect("a number of substeps"),
             body,

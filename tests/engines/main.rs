@@ -1,6 +1,7 @@
 //! Engines: their cards against logs of the engines themselves, and which engine a log came from.
 
 mod cards;
+mod identified;
 mod log;
 mod oracles;
 mod reproduced;

@@ -175,7 +175,7 @@ impl AnalysisWorker {
         } else if *advice {
             let advising = self.advising.get_or_insert_with(|| AdviceInProgress {
                 adviser: Adviser::new(&by_hand.applied_to(scene), 1.0, *tick_hz),
-                methods: scene.fitting_methods().collect(),
+                methods: scene.own_methods().collect(),
                 advised: Vec::new(),
                 met: Vec::new(),
             });

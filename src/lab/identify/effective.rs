@@ -36,6 +36,11 @@ impl Effective {
         (self.omega > 0.0).then(|| [self.omega * self.omega, 2.0 * self.decay])
     }
 
+    /// The stiffness of a spring with this motion, for each kilogram.
+    pub fn spring_stiffness(&self) -> Option<f64> {
+        Some(self.spring()?[0])
+    }
+
     /// The time in which the energy halves in seconds, or the speed of a body without a spring; negative if it
     /// doubles instead. `None` if it stays.
     pub fn halves_s(&self) -> Option<f64> {

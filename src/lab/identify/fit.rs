@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::effective::Effective;
 use super::log::Log;
 use super::motion::{LoggedBody, run};
-use super::{Candidate, FOLLOWING, ROUNDING};
+use super::{Candidate, FOLLOWING};
 
 /// The iterations of Gauss and Newton; a linear motion needs one, and a second for the last digits.
 const ITERATIONS: usize = 2;
@@ -155,11 +155,11 @@ impl Fit {
         mean_square(&self.left.concat()).sqrt()
     }
 
-    /// Minus twice the logarithm of the likelihood, up to a constant, where each column has a noise of its own and none
-    /// less than rounding.
-    pub(super) fn deviance(&self) -> f64 {
+    /// Minus twice the logarithm of the likelihood, up to a constant, where each column has a noise of its own
+    /// and none has less than `rounding`.
+    pub(super) fn deviance(&self, rounding: f64) -> f64 {
         let of =
-            |left: &Vec<f64>| left.len() as f64 * (mean_square(left) + ROUNDING * ROUNDING).ln();
+            |left: &Vec<f64>| left.len() as f64 * (mean_square(left) + rounding * rounding).ln();
         self.left.iter().map(of).sum()
     }
 
@@ -181,7 +181,7 @@ impl Fit {
                 let mean = pairs.map(|(a, b)| a * b).sum::<f64>() / (left.len() - lag) as f64;
                 (mean / square).abs() > 5.0 / (left.len() as f64).sqrt() + FOLLOWING
             };
-            square.sqrt() > PRECISE && (1..=LAGS).any(follows)
+            square.sqrt() > PRECISE && (1..=LAGS.min(left.len() - 1)).any(follows)
         })
     }
 }

@@ -11,7 +11,7 @@ pub struct LogRow {
     pub v: Option<f64>,
 }
 
-/// A log of a body: at least [`Log::LEAST_ROWS`] rows at rising ticks.
+/// A log of a body: rows at rising ticks, with velocities in all of them or in none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
     rows: Vec<LogRow>,
@@ -52,8 +52,8 @@ pub struct LogError {
 const OFF_TICK: f64 = 0.05;
 
 impl Log {
-    /// Fewer rows say too little.
-    pub const LEAST_ROWS: usize = 6;
+    /// The fewest rows, with velocities and without: two numbers more than a start has.
+    pub const LEAST_ROWS: [usize; 2] = [2, 4];
     /// Rows after this many ticks are not used.
     pub const MOST_TICKS: u64 = 3000;
 
@@ -131,9 +131,9 @@ impl Log {
             }
             rows.push(LogRow { tick, x: number(x)?, v: v.map(number).transpose()? });
         }
-        if rows.len() < Self::LEAST_ROWS {
-            let fault =
-                format!("{} rows are too few; log at least {}", rows.len(), Self::LEAST_ROWS);
+        let least = Self::LEAST_ROWS[usize::from(v.is_none())];
+        if rows.len() < least {
+            let fault = format!("{} rows are too few; log at least {least}", rows.len());
             return Err(error(1, fault));
         }
         let is_still = rows.iter().all(|row| row.x == rows[0].x && row.v.unwrap_or(0.0) == 0.0);

@@ -3,7 +3,7 @@
 use super::{Scene, SceneBody};
 use crate::lab::action::Action;
 use crate::sim::bodies::refusal;
-use crate::sim::integrators::{METHODS, Method};
+use crate::sim::integrators::{Family, METHODS, Method};
 
 /// Why a method cannot step a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -31,6 +31,17 @@ impl Scene {
     pub fn fitting_methods(&self) -> impl Iterator<Item = &'static Method> {
         let is_shown = |method: &&Method| !method.is_engine() || self.names_an_engine();
         METHODS.iter().filter(is_shown).filter(|method| self.refusal(method).is_none())
+    }
+
+    /// Those of the [methods that fit](Scene::fitting_methods) that one would write oneself: none of an engine.
+    pub fn own_methods(&self) -> impl Iterator<Item = &'static Method> {
+        self.fitting_methods().filter(|method| !method.is_engine())
+    }
+
+    /// The methods of a family that step every body of this scene.
+    pub fn methods_of(&self, family: Family) -> impl Iterator<Item = &'static Method> {
+        let all = METHODS.iter().filter(move |method| method.family == family);
+        all.filter(|method| self.refusal(method).is_none())
     }
 
     /// Whether a lane or an action of the script is under the method of an engine.
