@@ -158,7 +158,16 @@ fn symplectic_methods_are_bounded_and_swing_too_fast_or_too_slowly_as_tabled() {
 fn implicit_methods_are_bounded_at_every_step_and_damping() {
     for damping_ratio in [0.0, 0.05, 0.2, 1.0] {
         let body = spring(1.0, damping_ratio);
-        for id in ["implicit-euler", "implicit-midpoint", "newmark", "bdf2", "gauss-legendre-4"] {
+        for id in [
+            "implicit-euler",
+            "implicit-midpoint",
+            "newmark",
+            "bdf2",
+            "gauss-legendre-4",
+            "tr-bdf2",
+            "linearly-implicit-euler",
+            "exponential-rosenbrock-euler",
+        ] {
             for z in [0.01, 0.1, 0.5, 1.0, 2.0, 5.0, 20.0] {
                 let found = of(&*body, id, z);
                 assert!(found.is_bounded(), "{id}, ζ = {damping_ratio}, z = {z}: {found:?}");

@@ -55,7 +55,7 @@ impl Theme {
     /// neighbours differ in colour.
     pub fn loop_style(self, place: usize) -> (Rgba, [f32; 2]) {
         let colour = LOOPS[place % LOOPS.len()];
-        (self.palette().methods[colour], DASHES[place % DASHES.len()])
+        (self.palette().methods[colour], DASHES[place % FIRST_DASHES])
     }
 }
 
@@ -168,9 +168,13 @@ static LIGHT: Palette = Palette {
     ],
 };
 
-/// Drawn length and gap in points. Five patterns against seven colours: no two of the first 35 methods
+/// Drawn length and gap in points. Six patterns against seven colours: no two of the first 42 methods
 /// share both.
-const DASHES: [[f32; 2]; 5] = [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0]];
+const DASHES: [[f32; 2]; 6] =
+    [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0], [12.0, 9.0]];
+
+/// The patterns that are given first; the others are more alike.
+const FIRST_DASHES: usize = 5;
 
 /// The places of the colours of game loops. No two warm ones are beside each other.
 const LOOPS: [usize; 7] = [2, 5, 4, 6, 0, 1, 3];
@@ -197,7 +201,7 @@ fn are_alike(a: usize, b: usize) -> bool {
 /// solid line, which those that people know best have.
 fn own_style(method: &Method) -> (usize, usize) {
     let sum = method.id.bytes().fold(0, |sum: usize, byte| (31 * sum + usize::from(byte)) % 9973);
-    (sum % DARK.methods.len(), 1 + sum % (DASHES.len() - 1))
+    (sum % DARK.methods.len(), 1 + sum % (FIRST_DASHES - 1))
 }
 
 /// The places of each method's colour and dash. No method has a colour like that of a neighbour in the table.
@@ -206,8 +210,10 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
         let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
         found.map(|&(_, colour, dash)| (colour, dash))
     };
-    let all = (0..).map(|n| (n % DARK.methods.len(), n % DASHES.len()));
-    let mut free: Vec<(usize, usize)> = all.take(DARK.methods.len() * DASHES.len()).collect();
+    let colours = DARK.methods.len();
+    let first = (0..colours * FIRST_DASHES).map(|n| (n % colours, n % FIRST_DASHES));
+    let more = (FIRST_DASHES..DASHES.len()).flat_map(|dash| (0..colours).map(move |n| (n, dash)));
+    let mut free: Vec<(usize, usize)> = first.chain(more).collect();
     free.retain(|style| !METHODS.iter().filter_map(classic).any(|taken| taken == *style));
     let mut styles: Vec<(usize, usize)> = Vec::new();
     for (i, method) in METHODS.iter().enumerate() {
