@@ -179,7 +179,8 @@ fn a_sparse_vector_takes_the_steps_of_others_to_rounding() {
         "tr-bdf2",
     ] {
         for (sparse, dense) in run(id, true).into_iter().zip(run(id, false)) {
-            assert!((sparse - dense).abs() < 1e-9, "{id}: {sparse}, {dense}");
+            // The iteration's differences are forward ones, good to half the digits.
+            assert!((sparse - dense).abs() < 1e-7, "{id}: {sparse}, {dense}");
         }
     }
 }

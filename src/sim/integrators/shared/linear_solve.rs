@@ -141,3 +141,40 @@ impl<V: Vector> LinearSolve<V> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::points::Points;
+
+    /// Springs apart from each other, all equal or each stiffer than the last.
+    struct Apart {
+        stiffer: f64,
+    }
+
+    impl System for Apart {
+        type Vector = Points;
+        fn acceleration(&self, _t: f64, q: &Points, v: &Points, a: &mut Points) {
+            for (i, a) in a.0.iter_mut().enumerate() {
+                *a = -(9.0 + self.stiffer * i as f64) * q.0[i] - 0.4 * v.0[i];
+            }
+        }
+    }
+
+    #[test]
+    fn a_sparse_vector_is_solved_even_where_all_products_point_one_way() {
+        let start: Vec<f64> = (0..8).map(|i| 1.0 - 0.3 * f64::from(i)).collect();
+        let y = State { q: Points(start.clone()), v: Points(start.clone()) };
+        let [alpha, beta] = [0.01, 0.1];
+        for stiffer in [0.0, 2.0] {
+            let mut equations = LinearSolve::new(&y.q);
+            let mut x = Points(start.clone());
+            equations.slopes.reach_for(0.1, &y, &y.q);
+            equations.solve(&Apart { stiffer }, 0.0, &y, [alpha, beta], &mut x).unwrap();
+            for (i, (x, b)) in x.0.iter().zip(&start).enumerate() {
+                let wanted = b / (1.0 + alpha * (9.0 + stiffer * i as f64) + beta * 0.4);
+                assert!((x - wanted).abs() < 1e-7, "{i}: {x}, not {wanted}");
+            }
+        }
+    }
+}

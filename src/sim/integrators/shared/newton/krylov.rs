@@ -210,7 +210,13 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
             // The residual is made as small as can be along its two products.
             let (along, across, both) = (dot(s, s), dot(s, t), dot(t, t));
             let first = dot(r, s);
-            omega2 = (dot(r, t) - across * first / along) / (both - across * across / along);
+            let apart = both - across * across / along;
+            // Where all point one way, as in equal bodies apart, the first product alone ends it.
+            if apart <= 0.0 {
+                add(x, first / along, r);
+                return;
+            }
+            omega2 = (dot(r, t) - across * first / along) / apart;
             let omega1 = (first - across * omega2) / along;
             add(x, omega1, r);
             add(x, omega2, s);
