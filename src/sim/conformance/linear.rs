@@ -50,7 +50,7 @@ pub(super) fn exact_if_linear(method: &Method) -> Claim {
     let found = errors().map_err(|failure| failure.to_string()).and_then(|errors| {
         let most = errors.into_iter().fold(0.0, f64::max);
         let words = format!("off by {most:.1e} on springs and the ship");
-        if most < EXACT || most > INEXACT { Ok((most < EXACT, words)) } else { Err(words) }
+        if !(EXACT..=INEXACT).contains(&most) { Ok((most < EXACT, words)) } else { Err(words) }
     });
     yes_or_no("exact_if_linear", method.exact_if_linear, found)
 }

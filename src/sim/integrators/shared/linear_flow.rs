@@ -34,9 +34,9 @@ impl LinearFlow {
 
     /// Memory on the heap, in bytes.
     pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
-        let squaring = |squaring: &Box<Squaring>| size_of::<Squaring>() + squaring.heap_bytes();
+        let squaring = |squaring: &Squaring| size_of::<Squaring>() + squaring.heap_bytes();
         let vectors = size_of_val(&self.term[..]) + size_of_val(&self.next[..]);
-        vectors + self.squaring.as_ref().map_or(0, squaring)
+        vectors + self.squaring.as_deref().map_or(0, squaring)
     }
 
     /// Advances `x` by `x' = A x + b + t c` from `t = 0` to 1, where `product` overwrites its second argument with
