@@ -56,8 +56,8 @@ pub(super) struct AdviseArgs {
     #[arg(long)]
     rates: bool,
 
-    /// Judge the methods of this family: explicit, symplectic, adaptive, implicit, as-printed,
-    /// follower or engine, which nothing else judges unasked
+    /// Judge the methods of this family: explicit, symplectic, adaptive, implicit, linearised,
+    /// as-printed, follower or engine; those of engines are judged only so
     #[arg(long, value_name = "FAMILY", value_parser = known_family, conflicts_with = "methods")]
     family: Option<Family>,
 

@@ -290,6 +290,6 @@ impl TypedValueParser for MethodParser {
 }
 
 fn known_method(id: &str) -> Result<&'static Method, String> {
-    let spellings = METHODS.iter().flat_map(|m| [(m.id, m.id), (m.name, m.id)]);
+    let spellings = METHODS.iter().flat_map(Method::spellings);
     method(id).ok_or_else(|| no_such("method", "methods", nearest(id, spellings)))
 }

@@ -157,6 +157,14 @@ const SCENE: &[Column<Scene>] = &[
 const METHOD: &[Column<Method>] = &[
     Column { key: "id", heading: Some("ID"), value: |method| json!(method.id) },
     Column { key: "name", heading: None, value: |method| json!(method.name) },
+    Column {
+        key: "also",
+        heading: Some("ALSO"),
+        value: |method| match method.also {
+            [] => Value::Null,
+            also => json!(also.join(", ")),
+        },
+    },
     Column { key: "family", heading: Some("FAMILY"), value: |method| json!(method.family.id()) },
     Column { key: "order", heading: Some("ORDER"), value: |method| json!(method.order) },
     Column {
@@ -165,6 +173,7 @@ const METHOD: &[Column<Method>] = &[
         value: |method| json!(method.order_with_drag),
     },
     Column { key: "evaluations", heading: Some("EVALS"), value: |m| json!(m.evaluations) },
+    Column { key: "exact_if_linear", heading: None, value: |m| json!(m.exact_if_linear) },
     Column { key: "symplectic", heading: Some("SYMPLECTIC"), value: |m| json!(m.symplectic) },
     Column { key: "reversible", heading: Some("REVERSIBLE"), value: |m| json!(m.reversible) },
     Column {

@@ -56,7 +56,7 @@ impl Theme {
     /// neighbours differ in colour.
     pub fn loop_style(self, place: usize) -> (Rgba, [f32; 2]) {
         let colour = LOOPS[place % LOOPS.len()];
-        (self.palette().methods[colour], DASHES[place % DASHES.len()])
+        (self.palette().methods[colour], DASHES[place % FIRST_DASHES])
     }
 }
 
@@ -169,9 +169,13 @@ static LIGHT: Palette = Palette {
     ],
 };
 
-/// Drawn length and gap in points. Five patterns against seven colours: no two of the first 35 methods
+/// Drawn length and gap in points. Six patterns against seven colours: no two of the first 42 methods
 /// share both.
-const DASHES: [[f32; 2]; 5] = [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0]];
+const DASHES: [[f32; 2]; 6] =
+    [[9.0, 4.0], [16.0, 4.0], [5.0, 4.0], [2.5, 3.5], [1.0, 0.0], [12.0, 9.0]];
+
+/// The patterns that are given first; the others are more alike.
+const FIRST_DASHES: usize = 5;
 
 /// The dashes of engines, which race among themselves.
 const ENGINE_DASHES: [[f32; 2]; 3] = [[1.0, 0.0], [12.0, 2.5], [4.0, 2.5]];
@@ -201,7 +205,7 @@ fn are_alike(a: usize, b: usize) -> bool {
 /// solid line, which those that people know best have.
 fn own_style(method: &Method) -> (usize, usize) {
     let sum = method.id.bytes().fold(0, |sum: usize, byte| (31 * sum + usize::from(byte)) % 9973);
-    (sum % DARK.methods.len(), 1 + sum % (DASHES.len() - 1))
+    (sum % DARK.methods.len(), 1 + sum % (FIRST_DASHES - 1))
 }
 
 /// The places of each method's colour and dash. No method has a colour like that of a neighbour in the table.
@@ -210,11 +214,13 @@ static STYLES: LazyLock<Vec<(usize, usize)>> = LazyLock::new(|| {
         let found = CLASSICS.iter().find(|(id, ..)| *id == method.id);
         found.map(|&(_, colour, dash)| (colour, dash))
     };
-    let all = |dashes: usize| -> Vec<(usize, usize)> {
-        let colours = DARK.methods.len();
-        (0..colours * dashes).map(|n| (n % colours, n % dashes)).collect()
-    };
-    let (mut free, mut of_engines) = (all(DASHES.len()), all(ENGINE_DASHES.len()));
+    let colours = DARK.methods.len();
+    let first = (0..colours * FIRST_DASHES).map(|n| (n % colours, n % FIRST_DASHES));
+    let more = (FIRST_DASHES..DASHES.len()).flat_map(|dash| (0..colours).map(move |n| (n, dash)));
+    let mut free: Vec<(usize, usize)> = first.chain(more).collect();
+    let of_engines =
+        (0..colours * ENGINE_DASHES.len()).map(|n| (n % colours, n % ENGINE_DASHES.len()));
+    let mut of_engines: Vec<(usize, usize)> = of_engines.collect();
     free.retain(|style| !METHODS.iter().filter_map(classic).any(|taken| taken == *style));
     let mut styles: Vec<(usize, usize)> = Vec::new();
     for (i, method) in METHODS.iter().enumerate() {

@@ -9,6 +9,7 @@ use super::integrators::{METHODS, Method};
 
 mod cost;
 mod geometry;
+mod linear;
 mod memory;
 mod order;
 pub mod problems;
@@ -66,8 +67,8 @@ impl fmt::Display for Conformance {
     }
 }
 
-/// Measures every claim of a card: its orders, evaluations, stability limit, whether it is symplectic and
-/// reversible, its tolerance, its memory, and whether it keeps time. It takes about a second.
+/// Measures every claim of a card: its orders, evaluations, stability limit, whether it is exact on linear
+/// systems, symplectic and reversible, its tolerance, its memory, and whether it keeps time. It takes about a second.
 ///
 /// A method that steps some bodies [only](Method::only) cannot be measured on these problems, and its result
 /// says so: it does not hold.
@@ -94,6 +95,7 @@ pub fn check(method: &Method) -> Conformance {
             order::without_drag(method),
             order::with_drag(method),
             cost::evaluations(method),
+            linear::exact_if_linear(method),
             geometry::symplectic(method),
             geometry::reversible(method),
             stability::limit(method),

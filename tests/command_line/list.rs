@@ -36,12 +36,15 @@ fn a_method_is_listed_with_all_of_its_card() {
     let methods = listing("methods");
     for (object, method) in methods.iter().zip(METHODS) {
         let keys: Vec<_> = object.as_object().unwrap().keys().map(String::as_str).collect();
-        let expected = "id name family order order_with_drag evaluations symplectic reversible \
+        let expected = "id name also family order order_with_drag evaluations exact_if_linear symplectic reversible \
                         stability_limit tolerance restart keeps_time as_printed only only_because about source";
         assert_eq!(keys.join(" "), expected);
         let only = method.only.map(|only| (only.to_string(), only.reason));
         let (bodies, reason) = only.unzip();
         assert_eq!((&object["only"], &object["only_because"]), (&bodies.into(), &reason.into()));
+        let also = (!method.also.is_empty()).then(|| method.also.join(", "));
+        assert_eq!(object["also"], Value::from(also), "{}", method.id);
+        assert_eq!(object["exact_if_linear"], method.exact_if_linear);
         assert_eq!(object["order"], method.order);
         assert_eq!(object["order_with_drag"], method.order_with_drag);
         assert_eq!(object["evaluations"], Value::from(method.evaluations));

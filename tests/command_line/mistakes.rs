@@ -31,6 +31,8 @@ fn each_mistake_is_named_with_its_remedy() {
         ),
         ("trace --scene .", ". is a directory; give a scene file in it"),
         ("trace --method rk5", "did you mean rk4? `regatta list methods` names all"),
+        ("trace --method xpbd", "did you mean linearly-implicit-euler?"),
+        ("trace --method soft_constraint", "did you mean linearly-implicit-euler?"),
         ("trace --method x", "no such method. `regatta list methods` names all"),
         ("--method runge-kutta", "did you mean rk4?"),
         ("trace --tick-hz 0", "1..=10000"),

@@ -2,12 +2,15 @@
 
 use std::collections::HashSet;
 
-use regatta::sim::integrators::{Family, GENERAL_METHODS, METHODS, method};
+use regatta::sim::integrators::{Family, GENERAL_METHODS, METHODS, Method, method};
 
 #[test]
 fn ids_and_names_are_unique_and_found() {
     let ids: HashSet<_> = METHODS.iter().map(|card| card.id).collect();
     let names: HashSet<_> = METHODS.iter().map(|card| card.name).collect();
+    let spellings: Vec<_> = METHODS.iter().flat_map(Method::spellings).collect();
+    let distinct: HashSet<_> = spellings.iter().map(|(spelling, _)| spelling).collect();
+    assert_eq!(distinct.len(), spellings.len(), "{spellings:?}");
     assert_eq!((ids.len(), names.len()), (METHODS.len(), METHODS.len()));
     for card in METHODS {
         assert!(std::ptr::eq(method(card.id).unwrap(), card), "{}", card.id);
@@ -36,14 +39,15 @@ fn families_agree_with_the_other_fields() {
         assert_eq!(is_special, card.only.is_some(), "{}", card.id);
         assert_eq!(card.family == Family::Engine, card.engine.is_some(), "{}", card.id);
         let is_implicit = card.family == Family::Implicit;
-        let asks_at_will = card.tolerance.is_some() || is_implicit;
+        let is_linearised = card.family == Family::Linearised;
+        let asks_at_will = card.tolerance.is_some() || is_implicit || is_linearised;
         assert_eq!(asks_at_will, card.evaluations.is_none(), "{}", card.id);
-        if !card.is_as_printed() && !is_special {
+        if !card.is_as_printed() && !is_special && !is_linearised {
             let adaptive = card.family == Family::Adaptive;
             assert_eq!(adaptive, card.tolerance.is_some(), "{}", card.id);
             assert_eq!(adaptive || is_implicit, card.stability_limit.is_none(), "{}", card.id);
         }
-        if !card.is_as_printed() && !is_implicit {
+        if !card.is_as_printed() && !is_implicit && !is_linearised {
             assert_eq!(card.family == Family::Symplectic, card.symplectic, "{}", card.id);
         }
     }

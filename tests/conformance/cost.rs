@@ -47,7 +47,9 @@ fn run_by(
 #[test]
 fn a_tick_lasts_exactly_as_long_as_asked() {
     // Without force, a speed of 1 makes the coordinate a clock: the sum of all substeps.
-    for method in GENERAL_METHODS {
+    let keeping_speed = GENERAL_METHODS.iter().filter(|method| method.order > 0);
+    assert_eq!(keeping_speed.clone().count() + 1, GENERAL_METHODS.len(), "all but Jakobsen's");
+    for method in keeping_speed {
         for substeps in [1, 2, 7, 16] {
             let (clock, asked) = run(method, 0, 5.0, substeps);
             assert!((clock.q - 0.3).abs() < 1e-14, "{}: {} s of 0.3 s", method.id, clock.q);
@@ -76,7 +78,7 @@ fn forces_are_evaluated_within_the_step_and_at_the_right_time() {
 
 #[test]
 fn a_method_of_order_p_integrates_a_force_of_degree_p_minus_1_in_time_exactly() {
-    for method in GENERAL_METHODS {
+    for method in GENERAL_METHODS.iter().filter(|method| method.order > 0) {
         let power = method.order as i32;
         for (t, substeps) in [(0.0, 1), (5.0, 1), (5.0, 4)] {
             let end: f64 = t + 0.3;

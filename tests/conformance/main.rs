@@ -12,6 +12,7 @@ mod followers;
 
 mod implicit;
 mod limits;
+mod linearised;
 mod long_run;
 mod memory;
 mod orbit;

@@ -53,7 +53,8 @@ fn memory_is_dropped_for_a_step_of_another_length() {
 
 #[test]
 fn a_carried_step_changes_sign_when_time_reverses() {
-    for method in GENERAL_METHODS {
+    // Jakobsen's takes from the velocity both ways.
+    for method in GENERAL_METHODS.iter().filter(|method| method.order > 0) {
         let system = Timetable { power: 1, asked: RefCell::default() };
         let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(0.0, 0.0) };
         let mut integrator = integrator::<Timetable>(method, &state.q);

@@ -1,7 +1,7 @@
 //! The implicit methods on nets: their equations are solved without a matrix.
 
 use regatta::sim::bodies::{Body, Input, Net};
-use regatta::sim::integrators::{Family, METHODS, StepFailure};
+use regatta::sim::integrators::{Family, METHODS, Method, StepFailure};
 use regatta::sim::{Points, State, System, Vector};
 
 use super::*;
@@ -114,7 +114,9 @@ fn equations_that_are_not_solved_end_in_a_failure_within_bounded_work() {
 #[test]
 fn no_implicit_method_keeps_a_matrix_for_a_net() {
     let plan = grid(100, 100, Some(Pin::Top));
-    for method in METHODS.iter().filter(|method| method.family == Family::Implicit) {
+    let with_equations =
+        |method: &&Method| [Family::Implicit, Family::Linearised].contains(&method.family);
+    for method in METHODS.iter().filter(with_equations) {
         let net = build(&plan, PLAIN, Solver::Method(method));
         let vectors = net.bytes() as f64 / size_of_val(net.q()) as f64;
         assert!((3.0..64.0).contains(&vectors), "{}: {vectors} vectors", method.id);

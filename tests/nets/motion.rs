@@ -46,16 +46,19 @@ fn momentum_is_kept_to_rounding_without_gravity_and_pins() {
             };
             assert_eq!(momentum(&*net), [2.0, -1.0]);
             let hz = if method.family == Family::Implicit { 60.0 } else { 600.0 };
-            let mut fastest = 0.0_f64;
+            // Jakobsen's takes a hundredth of every velocity at each step.
+            let kept = if method.order == 0 { 0.99 } else { 1.0 };
+            let (mut fastest, mut left) = (0.0_f64, 1.0);
             for tick in 0..600 {
                 if net.advance(f64::from(tick) / hz, 1.0 / hz, 1).is_err() {
                     break;
                 }
                 fastest = net.v().iter().fold(fastest, |most, v| most.max(v.abs()));
+                left *= kept;
             }
             assert!(fastest.is_finite(), "{}", method.id);
             let [x, y] = momentum(&*net);
-            let off = (x - 2.0).abs().max((y + 1.0).abs());
+            let off = (x - 2.0 * left).abs().max((y + left).abs());
             assert!(off <= 1e-11 * fastest, "{}: off by {off:e} m/s of {fastest}", method.id);
             assert!(fastest > 0.2, "{}: {fastest} m/s", method.id);
         }

@@ -99,7 +99,8 @@ pub(super) fn work(stepper: &dyn Stepper, spec: LaneSpec) -> u64 {
 
 /// The work of `evaluations` evaluations of a body of `n` coordinates.
 pub(super) fn work_of(evaluations: u64, n: u64, spec: LaneSpec) -> u64 {
-    let matrix = if spec.method.family == Family::Implicit { n / SMALL_MATRIX } else { 0 };
+    let has_matrix = matches!(spec.method.family, Family::Implicit | Family::Linearised);
+    let matrix = if has_matrix { n / SMALL_MATRIX } else { 0 };
     evaluations.saturating_mul(n * (1 + matrix))
 }
 

@@ -126,6 +126,34 @@ pub const FORMULAS: &[Formula] = &[
         &[],
     ),
     formula(
+        "tr-bdf2",
+        &[
+            "Y = y + ½γh (f(t, y) + f(t + γ h, Y)), γ = 2 − √2",
+            "y′ = y + 1.207 (Y − y) + ½γh f(t + h, y′)",
+        ],
+        &[],
+    ),
+    formula("linearly-implicit-euler", &["(I − h ∂f/∂y) (y′ − y) = h f(t + h, y)"], &[]),
+    formula(
+        "semi-implicit-euler-implicit-drag",
+        &["(I − h ∂a/∂v) (v′ − v) = h a(t, q, v)", "q′ = q + h v′"],
+        &[],
+    ),
+    formula(
+        "verlet-exact-drag",
+        &[
+            "v₁ = exp(½h D) v, D = ∂a/∂v",
+            "a Verlet step of a − D v, from v₁ to v₂",
+            "v′ = exp(½h D) v₂",
+        ],
+        &[],
+    ),
+    formula(
+        "exponential-rosenbrock-euler",
+        &["y′ = y + h φ₁(h J) f(t, y), J = ∂f/∂y", "φ₁(z) = (exp(z) − 1) / z"],
+        &[],
+    ),
+    formula(
         "improved-euler-as-printed",
         &["k₁ = a(t, q, v), k₂ = a(t + h, q, v + h k₁)", "v′ = v + ½h (k₁ + k₂)", "q′ = q + h v′"],
         &[],
@@ -144,6 +172,7 @@ pub const FORMULAS: &[Formula] = &[
         &["e = |v₁ − v₂|, of one step and of two halves", "h shrinks to h √(tolerance / e)"],
         &[],
     ),
+    formula("jakobsen-verlet", &["q′ = q + 0.99 (q − q₋₁) + h² a", "v′ = (q′ − q) / h"], &[]),
     formula("lerp-per-frame", &["x′ = x + 0.1 (g − x), whatever h is", "v′ = k (g − x′)"], &[]),
     formula("lerp-dt", &["x′ = x + k h (g − x)", "v′ = k (g − x′)"], &[]),
     formula("exponential-decay", &["x′ = g + (x − g) exp(−k h)", "v′ = k (g − x′)"], &[]),

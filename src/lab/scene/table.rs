@@ -286,7 +286,7 @@ impl<'t> Table<'t> {
         };
         let method = METHODS.iter().find(|method| method.id == id);
         if method.is_none() {
-            let spellings = METHODS.iter().flat_map(|m| [(m.id, m.id), (m.name, m.id)]);
+            let spellings = METHODS.iter().flat_map(Method::spellings);
             let nearest = nearest(id, spellings);
             let known = METHODS.iter().map(|method| method.id).collect();
             self.complain(

@@ -52,6 +52,22 @@ impl System for Pendulum {
     }
 }
 
+/// A body that is pushed through air, `q″ = 1 - v |v|`.
+#[derive(Clone, Copy, Debug)]
+pub struct Air;
+
+impl System for Air {
+    type Vector = f64;
+    fn acceleration(&self, _t: f64, _q: &f64, v: &f64, a: &mut f64) {
+        *a = 1.0 - v * v.abs();
+    }
+}
+
+/// The state of a body in [`Air`] at time `t`, from rest at 0.
+pub fn course_in_air(t: f64) -> State<f64> {
+    State { q: libm::log(libm::cosh(t)), v: libm::tanh(t) }
+}
+
 /// A point about a fixed centre of attraction, `q″ = -q / |q|³`.
 #[derive(Clone, Copy, Debug)]
 pub struct Kepler;

@@ -19,7 +19,9 @@ pub enum Family {
     Adaptive,
     /// Solves an equation for each step.
     Implicit,
-    /// A listing of the chapter, with its faults.
+    /// Takes the derivative of the acceleration at the start of each step, and nothing is iterated.
+    Linearised,
+    /// A published listing, with its faults.
     AsPrinted,
     /// Moves a body towards its target by a rule of its own, without the acceleration.
     Follower,
@@ -29,11 +31,12 @@ pub enum Family {
 
 impl Family {
     /// Every family, in the order of the table.
-    pub const ALL: [Family; 7] = [
+    pub const ALL: [Family; 8] = [
         Family::Explicit,
         Family::Symplectic,
         Family::Adaptive,
         Family::Implicit,
+        Family::Linearised,
         Family::AsPrinted,
         Family::Follower,
         Family::Engine,
@@ -46,6 +49,7 @@ impl Family {
             Family::Symplectic => "symplectic",
             Family::Adaptive => "adaptive",
             Family::Implicit => "implicit",
+            Family::Linearised => "linearised",
             Family::AsPrinted => "as-printed",
             Family::Follower => "follower",
             Family::Engine => "engine",
@@ -59,6 +63,7 @@ impl Family {
             Family::Symplectic => SYMPLECTIC,
             Family::Adaptive => ADAPTIVE,
             Family::Implicit => IMPLICIT,
+            Family::Linearised => LINEARISED,
             Family::AsPrinted => AS_PRINTED,
             Family::Follower => FIRST_ORDER_FOLLOWER,
             Family::Engine => ENGINE,
@@ -103,19 +108,24 @@ pub struct Method {
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
+    /// Other ids by which people ask for it. A scene or command line that has one is told this method's id.
+    pub also: &'static [&'static str],
     /// What to expect, in one line.
     pub about: &'static str,
     /// How it works.
     pub family: Family,
     /// Global order of the error of the whole state if forces depend on position only. In a listing as
     /// printed `v` may be of higher order than `q`. Of a follower, the order while its target moves evenly
-    /// and is not reached.
+    /// and is not reached. 0 if the error does not shrink with the step.
     pub order: u32,
     /// Global order if forces also depend on velocity.
     pub order_with_drag: u32,
     /// Evaluations of the acceleration per step, averaged over a long run; `None` if the method
     /// decides. A follower evaluates its target. A method with a [restart](Method::restart) needs one more at its first step.
     pub evaluations: Option<u32>,
+    /// Whether it solves a linear system with constant coefficients to rounding, at any step. Its orders are
+    /// then those on nonlinear systems.
+    pub exact_if_linear: bool,
     /// Whether the one-step map conserves phase-space area on a system without drag.
     pub symplectic: bool,
     /// Whether a step of `-h` undoes a step of `h`, up to round-off.
@@ -146,7 +156,13 @@ pub struct Method {
 }
 
 impl Method {
-    /// Whether this is a listing of the chapter with its faults.
+    /// What people may write for it, each with its id: the id, the name and the [others](Method::also).
+    pub fn spellings(&'static self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        let spellings = [self.id, self.name].into_iter().chain(self.also.iter().copied());
+        spellings.map(|spelling| (spelling, self.id))
+    }
+
+    /// Whether this is a published listing with its faults, which is never advised.
     pub fn is_as_printed(&self) -> bool {
         self.family == Family::AsPrinted
     }
@@ -167,11 +183,13 @@ impl PartialEq for Method {
 const PLAIN: Method = Method {
     id: "",
     name: "",
+    also: &[],
     about: "",
     family: Family::Explicit,
     order: 0,
     order_with_drag: 0,
     evaluations: None,
+    exact_if_linear: false,
     symplectic: false,
     reversible: false,
     stability_limit: None,
@@ -207,6 +225,9 @@ pub(super) const ADAPTIVE: Method = Method {
 
 /// An implicit method.
 pub(super) const IMPLICIT: Method = Method { family: Family::Implicit, ..PLAIN };
+
+/// A method that takes the derivative of the acceleration: one evaluation or two for each coordinate.
+pub(super) const LINEARISED: Method = Method { family: Family::Linearised, ..PLAIN };
 
 /// A listing of the chapter: if forces depend on position only, all are semi-implicit Euler.
 pub(super) const AS_PRINTED: Method =

@@ -16,6 +16,8 @@ pub enum StepFailure {
         /// The most iterations that a step may take.
         limit: u32,
     },
+    /// The linear equations of a step were not solved within the work that a step may take.
+    Unsolved,
     /// A reference solution exceeded its budget of evaluations.
     ReferenceFailed {
         /// The evaluations spent.
@@ -66,6 +68,9 @@ impl fmt::Display for StepFailure {
                 f,
                 "the solver gave up on a step's equations: {limit} of Newton's iterations do not solve them, nor does \
                  following the solution from a shorter step; raise the tick rate or the substeps"
+            ),
+            Self::Unsolved => f.write_str(
+                "the solver gave up on a step's linear equations; raise the tick rate or the substeps",
             ),
             Self::ReferenceFailed { evaluations } => write!(
                 f,

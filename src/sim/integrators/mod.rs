@@ -25,6 +25,7 @@ mod dormand_prince_54;
 mod engine;
 mod explicit_euler;
 mod exponential_decay;
+mod exponential_rosenbrock_euler;
 mod failure;
 mod gauss_legendre_4;
 mod implicit_euler;
@@ -33,8 +34,10 @@ mod implicit_spring;
 mod improved_euler;
 mod improved_euler_as_printed;
 mod integrator;
+mod jakobsen_verlet;
 mod lerp_dt;
 mod lerp_per_frame;
+mod linearly_implicit_euler;
 mod midpoint;
 mod newmark;
 mod own;
@@ -44,12 +47,15 @@ mod reset_on_change;
 mod rk4;
 mod rk4_as_printed;
 mod semi_implicit_euler;
+mod semi_implicit_euler_implicit_drag;
 mod shared;
 mod smooth_damp;
 mod ssp_rk3;
 mod stormer_verlet;
 mod tolerance;
+mod tr_bdf2;
 mod velocity_verlet;
+mod verlet_exact_drag;
 mod yoshida4;
 
 pub use adams_bashforth_2::AdamsBashforth2;
@@ -77,6 +83,7 @@ pub use engine::pybullet::Pybullet;
 pub use engine::rapier::Rapier;
 pub use explicit_euler::ExplicitEuler;
 pub use exponential_decay::ExponentialDecay;
+pub use exponential_rosenbrock_euler::ExponentialRosenbrockEuler;
 pub use failure::StepFailure;
 pub use gauss_legendre_4::GaussLegendre4;
 pub use implicit_euler::ImplicitEuler;
@@ -85,8 +92,10 @@ pub use implicit_spring::ImplicitSpring;
 pub use improved_euler::ImprovedEuler;
 pub use improved_euler_as_printed::ImprovedEulerAsPrinted;
 pub use integrator::Integrator;
+pub use jakobsen_verlet::JakobsenVerlet;
 pub use lerp_dt::LerpDt;
 pub use lerp_per_frame::LerpPerFrame;
+pub use linearly_implicit_euler::LinearlyImplicitEuler;
 pub use midpoint::Midpoint;
 pub use newmark::Newmark;
 pub use own::{AnySystem, OwnIntegrator, own_integrator};
@@ -95,12 +104,15 @@ pub use position_verlet::PositionVerlet;
 pub use rk4::Rk4;
 pub use rk4_as_printed::Rk4AsPrinted;
 pub use semi_implicit_euler::SemiImplicitEuler;
+pub use semi_implicit_euler_implicit_drag::SemiImplicitEulerImplicitDrag;
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 pub use smooth_damp::SmoothDamp;
 pub use ssp_rk3::SspRk3;
 pub use stormer_verlet::StormerVerlet;
 pub use tolerance::Tolerance;
+pub use tr_bdf2::TrBdf2;
 pub use velocity_verlet::VelocityVerlet;
+pub use verlet_exact_drag::VerletExactDrag;
 pub use yoshida4::Yoshida4;
 
 /// What [`construct`] builds from an integrator whose type is chosen at run time.
@@ -157,9 +169,15 @@ methods! {
     newmark::Newmark,
     bdf2::Bdf2,
     gauss_legendre_4::GaussLegendre4,
+    tr_bdf2::TrBdf2,
+    linearly_implicit_euler::LinearlyImplicitEuler,
+    semi_implicit_euler_implicit_drag::SemiImplicitEulerImplicitDrag,
+    verlet_exact_drag::VerletExactDrag,
+    exponential_rosenbrock_euler::ExponentialRosenbrockEuler,
     improved_euler_as_printed::ImprovedEulerAsPrinted,
     rk4_as_printed::Rk4AsPrinted,
     adaptive_euler_as_printed::AdaptiveEulerAsPrinted,
+    jakobsen_verlet::JakobsenVerlet,
     lerp_per_frame::LerpPerFrame,
     lerp_dt::LerpDt,
     exponential_decay::ExponentialDecay,

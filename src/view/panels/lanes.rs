@@ -219,6 +219,9 @@ fn tooltip(response: Response, row: &Row<'_>, said: Option<&str>) -> Response {
         let method = row.spec.method;
         ui.label(egui::RichText::new(row.method_name()).font(strong_font(TYPE)));
         ui.label(method.about);
+        if !method.also.is_empty() {
+            ui.label(format!("Also asked for as {}.", method.also.join(", ")));
+        }
         let formula = FORMULAS.iter().find(|formula| formula.method == method.id);
         for line in formula.map_or(&[][..], |formula| formula.lines) {
             ui.label(formula::job(line, 16.0, ink(ui).text));

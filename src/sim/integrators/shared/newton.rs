@@ -13,7 +13,8 @@ use crate::sim::integrators::failure::StepFailure;
 use crate::sim::system::{State, System, Vector};
 use iteration::MAX_ITERATIONS;
 pub(in crate::sim::integrators) use iteration::Newton;
-pub(in crate::sim::integrators) use stages::Stages;
+pub(in crate::sim::integrators) use krylov::Krylov;
+pub(in crate::sim::integrators) use stages::{Stages, largest};
 
 mod continuation;
 mod curve;

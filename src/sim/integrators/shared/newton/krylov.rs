@@ -22,7 +22,7 @@ const DIFFERENCE: f64 = 1.5e-8;
 
 /// Solves `X - ∂a/∂A X = b` for the accelerations at `S` stages.
 #[derive(Clone)]
-pub(super) struct Krylov<V, const S: usize> {
+pub(in crate::sim::integrators) struct Krylov<V, const S: usize> {
     matrix: Matrix<V, S>,
     x: [V; S],
     r: [V; S],
@@ -50,7 +50,7 @@ struct Matrix<V, const S: usize> {
 }
 
 impl<V: Vector, const S: usize> Krylov<V, S> {
-    pub(super) fn new(like: &V) -> Self {
+    pub(in crate::sim::integrators) fn new(like: &V) -> Self {
         let state = || State { q: like.clone(), v: like.clone() };
         let vectors = || std::array::from_fn(|_| like.clone());
         let matrix = Matrix {
@@ -67,21 +67,26 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
     }
 
     /// Memory in bytes.
-    pub(super) fn heap_bytes(&self) -> usize {
+    pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
         size_of::<Self>() + (6 + 10 * S) * self.matrix.slope.heap_bytes()
     }
 
-    pub(super) fn begin_step(&mut self) {
+    pub(in crate::sim::integrators) fn begin_step(&mut self) {
         self.matrix.left = MOST_PRODUCTS;
     }
 
     /// Whether the step has no products left.
-    pub(super) fn is_spent(&self) -> bool {
+    pub(in crate::sim::integrators) fn is_spent(&self) -> bool {
         self.matrix.left < PRODUCTS
     }
 
     /// Linearises the forces at the stages with the accelerations `a`.
-    pub(super) fn linearise(&mut self, stages: &Stages<S>, known: &[State<V>; S], a: &[V; S]) {
+    pub(in crate::sim::integrators) fn linearise(
+        &mut self,
+        stages: &Stages<S>,
+        known: &[State<V>; S],
+        a: &[V; S],
+    ) {
         self.matrix.stages = *stages;
         for i in 0..S {
             stages.place(i, known, a, &mut self.matrix.at[i]);
@@ -108,7 +113,7 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
 
     /// Overwrites the right-hand side `b` with the solution, to a residual of `tolerance` times `b`, or as
     /// near as the products left allow.
-    pub(super) fn solve(
+    pub(in crate::sim::integrators) fn solve(
         &mut self,
         system: &impl System<Vector = V>,
         tolerance: f64,
@@ -206,7 +211,13 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
             // The residual is made as small as can be along its two products.
             let (along, across, both) = (dot(s, s), dot(s, t), dot(t, t));
             let first = dot(r, s);
-            omega2 = (dot(r, t) - across * first / along) / (both - across * across / along);
+            let apart = both - across * across / along;
+            // Where all point one way, as in equal bodies apart, the first product alone ends it.
+            if apart <= 0.0 {
+                add(x, first / along, r);
+                return;
+            }
+            omega2 = (dot(r, t) - across * first / along) / apart;
             let omega1 = (first - across * omega2) / along;
             add(x, omega1, r);
             add(x, omega2, s);

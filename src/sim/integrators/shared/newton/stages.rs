@@ -59,7 +59,7 @@ pub(super) fn components<V: Vector, const S: usize>(
 
 /// The largest magnitude; NaN if a component is NaN.
 #[inline]
-pub(super) fn largest<'a>(components: impl Iterator<Item = &'a f64>) -> f64 {
+pub(in crate::sim::integrators) fn largest<'a>(components: impl Iterator<Item = &'a f64>) -> f64 {
     components.fold(0.0, |largest: f64, component| {
         let size = component.abs();
         if size > largest || size.is_nan() { size } else { largest }

@@ -1,0 +1,56 @@
+//! Whether a method is exact on linear systems.
+
+use super::problems::{SHIP, fresh, spring};
+use super::{Claim, yes_or_no};
+use crate::sim::body::Body;
+use crate::sim::integrators::{Method, StepFailure};
+
+/// An error below this is rounding: what is rounded in a step, over all steps.
+const EXACT: f64 = 1e-13;
+
+/// What is off by more is not exact; the nearest to it, Gauss-Legendre 4 on the ship, is 1e-6 off.
+const INEXACT: f64 = 1e-8;
+
+/// Steps of a run.
+const STEPS: u32 = 20;
+
+/// The largest error in steps of `h`, relative to the largest position and velocity.
+fn error<B: Body<Vector = f64> + 'static>(
+    method: &Method,
+    body: &B,
+    h: f64,
+) -> Result<f64, StepFailure> {
+    let start = body.start();
+    let (mut integrator, mut state) = (fresh::<B>(method), start.clone());
+    let (mut worst, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
+    for step in 0..STEPS {
+        integrator.step(body, h * f64::from(step), h, &mut state)?;
+        let truth = body.exact(h * f64::from(step + 1), &start).expect("a closed form");
+        for (part, (found, truth)) in
+            [(state.q, truth.q), (state.v, truth.v)].into_iter().enumerate()
+        {
+            let off = (found - truth).abs();
+            worst[part] = if off.is_nan() { f64::INFINITY } else { off.max(worst[part]) };
+            largest[part] = truth.abs().max(largest[part]);
+        }
+    }
+    Ok((worst[0] / largest[0]).max(worst[1] / largest[1]))
+}
+
+/// Whether the method is exact on springs, with drag and without, and on the ship.
+pub(super) fn exact_if_linear(method: &Method) -> Claim {
+    let errors = || -> Result<[f64; 4], StepFailure> {
+        Ok([
+            error(method, &spring(1.0, 0.0), 0.7)?,
+            error(method, &spring(1.0, 0.2), 0.7)?,
+            error(method, &spring(9.0, 0.1), 0.7)?,
+            error(method, &SHIP, 1.3)?,
+        ])
+    };
+    let found = errors().map_err(|failure| failure.to_string()).and_then(|errors| {
+        let most = errors.into_iter().fold(0.0, f64::max);
+        let words = format!("off by {most:.1e} on springs and the ship");
+        if !(EXACT..=INEXACT).contains(&most) { Ok((most < EXACT, words)) } else { Err(words) }
+    });
+    yes_or_no("exact_if_linear", method.exact_if_linear, found)
+}

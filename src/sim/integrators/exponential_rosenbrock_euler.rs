@@ -1,0 +1,96 @@
+//! Exponential Rosenbrock-Euler: solves the equation linearised at the start of the step exactly.
+
+use super::card::{LINEARISED, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use super::shared::jacobian::Jacobian;
+use super::shared::linear_flow::LinearFlow;
+use crate::sim::system::{State, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "exponential-rosenbrock-euler",
+    name: "Exponential Rosenbrock-Euler",
+    about: "exact at any step on springs, drag and all that is linear, without damping of its own; second order elsewhere",
+    order: 2,
+    order_with_drag: 2,
+    exact_if_linear: true,
+    source: "Pope, An exponential method of numerical integration of ordinary differential equations (1963); Hochbruck & Ostermann, Exponential integrators (2010)",
+    ..LINEARISED
+};
+
+/// `y' = y + h φ1(h J) f + h² φ2(h J) f_t` on the whole state `y = (q, v)`, with `J = ∂f/∂y` and `f_t = ∂f/∂t` at the
+/// start: `y' - y` is where `x' = h J x + h f + τ h² f_t` leads from 0 at `τ = 0` to `τ = 1`.
+///
+/// `f_t` is the difference over the step, so that a force that grows evenly with time is exact too.
+#[derive(Clone)]
+pub struct ExponentialRosenbrockEuler<V> {
+    a: V,
+    /// The acceleration at the end of the step, if nothing moved.
+    a_later: V,
+    jacobian: Jacobian<V>,
+    flow: LinearFlow,
+    /// `x`, `h f` and `h² f_t`: coordinates, and velocities times a time that makes both alike.
+    x: Vec<f64>,
+    f: Vec<f64>,
+    f_t: Vec<f64>,
+}
+
+impl<S: System> Integrator<S> for ExponentialRosenbrockEuler<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let n = like.components().len();
+        let [x, f, f_t] = [(); 3].map(|()| vec![0.0; 2 * n]);
+        Self {
+            a: like.clone(),
+            a_later: like.clone(),
+            jacobian: Jacobian::new(like),
+            flow: LinearFlow::new(2 * n, S::Vector::IS_SPARSE),
+            x,
+            f,
+            f_t,
+        }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { a, a_later, jacobian, flow, x, f, f_t } = self;
+        system.acceleration(t, &y.q, &y.v, a);
+        system.acceleration(t + h, &y.q, &y.v, a_later);
+        jacobian.take(system, t, h, y, a);
+        let n = a.components().len();
+
+        // The time by which velocities are multiplied is the step, or less on a stiff system.
+        let [by_q, by_v] = jacobian.norms(system);
+        let stiffness = (h * h * by_q).sqrt().max(1.0);
+        let time = h / stiffness;
+        for i in 0..n {
+            let (a, a_later) = (a.components()[i], a_later.components()[i]);
+            (f[i], f[n + i]) = (h * y.v.components()[i], time * (h * a));
+            f_t[n + i] = time * (h * (a_later - a));
+        }
+        x.fill(0.0);
+        let norm = stiffness.max((time * h).abs() * by_q + h.abs() * by_v);
+        flow.advance(x, f, f_t, norm, |x, slope| {
+            let (x_q, x_v) = x.split_at(n);
+            let (slope_q, slope_v) = slope.split_at_mut(n);
+            slope_q.iter_mut().zip(x_v).for_each(|(slope, v)| *slope = v / time);
+            let slopes = jacobian.times(system, x_q, slope_q).components();
+            slope_v.iter_mut().zip(slopes).for_each(|(slope, a)| *slope = time * (h * a));
+            slope_q.iter_mut().for_each(|slope| *slope *= h);
+        })?;
+        for i in 0..n {
+            y.q.components_mut()[i] += x[i];
+            y.v.components_mut()[i] += x[n + i] / time;
+        }
+        Ok(())
+    }
+
+    fn heap_bytes(&self) -> usize {
+        let vectors = [&self.x, &self.f, &self.f_t].map(|vector| size_of_val(&vector[..]));
+        self.jacobian.heap_bytes() + self.flow.heap_bytes() + vectors.iter().sum::<usize>()
+    }
+}

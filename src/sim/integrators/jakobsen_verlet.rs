@@ -1,0 +1,53 @@
+//! Jakobsen's Verlet: the next position from the last two, with the drag that hides in a factor of 0.99.
+
+use super::card::{AS_PRINTED, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::system::{State, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "jakobsen-verlet",
+    name: "Jakobsen's Verlet",
+    about: "as in many cloths and ragdolls: each step takes 1 % of the velocity, so that the drag depends on the tick rate",
+    order: 0,
+    order_with_drag: 0,
+    evaluations: Some(1),
+    symplectic: false,
+    // √(2 + 2 KEPT)
+    stability_limit: Some(1.994_993_734_326_0),
+    source: "Jakobsen, Advanced Character Physics (2001), with his drag of 0.99",
+    ..AS_PRINTED
+};
+
+/// What is left of the displacement of the last step.
+const KEPT: f64 = 0.99;
+
+/// `x' = x + 0.99 (x - p) + h² a`, with `p = x - h v` the position one step ago, and the velocity read off the
+/// positions: `v' = (x' - x) / h = 0.99 v + h a`.
+///
+/// Positions and velocities say the same, so that nothing is carried: after a kick or a change of step `p` is where
+/// the velocity puts it.
+#[derive(Clone)]
+pub struct JakobsenVerlet<V> {
+    a: V,
+}
+
+impl<S: System> Integrator<S> for JakobsenVerlet<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { a: like.clone() }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        State { q, v }: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { a } = self;
+        system.acceleration(t, q, v, a);
+        v.components_mut().iter_mut().for_each(|v| *v *= KEPT);
+        S::Vector::kick_and_drift(h, a, v, h, q);
+        Ok(())
+    }
+}

@@ -1,0 +1,55 @@
+//! Linearly implicit Euler: implicit Euler with one iteration of Newton's, from the start of the step.
+
+use super::card::{LINEARISED, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use super::shared::linear_solve::LinearSolve;
+use crate::sim::system::{State, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "linearly-implicit-euler",
+    name: "Linearly implicit Euler",
+    also: &["xpbd", "soft-constraint"],
+    about: "implicit Euler for one linear solution a step; on one spring the step of XPBD and of soft constraints",
+    order: 1,
+    order_with_drag: 1,
+    source: "Rosenbrock, Some general implicit processes for the numerical solution of differential equations (1963); Baraff & Witkin, Large Steps in Cloth Simulation (1998); Macklin, Müller & Chentanez, XPBD (2016); Catto, Soft Constraints (2011)",
+    ..LINEARISED
+};
+
+/// `(I - h ∂f/∂y) (y' - y) = h f(t + h, y)` on the whole state `y = (q, v)`: with `v' = v + h x` and
+/// `q' = q + h v'`, this is `(I - h² ∂a/∂q - h ∂a/∂v) x = a + h ∂a/∂q v`.
+///
+/// On a linear system it is implicit Euler.
+#[derive(Clone)]
+pub struct LinearlyImplicitEuler<V> {
+    /// The right-hand side, and then `x`.
+    a: V,
+    equations: LinearSolve<V>,
+}
+
+impl<S: System> Integrator<S> for LinearlyImplicitEuler<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { a: like.clone(), equations: LinearSolve::new(like) }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { a, equations } = self;
+        system.acceleration(t + h, &y.q, &y.v, a);
+        equations.slopes.reach_for(h, y, a);
+        equations.add_slope(system, t + h, y, h, &y.v, a);
+        equations.solve(system, t + h, y, [h * h, h], a)?;
+        S::Vector::kick_and_drift(h, a, &mut y.v, h, &mut y.q);
+        Ok(())
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.equations.heap_bytes()
+    }
+}

@@ -1,0 +1,51 @@
+//! Semi-implicit Euler with implicit drag: the kick divides by what the drag takes, and cannot overshoot.
+
+use super::card::{LINEARISED, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use super::shared::linear_solve::LinearSolve;
+use crate::sim::system::{State, System, Vector};
+
+pub(super) const CARD: Method = Method {
+    id: "semi-implicit-euler-implicit-drag",
+    name: "Semi-implicit Euler, implicit drag",
+    about: "semi-implicit Euler whose drag is stable at any step: what engines write as v / (1 + h c)",
+    order: 1,
+    order_with_drag: 1,
+    symplectic: true,
+    stability_limit: Some(2.0),
+    source: "Ascher, Ruuth & Wetton, Implicit-explicit methods for time-dependent partial differential equations (1995)",
+    ..LINEARISED
+};
+
+/// `(I - h ∂a/∂v) (v' - v) = h a(t, q, v)`, then `q' = q + h v'`.
+#[derive(Clone)]
+pub struct SemiImplicitEulerImplicitDrag<V> {
+    a: V,
+    equations: LinearSolve<V>,
+}
+
+impl<S: System> Integrator<S> for SemiImplicitEulerImplicitDrag<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        Self { a: like.clone(), equations: LinearSolve::new(like) }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { a, equations } = self;
+        system.acceleration(t, &y.q, &y.v, a);
+        equations.slopes.reach_for(h, y, a);
+        equations.solve(system, t, y, [0.0, h], a)?;
+        S::Vector::kick_and_drift(h, a, &mut y.v, h, &mut y.q);
+        Ok(())
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.equations.heap_bytes()
+    }
+}

@@ -1,0 +1,68 @@
+//! The derivative of the acceleration in a direction: by the system's formula, or by a central difference.
+//!
+//! A difference reaches about as far as the step is going to move the state. The rounding of the
+//! acceleration then changes a step by a few units of round-off, so that the derivative of a linear force
+//! is exact in effect, and that of a curved force is off by `O(h²)`, which keeps second order.
+
+use super::newton::largest;
+use crate::sim::system::{State, System, Vector};
+
+/// The reach of a difference as a part of the motion of a step. A larger part takes more of a bend for
+/// slope, a smaller one more rounding.
+const PART: f64 = 1.0 / 16.0;
+
+/// The least reach, in metres or radians and per second, and relative to the state: the root of round-off.
+/// Without it a body at rest would have rounding for a slope.
+const LEAST: f64 = 1.5e-8;
+
+/// Scratch for the differences.
+#[derive(Clone)]
+pub(in crate::sim::integrators) struct Slopes<V> {
+    /// The largest displacements of coordinates and of velocities.
+    reach: [f64; 2],
+    moved: State<V>,
+    behind: V,
+}
+
+impl<V: Vector> Slopes<V> {
+    pub(in crate::sim::integrators) fn new(like: &V) -> Self {
+        let moved = State { q: like.clone(), v: like.clone() };
+        Self { reach: [0.0; 2], moved, behind: like.clone() }
+    }
+
+    /// Chooses the reach for a step of `h` from `y`, where the acceleration is `a`.
+    pub(in crate::sim::integrators) fn reach_for(&mut self, h: f64, y: &State<V>, a: &V) {
+        let [q, v, a] = [&y.q, &y.v, a].map(|part| largest(part.components().iter()));
+        let change = v + h.abs() * a;
+        let reach = |ahead: f64, now: f64| (PART * ahead).max(LEAST * (1.0 + now));
+        self.reach = [reach(h.abs() * change, q), reach(change, v)];
+    }
+
+    /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`.
+    pub(in crate::sim::integrators) fn take(
+        &mut self,
+        system: &impl System<Vector = V>,
+        t: f64,
+        y: &State<V>,
+        along: &State<V>,
+        slope: &mut V,
+    ) {
+        if system.acceleration_slope(t, y, along, slope) {
+            return;
+        }
+        let Self { reach, moved, behind } = self;
+        let [q, v] = [&along.q, &along.v].map(|part| largest(part.components().iter()));
+        let part = (reach[0] / q).min(reach[1] / v);
+        if part.is_infinite() {
+            slope.components_mut().fill(0.0);
+            return;
+        }
+        moved.assign_sum(y, part, along);
+        system.acceleration(t, &moved.q, &moved.v, slope);
+        moved.assign_sum(y, -part, along);
+        system.acceleration(t, &moved.q, &moved.v, behind);
+        for (slope, behind) in slope.components_mut().iter_mut().zip(behind.components()) {
+            *slope = (*slope - behind) / (2.0 * part);
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! TR-BDF2: the trapezoidal rule over a part of the step, and BDF2 over the whole of it.
+
+use super::card::{IMPLICIT, Method};
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use super::shared::newton::Newton;
+use crate::sim::system::{State, System};
+
+pub(super) const CARD: Method = Method {
+    id: "tr-bdf2",
+    name: "TR-BDF2",
+    about: "stable at any step and damps what is stiff, like BDF2, but needs no step before: it restarts freely",
+    order: 2,
+    order_with_drag: 2,
+    source: "Bank, Coughran, Fichtner, Grosse, Rose & Smith, Transient simulation of silicon devices and circuits (1985)",
+    ..IMPLICIT
+};
+
+/// `Y = y + γ/2 h (f(t, y) + f(t + γ h, Y))`, then
+/// `y' = (Y - (1 - γ)² y) / (γ (2 - γ)) + (1 - γ) / (2 - γ) h f(t + h, y')`.
+#[derive(Clone)]
+pub struct TrBdf2<V> {
+    newton: Newton<V, 1>,
+    /// `f(t, y)`
+    f: State<V>,
+    /// `Y`
+    stage: State<V>,
+}
+
+/// `2 - √2`, at which both equations have the same weight of the new slope, and the method is L-stable.
+const GAMMA: f64 = 2.0 - std::f64::consts::SQRT_2;
+/// That weight: `γ/2 = (1 - γ) / (2 - γ)`.
+const D: f64 = GAMMA / 2.0;
+/// `1 / (γ (2 - γ))`
+const W: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
+
+impl<S: System> Integrator<S> for TrBdf2<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let zero = State { q: like.clone(), v: like.clone() };
+        Self { newton: Newton::new(like), f: zero.clone(), stage: zero }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { newton, f, stage } = self;
+        system.derivative(t, y, f);
+        stage.assign_sum(y, h * D, f);
+        newton.backward_euler(system, t + h * GAMMA, h * D, stage)?;
+        // y + W (Y - y), because W (1 - γ)² = W - 1.
+        f.assign(y);
+        y.add_terms([(-W, f), (W, stage)]);
+        newton.backward_euler(system, t + h, h * D, y)
+    }
+
+    fn heap_bytes(&self) -> usize {
+        self.newton.heap_bytes()
+    }
+}
