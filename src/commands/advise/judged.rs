@@ -45,7 +45,7 @@ pub(super) fn judge_all(
 impl Row {
     fn judged(adviser: &Adviser, spec: LaneSpec, rates: bool) -> Self {
         let met = CRITERIA.map(|criterion| adviser.meets(spec, criterion));
-        let plain = LaneSpec { substeps: 1, ..spec };
+        let plain = LaneSpec { substeps: spec.method.default_substeps, ..spec };
         Self {
             advised: MethodAdvice { spec, verdict: adviser.verdict(spec), met },
             timings: [None; CRITERIA.len()],

@@ -159,17 +159,30 @@ pub struct StabilityMap {
 /// What a method is tried on.
 enum Motion {
     /// The normal modes, the fastest first.
-    Modes(Vec<NormalMode>),
+    Modes(Modes),
     /// All coordinates together: damping couples the modes, or one grows.
     Coupled(CoupledMotion),
 }
 
+/// The normal modes of a body.
+struct Modes {
+    kind: &'static Kind,
+    modes: Vec<NormalMode>,
+    /// The same for an engine that holds the force of such a body.
+    held: Option<CoupledMotion>,
+}
+
+/// Bodies of which an engine is told settings; it holds the force of any other.
+const TOLD_TO_ENGINES: [&str; 2] = ["spring", "ship"];
+
 impl Motion {
-    fn of(body: &dyn Stepper) -> Result<Self, NoSmallMotion> {
+    fn of(kind: &'static Kind, body: &dyn Stepper) -> Result<Self, NoSmallMotion> {
         let small = SmallMotion::of(body)?;
         if let Some(mut modes) = small.normal_modes() {
             modes.sort_by(|a, b| b.omega_squared.total_cmp(&a.omega_squared));
-            return Ok(Self::Modes(modes));
+            let is_told = TOLD_TO_ENGINES.contains(&kind.id);
+            let held = if is_told { None } else { small.coupled().ok() };
+            return Ok(Self::Modes(Modes { kind, modes, held }));
         }
         small.coupled().map(Self::Coupled)
     }
@@ -180,14 +193,18 @@ impl Motion {
         spec: &'a LaneSpec,
         hz: f64,
     ) -> impl Iterator<Item = Option<Stability>> + 'a {
-        let (modes, coupled) = match self {
-            Self::Modes(modes) => (&modes[..], None),
-            Self::Coupled(coupled) => (&[][..], Some(coupled)),
+        let (modes, coupled): (&[NormalMode], _) = match self {
+            Self::Modes(Modes { held: Some(held), .. }) if spec.method.is_engine() => {
+                (&[], Some(held))
+            }
+            Self::Modes(Modes { modes, .. }) => (modes, None),
+            Self::Coupled(coupled) => (&[], Some(coupled)),
         };
+        let is_ship = matches!(self, Self::Modes(Modes { kind, .. }) if kind.id == "ship");
         let together = coupled
             .into_iter()
             .map(move |coupled| coupled.stability(spec.method, 1.0 / hz, spec.substeps).ok());
-        modes.iter().map(move |mode| stability(spec, mode, hz)).chain(together)
+        modes.iter().map(move |mode| stability(spec, is_ship, mode, hz)).chain(together)
     }
 
     fn is_stable(&self, spec: &LaneSpec, hz: f64) -> bool {
@@ -195,7 +212,7 @@ impl Motion {
     }
 
     fn is_undamped(&self) -> bool {
-        matches!(self, Self::Modes(modes) if modes.iter().all(NormalMode::is_conserved))
+        matches!(self, Self::Modes(Modes { modes, .. }) if modes.iter().all(NormalMode::is_conserved))
     }
 
     /// Whether the true motion grows.
@@ -217,7 +234,7 @@ pub(super) struct MapWork {
 impl MapWork {
     pub(super) fn new(kind: &'static Kind, request: MapRequest) -> Self {
         let body = (kind.build)(&request.values, Solver::Truth);
-        let found = Motion::of(&*body);
+        let found = Motion::of(kind, &*body);
         let is_slow = matches!(found, Ok(Motion::Coupled(_))) && body.q().len() >= MANY_COUPLED;
         let map = StabilityMap {
             regions: Vec::new(),
@@ -307,7 +324,7 @@ impl MapWork {
         let mut values = values.clone();
         values[*parameter] = value;
         let body = (self.kind.build)(&values, Solver::Truth);
-        Motion::of(&*body).ok()
+        Motion::of(self.kind, &*body).ok()
     }
 }
 
@@ -315,20 +332,23 @@ fn chooses_steps(spec: &LaneSpec) -> bool {
     spec.method.tolerance.is_some() || !spec.method.keeps_time
 }
 
-/// The stability of a method on a mode, which is that on a spring of its frequency and damping, or for a follower that
-/// on a body of its rate. `None` if the method fails.
-fn stability(spec: &LaneSpec, mode: &NormalMode, hz: f64) -> Option<Stability> {
+/// The stability of a method on a mode, which is that on a spring of its frequency and damping, for a follower that on a
+/// body of its rate, and for an engine that on a ship of its drag where the body is one. `None` if the method fails.
+fn stability(spec: &LaneSpec, is_ship: bool, mode: &NormalMode, hz: f64) -> Option<Stability> {
+    let NormalMode { omega_squared, damping_per_s, .. } = *mode;
     let order = spec.method.only.and_then(|only| only.with).map(|(_, order)| order);
     let (id, values) = match order {
         Some(order) => {
-            ("follow", vec![order, mode.omega_squared.sqrt(), 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+            ("follow", vec![order, omega_squared.sqrt(), 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
         }
-        None => ("spring", vec![1.0, mode.omega_squared, mode.damping_per_s, 1.0, 0.0, 1.0]),
+        None if spec.method.is_engine() && is_ship => {
+            ("ship", vec![0.0, damping_per_s, 1.0, 0.0, 0.0, 1.0])
+        }
+        None => ("spring", vec![1.0, omega_squared, damping_per_s, 1.0, 0.0, 1.0]),
     };
     let body = (kind(id).expect("a kind of body").build)(&values, Solver::Truth);
-    // The map of a tick is a power of that of a step, in which the mode turns less.
-    let tick = Tick { t: 0.0, h: 1.0 / hz / f64::from(spec.substeps), substeps: 1 };
-    Stability::of(&*body, spec.solver(), tick).ok()
+    let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
+    Stability::of(&*body, spec.solver(), tick.repeated(Some(spec.method)).0).ok()
 }
 
 fn here(spec: &LaneSpec, motion: Option<&Motion>, hz: f64) -> Here {

@@ -65,8 +65,7 @@ impl NormalMode {
         tick: Tick,
     ) -> Result<Stability, StepFailure> {
         // The map of a tick is a power of that of a step, in which the mode turns less.
-        let substeps = tick.substeps;
-        let tick = Tick { h: tick.h / f64::from(substeps), substeps: 1, ..tick };
+        let (tick, times) = tick.repeated(solver.method());
         let mut stepper = body.with_solver(solver, tick.t);
         let n = self.shape.len();
         // The unit of velocity: the orbit of the mode is a circle, or the distance in a step is 1.
@@ -102,7 +101,7 @@ impl NormalMode {
             return Ok(Stability::OVERFLOW);
         };
         let mut stability = compare(&self.true_modes(), &values, tick.h);
-        stability.spectral_radius = stability.spectral_radius.powi(substeps as i32);
+        stability.spectral_radius = stability.spectral_radius.powi(times as i32);
         let is_blurred = (stability.growth_per_s * tick.h).abs() <= NEUTRAL_WITH_MEMORY;
         if has_memory && is_blurred && self.is_conserved() && self.omega_squared > 0.0 {
             // The map of a method with memory is not accurate enough for a small growth; the energy

@@ -116,7 +116,7 @@ impl CoupledMotion {
         substeps: u32,
     ) -> Result<Stability, StepFailure> {
         // The map of a tick is a power of that of a step, in which the modes turn less.
-        let tick = Tick { t: 0.0, h: h / f64::from(substeps), substeps: 1 };
+        let (tick, times) = Tick { t: 0.0, h, substeps }.repeated(Some(method));
         let n = self.jacobian.nrows();
         let mut ensemble = Ensemble::linear(self.jacobian.clone(), method);
         let mut maps: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(2 * n, 2 * n));
@@ -137,7 +137,7 @@ impl CoupledMotion {
         };
         self.keep_what_drifts(&mut values);
         let mut stability = compare(&self.truth, &values, tick.h);
-        stability.spectral_radius = stability.spectral_radius.powi(substeps as i32);
+        stability.spectral_radius = stability.spectral_radius.powi(times as i32);
         Ok(stability)
     }
 
