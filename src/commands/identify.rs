@@ -24,8 +24,8 @@ the tick is read off t. The body is one of:
   a body that coasts or is driven    --drag, the damping setting in 1/s, and --thrust in newtons
   neither given: a spring whose stiffness and damping are fitted too, which leaves more open
 
-Every method is run beside the log, under 1, 2, 4, 8 and 16 substeps and each engine's own, from a
-start that is fitted to the whole log; the first 3000 ticks are used. A residual is what is left
+Every method with steps of one length is run beside the log, under 1, 2 and 4 substeps, and engines
+under 8, 16 and their own too, from a start that is fitted to the log; 3000 ticks are used. A residual is what is left
 over, in units of the largest x and v, root mean square. The word is
 
   identified    one method explains the log to its noise, with those that do the same on this body

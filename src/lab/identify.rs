@@ -1,8 +1,8 @@
 //! Which method made a log of one body: the methods of the table are run beside it, and the one that fits is named.
 //!
-//! Every method with steps of its own length, under 1, 2, 4, 8 and 16 substeps and its default, is run from a start that is
-//! fitted to the whole log by least squares; see [`fit`]. What is left over decides: a method is named if it explains
-//! the log to the noise and no other does.
+//! Every method with steps of one length is run under a few counts of substeps, from a start that is fitted to the whole
+//! log by least squares. What is left over decides: a method is named if it explains the log to the noise and no other
+//! does.
 
 use std::fmt;
 
@@ -92,8 +92,10 @@ pub struct Identification {
     pub recommended: Vec<(&'static Method, Effective)>,
 }
 
-/// The substeps that are tried, besides each engine's own.
-const SUBSTEPS: [u32; 5] = [1, 2, 4, 8, 16];
+/// The substeps that are tried of engines, besides each one's own.
+const SUBSTEPS_OF_ENGINES: &[u32] = &[1, 2, 4, 8, 16];
+/// The substeps that are tried of other methods.
+const SUBSTEPS: &[u32] = &[1, 2, 4];
 /// The id of the method whose force is held whatever the body.
 const HELD: &str = "held-force";
 /// What rounding leaves over in a run, in units of the largest values: the least, in double precision, and the most, in
@@ -117,7 +119,8 @@ fn candidates(body: &LoggedBody) -> Vec<Candidate> {
     let mut all = Vec::new();
     let stepped = METHODS.iter().filter(|method| method.tolerance.is_none());
     for method in stepped.filter(|method| method.only.is_none() || method.is_engine()) {
-        let mut counts = SUBSTEPS.to_vec();
+        let counts = if method.is_engine() { SUBSTEPS_OF_ENGINES } else { SUBSTEPS };
+        let mut counts = counts.to_vec();
         if !counts.contains(&method.default_substeps) {
             counts.push(method.default_substeps);
         }
