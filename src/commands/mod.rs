@@ -17,6 +17,7 @@ mod completions;
 mod game_loop;
 mod list;
 mod play;
+mod show;
 mod sweep;
 mod trace;
 mod verify;
@@ -55,6 +56,7 @@ pub use error::{Cause, Error};
 use game_loop::LoopArgs;
 use list::ListArgs;
 use play::PlayArgs;
+use show::ShowArgs;
 use sweep::SweepArgs;
 pub use terminal::{stderr_renderer, tell};
 use trace::TraceArgs;
@@ -70,6 +72,7 @@ Examples:
   regatta advise --scene stiff
   regatta sweep --scene spring --plot spring.png > spring.csv
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
+  regatta show rk4 --as csharp                     the method's code, for your game
   regatta chapter --out figures
   regatta verify clip
   regatta list methods
@@ -96,6 +99,7 @@ enum Command {
     Advise(AdviseArgs),
     Sweep(SweepArgs),
     Loop(LoopArgs),
+    Show(ShowArgs),
     Chapter(ChapterArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
@@ -114,6 +118,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Advise(args) => advise::run(&args),
         Command::Sweep(args) => sweep::run(&args),
         Command::Loop(args) => game_loop::run(&args),
+        Command::Show(args) => show::run(&args),
         Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args, &mut Cli::command()),

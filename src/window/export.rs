@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::App;
 use super::new_file::write_new;
-use crate::lab::Lab;
+use crate::lab::{Lab, source_code};
 use crate::view::{Gpu, OffscreenRenderer, Panels, instrument_csv, instrument_svg, png};
 
 /// The size of the picture, in pixels, and its pixels per point.
@@ -14,14 +14,31 @@ const SCALE: f32 = 2.0;
 impl App {
     /// Puts the values on the clipboard.
     pub(super) fn copy_instrument(&mut self) {
-        let Some(canvas) = &mut self.canvas else { return };
         self.lab.set_notice(match instrument_csv(&self.lab) {
             Some(table) => {
                 let rows = table.lines().count().saturating_sub(1);
-                canvas.egui.set_clipboard_text(table);
-                format!("copied {rows} values as CSV")
+                match self.clipboard.set_text(table) {
+                    Ok(()) => format!("copied {rows} values as CSV"),
+                    Err(reason) => format!("no clipboard: {reason}; Ctrl E saves the values"),
+                }
             }
             None => "this instrument has no values to copy".into(),
+        });
+    }
+
+    /// Puts the method at this place of the list on the clipboard, as source code.
+    pub(super) fn copy_method(&mut self, entry: usize) {
+        let language = self.lab.viewer().language();
+        let Some(method) = self.lab.entries().get(entry).map(|spec| spec.method) else { return };
+        self.lab.set_notice(match source_code(method, language) {
+            Ok(code) => match self.clipboard.set_text(code) {
+                Ok(()) => format!("copied {} as {language}", method.name),
+                Err(reason) => {
+                    let (id, language) = (method.id, language.id());
+                    format!("no clipboard: {reason}; `regatta show {id} --as {language}` prints it")
+                }
+            },
+            Err(refused) => refused.to_string(),
         });
     }
 

@@ -155,9 +155,18 @@ fn the_first_example_names_the_method_that_the_harbour_opens_with() {
 
 #[test]
 fn every_help_fits_a_hundred_columns_and_has_examples() {
-    for command in
-        ["play", "capture", "verify", "trace", "advise", "sweep", "chapter", "list", "completions"]
-    {
+    for command in [
+        "play",
+        "capture",
+        "verify",
+        "trace",
+        "advise",
+        "sweep",
+        "show",
+        "chapter",
+        "list",
+        "completions",
+    ] {
         let output = regatta().args([command, "--help"]).env("COLUMNS", "200").output().unwrap();
         let help = String::from_utf8(output.stdout).unwrap();
         assert!(help.contains("Examples:\n  regatta "), "{help}");

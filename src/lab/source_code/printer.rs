@@ -84,12 +84,12 @@ impl Printer<'_> {
         };
         let (open, each, close) = match self.language {
             Language::Rust => {
-                let (types, values) = (each("    NAME: f64,"), each("            NAME: VALUE,"));
-                let between = format!("impl Default for {pascal}Memory {{");
-                let lines = ["}", "", &between, "    fn default() -> Self {", "        Self {"];
-                let lines = lines.map(String::from).to_vec();
-                let close = "        }\n    }\n}".to_owned();
-                (format!("pub struct {pascal}Memory {{"), [types, lines, values].concat(), close)
+                let (open, values) = (format!("pub struct {pascal}Memory {{"), each("NAME: VALUE"));
+                let start =
+                    format!("fn default() -> Self {{\n        Self {{ {} }}", values.join(", "));
+                let close =
+                    format!("}}\n\nimpl Default for {pascal}Memory {{\n    {start}\n    }}\n}}");
+                (open, each("    NAME: f64,"), close)
             }
             Language::C => {
                 let values: Vec<&str> = starts.iter().map(|(_, start)| &**start).collect();
