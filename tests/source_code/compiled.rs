@@ -9,7 +9,7 @@ use regatta::lab::{Language, source_code};
 use regatta::sim::integrators::METHODS;
 
 use crate::drivers;
-use crate::known::{FORCES, STEPS, steps};
+use crate::known::{FORCES, Force, STEPS, steps};
 
 /// The methods whose function does not make the same operations as the method of the table: those that solve
 /// equations, for which Newton's iteration is written out for one coordinate, and those that use a power or an
@@ -31,9 +31,9 @@ const ROUNDING: f64 = 1e-14;
 /// Checks what a driver printed against the methods of the table.
 fn same(language: Language, text: &str) {
     let mut lines = text.lines();
-    for (k, (name, force, _)) in FORCES.iter().enumerate() {
+    for (k, Force { name, a, .. }) in FORCES.iter().enumerate() {
         for method in METHODS.iter().filter(|method| source_code(method, language).is_ok()) {
-            let known = steps(method, *force);
+            let known = steps(method, *a);
             let size = |part: usize| known.iter().map(|y| y[part].abs()).fold(0.0, f64::max);
             let sizes = [size(0), size(1)];
             let is_exact = !OTHER_OPERATIONS.contains(&method.id);

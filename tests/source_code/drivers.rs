@@ -61,7 +61,7 @@ pub(crate) fn rust() -> String {
         )
         .unwrap();
     }
-    let forces = FORCES.map(|(_, _, force)| force);
+    let forces = FORCES.map(|force| force.text);
     let [first, second, third] = forces;
     format!(
         "{text}\nfn a(k: u32, x: f64, v: f64) -> f64 {{ match k {{ 0 => {first}, 1 => {second}, _ => {third} }} }}\n\
@@ -89,7 +89,7 @@ pub(crate) fn c() -> String {
         )
         .unwrap();
     }
-    let [first, second, third] = FORCES.map(|(_, _, force)| force);
+    let [first, second, third] = FORCES.map(|force| force.text);
     let [long, short] = LENGTHS;
     format!(
         "{text}
@@ -136,7 +136,7 @@ pub(crate) fn c_sharp() -> String {
         )
         .unwrap();
     }
-    let [first, second, third] = FORCES.map(|(_, _, force)| force);
+    let [first, second, third] = FORCES.map(|force| force.text);
     let [long, short] = LENGTHS;
     format!(
         "{text}

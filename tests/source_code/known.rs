@@ -4,15 +4,25 @@ use regatta::lab::{METHOD_SOURCES, MethodSource};
 use regatta::sim::integrators::{Method, integrator, method};
 use regatta::sim::{Pursuit, State, System};
 
-/// The accelerations of the runs, in a syntax that every language shares.
-pub(crate) const FORCES: [(&str, fn(f64, f64) -> f64, &str); 3] = [
-    ("a spring with drag", |x, v| -40.0 * x - 1.5 * v, "-40.0 * x - 1.5 * v"),
-    ("an undamped spring", |x, v| -90.0 * x + 0.0 * v, "-90.0 * x + 0.0 * v"),
-    (
-        "a pendulum",
-        |x, v| -30.0 * (x - x * x * x / 6.0 + x * x * x * x * x / 120.0) - 0.1 * v,
-        "-30.0 * (x - x * x * x / 6.0 + x * x * x * x * x / 120.0) - 0.1 * v",
-    ),
+/// The acceleration of a run.
+pub(crate) struct Force {
+    pub(crate) name: &'static str,
+    pub(crate) a: fn(f64, f64) -> f64,
+    /// The same in a syntax that every language shares.
+    pub(crate) text: &'static str,
+}
+
+macro_rules! force {
+    ($name:literal, |$x:ident, $v:ident| $a:expr) => {
+        Force { name: $name, a: |$x, $v| $a, text: stringify!($a) }
+    };
+}
+
+pub(crate) const FORCES: [Force; 3] = [
+    force!("a spring with drag", |x, v| -40.0 * x - 1.5 * v),
+    force!("an undamped spring", |x, v| -90.0 * x + 0.0 * v),
+    force!("a pendulum", |x, v| -30.0 * (x - x * x * x / 6.0 + x * x * x * x * x / 120.0)
+        - 0.1 * v),
 ];
 /// Steps of a run. Half of them have one length, half another, so that a memory is restarted.
 pub(crate) const STEPS: u32 = 200;

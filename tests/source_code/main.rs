@@ -3,6 +3,7 @@
 #![cfg(feature = "lab")]
 
 mod compiled;
+mod copying;
 mod drivers;
 mod gdscript;
 mod known;
