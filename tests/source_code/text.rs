@@ -46,7 +46,7 @@ fn every_method_is_printed_in_every_language_or_says_why_not() {
 #[test]
 fn a_header_says_what_is_on_the_card() {
     for (method, source) in sources() {
-        let text = source_code(method, Language::GdScript).unwrap();
+        let Ok(text) = source_code(method, Language::GdScript) else { continue };
         let header: Vec<&str> = text.lines().map_while(|line| line.strip_prefix('#')).collect();
         let header = header.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
         assert!(header.contains(method.about) && header.contains(method.source), "{header}");

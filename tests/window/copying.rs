@@ -18,7 +18,7 @@ fn control_c_on_a_lane_copies_its_method_and_the_menu_of_the_lane_has_the_langua
     desk.press("ctrl+c");
     holds("rk4", Language::Rust);
 
-    twin.right_click(&desk, "4 Runge-Kutta 4");
+    twin.right_click(&desk, "4 Runge-Kutta 4,");
     twin.click(&desk, "Copy as C#");
     holds("rk4", Language::CSharp);
     twin.click(&desk, "2 Semi-implicit Euler");

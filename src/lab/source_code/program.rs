@@ -91,8 +91,9 @@ impl<'a> Program<'a> {
             let (word, rest) = line.split_once([' ', ':']).unwrap_or((line, ""));
             match word {
                 "refused" => {
-                    let (language, reason) = rest.split_once(": ").unwrap_or(("", rest));
-                    program.refusals.push((language.trim(), reason.trim()));
+                    let (language, reason) = line.split_once(": ").expect("a refusal says why");
+                    let language = language.trim_start_matches("refused").trim();
+                    program.refusals.push((language, reason));
                 }
                 "takes" => {
                     let (input, about) = rest.split_once(": ").expect("an input says what it is");
