@@ -69,6 +69,7 @@
 //! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
 //!   `methods!`. If its card claims too much or too little, `tests/conformance` fails. One that is for some bodies
 //!   [only](sim::integrators::Only) comes after all others, and is refused elsewhere with the reason on its card.
+//!   Its [source code](lab::METHOD_SOURCES) for other games is a file in `assets/methods`, and its line in that table.
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
 //!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a person can grab it, in a file beside
 //!   `lab/picture/look/spring.rs`, and add that to `LOOKS`. `tests/exact_flows.rs` and `tests/bodies` hold its exact flow, or what stands in for one,

@@ -10,7 +10,8 @@ use regatta::commands::{self, Cli};
 
 /// The libraries below us speak of errors only, and EGL not at all: it tries drivers that are not there,
 /// and what matters of that comes back as an error value. `RUST_LOG` overrides it.
-const LOG_FILTER: &str = "warn,wgpu_core=error,wgpu_hal=error,wgpu_hal::gles::egl=off,naga=error";
+const LOG_FILTER: &str =
+    "warn,arboard=error,wgpu_core=error,wgpu_hal=error,wgpu_hal::gles::egl=off,naga=error";
 
 fn main() -> ExitCode {
     panic::set_hook(Box::new(report_bug));

@@ -16,6 +16,7 @@ use crate::lab::{Command, DriverRequest, Lab};
 
 mod analysis_thread;
 mod canvas;
+mod clipboard;
 mod error;
 mod event;
 mod export;
@@ -39,6 +40,7 @@ pub use settings::{Closed, WindowSettings};
 
 use analysis_thread::AnalysisThread;
 use canvas::{Canvas, Drawn};
+use clipboard::Clipboard;
 use error::reason;
 use event::Event;
 use keys::Modifiers;
@@ -88,6 +90,7 @@ pub fn run(
         size,
         proxy,
         canvas: None,
+        clipboard: Clipboard::default(),
         asked: Vec::new(),
         held: Modifiers::default(),
         last_frame: None,
@@ -118,6 +121,7 @@ struct App {
     size: Option<[u32; 2]>,
     proxy: EventLoopProxy<Event>,
     canvas: Option<Canvas>,
+    clipboard: Clipboard,
     /// Commands that the next frame applies before it simulates.
     asked: Vec<Command>,
     held: Modifiers,
@@ -197,6 +201,7 @@ impl App {
                     self.stand_still();
                 }
                 Some(DriverRequest::CopyInstrument) => self.copy_instrument(),
+                Some(DriverRequest::CopyMethod(entry)) => self.copy_method(entry),
                 Some(DriverRequest::ExportInstrument) => self.export_instrument(),
                 Some(DriverRequest::ToggleFullScreen) => self.toggle_full_screen(),
                 Some(DriverRequest::OpenTypedPath) => {

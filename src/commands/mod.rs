@@ -18,6 +18,7 @@ mod game_loop;
 mod identify;
 mod list;
 mod play;
+mod show;
 mod sweep;
 mod trace;
 mod verify;
@@ -57,6 +58,7 @@ use game_loop::LoopArgs;
 use identify::IdentifyArgs;
 use list::ListArgs;
 use play::PlayArgs;
+use show::ShowArgs;
 use sweep::SweepArgs;
 pub use terminal::{stderr_renderer, tell};
 use trace::TraceArgs;
@@ -73,6 +75,7 @@ Examples:
   regatta sweep --scene spring --plot spring.png > spring.csv
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
   regatta identify spring.csv --tick-hz 60 --k 40
+  regatta show rk4 --as csharp                     the method's code, for your game
   regatta chapter --out figures
   regatta verify clip
   regatta list methods
@@ -100,6 +103,7 @@ enum Command {
     Sweep(SweepArgs),
     Loop(LoopArgs),
     Identify(IdentifyArgs),
+    Show(ShowArgs),
     Chapter(ChapterArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
@@ -119,6 +123,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Sweep(args) => sweep::run(&args),
         Command::Loop(args) => game_loop::run(&args),
         Command::Identify(args) => identify::run(&args),
+        Command::Show(args) => show::run(&args),
         Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),
         Command::Completions(args) => completions::run(&args, &mut Cli::command()),

@@ -5,6 +5,7 @@ use super::held::HeldBody;
 use super::instrument::Instrument;
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopCommand;
+use super::source_code::Language;
 use super::zoom_pan::ZoomPan;
 use crate::sim::integrators::Method;
 
@@ -113,8 +114,20 @@ pub enum Command {
     Metric(usize),
     /// Shows the instrument over the stage, or beside it again.
     ToggleEnlarged,
+    /// Copies the method of the lane that is [pointed at](Command::PointAt) as source code in the language of the last
+    /// copy, or else the instrument's values.
+    Copy,
     /// Copies the instrument's values.
     CopyInstrument,
+    /// Copies a method as source code.
+    CopyMethod {
+        /// Its place in the list of lanes.
+        entry: usize,
+        /// The language.
+        language: Language,
+    },
+    /// The pointer or the keyboard's focus comes to the lane at this place of the list, or leaves the list.
+    PointAt(Option<usize>),
     /// Saves the instrument to files.
     ExportInstrument,
     /// Selects the body of the plots and the lane list, by its place in the scene, from 0.

@@ -85,6 +85,9 @@ pub enum DriverRequest {
     Record,
     /// Copy the instrument's values to the clipboard.
     CopyInstrument,
+    /// Copy the method at this place of the list to the clipboard, as source code in the viewer's
+    /// [language](super::Viewer::language).
+    CopyMethod(usize),
     /// Save the instrument as a picture, a drawing and a table.
     ExportInstrument,
     /// Enter or leave full screen.

@@ -218,9 +218,9 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Ctrl C, Ctrl E",
-        about: "copy the instrument's values; save it as PNG, SVG and CSV",
+        about: "copy the instrument's values, or on a lane its method as code; save as PNG, SVG and CSV",
         keys: &[
-            (Key::ControlSign('c'), Command::CopyInstrument),
+            (Key::ControlSign('c'), Command::Copy),
             (Key::ControlSign('e'), Command::ExportInstrument),
         ],
         repeats: false,

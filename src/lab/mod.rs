@@ -40,6 +40,7 @@ mod report;
 mod scene;
 mod scene_list;
 mod session;
+mod source_code;
 mod start;
 mod viewer;
 mod zoom_pan;
@@ -94,5 +95,8 @@ pub use scene::{
 };
 pub use scene_list::SceneList;
 pub use session::{Event, EventKind, RecordingError, SNAPSHOT_BYTES, Session, TimeScale, Timeline};
+pub use source_code::{
+    Language, METHOD_SOURCES, MethodInput, MethodSource, NoSourceCode, source_code,
+};
 pub use viewer::{Dialog, Viewer};
 pub use zoom_pan::{ZOOMS, ZoomPan};

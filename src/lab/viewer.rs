@@ -10,6 +10,7 @@ use super::interpolation::Interpolation;
 use super::lane_spec::LaneSpec;
 use super::live_loop::LiveLoop;
 use super::palette::Theme;
+use super::source_code::Language;
 
 /// A dialog over the window.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +36,10 @@ pub struct Viewer {
     pub display: Display,
     /// The number of the lane selected in a race: it stays selected, whatever method it is put under.
     pub(super) selected: usize,
+    /// The place of the lane that the pointer or the keyboard's focus is on.
+    pub(super) pointed: Option<usize>,
+    /// The language in which a method was copied last.
+    pub(super) language: Language,
     /// The driver's pace while time runs; `None` without real time, as in a capture.
     pub pace: Option<Pace>,
     /// The time of a tick of each lane that flew when the driver measured it last, in nanoseconds: `None` of a lane that
@@ -81,6 +86,8 @@ impl Viewer {
                 zoom_pans: Vec::new(),
             },
             selected,
+            pointed: None,
+            language: Language::default(),
             pace: None,
             tick_times: Vec::new(),
             notice: None,
@@ -95,6 +102,16 @@ impl Viewer {
             tour: None,
             left_at: 0,
         }
+    }
+
+    /// The place in the list of the lane that the pointer or the keyboard's focus is on, if it is on one.
+    pub fn pointed_lane(&self) -> Option<usize> {
+        self.pointed
+    }
+
+    /// The language in which the next method is copied: that of the last, and Rust at first.
+    pub fn language(&self) -> Language {
+        self.language
     }
 
     /// The open dialog.

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::App;
 use super::new_file::write_new;
-use crate::lab::Lab;
+use crate::lab::{Lab, Language, source_code};
+use crate::sim::integrators::Method;
 use crate::view::{Gpu, OffscreenRenderer, Panels, instrument_csv, instrument_svg, png};
 
 /// The size of the picture, in pixels, and its pixels per point.
@@ -14,14 +15,25 @@ const SCALE: f32 = 2.0;
 impl App {
     /// Puts the values on the clipboard.
     pub(super) fn copy_instrument(&mut self) {
-        let Some(canvas) = &mut self.canvas else { return };
         self.lab.set_notice(match instrument_csv(&self.lab) {
             Some(table) => {
                 let rows = table.lines().count().saturating_sub(1);
-                canvas.egui.set_clipboard_text(table);
-                format!("copied {rows} values as CSV")
+                match self.clipboard.set_text(table) {
+                    Ok(()) => format!("copied {rows} values as CSV"),
+                    Err(reason) => format!("no clipboard: {reason}; Ctrl E saves the values"),
+                }
             }
             None => "this instrument has no values to copy".into(),
+        });
+    }
+
+    /// Puts the method at this place of the list on the clipboard, as source code.
+    pub(super) fn copy_method(&mut self, entry: usize) {
+        let language = self.lab.viewer().language();
+        let Some(method) = self.lab.entries().get(entry).map(|spec| spec.method) else { return };
+        self.lab.set_notice(match source_code(method, language) {
+            Ok(code) => method_notice(self.clipboard.set_text(code), method, language),
+            Err(refused) => refused.to_string(),
         });
     }
 
@@ -32,6 +44,18 @@ impl App {
             self.lab.set_notice(notice);
         }
         self.stand_still();
+    }
+}
+
+/// What is said of a method that was put on the clipboard, or was not.
+fn method_notice(copied: Result<(), String>, method: &Method, language: Language) -> String {
+    match copied {
+        Ok(()) => format!("copied {} as {language}", method.name),
+        Err(reason) => format!(
+            "no clipboard: {reason}; `regatta show {} --as {}` prints it",
+            method.id,
+            language.id()
+        ),
     }
 }
 
@@ -77,5 +101,21 @@ fn name(lab: &Lab) -> String {
             format!("regatta-{scene}-loops-{instrument}-at-{ms}-ms")
         }
         None => format!("regatta-{scene}-{instrument}-tick-{}", lab.race().tick()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::integrators::method;
+
+    #[test]
+    fn without_a_clipboard_a_notice_says_why_and_names_the_command_that_prints_the_method() {
+        let rk4 = method("rk4").unwrap();
+        let notice = method_notice(Err("there is no display".into()), rk4, Language::CSharp);
+        let expected =
+            "no clipboard: there is no display; `regatta show rk4 --as csharp` prints it";
+        assert_eq!(notice, expected);
+        assert_eq!(method_notice(Ok(()), rk4, Language::CSharp), "copied Runge-Kutta 4 as C#");
     }
 }

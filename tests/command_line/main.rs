@@ -16,6 +16,7 @@ mod manifest;
 mod mishaps;
 mod mistakes;
 mod recordings;
+mod show;
 mod sweep;
 mod sweep_plots;
 mod trace;

@@ -53,7 +53,7 @@ fn every_key_of_the_table_does_what_the_table_says() {
         let others = [
             Command::Screenshot,
             Command::Record,
-            Command::CopyInstrument,
+            Command::Copy,
             Command::ExportInstrument,
             Command::ToggleFullScreen,
             Command::AskForPath,

@@ -112,6 +112,22 @@ impl Twin {
         desk.titled(&self.lab.title());
     }
 
+    /// Clicks the widget of this name with the right button, here and in the window.
+    #[track_caller]
+    pub(crate) fn right_click(&mut self, desk: &Desk, name: &str) {
+        let at = self.find(name, |node| node.supports_action(Action::Click)).center().floor();
+        desk.still();
+        desk.xdotool(&format!("mousemove --window WINDOW {} {} click 3", at.x, at.y));
+        let press = |pressed| Event::PointerButton {
+            pos: at,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        self.show([Event::PointerMoved(at), press(true), press(false)]);
+        self.settle();
+    }
+
     /// Types into the number of this name.
     #[track_caller]
     pub(crate) fn enter(&mut self, desk: &Desk, name: &str, number: &str) {

@@ -6,7 +6,7 @@ use crate::desk::Desk;
 use crate::twin::Twin;
 
 /// A paused window at the start of a scene, and its twin.
-fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
+pub(crate) fn paused(test: &str, scene: &str) -> Option<(Desk, Twin)> {
     let desk = Desk::open(test, &format!("--scene {scene}"))?;
     let mut twin = Twin::new(Lab::new(Scene::built_in(scene).unwrap()));
     desk.press("space");

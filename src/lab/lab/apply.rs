@@ -128,7 +128,18 @@ impl Lab {
             Command::ToggleEnlarged => {
                 self.viewer.display.enlarged = !self.viewer.display.enlarged;
             }
+            Command::Copy => {
+                let pointed = self.viewer.pointed.filter(|entry| *entry < self.entries().len());
+                let copy = pointed.map(DriverRequest::CopyMethod);
+                return Some(copy.unwrap_or(DriverRequest::CopyInstrument));
+            }
             Command::CopyInstrument => return Some(DriverRequest::CopyInstrument),
+            Command::CopyMethod { entry, language } => {
+                self.viewer.language = language;
+                let known = entry < self.entries().len();
+                return known.then_some(DriverRequest::CopyMethod(entry));
+            }
+            Command::PointAt(entry) => self.viewer.pointed = entry,
             Command::ExportInstrument => return Some(DriverRequest::ExportInstrument),
             Command::Body(body) => {
                 self.viewer.display.body = body.min(self.scene().bodies.len() - 1);

@@ -5,7 +5,7 @@ use egui::{Align2, FontId, Id, Pos2, Rect, Response, ScrollArea, Sense, Ui, Vec2
 
 use super::sorting::{self, Order};
 use super::{formula, ink, keycap, short};
-use crate::lab::{Command, FORMULAS, Lab, Mode};
+use crate::lab::{Command, FORMULAS, Lab, Language, Mode};
 use crate::view::plot;
 use crate::view::theme::{TYPE, strong_font};
 
@@ -34,7 +34,8 @@ pub(super) fn height_of(rows: usize) -> f32 {
     HEAD + ROW * rows.clamp(*ROWS.start(), *ROWS.end()) as f32 + 2.0
 }
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+/// Shows the table. Returns the place of the lane whose row the pointer or the keyboard's focus is on.
+pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) -> Option<usize> {
     ui.spacing_mut().item_spacing = Vec2::ZERO;
     let width = ui.available_width();
     let columns = fitting(lab, width - 2.0 * MARGIN);
@@ -47,11 +48,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     if let Some(offset) = offset_to_follow(ui, Id::unique("active lane"), selected, rows.len()) {
         list = list.vertical_scroll_offset(offset);
     }
+    let mut pointed = None;
     list.show(ui, |ui| {
         for row in &rows {
-            show_row(ui, lab, row, &columns, width, commands);
+            if show_row(ui, lab, row, &columns, width, commands) {
+                pointed = Some(row.entry);
+            }
         }
     });
+    pointed
 }
 
 /// Shows the heads, and returns the order that a person has chosen with them.
@@ -129,6 +134,7 @@ fn sorted(lab: &Lab, order: Order) -> Vec<Row<'_>> {
     methods.into_iter().flatten().collect()
 }
 
+/// Shows a row. Returns whether the pointer or the keyboard's focus is on it.
 fn show_row(
     ui: &mut Ui,
     lab: &Lab,
@@ -136,7 +142,7 @@ fn show_row(
     columns: &[(&Column, f32, f32)],
     width: f32,
     commands: &mut Vec<Command>,
-) {
+) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
     let said = row.said();
     let name = [
@@ -161,11 +167,25 @@ fn show_row(
         let from = pos2(rect.left() + MARGIN + left, rect.center().y);
         cell(ui, row, column, from, own, said.as_ref());
     }
+    response.context_menu(|ui| menu(ui, lab, row.entry, commands));
+    let is_pointed_at = response.hovered() || response.has_focus();
     if tooltip(response, row, said.as_ref().map(verdict::Said::whole)).clicked() {
         commands.push(match row.is_of_body {
             true => Command::Body(row.body),
             false => Command::Pick(row.entry),
         });
+    }
+    is_pointed_at
+}
+
+/// The menu of a row: its method as code, in each language.
+fn menu(ui: &mut Ui, lab: &Lab, entry: usize, commands: &mut Vec<Command>) {
+    for language in Language::ALL {
+        let key = if language == lab.viewer().language() { " (Ctrl C)" } else { "" };
+        if ui.button(format!("Copy as {language}{key}")).clicked() {
+            commands.push(Command::CopyMethod { entry, language });
+            ui.close();
+        }
     }
 }
 

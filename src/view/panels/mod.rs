@@ -75,6 +75,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
             egui::Panel::bottom("footer").exact_size(footer::HEIGHT).frame(frame(ink(ui).panel));
         panel.show(ui, |ui| footer::show(ui, lab, &mut commands));
     }
+    let mut pointed = None;
     if size.y >= HEIGHT_FOR_LANES {
         let height = lab.loop_lab().map_or_else(|| lanes::height(lab), loops::table::height);
         let height = height.min(size.y * 0.4);
@@ -83,8 +84,11 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
         let panel = egui::Panel::bottom("lanes").exact_size(height).frame(frame);
         panel.show(ui, |ui| match lab.loop_lab() {
             Some(loops) => loops::table::show(ui, loops, &mut commands),
-            None => lanes::show(ui, lab, &mut commands),
+            None => pointed = lanes::show(ui, lab, &mut commands),
         });
+    }
+    if pointed != lab.viewer().pointed_lane() {
+        commands.push(Command::PointAt(pointed));
     }
     if size.y >= HEIGHT_FOR_TIMELINE {
         let height = match size.y >= HEIGHT_FOR_TIMES {

@@ -1,0 +1,125 @@
+//! The comment above a method's function: what it is and what its limits are, by its card.
+
+use super::dialect::Language;
+use super::program::{MethodInput, Program};
+use crate::sim::integrators::{Family, Method};
+
+/// The width of the comment, in characters.
+const WIDTH: usize = 96;
+
+/// The lines of the comment.
+pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) -> Vec<String> {
+    let mut paragraphs = vec![
+        format!("{} ({}): {}.", method.name, method.id, method.about),
+        format!("Source: {}.", method.source),
+        String::new(),
+        format!("Order: {}. Evaluations per step: {}.", order(method), evaluations(method)),
+        format!("Stability: {}.", stability(method)),
+        format!("Symplectic: {}. Reversible: {}.", yes(method.symplectic), yes(method.reversible)),
+        format!("Memory: {}.", memory(method, program)),
+    ];
+    if let Some(tolerance) = method.tolerance {
+        let of_x = match tolerance.absolute_q.is_finite() {
+            true => "x and v",
+            false => "v alone",
+        };
+        paragraphs.push(format!("Tolerance: the constants in the function, for {of_x}."));
+    }
+    if !method.keeps_time {
+        paragraphs.push("Time: a step may advance by less than h, and does not say so.".into());
+    }
+    paragraphs.extend(program.notes.iter().map(|note| (*note).to_owned()));
+    paragraphs.push(String::new());
+    let state = "x, v: position and velocity of one coordinate; for several that feel each other, make them vectors.";
+    paragraphs.extend([state.into(), "h: the step, in seconds.".into()]);
+    paragraphs.extend(program.inputs.iter().map(input));
+    paragraphs.push(answer(language, program));
+    paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
+}
+
+fn order(method: &Method) -> String {
+    let Method { order, order_with_drag, .. } = *method;
+    match (order, method.family) {
+        (0, _) => "0, it does not converge".into(),
+        (_, Family::Follower) => format!("{order}, while the target moves evenly"),
+        _ if order == order_with_drag => format!("{order}, with drag too"),
+        _ => format!("{order}, with drag {order_with_drag}"),
+    }
+}
+
+fn evaluations(method: &Method) -> String {
+    match (method.evaluations, method.restart) {
+        (Some(count), None) => count.to_string(),
+        (Some(count), Some(_)) => format!("{count}, and one more at the first"),
+        (None, _) => "as many as it needs".into(),
+    }
+}
+
+fn stability(method: &Method) -> String {
+    match (method.family, method.stability_limit) {
+        (Family::Follower, None) => "stays near a still target at any step".into(),
+        (Family::Follower, Some(limit)) => {
+            format!("stays near a still target up to h rate = {limit}")
+        }
+        (Family::Adaptive, _) => "it chooses its own substeps".into(),
+        (_, None) => "an undamped spring stays bounded at any step".into(),
+        (_, Some(0.0)) => "an undamped spring grows at every step".into(),
+        (_, Some(limit)) => {
+            let limit = (limit * 1000.0).round() / 1000.0;
+            format!("an undamped spring of angular frequency ω stays bounded up to h ω = {limit}")
+        }
+    }
+}
+
+fn memory(method: &Method, program: &Program<'_>) -> String {
+    if program.memory.is_empty() {
+        return "none".into();
+    }
+    format!(
+        "one for each coordinate. The first step and one of another length restart it {}. Make a new one after a \
+         jump of x, v or the forces",
+        method.restart.unwrap_or("by a step without memory")
+    )
+}
+
+fn input(input: &MethodInput<'_>) -> String {
+    match input.arguments.is_empty() {
+        true => format!("{}: {}.", input.name, input.about),
+        false => format!("{}({}): {}.", input.name, input.arguments.join(", "), input.about),
+    }
+}
+
+/// How the function gives its result.
+fn answer(language: Language, program: &Program<'_>) -> String {
+    let takes_function = program.inputs.iter().any(|input| !input.arguments.is_empty());
+    match language {
+        Language::Rust => "Returns the new x and v.".into(),
+        Language::C if takes_function => {
+            "Replaces position and velocity, and hands `user` on to what it calls.".into()
+        }
+        Language::C => "Replaces position and velocity.".into(),
+        Language::CSharp => "Replaces x and v.".into(),
+        Language::GdScript => "Returns [x, v].".into(),
+    }
+}
+
+fn yes(is: bool) -> &'static str {
+    if is { "yes" } else { "no" }
+}
+
+/// The words of a paragraph in lines.
+fn wrapped(paragraph: &str) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in paragraph.split(' ') {
+        let last = lines.last_mut().expect("there is a line");
+        if last.is_empty() {
+            last.push_str(word);
+        } else if last.chars().count() + word.chars().count() < WIDTH {
+            last.push(' ');
+            last.push_str(word);
+        } else {
+            lines.push(word.to_owned());
+        }
+    }
+    lines
+}

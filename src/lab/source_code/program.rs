@@ -1,0 +1,278 @@
+//! Reads the source of a method.
+
+use super::dialect::Language;
+
+/// What a function takes beside `x`, `v` and `h`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MethodInput<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// What it is a function of; empty for a number.
+    pub arguments: Vec<&'a str>,
+    /// What it is: a phrase in lower case.
+    pub about: &'a str,
+}
+
+/// A number that is carried from step to step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Field<'a> {
+    pub(super) name: &'a str,
+    /// Its value before the first step.
+    pub(super) start: &'a str,
+}
+
+/// A function that returns a number.
+#[derive(Clone, Debug)]
+pub(super) struct Function<'a> {
+    pub(super) name: &'a str,
+    pub(super) inputs: Vec<MethodInput<'a>>,
+    pub(super) comments: Vec<&'a str>,
+    pub(super) body: Vec<Line<'a>>,
+}
+
+/// A statement. An expression that was written on several lines still is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Line<'a> {
+    Blank,
+    Comment(&'a str),
+    Constant {
+        name: &'a str,
+        value: String,
+    },
+    Let {
+        name: &'a str,
+        value: String,
+    },
+    Var {
+        name: &'a str,
+        value: String,
+    },
+    /// With its operator: `x += h * v`.
+    Assignment(String),
+    If(String),
+    Else,
+    While(String),
+    End,
+    Return(String),
+    Fail,
+}
+
+/// The source of a method, read.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Program<'a> {
+    /// The comments at its head.
+    pub(super) notes: Vec<&'a str>,
+    /// The ids of languages, empty for all, and the reason.
+    refusals: Vec<(&'a str, &'a str)>,
+    pub(super) inputs: Vec<MethodInput<'a>>,
+    pub(super) memory: Vec<Field<'a>>,
+    pub(super) functions: Vec<Function<'a>>,
+    pub(super) body: Vec<Line<'a>>,
+}
+
+/// The functions that several methods use.
+const SHARED: [(&str, &str); 4] = [
+    ("slope", include_str!("../../../assets/methods/shared/slope.step")),
+    ("solve", include_str!("../../../assets/methods/shared/solve.step")),
+    ("steady", include_str!("../../../assets/methods/shared/steady.step")),
+    ("step-size", include_str!("../../../assets/methods/shared/step-size.step")),
+];
+
+impl<'a> Program<'a> {
+    /// Reads a source.
+    ///
+    /// # Panics
+    /// If it is malformed: sources are the package's own, and the tests read all of them.
+    pub(super) fn read(text: &'a str) -> Self {
+        let mut program = Self::default();
+        let mut lines = text.lines().peekable();
+        let mut comments = Vec::new();
+        while let Some(line) = lines.next() {
+            let line = line.trim();
+            let (word, rest) = line.split_once([' ', ':']).unwrap_or((line, ""));
+            match word {
+                "refused" => {
+                    let (language, reason) = line.split_once(": ").expect("a refusal says why");
+                    let language = language.trim_start_matches("refused").trim();
+                    program.refusals.push((language, reason));
+                }
+                "takes" => {
+                    let (input, about) = rest.split_once(": ").expect("an input says what it is");
+                    program.inputs.extend(inputs(input, about));
+                    program.notes.append(&mut comments);
+                }
+                "memory" => {
+                    let (name, start) = rest.split_once(" = ").expect("a field has a start");
+                    program.memory.push(Field { name, start });
+                }
+                "use" => {
+                    let shared = SHARED.iter().find(|(name, _)| *name == rest);
+                    let (_, text) = shared.unwrap_or_else(|| panic!("no shared source {rest}"));
+                    program.functions.extend(Program::read(text).functions);
+                }
+                "fn" => {
+                    let head = rest.strip_suffix(") {").expect("a function opens a block");
+                    let (name, taken) = head.split_once('(').expect("a function takes something");
+                    let inputs = inputs(taken, "");
+                    // Up to the brace in the first column.
+                    let inside = std::iter::from_fn(|| lines.next_if(|line| *line != "}"));
+                    let body = statements(inside);
+                    lines.next();
+                    let comments = std::mem::take(&mut comments);
+                    program.functions.push(Function { name, inputs, comments, body });
+                }
+                "#" => comments.push(rest),
+                "" => {}
+                _ => {
+                    // The first statement of the step: all that follows is the step, with the comments above.
+                    let above = comments.drain(..).map(Line::Comment);
+                    program.body = above.collect();
+                    program.body.extend(statements(std::iter::once(line).chain(lines)));
+                    break;
+                }
+            }
+        }
+        program
+    }
+
+    /// Whether the step uses the value that `name` has before it: for anything but to be assigned.
+    pub(super) fn reads(&self, name: &str) -> bool {
+        self.body.iter().any(|line| {
+            let text = match line {
+                Line::Constant { value, .. }
+                | Line::Let { value, .. }
+                | Line::Var { value, .. } => value,
+                Line::If(value) | Line::While(value) | Line::Return(value) => value,
+                Line::Assignment(text) => match text.split_once(" = ") {
+                    Some((_, value)) => value,
+                    None => text,
+                },
+                Line::Blank | Line::Comment(_) | Line::Else | Line::End | Line::Fail => "",
+            };
+            text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == name)
+        })
+    }
+
+    /// Why there is no function in this language, if there is none.
+    pub(super) fn refusal(&self, language: Language) -> Option<&'a str> {
+        let mut refusals = self.refusals.iter();
+        let of_it = refusals.find(|(id, _)| id.is_empty() || *id == language.id());
+        of_it.map(|(_, reason)| *reason)
+    }
+}
+
+/// Reads inputs that are separated by commas: `a(x, v), x`.
+fn inputs<'a>(mut text: &'a str, about: &'a str) -> Vec<MethodInput<'a>> {
+    let mut inputs = Vec::new();
+    while !text.is_empty() {
+        let end = text.find([',', '(']).unwrap_or(text.len());
+        let (name, mut rest) = text.split_at(end);
+        let mut arguments = Vec::new();
+        if let Some(inside) = rest.strip_prefix('(') {
+            let (inside, after) = inside.split_once(')').expect("a closed parenthesis");
+            arguments = inside.split(", ").collect();
+            rest = after;
+        }
+        inputs.push(MethodInput { name: name.trim(), arguments, about });
+        text = rest.trim_start_matches([',', ' ']);
+    }
+    inputs
+}
+
+/// Reads statements, of which those that begin with an operator continue the one before.
+fn statements<'a>(lines: impl Iterator<Item = &'a str>) -> Vec<Line<'a>> {
+    let mut lines = lines.map(str::trim).peekable();
+    let mut read = Vec::new();
+    while let Some(first) = lines.next() {
+        let mut rest = String::new();
+        while let Some(more) = lines.next_if(|line| continues(line)) {
+            rest.push('\n');
+            rest.push_str(more);
+        }
+        read.push(statement(first, &rest));
+    }
+    read
+}
+
+fn continues(line: &str) -> bool {
+    let word = line.split(' ').next().unwrap_or_default();
+    ["+", "-", "*", "/", "and", "or"].contains(&word)
+}
+
+/// Reads the statement whose first line is `first`.
+fn statement<'a>(first: &'a str, rest: &str) -> Line<'a> {
+    let (word, after) = first.split_once(' ').unwrap_or((first, ""));
+    let named = || {
+        let (name, value) = after.split_once(" = ").expect("a declaration has a value");
+        (name, format!("{value}{rest}"))
+    };
+    let condition = || {
+        let whole = format!("{after}{rest}");
+        whole.strip_suffix(" {").expect("a condition opens a block").to_owned()
+    };
+    match (word, first) {
+        ("", _) => Line::Blank,
+        ("#", _) => Line::Comment(after),
+        ("const", _) => {
+            let (name, value) = named();
+            Line::Constant { name, value }
+        }
+        ("let", _) => {
+            let (name, value) = named();
+            Line::Let { name, value }
+        }
+        ("var", _) => {
+            let (name, value) = named();
+            Line::Var { name, value }
+        }
+        ("if", _) => Line::If(condition()),
+        ("while", _) => Line::While(condition()),
+        (_, "} else {") => Line::Else,
+        (_, "}") => Line::End,
+        (_, "fail") => Line::Fail,
+        ("return", _) => Line::Return(format!("{after}{rest}")),
+        _ => Line::Assignment(format!("{first}{rest}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_source_is_read_into_its_parts() {
+        let program = Program::read(
+            "# Be careful.\nrefused c: it has no such thing\ntakes f(x): the force\ntakes drag: in kg/s\n\
+             memory last = nan\n\n# Twice.\nfn twice(f(x), x) {\n    return 2.0\n        * f(x)\n}\n\n\
+             # Now.\nlet k = f(x)\nif k < 0.0\n    or h == 0.0 {\n    fail\n} else {\n    v += k\n}\n",
+        );
+        assert_eq!(program.notes, ["Be careful."]);
+        assert_eq!(program.refusal(Language::C), Some("it has no such thing"));
+        assert_eq!(program.refusal(Language::Rust), None);
+        let inputs: Vec<_> = program.inputs.iter().map(|i| (i.name, i.arguments.len())).collect();
+        assert_eq!(inputs, [("f", 1), ("drag", 0)]);
+        assert_eq!(program.inputs[1].about, "in kg/s");
+        assert_eq!((program.memory[0].name, program.memory[0].start), ("last", "nan"));
+        let twice = &program.functions[0];
+        assert_eq!((twice.name, &twice.comments[..]), ("twice", &["Twice."][..]));
+        assert_eq!(twice.body, [Line::Return("2.0\n* f(x)".into())]);
+        assert_eq!(
+            program.body,
+            [
+                Line::Comment("Now."),
+                Line::Let { name: "k", value: "f(x)".into() },
+                Line::If("k < 0.0\nor h == 0.0".into()),
+                Line::Fail,
+                Line::Else,
+                Line::Assignment("v += k".into()),
+                Line::End,
+            ]
+        );
+    }
+
+    #[test]
+    fn a_source_can_refuse_every_language() {
+        let program = Program::read("refused: it steps pairs of bodies\n");
+        assert!(Language::ALL.iter().all(|language| program.refusal(*language).is_some()));
+    }
+}
