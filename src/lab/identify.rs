@@ -104,7 +104,7 @@ const ROUNDING: [f64; 2] = [1e-9, 3e-5];
 /// Nothing below this many times what the closest candidate leaves over tells candidates apart, up to the most that
 /// rounding leaves over.
 const TIMES_CLOSEST: f64 = 10.0;
-/// Candidates whose runs are nowhere farther apart do the same.
+/// Candidates whose runs are nowhere farther apart, with the same spring, do the same.
 const SAME: f64 = 1e-5;
 /// The least difference of twice the logarithm of the likelihood that tells candidates apart: four standard deviations.
 const DECISIVE: f64 = 16.0;

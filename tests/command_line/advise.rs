@@ -203,3 +203,21 @@ fn lerp_per_frame_does_not_look_right_at_any_rate_but_its_own() {
     assert_eq!(advice["recommended"]["accurate"]["method"], "exponential-decay");
     assert_eq!(advice["recommended"]["looks-right"]["method"], "exponential-decay");
 }
+
+#[test]
+fn engines_are_judged_only_where_they_are_asked_for() {
+    let ids = |arguments: &str| -> Vec<String> {
+        let advice = advice(arguments);
+        let rows = advice["methods"].as_array().unwrap();
+        rows.iter().map(|row| row["method"].as_str().unwrap().to_owned()).collect()
+    };
+    let unasked = ids("--scene held-force");
+    assert!(unasked.len() == GENERAL_METHODS.len(), "{unasked:?}");
+    assert!(unasked.iter().all(|id| id != "held-force" && !id.starts_with("engine-")));
+    let engines = ids("--scene spring --family engine");
+    assert!(engines.contains(&"held-force".to_owned()) && engines.len() > 10, "{engines:?}");
+    assert!(engines.iter().all(|id| id == "held-force" || id.starts_with("engine-")));
+    let refused = refusal("advise --scene follow --family engine", 2);
+    assert!(refused.contains("engine-box2d does not step the body"), "{refused}");
+    assert!(refusal("advise --family enigne", 2).contains("did you mean engine?"));
+}

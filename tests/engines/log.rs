@@ -10,7 +10,7 @@ use regatta::sim::{EngineSettings, State, System};
 
 /// Where the logs are, with their manifest.
 fn folder() -> PathBuf {
-    PathBuf::from(std::env::var("FULL").unwrap_or("tests/data/engines".into()))
+    PathBuf::from("tests/data/engines")
 }
 
 /// A body in an engine: a spring, drag and a constant force, any of which may be 0.

@@ -14,7 +14,7 @@ use crate::known::{FORCES, Force, STEPS, steps};
 /// The methods whose function does not make the same operations as the method of the table: those that solve
 /// equations, for which Newton's iteration is written out for one coordinate, and those that use a power or an
 /// exponential, which is not the same in every library. They agree within [`ROUNDING`].
-const OTHER_OPERATIONS: [&str; 9] = [
+const OTHER_OPERATIONS: [&str; 16] = [
     "bogacki-shampine-32",
     "dormand-prince-54",
     "implicit-euler",
@@ -24,6 +24,13 @@ const OTHER_OPERATIONS: [&str; 9] = [
     "gauss-legendre-4",
     "exponential-decay",
     "critically-damped-spring",
+    "tr-bdf2",
+    "verlet-exact-drag",
+    "exponential-rosenbrock-euler",
+    "engine-bullet",
+    "engine-pybullet",
+    "engine-chipmunk",
+    "engine-godot",
 ];
 /// The largest difference of these, relative to the largest coordinate or velocity of the run.
 const ROUNDING: f64 = 1e-14;

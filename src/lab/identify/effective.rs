@@ -57,12 +57,14 @@ impl Effective {
         Some(Self { omega: stiffness.sqrt(), decay })
     }
 
-    /// Whether frequency and damping are those of `exact` to within 1 %, and half a percent of critical damping.
+    /// Whether frequency and damping are those of `exact` to within 1 %, and half a percent of critical damping, and no
+    /// energy is gained.
     pub(super) fn is_near(&self, exact: &Self) -> bool {
         let near = |a: f64, b: f64| (a - b).abs() <= 0.01 * b.abs() + 1e-12;
         match (self.damping_ratio(), exact.damping_ratio()) {
             (Some(ratio), Some(wanted)) => {
-                near(self.omega, exact.omega) && (ratio - wanted).abs() <= 0.005
+                let gains = ratio < wanted - 1e-6;
+                near(self.omega, exact.omega) && (ratio - wanted).abs() <= 0.005 && !gains
             }
             (None, None) => near(self.decay, exact.decay),
             _ => false,

@@ -163,8 +163,16 @@ impl Fit {
         self.left.iter().map(of).sum()
     }
 
-    /// The largest distance between two runs, in units of the scale.
+    /// The largest distance between two runs and between their springs, in units of the scale.
     pub(super) fn distance(&self, other: &Fit) -> f64 {
+        let [a, b] = [self, other].map(|fit| fit.body.spring.unwrap_or_default());
+        let critical = 2.0 * a[0].abs().sqrt();
+        let apart = (a[0] - b[0]).abs() / a[0].abs() + (a[1] - b[1]).abs() / critical;
+        let of_springs = if a == b { 0.0 } else { apart };
+        self.distance_of_runs(other).max(of_springs)
+    }
+
+    fn distance_of_runs(&self, other: &Fit) -> f64 {
         let apart = |(a, b): (&[f64; 2], &[f64; 2])| {
             let velocities = if self.left.len() > 1 { (a[1] - b[1]).abs() } else { 0.0 };
             (a[0] - b[0]).abs().max(velocities)
