@@ -25,8 +25,8 @@ the tick is read off t. The body is one of:
   neither given: a spring whose stiffness and damping are fitted too, which leaves more open
 
 Every method with steps of one length is run beside the log, under 1, 2 and 4 substeps, and engines
-under 8, 16 and their own too, from a start that is fitted to the log; 3000 ticks are used. A residual is what is left
-over, in units of the largest x and v, root mean square. The word is
+under 8, 16 and their own too, from a start that is fitted to the log; 3000 ticks are used. A
+residual is what is left over, in units of the largest x and v, root mean square. The word is
 
   identified    one method explains the log to its noise, with those that do the same on this body
   cannot tell   methods that differ explain it equally well: log v too, or for longer
@@ -34,8 +34,8 @@ over, in units of the largest x and v, root mean square. The word is
 
 JSON has word, best, substeps, held, residual, also, runner_up, runner_up_substeps,
 runner_up_residual, effective_stiffness_n_per_m, effective_frequency_hz, effective_damping_ratio,
-energy_halves_s, energy_doubles_s, exact_frequency_hz, exact_damping_ratio and recommended. held says
-that the game applies the spring's force itself.
+energy_halves_s, energy_doubles_s, exact_frequency_hz, exact_damping_ratio and recommended; held
+says that the game applies the spring's force itself.
 
 Examples:
   regatta identify spring.csv --tick-hz 60 --k 40 --c 0.5 --mass 2

@@ -207,6 +207,17 @@ const METHOD: &[Column<Method>] = &[
         heading: None,
         value: |method| json!(method.only.map(|only| only.reason)),
     },
+    Column { key: "default_substeps", heading: None, value: |m| json!(m.default_substeps) },
+    Column {
+        key: "engine_tick_hz",
+        heading: None,
+        value: |method| json!(method.engine.map(|engine| engine.tick_hz)),
+    },
+    Column {
+        key: "engine_damping_ratio_at_1_hz",
+        heading: None,
+        value: |method| json!(method.engine.and_then(|engine| engine.damping_ratio)),
+    },
     Column { key: "about", heading: Some("ABOUT"), value: |method| json!(method.about) },
     Column { key: "source", heading: None, value: |method| json!(method.source) },
 ];

@@ -109,7 +109,7 @@ const SAME: f64 = 1e-5;
 /// The least difference of twice the logarithm of the likelihood that tells candidates apart: four standard deviations.
 const DECISIVE: f64 = 16.0;
 /// More left over than this is no fit, whatever its form.
-const NO_FIT: f64 = 0.05;
+const NO_FIT: f64 = 0.01;
 /// What is left over may follow from row to row by this much more than chance allows.
 const FOLLOWING: f64 = 0.1;
 /// The most methods that are recommended.

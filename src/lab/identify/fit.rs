@@ -187,7 +187,7 @@ impl Fit {
             let follows = |lag: usize| {
                 let pairs = left.iter().zip(&left[lag..]);
                 let mean = pairs.map(|(a, b)| a * b).sum::<f64>() / (left.len() - lag) as f64;
-                (mean / square).abs() > 5.0 / (left.len() as f64).sqrt() + FOLLOWING
+                (mean / square).abs() > 4.0 / (left.len() as f64).sqrt() + FOLLOWING
             };
             square.sqrt() > PRECISE && (1..=LAGS.min(left.len() - 1)).any(follows)
         })

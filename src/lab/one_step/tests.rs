@@ -1,12 +1,18 @@
 use super::*;
 use crate::lab::command::Command;
+use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 use crate::sim::integrators::{GENERAL_METHODS, METHODS, Method};
 
 /// A lab under a method, after some ticks.
 fn lab(scene: &str, method: &str, ticks: u64) -> Lab {
-    let mut lab = Lab::new(Scene::built_in(scene).unwrap());
-    let entry = lab.entries().iter().position(|spec| spec.method.id == method).unwrap();
+    let mut scene = Scene::built_in(scene).unwrap();
+    let method = METHODS.iter().find(|known| known.id == method).unwrap();
+    if method.is_engine() {
+        scene.lanes.push(LaneSpec::plain(method));
+    }
+    let mut lab = Lab::new(scene);
+    let entry = lab.entries().iter().position(|spec| spec.method == method).unwrap();
     lab.apply(Command::Pick(entry));
     (0..ticks).for_each(|_| lab.tick());
     lab
@@ -15,7 +21,7 @@ fn lab(scene: &str, method: &str, ticks: u64) -> Lab {
 /// A scene that the method steps.
 fn scene_for(method: &Method) -> &'static str {
     let fits = |name: &&str| Scene::built_in(name).unwrap().refusal(method).is_none();
-    ["spring", "follow", "lerp"].into_iter().find(fits).expect("one of them")
+    ["spring", "ship", "follow", "lerp"].into_iter().find(fits).expect("one of them")
 }
 
 fn near(found: [f64; 2], wanted: [f64; 2]) -> bool {
