@@ -74,6 +74,12 @@ fn own_bodies_have_the_verdicts_of_the_built_in_ones() {
                 let [a, b] = judges
                     .each_ref()
                     .map(|judge| judge.verdict(LaneSpec::plain(method), tick_hz).to_string());
+                // What a method without an error is off by is the rounding of the truth, and that differs.
+                let rounding = "within rounding";
+                if method.exact_if_linear && a.starts_with(rounding) {
+                    assert!(b.starts_with(rounding), "{b}");
+                    continue;
+                }
                 assert_eq!(a, b, "{} at {tick_hz} Hz on the {}", method.id, own.bodies[0].name);
             }
         }
