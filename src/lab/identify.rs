@@ -10,12 +10,12 @@ use crate::sim::integrators::{METHODS, Method};
 
 mod effective;
 mod fit;
-mod log;
+mod logged;
 mod motion;
 
 pub use effective::Effective;
 use fit::{Fit, fit};
-pub use log::{Columns, Log, LogError, LogRow};
+pub use logged::{Columns, Log, LogError, LogRow};
 pub use motion::LoggedBody;
 
 /// A method with what a lane would say of it.

@@ -13,10 +13,13 @@ mod clock;
 pub mod conformance;
 mod dice;
 mod double_double;
+mod engine_settings;
 mod exact_flow;
 mod exact_since_start;
 pub mod integrators;
 pub mod law;
+#[cfg(feature = "lab")]
+mod least_squares;
 mod net_plan;
 mod parameter;
 mod piece;
@@ -34,10 +37,11 @@ pub(crate) use accumulator::most_ticks;
 pub use accumulator::{Accumulator, Due, LONGEST_FRAME_MS};
 pub use body_stepper::stepper;
 pub use clock::Clock;
+pub use engine_settings::EngineSettings;
+#[cfg(feature = "lab")]
+pub use least_squares::least_squares;
 pub use points::Points;
 pub use reference::{MOST_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
 pub use stepper::{RecordedTick, Stepper};
-pub use system::{
-    Counted, Counts, EngineSettings, Evaluation, Pursuit, Recorded, State, System, Vector,
-};
+pub use system::{Counted, Counts, Evaluation, Pursuit, Recorded, State, System, Vector};

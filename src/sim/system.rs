@@ -2,6 +2,8 @@
 
 use std::cell::{Cell, RefCell};
 
+use super::engine_settings::EngineSettings;
+
 /// A coordinate vector, with the operations that methods use.
 ///
 /// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or
@@ -216,10 +218,8 @@ pub trait System {
         None
     }
 
-    /// How a physics engine is told of the body at the start of a tick: settings that its joint and its damping
-    /// take over, and the rest as a force of user code, with which `force` is overwritten. It counts as an
-    /// evaluation. `None` if an engine cannot express the body so. Unless a system says otherwise, everything is a
-    /// force of user code.
+    /// How a physics engine is told of the body: settings that it takes over, and the rest as a force of user code
+    /// per unit of mass, with which `force` is overwritten. It counts as an evaluation. `None` if it cannot be told.
     #[inline]
     fn engine_settings(
         &self,
@@ -236,35 +236,6 @@ pub trait System {
     /// sums it.
     #[inline]
     fn skipped(&self, _h: f64) {}
-}
-
-/// The part of an acceleration that an engine's joint and its damping take over: `-(K q + c v) - C v`, the same for
-/// every coordinate, with the spring at rest where `q` is 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EngineSettings {
-    /// K, the stiffness of the joint for each kilogram, per second squared.
-    pub stiffness: f64,
-    /// c, the damping of the joint for each kilogram, per second.
-    pub damping: f64,
-    /// C, the damping setting of the body, per second.
-    pub drag: f64,
-}
-
-impl EngineSettings {
-    /// Everything is a force of user code.
-    pub const NONE: Self = Self { stiffness: 0.0, damping: 0.0, drag: 0.0 };
-
-    /// Whether there is a joint.
-    #[inline]
-    pub fn has_spring(&self) -> bool {
-        self.stiffness != 0.0 || self.damping != 0.0
-    }
-
-    /// `D = 1 + h c + h² K`, by which an implicit solve of a step of `h` (s) divides.
-    #[inline]
-    pub fn resistance(&self, h: f64) -> f64 {
-        1.0 + h * self.damping + h * h * self.stiffness
-    }
 }
 
 /// What a body follows at one moment, and how fast.

@@ -1,10 +1,9 @@
 //! What a player sees: the frequency, the damping and the change of energy of a motion.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::Candidate;
-use super::log::Log;
+use super::logged::Log;
 use super::motion::{LoggedBody, run};
+use crate::sim::least_squares;
 
 /// The motion that a player sees, as that of a damped spring or of a body that coasts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,11 +128,8 @@ impl Effective {
 
 /// The least squares solution of equations in the first `unknowns` unknowns.
 fn solve<const N: usize>(rows: &[([f64; N], f64)], unknowns: usize) -> Option<Vec<f64>> {
-    if rows.len() < unknowns {
-        return None;
-    }
-    let matrix = DMatrix::from_fn(rows.len(), unknowns, |row, column| rows[row].0[column]);
-    let right = DVector::from_fn(rows.len(), |row, _| rows[row].1);
-    let found = matrix.svd(true, true).solve(&right, 1e-14).ok()?;
-    found.iter().all(|x| x.is_finite()).then(|| found.iter().copied().collect())
+    let column = |place: usize| rows.iter().map(|(row, _)| row[place]).collect();
+    let columns: Vec<Vec<f64>> = (0..unknowns).map(column).collect();
+    let right: Vec<f64> = rows.iter().map(|(_, right)| *right).collect();
+    least_squares(&columns, &right)
 }

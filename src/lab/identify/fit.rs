@@ -1,11 +1,10 @@
 //! A candidate fitted to a log: the start, and what is not known of the body, by least squares.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::effective::Effective;
-use super::log::Log;
+use super::logged::Log;
 use super::motion::{LoggedBody, run};
 use super::{Candidate, FOLLOWING};
+use crate::sim::least_squares;
 
 /// The iterations of Gauss and Newton; a linear motion needs one, and a second for the last digits.
 const ITERATIONS: usize = 2;
@@ -79,14 +78,13 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
             }
         }
         let left = left_over(log, &now, scale).concat();
-        let flat = |states: &[[f64; 2]]| left_flat(log, states);
-        let base = flat(&now);
-        let jacobian = DMatrix::from_fn(left.len(), columns.len(), |row, column| {
-            (flat_at(log, &columns[column], row) - base[row]) / DISPLACEMENT
-        });
-        let normal = jacobian.transpose() * &jacobian;
-        let right = jacobian.transpose() * DVector::from_vec(left);
-        let Some(change) = normal.lu().solve(&right) else { break };
+        let base = flat(log, &now);
+        let slope = |there: &Vec<[f64; 2]>| -> Vec<f64> {
+            let changes = flat(log, there).into_iter().zip(&base);
+            changes.map(|(there, base)| (there - base) / DISPLACEMENT).collect()
+        };
+        let slopes: Vec<Vec<f64>> = columns.iter().map(slope).collect();
+        let Some(change) = least_squares(&slopes, &left) else { break };
         let mut next = (start, body.clone());
         for (place, change) in change.iter().enumerate() {
             match place {
@@ -124,17 +122,11 @@ fn in_units(states: &[[f64; 2]], scale: [f64; 2]) -> Vec<[f64; 2]> {
     states.iter().map(|[x, v]| [x / scale[0], v / scale[1]]).collect()
 }
 
-/// All coordinates, then all logged velocities.
-fn left_flat(log: &Log, states: &[[f64; 2]]) -> Vec<f64> {
+/// All coordinates, then all velocities that were logged.
+fn flat(log: &Log, states: &[[f64; 2]]) -> Vec<f64> {
     let x = states.iter().map(|state| state[0]);
     let logged = states.iter().zip(log.rows()).filter(|(_, row)| row.v.is_some());
     x.chain(logged.map(|(state, _)| state[1])).collect()
-}
-
-/// The value at a place of [`left_flat`]; velocities are logged in all rows or in none.
-fn flat_at(log: &Log, states: &[[f64; 2]], place: usize) -> f64 {
-    let rows = log.rows().len();
-    states[place % rows][place / rows]
 }
 
 fn left_over(log: &Log, states: &[[f64; 2]], scale: [f64; 2]) -> Vec<Vec<f64>> {

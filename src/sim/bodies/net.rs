@@ -10,8 +10,9 @@ use glam::DVec2;
 
 use crate::sim::Points;
 use crate::sim::body::{Body, Input};
+use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::system::{EngineSettings, State, System};
+use crate::sim::system::{State, System};
 use frame::{FIXED, Frame};
 
 mod frame;

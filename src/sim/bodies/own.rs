@@ -9,7 +9,8 @@ use super::false_claims::FalseClaims;
 use super::own_sheet::OwnSheet;
 use super::survey::ranges;
 use crate::sim::body::{Body, Input};
-use crate::sim::system::{EngineSettings, State, System};
+use crate::sim::engine_settings::EngineSettings;
+use crate::sim::system::{State, System};
 
 mod claims;
 mod extras;

@@ -5,8 +5,9 @@ use glam::DVec2;
 use super::kind::{Coordinate, Kind, Truth};
 use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
+use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{self, ParameterOf, Range};
-use crate::sim::system::{EngineSettings, State, System};
+use crate::sim::system::{State, System};
 
 pub(super) const KIND: Kind = Kind {
     id: "ship",

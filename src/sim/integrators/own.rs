@@ -5,7 +5,8 @@ use std::cell::RefCell;
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
-use crate::sim::system::{EngineSettings, Pursuit, State, System, Vector};
+use crate::sim::engine_settings::EngineSettings;
+use crate::sim::system::{Pursuit, State, System, Vector};
 
 /// A system of any type with its coordinates in a `Vec`: what a method of one's own steps.
 #[derive(Clone, Copy)]

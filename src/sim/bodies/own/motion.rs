@@ -5,8 +5,9 @@ use std::cell::RefCell;
 use std::fmt;
 
 use super::extras::{Energy, Exact, Extras};
+use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::ParameterOf;
-use crate::sim::system::{EngineSettings, State, System, Vector};
+use crate::sim::system::{State, System, Vector};
 
 /// The motion of a body of one's own.
 pub(super) trait Motion: Send {

@@ -1,9 +1,10 @@
 //! A force of one's own, applied once a tick over an engine's substeps.
 
 use super::{EngineMethod, Rule, Tick};
+use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, Only};
-use crate::sim::system::{EngineSettings, State, System, Vector};
+use crate::sim::system::{State, System, Vector};
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "held-force",

@@ -12,7 +12,8 @@
 use super::card::Method;
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use crate::sim::system::{EngineSettings, State, System, Vector};
+use crate::sim::engine_settings::EngineSettings;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) mod avian;
 pub(super) mod avian_motor;

@@ -1,9 +1,10 @@
 //! The multibody that pybullet loads a model as, unless it is told otherwise.
 
 use super::{EngineMethod, Rule, Tick, each};
+use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, Only};
-use crate::sim::system::{EngineSettings, State, System, Vector};
+use crate::sim::system::{State, System, Vector};
 
 const ONLY: Only = Only {
     kinds: &["ship", "helm", "orbit", "law", "own"],
