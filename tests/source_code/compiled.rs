@@ -46,7 +46,7 @@ fn same(language: Language, text: &str) {
             let sizes = [size(0), size(1)];
             let is_exact = !OTHER_OPERATIONS.contains(&method.id);
             let (mut differs, mut worst) = (false, 0.0_f64);
-            for (n, known) in (0..STEPS).zip(&known) {
+            for (_, known) in (0..STEPS).zip(&known) {
                 let line = lines.next().expect("a line for each step");
                 let mut words = line.split(' ');
                 assert_eq!((words.next(), words.next()), (Some(method.id), Some(&*k.to_string())));

@@ -32,7 +32,7 @@ impl Effective {
 
     /// The stiffness and the damping of a spring with this motion, for each kilogram.
     pub fn spring(&self) -> Option<[f64; 2]> {
-        (self.omega > 0.0).then(|| [self.omega * self.omega, 2.0 * self.decay])
+        (self.omega > 0.0).then_some([self.omega * self.omega, 2.0 * self.decay])
     }
 
     /// The stiffness of a spring with this motion, for each kilogram.

@@ -100,7 +100,8 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         let worth = |states: &[[f64; 2]]| -> f64 {
             left_over(log, states, scale).concat().iter().map(|left| left * left).sum()
         };
-        if !(worth(&reached) < worth(&now)) {
+        let is_nearer = worth(&reached) < worth(&now);
+        if !is_nearer {
             break;
         }
         (start, body, now) = (next.0, next.1, reached);
