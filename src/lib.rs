@@ -22,6 +22,7 @@
 //!   [`AnalysisWorker`](lab::AnalysisWorker) runs both, and the stability map, beside the race. The truth is a lane
 //!   whose solver is the exact flow, or a [reference](sim::REFERENCE_ACCURACY) for a body that has none. The layer knows no GPU and no wall clock: time comes in as
 //!   integers, text as `&str`.
+//!   [`identify`](lab::identify) finds the method that made a log.
 //!   Game loops are in [`lab::pacing`]: a [`Policy`](lab::pacing::Policy) decides each frame which steps are made, a
 //!   [`FrameTrace`](lab::pacing::FrameTrace) says when frames begin and are displayed, and a
 //!   [`LoopRun`](lab::pacing::LoopRun) measures what a viewer sees. The [`LoopLab`](lab::LoopLab) has every frame of every
@@ -68,7 +69,9 @@
 //!
 //! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
 //!   `methods!`. If its card claims too much or too little, `tests/conformance` fails. One that is for some bodies
-//!   [only](sim::integrators::Only) comes after all others, and is refused elsewhere with the reason on its card.
+//!   [only](sim::integrators::Only) comes after all others, and is refused elsewhere with the reason on its card. A physics engine is a
+//!   [family](sim::integrators::Family::Engine) of such methods: a rule in `sim/integrators/engine`, which reads what it is
+//!   [told](sim::System::engine_settings) of a body.
 //!   Its [source code](lab::METHOD_SOURCES) for other games is a file in `assets/methods`, and its line in that table.
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
 //!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a person can grab it, in a file beside

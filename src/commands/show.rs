@@ -10,10 +10,11 @@ use crate::lab::{Language, NoSourceCode, source_code};
 use crate::sim::integrators::Method;
 
 const ABOUT: &str = "\
-The function makes one step of h seconds for one coordinate: of its position x, its velocity v and a function
-a(x, v) for the acceleration. A method with memory takes its memory too, and a follower takes the position of its
-target and a rate. Forces that depend on time are left out. Above the function stand the method's source, its order,
-its stability limit, and how it restarts.
+The function makes one step of h seconds for one coordinate: of its position x, its velocity v and
+a function a(x, v) for the acceleration. A method with memory takes its memory too, a follower the
+position of its target and a rate, and an engine the settings of its joint and its body. Forces that
+depend on time are left out. Above the function stand the method's source, its order, its stability
+limit, and how it restarts.
 
 Examples:
   regatta show rk4

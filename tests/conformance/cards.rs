@@ -47,7 +47,7 @@ fn families_agree_with_the_other_fields() {
             assert_eq!(adaptive, card.tolerance.is_some(), "{}", card.id);
             assert_eq!(adaptive || is_implicit, card.stability_limit.is_none(), "{}", card.id);
         }
-        if !card.is_as_printed() && !is_implicit && !is_linearised {
+        if !card.is_as_printed() && !is_implicit && !is_linearised && !is_special {
             assert_eq!(card.family == Family::Symplectic, card.symplectic, "{}", card.id);
         }
     }

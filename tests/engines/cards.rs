@@ -131,6 +131,27 @@ fn an_undamped_spring_stays_bounded_up_to_the_stability_limit_of_an_engine() {
     }
 }
 
+/// The determinant of a map.
+fn area(map: [[f64; 2]; 2]) -> f64 {
+    map[0][0] * map[1][1] - map[0][1] * map[1][0]
+}
+
+#[test]
+fn an_engine_keeps_area_on_an_undamped_spring_where_its_card_says_so_and_none_can_be_run_back() {
+    // What a motor adds to the velocity comes a tick later.
+    for method in engines().filter(|method| has_spring(method) && method.restart.is_none()) {
+        let body = spring_of(method, [4.0, 0.0]);
+        let change = (area(map(method, &body, 0.1)) - 1.0).abs();
+        let keeps = change < 1e-13;
+        assert!(keeps || change > 1e-7, "{}: {change:e}", method.id);
+        assert_eq!(keeps, method.symplectic, "{}: {change:e}", method.id);
+        let there = after(method, &body, 0.1, 1, [1.0, 0.5]);
+        let back = after(method, &body, -0.1, 1, [there.q, there.v]);
+        let off = (back.q - 1.0).abs().max((back.v - 0.5).abs());
+        assert!(!method.reversible && off > 1e-9, "{}: {off:e}", method.id);
+    }
+}
+
 #[test]
 fn an_engine_reads_the_force_once_a_tick_however_many_its_substeps() {
     for method in engines().filter(|method| method.engine.unwrap().has_substeps) {

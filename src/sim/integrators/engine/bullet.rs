@@ -9,6 +9,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     name: "Bullet",
     about: "semi-implicit Euler on a spring, which is softened to turn a quarter radian a substep; a force that pulls with it counts \
             only where it is the larger",
+    symplectic: true,
     engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.0), has_substeps: true }),
     source: "Bullet 3 main 6c888f4: btRigidBody.cpp applyDamping, btGeneric6DofSpring2Constraint.cpp get_limit_motor_info2",
     ..ENGINE

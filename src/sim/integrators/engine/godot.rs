@@ -11,6 +11,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
             the source, and not held against a log",
     order_with_drag: 0,
     stability_limit: Some(2.0),
+    symplectic: true,
     engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.0), has_substeps: false }),
     source: "Godot 4.x: godot_body_2d.cpp, godot_joints_2d.cpp GodotDampedSpringJoint2D",
     ..ENGINE

@@ -9,6 +9,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     name: "MuJoCo",
     about: "semi-implicit Euler with implicit damping, which drag is too; the same under its implicit integrators",
     stability_limit: Some(2.0),
+    symplectic: true,
     engine: Some(Engine { tick_hz: 500, damping_ratio: Some(0.0), has_substeps: true }),
     source: "MuJoCo 4.0.0: engine_forward.c mj_Euler",
     ..ENGINE
