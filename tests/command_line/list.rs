@@ -37,7 +37,8 @@ fn a_method_is_listed_with_all_of_its_card() {
     for (object, method) in methods.iter().zip(METHODS) {
         let keys: Vec<_> = object.as_object().unwrap().keys().map(String::as_str).collect();
         let expected = "id name also family order order_with_drag evaluations exact_if_linear symplectic reversible \
-                        stability_limit tolerance restart keeps_time as_printed only only_because about source";
+                        stability_limit tolerance restart keeps_time as_printed only only_because \
+                        default_substeps engine_tick_hz engine_damping_ratio_at_1_hz about source";
         assert_eq!(keys.join(" "), expected);
         let only = method.only.map(|only| (only.to_string(), only.reason));
         let (bodies, reason) = only.unzip();
@@ -49,6 +50,11 @@ fn a_method_is_listed_with_all_of_its_card() {
         assert_eq!(object["order_with_drag"], method.order_with_drag);
         assert_eq!(object["evaluations"], Value::from(method.evaluations));
         assert_eq!(object["symplectic"], method.symplectic);
+        assert_eq!(object["default_substeps"], method.default_substeps);
+        let engine = method.engine.map(|engine| (engine.tick_hz, engine.damping_ratio));
+        let (tick_hz, ratio) = engine.unzip();
+        assert_eq!(object["engine_tick_hz"], Value::from(tick_hz), "{}", method.id);
+        assert_eq!(object["engine_damping_ratio_at_1_hz"], Value::from(ratio.flatten()));
         assert_eq!(object["stability_limit"], Value::from(method.stability_limit));
     }
 }
