@@ -1,11 +1,14 @@
 //! The loops that the cards give away do what the loops of the table do, frame by frame, in each language.
 
 use std::collections::BTreeSet;
-use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::io::Write as _;
+use std::path::Path;
 use std::process::{Command, Stdio};
-use std::{env, fs};
 
+mod compilers;
+
+use compilers::{build_folder, compiled_or_skip};
 use regatta::lab::pacing::{POLICIES, Pacer, PolicyCard, RefreshRate, TimeBase, policy};
 
 #[path = "../assets/loops/clamped-variable.rs"]
@@ -265,30 +268,6 @@ fn the_rust_snippets_do_what_the_table_does() {
             for card in POLICIES {
                 same(card, rates, &trace, &in_rust(card.id, rates, &trace));
             }
-        }
-    }
-}
-
-/// An empty folder for what is compiled.
-fn build_folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-/// Whether a compiler succeeds. Where it is not installed, says that `test` is skipped.
-fn compiled_or_skip(test: &str, command: &mut Command) -> bool {
-    match command.output() {
-        Ok(output) => {
-            let said = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
-            assert!(output.status.success(), "{}{}", said[0], said[1]);
-            true
-        }
-        Err(error) => {
-            let compiler = command.get_program().to_string_lossy();
-            let _ = writeln!(io::stderr(), "SKIPPED {test}: {compiler}: {error}");
-            false
         }
     }
 }

@@ -87,8 +87,8 @@ pub struct Identification {
     pub effective: Option<Effective>,
     /// What the equation of motion says.
     pub exact: Option<Effective>,
-    /// Methods of one step a tick under which a player would see the exact motion to within 1 %, the cheapest first, with
-    /// what he would see.
+    /// Methods of one step a tick under which a player would see the exact motion to within 1 %, the cheapest first, and
+    /// the motion under each.
     pub recommended: Vec<(&'static Method, Effective)>,
 }
 

@@ -2,6 +2,7 @@
 
 use regatta::lab::{Columns, Identification, Log as Text, LoggedBody, Word, identify};
 
+use crate::dice::Dice;
 use crate::log::{Log, Row};
 
 /// What is read of a log as a person would write it.
@@ -56,53 +57,41 @@ fn every_log_of_a_spring_and_of_a_coasting_body_is_identified() {
     assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-/// Numbers of a normal distribution, from a seed.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        let mut uniform = || {
-            self.0 ^= self.0 << 13;
-            self.0 ^= self.0 >> 7;
-            self.0 ^= self.0 << 17;
-            (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        let (a, b) = (uniform(), uniform());
-        (-2.0 * (1.0 - a).ln()).sqrt() * (std::f64::consts::TAU * b).cos()
-    }
+/// A number of the normal distribution.
+fn normal(dice: &mut Dice) -> f64 {
+    let (part, angle) = (dice.part(), dice.between(0.0, std::f64::consts::TAU));
+    (-2.0 * (1.0 - part).ln()).sqrt() * angle.cos()
 }
 
 /// How often noise is added to each log.
-const SEEDS: u64 = 1;
+const NOISES: u64 = 1;
 
 #[test]
 fn noise_of_a_ten_thousandth_leaves_nearly_all_logs_identified_and_none_wrong() {
-    println!("seeds 0 to {}", SEEDS - 1);
+    let mut dice = Dice::new(1);
     let (mut right, mut wrong, mut all) = (0, Vec::new(), 0);
-    for (place, log) in springs_and_coasting().iter().enumerate() {
+    for log in springs_and_coasting() {
         let scale = log.scale();
         let mut missed = 0;
-        for seed in 0..SEEDS {
-            let mut noise = Noise(0x9E37_79B9_7F4A_7C15 ^ (1 + seed + 1000 * place as u64));
-            (0..10).for_each(|_| _ = noise.next());
-            let noisy = |row: &Row| Row {
+        for again in 0..NOISES {
+            let mut noisy = |row: &Row| Row {
                 tick: row.tick,
-                x: row.x + 1e-4 * scale[0] * noise.next(),
-                v: row.v + 1e-4 * scale[1] * noise.next(),
+                x: row.x + 1e-4 * scale[0] * normal(&mut dice),
+                v: row.v + 1e-4 * scale[1] * normal(&mut dice),
             };
-            let rows: Vec<Row> = log.rows.iter().map(noisy).collect();
-            let found = identified(log, &rows, true);
+            let rows: Vec<Row> = log.rows.iter().map(&mut noisy).collect();
+            let found = identified(&log, &rows, true);
             all += 1;
-            match (found.word, names(&found, log)) {
+            match (found.word, names(&found, &log)) {
                 (Word::Identified, true) => right += 1,
                 (Word::Identified, false) => {
-                    wrong.push(format!("{} seed {seed}: {}", log.file, found.best.candidate));
+                    wrong.push(format!("{}, run {again}: {}", log.file, found.best.candidate));
                 }
                 _ => missed += 1,
             }
         }
         if missed > 0 {
-            println!("{}: {missed} of {SEEDS} not told", log.file);
+            println!("{}: {missed} of {NOISES} not told", log.file);
         }
     }
     println!("{right} of {all}");

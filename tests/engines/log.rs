@@ -1,11 +1,10 @@
-//! Logs of the engines in `../shared/engines`, and the body that each of them is of.
+//! Logs of the engines in `tests/data/engines`, and the body that each of them is of.
 
 use std::collections::HashMap;
 use std::fs;
 use std::path::PathBuf;
 
-use regatta::sim::integrators::StepFailure;
-use regatta::sim::integrators::{Method, integrator, method};
+use regatta::sim::integrators::{Method, StepFailure, integrator, method};
 use regatta::sim::{EngineSettings, State, System};
 
 /// Where the logs are, with their manifest.

@@ -1,6 +1,8 @@
 //! Engines: their cards against logs of the engines themselves, and which engine a log came from.
 
 mod cards;
+#[path = "../dice/mod.rs"]
+mod dice;
 mod identified;
 mod log;
 mod oracles;

@@ -1,13 +1,12 @@
 //! Each language's driver, compiled and run, and its states beside those of the table's methods.
 
-use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
 use regatta::lab::{Language, source_code};
 use regatta::sim::integrators::METHODS;
 
+use crate::compilers::{build_folder, compiled_or_skip};
 use crate::drivers;
 use crate::known::{FORCES, Force, STEPS, steps};
 
@@ -46,7 +45,8 @@ fn same(language: Language, text: &str) {
             let sizes = [size(0), size(1)];
             let is_exact = !OTHER_OPERATIONS.contains(&method.id);
             let (mut differs, mut worst) = (false, 0.0_f64);
-            for (_, known) in (0..STEPS).zip(&known) {
+            assert_eq!(known.len(), STEPS as usize);
+            for known in &known {
                 let line = lines.next().expect("a line for each step");
                 let mut words = line.split(' ');
                 assert_eq!((words.next(), words.next()), (Some(method.id), Some(&*k.to_string())));
@@ -58,37 +58,14 @@ fn same(language: Language, text: &str) {
                     worst = if off.is_nan() || off > worst { off } else { worst };
                 }
             }
-            if if is_exact { differs } else { worst.is_nan() || worst > ROUNDING } {
+            let is_off = if is_exact { differs } else { worst.is_nan() || worst > ROUNDING };
+            if is_off {
                 wrong.push(format!("{} in {language} on {name}: {worst:.1e}", method.id));
             }
         }
     }
     assert_eq!(lines.next(), None);
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-}
-
-/// An empty folder for what is compiled.
-fn build_folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-/// Compiles a driver. Where the compiler is not installed, says that `test` is skipped.
-fn compiled_or_skip(test: &str, command: &mut Command) -> bool {
-    match command.output() {
-        Ok(output) => {
-            let said = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
-            assert!(output.status.success(), "{}{}", said[0], said[1]);
-            true
-        }
-        Err(error) => {
-            let compiler = command.get_program().to_string_lossy();
-            let _ = writeln!(io::stderr(), "SKIPPED {test}: {compiler}: {error}");
-            false
-        }
-    }
 }
 
 /// What a compiled driver prints.

@@ -3,6 +3,8 @@
 #![cfg(feature = "lab")]
 
 mod compiled;
+#[path = "../compilers/mod.rs"]
+mod compilers;
 mod copying;
 mod drivers;
 mod gdscript;

@@ -53,7 +53,9 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         body.spring = Some(Effective::of_log(log, &body, tick_s)?.spring()?);
     }
     let mut start = [log.rows()[0].x, first_velocity(log, tick_s)];
-    let iterations = if is_spring_known { ITERATIONS } else { ITERATIONS_FOR_SPRING };
+    // Coordinate and velocity at the start; then stiffness and damping.
+    let (fitted, iterations) =
+        if is_spring_known { (2, ITERATIONS) } else { (4, ITERATIONS_FOR_SPRING) };
     let go = |body: &LoggedBody, start: [f64; 2]| {
         let ticks = log.rows().iter().map(|row| row.tick);
         run(candidate, body, start, tick_s, ticks).map(|states| in_units(&states, scale))
@@ -62,20 +64,10 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
     for _ in 0..iterations {
         let unit = start_unit(scale, &body, tick_s);
         let mut columns = Vec::new();
-        for (place, unit) in unit.iter().enumerate() {
+        for (place, unit) in unit.iter().enumerate().take(fitted) {
             let (mut there, mut other) = (start, body.clone());
-            match place {
-                0 | 1 => there[place] += DISPLACEMENT * unit,
-                _ => {
-                    if let Some(spring) = &mut other.spring {
-                        spring[place - 2] += DISPLACEMENT * unit;
-                    }
-                }
-            }
+            displace(place, DISPLACEMENT * unit, &mut there, &mut other);
             columns.push(go(&other, there)?);
-            if is_spring_known && place == 1 {
-                break;
-            }
         }
         let left = left_over(log, &now, scale).concat();
         let base = flat(log, &now);
@@ -85,18 +77,11 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         };
         let slopes: Vec<Vec<f64>> = columns.iter().map(slope).collect();
         let Some(change) = least_squares(&slopes, &left) else { break };
-        let mut next = (start, body.clone());
+        let (mut there, mut other) = (start, body.clone());
         for (place, change) in change.iter().enumerate() {
-            match place {
-                0 | 1 => next.0[place] += change * unit[place],
-                _ => {
-                    if let Some(spring) = &mut next.1.spring {
-                        spring[place - 2] += change * unit[place];
-                    }
-                }
-            }
+            displace(place, change * unit[place], &mut there, &mut other);
         }
-        let Some(reached) = go(&next.1, next.0) else { break };
+        let Some(reached) = go(&other, there) else { break };
         let worth = |states: &[[f64; 2]]| -> f64 {
             left_over(log, states, scale).concat().iter().map(|left| left * left).sum()
         };
@@ -104,11 +89,20 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         if !is_nearer {
             break;
         }
-        (start, body, now) = (next.0, next.1, reached);
+        (start, body, now) = (there, other, reached);
     }
     let left = left_over(log, &now, scale);
     let is_finite = left.iter().flatten().all(|left| left.is_finite());
     is_finite.then_some(Fit { body, start, run: now, left })
+}
+
+/// Adds `by` to what is fitted at this place: coordinate, velocity, stiffness and damping.
+fn displace(place: usize, by: f64, start: &mut [f64; 2], body: &mut LoggedBody) {
+    match (place, &mut body.spring) {
+        (0 | 1, _) => start[place] += by,
+        (_, Some(spring)) => spring[place - 2] += by,
+        (_, None) => {}
+    }
 }
 
 /// The units of what is fitted: coordinate, velocity, stiffness and damping.
