@@ -12,8 +12,10 @@ use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::number::significant;
 use crate::lab::{
-    Columns, Effective, Fitted, Identification, Log, LogError, LoggedBody, Word, identify,
+    Candidate, Columns, Effective, Fitted, Identification, Log, LogError, LoggedBody, Word,
+    identify,
 };
+use crate::sim::integrators::Method;
 
 const ABOUT: &str = "\
 LOG.csv has a header and a row for each tick, or for some of them: t in seconds, x in metres and,
@@ -24,23 +26,29 @@ the tick is read off t. The body is one of:
   a body that coasts or is driven    --drag, the damping setting in 1/s, and --thrust in newtons
   neither given: a spring whose stiffness and damping are fitted too, which leaves more open
 
-Every method with steps of one length is run beside the log, under 1, 2 and 4 substeps, and engines
-under 8, 16 and their own too, from a start that is fitted to the log; 3000 ticks are used. A
-residual is what is left over, in units of the largest x and v, root mean square. The word is
+Every method with steps of one length is run beside the log under 1 to 16 substeps, from a start that
+is fitted to the log, of which 3000 ticks are used. Methods as they are set by default are believed
+before others, and counts of substeps that few set, such as 3, last. A residual is what is left over,
+in units of the largest x and v, root mean square. The word is
 
   identified    one method explains the log to its noise, with those that do the same on this body
-  cannot tell   methods that differ explain it equally well: log v too, or for longer
+  cannot tell   methods that differ explain it equally well, or the log is too short to tell
   unknown       none explains it
 
-JSON has word, best, substeps, held, residual, also, runner_up, runner_up_substeps,
-runner_up_residual, effective_stiffness_n_per_m, effective_frequency_hz, effective_damping_ratio,
-energy_halves_s, energy_doubles_s, exact_frequency_hz, exact_damping_ratio and recommended; held
-says that the game applies the spring's force itself.
+JSON has word, best, substeps, held, residual, also (the same on this body), unusual (would explain
+it too, but is rare), runner_up, runner_up_substeps, runner_up_residual,
+effective_stiffness_n_per_m, effective_frequency_hz, effective_damping_ratio, energy_halves_s,
+energy_doubles_s, exact_frequency_hz, exact_damping_ratio and recommended; held says that the game
+applies the spring's force itself. What is not known is null.
 
 Examples:
   regatta identify spring.csv --tick-hz 60 --k 40 --c 0.5 --mass 2
   regatta identify drift.csv --tick-hz 50 --drag 0.1 --thrust 20000 --mass 10000
   regatta identify log.csv --tick-hz 60 --k 40 --x-column pos.x --v-column vel.x --format json";
+
+/// Where no method can be run on the body.
+const NOTHING_RUNS: &str = "\
+unknown: no method can follow this log; give the body with --k, or with --drag, and check --tick-hz\n";
 
 /// Say which engine or method, with how many substeps, made a log of a motion
 #[derive(Debug, Args)]
@@ -110,19 +118,11 @@ enum IdentifyError {
     /// The file is no log.
     #[error("{0}")]
     Invalid(LogError),
-    /// No method can be run on the body.
-    #[error(
-        "no method can follow this log; give the body with --k, or with --drag, and the log's rate with --tick-hz"
-    )]
-    NoRun,
 }
 
 impl Cause for IdentifyError {
     fn exit_code(&self) -> u8 {
-        match self {
-            Self::NoRun => 1,
-            _ => 2,
-        }
+        2
     }
 }
 
@@ -160,10 +160,11 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
     };
     let name = path.display().to_string();
     let log = Log::parse(&name, &text, &columns, args.tick_hz).map_err(IdentifyError::Invalid)?;
-    let found = identify(&log, &body(args), args.tick_hz).ok_or(IdentifyError::NoRun)?;
-    let text = match args.format {
-        TableFormat::Text => words(&found, args.mass),
-        TableFormat::Json => format!("{:#}\n", object(&found, args.mass)),
+    let found = identify(&log, &body(args), args.tick_hz);
+    let text = match (args.format, &found) {
+        (TableFormat::Text, Some(found)) => words(found, &log, args.mass),
+        (TableFormat::Text, None) => NOTHING_RUNS.to_owned(),
+        (TableFormat::Json, found) => format!("{:#}\n", object(found.as_ref(), args.mass)),
     };
     print(&text)?;
     Ok(())
@@ -179,40 +180,78 @@ fn body(args: &IdentifyArgs) -> LoggedBody {
     LoggedBody { spring, drag, push: thrust / args.mass }
 }
 
-fn object(found: &Identification, mass: f64) -> Value {
-    let Identification { word, best, also, runner_up, effective, exact, recommended, .. } = found;
-    let of = |part: fn(&Effective) -> Option<f64>| effective.as_ref().and_then(part);
-    let halves = of(Effective::halves_s);
-    let seen = |(method, effective): &(&crate::sim::integrators::Method, Effective)| {
+/// What was found, as JSON; `None` if no method can be run.
+fn object(found: Option<&Identification>, mass: f64) -> Value {
+    let best = found.map(|found| found.best);
+    let rival = found.and_then(|found| found.runner_up);
+    let effective = found.and_then(|found| found.effective);
+    let exact = found.and_then(|found| found.exact);
+    let candidates = |all: fn(&Identification) -> &[Candidate]| -> Vec<Value> {
+        let all = found.map(all).unwrap_or_default();
+        all.iter().map(named).collect()
+    };
+    let halves = effective.and_then(|seen| seen.halves_s());
+    let seen = |(method, effective): &(&Method, Effective)| {
         json!({
             "method": method.id,
             "frequency_hz": effective.frequency_hz(),
             "damping_ratio": effective.damping_ratio(),
         })
     };
+    let recommended = found.map(|found| &found.recommended[..]).unwrap_or_default();
     json!({
-        "word": word.id(),
-        "best": best.candidate.method.id,
-        "substeps": best.candidate.substeps,
-        "held": best.candidate.is_held,
-        "residual": best.residual,
-        "also": also.iter().map(|other| json!({
-            "method": other.method.id,
-            "substeps": other.substeps,
-            "held": other.is_held,
-        })).collect::<Vec<_>>(),
-        "runner_up": runner_up.map(|other| other.candidate.method.id),
-        "runner_up_substeps": runner_up.map(|other| other.candidate.substeps),
-        "runner_up_residual": runner_up.map(|other| other.residual),
-        "effective_stiffness_n_per_m": of(Effective::spring_stiffness).map(|k| k * mass),
-        "effective_frequency_hz": of(Effective::frequency_hz),
-        "effective_damping_ratio": of(Effective::damping_ratio),
+        "word": found.map_or(Word::Unknown, |found| found.word).id(),
+        "best": best.map(|best| best.candidate.method.id),
+        "substeps": best.map(|best| best.candidate.substeps),
+        "held": best.map(|best| best.candidate.is_held),
+        "residual": best.map(|best| best.residual),
+        "also": candidates(|found| &found.also),
+        "unusual": candidates(|found| &found.unusual),
+        "runner_up": rival.map(|other| other.candidate.method.id),
+        "runner_up_substeps": rival.map(|other| other.candidate.substeps),
+        "runner_up_residual": rival.map(|other| other.residual),
+        "effective_stiffness_n_per_m":
+            effective.and_then(|seen| seen.spring_stiffness()).map(|k| k * mass),
+        "effective_frequency_hz": effective.and_then(|seen| seen.frequency_hz()),
+        "effective_damping_ratio": effective.and_then(|seen| seen.damping_ratio()),
         "energy_halves_s": halves.filter(|seconds| *seconds > 0.0),
         "energy_doubles_s": halves.filter(|seconds| *seconds < 0.0).map(|seconds| -seconds),
-        "exact_frequency_hz": exact.as_ref().and_then(Effective::frequency_hz),
-        "exact_damping_ratio": exact.as_ref().and_then(Effective::damping_ratio),
+        "exact_frequency_hz": exact.and_then(|exact| exact.frequency_hz()),
+        "exact_damping_ratio": exact.and_then(|exact| exact.damping_ratio()),
         "recommended": recommended.iter().map(seen).collect::<Vec<_>>(),
     })
+}
+
+fn named(candidate: &Candidate) -> Value {
+    json!({
+        "method": candidate.method.id,
+        "substeps": candidate.substeps,
+        "held": candidate.is_held,
+    })
+}
+
+/// Each method once, with its substeps.
+fn names(candidates: &[Candidate]) -> String {
+    let mut all: Vec<(String, String, Vec<u32>)> = Vec::new();
+    for candidate in candidates {
+        let (id, held) = (candidate.method.id, candidate.held());
+        match all.iter_mut().find(|(known, of, _)| known == id && of == held) {
+            Some((.., counts)) => counts.push(candidate.substeps),
+            None => all.push((id.to_owned(), held.to_owned(), vec![candidate.substeps])),
+        }
+    }
+    let named = all.iter_mut().map(|(id, held, counts)| {
+        counts.sort_unstable();
+        let counts: Vec<String> = counts
+            .chunk_by(|a, b| a + 1 == *b)
+            .map(|run| match run {
+                [first, _, .., last] => format!("×{first} to ×{last}"),
+                few => few.iter().map(|n| format!("×{n}")).collect::<Vec<_>>().join(" "),
+            })
+            .collect();
+        format!("{id} {}{held}", counts.join(" "))
+    });
+    named.collect::<Vec<_>>().join("; ")
 }
 
 /// A motion in words.
@@ -238,24 +277,32 @@ fn seen(effective: &Effective) -> String {
     [swing, ratio, lasting].into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
-fn words(found: &Identification, mass: f64) -> String {
-    let Identification { word, best, also, runner_up, effective, exact, recommended, .. } = found;
+fn words(found: &Identification, log: &Log, mass: f64) -> String {
+    let Identification { word, best, runner_up, effective, exact, recommended, .. } = found;
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
     let rival = runner_up.as_ref();
     let mut lines = vec![match (word, rival) {
         (Word::Identified, _) => format!("made by {}, {}", best.candidate, residual(best)),
         (Word::CannotTell, Some(rival)) => format!(
-            "cannot tell {} from {}: {} and {:.1e}; log v too, or for longer",
+            "cannot tell {} from {}: {} and {:.1e}; {}",
             best.candidate,
             rival.candidate,
             residual(best),
-            rival.residual
+            rival.residual,
+            match (log.has_velocities(), found.is_spring_fitted) {
+                (_, true) => "give the spring with --k",
+                (false, false) => "log v too, or for longer",
+                (true, false) => "log for longer",
+            }
         ),
         _ => format!("unknown: the nearest is {}, {}", best.candidate, residual(best)),
     }];
-    if !also.is_empty() && *word != Word::Unknown {
-        let names: Vec<String> = also.iter().map(ToString::to_string).collect();
-        lines.push(format!("the same on this body: {}", names.join(", ")));
+    let told = *word != Word::Unknown;
+    if told && !found.also.is_empty() {
+        lines.push(format!("the same on this body: {}", names(&found.also)));
+    }
+    if told && !found.unusual.is_empty() {
+        lines.push(format!("would fit too, but few set them: {}", names(&found.unusual)));
     }
     if let (Word::Identified, Some(rival)) = (word, rival) {
         lines.push(format!("runner-up: {}, {}", rival.candidate, residual(rival)));

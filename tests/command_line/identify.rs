@@ -54,18 +54,19 @@ fn times_stand_for_ticks_and_columns_may_have_other_names() {
 fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
     let folder = tempdir().unwrap();
     for (text, told) in [
-        ("", "log.csv:1: no column \"x\"; here are there is no header"),
+        ("", "log.csv:1: no column \"x\"; here are no columns"),
         (
             "tick,y\n0,1\n",
             "log.csv:1: no column \"x\"; here are \"tick\", \"y\"; name the coordinate's with --x-column",
         ),
+        ("tick;x\n0;1\n", "here are \"tick;x\", without a comma between columns"),
         ("x\n1\n", "log.csv:1: no column \"tick\" and none \"t\""),
         ("tick,x\n0,1\n1,abc\n", "log.csv:3: column \"x\": \"abc\" is no number"),
         ("tick,x\n0,1\n1,NaN\n", "log.csv:3: column \"x\": \"NaN\" is no number"),
         ("tick,x\n0,1\n1\n", "log.csv:3: the row cannot be read"),
         ("t,x\n0,1\n0.02,1\n", "log.csv:3: the row is 1.200 ticks of 60 Hz after the first"),
         ("tick,x\n0,1\n0,2\n", "log.csv:3: tick 0 does not follow the row before"),
-        ("tick,x\n0,1\n1,2\n", "log.csv:1: 2 rows are too few; log at least 4"),
+        ("tick,x\n0,1\n1,2\n", "log.csv:1: a log of 2 rows says too little; log at least 4"),
         ("tick,x\n0,1\n1,1\n2,1\n3,1\n", "log.csv:2: nothing moves; log a motion"),
     ] {
         fs::write(folder.path().join("log.csv"), text).unwrap();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use regatta::sim::integrators::{METHODS, Method, integrator};
+use regatta::sim::integrators::{METHODS, Method, integrator, method};
 use regatta::sim::{Counted, State};
 
 use crate::log::Body;
@@ -110,8 +110,12 @@ fn the_damping_ratio_of_an_engine_is_what_a_spring_of_1_hz_has_at_its_defaults()
 /// Whether an undamped spring stays within bounds for long.
 fn is_bounded(method: &Method, z: f64) -> bool {
     let body = spring_of(method, [z * z, 0.0]);
-    let State { q, v } = after(method, &body, 1.0, 200_000, [1.0, 0.01]);
-    q.is_finite() && q.abs() < 1e3 && v.abs() < 1e3 * z.max(1.0)
+    let mut state = State { q: 1.0, v: 0.01 };
+    let mut engine = integrator::<Body>(method, &state.q);
+    (0..200_000).all(|_| {
+        engine.steps(&body, 0.0, 1.0, method.default_substeps, &mut state).unwrap();
+        state.q.abs() < 1e3 && state.v.abs() < 1e3 * z.max(1.0)
+    })
 }
 
 #[test]
@@ -128,6 +132,24 @@ fn an_undamped_spring_stays_bounded_up_to_the_stability_limit_of_an_engine() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn mujoco_puts_a_runaway_back_to_the_origin_at_rest() {
+    for id in ["engine-mujoco", "engine-mujoco-rk4"] {
+        let method = method(id).unwrap();
+        // Four substeps on a force held through all of them gain energy.
+        let body = Body { spring: [987.0, 0.0], drag: 0.0, push: 0.0, is_held: true };
+        let mut state = State { q: 1.0, v: 0.0 };
+        let mut engine = integrator::<Body>(method, &state.q);
+        let mut largest = 0.0_f64;
+        for _ in 0..2000 {
+            engine.steps(&body, 0.0, 1.0 / 60.0, 4, &mut state).unwrap();
+            largest = largest.max(state.q.abs());
+        }
+        assert!(largest > 1e7 && largest < 1e11, "{id}: {largest:e}");
+        assert_eq!((state.q, state.v), (0.0, 0.0), "{id}");
     }
 }
 

@@ -24,11 +24,8 @@ fn identified(log: &Log, rows: &[Row], has_velocity: bool) -> Identification {
 /// Whether the log's engine with its substeps is named, or is among those that do the same.
 fn names(found: &Identification, log: &Log) -> bool {
     let all = [found.best.candidate].into_iter().chain(found.also.iter().copied());
-    // Position iterations of PhysX do not change one joint.
-    let counts = log.method().id != "engine-physx";
-    all.into_iter().any(|candidate| {
-        candidate.method == log.method() && (!counts || candidate.substeps == log.substeps)
-    })
+    all.into_iter()
+        .any(|candidate| candidate.method == log.method() && candidate.substeps == log.substeps)
 }
 
 fn springs_and_coasting() -> Vec<Log> {
@@ -63,17 +60,19 @@ fn normal(dice: &mut Dice) -> f64 {
     (-2.0 * (1.0 - part).ln()).sqrt() * angle.cos()
 }
 
-/// How often noise is added to each log.
-const NOISES: u64 = 1;
+/// How often noise is added to each log: once, or as often as `REGATTA_NOISES` says.
+fn noises() -> u64 {
+    std::env::var("REGATTA_NOISES").ok().and_then(|count| count.parse().ok()).unwrap_or(1)
+}
 
 #[test]
 fn noise_of_a_ten_thousandth_leaves_nearly_all_logs_identified_and_none_wrong() {
-    let mut dice = Dice::new(1);
+    let (mut dice, noises) = (Dice::new(1), noises());
     let (mut right, mut wrong, mut all) = (0, Vec::new(), 0);
     for log in springs_and_coasting() {
         let scale = log.scale();
-        let mut missed = 0;
-        for again in 0..NOISES {
+        let mut missed = Vec::new();
+        for again in 0..noises {
             let mut noisy = |row: &Row| Row {
                 tick: row.tick,
                 x: row.x + 1e-4 * scale[0] * normal(&mut dice),
@@ -87,11 +86,15 @@ fn noise_of_a_ten_thousandth_leaves_nearly_all_logs_identified_and_none_wrong() 
                 (Word::Identified, false) => {
                     wrong.push(format!("{}, run {again}: {}", log.file, found.best.candidate));
                 }
-                _ => missed += 1,
+                (word, _) => {
+                    let rival = found.runner_up.map(|other| other.candidate.to_string());
+                    let [word, best] = [word.id().to_owned(), found.best.candidate.to_string()];
+                    missed.push(format!("{word}: {best}, {}", rival.unwrap_or_default()));
+                }
             }
         }
-        if missed > 0 {
-            println!("{}: {missed} of {NOISES} not told", log.file);
+        if let Some(first) = missed.first() {
+            println!("{}: {} of {noises} not told, {first}", log.file, missed.len());
         }
     }
     println!("{right} of {all}");
@@ -145,4 +148,37 @@ fn positions_alone_do_not_tell_a_kick_before_the_drift_from_one_after_it() {
         .map(|candidate| candidate.method.id)
         .collect();
     assert!(ids.contains(&"engine-chipmunk") && ids.contains(&"engine-bullet"), "{ids:?}");
+}
+
+#[test]
+fn an_unusual_count_of_substeps_is_found_in_a_log_without_noise() {
+    let logs = springs_and_coasting();
+    for (file, substeps) in [
+        ("jolt__spring_1hz_z02_60hz.csv", 7),
+        ("bullet__spring_1hz_z02_60hz.csv", 12),
+        ("box2d__damp_05_60hz.csv", 10),
+    ] {
+        let mut log = logs.iter().find(|log| log.file == file).unwrap().clone();
+        (log.substeps, log.tick_s) = (substeps, 1.0 / 60.0);
+        log.rows = log.run().unwrap();
+        let found = identified(&log, &log.rows, true);
+        assert_eq!(found.word, Word::Identified, "{file}: {}", found.best.candidate);
+        assert!(names(&found, &log), "{file}: {}", found.best.candidate);
+    }
+}
+
+#[test]
+fn a_coasting_too_short_to_tell_methods_apart_says_nothing() {
+    let logs = springs_and_coasting();
+    let log = logs.iter().find(|log| log.file == "box2d__damp_05_60hz.csv").unwrap();
+    let mut dice = Dice::new(2);
+    let scale = log.scale();
+    let noisy = |row: &Row| Row {
+        tick: row.tick,
+        x: row.x + 1e-4 * scale[0] * normal(&mut dice),
+        v: row.v + 1e-4 * scale[1] * normal(&mut dice),
+    };
+    let rows: Vec<Row> = log.rows.iter().take(8).map(noisy).collect();
+    let found = identified(log, &rows, true);
+    assert_ne!(found.word, Word::Identified, "{}", found.best.candidate);
 }

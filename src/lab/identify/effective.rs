@@ -1,8 +1,10 @@
 //! What a player sees: the frequency, the damping and the change of energy of a motion.
 
-use super::Candidate;
+use super::fit::fit;
 use super::logged::Log;
 use super::motion::{LoggedBody, run};
+use super::{Candidate, NO_FIT};
+use crate::sim::integrators::method;
 use crate::sim::least_squares;
 
 /// The motion that a player sees, as that of a damped spring or of a body that coasts.
@@ -15,6 +17,8 @@ pub struct Effective {
     pub decay: f64,
 }
 
+/// The id of a method that is exact on springs with drag.
+const EXACT: &str = "exponential-rosenbrock-euler";
 /// How long a run is from which the motion is read, in ticks: the fewest that show a slow spring turn.
 const TICKS: u64 = 400;
 
@@ -97,8 +101,44 @@ impl Effective {
         Self::of_states(&states, body, tick_s)
     }
 
-    /// From the linear recurrence that states at successive ticks obey.
+    /// The motion of the equation that comes nearest to a log; `None` if none comes near.
+    pub(super) fn nearest(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Self> {
+        let seen = Self::of_log(log, body, 1.0 / tick_hz)?;
+        let mut free = body.clone();
+        match seen.spring() {
+            Some(_) => free.spring = None,
+            None => free.drag = seen.decay,
+        }
+        let exact = Candidate { method: method(EXACT)?, substeps: 1, is_held: false };
+        let fit = fit(log, &free, exact, tick_hz)?;
+        let is_near = fit.residual() <= NO_FIT;
+        is_near.then(|| Self::exact(&fit.body))?
+    }
+
+    /// From the linear recurrence that states at successive ticks obey, or else from the slopes of the velocity.
     fn of_states(states: &[(u64, [f64; 2])], body: &LoggedBody, tick_s: f64) -> Option<Self> {
+        let recurrence = Self::of_recurrence(states, body, tick_s);
+        let is_number = |seen: &Self| seen.omega.is_finite() && seen.decay.is_finite();
+        recurrence.filter(is_number).or_else(|| Self::of_slopes(states, body, tick_s))
+    }
+
+    /// The spring that gives velocities their slopes.
+    fn of_slopes(states: &[(u64, [f64; 2])], body: &LoggedBody, tick_s: f64) -> Option<Self> {
+        if !body.has_spring() {
+            return None;
+        }
+        let pairs = states.windows(2).filter(|pair| pair[1].0 == pair[0].0 + 1);
+        let slope = |pair: &[(u64, [f64; 2])]| {
+            let [(_, [x, v]), (_, [_, next])] = [pair[0], pair[1]];
+            ([-x, -v], (next - v) / tick_s - body.push)
+        };
+        let rows: Vec<([f64; 2], f64)> = pairs.map(slope).collect();
+        let found = solve(&rows, 2)?;
+        let stiffness = Some(found[0]).filter(|stiffness| *stiffness > 0.0)?;
+        Some(Self { omega: stiffness.sqrt(), decay: found[1] / 2.0 })
+    }
+
+    fn of_recurrence(states: &[(u64, [f64; 2])], body: &LoggedBody, tick_s: f64) -> Option<Self> {
         if !body.has_spring() {
             // v′ = a v + b.
             let pairs = states.windows(2).filter(|pair| pair[1].0 == pair[0].0 + 1);

@@ -6,14 +6,15 @@ use super::motion::{LoggedBody, run};
 use super::{Candidate, FOLLOWING};
 use crate::sim::least_squares;
 
-/// The iterations of Gauss and Newton; a linear motion needs one, and a second for the last digits.
-const ITERATIONS: usize = 2;
-/// Those where the spring is fitted too.
-const ITERATIONS_FOR_SPRING: usize = 12;
+/// The iterations of Gauss and Newton where the velocity at the start was logged, where it was not, and where the
+/// spring is fitted too. A linear motion needs one; another is for the last digits.
+const ITERATIONS: [usize; 3] = [1, 2, 12];
 /// A displacement for the derivatives, in units of the scale.
 const DISPLACEMENT: f64 = 1e-4;
 /// Left over up to this, single precision may be all that there is.
 const PRECISE: f64 = 5e-5;
+/// In fewer rows than this, noise cannot be told from what follows from row to row.
+const LEAST_ROWS_OF_NOISE: usize = 20;
 /// How many rows apart what is left over is compared.
 const LAGS: usize = 3;
 
@@ -28,14 +29,6 @@ pub(super) struct Fit {
     left: Vec<Vec<f64>>,
 }
 
-/// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
-fn scale(log: &Log) -> [f64; 2] {
-    let rows = log.rows();
-    let x = rows.iter().map(|row| row.x.abs()).fold(0.0, f64::max);
-    let v = rows.iter().filter_map(|row| row.v).map(f64::abs).fold(0.0, f64::max);
-    [x, v].map(|scale| if scale > 0.0 { scale } else { 1.0 })
-}
-
 /// The velocity at the start: the logged one, or the slope to the next row.
 fn first_velocity(log: &Log, tick_s: f64) -> f64 {
     let [first, second] = [log.rows()[0], log.rows()[1]];
@@ -46,7 +39,7 @@ fn first_velocity(log: &Log, tick_s: f64) -> f64 {
 /// Fits `candidate`; `None` if it cannot be run on the body or its run leaves all scales.
 pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f64) -> Option<Fit> {
     let tick_s = 1.0 / tick_hz;
-    let scale = scale(log);
+    let scale = log.scale();
     let mut body = body.clone();
     let is_spring_known = body.spring.is_some();
     if !is_spring_known {
@@ -54,8 +47,11 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
     }
     let mut start = [log.rows()[0].x, first_velocity(log, tick_s)];
     // Coordinate and velocity at the start; then stiffness and damping.
-    let (fitted, iterations) =
-        if is_spring_known { (2, ITERATIONS) } else { (4, ITERATIONS_FOR_SPRING) };
+    let (fitted, iterations) = match (is_spring_known, log.has_velocities()) {
+        (true, true) => (2, ITERATIONS[0]),
+        (true, false) => (2, ITERATIONS[1]),
+        (false, _) => (4, ITERATIONS[2]),
+    };
     let go = |body: &LoggedBody, start: [f64; 2]| {
         let ticks = log.rows().iter().map(|row| row.tick);
         run(candidate, body, start, tick_s, ticks).map(|states| in_units(&states, scale))
@@ -137,6 +133,11 @@ fn mean_square(left: &[f64]) -> f64 {
 }
 
 impl Fit {
+    /// The sum of squares of all that is left over.
+    pub(super) fn squares(&self) -> f64 {
+        self.left.iter().flatten().map(|left| left * left).sum()
+    }
+
     /// The root mean square of all that is left over.
     pub(super) fn residual(&self) -> f64 {
         mean_square(&self.left.concat()).sqrt()
@@ -167,6 +168,11 @@ impl Fit {
         self.run.iter().zip(&other.run).map(apart).fold(0.0, f64::max)
     }
 
+    /// Whether more is left over than by rounding, in so few rows that nobody can say whether it is noise.
+    pub(super) fn has_few_rows(&self) -> bool {
+        self.run.len() < LEAST_ROWS_OF_NOISE && self.residual() > PRECISE
+    }
+
     /// Whether what is left over follows from row to row, so that it is no noise.
     pub(super) fn is_systematic(&self) -> bool {
         self.left.iter().any(|left| {
@@ -174,7 +180,7 @@ impl Fit {
             let follows = |lag: usize| {
                 let pairs = left.iter().zip(&left[lag..]);
                 let mean = pairs.map(|(a, b)| a * b).sum::<f64>() / (left.len() - lag) as f64;
-                (mean / square).abs() > 4.0 / (left.len() as f64).sqrt() + FOLLOWING
+                (mean / square).abs() > 3.0 / (left.len() as f64).sqrt() + FOLLOWING
             };
             square.sqrt() > PRECISE && (1..=LAGS.min(left.len() - 1)).any(follows)
         })

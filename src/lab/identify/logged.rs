@@ -15,6 +15,8 @@ pub struct LogRow {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
     rows: Vec<LogRow>,
+    /// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
+    scale: [f64; 2],
 }
 
 /// The names of a log's columns.
@@ -74,7 +76,13 @@ impl Log {
         let place = |wanted: &str| header.iter().position(|known| known == wanted);
         let found = || {
             let names: Vec<String> = header.iter().map(|name| format!("{name:?}")).collect();
-            if names.is_empty() { "there is no header".to_owned() } else { names.join(", ") }
+            match &names[..] {
+                [] => "no columns".to_owned(),
+                [one] if one.contains([';', '\t']) => {
+                    format!("{one}, without a comma between columns")
+                }
+                _ => names.join(", "),
+            }
         };
         let Some(x) = place(&columns.x) else {
             let fault = format!(
@@ -133,14 +141,43 @@ impl Log {
         }
         let least = Self::LEAST_ROWS[usize::from(v.is_none())];
         if rows.len() < least {
-            let fault = format!("{} rows are too few; log at least {least}", rows.len());
+            let fault =
+                format!("a log of {} rows says too little; log at least {least}", rows.len());
             return Err(error(1, fault));
         }
         let is_still = rows.iter().all(|row| row.x == rows[0].x && row.v.unwrap_or(0.0) == 0.0);
         if is_still {
             return Err(error(2, "nothing moves; log a motion".to_owned()));
         }
-        Ok(Log { rows })
+        let largest = |numbers: &mut dyn Iterator<Item = f64>| {
+            let largest = numbers.map(f64::abs).fold(0.0, f64::max);
+            if largest > 0.0 { largest } else { 1.0 }
+        };
+        let x = largest(&mut rows.iter().map(|row| row.x));
+        let v = largest(&mut rows.iter().filter_map(|row| row.v));
+        Ok(Log { rows, scale: [x, v] })
+    }
+
+    /// The part up to this tick, and as many rows as a log has at least. Its scale is that of the whole.
+    pub(super) fn head(&self, last_tick: u64) -> Log {
+        let least = Self::LEAST_ROWS[1].min(self.rows.len());
+        let count = self.rows.partition_point(|row| row.tick <= last_tick).max(least);
+        Log { rows: self.rows[..count].to_vec(), scale: self.scale }
+    }
+
+    /// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
+    pub(super) fn scale(&self) -> [f64; 2] {
+        self.scale
+    }
+
+    /// Whether velocities were logged.
+    pub fn has_velocities(&self) -> bool {
+        self.rows[0].v.is_some()
+    }
+
+    /// How many coordinates and velocities it has.
+    pub(super) fn numbers(&self) -> usize {
+        self.rows.len() * if self.has_velocities() { 2 } else { 1 }
     }
 
     /// The rows, whose ticks count from the first.

@@ -1,6 +1,7 @@
 //! MuJoCo with its Euler integrator: implicit in the damping, explicit in the stiffness.
 
 use super::{EngineMethod, Rule, Tick, each};
+use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::system::Vector;
 
@@ -15,7 +16,31 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// `n` times: `v = (v + h (f - K x))/(1 + h (c + C))`, `x += h v`.
+/// Where a coordinate, velocity or acceleration is beyond this in SI units, MuJoCo warns and puts the model back.
+const MOST: f64 = 1e10;
+
+/// Before a step: whether the body is put back to the origin at rest, where a model is written (`qpos0`). What user code
+/// applies is lost with it until the next tick.
+pub(super) fn puts_back<V: Vector>(
+    settings: EngineSettings,
+    force: &V,
+    q: &mut V,
+    v: &mut V,
+) -> bool {
+    let damping = settings.damping + settings.drag;
+    let is_within = |x: f64| x.abs() <= MOST;
+    let mut moved = q.components().iter().zip(v.components()).zip(force.components());
+    let is_sound = moved.all(|((x, v), f)| {
+        is_within(*x) && is_within(*v) && is_within(f - settings.stiffness * x - damping * v)
+    });
+    if !is_sound {
+        q.components_mut().fill(0.0);
+        v.components_mut().fill(0.0);
+    }
+    !is_sound
+}
+
+/// `n` times: `v = (v + h (f - K x))/(1 + h (c + C))`, `x += h v`. A runaway is put back at 1e10.
 pub type Mujoco<V> = EngineMethod<V, MujocoRule>;
 
 /// The rule of [`Mujoco`].
@@ -29,9 +54,13 @@ impl Rule for MujocoRule {
     fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let resistance = 1.0 + h * (set.damping + set.drag);
+        let mut applied = 1.0;
         for _ in 0..tick.substeps {
+            if puts_back(set, tick.force, q, v) {
+                applied = 0.0;
+            }
             each(tick.force, q, v, |x, v, f| {
-                *v = (*v + h * (f - set.stiffness * *x)) / resistance;
+                *v = (*v + h * (applied * f - set.stiffness * *x)) / resistance;
                 *x += h * *v;
             });
         }

@@ -1,5 +1,6 @@
 //! MuJoCo with its Runge-Kutta integrator, which holds what user code applies.
 
+use super::mujoco::puts_back;
 use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::system::Vector;
@@ -16,7 +17,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// The classical Runge-Kutta method on `a = f - K x - (c + C) v`, with `f` held.
+/// The classical Runge-Kutta method on `a = f - K x - (c + C) v`, with `f` held. A runaway is put back at 1e10.
 pub type MujocoRk4<V> = EngineMethod<V, MujocoRk4Rule>;
 
 /// The rule of [`MujocoRk4`].
@@ -30,9 +31,13 @@ impl Rule for MujocoRk4Rule {
     fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let damping = set.damping + set.drag;
+        let mut applied = 1.0;
         for _ in 0..tick.substeps {
+            if puts_back(set, tick.force, q, v) {
+                applied = 0.0;
+            }
             each(tick.force, q, v, |x, v, f| {
-                let a = |x: f64, v: f64| f - set.stiffness * x - damping * v;
+                let a = |x: f64, v: f64| applied * f - set.stiffness * x - damping * v;
                 let (v1, a1) = (*v, a(*x, *v));
                 let (v2, a2) = (*v + h / 2.0 * a1, a(*x + h / 2.0 * v1, *v + h / 2.0 * a1));
                 let (v3, a3) = (*v + h / 2.0 * a2, a(*x + h / 2.0 * v2, *v + h / 2.0 * a2));

@@ -1,0 +1,94 @@
+//! What may have made a log: the methods of the table, each under several counts of substeps.
+
+use std::fmt;
+
+use super::motion::LoggedBody;
+use crate::sim::integrators::{METHODS, Method};
+
+/// A method with what a lane would say of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// The method.
+    pub method: &'static Method,
+    /// Its substeps.
+    pub substeps: u32,
+    /// Whether the game applies the spring as a force of its own, and not as a joint of the engine.
+    pub is_held: bool,
+}
+
+/// Its id, its substeps, and whether the force is held where it could be a joint.
+impl fmt::Display for Candidate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ×{}{}", self.method.id, self.substeps, self.held())
+    }
+}
+
+/// The substeps that people set of an engine.
+const USUAL_OF_ENGINES: &[u32] = &[1, 2, 4, 8, 16];
+/// The substeps that people set of a method of their own.
+const USUAL: &[u32] = &[1, 2, 4];
+/// The most substeps that are tried.
+const MOST_SUBSTEPS: u32 = 16;
+/// The id of the method whose force is held whatever the body.
+const HELD: &str = "held-force";
+
+/// Twice the logarithm of the odds against an engine that is set otherwise than by default or whose game holds the
+/// spring's force itself, each; against a method of one's own that is set otherwise than by default; and against a count
+/// of substeps that few set.
+const RARITY: [f64; 3] = [8.0, 16.0, 32.0];
+
+impl Candidate {
+    /// Whether people set this count of substeps: a power of 2, not too high, or what the engine has by default.
+    fn is_usual(&self) -> bool {
+        let usual = if self.method.is_engine() { USUAL_OF_ENGINES } else { USUAL };
+        usual.contains(&self.substeps) || self.substeps == self.method.default_substeps
+    }
+
+    /// Words for a force that is held where it could be a joint.
+    pub fn held(&self) -> &'static str {
+        if self.is_held && self.method.id != HELD { ", force held" } else { "" }
+    }
+
+    /// Whether it is an engine, or a method of one's own, as it is set by default.
+    fn is_as_set(&self) -> bool {
+        self.substeps == self.method.default_substeps && !self.method.is_as_printed()
+    }
+
+    /// What is added to twice the logarithm of the likelihood that something else made a log.
+    pub(super) fn rarity(&self) -> f64 {
+        let held = if self.held().is_empty() { 0.0 } else { RARITY[0] };
+        let set = match (self.is_as_set(), self.is_usual(), self.method.is_engine()) {
+            (true, ..) => 0.0,
+            (false, true, true) => RARITY[0],
+            (false, true, false) => RARITY[1],
+            (false, false, _) => RARITY[2],
+        };
+        held + set
+    }
+
+    /// Which comes first among candidates that do the same: an engine as it is set by default, then any engine.
+    pub(super) fn preference(&self) -> (bool, bool, bool, bool, u32) {
+        let is_as_set = self.method.is_engine() && self.is_as_set();
+        let has_held = !self.held().is_empty();
+        (!is_as_set, !self.is_usual(), has_held, !self.method.is_engine(), self.substeps)
+    }
+}
+
+/// All candidates for a body; those with usual counts only where its spring is not known.
+pub(super) fn candidates(body: &LoggedBody) -> Vec<Candidate> {
+    let mut all = Vec::new();
+    let stepped = METHODS.iter().filter(|method| method.tolerance.is_none());
+    for method in stepped.filter(|method| method.only.is_none() || method.is_engine()) {
+        let is_either = method.is_engine() && method.id != HELD && body.has_spring();
+        for is_held in [false, true] {
+            if is_held && !is_either {
+                continue;
+            }
+            let is_held = is_held || method.id == HELD;
+            let of = |substeps| Candidate { method, substeps, is_held };
+            all.extend((1..=MOST_SUBSTEPS).map(of));
+        }
+    }
+    all.retain(|candidate| body.spring.is_some() || candidate.is_usual());
+    all
+}

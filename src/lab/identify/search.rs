@@ -1,0 +1,45 @@
+//! The candidates nearest to a log, without fitting each of them to the whole of it.
+
+use super::candidates::{Candidate, candidates};
+use super::fit::{Fit, fit};
+use super::logged::Log;
+use super::motion::LoggedBody;
+use super::rounding;
+
+/// The first part of a log, to which every candidate is fitted, in ticks.
+const HEAD_TICKS: u64 = 60;
+/// Left over by this much more than by the nearest, a candidate explains a log no longer.
+const APART: f64 = 4.0;
+
+/// The candidates that may explain `log`, and the nearest that does not, each fitted.
+///
+/// What a candidate leaves over of the first part of a log is the least that it leaves over of the whole. So candidates
+/// are taken in that order, until the next is bound to leave over too much.
+pub(super) fn search(log: &Log, body: &LoggedBody, tick_hz: f64) -> Vec<(Candidate, Fit)> {
+    let head = if body.spring.is_some() { log.head(HEAD_TICKS) } else { log.clone() };
+    let mut queue: Vec<(f64, Candidate)> = candidates(body)
+        .into_iter()
+        .filter_map(|candidate| Some((fit(&head, body, candidate, tick_hz)?.squares(), candidate)))
+        .collect();
+    queue.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    let (mut fits, mut squares): (Vec<(Candidate, Fit)>, Vec<f64>) = (Vec::new(), Vec::new());
+    for (least, candidate) in queue {
+        if least > enough(&squares, log) {
+            break;
+        }
+        let Some(fit) = fit(log, body, candidate, tick_hz) else { continue };
+        squares.push(fit.squares());
+        fits.push((candidate, fit));
+    }
+    fits
+}
+
+/// The sum of squares beyond which nothing is worth a fit.
+fn enough(squares: &[f64], log: &Log) -> f64 {
+    let numbers = log.numbers() as f64;
+    let nearest = squares.iter().copied().fold(f64::INFINITY, f64::min);
+    let rounding = rounding((nearest / numbers).sqrt());
+    let near = APART * (nearest + numbers * rounding * rounding);
+    let farther = squares.iter().copied().filter(|squares| *squares > near);
+    near.max(farther.fold(f64::INFINITY, f64::min))
+}
