@@ -286,7 +286,7 @@ fn the_energy_left_after_a_minute_is_that_of_the_engine() {
     }
 }
 
-/// MuJoCo stops a run whose velocity passes this, in rad/s.
+/// MuJoCo resets a state whose velocity passes this, in rad/s.
 const MUJOCO_LIMIT: f64 = 1e10;
 
 #[test]

@@ -1,19 +1,18 @@
 //! What physics engines do to a body that spins freely in space.
 //!
 //! With `I` the principal moments of inertia, `ω` the angular velocity in the frame of their axes and `L = I ω` the
-//! angular momentum, `dL/dt = -ω × L`: without torque the axis of a body changes unless it is a principal one. No
-//! engine solves this exactly. Each map was held against logs of the engine itself (`tests/engines/tumble.rs`),
-//! except [`SpinMap::Constant`].
+//! angular momentum, `dL/dt = -ω × L`: without torque the axis of a body changes unless it is a principal one. None of
+//! the maps is exact. Each is held against logs of engines (`tests/engines/tumble.rs`), except [`SpinMap::Constant`].
 
 use glam::{DMat3, DVec3};
 
 /// One step of the angular velocity of a body without torque. `'` marks what is after the step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpinMap {
-    /// `ω' = ω`: the term `ω × L` is left out. Jolt and PhysX unless it is switched on; Godot.
+    /// `ω' = ω`: the term `ω × L` is left out. Jolt and PhysX unless they are told otherwise; Godot.
     Constant,
-    /// `L' = L - h ω × L`, then scaled to the length of `L`, which it keeps; the energy changes. Rapier; Jolt with `mApplyGyroscopicForce`, PhysX with
-    /// `eENABLE_GYROSCOPIC_FORCES`.
+    /// `L' = L - h ω × L`, then scaled to the length of `L`. It keeps that length and changes the energy. Rapier; Jolt
+    /// with `mApplyGyroscopicForce`, PhysX with `eENABLE_GYROSCOPIC_FORCES`.
     ScaledMomentum,
     /// One Newton step from `ω` towards the root of implicit Euler, `I (ω' - ω) + h ω' × I ω' = 0`: `ω' = ω - J⁻¹ h ω × L`
     /// with `J = I + h ([ω] I - [L])`, where `[a] b = a × b`. Bullet (`computeGyroscopicImpulseImplicit_Body`);
@@ -46,8 +45,8 @@ impl SpinMap {
         }
     }
 
-    /// The angular velocity after a step of `h` (s) from `omega` (rad/s), both in the frame of the principal axes,
-    /// whose moments of inertia are `inertia` (kg m²), each more than 0.
+    /// The angular velocity after a step of `h` (s) from `omega` (rad/s), both in the frame of the principal axes.
+    /// `inertia` has the moments about them (kg m²), each more than 0.
     pub fn step(self, inertia: DVec3, omega: DVec3, h: f64) -> DVec3 {
         let rate = |omega: DVec3| -omega.cross(inertia * omega) / inertia;
         match self {
@@ -95,13 +94,14 @@ pub struct FreeSpin {
     pub default: SpinMap,
     /// The map that a setting of the body or of the engine switches on; `None` if there is none.
     pub opt_in: Option<SpinMap>,
-    /// Whether each of a tick's substeps applies the map, with `h` the substep. If not, it is applied once a tick.
+    /// Whether each of a tick's substeps applies the map, with `h` the substep. If not, it is applied once a tick. The
+    /// logs with more than one substep are of Rapier and PhysX; Jolt, Bullet and MuJoCo repeat their whole step.
     pub per_substep: bool,
 }
 
 impl FreeSpin {
-    /// The angular velocity after a tick of `length` (s) with `substeps` substeps, by `map`; the other arguments are as
-    /// in [`SpinMap::step`].
+    /// The angular velocity after a tick of `length` (s) with `substeps` substeps, at least 1, by `map`. The other
+    /// arguments are as in [`SpinMap::step`].
     pub fn tick(
         self,
         map: SpinMap,
