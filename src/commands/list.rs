@@ -9,7 +9,7 @@ use super::output::table::{self, Column, TableFormat};
 use crate::lab::pacing::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use crate::lab::{Binding, KEYS, METRICS, Metric, SCENES, Scale, Scene};
 use crate::sim::bodies::{BODIES, Coordinate, Kind, Net, Parameter};
-use crate::sim::integrators::{METHODS, Method};
+use crate::sim::integrators::{FreeSpin, METHODS, Method, SpinMap};
 use crate::sim::law::{UNITS, functions, operators, values};
 
 const EXAMPLES: &str = "\
@@ -154,6 +154,10 @@ const SCENE: &[Column<Scene>] = &[
     Column { key: "about", heading: None, value: |scene| json!(scene.about) },
 ];
 
+fn free_spin(method: &Method) -> Option<FreeSpin> {
+    method.engine.and_then(|engine| engine.free_spin)
+}
+
 const METHOD: &[Column<Method>] = &[
     Column { key: "id", heading: Some("ID"), value: |method| json!(method.id) },
     Column { key: "name", heading: None, value: |method| json!(method.name) },
@@ -217,6 +221,16 @@ const METHOD: &[Column<Method>] = &[
         key: "engine_damping_ratio_at_1_hz",
         heading: None,
         value: |method| json!(method.engine.and_then(|engine| engine.damping_ratio)),
+    },
+    Column {
+        key: "engine_free_spin",
+        heading: None,
+        value: |method| json!(free_spin(method).map(|spin| spin.default.id())),
+    },
+    Column {
+        key: "engine_free_spin_opt_in",
+        heading: None,
+        value: |method| json!(free_spin(method).and_then(|spin| spin.opt_in).map(SpinMap::id)),
     },
     Column { key: "about", heading: Some("ABOUT"), value: |method| json!(method.about) },
     Column { key: "source", heading: None, value: |method| json!(method.source) },

@@ -2,7 +2,7 @@
 
 use regatta::lab::{KEYS, METRICS, SCENES};
 use regatta::sim::bodies::BODIES;
-use regatta::sim::integrators::METHODS;
+use regatta::sim::integrators::{METHODS, SpinMap};
 use regatta::sim::law::{UNITS, functions, operators, values};
 use serde_json::Value;
 
@@ -38,7 +38,8 @@ fn a_method_is_listed_with_all_of_its_card() {
         let keys: Vec<_> = object.as_object().unwrap().keys().map(String::as_str).collect();
         let expected = "id name also family order order_with_drag evaluations exact_if_linear symplectic reversible \
                         stability_limit tolerance restart keeps_time as_printed only only_because \
-                        default_substeps engine_tick_hz engine_damping_ratio_at_1_hz about source";
+                        default_substeps engine_tick_hz engine_damping_ratio_at_1_hz engine_free_spin \
+                        engine_free_spin_opt_in about source";
         assert_eq!(keys.join(" "), expected);
         let only = method.only.map(|only| (only.to_string(), only.reason));
         let (bodies, reason) = only.unzip();
@@ -55,6 +56,11 @@ fn a_method_is_listed_with_all_of_its_card() {
         let (tick_hz, ratio) = engine.unzip();
         assert_eq!(object["engine_tick_hz"], Value::from(tick_hz), "{}", method.id);
         assert_eq!(object["engine_damping_ratio_at_1_hz"], Value::from(ratio.flatten()));
+        let spin = method.engine.and_then(|engine| engine.free_spin);
+        let default = spin.map(|spin| spin.default.id());
+        assert_eq!(object["engine_free_spin"], Value::from(default), "{}", method.id);
+        let opt_in = spin.and_then(|spin| spin.opt_in).map(SpinMap::id);
+        assert_eq!(object["engine_free_spin_opt_in"], Value::from(opt_in), "{}", method.id);
         assert_eq!(object["stability_limit"], Value::from(method.stability_limit));
     }
 }

@@ -78,25 +78,19 @@ pub(crate) struct Log {
 impl Log {
     /// Every log of the manifest that is of a body without rotation.
     pub(crate) fn all() -> Vec<Log> {
-        let text = fs::read_to_string(folder().join("manifest.csv")).expect("a manifest");
-        let mut lines = text.lines();
-        let keys: Vec<&str> = lines.next().expect("a heading").split(',').collect();
-        let logs: Vec<Log> = lines
-            .map(|line| keys.iter().copied().zip(line.split(',')).collect())
-            .filter(|row: &HashMap<&str, &str>| row["scenario"] != "tumble")
-            .map(|row| Log::of(&row))
-            .collect();
+        let rows = manifest();
+        let logs: Vec<Log> =
+            rows.iter().filter(|row| row["scenario"] != "tumble").map(Log::of).collect();
         assert!(logs.len() >= 100, "{} logs", logs.len());
         logs
     }
 
-    fn of(row: &HashMap<&str, &str>) -> Log {
+    fn of(row: &Entry) -> Log {
         let number = |key: &str| -> f64 {
             row[key].parse().unwrap_or_else(|error| panic!("{}: {key}: {error}", row["file"]))
         };
-        let text = |key: &str| row[key].to_owned();
         let mass = number("mass");
-        let has_spring = !matches!(row["scenario"], "ship" | "damp");
+        let has_spring = !matches!(&*row["scenario"], "ship" | "damp");
         let of_spring = |key: &str| if has_spring { number(key) / mass } else { 0.0 };
         let body = Body {
             spring: ["k", "c"].map(of_spring),
@@ -104,15 +98,16 @@ impl Log {
             push: number("force") / mass,
             is_held: row["scenario"] == "held",
         };
+        let rows = columns(&row["file"], ["tick", "x", "v"]).into_iter();
         Log {
-            file: text("file"),
-            engine: text("engine"),
-            precision: text("precision"),
-            scenario: text("scenario"),
+            file: row["file"].clone(),
+            engine: row["engine"].clone(),
+            precision: row["precision"].clone(),
+            scenario: row["scenario"].clone(),
             tick_s: number("dt_s"),
             substeps: row["n"].parse().expect("a number of substeps"),
             body,
-            rows: rows(row["file"]),
+            rows: rows.map(|[tick, x, v]| Row { tick: tick as u64, x, v }).collect(),
         }
     }
 
@@ -175,17 +170,30 @@ impl Log {
     }
 }
 
-fn rows(file: &str) -> Vec<Row> {
+/// What the manifest says of a log, by key.
+pub(crate) type Entry = HashMap<String, String>;
+
+/// The manifest, with an entry for each log.
+pub(crate) fn manifest() -> Vec<Entry> {
+    let text = fs::read_to_string(folder().join("manifest.csv")).expect("a manifest");
+    let mut lines = text.lines();
+    let keys: Vec<&str> = lines.next().expect("a heading").split(',').collect();
+    let pairs = |line: &str| -> Entry {
+        let values = line.split(',').map(str::to_owned);
+        keys.iter().map(|key| (*key).to_owned()).zip(values).collect()
+    };
+    lines.map(pairs).collect()
+}
+
+/// The columns `wanted` of the log in `file`, row by row.
+pub(crate) fn columns<const N: usize>(file: &str, wanted: [&str; N]) -> Vec<[f64; N]> {
     let text = fs::read_to_string(folder().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"));
     let mut lines = text.lines();
     let keys: Vec<&str> = lines.next().expect("a heading").split(',').collect();
-    let place = |key| keys.iter().position(|known| *known == key).expect("a column");
-    let [tick, x, v] = ["tick", "x", "v"].map(place);
-    lines
-        .map(|line| {
-            let cells: Vec<&str> = line.split(',').collect();
-            let number = |place: usize| cells[place].parse::<f64>().expect("a number");
-            Row { tick: number(tick) as u64, x: number(x), v: number(v) }
-        })
-        .collect()
+    let places = wanted.map(|key| keys.iter().position(|known| *known == key).expect("a column"));
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        places.map(|place| cells[place].parse::<f64>().expect("a number"))
+    };
+    lines.map(row).collect()
 }

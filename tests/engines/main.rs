@@ -7,3 +7,5 @@ mod identified;
 mod log;
 mod oracles;
 mod reproduced;
+mod spin_maps;
+mod tumble;

@@ -68,12 +68,18 @@ fn every_scene_file_is_built_in() {
     assert!(Scene::built_in("atlantis").is_none());
 }
 
-/// The ids at the heads of the rows of each of the README's tables that `head` begins.
-fn readme_rows(head: &str) -> Vec<String> {
+/// The rows of the README's table that `head` begins.
+fn readme_table(head: &str) -> Vec<String> {
     let text = std::fs::read_to_string(root().join("README.md")).expect("the README");
     let (_, after) = text.split_once(head).expect("the table");
     let rows = after.lines().skip(2).take_while(|line| line.starts_with('|'));
-    rows.map(|row| row.split('`').nth(1).expect("an id").to_string()).collect()
+    rows.map(str::to_string).collect()
+}
+
+/// The ids at the heads of the rows of the README's table that `head` begins.
+fn readme_rows(head: &str) -> Vec<String> {
+    let id = |row: &String| row.split('`').nth(1).expect("an id").to_string();
+    readme_table(head).iter().map(id).collect()
 }
 
 #[test]
@@ -88,6 +94,17 @@ fn the_readme_lists_every_method_what_it_costs_and_every_scene() {
     assert_eq!(readme_rows("| method | ship, ns |"), general);
     let scenes: Vec<&str> = SCENES.iter().map(|scene| scene.name).collect();
     assert_eq!(readme_rows("| scene | what it shows |"), scenes);
+}
+
+#[test]
+fn the_readme_says_how_each_engine_steps_a_free_spin() {
+    let engines = METHODS.iter().filter_map(|method| method.engine);
+    for (engine, row) in engines.zip(readme_table("| engine | version |")) {
+        let cell = row.rsplit('|').nth(1).expect("a last cell");
+        let maps = engine.free_spin.map(|spin| [Some(spin.default), spin.opt_in]);
+        let maps = maps.into_iter().flatten().flatten().map(|map| format!("`{}`", map.id()));
+        assert_eq!(cell.trim(), maps.collect::<Vec<_>>().join(", or "), "{row}");
+    }
 }
 
 #[test]

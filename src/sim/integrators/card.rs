@@ -5,6 +5,7 @@
 
 use std::fmt;
 
+use super::free_spin::FreeSpin;
 use super::own::OwnIntegrator;
 use super::tolerance::Tolerance;
 
@@ -99,6 +100,9 @@ pub struct Engine {
     pub damping_ratio: Option<f64>,
     /// Whether it substeps a tick by itself. If not, substeps are whole ticks that the caller makes.
     pub has_substeps: bool,
+    /// What it does to a body that spins freely in space. `None` where nothing is claimed: for engines in the plane,
+    /// for pybullet's multibody and for a held force.
+    pub free_spin: Option<FreeSpin>,
 }
 
 /// The card of a method: its claims. `tests/conformance` measures every field.

@@ -10,7 +10,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     about: "implicit Euler of its substep on a spring without damping; the joint's damping is explicit; ticks of whole \
             nanoseconds",
     default_substeps: 6,
-    engine: Some(Engine { tick_hz: 64, damping_ratio: Some(0.00818), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 64,
+        damping_ratio: Some(0.00818),
+        has_substeps: true,
+        free_spin: None,
+    }),
     source: "Avian 0.7.0: integrator/mod.rs, xpbd/plugin.rs, solver/plugin.rs joint_damping",
     ..ENGINE
 };

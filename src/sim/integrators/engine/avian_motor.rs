@@ -12,7 +12,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
             tick's velocity",
     restart: Some("without corrections of the tick before"),
     default_substeps: 6,
-    engine: Some(Engine { tick_hz: 64, damping_ratio: Some(0.00813), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 64,
+        damping_ratio: Some(0.00813),
+        has_substeps: true,
+        free_spin: None,
+    }),
     source: "Avian 0.7.0: integrator/mod.rs, xpbd/plugin.rs, xpbd/joints/prismatic.rs",
     ..ENGINE
 };

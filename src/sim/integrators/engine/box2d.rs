@@ -9,7 +9,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     name: "Box2D",
     about: "its spring is solved twice a substep and loses energy twice as fast as implicit Euler at that step",
     default_substeps: 4,
-    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.02617), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 60,
+        damping_ratio: Some(0.02617),
+        has_substeps: true,
+        free_spin: None,
+    }),
     source: "Box2D 3.x main 617d32a: solver.c b2IntegrateVelocitiesTask, b2IntegratePositionsTask; solver.h b2MakeSoft; \
              distance_joint.c",
     ..ENGINE

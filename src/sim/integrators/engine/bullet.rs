@@ -2,6 +2,7 @@
 
 use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::system::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
@@ -10,7 +11,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     about: "semi-implicit Euler on a spring, which is softened to turn a quarter radian a substep; a force that pulls with it counts \
             only where it is the larger",
     symplectic: true,
-    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.0), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 60,
+        damping_ratio: Some(0.0),
+        has_substeps: true,
+        free_spin: Some(FreeSpin { default: SpinMap::NewtonStep, opt_in: None, per_substep: true }),
+    }),
     source: "Bullet 3 main 6c888f4: btRigidBody.cpp applyDamping, btGeneric6DofSpring2Constraint.cpp get_limit_motor_info2",
     ..ENGINE
 };

@@ -10,7 +10,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     about: "semi-implicit Euler on a spring, the drift first; a force of one's own is explicit Euler",
     stability_limit: Some(2.0),
     symplectic: true,
-    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.0), has_substeps: false }),
+    engine: Some(Engine {
+        tick_hz: 60,
+        damping_ratio: Some(0.0),
+        has_substeps: false,
+        free_spin: None,
+    }),
     source: "Chipmunk 2.0.1 in pymunk 7.3.1: cpBodyUpdatePosition, cpBodyUpdateVelocity, cpDampedSpring.c",
     ..ENGINE
 };

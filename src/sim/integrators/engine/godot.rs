@@ -2,6 +2,7 @@
 
 use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::system::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
@@ -12,7 +13,13 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     order_with_drag: 0,
     stability_limit: Some(2.0),
     symplectic: true,
-    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.0), has_substeps: false }),
+    engine: Some(Engine {
+        tick_hz: 60,
+        damping_ratio: Some(0.0),
+        has_substeps: false,
+        // Of its bodies in space.
+        free_spin: Some(FreeSpin { default: SpinMap::Constant, opt_in: None, per_substep: false }),
+    }),
     source: "Godot 4.x: godot_body_2d.cpp, godot_joints_2d.cpp GodotDampedSpringJoint2D",
     ..ENGINE
 };

@@ -18,7 +18,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     }),
     stability_limit: Some(0.0),
     default_substeps: 4,
-    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(-0.01961), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 60,
+        damping_ratio: Some(-0.01961),
+        has_substeps: true,
+        free_spin: None,
+    }),
     source: "what Box2D, Rapier and Avian do with a force that is applied before the step; Jolt, Bullet and MuJoCo too where \
              they substep",
     ..ENGINE

@@ -2,13 +2,23 @@
 
 use super::{EngineMethod, Rule, Tick, cap, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::system::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-jolt",
     name: "Jolt",
     about: "implicit Euler on a spring; explicit drag; a body has a drag of 0.05 unless it is set to another",
-    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.05219), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 60,
+        damping_ratio: Some(0.05219),
+        has_substeps: true,
+        free_spin: Some(FreeSpin {
+            default: SpinMap::Constant,
+            opt_in: Some(SpinMap::ScaledMomentum),
+            per_substep: true,
+        }),
+    }),
     source: "Jolt 5.5.1 main 3b47ec3: MotionProperties.inl ApplyForceTorqueAndDragInternal, SpringPart.h",
     ..ENGINE
 };

@@ -3,6 +3,7 @@
 use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::system::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
@@ -11,7 +12,16 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     about: "semi-implicit Euler with implicit damping, which drag is too; the same under its implicit integrators",
     stability_limit: Some(2.0),
     symplectic: true,
-    engine: Some(Engine { tick_hz: 500, damping_ratio: Some(0.0), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 500,
+        damping_ratio: Some(0.0),
+        has_substeps: true,
+        free_spin: Some(FreeSpin {
+            default: SpinMap::Explicit,
+            opt_in: Some(SpinMap::NewtonStep),
+            per_substep: true,
+        }),
+    }),
     source: "MuJoCo 4.0.0: engine_forward.c mj_Euler",
     ..ENGINE
 };

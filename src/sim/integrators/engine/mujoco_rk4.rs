@@ -3,6 +3,7 @@
 use super::mujoco::puts_back;
 use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::system::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
@@ -12,7 +13,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     order: 4,
     order_with_drag: 4,
     stability_limit: Some(2.0 * std::f64::consts::SQRT_2),
-    engine: Some(Engine { tick_hz: 500, damping_ratio: Some(0.0), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 500,
+        damping_ratio: Some(0.0),
+        has_substeps: true,
+        free_spin: Some(FreeSpin { default: SpinMap::RungeKutta, opt_in: None, per_substep: true }),
+    }),
     source: "MuJoCo 4.0.0: engine_forward.c mj_RungeKutta",
     ..ENGINE
 };

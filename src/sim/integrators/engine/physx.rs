@@ -2,6 +2,7 @@
 
 use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::system::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
@@ -9,7 +10,16 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     name: "PhysX, PGS",
     about: "implicit Euler of the whole tick on a spring: its position iterations do not change a single joint; explicit drag",
     default_substeps: 4,
-    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.05219), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 60,
+        damping_ratio: Some(0.05219),
+        has_substeps: true,
+        free_spin: Some(FreeSpin {
+            default: SpinMap::Constant,
+            opt_in: Some(SpinMap::ScaledMomentum),
+            per_substep: false,
+        }),
+    }),
     source: "PhysX 5.1.3: the projected Gauss-Seidel solver, D6 drive and distance joint",
     ..ENGINE
 };

@@ -2,6 +2,7 @@
 
 use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::system::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
@@ -10,7 +11,16 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     about: "implicit Euler of a position iteration on a spring, and one iteration more that only slows it; explicit drag",
     order_with_drag: 0,
     default_substeps: 4,
-    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.01636), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 60,
+        damping_ratio: Some(0.01636),
+        has_substeps: true,
+        free_spin: Some(FreeSpin {
+            default: SpinMap::Constant,
+            opt_in: Some(SpinMap::ScaledMomentum),
+            per_substep: false,
+        }),
+    }),
     source: "PhysX 5.1.3: DyTGSContactPrep.cpp, DyCpuGpu1dConstraint.h",
     ..ENGINE
 };

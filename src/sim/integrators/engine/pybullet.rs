@@ -17,7 +17,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     name: "pybullet, multibody",
     about: "explicit drag that also grows with the square of the speed, so that a driven body stops gaining early",
     only: Some(ONLY),
-    engine: Some(Engine { tick_hz: 240, damping_ratio: None, has_substeps: false }),
+    engine: Some(Engine {
+        tick_hz: 240,
+        damping_ratio: None,
+        has_substeps: false,
+        free_spin: None,
+    }),
     source: "pybullet 3.2.7: btMultiBody.cpp, its default linear damping",
     ..ENGINE
 };

@@ -2,6 +2,7 @@
 
 use super::{EngineMethod, Rule, Tick, cap, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::system::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
@@ -10,7 +11,16 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     about: "implicit Euler of its substep on a spring; the drag comes after the drift, so that a body moves faster than it \
             says",
     default_substeps: 4,
-    engine: Some(Engine { tick_hz: 60, damping_ratio: Some(0.01309), has_substeps: true }),
+    engine: Some(Engine {
+        tick_hz: 60,
+        damping_ratio: Some(0.01309),
+        has_substeps: true,
+        free_spin: Some(FreeSpin {
+            default: SpinMap::ScaledMomentum,
+            opt_in: None,
+            per_substep: true,
+        }),
+    }),
     source: "Rapier 0.36.1: staged_island_solver/worker.rs, motor_model.rs",
     ..ENGINE
 };
