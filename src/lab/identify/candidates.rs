@@ -35,7 +35,7 @@ const HELD: &str = "held-force";
 /// Twice the logarithm of the odds against an engine that is set otherwise than by default or whose game holds the
 /// spring's force itself, each; against a method of one's own that is set otherwise than by default; and against a count
 /// of substeps that few set.
-const RARITY: [f64; 3] = [8.0, 16.0, 32.0];
+const RARITY: [f64; 3] = [8.0, 24.0, 36.0];
 
 impl Candidate {
     /// Whether people set this count of substeps: a power of 2, not too high, or what the engine has by default.

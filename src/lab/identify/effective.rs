@@ -1,9 +1,10 @@
 //! What a player sees: the frequency, the damping and the change of energy of a motion.
 
+use super::Candidate;
+use super::decision::NO_FIT;
 use super::fit::fit;
 use super::logged::Log;
 use super::motion::{LoggedBody, run};
-use super::{Candidate, NO_FIT};
 use crate::sim::integrators::method;
 use crate::sim::least_squares;
 

@@ -1,9 +1,9 @@
 //! A candidate fitted to a log: the start, and what is not known of the body, by least squares.
 
+use super::Candidate;
 use super::effective::Effective;
 use super::logged::Log;
 use super::motion::{LoggedBody, run};
-use super::{Candidate, FOLLOWING};
 use crate::sim::least_squares;
 
 /// The iterations of Gauss and Newton where the velocity at the start was logged, where it was not, and where the
@@ -15,6 +15,8 @@ const DISPLACEMENT: f64 = 1e-4;
 const PRECISE: f64 = 5e-5;
 /// In fewer rows than this, noise cannot be told from what follows from row to row.
 const LEAST_ROWS_OF_NOISE: usize = 20;
+/// What is left over may follow from row to row by this much more than chance allows.
+const FOLLOWING: f64 = 0.1;
 /// How many rows apart what is left over is compared.
 const LAGS: usize = 3;
 

@@ -1,10 +1,10 @@
 //! The candidates nearest to a log, without fitting each of them to the whole of it.
 
 use super::candidates::{Candidate, candidates};
+use super::decision::rounding;
 use super::fit::{Fit, fit};
 use super::logged::Log;
 use super::motion::LoggedBody;
-use super::rounding;
 
 /// The first part of a log, to which every candidate is fitted, in ticks.
 const HEAD_TICKS: u64 = 60;

@@ -1,0 +1,96 @@
+//! What the fits of candidates to a log say.
+
+use std::collections::BTreeSet;
+
+use super::Word;
+use super::candidates::{Candidate, candidates};
+use super::fit::Fit;
+use super::motion::LoggedBody;
+
+/// What rounding leaves over in a run, in units of the largest values: the least, in double precision, and the most, in
+/// single precision.
+const ROUNDING: [f64; 2] = [1e-9, 3e-5];
+/// Nothing below this many times what the closest candidate leaves over tells candidates apart, up to the most that
+/// rounding leaves over.
+const TIMES_CLOSEST: f64 = 10.0;
+/// Among candidates that do the same, one that leaves over this many times what the nearest does is not named.
+const TIMES_NEAREST: f64 = 3.0;
+/// Candidates whose runs are nowhere farther apart, with the same spring, do the same; so do those that are nowhere
+/// farther apart than this part of the residual.
+const SAME: f64 = 1e-5;
+const SAME_PART: f64 = 0.2;
+/// The least difference of twice the logarithm of the likelihood that tells candidates apart: four standard deviations.
+const DECISIVE: f64 = 16.0;
+/// More left over than this is no fit, whatever its form.
+pub(super) const NO_FIT: f64 = 0.01;
+/// Where rows are too few to tell noise from what follows from row to row, a rival leaves over this many times as much.
+const CLEAR: f64 = 3.0;
+/// A log that this part of all methods explain says nothing.
+const NEARLY_ALL: f64 = 0.8;
+/// What rounding may leave over where the closest candidate leaves over this.
+pub(super) fn rounding(closest: f64) -> f64 {
+    (TIMES_CLOSEST * closest).clamp(ROUNDING[0], ROUNDING[1])
+}
+
+/// What the fits say.
+pub(super) struct Decision<'a> {
+    pub(super) word: Word,
+    /// The best, and those that do the same.
+    pub(super) same: Vec<&'a (Candidate, Fit)>,
+    /// Others that explain the log as well and are set aside, as they are rare.
+    pub(super) unusual: Vec<&'a (Candidate, Fit)>,
+    /// The nearest that does something else; where the log says nothing, another that does the same.
+    pub(super) rival: Option<&'a (Candidate, Fit)>,
+}
+
+/// Decides between the candidates for a body; `None` if there are none.
+pub(super) fn decide<'a>(fits: &'a [(Candidate, Fit)], body: &LoggedBody) -> Option<Decision<'a>> {
+    let least = fits.iter().map(|(_, fit)| fit.residual()).fold(f64::INFINITY, f64::min);
+    let rounding = rounding(least);
+    let deviance = |(_, fit): &(Candidate, Fit)| fit.deviance(rounding);
+    let with_rarity = |fitted: &(Candidate, Fit)| deviance(fitted) + fitted.0.rarity();
+    let by_both =
+        |a: &&(Candidate, Fit), b: &&(Candidate, Fit)| with_rarity(a).total_cmp(&with_rarity(b));
+    let closest = fits.iter().min_by(by_both)?;
+    let fits_as_well = |fitted: &(Candidate, Fit)| deviance(fitted) - deviance(closest) < DECISIVE;
+    let is_plausible =
+        |fitted: &(Candidate, Fit)| with_rarity(fitted) - with_rarity(closest) < DECISIVE;
+    let apart = SAME.max(SAME_PART * closest.1.residual());
+    let (mut same, others): (Vec<_>, Vec<_>) = fits
+        .iter()
+        .partition(|fitted| fits_as_well(fitted) && fitted.1.distance(&closest.1) <= apart);
+    let nearest = same.iter().map(|(_, fit)| fit.residual()).fold(f64::INFINITY, f64::min);
+    same.sort_by_key(|(candidate, fit)| {
+        let is_nearest = fit.residual() <= TIMES_NEAREST * nearest + ROUNDING[0] / TIMES_CLOSEST;
+        (!is_nearest, candidate.preference())
+    });
+    let (best, best_fit) = same.first()?;
+    let is_set_aside = |fitted: &&(Candidate, Fit)| fits_as_well(fitted) && !is_plausible(fitted);
+    let unusual = others.iter().copied().filter(is_set_aside).collect();
+    let rival = others.iter().copied().min_by(by_both);
+    let is_clear = rival.is_none_or(|(_, fit)| fit.residual() > CLEAR * best_fit.residual());
+    let says_nothing = explained_by_nearly_all(&same, body);
+    let rival = match rival {
+        Some(rival) if is_plausible(rival) => Some(rival),
+        _ if says_nothing => same.iter().find(|other| other.0.method != best.method).copied(),
+        _ => rival,
+    };
+    let is_short = best_fit.has_few_rows() && !is_clear;
+    let word = if best_fit.residual() > NO_FIT || best_fit.is_systematic() {
+        Word::Unknown
+    } else if says_nothing || is_short || rival.is_some_and(is_plausible) {
+        Word::CannotTell
+    } else {
+        Word::Identified
+    };
+    Some(Decision { word, same, unusual, rival })
+}
+
+/// Whether so many methods do the same that the log says nothing.
+fn explained_by_nearly_all(same: &[&(Candidate, Fit)], body: &LoggedBody) -> bool {
+    let methods = |all: &mut dyn Iterator<Item = Candidate>| {
+        all.map(|candidate| candidate.method.id).collect::<BTreeSet<_>>().len() as f64
+    };
+    let of_same = methods(&mut same.iter().map(|(candidate, _)| *candidate));
+    of_same >= NEARLY_ALL * methods(&mut candidates(body).into_iter())
+}
