@@ -130,10 +130,25 @@ const NETS: &str = "
 
 fn bodies_with_keys() -> String {
     let keys = BODIES.iter().map(|body| {
-        format!("\n[[{}]]\n{}", body.id, table::text(PARAMETER, body.parameters, "  "))
+        let keys = table::text(PARAMETER, body.parameters, "  ");
+        let refused = body.engine_refusal.map(|why| refused_by_engines(body.id, why));
+        format!("\n[[{}]]\n{keys}{}", body.id, refused.unwrap_or_default())
     });
     let of_nets = table::text(PARAMETER, Net::DESCRIPTIONS, "  ");
+    let of_nets = of_nets + &refused_by_engines("net", Net::ENGINE_REFUSAL);
     table::text(BODY, BODIES, "") + &keys.collect::<String>() + &laws() + NETS + &of_nets
+}
+
+/// Two lines that say why engines do not step the bodies of this kind, and which methods of the family do.
+fn refused_by_engines(kind: &str, why: &str) -> String {
+    let steps = |method: &&Method| method.only.is_some_and(|only| only.kinds.contains(&kind));
+    let engines = METHODS.iter().filter(|method| method.is_engine());
+    let others: Vec<&str> = engines.filter(steps).map(|method| method.id).collect();
+    let except = match &others[..] {
+        [] => String::new(),
+        others => format!(" except {}", others.join(", ")),
+    };
+    format!("  No method of an engine{except}:\n    {why}.\n")
 }
 
 const SCENE: &[Column<Scene>] = &[
@@ -250,6 +265,7 @@ const BODY: &[Column<Kind>] = &[
         heading: None,
         value: |body| json!(body.truth.aimed_accuracy()),
     },
+    Column { key: "engine_refusal", heading: None, value: |body| json!(body.engine_refusal) },
     Column { key: "inputs", heading: Some("INPUTS"), value: |body| json!(body.inputs) },
     Column {
         key: "parameters",

@@ -1,13 +1,16 @@
 //! `regatta show`: a method as a function, to be taken into a game.
 
+use std::ffi::OsStr;
+
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::error::{Cause, Error};
 use super::experiment::MethodParser;
 use super::output::print;
+use super::terminal::tell;
 use crate::lab::{Language, NoSourceCode, source_code};
-use crate::sim::integrators::Method;
+use crate::sim::integrators::{METHODS, Method};
 
 const ABOUT: &str = "\
 The function makes one step of h seconds for one coordinate: of its position x, its velocity v and
@@ -26,14 +29,58 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = ABOUT)]
 pub(super) struct ShowArgs {
-    /// The method (`regatta list methods`)
-    #[arg(value_name = "METHOD", value_parser = MethodParser, hide_possible_values = true)]
-    method: &'static Method,
+    /// The method (`regatta list methods`), by its id or by another name of it there
+    #[arg(value_name = "METHOD", value_parser = AskedParser, hide_possible_values = true)]
+    asked: Asked,
 
     /// The language
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
     #[arg(value_parser = language())]
     language: Language,
+}
+
+/// A method that was asked for.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    method: &'static Method,
+    /// The one of its [other ids](Method::also) that was given, if it was not its own.
+    alias: Option<&'static str>,
+}
+
+/// Takes the id of a method or one of its other ids; offers all of them to the shell's completion.
+#[derive(Clone)]
+struct AskedParser;
+
+/// Every other id, with the method that it stands for.
+fn aliases() -> impl Iterator<Item = Asked> {
+    let of_each = |method: &'static Method| {
+        method.also.iter().map(move |alias| Asked { method, alias: Some(alias) })
+    };
+    METHODS.iter().flat_map(of_each)
+}
+
+impl TypedValueParser for AskedParser {
+    type Value = Asked;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        arg: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Asked, clap::Error> {
+        match aliases().find(|asked| asked.alias.is_some_and(|alias| value == alias)) {
+            Some(asked) => Ok(asked),
+            None => {
+                let method = MethodParser.parse_ref(command, arg, value)?;
+                Ok(Asked { method, alias: None })
+            }
+        }
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let others = aliases().filter_map(|asked| asked.alias.map(PossibleValue::new));
+        Some(Box::new(MethodParser.possible_values()?.chain(others)))
+    }
 }
 
 impl Cause for NoSourceCode {
@@ -49,5 +96,10 @@ fn language() -> impl TypedValueParser<Value = Language> {
 }
 
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
-    Ok(print(&source_code(args.method, args.language)?)?)
+    let Asked { method, alias } = args.asked;
+    let code = source_code(method, args.language)?;
+    if let Some(alias) = alias {
+        tell(&format!("note: {alias} is another name of {}, which is shown", method.id));
+    }
+    Ok(print(&code)?)
 }

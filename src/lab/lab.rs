@@ -105,6 +105,11 @@ impl Lab {
     pub fn entries(&self) -> &[LaneSpec] {
         self.race().list()
     }
+    /// The name of the method on this place of the list, told apart from others of the same method.
+    pub fn lane_name(&self, entry: usize) -> String {
+        let spec = &self.entries()[entry];
+        spec.told_apart(spec.method.name, self.entries())
+    }
     /// Solo or race.
     pub fn mode(&self) -> Mode {
         self.race().mode()
@@ -210,7 +215,7 @@ impl Lab {
         format!(
             "Regatta - {} - {race}{} - {} Hz{paused}",
             self.scene_name(),
-            self.entries()[self.active()].method.name,
+            self.lane_name(self.active()),
             self.clock.tick_hz(),
         )
     }

@@ -21,11 +21,66 @@ impl LaneSpec {
         Self { method, substeps: method.default_substeps, tolerance: None }
     }
 
+    /// `name`, which is its method's, with its substeps or its tolerance after it where another of `lanes` has the method
+    /// with others.
+    pub fn told_apart(&self, name: &str, lanes: &[LaneSpec]) -> String {
+        let alike = || lanes.iter().filter(|other| other.method == self.method);
+        let has_others = alike().any(|other| other.substeps != self.substeps);
+        let times = if has_others { format!(" ×{}", self.substeps) } else { String::new() };
+        let within =
+            self.tolerance.filter(|_| alike().any(|other| other.tolerance != self.tolerance));
+        let within = within.map(|tolerance| format!(" {tolerance:e}")).unwrap_or_default();
+        format!("{name}{times}{within}")
+    }
+
+    /// The method's name with the substeps, which are left out if there is one and no other of `lanes` has the method.
+    pub fn name_with_substeps(&self, lanes: &[LaneSpec]) -> String {
+        let mut others = lanes.iter().filter(|other| other.method == self.method);
+        let name = self.method.name;
+        match self.substeps > 1 || others.any(|other| other.substeps != self.substeps) {
+            true => format!("{name} ×{}", self.substeps),
+            false => name.into(),
+        }
+    }
+
     /// The solver of the lane's bodies.
     pub fn solver(&self) -> Solver {
         match self.tolerance {
             Some(tolerance) => Solver::WithTolerance(self.method, tolerance),
             None => Solver::Method(self.method),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::integrators::method;
+
+    #[test]
+    fn lanes_of_one_method_are_told_apart_by_what_differs() {
+        let lane =
+            |id, substeps, tolerance| LaneSpec { method: method(id).unwrap(), substeps, tolerance };
+        let lanes = [
+            lane("held-force", 1, None),
+            lane("held-force", 4, None),
+            lane("engine-box2d", 4, None),
+            lane("adaptive-euler", 1, Some(1e-3)),
+            lane("adaptive-euler", 1, Some(1e-6)),
+            lane("rk4", 1, None),
+        ];
+        let names = lanes.map(|lane| lane.told_apart(lane.method.name, &lanes));
+        let expected = [
+            "Held force ×1",
+            "Held force ×4",
+            "Box2D",
+            "Adaptive Euler 1e-3",
+            "Adaptive Euler 1e-6",
+            "Runge-Kutta 4",
+        ];
+        assert_eq!(names, expected);
+        let with_substeps = lanes.map(|lane| lane.name_with_substeps(&lanes));
+        assert_eq!(with_substeps[..3], ["Held force ×1", "Held force ×4", "Box2D ×4"]);
+        assert_eq!(with_substeps[5], "Runge-Kutta 4");
     }
 }

@@ -44,8 +44,9 @@ fn of_halts(scene: &Scene, race: &Race) -> Option<String> {
         let body = &scene.bodies[*body];
         match place {
             Some(place) => {
-                let method = race.list()[race.entrants()[place].entry].method.name;
-                format!("{method} halted at tick {tick}: {} {failure}", body.name)
+                let spec = race.list()[race.entrants()[place].entry];
+                let name = spec.told_apart(spec.method.name, race.list());
+                format!("{name} halted at tick {tick}: {} {failure}", body.name)
             }
             None => {
                 let name = &body.name;

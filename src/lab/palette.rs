@@ -5,6 +5,7 @@
 
 use std::sync::LazyLock;
 
+use super::lane_spec::LaneSpec;
 use crate::sim::integrators::{METHODS, Method};
 
 /// A colour: red, green, blue and alpha, sRGB, alpha not multiplied in.
@@ -46,10 +47,17 @@ impl Theme {
     /// The colour of a method, and its dash pattern as the second cue: drawn length and gap in points, a
     /// gap of 0 being solid.
     pub fn style(self, method: &Method) -> (Rgba, [f32; 2]) {
-        let place = METHODS.iter().position(|listed| listed == method);
-        let (colour, dash) = place.map_or_else(|| own_style(method), |place| STYLES[place]);
-        let dashes: &[[f32; 2]] = if method.is_engine() { &ENGINE_DASHES } else { &DASHES };
-        (self.palette().methods[colour], dashes[dash])
+        self.drawn(method, places(method))
+    }
+
+    /// The colour and the dash pattern of a lane among `lanes`: its method's. Of several lanes of one method the first has
+    /// them, and each of the others another colour and another dash.
+    pub fn lane_style(self, lanes: &[LaneSpec], lane: &LaneSpec) -> (Rgba, [f32; 2]) {
+        self.drawn(lane.method, lane_places(lanes, lane))
+    }
+
+    fn drawn(self, method: &Method, (colour, dash): (usize, usize)) -> (Rgba, [f32; 2]) {
+        (self.palette().methods[colour], dashes(method)[dash])
     }
 
     /// The colour and the dash pattern of the game loop at this place of [`POLICIES`](super::pacing::POLICIES): seven
@@ -201,6 +209,41 @@ fn are_alike(a: usize, b: usize) -> bool {
     a == b || WARM.contains(&a) && WARM.contains(&b)
 }
 
+fn dashes(method: &Method) -> &'static [[f32; 2]] {
+    if method.is_engine() { &ENGINE_DASHES } else { &DASHES }
+}
+
+/// The places of the colour and the dash of a method.
+fn places(method: &Method) -> (usize, usize) {
+    let listed = METHODS.iter().position(|listed| listed == method);
+    listed.map_or_else(|| own_style(method), |place| STYLES[place])
+}
+
+/// The places of the colour and the dash of a lane. A lane after the first of its method has a colour unlike that of any
+/// lane before it, as long as there is one, and then at least a pair of its own.
+fn lane_places(lanes: &[LaneSpec], lane: &LaneSpec) -> (usize, usize) {
+    let is_first = |end: usize| lanes[..end].iter().all(|other| other.method != lanes[end].method);
+    let end = match lanes.iter().position(|other| other == lane) {
+        Some(end) if !is_first(end) => end,
+        _ => return places(lane.method),
+    };
+    let mut taken: Vec<(usize, usize)> = Vec::new();
+    for (i, next) in lanes[..=end].iter().enumerate() {
+        let (colour, dash) = places(next.method);
+        if is_first(i) {
+            taken.push((colour, dash));
+            continue;
+        }
+        let (colours, dashes) = (DARK.methods.len(), dashes(next.method).len());
+        let pairs = (1..colours * dashes).map(|n| ((colour + n) % colours, (dash + n) % dashes));
+        let unlike = |pair: &(usize, usize)| taken.iter().all(|other| !are_alike(other.0, pair.0));
+        let unused = |pair: &(usize, usize)| !taken.contains(pair);
+        let pair = pairs.clone().find(unlike).or_else(|| pairs.clone().find(unused));
+        taken.push(pair.unwrap_or((colour, dash)));
+    }
+    taken[end]
+}
+
 /// The places of the colour and the dash of a method that is not in the table: always the same, by its id, and no
 /// solid line, which those that people know best have.
 fn own_style(method: &Method) -> (usize, usize) {
@@ -252,81 +295,4 @@ pub fn faded([r, g, b, a]: Rgba, part: f32) -> Rgba {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Relative luminance, as the Web Content Accessibility Guidelines 2.1 define it.
-    fn luminance(colour: Rgba) -> f64 {
-        let linear = |i: usize| {
-            let part = f64::from(colour[i]) / 255.0;
-            if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) }
-        };
-        0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2)
-    }
-
-    fn contrast(a: Rgba, b: Rgba) -> f64 {
-        let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
-        a.max(b) / a.min(b)
-    }
-
-    #[test]
-    fn text_stands_out_from_what_it_is_written_on_in_both_themes() {
-        for theme in [Theme::Dark, Theme::Light] {
-            let palette = theme.palette();
-            let surfaces = [
-                palette.background,
-                palette.panel,
-                palette.raised,
-                palette.plot,
-                palette.sea[0],
-                palette.sea[1],
-            ];
-            let texts = [
-                palette.text,
-                palette.dim,
-                palette.accent,
-                palette.bad,
-                palette.warn,
-                palette.good,
-            ];
-            for surface in surfaces {
-                for text in texts.iter().chain(&palette.methods) {
-                    let contrast = contrast(*text, surface);
-                    assert!(contrast >= 4.5, "{theme:?}: {text:?} on {surface:?}: {contrast:.2}");
-                }
-            }
-            assert!(contrast(palette.on_accent, palette.accent) >= 4.5);
-        }
-        assert!((contrast(rgb(0xFFFFFF), rgb(0)) - 21.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn methods_differ_in_colour_or_dash_and_neighbours_in_colour() {
-        let distance =
-            |a: Rgba, b: Rgba| (0..3).map(|i| u32::from(a[i].abs_diff(b[i])).pow(2)).sum::<u32>();
-        for (i, style) in STYLES.iter().enumerate() {
-            let is_taken = |(other, method): (&(usize, usize), &Method)| {
-                other == style && method.is_engine() == METHODS[i].is_engine()
-            };
-            assert!(!STYLES[..i].iter().zip(METHODS).any(is_taken), "{}", METHODS[i].id);
-        }
-        for theme in [Theme::Dark, Theme::Light] {
-            for pair in METHODS.windows(2) {
-                let [a, b] = [&pair[0], &pair[1]].map(|method| theme.style(method).0);
-                assert!(distance(a, b) > 40 * 40, "{} and {}: {a:?} {b:?}", pair[0].id, pair[1].id);
-            }
-            for number in 0..2 * LOOPS.len() {
-                let [a, b] = [number, number + 1].map(|number| theme.loop_style(number).0);
-                assert!(distance(a, b) > 60 * 60, "{number}: {a:?} {b:?}");
-            }
-            for lanes in [
-                ["explicit-euler", "semi-implicit-euler"],
-                ["semi-implicit-euler", "implicit-euler"],
-            ] {
-                let [a, b] =
-                    lanes.map(|id| theme.style(crate::sim::integrators::method(id).unwrap()).0);
-                assert!(distance(a, b) > 60 * 60, "{lanes:?}");
-            }
-        }
-    }
-}
+mod tests;

@@ -14,6 +14,7 @@
 //! | `const`, `let`, `var` | a constant, a number, a number that changes; `+=` and the like change it |
 //! | `if … {`, `} else {`, `while … {`, `}` | with `and` and `or` |
 //! | `fail` | ends the step with `x` and `v` not a number |
+//! | `stability: when`, and `order`, `symplectic` | what the header says in place of the card's sentence |
 //! | `refused c: why`, `refused: why` | there is no such function in this language, or in any |
 //!
 //! A comment begins with `#`; those before the first statement go to the header. A line that begins with an operator
@@ -46,6 +47,11 @@ impl MethodSource {
     /// What the function takes beside `x`, `v` and `h`.
     pub fn inputs(&self) -> Vec<MethodInput<'static>> {
         Program::read(self.text).inputs
+    }
+
+    /// What the source says of a claim of the card, `order`, `stability` or `symplectic`, in words of its own.
+    pub fn claim(&self, claim: &str) -> Option<&'static str> {
+        Program::read(self.text).claim(claim)
     }
 
     /// Whether the function has a memory.

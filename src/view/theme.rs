@@ -53,9 +53,9 @@ impl Ink {
         }
     }
 
-    /// The colour and the dash pattern of a lane's method.
-    pub(super) fn style(&self, spec: &LaneSpec) -> (Color32, [f32; 2]) {
-        let (rgba, dash) = self.theme.style(spec.method);
+    /// The colour and the dash pattern of a lane among these.
+    pub(super) fn style(&self, lanes: &[LaneSpec], spec: &LaneSpec) -> (Color32, [f32; 2]) {
+        let (rgba, dash) = self.theme.lane_style(lanes, spec);
         (colour(rgba), dash)
     }
 }

@@ -1,7 +1,7 @@
 //! `list` and `completions`.
 
 use regatta::lab::{KEYS, METRICS, SCENES};
-use regatta::sim::bodies::BODIES;
+use regatta::sim::bodies::{BODIES, Net, kind};
 use regatta::sim::integrators::{METHODS, SpinMap};
 use regatta::sim::law::{UNITS, functions, operators, values};
 use serde_json::Value;
@@ -80,6 +80,7 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
     }
     for (object, body) in bodies.iter().zip(BODIES) {
         assert_eq!(object["truth"], body.truth.id());
+        assert_eq!(object["engine_refusal"], Value::from(body.engine_refusal));
         assert_eq!(object["aimed_accuracy"], Value::from(body.truth.aimed_accuracy()));
         let coordinates = object["coordinates"].as_array().unwrap();
         let names: Vec<_> = coordinates.iter().map(|c| c["name"].as_str().unwrap()).collect();
@@ -89,6 +90,14 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
     }
     let text = stdout_of("list bodies");
     assert!(text.contains("[[spring]]\n"), "{text}");
+    let pendulum = kind("pendulum").unwrap().engine_refusal.unwrap();
+    for refused in [
+        format!("  No method of an engine except held-force:\n    {pendulum}.\n"),
+        format!("  No method of an engine except held-force:\n    {}.\n", Net::ENGINE_REFUSAL),
+        "  No method of an engine:\n    a follower moves".to_owned(),
+    ] {
+        assert!(text.contains(&refused), "{refused}: {text}");
+    }
     assert!(text.contains("  stiffness_n_per_m  "), "{text}");
     let of_laws = text.split("[[law]]").nth(1).expect("a list of what laws are made of");
     for word in functions().chain(operators()).chain(values()).chain(UNITS) {

@@ -29,6 +29,28 @@ fn without_a_language_a_method_is_shown_in_rust() {
 }
 
 #[test]
+fn another_name_of_a_method_shows_the_method_and_says_which_it_is() {
+    let aliases = METHODS.iter().flat_map(|m| m.also.iter().map(move |alias| (m, *alias)));
+    let aliases: Vec<_> = aliases.collect();
+    assert!(aliases.iter().any(|(_, alias)| *alias == "xpbd"), "{aliases:?}");
+    for (method, alias) in aliases {
+        let shown = run(&format!("show {alias} --as c"));
+        assert_eq!(
+            String::from_utf8(shown.stdout).unwrap(),
+            stdout_of(&format!("show {} --as c", method.id))
+        );
+        let note = format!("note: {alias} is another name of {}, which is shown\n", method.id);
+        assert_eq!(
+            (shown.status.code(), String::from_utf8(shown.stderr).unwrap()),
+            (Some(0), note)
+        );
+        // A scene has one name for a method.
+        let raced = refusal(&format!("trace --scene spring --method {alias}"), 2);
+        assert!(raced.contains(&format!("did you mean {}?", method.id)), "{raced}");
+    }
+}
+
+#[test]
 fn a_mistake_in_a_name_is_told_with_the_nearest() {
     for (arguments, said) in [
         ("show", "<METHOD>"),

@@ -1,7 +1,9 @@
 //! The claims of the engines' cards, measured both ways.
 
+use std::collections::HashSet;
 use std::f64::consts::TAU;
 
+use regatta::sim::bodies::{BODIES, Kind, Net, kind, refusal};
 use regatta::sim::integrators::{METHODS, Method, integrator, method};
 use regatta::sim::{Counted, State};
 
@@ -11,9 +13,10 @@ fn engines() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| method.is_engine())
 }
 
-/// A held force is a spring of user code; pybullet's multibody has drag alone.
+/// A held force is a spring of user code, and so is any spring where there is no joint: in pybullet's multibody.
 fn spring_of(method: &Method, spring: [f64; 2]) -> Body {
-    Body { spring, drag: 0.0, push: 0.0, is_held: method.id == "held-force" }
+    let is_held = method.id == "held-force" || !has_spring(method);
+    Body { spring, drag: 0.0, push: 0.0, is_held }
 }
 
 fn has_spring(method: &Method) -> bool {
@@ -49,18 +52,11 @@ fn oscillator(omega: f64, alpha: f64) -> [f64; 2] {
 #[test]
 fn the_order_of_an_engine_is_as_its_card_says_with_and_without_drag() {
     for method in engines() {
-        let mut measured = Vec::new();
-        if has_spring(method) {
-            let undamped = spring_of(method, [4.0, 0.0]);
-            let straight = order(method, &undamped, [1.0, 0.0], oscillator(2.0, 0.0));
-            let damped = spring_of(method, [4.0, 1.0]);
-            let with_drag = order(method, &damped, [1.0, 0.0], oscillator(2.0, 0.5));
-            measured = vec![(straight, method.order), (with_drag, method.order_with_drag)];
-        } else {
-            let push = Body { spring: [0.0; 2], drag: 0.0, push: 1.0, is_held: false };
-            measured.push((order(method, &push, [0.0, 0.0], [0.5, 1.0]), method.order));
-        }
-        for (found, claimed) in measured {
+        let undamped = spring_of(method, [4.0, 0.0]);
+        let straight = order(method, &undamped, [1.0, 0.0], oscillator(2.0, 0.0));
+        let damped = spring_of(method, [4.0, 1.0]);
+        let with_drag = order(method, &damped, [1.0, 0.0], oscillator(2.0, 0.5));
+        for (found, claimed) in [(straight, method.order), (with_drag, method.order_with_drag)] {
             let is_near = (found - f64::from(claimed)).abs() < 0.05;
             assert!(is_near, "{}: {found}, not {claimed}", method.id);
         }
@@ -120,7 +116,7 @@ fn is_bounded(method: &Method, z: f64) -> bool {
 
 #[test]
 fn an_undamped_spring_stays_bounded_up_to_the_stability_limit_of_an_engine() {
-    for method in engines().filter(|method| has_spring(method)) {
+    for method in engines() {
         match method.stability_limit {
             Some(limit) => {
                 let below = limit == 0.0 || is_bounded(method, limit - 0.01);
@@ -161,7 +157,7 @@ fn area(map: [[f64; 2]; 2]) -> f64 {
 #[test]
 fn an_engine_keeps_area_on_an_undamped_spring_where_its_card_says_so_and_none_can_be_run_back() {
     // What a motor adds to the velocity comes a tick later.
-    for method in engines().filter(|method| has_spring(method) && method.restart.is_none()) {
+    for method in engines().filter(|method| method.restart.is_none()) {
         let body = spring_of(method, [4.0, 0.0]);
         let change = (area(map(method, &body, 0.1)) - 1.0).abs();
         let keeps = change < 1e-13;
@@ -174,18 +170,70 @@ fn an_engine_keeps_area_on_an_undamped_spring_where_its_card_says_so_and_none_ca
     }
 }
 
+/// The evaluations of 10 ticks of a body that is pushed.
+fn evaluations(method: &Method, substeps: u32) -> u64 {
+    let body = Body { spring: [0.0; 2], drag: 0.1, push: 1.0, is_held: false };
+    let counted = Counted::new(body);
+    let mut state = State { q: 0.0, v: 0.0 };
+    let mut engine = integrator::<Counted<Body>>(method, &state.q);
+    for tick in 0..10 {
+        engine.steps(&counted, f64::from(tick), 1.0, substeps, &mut state).unwrap();
+    }
+    counted.evaluations()
+}
+
 #[test]
-fn an_engine_reads_the_force_once_a_tick_however_many_its_substeps() {
-    for method in engines().filter(|method| method.engine.unwrap().has_substeps) {
-        let body = Body { spring: [0.0; 2], drag: 0.1, push: 1.0, is_held: false };
+fn a_tick_costs_what_its_card_says_with_and_without_substeps_of_the_engines_own() {
+    for method in engines() {
         for substeps in [1, 4, 7] {
-            let counted = Counted::new(body.clone());
-            let mut state = State { q: 0.0, v: 0.0 };
-            let mut engine = integrator::<Counted<Body>>(method, &state.q);
-            for tick in 0..10 {
-                engine.steps(&counted, f64::from(tick), 1.0, substeps, &mut state).unwrap();
-            }
-            assert_eq!(counted.evaluations(), 10, "{}", method.id);
+            let claimed = method.evaluations_per_tick(substeps).unwrap();
+            let has_substeps = method.engine.unwrap().has_substeps;
+            assert_eq!(claimed, if has_substeps { 1 } else { substeps }, "{}", method.id);
+            assert_eq!(evaluations(method, substeps), 10 * u64::from(claimed), "{}", method.id);
         }
     }
+    assert_eq!(method("rk4").unwrap().evaluations_per_tick(3), Some(12));
+    assert_eq!(method("adaptive-euler").unwrap().evaluations_per_tick(3), None);
+}
+
+#[test]
+fn a_spring_force_held_over_one_substep_is_bounded_up_to_2_and_over_more_at_no_step() {
+    let held = method("held-force").unwrap();
+    let is_bounded = |z: f64, substeps: u32| {
+        let body = spring_of(held, [z * z, 0.0]);
+        let mut state = State { q: 1.0, v: 0.01 };
+        let mut engine = integrator::<Body>(held, &state.q);
+        for tick in 0..200_000 {
+            engine.steps(&body, f64::from(tick), 1.0, substeps, &mut state).unwrap();
+        }
+        state.q.is_finite() && state.q.abs() < 1e3
+    };
+    assert!(is_bounded(0.1, 1) && is_bounded(1.99, 1) && !is_bounded(2.02, 1));
+    for substeps in [2, 4, 64] {
+        assert!([0.02, 0.5, 1.0].iter().all(|z| !is_bounded(*z, substeps)), "{substeps}");
+    }
+}
+
+#[test]
+fn a_body_that_no_engine_can_be_told_of_says_why_and_each_says_something_else() {
+    let box2d = method("engine-box2d").unwrap();
+    let steps = |method: &Method, kind: &Kind| method.only.unwrap().kinds.contains(&kind.id);
+    let mut reasons = Vec::new();
+    for kind in BODIES {
+        assert_eq!(steps(box2d, kind), kind.engine_refusal.is_none(), "{}", kind.id);
+        let Some(reason) = kind.engine_refusal else { continue };
+        reasons.push(reason);
+        let values: Vec<f64> = kind.parameters.iter().map(|p| p.default.unwrap_or(1.0)).collect();
+        for method in engines() {
+            let expected = (!steps(method, kind)).then_some(reason);
+            assert_eq!(refusal(method, kind, &values), expected, "{} {}", method.id, kind.id);
+        }
+    }
+    reasons.push(Net::ENGINE_REFUSAL);
+    let distinct: HashSet<_> = reasons.iter().collect();
+    assert_eq!((reasons.len(), distinct.len()), (4, 4), "{reasons:?}");
+    // A reason of the engine's own stays.
+    let spring = kind("spring").unwrap();
+    let said = refusal(method("engine-pybullet").unwrap(), spring, &[1.0; 6]).unwrap();
+    assert!(said.contains("no joint with a spring"), "{said}");
 }

@@ -46,7 +46,6 @@ fn text(
 /// Names a lane at the left of its row, with a bar where it is selected.
 pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, entrant: &Entrant) {
     let lab = moment.lab;
-    let method = lab.entries()[entrant.entry].method;
     let (colour, _) = moment.style(entrant.entry);
     let (left, right) = (rect.min[0] + 8.0, rect.max[0]);
     let middle = (rect.min[1] + rect.max[1]) / 2.0;
@@ -61,7 +60,7 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, entra
         picture.labels.push(text(moment.palette, at, Align::Left, 12.0, colour, words));
     };
     let number = entrant.entry + 1;
-    let name = format!("{number} {}", method.name);
+    let name = format!("{number} {}", lab.lane_name(entrant.entry));
     if right - left < (LETTER * name.chars().count() as f32).max(ROOM_FOR_CAPTION[0]) {
         write(middle, colour, format!("{number}"));
         return;

@@ -43,9 +43,10 @@ impl<'a> Moment<'a> {
         }
     }
 
-    /// The colour and the dash pattern of the method on this place of the list.
+    /// The colour and the dash pattern of the lane on this place of the list.
     pub(super) fn style(&self, entry: usize) -> (Rgba, [f32; 2]) {
-        self.lab.display().theme.style(self.lab.entries()[entry].method)
+        let lanes = self.lab.entries();
+        self.lab.display().theme.lane_style(lanes, &lanes[entry])
     }
 
     /// A body's coordinates at the moment drawn.

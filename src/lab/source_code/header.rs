@@ -2,20 +2,24 @@
 
 use super::dialect::Language;
 use super::program::{MethodInput, Program};
-use crate::sim::integrators::{Family, Method};
+use crate::sim::integrators::{Engine, Family, Method};
 
 /// The width of the comment, in characters.
 const WIDTH: usize = 96;
 
 /// The lines of the comment.
 pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) -> Vec<String> {
+    let claim = |id: &str, general: String| program.claim(id).map_or(general, Into::into);
+    let (order, stability) =
+        (claim("order", order(method)), claim("stability", stability(method, program)));
+    let symplectic = claim("symplectic", symplectic(method).into());
     let mut paragraphs = vec![
         format!("{} ({}): {}.", method.name, method.id, method.about),
         format!("Source: {}.", method.source),
         String::new(),
-        format!("Order: {}. Evaluations per step: {}.", order(method), evaluations(method)),
-        format!("Stability: {}.", stability(method)),
-        format!("Symplectic: {}. Reversible: {}.", yes(method.symplectic), yes(method.reversible)),
+        format!("Order: {order}. Evaluations per step: {}.", evaluations(method, program)),
+        format!("Stability: {stability}."),
+        format!("Symplectic: {symplectic}. Reversible: {}.", yes(method.reversible)),
         format!("Memory: {}.", memory(method, program)),
     ];
     if let Some(tolerance) = method.tolerance {
@@ -30,7 +34,13 @@ pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) 
     }
     paragraphs.extend(program.notes.iter().map(|note| (*note).to_owned()));
     paragraphs.push(String::new());
-    let state = "x, v: position and velocity of one coordinate; for several that feel each other, make them vectors.";
+    let state = match program.takes("force") {
+        // Of the others only what they are told is known.
+        true => "x, v: position and velocity of one coordinate.",
+        false => {
+            "x, v: position and velocity of one coordinate; for several that feel each other, make them vectors."
+        }
+    };
     paragraphs.extend([state.into(), "h: the step, in seconds.".into()]);
     paragraphs.extend(program.inputs.iter().map(input));
     paragraphs.push(answer(language, program));
@@ -42,21 +52,39 @@ fn order(method: &Method) -> String {
     match (order, method.family) {
         (0, _) => "0, it does not converge".into(),
         (_, Family::Follower) => format!("{order}, while the target moves evenly"),
+        (2.., Family::Engine) => {
+            format!("{order} on a joint, with drag too; 1 for a force of yours that changes")
+        }
+        (_, Family::Engine) if order_with_drag == 0 => {
+            format!("{order}; a joint with damping does not converge")
+        }
         _ if order == order_with_drag => format!("{order}, with drag too"),
         _ => format!("{order}, with drag {order_with_drag}"),
     }
 }
 
-fn evaluations(method: &Method) -> String {
+fn evaluations(method: &Method, program: &Program<'_>) -> String {
     match (method.evaluations, method.restart) {
+        (Some(count), _) if program.takes("substeps") => format!("{count}, whatever the substeps"),
+        (Some(count), _) if method.is_engine() => count.to_string(),
         (Some(count), None) => count.to_string(),
         (Some(count), Some(_)) => format!("{count}, and one more at the first"),
         (None, _) => "as many as it needs".into(),
     }
 }
 
-fn stability(method: &Method) -> String {
+fn stability(method: &Method, program: &Program<'_>) -> String {
+    let of_substeps = if program.takes("substeps") { " times the substeps" } else { "" };
     match (method.family, method.stability_limit) {
+        (Family::Engine, None) => {
+            "an undamped spring, as a joint, stays bounded at any step".into()
+        }
+        (Family::Engine, Some(limit)) => {
+            let limit = (limit * 1000.0).round() / 1000.0;
+            format!(
+                "an undamped spring of angular frequency ω, as a joint, stays bounded up to h ω = {limit}{of_substeps}"
+            )
+        }
         (Family::Follower, None) => "stays near a still target at any step".into(),
         (Family::Follower, Some(limit)) => {
             format!("stays near a still target up to h rate = {limit}")
@@ -71,9 +99,22 @@ fn stability(method: &Method) -> String {
     }
 }
 
+fn symplectic(method: &Method) -> &'static str {
+    match (method.symplectic, method.engine) {
+        (true, Some(Engine { damping_ratio: Some(_), .. })) => "yes, on a spring as a joint",
+        (is, _) => yes(is),
+    }
+}
+
 fn memory(method: &Method, program: &Program<'_>) -> String {
     if program.memory.is_empty() {
         return "none".into();
+    }
+    if method.is_engine() {
+        return format!(
+            "one for each coordinate, 0 at the start: {}. No step restarts it; make a new one after a jump of x or v",
+            method.restart.unwrap_or("without memory")
+        );
     }
     format!(
         "one for each coordinate. The first step and one of another length restart it {}. Make a new one after a \

@@ -62,6 +62,8 @@ pub(super) enum Line<'a> {
 pub(super) struct Program<'a> {
     /// The comments at its head.
     pub(super) notes: Vec<&'a str>,
+    /// What the header says of a [claim](CLAIMS) in place of the card's general sentence.
+    claims: Vec<(&'a str, &'a str)>,
     /// The ids of languages, empty for all, and the reason.
     refusals: Vec<(&'a str, &'a str)>,
     pub(super) inputs: Vec<MethodInput<'a>>,
@@ -69,6 +71,9 @@ pub(super) struct Program<'a> {
     pub(super) functions: Vec<Function<'a>>,
     pub(super) body: Vec<Line<'a>>,
 }
+
+/// The claims of the card that a source can put in its own words.
+const CLAIMS: [&str; 3] = ["order", "stability", "symplectic"];
 
 /// The functions that several methods use.
 const SHARED: [(&str, &str); 4] = [
@@ -95,6 +100,9 @@ impl<'a> Program<'a> {
                     let (language, reason) = line.split_once(": ").expect("a refusal says why");
                     let language = language.trim_start_matches("refused").trim();
                     program.refusals.push((language, reason));
+                }
+                claim if CLAIMS.contains(&claim) && line[claim.len()..].starts_with(": ") => {
+                    program.claims.push((claim, rest.trim()));
                 }
                 "takes" => {
                     let (input, about) = rest.split_once(": ").expect("an input says what it is");
@@ -151,6 +159,16 @@ impl<'a> Program<'a> {
             };
             text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == name)
         })
+    }
+
+    /// The source's own words for this claim of the card, if it has any.
+    pub(super) fn claim(&self, claim: &str) -> Option<&'a str> {
+        self.claims.iter().find(|(known, _)| *known == claim).map(|(_, words)| *words)
+    }
+
+    /// Whether it takes an input of this name.
+    pub(super) fn takes(&self, name: &str) -> bool {
+        self.inputs.iter().any(|input| input.name == name)
     }
 
     /// Why there is no function in this language, if there is none.
@@ -242,13 +260,16 @@ mod tests {
     #[test]
     fn a_source_is_read_into_its_parts() {
         let program = Program::read(
-            "# Be careful.\nrefused c: it has no such thing\ntakes f(x): the force\ntakes drag: in kg/s\n\
+            "# Be careful.\nrefused c: it has no such thing\nstability: at small steps\ntakes f(x): the force\ntakes drag: in kg/s\n\
              memory last = nan\n\n# Twice.\nfn twice(f(x), x) {\n    return 2.0\n        * f(x)\n}\n\n\
              # Now.\nlet k = f(x)\nif k < 0.0\n    or h == 0.0 {\n    fail\n} else {\n    v += k\n}\n",
         );
         assert_eq!(program.notes, ["Be careful."]);
         assert_eq!(program.refusal(Language::C), Some("it has no such thing"));
         assert_eq!(program.refusal(Language::Rust), None);
+        assert_eq!(program.claim("stability"), Some("at small steps"));
+        assert_eq!(program.claim("order"), None);
+        assert!(program.takes("drag") && !program.takes("mass"));
         let inputs: Vec<_> = program.inputs.iter().map(|i| (i.name, i.arguments.len())).collect();
         assert_eq!(inputs, [("f", 1), ("drag", 0)]);
         assert_eq!(program.inputs[1].about, "in kg/s");

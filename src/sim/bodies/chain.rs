@@ -50,6 +50,9 @@ pub(super) const KIND: Kind = Kind {
         _ => Ok(()),
     },
     build: &|values, solver| stepper(Chain::BLANK.with_parameters(values), solver),
+    engine_refusal: Some(
+        "an engine solves a chain joint by joint in sweeps, and its formula here is of one joint alone",
+    ),
     law: None,
     own: None,
     net: None,

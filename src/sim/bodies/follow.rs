@@ -24,6 +24,9 @@ pub(super) const KIND: Kind = Kind {
     truth: Truth::Exact,
     check: &|_| Ok(()),
     build: &|values, solver| stepper(Follow::BLANK.with_parameters(values), solver),
+    engine_refusal: Some(
+        "a follower moves towards its target by a rule, and an engine moves bodies by forces",
+    ),
     law: None,
     own: None,
     net: None,

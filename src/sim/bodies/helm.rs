@@ -30,6 +30,7 @@ pub(super) const KIND: Kind = Kind {
     truth: Truth::Reference,
     check: &|_| Ok(()),
     build: &|values, solver| stepper(Helm::BLANK.with_parameters(values), solver),
+    engine_refusal: None,
     law: None,
     own: None,
     net: None,

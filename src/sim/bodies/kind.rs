@@ -74,6 +74,9 @@ pub struct Kind {
     /// Builds a body from these parameter values (see
     /// [`Body::with_parameters`](super::Body::with_parameters)), at its start under a solver.
     pub build: &'static Build,
+    /// Why an engine cannot be [told](crate::sim::System::engine_settings) of such a body: a clause in lower case that
+    /// follows a colon. `None` if it can.
+    pub engine_refusal: Option<&'static str>,
     /// The equations of a [law](super::law_kind), which a scene writes itself; `None` for a kind of the
     /// table.
     pub law: Option<&'static Equations>,

@@ -31,6 +31,7 @@ pub(super) const KIND: Kind = Kind {
         _ => Ok(()),
     },
     build: &|values, solver| stepper(Orbit::BLANK.with_parameters(values), solver),
+    engine_refusal: None,
     law: None,
     own: None,
     net: None,

@@ -19,6 +19,9 @@ pub(super) const KIND: Kind = Kind {
     truth: Truth::Reference,
     check: &|_| Ok(()),
     build: &|values, solver| stepper(Pendulum::BLANK.with_parameters(values), solver),
+    engine_refusal: Some(
+        "in an engine a pendulum is a hinge, whose rod the solver holds by constraint forces",
+    ),
     law: None,
     own: None,
     net: None,

@@ -19,6 +19,7 @@ pub(super) const KIND: Kind = Kind {
     truth: Truth::Exact,
     check: &|_| Ok(()),
     build: &|values, solver| stepper(Ship::BLANK.with_parameters(values), solver),
+    engine_refusal: None,
     law: None,
     own: None,
     net: None,

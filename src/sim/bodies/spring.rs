@@ -20,6 +20,7 @@ pub(super) const KIND: Kind = Kind {
     truth: Truth::Exact,
     check: &|_| Ok(()),
     build: &|values, solver| stepper(Spring::BLANK.with_parameters(values), solver),
+    engine_refusal: None,
     law: None,
     own: None,
     net: None,

@@ -112,7 +112,8 @@ pub struct Method {
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
-    /// Other ids by which people ask for it. A scene or command line that has one is told this method's id.
+    /// Other ids by which people ask for it. A scene or command line that has one is told this method's id; `regatta
+    /// show` shows the method.
     pub also: &'static [&'static str],
     /// What to expect, in one line.
     pub about: &'static str,
@@ -125,7 +126,8 @@ pub struct Method {
     /// Global order if forces also depend on velocity.
     pub order_with_drag: u32,
     /// Evaluations of the acceleration per step, averaged over a long run; `None` if the method
-    /// decides. A follower evaluates its target. A method with a [restart](Method::restart) needs one more at its first step.
+    /// decides. A follower evaluates its target. A method with a [restart](Method::restart) needs one more at its first
+    /// step, unless it is an engine's.
     pub evaluations: Option<u32>,
     /// Whether it solves a linear system with constant coefficients to rounding, at any step. Its orders are
     /// then those on nonlinear systems.
@@ -169,6 +171,13 @@ impl Method {
     /// Whether this is a published listing with its faults, which is never advised.
     pub fn is_as_printed(&self) -> bool {
         self.family == Family::AsPrinted
+    }
+
+    /// Evaluations of the acceleration per tick of so many substeps, averaged over a long run; `None` if the method
+    /// decides. An engine that substeps by itself reads the force once a tick.
+    pub fn evaluations_per_tick(&self, substeps: u32) -> Option<u32> {
+        let reads_once = self.engine.is_some_and(|engine| engine.has_substeps);
+        Some(self.evaluations? * if reads_once { 1 } else { substeps })
     }
 
     /// Whether it does what a physics engine does. Such a method is used only where it is asked for.
@@ -261,6 +270,11 @@ pub(super) const SECOND_ORDER_FOLLOWER: Method = Method {
     ..FIRST_ORDER_FOLLOWER
 };
 
+/// Why an engine does not step a body, where the [body](crate::sim::bodies::Kind::engine_refusal) gives no reason of its
+/// own.
+pub(super) const NOT_TOLD: &str =
+    "an engine is told of one body's spring, its drag and the force on it, and of nothing else";
+
 /// A tick of an engine, which reads the force once.
 pub(super) const ENGINE: Method = Method {
     family: Family::Engine,
@@ -270,8 +284,7 @@ pub(super) const ENGINE: Method = Method {
     only: Some(Only {
         kinds: &["spring", "ship", "helm", "orbit", "law", "own"],
         with: None,
-        reason: "in an engine a pendulum is a hinge, a chain or a net is solved joint by joint in sweeps, and a \
-                 follower is no body",
+        reason: NOT_TOLD,
     }),
     ..PLAIN
 };

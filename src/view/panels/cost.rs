@@ -72,15 +72,10 @@ impl Row {
     }
 
     fn show(&self, ui: &mut Ui, lab: &Lab, most: u64, has_times: bool) {
-        let (colour, dash) = ink(ui).style(&self.spec);
+        let (colour, dash) = ink(ui).style(lab.entries(), &self.spec);
         let (swatch, _) = ui.allocate_exact_size(vec2(30.0, ROW), Sense::hover());
         plot::swatch(ui.painter(), swatch.left_center(), 28.0, dash, colour);
-        let times = if self.spec.substeps > 1 {
-            format!(" ×{}", self.spec.substeps)
-        } else {
-            String::new()
-        };
-        let name = RichText::new(format!("{}{times}", self.spec.method.name)).color(ink(ui).text);
+        let name = RichText::new(self.spec.name_with_substeps(lab.entries())).color(ink(ui).text);
         let name = if self.entry == lab.active() { name.font(strong_font(13.0)) } else { name };
         ui.label(name);
         let evaluations = self.evaluations;

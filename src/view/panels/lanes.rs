@@ -154,7 +154,7 @@ fn show_row(
     response.widget_info(|| {
         egui::WidgetInfo::selected(egui::Role::Button, true, row.is_selected, &name)
     });
-    let (colour, _) = ink(ui).style(row.spec);
+    let (colour, _) = ink(ui).style(row.lab.entries(), row.spec);
     if row.is_selected || response.hovered() {
         let fill = ink(ui).raised.gamma_multiply(if row.is_selected { 1.0 } else { 0.6 });
         ui.painter().rect_filled(rect, 3.0, fill);
@@ -208,7 +208,7 @@ fn cell(
             keycap::paint(ui, from.x, from.y, &format!("{}", (row.entry + 1) % 10), colour);
         }
         Cell::Swatch if row.is_first => {
-            let (strong, dash) = ink(ui).style(row.spec);
+            let (strong, dash) = ink(ui).style(row.lab.entries(), row.spec);
             let colour = if row.flown.is_some() { strong } else { strong.gamma_multiply(0.7) };
             plot::swatch(ui.painter(), from, width - 4.0, dash, colour);
         }
@@ -254,6 +254,9 @@ fn tooltip(response: Response, row: &Row<'_>, said: Option<&str>) -> Response {
             false => format!("Order {}, {} with drag", method.order, method.order_with_drag),
         };
         let cost = match method.evaluations {
+            Some(1) if method.engine.is_some_and(|engine| engine.has_substeps) => {
+                "1 evaluation per tick, whatever the substeps".into()
+            }
             Some(1) => "1 evaluation per step".into(),
             Some(count) => format!("{count} evaluations per step"),
             None => "as many evaluations per step as it needs".into(),

@@ -108,7 +108,7 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     painter.text(rect.right_top(), Align2::RIGHT_BOTTOM, along, small, ink.dim);
 
     let painter = painter.with_clip_rect(rect);
-    let own = ink.style(&step.spec).0;
+    let own = ink.style(lab.entries(), &step.spec).0;
     let exact: Vec<Pos2> = step.exact.iter().map(|point| area.at(*point)).collect();
     painter.line(exact, Stroke::new(2.4, ink.exact));
     let from = area.at(step.from);
@@ -266,7 +266,7 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
                 ui.end_row();
             }
             for (name, point, colour) in [
-                ("lands at", step.landing, ink(ui).style(&step.spec).0),
+                ("lands at", step.landing, ink(ui).style(lab.entries(), &step.spec).0),
                 ("exact", step.exact_landing(), ink(ui).exact),
             ] {
                 ui.label("");

@@ -25,8 +25,8 @@ pub(super) struct Roster {
 
 /// One of them.
 pub(super) struct Runner {
-    pub(super) id: &'static str,
-    pub(super) name: &'static str,
+    pub(super) id: String,
+    pub(super) name: String,
     pub(super) colour: Color32,
     /// Drawn length and gap in points.
     pub(super) dash: [f32; 2],
@@ -44,8 +44,10 @@ impl Roster {
     fn of_methods(lab: &Lab) -> Self {
         let ink = ink_of(lab.display().theme);
         let runners = lab.entries().iter().map(|spec| {
-            let (colour, dash) = ink.style(spec);
-            Runner { id: spec.method.id, name: spec.method.name, colour, dash }
+            let (colour, dash) = ink.style(lab.entries(), spec);
+            let [id, name] = [spec.method.id, spec.method.name];
+            let [id, name] = [id, name].map(|name| spec.told_apart(name, lab.entries()));
+            Runner { id, name, colour, dash }
         });
         Self {
             runners: runners.collect(),
@@ -62,7 +64,7 @@ impl Roster {
         let ink = ink_of(lab.display().theme);
         let runners = POLICIES.iter().enumerate().map(|(place, card)| {
             let (rgba, dash) = ink.theme.loop_style(place);
-            Runner { id: card.id, name: card.name, colour: colour(rgba), dash }
+            Runner { id: card.id.into(), name: card.name.into(), colour: colour(rgba), dash }
         });
         Self {
             runners: runners.collect(),

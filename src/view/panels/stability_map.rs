@@ -160,7 +160,7 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
         })
         .collect();
     let is_selected = |entry: usize| entry == lab.active();
-    let style = |entry: usize| ink(ui).style(&lab.entries()[entry]);
+    let style = |entry: usize| ink(ui).style(lab.entries(), &lab.entries()[entry]);
     let mut order: Vec<&(usize, Vec<Pos2>)> = lines.iter().collect();
     order.sort_by_key(|(entry, _)| is_selected(*entry));
     for (entry, points) in &order {
@@ -188,7 +188,7 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
         if named.contains(entry) {
             continue;
         }
-        let name = numbered(*entry, lab.entries()[*entry].method.name);
+        let name = numbered(*entry, &lab.lane_name(*entry));
         let with_limit = limit(map, *entry).map(|limit| format!("{name}: {limit}"));
         let others =
             lines.iter().filter(|(other, _)| other != entry).flat_map(|(_, points)| points);
@@ -265,13 +265,13 @@ fn label_place(
 fn only_everywhere(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) -> Vec<Pos2> {
     let found = map.regions.iter().zip(&map.request.specs);
     let mut everywhere = found.filter(|(region, _)| region.coverage == Coverage::Everywhere);
-    let Some((_, (entry, spec))) = everywhere.next() else { return Vec::new() };
+    let Some((_, (entry, _))) = everywhere.next() else { return Vec::new() };
     let more = everywhere.count();
     let others = if more > 0 { format!(" and {more} more") } else { String::new() };
     let verb = if more > 0 { "are" } else { "is" };
-    let name = numbered(*entry, spec.method.name);
+    let name = numbered(*entry, &lab.lane_name(*entry));
     let text = format!("{name}{others} {verb} stable everywhere");
-    let (colour, _) = ink(ui).style(&lab.entries()[*entry]);
+    let (colour, _) = ink(ui).style(lab.entries(), &lab.entries()[*entry]);
     let painter = ui.painter().with_clip_rect(area.rect);
     let at = area.rect.left_top() + vec2(8.0, 6.0);
     let rect = painter.text(at, Align2::LEFT_TOP, text, strong_font(12.0), colour);

@@ -73,6 +73,7 @@ fn kind(equations: &'static Equations) -> Kind {
         build: Box::leak(Box::new(move |values: &[f64], solver| {
             stepper(Law::new(equations, values), solver)
         })),
+        engine_refusal: None,
         law: Some(equations),
         own: None,
         net: None,

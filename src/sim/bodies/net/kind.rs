@@ -13,6 +13,9 @@ use crate::sim::parameter::{self, Parameter};
 impl Net {
     /// The parameters of every net.
     pub const DESCRIPTIONS: &'static [Parameter] = &parameter::descriptions(&PARAMETERS);
+
+    /// Why no engine steps a net; see [`Kind::engine_refusal`].
+    pub const ENGINE_REFUSAL: &'static str = "an engine solves a net joint by joint in sweeps, and its formula here is of one joint alone";
 }
 
 /// The kinds of all plans so far. They are never freed: the rest of the program holds a body's kind as
@@ -65,6 +68,7 @@ fn kind(plan: &'static NetPlan) -> Kind {
         build: Box::leak(Box::new(move |values: &[f64], solver| {
             stepper(Net::blank(frame).with_parameters(values), solver)
         })),
+        engine_refusal: Some(Net::ENGINE_REFUSAL),
         law: None,
         own: None,
         net: Some(plan),

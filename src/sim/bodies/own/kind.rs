@@ -125,6 +125,7 @@ fn kind(own: Own, sheet: &'static OwnSheet, parameters: Vec<Parameter>) -> &'sta
         truth: Truth::Reference,
         check: Box::leak(Box::new(check)),
         build: Box::leak(Box::new(move |values: &[f64], solver| stepper(copy(values), solver))),
+        engine_refusal: None,
         law: None,
         own: Some(sheet),
         net: None,

@@ -9,8 +9,8 @@ use crate::sim::system::{State, System, Vector};
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "held-force",
     name: "Held force",
-    about: "one's own force, applied once a tick over an engine's substeps: a spring gains energy, the faster the more \
-            substeps",
+    about: "one's own force, applied once a tick over an engine's substeps: with more than one a spring gains energy, and \
+            with each the faster",
     only: Some(Only {
         kinds: &["spring", "ship", "helm", "orbit", "pendulum", "chain", "law", "own", "net"],
         with: None,

@@ -9,7 +9,7 @@
 //! `C` the drag, each per unit of mass; `f` the held force per unit of mass; `D = 1 + h c + h² K`. A part of a
 //! formula in brackets stands there only where there is a spring.
 
-use super::card::Method;
+use super::card::{Method, NOT_TOLD};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use crate::sim::engine_settings::EngineSettings;
@@ -71,8 +71,7 @@ pub trait Rule: Clone + Default + Send + 'static {
         force: &mut S::Vector,
     ) -> Result<EngineSettings, StepFailure> {
         let settings = system.engine_settings(t, state, force);
-        let only = Self::CARD.only.expect("an engine's card says which bodies it steps");
-        settings.ok_or(StepFailure::Refused { reason: only.reason })
+        settings.ok_or(StepFailure::Refused { reason: NOT_TOLD })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
-use crate::sim::integrators::card::{ENGINE, Engine, Method, Only};
+use crate::sim::integrators::card::{ENGINE, Engine, Method, NOT_TOLD, Only};
 use crate::sim::system::{State, System, Vector};
 
 const ONLY: Only = Only {
@@ -17,6 +17,8 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     name: "pybullet, multibody",
     about: "explicit drag that also grows with the square of the speed, so that a driven body stops gaining early",
     only: Some(ONLY),
+    stability_limit: Some(2.0),
+    symplectic: true,
     engine: Some(Engine {
         tick_hz: 240,
         damping_ratio: None,
@@ -56,7 +58,10 @@ impl Rule for PybulletRule {
         force: &mut S::Vector,
     ) -> Result<EngineSettings, StepFailure> {
         let settings = system.engine_settings(t, state, force);
-        let settings = settings.filter(|settings| !settings.has_spring());
-        settings.ok_or(StepFailure::Refused { reason: ONLY.reason })
+        let settings = settings.ok_or(StepFailure::Refused { reason: NOT_TOLD })?;
+        match settings.has_spring() {
+            true => Err(StepFailure::Refused { reason: ONLY.reason }),
+            false => Ok(settings),
+        }
     }
 }

@@ -28,7 +28,7 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
     let spec = lab.entries()[entrant.entry];
     let ids = ["substeps", "tolerance"].map(|field| ui.scope_id().with((lane, field)));
     let number = number(lab, entrant);
-    let digits = RichText::new(number.to_string()).color(ink(ui).style(&spec).0);
+    let digits = RichText::new(number.to_string()).color(ink(ui).style(lab.entries(), &spec).0);
     ui.add_sized([LANE, LINE], egui::Label::new(digits.strong()));
     let gap = ui.spacing().item_spacing.x;
     let width = ui.available_width() - SUBSTEPS - TOLERANCE - RESTORE - 4.0 * gap;
@@ -87,11 +87,12 @@ fn show_methods(
 ) {
     let present = lab.entries()[entrant.entry];
     let menu = ComboBox::from_id_salt(("method", entrant.lane_number)).width(width).truncate();
-    let menu = menu.selected_text(RichText::new(present.method.name).color(ink(ui).text));
+    let name = |spec: &LaneSpec| spec.told_apart(spec.method.name, lab.entries());
+    let menu = menu.selected_text(RichText::new(name(&present)).color(ink(ui).text));
     menu.show_ui(ui, |ui| {
         for (entry, spec) in lab.entries().iter().enumerate() {
             let is_present = entry == entrant.entry;
-            let label = ui.selectable_label(is_present, spec.method.name);
+            let label = ui.selectable_label(is_present, name(spec));
             if label.on_hover_text(spec.method.about).clicked() && !is_present {
                 commands.push(match lab.mode() {
                     Mode::Solo => Command::Pick(entry),

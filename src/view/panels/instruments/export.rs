@@ -46,7 +46,7 @@ pub(in crate::view) fn csv(lab: &Lab) -> Option<String> {
         };
         for track in &plot.tracks {
             for (t, entry, at) in track.places() {
-                let id = sheet.roster.runners[entry].id;
+                let id = &sheet.roster.runners[entry].id;
                 add(format!("{id} {}", track.part).trim_end(), t, at);
             }
         }
@@ -147,7 +147,8 @@ impl Svg {
     }
 
     fn legend(&mut self, sheet: &Sheet) {
-        let runners = sheet.shown().map(|(_, runner)| (runner.name, (runner.colour, runner.dash)));
+        let runners =
+            sheet.shown().map(|(_, runner)| (&*runner.name, (runner.colour, runner.dash)));
         let has_exact = sheet.plots.iter().any(|plot| !plot.exact.is_empty());
         let exact = (&*sheet.roster.exact, (sheet.roster.exact_colour, [1.0, 0.0]));
         let lines: Vec<_> = runners.chain(has_exact.then_some(exact)).collect();

@@ -70,10 +70,8 @@ impl<'a> Row<'a> {
 
     /// The method's name with its substeps and its tolerance.
     pub(super) fn method_name(&self) -> String {
-        let substeps = self.spec.substeps;
-        let times = if substeps > 1 { format!(" ×{substeps}") } else { String::new() };
         let within = self.spec.tolerance.map(|tolerance| format!(" {tolerance:e}"));
-        format!("{}{times}{}", self.spec.method.name, within.unwrap_or_default())
+        self.spec.name_with_substeps(self.lab.entries()) + &within.unwrap_or_default()
     }
 
     fn flown_body(&self) -> Option<&'a LaneBody> {
@@ -140,10 +138,7 @@ impl<'a> Row<'a> {
         let ticks = self.lab.race().tick();
         match self.evaluations().filter(|_| ticks > 0) {
             Some(count) => Some(count as f64 / ticks as f64),
-            None => {
-                let steps = if self.spec.method.is_engine() { 1 } else { self.spec.substeps };
-                Some(f64::from(self.spec.method.evaluations? * steps))
-            }
+            None => self.spec.method.evaluations_per_tick(self.spec.substeps).map(f64::from),
         }
     }
 }

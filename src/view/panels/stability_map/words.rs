@@ -7,7 +7,7 @@ use egui::{Color32, FontId, Galley, TextFormat, Ui};
 
 use crate::lab::number::round;
 use crate::lab::{
-    Coverage, Here, Lab, MapRequest, NoSmallMotion, Parameter, StabilityMap, duration,
+    Coverage, Here, Lab, LaneSpec, MapRequest, NoSmallMotion, Parameter, StabilityMap, duration,
 };
 use crate::view::panels::{ink, strong_font};
 
@@ -79,12 +79,18 @@ fn job(ui: &Ui, [here, does]: &[String; 2], size: f32) -> LayoutJob {
 /// The longest that the words about a point of this map become.
 fn longest(lab: &Lab, map: &StabilityMap) -> [String; 2] {
     let MapRequest { parameter, rates_hz, range, specs, .. } = &map.request;
+    let names = names(map);
     let here = range.map(|value| point_in_words(lab, *parameter, rates_hz[1] as u32, value));
-    let names = specs.iter().map(|(_, spec)| spec.method.name);
-    let name = names.max_by_key(|name| name.chars().count()).unwrap_or_default();
+    let name = names.into_iter().max_by_key(|name| name.chars().count()).unwrap_or_default();
     let all = specs.len();
     let does = format!("{all} of {all} methods are stable. {name} {}.", growth(0.001_23));
     [here.into_iter().max_by_key(|here| here.chars().count()).unwrap_or_default(), does]
+}
+
+/// The names of the methods of the map, in its order.
+fn names(map: &StabilityMap) -> Vec<String> {
+    let specs: Vec<LaneSpec> = map.request.specs.iter().map(|(_, spec)| *spec).collect();
+    specs.iter().map(|spec| spec.told_apart(spec.method.name, &specs)).collect()
 }
 
 fn append(job: &mut LayoutJob, text: &str, font_id: FontId, color: Color32) {
@@ -93,13 +99,13 @@ fn append(job: &mut LayoutJob, text: &str, font_id: FontId, color: Color32) {
 
 /// What each method does at the present point, line by line.
 pub(super) fn each_method(map: &StabilityMap) -> String {
-    let lines = map.request.specs.iter().zip(&map.here).map(|((_, spec), here)| {
+    let lines = names(map).into_iter().zip(&map.here).map(|(name, here)| {
         let does = match here {
             Here::Stable => "stable".into(),
             Here::Doubles(seconds) => growth(*seconds),
             Here::OwnSteps => "chooses its own steps".into(),
         };
-        format!("{}: {does}", spec.method.name)
+        format!("{name}: {does}")
     });
     lines.collect::<Vec<_>>().join("\n")
 }
@@ -121,11 +127,10 @@ pub(super) fn counted(map: &StabilityMap) -> String {
     }
     let noun = if all == 1 { "method" } else { "methods" };
     let verb = if stable == 1 { "is" } else { "are" };
-    let growing =
-        map.request.specs.iter().zip(&map.here).filter_map(|((_, spec), here)| match here {
-            Here::Doubles(seconds) => Some((spec.method.name, *seconds)),
-            Here::Stable | Here::OwnSteps => None,
-        });
+    let growing = names(map).into_iter().zip(&map.here).filter_map(|(name, here)| match here {
+        Here::Doubles(seconds) => Some((name, *seconds)),
+        Here::Stable | Here::OwnSteps => None,
+    });
     let fastest = growing.min_by(|a, b| a.1.total_cmp(&b.1));
     let fastest = fastest.map(|(name, seconds)| format!(" {name} {}.", growth(seconds)));
     format!("{stable} of {all} {noun} {verb} stable.{}", fastest.unwrap_or_default())
@@ -156,9 +161,9 @@ pub(super) fn no_map(why: NoSmallMotion) -> String {
 /// What the map does not draw.
 pub(super) fn notes(map: &StabilityMap) -> String {
     let named = |coverage: Coverage| {
-        let found = map.regions.iter().zip(&map.request.specs);
+        let found = map.regions.iter().zip(names(map));
         let of = found.filter(|(region, _)| region.coverage == coverage);
-        of.map(|(_, (_, spec))| spec.method.name).collect::<Vec<_>>()
+        of.map(|(_, name)| name).collect::<Vec<_>>()
     };
     let (nowhere, own) = (named(Coverage::Nowhere), named(Coverage::OwnSteps));
     let mut notes = String::new();

@@ -97,7 +97,7 @@ impl Context<'_> {
     }
 
     fn of_action(&self, action: &Action, mode: Mode) -> (Sign, Color32, String) {
-        let of = |spec: &LaneSpec| self.ink.style(spec).0;
+        let of = |spec: &LaneSpec| self.ink.style(self.start.list(), spec).0;
         let percent = |part: f64| format!("{} %", round(100.0 * part, 3));
         match *action {
             Action::Method(method) => {
@@ -191,7 +191,7 @@ pub(super) fn colours(
     start: &Race,
     ink: &Ink,
 ) -> Vec<(u64, Color32)> {
-    let of = |spec: &LaneSpec| ink.style(spec).0;
+    let of = |spec: &LaneSpec| ink.style(start.list(), spec).0;
     let entrant = start.entrants().iter().find(|entrant| entrant.lane_number == lane);
     let first = entrant.map_or(ink.dim, |entrant| of(&start.list()[entrant.entry]));
     let mut mode = start.mode();
@@ -293,8 +293,9 @@ mod tests {
     #[test]
     fn the_track_has_the_colours_of_the_methods_in_force() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        let of =
-            |lab: &Lab, entry: usize| ink_of(lab.display().theme).style(&lab.entries()[entry]).0;
+        let of = |lab: &Lab, entry: usize| {
+            ink_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
+        };
         run(&mut lab, 20);
         lab.apply(Command::Pick(3));
         run(&mut lab, 20);

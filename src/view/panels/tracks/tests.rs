@@ -5,7 +5,7 @@ use crate::view::panels::ink_of;
 const LOOK: Look = Look { width: 1.0, dots: Dots::None, bounded: [false, true] };
 
 fn colour_of(lab: &Lab, entry: usize) -> egui::Color32 {
-    ink_of(lab.display().theme).style(&lab.entries()[entry]).0
+    ink_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).0
 }
 
 fn drawn(lab: &Lab, low: f64, high: f64) -> Drawing {
@@ -28,7 +28,9 @@ fn the_past_keeps_the_colour_of_the_method_that_flew_it_and_a_switch_has_a_mark(
     let Drawing { curves, arrows, switches, .. } = drawn(&lab, -2.0, 2.0);
     let colours: Vec<_> = curves.iter().map(|curve| curve.colour).collect();
     assert_eq!(colours, flown.map(|(entry, _)| colour_of(&lab, entry)));
-    let dashes = flown.map(|(entry, _)| ink_of(lab.display().theme).style(&lab.entries()[entry]).1);
+    let dashes = flown.map(|(entry, _)| {
+        ink_of(lab.display().theme).style(lab.entries(), &lab.entries()[entry]).1
+    });
     assert!(curves.iter().map(|curve| curve.dash).eq(dashes));
     for (before, after) in curves.iter().zip(&curves[1..]) {
         assert_eq!(before.points.last(), after.points.first(), "one line");
