@@ -10,7 +10,9 @@ mod decision;
 mod effective;
 mod fit;
 mod logged;
+mod logged_body;
 mod motion;
+mod nearest;
 mod search;
 
 pub use candidates::Candidate;
@@ -18,7 +20,8 @@ use decision::{Decision, decide};
 pub use effective::Effective;
 use fit::Fit;
 pub use logged::{Columns, Log, LogError, LogRow};
-pub use motion::LoggedBody;
+pub use logged_body::LoggedBody;
+use nearest::nearest;
 use search::search;
 
 /// A candidate, and how far the log is from it.
@@ -97,7 +100,7 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
     let body = best_fit.body.clone();
     let tick_s = 1.0 / tick_hz;
     let effective = match word {
-        Word::Unknown => Effective::nearest(log, &body, tick_hz),
+        Word::Unknown => nearest(log, &body, tick_hz),
         _ => Effective::of(*best, &body, best_fit.start, tick_s),
     };
     let exact = Effective::exact(&body);

@@ -89,3 +89,46 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
         assert!(stderr(&output).contains(told), "{arguments}: {}", stderr(&output));
     }
 }
+
+#[test]
+fn a_log_that_nothing_follows_is_unknown_and_what_is_not_known_is_null() {
+    let folder = tempdir().unwrap();
+    let rows: Vec<String> =
+        (0..60).map(|tick| format!("{tick},{}", 3.0 * f64::from(tick))).collect();
+    fs::write(folder.path().join("log.csv"), format!("tick,x\n{}\n", rows.join("\n"))).unwrap();
+    let output = run_in(folder.path(), "identify log.csv --tick-hz 60");
+    assert_eq!(output.status.code(), Some(0));
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        said.starts_with(
+            "unknown: no method can follow this log; give the body with --k or --drag"
+        ),
+        "{said}"
+    );
+    let output = run_in(folder.path(), "identify log.csv --tick-hz 60 --format json");
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&found["word"], &found["best"]), (&"unknown".into(), &Value::Null));
+    assert!(found["residual"].is_null() && found["effective_frequency_hz"].is_null());
+}
+
+#[test]
+fn an_overdamped_spring_that_is_not_given_is_fitted() {
+    let folder = tempdir().unwrap();
+    let mut text = "t,x,v\n".to_owned();
+    let rates = [-5.0 + 21.0_f64.sqrt(), -5.0 - 21.0_f64.sqrt()];
+    for tick in 0..120 {
+        let t = f64::from(tick) / 60.0;
+        let [slow, fast] = rates.map(|rate| (rate * t).exp());
+        let share = rates[1] / (rates[1] - rates[0]);
+        let x = share * slow + (1.0 - share) * fast;
+        let v = share * rates[0] * slow + (1.0 - share) * rates[1] * fast;
+        text += &format!("{t},{x},{v}\n");
+    }
+    fs::write(folder.path().join("log.csv"), text).unwrap();
+    let output = run_in(folder.path(), "identify log.csv --tick-hz 60 --format json");
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_ne!(found["word"], "unknown", "{found}");
+    let ratio = found["effective_damping_ratio"].as_f64().unwrap_or_else(|| panic!("{found}"));
+    assert!((ratio - 2.5).abs() < 0.01, "{ratio}");
+    assert!(found["effective_frequency_hz"].is_null());
+}

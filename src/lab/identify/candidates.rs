@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::motion::LoggedBody;
+use super::logged_body::LoggedBody;
 use crate::sim::integrators::{METHODS, Method};
 
 /// A method with what a lane would say of it.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::Word;
 use super::candidates::{Candidate, candidates};
 use super::fit::Fit;
-use super::motion::LoggedBody;
+use super::logged_body::LoggedBody;
 
 /// What rounding leaves over in a run, in units of the largest values: the least, in double precision, and the most, in
 /// single precision.

@@ -1,11 +1,9 @@
 //! What a player sees: the frequency, the damping and the change of energy of a motion.
 
-use super::Candidate;
-use super::decision::NO_FIT;
-use super::fit::fit;
+use super::candidates::Candidate;
 use super::logged::Log;
-use super::motion::{LoggedBody, run};
-use crate::sim::integrators::method;
+use super::logged_body::LoggedBody;
+use super::motion::run;
 use crate::sim::least_squares;
 
 /// The motion that a player sees, as that of a damped spring or of a body that coasts.
@@ -18,8 +16,6 @@ pub struct Effective {
     pub decay: f64,
 }
 
-/// The id of a method that is exact on springs with drag.
-const EXACT: &str = "exponential-rosenbrock-euler";
 /// How long a run is from which the motion is read, in ticks: the fewest that show a slow spring turn.
 const TICKS: u64 = 400;
 
@@ -100,20 +96,6 @@ impl Effective {
             }
         }
         Self::of_states(&states, body, tick_s)
-    }
-
-    /// The motion of the equation that comes nearest to a log; `None` if none comes near.
-    pub(super) fn nearest(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Self> {
-        let seen = Self::of_log(log, body, 1.0 / tick_hz)?;
-        let mut free = body.clone();
-        match seen.spring() {
-            Some(_) => free.spring = None,
-            None => free.drag = seen.decay,
-        }
-        let exact = Candidate { method: method(EXACT)?, substeps: 1, is_held: false };
-        let fit = fit(log, &free, exact, tick_hz)?;
-        let is_near = fit.residual() <= NO_FIT;
-        is_near.then(|| Self::exact(&fit.body))?
     }
 
     /// From the linear recurrence that states at successive ticks obey, or else from the slopes of the velocity.

@@ -1,9 +1,10 @@
 //! A candidate fitted to a log: the start, and what is not known of the body, by least squares.
 
-use super::Candidate;
+use super::candidates::Candidate;
 use super::effective::Effective;
 use super::logged::Log;
-use super::motion::{LoggedBody, run};
+use super::logged_body::LoggedBody;
+use super::motion::run;
 use crate::sim::least_squares;
 
 /// The iterations of Gauss and Newton where the velocity at the start was logged, where it was not, and where the

@@ -4,7 +4,7 @@ use super::candidates::{Candidate, candidates};
 use super::decision::rounding;
 use super::fit::{Fit, fit};
 use super::logged::Log;
-use super::motion::LoggedBody;
+use super::logged_body::LoggedBody;
 
 /// The first part of a log, to which every candidate is fitted, in ticks.
 const HEAD_TICKS: u64 = 60;
