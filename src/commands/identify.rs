@@ -46,7 +46,8 @@ Examples:
 
 /// Where no method can be run on the body.
 const NOTHING_RUNS: &str = "\
-unknown: no method can follow this log; give the body with --k or --drag, and check --tick-hz\n";
+unknown: no method can follow this log; give the body with --k or --drag, check --tick-hz, and log
+three ticks in a row\n";
 
 /// Say which engine or method, with how many substeps, made a log of a motion
 #[derive(Debug, Args)]

@@ -72,7 +72,8 @@ pub struct Identification {
     pub body: LoggedBody,
     /// Whether its spring was fitted.
     pub is_spring_fitted: bool,
-    /// What a player sees; `None` if it is nothing like a damped spring or a body that comes to its last speed.
+    /// What a player sees; `None` if it is nothing like a damped spring or a body that comes to its
+    /// last speed, or if the log is too short to tell.
     pub effective: Option<Effective>,
     /// What the equation of motion says.
     pub exact: Option<Effective>,
@@ -101,10 +102,11 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
     let tick_s = 1.0 / tick_hz;
     let effective = match word {
         Word::Unknown => nearest(log, &body, tick_hz),
-        _ => Effective::of(*best, &body, best_fit.start, tick_s),
+        Word::CannotTell if best_fit.is_short() => None,
+        _ => Effective::of(*best, &body, tick_s),
     };
     let exact = Effective::exact(&body);
-    let recommended = recommended(&body, best_fit.start, tick_s, exact);
+    let recommended = recommended(&body, tick_s, exact);
     Some(Identification {
         word,
         best: Fitted { candidate: *best, residual: best_fit.residual() },
@@ -122,7 +124,6 @@ pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identifica
 /// The cheapest methods under which the motion is what the equation says.
 fn recommended(
     body: &LoggedBody,
-    start: [f64; 2],
     tick_s: f64,
     exact: Option<Effective>,
 ) -> Vec<(&'static Method, Effective)> {
@@ -132,7 +133,7 @@ fn recommended(
         .filter(|method| !method.is_as_printed())
         .filter_map(|method| {
             let candidate = Candidate { method, substeps: 1, is_held: false };
-            let effective = Effective::of(candidate, body, start, tick_s)?;
+            let effective = Effective::of(candidate, body, tick_s)?;
             effective.is_near(&exact).then_some((method, effective))
         })
         .collect();

@@ -83,6 +83,7 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
         ("identify log.csv --tick-hz 60 --k -1", "give a number from 0 up"),
         ("identify log.csv --tick-hz 60 --mass 0", "give a number above 0"),
         ("identify log.csv --tick-hz 60 --c 1", "--k"),
+        (&format!("identify {LOG} --tick-hz 60 --v-column vel"), "no column \"vel\"; here are"),
     ] {
         let output = run(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments}");
@@ -93,8 +94,9 @@ fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
 #[test]
 fn a_log_that_nothing_follows_is_unknown_and_what_is_not_known_is_null() {
     let folder = tempdir().unwrap();
-    let rows: Vec<String> =
-        (0..60).map(|tick| format!("{tick},{}", 3.0 * f64::from(tick))).collect();
+    // A spring that is not given is read off ticks that follow each other.
+    let row = |tick: u32| format!("{tick},{}", (0.1 * f64::from(tick)).cos());
+    let rows: Vec<String> = (0..60).map(|i| row(3 * i)).collect();
     fs::write(folder.path().join("log.csv"), format!("tick,x\n{}\n", rows.join("\n"))).unwrap();
     let output = run_in(folder.path(), "identify log.csv --tick-hz 60");
     assert_eq!(output.status.code(), Some(0));

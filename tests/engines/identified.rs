@@ -70,15 +70,9 @@ fn noise_of_a_ten_thousandth_leaves_nearly_all_logs_identified_and_none_wrong() 
     let (mut dice, noises) = (Dice::new(1), noises());
     let (mut right, mut wrong, mut all) = (0, Vec::new(), 0);
     for log in springs_and_coasting() {
-        let scale = log.scale();
         let mut missed = Vec::new();
         for again in 0..noises {
-            let mut noisy = |row: &Row| Row {
-                tick: row.tick,
-                x: row.x + 1e-4 * scale[0] * normal(&mut dice),
-                v: row.v + 1e-4 * scale[1] * normal(&mut dice),
-            };
-            let rows: Vec<Row> = log.rows.iter().map(&mut noisy).collect();
+            let rows = with_noise(&log, 1e-4, &mut dice);
             let found = identified(&log, &rows, true);
             all += 1;
             match (found.word, names(&found, &log)) {
@@ -167,18 +161,64 @@ fn an_unusual_count_of_substeps_is_found_in_a_log_without_noise() {
     }
 }
 
-#[test]
-fn a_coasting_too_short_to_tell_methods_apart_says_nothing() {
-    let logs = springs_and_coasting();
-    let log = logs.iter().find(|log| log.file == "box2d__damp_05_60hz.csv").unwrap();
-    let mut dice = Dice::new(2);
+/// A log with noise of this part of its largest values.
+fn with_noise(log: &Log, part: f64, dice: &mut Dice) -> Vec<Row> {
     let scale = log.scale();
     let noisy = |row: &Row| Row {
         tick: row.tick,
-        x: row.x + 1e-4 * scale[0] * normal(&mut dice),
-        v: row.v + 1e-4 * scale[1] * normal(&mut dice),
+        x: row.x + part * scale[0] * normal(dice),
+        v: row.v + part * scale[1] * normal(dice),
     };
-    let rows: Vec<Row> = log.rows.iter().take(8).map(noisy).collect();
-    let found = identified(log, &rows, true);
+    log.rows.iter().map(noisy).collect()
+}
+
+fn log_of(file: &str) -> Log {
+    springs_and_coasting().into_iter().find(|log| log.file == file).expect("a log")
+}
+
+#[test]
+fn noise_above_the_start_of_a_runaway_does_not_name_another_engine() {
+    let log = log_of("mujoco-Euler__spring_w100_z0_30hz.csv");
+    let mut dice = Dice::new(3);
+    for _ in 0..30 {
+        let found = identified(&log, &with_noise(&log, 1e-4, &mut dice), true);
+        let is_right = found.word != Word::Identified || names(&found, &log);
+        assert!(is_right, "{}", found.best.candidate);
+    }
+}
+
+#[test]
+fn a_leftover_that_follows_from_row_to_row_is_no_fit_however_small() {
+    let mut log = log_of("box2d__spring_1hz_z0_60hz.csv");
+    (log.substeps, log.body.spring) = (32, [0.4, 0.0]);
+    log.tick_s = 1.0 / 60.0;
+    for (place, row) in log.rows.iter_mut().enumerate() {
+        row.tick = place as u64;
+    }
+    log.rows = log.run().unwrap();
+    let found = identified(&log, &log.rows, true);
+    assert_ne!(found.word, Word::Identified, "{}", found.best.candidate);
+}
+
+#[test]
+fn what_a_player_sees_is_read_where_no_limit_of_speed_is_reached() {
+    let mut log = log_of("box2d__spring_1hz_z0_60hz.csv");
+    log.body.is_held = true;
+    log.body.spring = [(10.0 * std::f64::consts::PI).powi(2), 0.0];
+    log.tick_s = 1.0 / 60.0;
+    log.rows = log.run().unwrap();
+    let found = identified(&log, &log.rows, true);
+    assert_eq!(found.word, Word::Identified);
+    assert!(names(&found, &log) && found.best.candidate.is_held, "{}", found.best.candidate);
+    let doubles = -found.effective.unwrap().energy_halves_s().unwrap();
+    assert!((doubles - 0.118).abs() < 1e-3, "{doubles}");
+}
+
+#[test]
+fn a_coasting_too_short_to_tell_methods_apart_says_nothing() {
+    let mut log = log_of("box2d__damp_05_60hz.csv");
+    log.rows.truncate(8);
+    let rows = with_noise(&log, 1e-4, &mut Dice::new(2));
+    let found = identified(&log, &rows, true);
     assert_ne!(found.word, Word::Identified, "{}", found.best.candidate);
 }

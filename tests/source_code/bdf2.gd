@@ -11,8 +11,8 @@
 # Newton's iteration solves each step, with slopes by differences; where it does not converge, x
 # and v become NaN.
 #
-# x, v: position and velocity of one coordinate; for several that feel each other, make them
-# vectors.
+# x, v: position and velocity of one coordinate; for several that feel each other, slopes are
+# matrices and a division is the solution of a linear system.
 # h: the step, in seconds.
 # a(x, v): the acceleration at position x and velocity v.
 # Returns [x, v].

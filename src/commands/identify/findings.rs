@@ -6,6 +6,12 @@ use crate::lab::number::significant;
 use crate::lab::{Candidate, Effective, Fitted, Identification, Log, Word};
 use crate::sim::integrators::Method;
 
+/// A residual beyond which no method is named as the nearest.
+const FAR: f64 = 0.1;
+/// What to look at where no method explains a log.
+const HINT: &str = "give --k, --c, --drag and --mass to their last digit, with the drag that an engine has by default \
+(Jolt 0.05, Godot 0.1)";
+
 /// What was found, as JSON; `None` if no method can be run.
 pub(super) fn object(found: Option<&Identification>, mass: f64) -> Value {
     let best = found.map(|found| found.best);
@@ -16,7 +22,7 @@ pub(super) fn object(found: Option<&Identification>, mass: f64) -> Value {
         let all = found.map(all).unwrap_or_default();
         all.iter().map(named).collect()
     };
-    let halves = effective.and_then(|seen| seen.halves_s());
+    let halves = effective.and_then(|seen| seen.energy_halves_s());
     let seen = |(method, effective): &(&Method, Effective)| {
         json!({
             "method": method.id,
@@ -90,13 +96,13 @@ fn seen(effective: &Effective) -> String {
         Some(hz) => Some(format!("{} Hz", significant(hz, 4))),
         None => ratio.is_some().then(|| "no swing".to_owned()),
     };
-    let (thing, gain) = match ratio {
-        Some(_) => ("the energy", "doubles"),
-        None => ("the way to its last speed", "doubles"),
+    let (thing, halves) = match ratio {
+        Some(_) => ("the energy", effective.energy_halves_s()),
+        None => ("the way to its last speed", effective.speed_halves_s()),
     };
-    let lasting = effective.halves_s().filter(|seconds| seconds.abs() < 1e5);
+    let lasting = halves.filter(|seconds| seconds.abs() < 1e5);
     let lasting = lasting.map(|seconds| {
-        let word = if seconds > 0.0 { "halves" } else { gain };
+        let word = if seconds > 0.0 { "halves" } else { "doubles" };
         format!("{thing} {word} in {} s", significant(seconds.abs(), 3))
     });
     let lasting = lasting.or_else(|| Some(format!("{thing} stays")));
@@ -121,13 +127,17 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
                 (true, false) => "log for longer",
             }
         ),
+        _ if best.residual > FAR => "unknown: no method comes near".to_owned(),
         _ => format!("unknown: the nearest is {}, {}", best.candidate, residual(best)),
     }];
+    if *word == Word::Unknown {
+        lines.push(HINT.to_owned());
+    }
     let told = *word != Word::Unknown;
     if told && !found.also.is_empty() {
         lines.push(format!("the same on this body: {}", names(&found.also)));
     }
-    if told && !found.unusual.is_empty() {
+    if *word == Word::Identified && !found.unusual.is_empty() {
         lines.push(format!("would fit too, but few set them: {}", names(&found.unusual)));
     }
     if let (Word::Identified, Some(rival)) = (word, rival) {

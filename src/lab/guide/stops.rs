@@ -215,7 +215,7 @@ pub static STOPS: &[Stop] = &[
         task: "Press `C` to race nine engines.",
         keys: &[Key::Sign('c')],
         goal: Goal::Race,
-        answer: "It dies away: after 4 s about half the swing is left. A soft joint is an implicit spring and loses energy, in Jolt and PhysX faster still. Bullet, Chipmunk and MuJoCo keep it, and each treats the ship in a way of its own.",
+        answer: "It dies away: after 4 s about half the swing is left. A soft joint is an implicit spring and loses energy, fastest in Jolt and in the default solver of PhysX. Bullet, Chipmunk and MuJoCo keep it, and each treats the ship in a way of its own.",
     },
     Stop {
         title: "Your own force in an engine",

@@ -32,10 +32,10 @@ const MOST_SUBSTEPS: u32 = 16;
 /// The id of the method whose force is held whatever the body.
 const HELD: &str = "held-force";
 
-/// Twice the logarithm of the odds against an engine that is set otherwise than by default or whose game holds the
-/// spring's force itself, each; against a method of one's own that is set otherwise than by default; and against a count
+/// Twice the logarithm of the odds against an engine that is set otherwise than by default, against a game that holds a
+/// spring's force in an engine, against a method of one's own that is set otherwise than by default, and against a count
 /// of substeps that few set.
-const RARITY: [f64; 3] = [8.0, 24.0, 36.0];
+const RARITY: [f64; 4] = [8.0, 12.0, 20.0, 24.0];
 
 impl Candidate {
     /// Whether people set this count of substeps: a power of 2, not too high, or what the engine has by default.
@@ -56,21 +56,22 @@ impl Candidate {
 
     /// What is added to twice the logarithm of the likelihood that something else made a log.
     pub(super) fn rarity(&self) -> f64 {
-        let held = if self.held().is_empty() { 0.0 } else { RARITY[0] };
+        let held = if self.held().is_empty() { 0.0 } else { RARITY[1] };
         let set = match (self.is_as_set(), self.is_usual(), self.method.is_engine()) {
             (true, ..) => 0.0,
             (false, true, true) => RARITY[0],
-            (false, true, false) => RARITY[1],
-            (false, false, _) => RARITY[2],
+            (false, true, false) => RARITY[2],
+            (false, false, _) => RARITY[3],
         };
         held + set
     }
 
     /// Which comes first among candidates that do the same: an engine as it is set by default, then any engine.
-    pub(super) fn preference(&self) -> (bool, bool, bool, bool, u32) {
+    pub(super) fn preference(&self) -> (bool, bool, bool, bool, u32, Option<usize>) {
         let is_as_set = self.method.is_engine() && self.is_as_set();
         let has_held = !self.held().is_empty();
-        (!is_as_set, !self.is_usual(), has_held, !self.method.is_engine(), self.substeps)
+        let place = METHODS.iter().position(|method| method.id == self.method.id);
+        (!is_as_set, !self.is_usual(), has_held, !self.method.is_engine(), self.substeps, place)
     }
 }
 

@@ -51,7 +51,12 @@ pub(super) fn decide<'a>(fits: &'a [(Candidate, Fit)], body: &LoggedBody) -> Opt
     let with_rarity = |fitted: &(Candidate, Fit)| deviance(fitted) + fitted.0.rarity();
     let by_both =
         |a: &&(Candidate, Fit), b: &&(Candidate, Fit)| with_rarity(a).total_cmp(&with_rarity(b));
-    let closest = fits.iter().min_by(by_both)?;
+    let explains = |(_, fit): &(Candidate, Fit)| fit.residual() <= NO_FIT && !fit.is_systematic();
+    let lowest = fits.iter().map(deviance).fold(f64::INFINITY, f64::min);
+    let may_explain =
+        |fitted: &&(Candidate, Fit)| explains(fitted) && deviance(fitted) - lowest < DECISIVE;
+    let closest = fits.iter().filter(may_explain).min_by(by_both);
+    let closest = closest.or_else(|| fits.iter().min_by(by_both))?;
     let fits_as_well = |fitted: &(Candidate, Fit)| deviance(fitted) - deviance(closest) < DECISIVE;
     let is_plausible =
         |fitted: &(Candidate, Fit)| with_rarity(fitted) - with_rarity(closest) < DECISIVE;
@@ -64,21 +69,24 @@ pub(super) fn decide<'a>(fits: &'a [(Candidate, Fit)], body: &LoggedBody) -> Opt
         let is_nearest = fit.residual() <= TIMES_NEAREST * nearest + ROUNDING[0] / TIMES_CLOSEST;
         (!is_nearest, candidate.preference())
     });
-    let (best, best_fit) = same.first()?;
-    let is_set_aside = |fitted: &&(Candidate, Fit)| fits_as_well(fitted) && !is_plausible(fitted);
-    let unusual = others.iter().copied().filter(is_set_aside).collect();
+    let best = *same.first()?;
     let rival = others.iter().copied().min_by(by_both);
-    let is_clear = rival.is_none_or(|(_, fit)| fit.residual() > CLEAR * best_fit.residual());
+    let is_clear = rival.is_none_or(|(_, fit)| fit.residual() > CLEAR * best.1.residual());
     let says_nothing = explained_by_nearly_all(&same, body);
     let rival = match rival {
         Some(rival) if is_plausible(rival) => Some(rival),
-        _ if says_nothing => same.iter().find(|other| other.0.method != best.method).copied(),
+        _ if says_nothing => same.iter().find(|other| other.0.method != best.0.method).copied(),
         _ => rival,
     };
-    let is_short = best_fit.has_few_rows() && !is_clear;
-    let word = if best_fit.residual() > NO_FIT || best_fit.is_systematic() {
+    let is_set_aside = |fitted: &&(Candidate, Fit)| {
+        let is_rival = rival.is_some_and(|rival| rival.0 == fitted.0);
+        fits_as_well(fitted) && !is_plausible(fitted) && !is_rival
+    };
+    let unusual = others.iter().copied().filter(is_set_aside).collect();
+    let is_doubtful = best.1.is_doubtful() && !is_clear;
+    let word = if !explains(best) {
         Word::Unknown
-    } else if says_nothing || is_short || rival.is_some_and(is_plausible) {
+    } else if says_nothing || is_doubtful || rival.is_some_and(is_plausible) {
         Word::CannotTell
     } else {
         Word::Identified

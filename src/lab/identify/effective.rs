@@ -18,12 +18,20 @@ pub struct Effective {
 
 /// How long a run is from which the motion is read, in ticks: the fewest that show a slow spring turn.
 const TICKS: u64 = 400;
+/// The fewest of these that are read.
+const LEAST_TICKS: usize = 6;
+/// Where such a run starts, and how far it is read, in metres and metres per second: far below the speeds at which
+/// engines limit a body.
+const SLOW: f64 = 1e-6;
+const FAST: f64 = 1e-2;
+/// The part of the square of the angular frequency below which nothing is seen to swing.
+const NO_SWING: f64 = 1e-9;
 
 impl Effective {
     /// The frequency that is seen, in hertz; `None` if the motion does not swing.
     pub fn frequency_hz(&self) -> Option<f64> {
         let square = self.omega * self.omega - self.decay * self.decay;
-        (square > 0.0).then(|| square.sqrt() / std::f64::consts::TAU)
+        (square > NO_SWING * self.omega * self.omega).then(|| square.sqrt() / std::f64::consts::TAU)
     }
 
     /// The damping ratio; negative if energy is gained; `None` without a spring.
@@ -41,12 +49,19 @@ impl Effective {
         Some(self.spring()?[0])
     }
 
-    /// The time in which the energy halves in seconds, or the speed of a body without a spring; negative if it
-    /// doubles instead. `None` if it stays.
-    pub fn halves_s(&self) -> Option<f64> {
-        let rate = if self.omega > 0.0 { 2.0 * self.decay } else { self.decay };
-        let seconds = std::f64::consts::LN_2 / rate;
-        seconds.is_finite().then_some(seconds)
+    /// The time in which the energy of a spring halves in the long run, in seconds; negative if it doubles instead.
+    /// `None` if it stays, and without a spring.
+    pub fn energy_halves_s(&self) -> Option<f64> {
+        let square = self.decay * self.decay - self.omega * self.omega;
+        // Of two motions without a swing, the one that lasts.
+        let rate = if square > 0.0 { self.decay - square.sqrt() } else { self.decay };
+        (self.omega > 0.0).then(|| halves_s(2.0 * rate))?
+    }
+
+    /// The time in which a body without a spring gets half the way to its last speed, in seconds; negative if it gets
+    /// twice as far from it. `None` if the speed stays, and with a spring.
+    pub fn speed_halves_s(&self) -> Option<f64> {
+        (self.omega == 0.0).then(|| halves_s(self.decay))?
     }
 
     /// What the equation of motion says.
@@ -71,16 +86,14 @@ impl Effective {
         }
     }
 
-    /// What is seen of a body under a candidate.
-    pub(super) fn of(
-        candidate: Candidate,
-        body: &LoggedBody,
-        start: [f64; 2],
-        tick_s: f64,
-    ) -> Option<Self> {
-        let states = run(candidate, body, start, tick_s, 0..TICKS)?;
-        let states: Vec<(u64, [f64; 2])> = (0..).zip(states).collect();
-        Self::of_states(&states, body, tick_s)
+    /// What is seen of a body under a candidate, where it is slow enough for all engines.
+    pub(super) fn of(candidate: Candidate, body: &LoggedBody, tick_s: f64) -> Option<Self> {
+        let body = LoggedBody { push: 0.0, ..body.clone() };
+        let states = run(candidate, &body, [SLOW; 2], tick_s, 0..TICKS)?;
+        let is_slow = |state: &[f64; 2]| state.iter().all(|x| x.abs() < FAST);
+        let slow = states.iter().take_while(|state| is_slow(state)).count();
+        let states: Vec<(u64, [f64; 2])> = (0..).zip(states).take(slow.max(LEAST_TICKS)).collect();
+        Self::of_states(&states, &body, tick_s)
     }
 
     /// What is seen in a log.
@@ -143,10 +156,23 @@ impl Effective {
             let turned = (-square).sqrt().atan2(half) / tick_s;
             return Some(Self { omega: decay.hypot(turned), decay });
         }
-        let rates = [half + square.sqrt(), half - square.sqrt()].map(|kept| -kept.ln() / tick_s);
+        let mut kept = [half + square.sqrt(), half - square.sqrt()];
+        kept.sort_by(|a, b| b.abs().total_cmp(&a.abs()));
+        let rates = kept.map(|kept| -kept.abs().ln() / tick_s);
+        if kept[0] < 0.0 {
+            // It jumps to the other side at every tick.
+            let turned = std::f64::consts::PI / tick_s;
+            return Some(Self { omega: rates[0].hypot(turned), decay: rates[0] });
+        }
         let (product, sum) = (rates[0] * rates[1], rates[0] + rates[1]);
         (product > 0.0).then(|| Self { omega: product.sqrt(), decay: sum / 2.0 })
     }
+}
+
+/// The time in which something halves that is lost at this rate, in seconds.
+fn halves_s(rate: f64) -> Option<f64> {
+    let seconds = std::f64::consts::LN_2 / rate;
+    seconds.is_finite().then_some(seconds)
 }
 
 /// The least squares solution of equations in the first `unknowns` unknowns.

@@ -12,8 +12,17 @@ use crate::sim::least_squares;
 const ITERATIONS: [usize; 3] = [1, 2, 12];
 /// A displacement for the derivatives, in units of the scale.
 const DISPLACEMENT: f64 = 1e-4;
-/// Left over up to this, single precision may be all that there is.
-const PRECISE: f64 = 5e-5;
+/// Left over up to this, rounding may be all that there is: in a log of single precision, and in one of double
+/// precision, whose engine may keep a mass in single precision.
+const PRECISE: [f64; 2] = [5e-5, 1e-5];
+/// Left over up to this, rounding is all that there is.
+const EXACT: f64 = 1e-9;
+/// The displacement, in units of the scale, in a run that starts from nothing.
+const DISPLACEMENT_FROM_NOTHING: f64 = 1e-9;
+/// The start of a runaway is below this part of the scale, and so below the noise.
+const NOTHING: f64 = 0.01;
+/// How often a step that leads no nearer is halved.
+const HALVINGS: u32 = 8;
 /// In fewer rows than this, noise cannot be told from what follows from row to row.
 const LEAST_ROWS_OF_NOISE: usize = 20;
 /// What is left over may follow from row to row by this much more than chance allows.
@@ -25,9 +34,10 @@ const LAGS: usize = 3;
 pub(super) struct Fit {
     /// The body with what was fitted.
     pub(super) body: LoggedBody,
-    pub(super) start: [f64; 2],
     /// The run at the rows of the log, in units of the scale.
     run: Vec<[f64; 2]>,
+    /// Left over up to this, rounding may be all that there is.
+    precise: f64,
     /// What is left over of the coordinate, and of the velocity if it was logged.
     left: Vec<Vec<f64>>,
 }
@@ -49,6 +59,12 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         body.spring = Some(Effective::of_log(log, &body, tick_s)?.spring()?);
     }
     let mut start = [log.rows()[0].x, first_velocity(log, tick_s)];
+    let is_runaway = log.has_velocities()
+        && start.iter().zip(scale).all(|(start, scale)| start.abs() < NOTHING * scale);
+    let displacement = if is_runaway { DISPLACEMENT_FROM_NOTHING } else { DISPLACEMENT };
+    if is_runaway {
+        start = [0.0; 2];
+    }
     // Coordinate and velocity at the start; then stiffness and damping.
     let (fitted, iterations) = match (is_spring_known, log.has_velocities()) {
         (true, true) => (2, ITERATIONS[0]),
@@ -65,34 +81,38 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         let mut columns = Vec::new();
         for (place, unit) in unit.iter().enumerate().take(fitted) {
             let (mut there, mut other) = (start, body.clone());
-            displace(place, DISPLACEMENT * unit, &mut there, &mut other);
+            displace(place, displacement * unit, &mut there, &mut other);
             columns.push(go(&other, there)?);
         }
         let left = left_over(log, &now, scale).concat();
         let base = flat(log, &now);
         let slope = |there: &Vec<[f64; 2]>| -> Vec<f64> {
             let changes = flat(log, there).into_iter().zip(&base);
-            changes.map(|(there, base)| (there - base) / DISPLACEMENT).collect()
+            changes.map(|(there, base)| (there - base) / displacement).collect()
         };
         let slopes: Vec<Vec<f64>> = columns.iter().map(slope).collect();
         let Some(change) = least_squares(&slopes, &left) else { break };
-        let (mut there, mut other) = (start, body.clone());
-        for (place, change) in change.iter().enumerate() {
-            displace(place, change * unit[place], &mut there, &mut other);
-        }
-        let Some(reached) = go(&other, there) else { break };
         let worth = |states: &[[f64; 2]]| -> f64 {
             left_over(log, states, scale).concat().iter().map(|left| left * left).sum()
         };
-        let is_nearer = worth(&reached) < worth(&now);
-        if !is_nearer {
-            break;
-        }
-        (start, body, now) = (there, other, reached);
+        let before = worth(&now);
+        let halvings = if is_spring_known { 0 } else { HALVINGS };
+        let nearer = (0..=halvings).find_map(|halving| {
+            let part = 0.5_f64.powi(halving as i32);
+            let (mut there, mut other) = (start, body.clone());
+            for (place, change) in change.iter().enumerate() {
+                displace(place, part * change * unit[place], &mut there, &mut other);
+            }
+            let reached = go(&other, there)?;
+            (worth(&reached) < before).then_some((there, other, reached))
+        });
+        let Some(nearer) = nearer else { break };
+        (start, body, now) = nearer;
     }
     let left = left_over(log, &now, scale);
     let is_finite = left.iter().flatten().all(|left| left.is_finite());
-    is_finite.then_some(Fit { body, start, run: now, left })
+    let precise = PRECISE[usize::from(log.is_double())];
+    is_finite.then_some(Fit { body, run: now, precise, left })
 }
 
 /// Adds `by` to what is fitted at this place: coordinate, velocity, stiffness and damping.
@@ -171,13 +191,25 @@ impl Fit {
         self.run.iter().zip(&other.run).map(apart).fold(0.0, f64::max)
     }
 
-    /// Whether more is left over than by rounding, in so few rows that nobody can say whether it is noise.
-    pub(super) fn has_few_rows(&self) -> bool {
-        self.run.len() < LEAST_ROWS_OF_NOISE && self.residual() > PRECISE
+    /// Whether the rows are so few that nobody can say whether what is left over is noise.
+    pub(super) fn is_short(&self) -> bool {
+        self.run.len() < LEAST_ROWS_OF_NOISE
     }
 
-    /// Whether what is left over follows from row to row, so that it is no noise.
+    /// Whether what is left over may be neither rounding nor noise.
+    pub(super) fn is_doubtful(&self) -> bool {
+        let is_beyond_rounding = self.residual() > EXACT;
+        is_beyond_rounding
+            && (self.follows(EXACT) || (self.is_short() && self.residual() > self.precise))
+    }
+
+    /// Whether what is left over follows from row to row and is more than rounding, so that it is no noise.
     pub(super) fn is_systematic(&self) -> bool {
+        self.follows(self.precise)
+    }
+
+    /// Whether more than `precise` is left over and follows from row to row.
+    fn follows(&self, precise: f64) -> bool {
         self.left.iter().any(|left| {
             let square = mean_square(left);
             let follows = |lag: usize| {
@@ -185,7 +217,7 @@ impl Fit {
                 let mean = pairs.map(|(a, b)| a * b).sum::<f64>() / (left.len() - lag) as f64;
                 (mean / square).abs() > 3.0 / (left.len() as f64).sqrt() + FOLLOWING
             };
-            square.sqrt() > PRECISE && (1..=LAGS.min(left.len() - 1)).any(follows)
+            square.sqrt() > precise && (1..=LAGS.min(left.len() - 1)).any(follows)
         })
     }
 }

@@ -50,6 +50,9 @@ pub struct LogError {
     fault: String,
 }
 
+/// Numbers of single precision that were written with nine digits lose less than this part when they are read as such
+/// again; those of double precision lose more in the mean.
+const LOST_IN_SINGLE: f64 = 8e-9;
 /// A time may be off its tick by this part of a tick.
 const OFF_TICK: f64 = 0.05;
 
@@ -93,6 +96,20 @@ impl Log {
             return Err(error(1, fault));
         };
         let (tick, t, v) = (place(&columns.tick), place(&columns.t), place(&columns.v));
+        let usual = Columns::default();
+        for (wanted, usual, option) in [
+            (&columns.tick, &usual.tick, "--tick-column"),
+            (&columns.t, &usual.t, "--t-column"),
+            (&columns.v, &usual.v, "--v-column"),
+        ] {
+            if wanted != usual && place(wanted).is_none() {
+                let fault = format!(
+                    "no column {wanted:?}; here are {}; name one of them with {option}",
+                    found()
+                );
+                return Err(error(1, fault));
+            }
+        }
         if tick.is_none() && t.is_none() {
             let fault = format!(
                 "no column {:?} and none {:?}; here are {}; name one with --tick-column or --t-column",
@@ -168,6 +185,13 @@ impl Log {
     /// The largest coordinate and velocity; a velocity that was not logged has the scale 1.
     pub(super) fn scale(&self) -> [f64; 2] {
         self.scale
+    }
+
+    /// Whether the coordinates have more digits than single precision has.
+    pub(super) fn is_double(&self) -> bool {
+        let moved = self.rows.iter().map(|row| row.x).filter(|x| *x != 0.0);
+        let lost: Vec<f64> = moved.map(|x| ((f64::from(x as f32) - x) / x).abs()).collect();
+        lost.iter().sum::<f64>() > LOST_IN_SINGLE * lost.len() as f64
     }
 
     /// Whether velocities were logged.

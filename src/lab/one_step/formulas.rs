@@ -206,7 +206,7 @@ pub const FORMULAS: &[Formula] = &[
         &[
             "n times: v = (v + h f − h K x) / D",
             "x = x + h v, D = 1 + h c + h² K",
-            "v′ = v / (1 + H C)",
+            "then once: v = v / (1 + H C)",
         ],
         &[],
     ),

@@ -7,6 +7,9 @@ use crate::sim::integrators::{Engine, Family, Method};
 /// The width of the comment, in characters.
 const WIDTH: usize = 96;
 
+/// The functions of which a method takes slopes, to divide by them.
+const SOLVERS: [&str; 2] = ["slope", "solve"];
+
 /// The lines of the comment.
 pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) -> Vec<String> {
     let claim = |id: &str, general: String| program.claim(id).map_or(general, Into::into);
@@ -34,11 +37,16 @@ pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) 
     }
     paragraphs.extend(program.notes.iter().map(|note| (*note).to_owned()));
     paragraphs.push(String::new());
-    let state = match program.takes("force") {
-        // Of the others only what they are told is known.
-        true => "x, v: position and velocity of one coordinate.",
-        false => {
+    let solves = program.functions.iter().any(|function| SOLVERS.contains(&function.name));
+    let state = match (program.takes("force"), solves) {
+        // Of engines only what they are told is known.
+        (true, _) => "x, v: position and velocity of one coordinate.",
+        (false, false) => {
             "x, v: position and velocity of one coordinate; for several that feel each other, make them vectors."
+        }
+        (false, true) => {
+            "x, v: position and velocity of one coordinate; for several that feel each other, slopes are matrices and a \
+             division is the solution of a linear system."
         }
     };
     paragraphs.extend([state.into(), "h: the step, in seconds.".into()]);
