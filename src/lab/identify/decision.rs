@@ -15,18 +15,20 @@ const ROUNDING: [f64; 2] = [1e-9, 3e-5];
 const TIMES_CLOSEST: f64 = 10.0;
 /// Among candidates that do the same, one that leaves over this many times what the nearest does is not named.
 const TIMES_NEAREST: f64 = 3.0;
-/// Candidates whose runs are nowhere farther apart, with the same spring, do the same; so do those that are nowhere
-/// farther apart than this part of the residual.
+/// Candidates whose runs are nowhere farther apart, with the same spring, do the same.
 const SAME: f64 = 1e-5;
+/// So do those that are nowhere farther apart than this part of the residual.
 const SAME_PART: f64 = 0.2;
 /// The least difference of twice the logarithm of the likelihood that tells candidates apart: four standard deviations.
 const DECISIVE: f64 = 16.0;
 /// More left over than this is no fit, whatever its form.
 pub(super) const NO_FIT: f64 = 0.01;
-/// Where rows are too few to tell noise from what follows from row to row, a rival leaves over this many times as much.
+/// Where what is left over may be neither noise nor rounding, a method is named only if its rival leaves over more than
+/// this many times as much.
 const CLEAR: f64 = 3.0;
 /// A log that this part of all methods explain says nothing.
 const NEARLY_ALL: f64 = 0.8;
+
 /// What rounding may leave over where the closest candidate leaves over this.
 pub(super) fn rounding(closest: f64) -> f64 {
     (TIMES_CLOSEST * closest).clamp(ROUNDING[0], ROUNDING[1])

@@ -20,9 +20,9 @@ pub struct Effective {
 const TICKS: u64 = 400;
 /// The fewest of these that are read.
 const LEAST_TICKS: usize = 6;
-/// Where such a run starts, and how far it is read, in metres and metres per second: far below the speeds at which
-/// engines limit a body.
+/// Where such a run starts, in metres and in metres per second.
 const SLOW: f64 = 1e-6;
+/// How far it is read, in the same units: engines limit a body only at far higher speeds.
 const FAST: f64 = 1e-2;
 /// The part of the square of the angular frequency below which nothing is seen to swing.
 const NO_SWING: f64 = 1e-9;

@@ -92,9 +92,7 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
         };
         let slopes: Vec<Vec<f64>> = columns.iter().map(slope).collect();
         let Some(change) = least_squares(&slopes, &left) else { break };
-        let worth = |states: &[[f64; 2]]| -> f64 {
-            left_over(log, states, scale).concat().iter().map(|left| left * left).sum()
-        };
+        let worth = |states: &[[f64; 2]]| squares(&left_over(log, states, scale));
         let before = worth(&now);
         let halvings = if is_spring_known { 0 } else { HALVINGS };
         let nearer = (0..=halvings).find_map(|halving| {
@@ -151,6 +149,10 @@ fn left_over(log: &Log, states: &[[f64; 2]], scale: [f64; 2]) -> Vec<Vec<f64>> {
     if v.is_empty() { vec![x] } else { vec![x, v] }
 }
 
+fn squares(left: &[Vec<f64>]) -> f64 {
+    left.iter().flatten().map(|left| left * left).sum()
+}
+
 fn mean_square(left: &[f64]) -> f64 {
     left.iter().map(|left| left * left).sum::<f64>() / left.len() as f64
 }
@@ -158,7 +160,7 @@ fn mean_square(left: &[f64]) -> f64 {
 impl Fit {
     /// The sum of squares of all that is left over.
     pub(super) fn squares(&self) -> f64 {
-        self.left.iter().flatten().map(|left| left * left).sum()
+        squares(&self.left)
     }
 
     /// The root mean square of all that is left over.

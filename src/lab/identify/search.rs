@@ -17,17 +17,20 @@ const APART: f64 = 4.0;
 /// are taken in that order, until the next is bound to leave over too much.
 pub(super) fn search(log: &Log, body: &LoggedBody, tick_hz: f64) -> Vec<(Candidate, Fit)> {
     let head = if body.spring.is_some() { log.head(HEAD_TICKS) } else { log.clone() };
-    let mut queue: Vec<(f64, Candidate)> = candidates(body)
+    let is_whole = head.rows().len() == log.rows().len();
+    let fit_to = |log: &Log, candidate| fit(log, body, candidate, tick_hz);
+    let mut queue: Vec<(Candidate, Fit)> = candidates(body)
         .into_iter()
-        .filter_map(|candidate| Some((fit(&head, body, candidate, tick_hz)?.squares(), candidate)))
+        .filter_map(|candidate| Some((candidate, fit_to(&head, candidate)?)))
         .collect();
-    queue.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+    queue.sort_by(|(_, a), (_, b)| a.squares().total_cmp(&b.squares()));
     let (mut fits, mut squares): (Vec<(Candidate, Fit)>, Vec<f64>) = (Vec::new(), Vec::new());
-    for (least, candidate) in queue {
-        if least > enough(&squares, log) {
+    for (candidate, of_head) in queue {
+        if of_head.squares() > enough(&squares, log) {
             break;
         }
-        let Some(fit) = fit(log, body, candidate, tick_hz) else { continue };
+        let fit = if is_whole { Some(of_head) } else { fit_to(log, candidate) };
+        let Some(fit) = fit else { continue };
         squares.push(fit.squares());
         fits.push((candidate, fit));
     }
