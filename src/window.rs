@@ -28,6 +28,7 @@ mod pace;
 mod recording;
 mod run_of_session;
 mod schedule;
+mod screen_reader;
 mod screenshot;
 mod settings;
 mod tick_timer;
@@ -291,9 +292,9 @@ impl ApplicationHandler<Event> for App {
 
     fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Event) {
         match event {
-            Event::Accessibility(event) => {
+            Event::ScreenReader(request) => {
                 if let Some(canvas) = &mut self.canvas {
-                    canvas.accessibility(event);
+                    screen_reader::answer(&mut canvas.egui, request);
                     self.request_redraw();
                 }
             }

@@ -3,11 +3,10 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use egui_winit::accesskit_winit;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::Window;
 
-use super::{Event, WindowError};
+use super::{Event, WindowError, screen_reader};
 use crate::lab::{Command, Lab};
 use crate::view::{FrameRenderer, Gpu, Screen};
 
@@ -49,7 +48,7 @@ impl Canvas {
         log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
         let renderer = FrameRenderer::new(&gpu, screen.format(&gpu));
         let mut egui = translator(&renderer, &window, &gpu);
-        egui.init_accesskit(event_loop, &window, proxy);
+        screen_reader::attach(&mut egui, event_loop, &window, proxy);
         let mut canvas = Self {
             window,
             egui,
@@ -144,27 +143,15 @@ impl Canvas {
                 self.gpu = screen.gpu()?;
                 // With a new context: the old one assumes that its fonts are on the device.
                 self.renderer = FrameRenderer::new(&self.gpu, screen.format(&self.gpu));
-                let accessibility = self.egui.accesskit.take();
-                self.egui = translator(&self.renderer, &self.window, &self.gpu);
-                self.egui.accesskit = accessibility;
+                let mut egui = translator(&self.renderer, &self.window, &self.gpu);
+                screen_reader::carry_over(&mut self.egui, &mut egui);
+                self.egui = egui;
             }
             self.screen = Some(screen);
         }
         self.surface_is_lost = false;
         self.configure();
         Ok(())
-    }
-
-    /// Handles a request of a screen reader.
-    pub(super) fn accessibility(&mut self, event: accesskit_winit::Event) {
-        use accesskit_winit::WindowEvent;
-        match event.window_event {
-            WindowEvent::InitialTreeRequested => self.egui.egui_ctx().enable_accesskit(),
-            WindowEvent::ActionRequested(request) => {
-                self.egui.on_accesskit_action_request(request);
-            }
-            WindowEvent::AccessibilityDeactivated => self.egui.egui_ctx().disable_accesskit(),
-        }
     }
 }
 

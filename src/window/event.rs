@@ -2,14 +2,13 @@
 
 use std::path::PathBuf;
 
-use egui_winit::accesskit_winit;
-
+use super::screen_reader::Request;
 use crate::lab::{Findings, LaneSpec, Scene};
 
-/// An event from the program's own threads or from AccessKit.
+/// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
-    /// A screen reader asks for something.
-    Accessibility(accesskit_winit::Event),
+    /// A screen reader asks for something. Never without the feature `accessibility`.
+    ScreenReader(Request),
     /// The analysis has found more.
     Analysed(Findings),
     /// The ticks of these lanes were timed: nanoseconds per tick, `None` of a lane that halted.
@@ -22,10 +21,4 @@ pub(super) enum Event {
     FileGone(PathBuf),
     /// A scene file that was gone exists again, unchanged.
     FileBack(PathBuf),
-}
-
-impl From<accesskit_winit::Event> for Event {
-    fn from(event: accesskit_winit::Event) -> Self {
-        Event::Accessibility(event)
-    }
 }

@@ -1,0 +1,224 @@
+//! The engine that made a log is found by its motion alone.
+
+use regatta::lab::{Columns, Identification, Log as Text, LoggedBody, Word, identify};
+
+use crate::dice::Dice;
+use super::log::{Log, Row};
+
+/// What is read of a log as a person would write it.
+fn identified(log: &Log, rows: &[Row], has_velocity: bool) -> Identification {
+    let mut text = String::from(if has_velocity { "tick,x,v\n" } else { "tick,x\n" });
+    for Row { tick, x, v } in rows {
+        match has_velocity {
+            true => text += &format!("{tick},{x:e},{v:e}\n"),
+            false => text += &format!("{tick},{x:e}\n"),
+        }
+    }
+    let tick_hz = (1.0 / log.tick_s).round();
+    let text = Text::parse(&log.file, &text, &Columns::default(), tick_hz).unwrap();
+    let body =
+        LoggedBody { spring: Some(log.body.spring), drag: log.body.drag, push: log.body.push };
+    identify(&text, &body, tick_hz).unwrap_or_else(|| panic!("{}: nothing runs", log.file))
+}
+
+/// Whether the log's engine with its substeps is named, or is among those that do the same.
+fn names(found: &Identification, log: &Log) -> bool {
+    let all = [found.best.candidate].into_iter().chain(found.also.iter().copied());
+    all.into_iter()
+        .any(|candidate| candidate.method == log.method() && candidate.substeps == log.substeps)
+}
+
+fn springs_and_coasting() -> Vec<Log> {
+    let mut logs = Log::all();
+    logs.retain(|log| ["spring", "damp"].contains(&&*log.scenario));
+    assert!(logs.len() > 100, "{} logs", logs.len());
+    logs
+}
+
+#[test]
+fn every_log_of_a_spring_and_of_a_coasting_body_is_identified() {
+    let mut wrong = Vec::new();
+    for log in springs_and_coasting() {
+        let found = identified(&log, &log.rows, true);
+        if found.word != Word::Identified || !names(&found, &log) {
+            let rival = found.runner_up.map(|other| (other.candidate.to_string(), other.residual));
+            wrong.push(format!(
+                "{}: {}: {} {:.1e}, {rival:?}",
+                log.file,
+                found.word.id(),
+                found.best.candidate,
+                found.best.residual,
+            ));
+        }
+    }
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// A number of the normal distribution.
+fn normal(dice: &mut Dice) -> f64 {
+    let (part, angle) = (dice.part(), dice.between(0.0, std::f64::consts::TAU));
+    (-2.0 * (1.0 - part).ln()).sqrt() * angle.cos()
+}
+
+/// How often noise is added to each log: once, or as often as `REGATTA_NOISES` says.
+fn noises() -> u64 {
+    std::env::var("REGATTA_NOISES").ok().and_then(|count| count.parse().ok()).unwrap_or(1)
+}
+
+#[test]
+fn noise_of_a_ten_thousandth_leaves_nearly_all_logs_identified_and_none_wrong() {
+    let (mut dice, noises) = (Dice::new(1), noises());
+    let (mut right, mut wrong, mut all) = (0, Vec::new(), 0);
+    for log in springs_and_coasting() {
+        let mut missed = Vec::new();
+        for again in 0..noises {
+            let rows = with_noise(&log, 1e-4, &mut dice);
+            let found = identified(&log, &rows, true);
+            all += 1;
+            match (found.word, names(&found, &log)) {
+                (Word::Identified, true) => right += 1,
+                (Word::Identified, false) => {
+                    wrong.push(format!("{}, run {again}: {}", log.file, found.best.candidate));
+                }
+                (word, _) => {
+                    let rival = found.runner_up.map(|other| other.candidate.to_string());
+                    let [word, best] = [word.id().to_owned(), found.best.candidate.to_string()];
+                    missed.push(format!("{word}: {best}, {}", rival.unwrap_or_default()));
+                }
+            }
+        }
+        if let Some(first) = missed.first() {
+            println!("{}: {} of {noises} not told, {first}", log.file, missed.len());
+        }
+    }
+    println!("{right} of {all}");
+    assert!(wrong.is_empty(), "{}:\n{}", wrong.len(), wrong.join("\n"));
+    // These logs have a fifth of the rows that the engines wrote: with all of them it is 95 %.
+    assert!(right * 100 >= all * 92, "{right} of {all}");
+}
+
+#[test]
+fn a_spring_that_is_not_known_is_fitted_and_the_engine_cannot_be_told() {
+    let logs = springs_and_coasting();
+    let log = logs.iter().find(|log| log.file == "jolt__spring_1hz_z02_60hz.csv").unwrap();
+    let mut text = String::from("tick,x,v\n");
+    for Row { tick, x, v } in &log.rows {
+        text += &format!("{tick},{x:e},{v:e}\n");
+    }
+    let text = Text::parse("log", &text, &Columns::default(), 60.0).unwrap();
+    let body = LoggedBody { spring: None, drag: 0.0, push: 0.0 };
+    let found = identify(&text, &body, 60.0).unwrap();
+    assert_eq!(found.word, Word::CannotTell, "{}", found.best.candidate);
+    let seen = found.effective.unwrap();
+    assert!((seen.frequency_hz().unwrap() - 0.9565).abs() < 1e-3, "{seen:?}");
+    assert!((seen.damping_ratio().unwrap() - 0.249).abs() < 1e-3, "{seen:?}");
+}
+
+#[test]
+fn a_motion_that_no_method_makes_is_unknown() {
+    let logs = springs_and_coasting();
+    let mut log =
+        logs.iter().find(|log| log.file == "box2d__spring_1hz_z0_60hz.csv").unwrap().clone();
+    for row in &mut log.rows {
+        // Friction by hand: a motion that dies along a line.
+        let left = (1.0 - row.tick as f64 / 700.0).max(0.0);
+        let turned = std::f64::consts::TAU * row.tick as f64 / 60.0;
+        (row.x, row.v) = (left * turned.cos(), -left * std::f64::consts::TAU * turned.sin());
+    }
+    assert_eq!(identified(&log, &log.rows, true).word, Word::Unknown);
+}
+
+#[test]
+fn positions_alone_do_not_tell_a_kick_before_the_drift_from_one_after_it() {
+    let logs = springs_and_coasting();
+    let log = logs.iter().find(|log| log.file == "chipmunk__spring_1hz_z0_60hz.csv").unwrap();
+    let with_velocities = identified(log, &log.rows, true);
+    assert_eq!(with_velocities.word, Word::Identified);
+    assert_eq!(with_velocities.best.candidate.method.id, "engine-chipmunk");
+    let found = identified(log, &log.rows, false);
+    let ids: Vec<&str> = [found.best.candidate]
+        .into_iter()
+        .chain(found.also)
+        .map(|candidate| candidate.method.id)
+        .collect();
+    assert!(ids.contains(&"engine-chipmunk") && ids.contains(&"engine-bullet"), "{ids:?}");
+}
+
+#[test]
+fn an_unusual_count_of_substeps_is_found_in_a_log_without_noise() {
+    let logs = springs_and_coasting();
+    for (file, substeps) in [
+        ("jolt__spring_1hz_z02_60hz.csv", 7),
+        ("bullet__spring_1hz_z02_60hz.csv", 12),
+        ("box2d__damp_05_60hz.csv", 10),
+    ] {
+        let mut log = logs.iter().find(|log| log.file == file).unwrap().clone();
+        (log.substeps, log.tick_s) = (substeps, 1.0 / 60.0);
+        log.rows = log.run().unwrap();
+        let found = identified(&log, &log.rows, true);
+        assert_eq!(found.word, Word::Identified, "{file}: {}", found.best.candidate);
+        assert!(names(&found, &log), "{file}: {}", found.best.candidate);
+    }
+}
+
+/// A log with noise of this part of its largest values.
+fn with_noise(log: &Log, part: f64, dice: &mut Dice) -> Vec<Row> {
+    let scale = log.scale();
+    let noisy = |row: &Row| Row {
+        tick: row.tick,
+        x: row.x + part * scale[0] * normal(dice),
+        v: row.v + part * scale[1] * normal(dice),
+    };
+    log.rows.iter().map(noisy).collect()
+}
+
+fn log_of(file: &str) -> Log {
+    springs_and_coasting().into_iter().find(|log| log.file == file).expect("a log")
+}
+
+#[test]
+fn noise_above_the_start_of_a_runaway_does_not_name_another_engine() {
+    let log = log_of("mujoco-Euler__spring_w100_z0_30hz.csv");
+    let mut dice = Dice::new(3);
+    for _ in 0..30 {
+        let found = identified(&log, &with_noise(&log, 1e-4, &mut dice), true);
+        let is_right = found.word != Word::Identified || names(&found, &log);
+        assert!(is_right, "{}", found.best.candidate);
+    }
+}
+
+#[test]
+fn a_leftover_that_follows_from_row_to_row_is_no_fit_however_small() {
+    let mut log = log_of("box2d__spring_1hz_z0_60hz.csv");
+    (log.substeps, log.body.spring) = (32, [0.4, 0.0]);
+    log.tick_s = 1.0 / 60.0;
+    for (place, row) in log.rows.iter_mut().enumerate() {
+        row.tick = place as u64;
+    }
+    log.rows = log.run().unwrap();
+    let found = identified(&log, &log.rows, true);
+    assert_ne!(found.word, Word::Identified, "{}", found.best.candidate);
+}
+
+#[test]
+fn what_a_player_sees_is_read_where_no_limit_of_speed_is_reached() {
+    let mut log = log_of("box2d__spring_1hz_z0_60hz.csv");
+    log.body.is_held = true;
+    log.body.spring = [(10.0 * std::f64::consts::PI).powi(2), 0.0];
+    log.tick_s = 1.0 / 60.0;
+    log.rows = log.run().unwrap();
+    let found = identified(&log, &log.rows, true);
+    assert_eq!(found.word, Word::Identified);
+    assert!(names(&found, &log) && found.best.candidate.is_held, "{}", found.best.candidate);
+    let doubles = -found.effective.unwrap().energy_halves_s().unwrap();
+    assert!((doubles - 0.118).abs() < 1e-3, "{doubles}");
+}
+
+#[test]
+fn a_coasting_too_short_to_tell_methods_apart_says_nothing() {
+    let mut log = log_of("box2d__damp_05_60hz.csv");
+    log.rows.truncate(8);
+    let rows = with_noise(&log, 1e-4, &mut Dice::new(2));
+    let found = identified(&log, &rows, true);
+    assert_ne!(found.word, Word::Identified, "{}", found.best.candidate);
+}

@@ -1,0 +1,9 @@
+//! Engines: their cards against logs of the engines themselves, and which engine a log came from.
+
+mod cards;
+mod identified;
+mod log;
+mod oracles;
+mod reproduced;
+mod spin_maps;
+mod tumble;

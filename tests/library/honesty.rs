@@ -1,0 +1,372 @@
+//! Verdicts and advice on random scenes, compared with plain simulation: the library's steppers, and none of the code that
+//! judges. The seed is printed; `REGATTA_SEED` sets another.
+
+
+use crate::dice::Dice;
+use regatta::lab::{Adviser, CRITERIA, Judge, LaneSpec, Outcome, Scene, Verdict};
+use regatta::sim::bodies::{Input, Truth};
+use regatta::sim::integrators::GENERAL_METHODS;
+use regatta::sim::{Solver, Stepper};
+
+impl Dice {
+    /// As likely in every decade.
+    fn scaled(&mut self, low: f64, high: f64) -> f64 {
+        (self.between(low.ln(), high.ln())).exp()
+    }
+
+    fn one_of<T: Copy>(&mut self, things: &[T]) -> T {
+        things[(self.part() * things.len() as f64) as usize]
+    }
+}
+
+const KINDS: [&str; 6] = ["spring", "chain", "pendulum", "orbit", "ship", "helm"];
+
+/// A random legal scene of one body of this kind.
+fn scene(dice: &mut Dice, kind: &str) -> String {
+    let seconds = dice.between(5.0, 25.0);
+    let mut text =
+        format!("title = \"random\"\ntick_hz = 60\nseconds = {seconds:.3}\n[[{kind}]]\n");
+    let mut set = |key: &str, value: f64| text += &format!("{key} = {value:e}\n");
+    match kind {
+        "spring" => {
+            let (m, k) = (dice.scaled(0.1, 100.0), dice.scaled(1.0, 1e4));
+            set("mass_kg", m);
+            set("stiffness_n_per_m", k);
+            if dice.part() < 0.4 {
+                set("damping_n_s_per_m", dice.scaled(0.001, 3.0) * (m * k).sqrt());
+            }
+            set("x0_m", dice.between(-2.0, 2.0));
+            set("v0_m_per_s", dice.between(-2.0, 2.0) * (k / m).sqrt());
+        }
+        "chain" => {
+            let masses = dice.one_of(&[2.0, 3.0, 5.0, 8.0]);
+            text += &format!("masses = {masses}\nplucked_mass = {}\n", dice.one_of(&[1, 2]));
+            let mut set = |key: &str, value: f64| text += &format!("{key} = {value:e}\n");
+            let (m, k) = (dice.scaled(0.1, 10.0), dice.scaled(1.0, 1e3));
+            set("mass_kg", m);
+            set("stiffness_n_per_m", k);
+            if dice.part() < 0.3 {
+                set("damping_n_s_per_m", dice.scaled(0.001, 1.0) * (m * k).sqrt());
+            }
+            set("x0_m", dice.between(0.2, 2.0));
+        }
+        "pendulum" => {
+            set("length_m", dice.scaled(0.2, 5.0));
+            set("theta0_rad", dice.between(0.1, 3.0));
+            if dice.part() < 0.25 {
+                set("damping_n_m_s", dice.scaled(0.01, 1.0));
+            }
+        }
+        "orbit" => {
+            let (mu, r): (f64, f64) = (dice.scaled(10.0, 1e4), dice.scaled(3.0, 30.0));
+            set("mu_m3_per_s2", mu);
+            set("x0_m", r);
+            set("vy0_m_per_s", dice.between(0.5, 1.3) * (mu / r).sqrt());
+        }
+        "ship" => {
+            set("thrust_n", dice.scaled(100.0, 1e5));
+            set("drag_n_s_per_m", if dice.part() < 0.8 { dice.scaled(10.0, 1e4) } else { 0.0 });
+            set("mass_kg", dice.scaled(100.0, 1e5));
+            set("v0_m_per_s", dice.between(0.0, 10.0));
+        }
+        _ => {
+            let mass = dice.scaled(1e4, 1e5);
+            set("mass_kg", mass);
+            set("inertia_kg_m2", 40.0 * mass);
+            set("drag_n_s_per_m", dice.scaled(0.01, 0.1) * mass);
+            set("side_drag_n_s_per_m", dice.scaled(0.5, 5.0) * mass);
+            set("yaw_drag_n_m_s", dice.scaled(10.0, 100.0) * mass);
+            set("rudder_n_s", mass);
+            set("u0_m_per_s", dice.between(1.0, 8.0));
+            text += "thrust_curve = [[0.0, 40000.0], [20.0, 8000.0]]\n";
+        }
+    }
+    text
+}
+
+fn stepper(scene: &Scene, solver: Solver) -> Box<dyn Stepper> {
+    let body = &scene.bodies[0];
+    let mut stepper = (body.kind.build)(&body.values, solver);
+    stepper.input(0.0, Input::Throttle(1.0));
+    stepper
+}
+
+fn components(stepper: &dyn Stepper) -> Vec<f64> {
+    [stepper.q(), stepper.v()].concat()
+}
+
+/// Half the range of each component over the scene, in dense steps; components of one unit share the largest.
+fn amplitudes(scene: &Scene) -> Vec<f64> {
+    const STEPS: u32 = 40_000;
+    let mut truth = stepper(scene, Solver::Truth);
+    let mut ranges: Vec<(f64, f64)> = components(&*truth).iter().map(|&x| (x, x)).collect();
+    let h = scene.seconds / f64::from(STEPS);
+    for step in 0..STEPS {
+        truth.advance(h * f64::from(step), h, 1).unwrap();
+        for (range, x) in ranges.iter_mut().zip(components(&*truth)) {
+            *range = (range.0.min(x), range.1.max(x));
+        }
+    }
+    let body = &scene.bodies[0];
+    let coordinates = (body.kind.coordinates)(&body.values);
+    let n = coordinates.len();
+    let half = |i: usize| {
+        let like = (0..n).filter(|&j| coordinates[j].unit == coordinates[i % n].unit);
+        let of = |j: usize| ranges[i / n * n + j];
+        let half = like.clone().map(|j| (of(j).1 - of(j).0) / 2.0).fold(0.0, f64::max);
+        let size = like.map(|j| of(j).0.abs().max(of(j).1.abs())).fold(0.0, f64::max);
+        if half > 1e-9 * size {
+            half
+        } else if size > 0.0 {
+            size
+        } else {
+            1.0
+        }
+    };
+    (0..2 * n).map(half).collect()
+}
+
+/// The measurements of a plain run.
+struct Plain {
+    /// The largest error over the scene, in amplitudes; infinite where the lane failed.
+    error: f64,
+    /// Each component at every tick of ten scenes, as far as the lane came.
+    failed_at: Option<f64>,
+    q: Vec<f64>,
+    reach: Vec<f64>,
+    energy: Vec<f64>,
+}
+
+fn plain(scene: &Scene, spec: LaneSpec, tick_hz: u32, amplitudes: &[f64], scenes: f64) -> Plain {
+    let mut lane = stepper(scene, spec.solver());
+    let mut truth = stepper(scene, Solver::Truth);
+    let hz = f64::from(tick_hz);
+    let horizon = (scene.seconds * hz + 1e-6).floor() as u64;
+    let n = lane.q().len();
+    let mut middles = vec![0.0; n];
+    let mut plain = Plain { error: 0.0, failed_at: None, q: vec![], reach: vec![], energy: vec![] };
+    let start = components(&*lane);
+    if scene.bodies[0].kind.id == "orbit" {
+        middles.copy_from_slice(&centre_of_orbit(&start, scene.bodies[0].values[0]));
+    }
+    let end = ((scene.seconds * scenes * hz) as u64).max(horizon);
+    for tick in 0..end {
+        let t = tick as f64 / hz;
+        let done = lane.advance(t, 1.0 / hz, spec.substeps);
+        let here = components(&*lane);
+        if done.is_err() || !here.iter().all(|x| x.abs() <= 1e38) {
+            plain.failed_at = Some(t);
+            if tick < horizon {
+                plain.error = f64::INFINITY;
+            }
+            break;
+        }
+        if tick < horizon {
+            truth.advance(t, 1.0 / hz, 1).unwrap();
+            let exact = components(&*truth);
+            for ((x, exact), amplitude) in here.iter().zip(exact).zip(amplitudes) {
+                plain.error = plain.error.max((x - exact).abs() / amplitude);
+            }
+        }
+        plain.q.push(here[0] - middles[0]);
+        let parts = here[..n].iter().zip(&middles).zip(amplitudes);
+        plain.reach.push(parts.map(|((x, m), a)| (x - m).abs() / a).fold(0.0, f64::max));
+        plain.energy.extend(lane.energy());
+    }
+    plain
+}
+
+/// The middle of the ellipse through a state of the form (x0, 0, 0, vy0).
+fn centre_of_orbit(start: &[f64], mu: f64) -> [f64; 2] {
+    let (r, v) = (start[0], start[3]);
+    let a = 1.0 / (2.0 / r - v * v / mu);
+    [r - a, 0.0]
+}
+
+/// Crossings of zero upwards, in ticks.
+fn crossings(q: &[f64]) -> Vec<f64> {
+    let ups = (0..q.len().saturating_sub(1)).filter(|&i| q[i] < 0.0 && q[i + 1] >= 0.0);
+    ups.map(|i| i as f64 + q[i] / (q[i] - q[i + 1])).collect()
+}
+
+/// The claims of a verdict that a plain run contradicts.
+fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<String> {
+    let amplitudes = amplitudes(scene);
+    let kind = scene.bodies[0].kind;
+    let plain = plain(scene, spec, tick_hz, &amplitudes, 10.0);
+    let hz = f64::from(tick_hz);
+    let mut lies = Vec::new();
+    let mut check = |holds: bool, what: String| {
+        if !holds {
+            lies.push(what);
+        }
+    };
+    let near = |a: f64, b: f64, part: f64| (a - b).abs() <= part * b.abs();
+    match verdict.outcome {
+        Outcome::NotJudged | Outcome::NoTruth => return lies,
+        Outcome::BlewUp | Outcome::GaveUp => {
+            check(plain.error.is_infinite(), "it came through".into());
+            return lies;
+        }
+        _ => {}
+    }
+    let rounding = if kind.truth == Truth::Exact { 1e-9 } else { 2e-9 };
+    check(
+        near(verdict.error, plain.error, 0.01) || (verdict.error - plain.error).abs() < rounding,
+        format!("error {} not {}", verdict.error, plain.error),
+    );
+    check(
+        (verdict.outcome <= Outcome::Accurate) == (plain.error <= 0.01)
+            || near(plain.error, 0.01, 0.01),
+        format!("{} with an error of {}", verdict.outcome.id(), plain.error),
+    );
+    if verdict.is_bounded == Some(true) {
+        check(plain.failed_at.is_none(), format!("bounded, and fails at {:?}", plain.failed_at));
+        let tenth = plain.reach.len() / 10;
+        let most = |part: &[f64]| part.iter().fold(0.0_f64, |most, x| most.max(*x));
+        let (early, late) = (most(&plain.reach[..tenth]), most(&plain.reach[tenth..]));
+        // An orbit that turns about its centre reaches further without growing.
+        let most = if matches!(kind.id, "spring" | "chain") { 1.3 } else { 2.0 };
+        let swings = verdict.swings;
+        check(!swings || late <= most * early.max(1.0), format!("bounded: {early} then {late}"));
+    }
+    let undamped_spring = kind.id == "spring" && scene.bodies[0].values[2] == 0.0;
+    if let Some(doubles) = verdict.doubles_in_s
+        && doubles * hz < 0.9 * plain.reach.len() as f64
+        && verdict.swings
+    {
+        let at = if undamped_spring {
+            let start = stepper(scene, Solver::Truth).energy().unwrap();
+            plain.energy.iter().position(|e| *e >= 4.0 * start)
+        } else {
+            plain.reach.iter().position(|r| *r >= 2.0)
+        };
+        let undamped_pendulum = kind.id == "pendulum" && scene.bodies[0].values[3] == 0.0;
+        if undamped_spring || undamped_pendulum || kind.id == "orbit" {
+            let at = at.map_or(f64::INFINITY, |at| (at + 1) as f64 / hz);
+            check(
+                near(doubles, at, 0.05) || (doubles - at).abs() <= 2.0 / hz,
+                format!("×2 in {doubles} s, not {at}"),
+            );
+        }
+    }
+    if let Some(halves) = verdict.halves_in_s
+        && halves * hz < 0.9 * plain.reach.len() as f64
+        && undamped_spring
+    {
+        let start = stepper(scene, Solver::Truth).energy().unwrap();
+        let at = plain.energy.iter().position(|e| *e <= start / 4.0);
+        let at = at.map_or(f64::INFINITY, |at| (at + 1) as f64 / hz);
+        // The energy of a swing under a dissipative method comes down in steps, two for each turn.
+        let turn =
+            std::f64::consts::PI / (scene.bodies[0].values[1] / scene.bodies[0].values[0]).sqrt();
+        // What dies within a turn or two has no time of halving to speak of.
+        check(
+            halves < 4.0 * turn || near(halves, at, 0.05) || (halves - at).abs() <= turn,
+            format!("½ in {halves} s, not {at}"),
+        );
+    }
+    // A swing that changes much from tick to tick does not pass its middle evenly.
+    let changes_in = verdict.doubles_in_s.into_iter().chain(verdict.halves_in_s);
+    if let Some(error) = verdict.frequency_error
+        && changes_in.fold(f64::INFINITY, f64::min) * hz > 20.0
+        && (kind.id == "spring" || kind.id == "pendulum")
+    {
+        let mut truth = stepper(scene, Solver::Truth);
+        const FINE: u32 = 40_000;
+        let h = scene.seconds / f64::from(FINE);
+        let exact: Vec<f64> = (0..FINE)
+            .map(|i| {
+                truth.advance(h * f64::from(i), h, 1).unwrap();
+                truth.q()[0]
+            })
+            .collect();
+        let mut exact = crossings(&exact);
+        let within = (scene.seconds * hz) as usize;
+        let mut lane = crossings(&plain.q[..within.min(plain.q.len())]);
+        let loud = undamped_spring || (kind.id == "pendulum" && scene.bodies[0].values[3] == 0.0);
+        let count = exact.len().min(lane.len()).min(if loud { usize::MAX } else { 4 });
+        if count >= 4 {
+            exact.truncate(count);
+            lane.truncate(count);
+            let found =
+                (exact[count - 1] - exact[0]) * h / ((lane[count - 1] - lane[0]) / hz) - 1.0;
+            // Between two ticks a crossing is not known better than this.
+            let blur = if loud { 0.1 } else { 0.6 } / (lane[count - 1] - lane[0]);
+            check(
+                (found - error).abs() <= (0.02 * error.abs()).max(1e-4) + blur,
+                format!("frequency error {error}, not {found} ± {blur}"),
+            );
+        }
+    }
+    lies
+}
+
+#[test]
+fn verdicts_on_random_scenes_are_true() {
+    let mut dice = Dice::new(0);
+    let (mut unknown, mut false_ones, total) = (Vec::new(), Vec::new(), 300);
+    for round in 0..total {
+        let kind = KINDS[round % KINDS.len()];
+        let text = scene(&mut dice, kind);
+        let scene = Scene::parse("random", &text).unwrap();
+        let spec = LaneSpec::plain(dice.one_of(&GENERAL_METHODS.iter().collect::<Vec<_>>()));
+        let tick_hz = dice.scaled(2.0, 500.0).round() as u32;
+        let verdict = Judge::new(&scene, 1.0).verdict(spec, tick_hz);
+        let what = format!("{} at {tick_hz} Hz on\n{text}  says: {verdict}", spec.method.id);
+        match verdict.outcome {
+            Outcome::NotJudged => unknown.push(what),
+            Outcome::NoTruth => unknown.push(what),
+            _ => {
+                let lies = lies(&scene, spec, tick_hz, &verdict);
+                if !lies.is_empty() {
+                    false_ones.push(format!("{what}\n  but: {}", lies.join("; ")));
+                }
+            }
+        }
+    }
+    assert!(false_ones.is_empty(), "{} false:\n{}", false_ones.len(), false_ones.join("\n\n"));
+    assert!(20 * unknown.len() <= total, "{} not judged:\n{}", unknown.len(), unknown.join("\n"));
+}
+
+#[test]
+fn advised_substeps_and_rates_meet_their_criterion_and_one_fewer_does_not() {
+    let mut dice = Dice::new(0);
+    let accurate = 2;
+    let mut false_ones = Vec::new();
+    for round in 0..24 {
+        let text = scene(&mut dice, KINDS[round % KINDS.len()]);
+        let scene = Scene::parse("random", &text).unwrap();
+        let amplitudes = amplitudes(&scene);
+        let tick_hz = dice.one_of(&[20, 30, 60, 120]);
+        let adviser = Adviser::new(&scene, 1.0, tick_hz);
+        for _ in 0..3 {
+            let spec = LaneSpec::plain(dice.one_of(&GENERAL_METHODS.iter().collect::<Vec<_>>()));
+            let meets = adviser.meets(spec, CRITERIA[accurate]);
+            let Some(met) = meets.met() else { continue };
+            let error = |substeps: u32, tick_hz: u32| {
+                plain(&scene, LaneSpec { substeps, ..spec }, tick_hz, &amplitudes, 1.0).error
+            };
+            let mut check = |holds: bool, substeps: u32, tick_hz: u32| {
+                let error = error(substeps, tick_hz);
+                if (error <= 0.01) != holds && (error - 0.01).abs() > 1e-4 {
+                    false_ones.push(format!(
+                        "{} ×{substeps} at {tick_hz} Hz: {error}\n{text}",
+                        spec.method.id
+                    ));
+                }
+            };
+            check(true, met.substeps, tick_hz);
+            if let Some(slowest_hz) = met.slowest_hz {
+                check(true, met.substeps, slowest_hz);
+                if slowest_hz > 1 {
+                    check(false, met.substeps, slowest_hz - 1);
+                }
+            }
+            if met.substeps > 1 {
+                check(false, met.substeps - 1, tick_hz);
+            }
+        }
+    }
+    assert!(false_ones.is_empty(), "{} false:\n{}", false_ones.len(), false_ones.join("\n\n"));
+}

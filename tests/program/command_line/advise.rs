@@ -1,0 +1,225 @@
+//! `advise`: what meets each criterion at the given rate, at what cost and with what headroom, and what to take.
+
+use std::fs;
+
+use regatta::sim::integrators::GENERAL_METHODS;
+use serde_json::Value;
+
+use super::{refusal, run_in, stdout_of};
+
+fn advice(arguments: &str) -> Value {
+    serde_json::from_str(&stdout_of(&format!("advise {arguments} --format json"))).unwrap()
+}
+
+fn row<'a>(advice: &'a Value, id: &str) -> &'a Value {
+    let rows = advice["methods"].as_array().unwrap();
+    rows.iter().find(|row| row["method"] == id).unwrap()
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    value.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+#[test]
+fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
+    let advice = advice("--scene spring --rates");
+    let rows = advice["methods"].as_array().unwrap();
+    let ids: Vec<&str> = rows.iter().map(|row| row["method"].as_str().unwrap()).collect();
+    assert_eq!(ids, GENERAL_METHODS.iter().map(|method| method.id).collect::<Vec<_>>());
+    assert_eq!((&advice["scene"], &advice["tick_hz"]), (&"spring".into(), &60.into()));
+    assert_eq!((&advice["horizon_s"], &advice["bodies"]), (&20.0.into(), &["spring"][..].into()));
+
+    let explicit = row(&advice, "explicit-euler");
+    assert_eq!(explicit["verdict"]["word"], "gains-energy");
+    assert_eq!(explicit["verdict"]["body"], "spring");
+    assert_eq!(explicit["verdict"]["text"], "gains energy: swing ×2 in 2.12 s");
+    let doubles = explicit["verdict"]["doubles_in_s"].as_f64().unwrap();
+    let z = std::f64::consts::TAU / 60.0;
+    let expected = 2.0 * std::f64::consts::LN_2 / (1.0 + z * z).ln() / 60.0;
+    assert!((doubles / expected - 1.0).abs() < 1e-6, "{doubles}, not {expected}");
+    assert!(explicit["verdict"]["halves_in_s"].is_null());
+    assert!(explicit["criteria"].as_object().unwrap().values().all(Value::is_null));
+    assert!(explicit["rates"]["bounded"].is_null() && explicit["rates"]["accurate"].is_null());
+
+    let semi_implicit = row(&advice, "semi-implicit-euler");
+    let bounded = &semi_implicit["criteria"]["bounded"];
+    assert_eq!((&bounded["substeps"], &bounded["evaluations_per_s"]), (&1.into(), &60.0.into()));
+    // h ω < 2 from 3.15 Hz on, or up to (2 / 0.1047)² = 364.8 times the stiffness.
+    assert_eq!((&bounded["slowest_hz"], &bounded["stiffness_factor"]), (&4.into(), &360.0.into()));
+    assert_eq!(bounded["limited_by"], "stiffness");
+    assert!(bounded["ns_per_s"].as_f64().unwrap() > 0.0);
+    assert_eq!(semi_implicit["rates"]["bounded"], 4);
+
+    let runge_kutta = row(&advice, "rk4");
+    assert_eq!(runge_kutta["verdict"]["word"], "accurate");
+    let halving = runge_kutta["verdict"]["halves_in_s"].as_f64().unwrap() / 86_400.0;
+    assert!((14.5..14.7).contains(&halving), "{halving} days");
+    assert_eq!(runge_kutta["rates"]["accurate"], 21);
+    // z²/24 · 20 · 2π < 0.01 is about 150 Hz.
+    let accurate = row(&advice, "velocity-verlet")["rates"]["accurate"].as_u64().unwrap();
+    assert!((140..150).contains(&accurate), "{accurate}");
+    assert_eq!(row(&advice, "velocity-verlet")["criteria"]["accurate"]["substeps"], 3);
+}
+
+#[test]
+fn what_is_recommended_meets_its_criterion_and_is_not_as_printed() {
+    for scene in ["ship", "harbour", "stiff"] {
+        let advice = advice(&format!("--scene {scene}"));
+        assert_eq!(keys(&advice["recommended"]), ["bounded", "looks-right", "accurate"]);
+        for (criterion, take) in advice["recommended"].as_object().unwrap() {
+            assert_eq!(keys(take), ["method", "substeps", "tick_hz"], "{scene}");
+            let id = take["method"].as_str().unwrap();
+            assert!(!id.ends_with("-as-printed"), "{scene}: {id}");
+            let met = &row(&advice, id)["criteria"][criterion];
+            assert_eq!(met["substeps"], take["substeps"], "{scene}: {criterion}");
+            assert_eq!(take["tick_hz"], advice["tick_hz"]);
+        }
+    }
+}
+
+#[test]
+fn the_verdict_follows_the_tick_rate_and_the_rates_do_not() {
+    let [coarse, fine] = [49, 60].map(|tick_hz| {
+        advice(&format!("--scene stiff --method semi-implicit-euler --rates --tick-hz {tick_hz}"))
+    });
+    let only = |advice: &Value| {
+        assert_eq!(advice["methods"].as_array().unwrap().len(), 1);
+        row(advice, "semi-implicit-euler").clone()
+    };
+    let (coarse, fine) = (only(&coarse), only(&fine));
+    let words = [&coarse, &fine].map(|row| row["verdict"]["word"].clone());
+    assert_eq!(words, ["blew-up", "out-of-phase"]);
+    assert!(coarse["verdict"]["error"].is_null());
+    assert_eq!(coarse["rates"], fine["rates"]);
+    // The limit itself is at 50 Hz.
+    let stable = fine["rates"]["bounded"].as_u64().unwrap();
+    assert!((50..=51).contains(&stable), "{stable}");
+    assert_eq!(coarse["criteria"]["bounded"]["substeps"], 2);
+}
+
+#[test]
+fn text_is_a_table_of_verdicts_one_for_each_criterion_and_a_line_for_each() {
+    let text =
+        stdout_of("advise --scene stiff --method semi-implicit-euler --method explicit-euler");
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines[0].starts_with("METHOD") && lines[0].ends_with("VERDICT"), "{text}");
+    let places = |line: &str, word: &str| line.find(word).map(|at| line[..at].chars().count());
+    assert_eq!(places(lines[0], "VERDICT"), places(lines[1], "stable,"), "{text}");
+    assert_eq!(places(lines[0], "VERDICT"), places(lines[2], "blew up"), "{text}");
+    let taken = "at 60 Hz: bounded: semi-implicit-euler ×1 \
+                 (60 evaluations/s; holds down to 50 Hz, or 1.4 × stiffness)";
+    assert_eq!(lines[lines.len() - 3], taken);
+    assert!(lines[lines.len() - 2].starts_with("at 60 Hz: looks-right: "), "{text}");
+    assert!(lines[lines.len() - 1].starts_with("at 60 Hz: accurate: "), "{text}");
+    assert!(lines.contains(&"  not with up to 64 substeps: explicit-euler"), "{text}");
+    assert!(lines.iter().all(|line| line.trim_end() == *line), "{text}");
+}
+
+#[test]
+fn of_several_bodies_the_one_that_decides_is_named() {
+    let advice = advice("--scene harbour --method explicit-euler --method semi-implicit-euler");
+    assert_eq!(row(&advice, "explicit-euler")["verdict"]["body"], "free spring");
+    let text = row(&advice, "explicit-euler")["verdict"]["text"].as_str().unwrap();
+    assert!(text.ends_with("(free spring)"), "{text}");
+    let limited = &row(&advice, "semi-implicit-euler")["criteria"]["bounded"]["limited_by"];
+    assert_eq!(limited, "stiffness (damped spring)");
+}
+
+#[test]
+fn a_scene_that_nothing_holds_is_told_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\n\
+                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e12\n";
+    fs::write(folder.path().join("hard.toml"), scene).unwrap();
+    let output = run_in(folder.path(), "advise --scene hard.toml --method rk4");
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("at 60 Hz: bounded: none of these with up to 64 substeps"), "{text}");
+}
+
+#[test]
+fn a_margin_whose_search_ends_at_too_much_work_is_not_known() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 60\nseconds = 60\n[[net]]\ncolumns = 10\nrows = 8\nspacing_m = 0.1\n\
+                 shear = true\npin = 'corners'\nmass_kg = 0.02\nstiffness_n_per_m = 1000\n";
+    fs::write(folder.path().join("net.toml"), scene).unwrap();
+    let said = |format: &str| {
+        let arguments = format!("advise --scene net.toml --method rk4 --format {format}");
+        String::from_utf8(run_in(folder.path(), &arguments).stdout).unwrap()
+    };
+    // The run at the rate asked for is affordable. The many runs of a stiffer net may each take a tenth of its work.
+    let advice: Value = serde_json::from_str(&said("json")).unwrap();
+    let bounded = &row(&advice, "rk4")["criteria"]["bounded"];
+    assert!(bounded["stiffness_factor"].is_null() && bounded["limited_by"].is_null(), "{bounded}");
+    let slowest_hz = bounded["slowest_hz"].as_u64().expect("slower runs are cheaper");
+    assert!((50..=60).contains(&slowest_hz), "{slowest_hz} Hz");
+    let text = said("text");
+    assert!(text.lines().any(|line| line.ends_with(" Hz       not known")), "{text}");
+    assert!(text.contains(" Hz; how much stiffer, is not known)\n"), "{text}");
+}
+
+#[test]
+fn mistakes_are_refused_as_elsewhere() {
+    assert!(refusal("advise --scene shp", 2).contains("did you mean ship?"));
+    assert!(refusal("advise --format xml", 2).contains("text, json"));
+}
+
+#[test]
+fn a_camera_is_told_its_half_life_at_30_60_and_144_hz_and_that_it_explodes_above_two() {
+    let of = |id: &str, tick_hz: u32| {
+        let advice = advice(&format!("--scene lerp --method {id} --tick-hz {tick_hz}"));
+        row(&advice, id)["verdict"].clone()
+    };
+    for (id, wanted) in [
+        ("lerp-per-frame", [219.3, 109.6, 45.7]),
+        ("lerp-dt", [57.0, 63.4, 66.9]),
+        ("exponential-decay", [69.3; 3]),
+    ] {
+        for (tick_hz, wanted) in [30, 60, 144].into_iter().zip(wanted) {
+            let verdict = of(id, tick_hz);
+            let [found, truth] = ["half_life_s", "true_half_life_s"]
+                .map(|key| 1e3 * verdict[key].as_f64().expect("a half-life"));
+            assert!((found - wanted).abs() < 0.06, "{id} at {tick_hz} Hz: {found} ms");
+            assert!((truth - 69.315).abs() < 0.01, "{truth} ms");
+            assert_eq!(verdict["overshoot_percent"], 0.0);
+        }
+    }
+    assert!(
+        of("lerp-per-frame", 30)["text"]
+            .as_str()
+            .unwrap()
+            .contains("half-life 219 ms, not 69.3 ms")
+    );
+    let text = of("lerp-dt", 4)["text"].to_string();
+    assert!(text.contains("explodes, as k dt = 2.5 is above 2"), "{text}");
+    let text = of("lerp-dt", 6)["text"].to_string();
+    assert!(text.contains("overshoots by 67 %"), "{text}");
+    assert!(row(&advice("--scene spring --method rk4"), "rk4")["verdict"]["half_life_s"].is_null());
+}
+
+#[test]
+fn lerp_per_frame_is_not_recommended() {
+    let advice = advice("--scene lerp");
+    for criterion in ["accurate", "looks-right"] {
+        let method = &advice["recommended"][criterion]["method"];
+        assert!(method.is_string() && method != "lerp-per-frame", "{criterion}: {method}");
+    }
+}
+
+#[test]
+fn engines_are_judged_only_where_they_are_asked_for() {
+    let ids = |arguments: &str| -> Vec<String> {
+        let advice = advice(arguments);
+        let rows = advice["methods"].as_array().unwrap();
+        rows.iter().map(|row| row["method"].as_str().unwrap().to_owned()).collect()
+    };
+    let unasked = ids("--scene held-force");
+    assert!(unasked.len() == GENERAL_METHODS.len(), "{unasked:?}");
+    assert!(unasked.iter().all(|id| id != "held-force" && !id.starts_with("engine-")));
+    let engines = ids("--scene spring --family engine");
+    assert!(engines.contains(&"held-force".to_owned()) && engines.len() > 10, "{engines:?}");
+    assert!(engines.iter().all(|id| id == "held-force" || id.starts_with("engine-")));
+    let refused = refusal("advise --scene follow --family engine", 2);
+    assert!(refused.contains("engine-box2d does not step the body"), "{refused}");
+    assert!(refusal("advise --family enigne", 2).contains("did you mean engine?"));
+}

@@ -1,0 +1,173 @@
+//! `verify --bless`: whatever happens to it, there is a whole clip, the old one or the new one.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+use super::capture::drawn_or_skip;
+use super::mishaps::XorShift;
+use super::{regatta, run_in, stderr};
+
+type Content = BTreeMap<String, Vec<u8>>;
+
+/// Files of the clip by name; what else a directory holds is named too.
+fn content(folder: &Path) -> Content {
+    let entries = fs::read_dir(folder.join("clip")).unwrap().map(|entry| entry.unwrap());
+    let read = |path: &Path| if path.is_dir() { Vec::new() } else { fs::read(path).unwrap() };
+    entries.map(|e| (e.file_name().into_string().unwrap(), read(&e.path()))).collect()
+}
+
+fn restore(folder: &Path, content: &Content) {
+    let clip = folder.join("clip");
+    fs::remove_dir_all(&clip).unwrap();
+    fs::create_dir(&clip).unwrap();
+    for (name, bytes) in content {
+        fs::write(clip.join(name), bytes).unwrap();
+    }
+}
+
+/// A clip of another run than its settings say, beside a file of somebody else's; what blessing makes of
+/// it; and how long that takes.
+fn clip_or_skip(test: &str) -> Option<(TempDir, Content, Content, Duration)> {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = "capture --scene spring --race --frames 12 --size 64x36 --scale 0.5 --out clip";
+    let output = drawn_or_skip(test, folder.path(), capture)?;
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    fs::write(folder.path().join("clip/notes.txt"), "mine").unwrap();
+    let new = content(folder.path());
+    let mut old = new.clone();
+    let manifest = String::from_utf8(old["manifest.json"].clone()).unwrap();
+    let manifest = manifest.replacen("\"driver_info\": \"", "\"driver_info\": \"old ", 1);
+    old.insert("manifest.json".into(), manifest.into_bytes());
+    old.insert("frame-000001.png".into(), b"old".to_vec());
+    assert!(old["manifest.json"] != new["manifest.json"]);
+    restore(folder.path(), &old);
+    let begin = Instant::now();
+    let blessed = run_in(folder.path(), "verify clip --bless");
+    assert_eq!(blessed.status.code(), Some(0), "{}", stderr(&blessed));
+    assert!(content(folder.path()) == new);
+    Some((folder, old, new, begin.elapsed()))
+}
+
+#[cfg(unix)]
+#[test]
+fn killed_at_any_moment_it_leaves_the_old_clip_or_the_new_one() {
+    let test = "killed_at_any_moment_it_leaves_the_old_clip_or_the_new_one";
+    let Some((folder, old, new, duration)) = clip_or_skip(test) else { return };
+    let folder = folder.path();
+    let mut random = XorShift::new(test);
+    for _ in 0..20 {
+        restore(folder, &old);
+        let mut command = regatta();
+        command.current_dir(folder).args(["verify", "clip", "--bless"]).stderr(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        std::thread::sleep(Duration::from_micros(random.below(duration.as_micros() as u64)));
+        // That is SIGKILL.
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let judged = run_in(folder, "verify clip --physics-only");
+        assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
+        let mut left = content(folder);
+        left.retain(|name, _| !name.starts_with(".regatta-bless-"));
+        assert!(left == old || left == new, "{:?}", left.keys());
+        let blessed = run_in(folder, "verify clip --bless");
+        assert_eq!(blessed.status.code(), Some(0), "{}", stderr(&blessed));
+        assert!(content(folder) == new);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn interrupted_it_leaves_the_old_clip_as_it_was() {
+    let test = "interrupted_it_leaves_the_old_clip_as_it_was";
+    let Some((folder, old, new, _)) = clip_or_skip(test) else { return };
+    let folder = folder.path();
+    let mut interrupted = 0;
+    for _ in 0..5 {
+        restore(folder, &old);
+        let mut command = regatta();
+        command.current_dir(folder).args(["verify", "clip", "--bless"]).stderr(Stdio::piped());
+        let child = command.spawn().unwrap();
+        let is_begun = || content(folder).keys().any(|name| name.starts_with(".regatta-bless-"));
+        while !is_begun() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(interrupt.unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        match output.status.code() {
+            Some(0) => assert!(content(folder) == new),
+            Some(130) => {
+                interrupted += 1;
+                assert!(content(folder) == old, "{:?}", content(folder).keys());
+                let said = stderr(&output);
+                assert!(said.starts_with("error: not blessed: interrupted after "), "{said}");
+            }
+            // It was stopped before it watched for that.
+            _ => assert!(content(folder)["manifest.json"] == old["manifest.json"]),
+        }
+    }
+    assert!(interrupted > 0, "every run was done before it was interrupted");
+}
+
+#[test]
+fn a_swap_that_was_stopped_is_finished_by_the_next_command_which_says_so() {
+    let test = "a_swap_that_was_stopped_is_finished_by_the_next_command_which_says_so";
+    let Some((folder, old, new, _)) = clip_or_skip(test) else { return };
+    let folder = folder.path();
+    for (command, said) in [
+        (
+            "verify clip",
+            "a --bless was interrupted while it replaced the frames; now it is complete",
+        ),
+        ("verify clip --bless", "wrote 12 frames"),
+    ] {
+        restore(folder, &old);
+        let ready = folder.join("clip/.regatta-blessed");
+        fs::create_dir(&ready).unwrap();
+        for (name, bytes) in new.iter().filter(|(name, _)| **name != "notes.txt") {
+            fs::write(ready.join(name), bytes).unwrap();
+        }
+        fs::rename(ready.join("frame-000000.png"), folder.join("clip/frame-000000.png")).unwrap();
+        let output = run_in(folder, command);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(stderr(&output).starts_with(said), "{}", stderr(&output));
+        assert!(content(folder) == new);
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_clip_that_cannot_be_written_is_a_run_that_failed() {
+    let test = "a_clip_that_cannot_be_written_is_a_run_that_failed";
+    let folder = tempfile::tempdir().unwrap();
+    let disk = folder.path().join("clip");
+    fs::create_dir(&disk).unwrap();
+    let mount = |options: &str| {
+        let mut command = Command::new("mount");
+        command.args(["-t", "tmpfs", "-o", options, "tmpfs"]).arg(&disk).stderr(Stdio::null());
+        command.status().is_ok_and(|status| status.success())
+    };
+    if !mount("size=2m") {
+        let _ = writeln!(io::stderr(), "SKIPPED {test}: a small disk cannot be mounted here");
+        return;
+    }
+    let capture = "capture --scene spring --frames 2 --size 16x16 --out clip";
+    let drawn = drawn_or_skip(test, folder.path(), capture);
+    let output = (drawn.is_some() && mount("remount,ro")).then(|| {
+        let blessed = run_in(folder.path(), "verify clip --bless");
+        (blessed, run_in(folder.path(), "verify clip"))
+    });
+    assert!(Command::new("umount").arg(&disk).status().unwrap().success());
+    let Some((blessed, judged)) = output else { return };
+    assert_eq!(blessed.status.code(), Some(1), "{}", stderr(&blessed));
+    let said = stderr(&blessed);
+    assert!(said.contains("Read-only file system"), "{said}");
+    assert!(said.contains("give another DIR that you may write to"), "{said}");
+    assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
+}

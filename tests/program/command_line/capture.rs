@@ -1,0 +1,168 @@
+//! `capture`, and `play` where there is no display: what is in the directory, whatever happens.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+use std::process::Output;
+
+use super::{regatta, run_in, stderr};
+
+/// Runs a command that draws. Where there is nothing to draw with, says that `test` is skipped.
+pub(crate) fn drawn_or_skip(test: &str, directory: &Path, arguments: &str) -> Option<Output> {
+    let output = run_in(directory, arguments);
+    let said = stderr(&output);
+    if said.contains("no usable graphics adapter") || said.contains("no graphics device") {
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        // Not `eprintln!`, which the test runner hides when a test passes.
+        let _ = writeln!(io::stderr(), "SKIPPED {test}: {said}");
+        return None;
+    }
+    Some(output)
+}
+
+pub(crate) fn names(directory: &Path) -> Vec<String> {
+    let entries = fs::read_dir(directory).unwrap();
+    let mut names: Vec<_> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+pub(crate) fn dimensions(picture: &Path) -> (u32, u32) {
+    image::open(picture).unwrap().into_rgba8().dimensions()
+}
+
+#[test]
+fn the_same_command_makes_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = "capture --scene harbour --race --frames 3 --fps 10 --size 320x180 --out";
+    for out in ["a", "b/c"] {
+        let test = "the_same_command_makes_the_same_bytes";
+        let Some(output) = drawn_or_skip(test, folder.path(), &format!("{capture} {out}")) else {
+            return;
+        };
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(output.stdout.is_empty());
+        let last = stderr(&output).lines().last().unwrap().to_owned();
+        let names = format!("{out}/frame-000000.png … frame-000002.png");
+        assert_eq!(last, format!("wrote 3 frames of 320x180, 10 a second: {names}"));
+    }
+    let [a, b] = ["a", "b/c"].map(|out| folder.path().join(out));
+    let frames = ["frame-000000.png", "frame-000001.png", "frame-000002.png"];
+    assert_eq!(names(&a), [&frames[..], &["manifest.json"]].concat());
+    assert_eq!(names(&a), names(&b));
+    let bytes = |directory: &Path, name: &String| fs::read(directory.join(name)).unwrap();
+    for name in names(&a) {
+        assert!(bytes(&a, &name) == bytes(&b, &name), "{name} differs");
+    }
+    assert!(frames.iter().all(|frame| dimensions(&a.join(frame)) == (320, 180)));
+    let [first, last] = ["frame-000000.png", "frame-000002.png"].map(String::from);
+    assert!(bytes(&a, &first) != bytes(&a, &last), "nothing moved");
+}
+
+#[test]
+fn force_replaces_all_frames_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let clip = folder.path().join("clip");
+    let test = "force_replaces_all_frames_and_nothing_else";
+    let older = "capture --scene spring --frames 3 --size 16x16 --out clip";
+    let Some(_) = drawn_or_skip(test, folder.path(), older) else { return };
+    fs::write(clip.join("notes.txt"), "old").unwrap();
+    let before = names(&clip);
+    let capture = "capture --scene ship --frames 1 --size 32x32 --out clip";
+    let refused = run_in(folder.path(), capture);
+    assert_eq!(refused.status.code(), Some(2));
+    assert_eq!(names(&clip), before);
+
+    let forced = run_in(folder.path(), &format!("{capture} --force"));
+    assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
+    assert!(stderr(&forced).contains("left alone in clip: notes.txt"), "{}", stderr(&forced));
+    assert_eq!(names(&clip), ["frame-000000.png", "manifest.json", "notes.txt"]);
+    assert_eq!(dimensions(&clip.join("frame-000000.png")), (32, 32));
+    assert_eq!(fs::read(clip.join("notes.txt")).unwrap(), b"old");
+}
+
+#[test]
+fn the_smallest_the_largest_and_odd_sizes_are_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    for (width, height) in [(1, 1), (3, 997), (1001, 2), (3840, 2160)] {
+        let size = format!("{width}x{height}");
+        let capture = format!("capture --race --frames 1 --size {size} --scale 2 --out {size}");
+        let test = "the_smallest_the_largest_and_odd_sizes_are_drawn";
+        let Some(output) = drawn_or_skip(test, folder.path(), &capture) else { return };
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let picture = folder.path().join(size).join("frame-000000.png");
+        assert_eq!(dimensions(&picture), (width, height));
+    }
+}
+
+#[test]
+fn a_frame_that_cannot_be_written_ends_the_capture_with_whole_files_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let in_the_way = folder.path().join("clip/frame-000002.png");
+    fs::create_dir_all(in_the_way.join("something")).unwrap();
+    let test = "a_frame_that_cannot_be_written_ends_the_capture_with_whole_files_only";
+    let capture = "capture --frames 5 --size 16x16 --out clip --force";
+    let Some(output) = drawn_or_skip(test, folder.path(), capture) else { return };
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("cannot write clip/frame-000002.png: "), "{said}");
+    assert!(said.contains("whole before that: clip/frame-000000.png … frame-000001.png"), "{said}");
+    let clip = folder.path().join("clip");
+    assert_eq!(names(&clip), ["frame-000000.png", "frame-000001.png", "frame-000002.png"]);
+    assert_eq!(dimensions(&clip.join("frame-000001.png")), (16, 16));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_whole_frames_and_says_how_many() {
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+
+    let folder = tempfile::tempdir().unwrap();
+    let test = "an_interrupt_leaves_whole_frames_and_says_how_many";
+    let probe = "capture --frames 1 --size 16x16 --out probe";
+    if drawn_or_skip(test, folder.path(), probe).is_none() {
+        return;
+    }
+    let child = regatta()
+        .current_dir(folder.path())
+        .args("capture --frames 100000 --size 64x64 --out clip".split(' '))
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let clip = folder.path().join("clip");
+    while !clip.join("frame-000002.png").exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(interrupt.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    let mut frames = names(&clip);
+    assert_eq!(frames.pop().unwrap(), "manifest.json");
+    let last = frames.last().unwrap();
+    let expected = format!("interrupted after {} of 100000 frames; whole: ", frames.len());
+    assert!(said.contains(&expected), "{said}");
+    assert!(said.trim_end().ends_with(last), "{said}");
+    assert!(frames.iter().all(|frame| dimensions(&clip.join(frame)) == (64, 64)));
+}
+
+// Elsewhere the display does not depend on the environment.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_a_display_the_demo_is_drawn_into_a_fresh_directory() {
+    let folder = tempfile::tempdir().unwrap();
+    for out in ["regatta-frames", "regatta-frames-2"] {
+        let test = "without_a_display_the_demo_is_drawn_into_a_fresh_directory";
+        let Some(output) = drawn_or_skip(test, folder.path(), "--seconds 0.1") else { return };
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        assert!(said.starts_with("no display to open a window on (neither "), "{said}");
+        assert!(said.contains(&format!("0.1 s of it into {out} instead\n")), "{said}");
+        let wrote = format!("wrote 3 frames of 1280x720, 30 a second: {out}/frame-000000.png");
+        assert!(said.contains(&wrote), "{said}");
+        assert_eq!(names(&folder.path().join(out)).len(), 4);
+    }
+}

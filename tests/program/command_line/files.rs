@@ -1,0 +1,187 @@
+//! Other people's files, other writers, links and devices: what is not ours stays as it is.
+
+use std::fs::{self, File};
+use std::io::{Read, Write};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use super::capture::{drawn_or_skip, names};
+use super::{regatta, run_in, stderr};
+
+const GIF: &str = "capture --scene spring --frames 3 --size 32x18 --scale 0.5";
+
+fn start(folder: &Path, arguments: &str) -> Child {
+    let mut command = regatta();
+    command.current_dir(folder).args(arguments.split(' ')).stderr(Stdio::piped());
+    command.spawn().unwrap()
+}
+
+#[test]
+fn the_name_of_a_file_says_its_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "the_name_of_a_file_says_its_format";
+    for (out, begin) in
+        [("run.gif", &b"GIF89a"[..]), ("run.y4m", b"YUV4MPEG2 "), ("run.apng", b"\x89PNG\r\n")]
+    {
+        let Some(output) = drawn_or_skip(test, folder.path(), &format!("{GIF} --out {out}")) else {
+            return;
+        };
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(fs::read(folder.path().join(out)).unwrap().starts_with(begin), "{out}");
+    }
+    assert_eq!(names(folder.path()), ["run.apng", "run.gif", "run.y4m"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn files_that_are_called_like_unfinished_ones_are_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "files_that_are_called_like_unfinished_ones_are_left_alone";
+    let clip = folder.path().join("clip");
+    fs::create_dir(&clip).unwrap();
+    fs::write(folder.path().join("elsewhere"), "mine").unwrap();
+    fs::write(folder.path().join("run.gif.part"), "mine").unwrap();
+    for name in ["frame-000000.png.part", "manifest.json.part"] {
+        std::os::unix::fs::symlink("../elsewhere", clip.join(name)).unwrap();
+    }
+    for out in ["run.gif", "clip --force"] {
+        let Some(output) = drawn_or_skip(test, folder.path(), &format!("{GIF} --out {out}")) else {
+            return;
+        };
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    }
+    for name in ["elsewhere", "run.gif.part"] {
+        assert_eq!(fs::read(folder.path().join(name)).unwrap(), b"mine", "{name}");
+    }
+    let links = ["frame-000000.png.part", "manifest.json.part"];
+    assert!(links.iter().all(|name| fs::read_link(clip.join(name)).is_ok()));
+    assert_eq!(names(&clip).len(), 3 + 1 + 2);
+}
+
+#[test]
+fn a_manifest_or_a_frame_that_no_capture_made_is_never_replaced() {
+    for (name, mine) in [
+        ("manifest.json", r#"{ "name": "my web app", "version": "1.0", "frames": [] }"#),
+        ("frame-000001.png", "a frame of another program"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let clip = folder.path().join("clip");
+        fs::create_dir(&clip).unwrap();
+        fs::write(clip.join(name), mine).unwrap();
+        for option in ["--force", "--resume"] {
+            let output = run_in(folder.path(), &format!("{GIF} --out clip {option}"));
+            assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+            let reason =
+                format!("clip/{name} was not made by regatta and is not replaced; move it");
+            assert!(stderr(&output).contains(&reason), "{}", stderr(&output));
+            assert_eq!(names(&clip), [name]);
+            assert_eq!(fs::read_to_string(clip.join(name)).unwrap(), mine);
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_directory_that_is_written_is_neither_written_nor_judged_by_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "a_directory_that_is_written_is_neither_written_nor_judged_by_others";
+    if drawn_or_skip(test, folder.path(), &format!("{GIF} --out probe")).is_none() {
+        return;
+    }
+    let endless = GIF.replace("--frames 3", "--frames 100000");
+    let first = start(folder.path(), &format!("{endless} --out clip"));
+    while !folder.path().join("clip/frame-000002.png").exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    for other in ["--out clip", "--out clip --force", "--out clip --resume"] {
+        let output = run_in(folder.path(), &format!("{GIF} {other}"));
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        let reason =
+            "another regatta is writing to clip; wait until it has finished, or give another --out";
+        assert!(stderr(&output).contains(reason), "{other}: {}", stderr(&output));
+    }
+    let judged = run_in(folder.path(), "verify clip");
+    assert_eq!(judged.status.code(), Some(2));
+    assert!(stderr(&judged).contains("another regatta is writing to it"), "{}", stderr(&judged));
+    let interrupt = Command::new("kill").args(["-INT", &first.id().to_string()]).status();
+    assert!(interrupt.unwrap().success());
+    assert_eq!(first.wait_with_output().unwrap().status.code(), Some(130));
+    let output = run_in(folder.path(), &format!("{GIF} --out clip --force"));
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(names(&folder.path().join("clip")).len(), 4);
+}
+
+#[test]
+fn two_writers_of_one_file_leave_the_whole_of_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "two_writers_of_one_file_leave_the_whole_of_one";
+    let runs = [GIF.replace("spring", "ship"), GIF.replace("spring", "orbit")];
+    let alone = |n: usize| format!("{} --out {n}.gif", runs[n]);
+    if (0..2).any(|n| drawn_or_skip(test, folder.path(), &alone(n)).is_none()) {
+        return;
+    }
+    let whole = [0, 1].map(|n| fs::read(folder.path().join(format!("{n}.gif"))).unwrap());
+    assert!(whole[0] != whole[1]);
+    for _ in 0..3 {
+        let writers = runs
+            .each_ref()
+            .map(|run| start(folder.path(), &format!("{run} --out run.gif --force")));
+        for writer in writers {
+            let output = writer.wait_with_output().unwrap();
+            assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        }
+        assert!(whole.contains(&fs::read(folder.path().join("run.gif")).unwrap()));
+        assert_eq!(names(folder.path()), ["0.gif", "1.gif", "run.gif"]);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_one_and_its_target_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "a_link_stays_one_and_its_target_is_written";
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir(path("real")).unwrap();
+    fs::write(path("real/old.gif"), "old").unwrap();
+    std::os::unix::fs::symlink("real/old.gif", path("link.gif")).unwrap();
+    std::os::unix::fs::symlink("real/new.gif", path("dangling.gif")).unwrap();
+    for (link, target) in [("link.gif", "real/old.gif"), ("dangling.gif", "real/new.gif")] {
+        let capture = format!("{GIF} --out {link}");
+        let refused = run_in(folder.path(), &capture);
+        assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+        assert!(stderr(&refused).contains(&format!("{link} already exists; give another --out")));
+        let forced = drawn_or_skip(test, folder.path(), &format!("{capture} --force"));
+        let Some(forced) = forced else { return };
+        assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
+        assert_eq!(fs::read_link(path(link)).unwrap(), Path::new(target));
+        assert!(fs::read(path(target)).unwrap().starts_with(b"GIF89a"));
+    }
+    assert_eq!(names(&path("real")), ["new.gif", "old.gif"]);
+    std::os::unix::fs::symlink("ring.gif", path("ring.gif")).unwrap();
+    let refused = run_in(folder.path(), &format!("{GIF} --out ring.gif --force"));
+    assert_eq!(refused.status.code(), Some(1), "{}", stderr(&refused));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_with_a_name_is_written_into_and_not_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "a_pipe_with_a_name_is_written_into_and_not_replaced";
+    let run = GIF.to_owned() + " --format rgba --out";
+    if drawn_or_skip(test, folder.path(), &format!("{run} run.rgba")).is_none() {
+        return;
+    }
+    let pipe = folder.path().join("pipe");
+    if !Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()) {
+        let _ = writeln!(std::io::stderr(), "SKIPPED {test}: there is no mkfifo");
+        return;
+    }
+    let writer = start(folder.path(), &format!("{run} pipe"));
+    let mut read = Vec::new();
+    File::open(&pipe).unwrap().read_to_end(&mut read).unwrap();
+    let output = writer.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(read == fs::read(folder.path().join("run.rgba")).unwrap());
+    assert_eq!(names(folder.path()), ["pipe", "run.rgba"]);
+}

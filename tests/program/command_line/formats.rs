@@ -1,0 +1,279 @@
+//! One run in every format: the same pixels in each, and other programs can read them.
+
+use std::fs::{self, File};
+use std::io::{self, BufReader, Read, Write};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use image::codecs::png::PngDecoder;
+use image::{AnimationDecoder, RgbaImage};
+use tempfile::TempDir;
+
+use super::capture::{drawn_or_skip, names};
+use super::{regatta, run_in, stderr};
+
+const FRAMES: usize = 7;
+const RUN: &str = "capture --scene harbour --race --frames 7 --fps 12 --size 93x51 --scale 0.5";
+
+/// The frames as numbered pictures, in `clip`.
+fn clip_or_skip(test: &str) -> Option<(TempDir, Vec<RgbaImage>)> {
+    let folder = tempfile::tempdir().unwrap();
+    let output = drawn_or_skip(test, folder.path(), &format!("{RUN} --out clip"))?;
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let frame = |n| image::open(folder.path().join(format!("clip/frame-{n:06}.png"))).unwrap();
+    let frames = (0..FRAMES).map(|n| frame(n).into_rgba8()).collect();
+    Some((folder, frames))
+}
+
+/// The run as one file.
+fn written(folder: &Path, format: &str) -> Vec<u8> {
+    let output = run_in(folder, &format!("{RUN} --format {format} --out run.{format} --force"));
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert_eq!(said, format!("wrote 7 frames of 93x51, 12 a second: run.{format}\n"));
+    fs::read(folder.join(format!("run.{format}"))).unwrap()
+}
+
+/// What a program says of a file. Where it is not installed, says that `test` is skipped.
+fn asked_or_skip(test: &str, program: &str, arguments: &[&str], file: &Path) -> Option<String> {
+    match Command::new(program).args(arguments).arg(file).output() {
+        Ok(output) => {
+            let [out, err] = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
+            assert!(output.status.success(), "{program}: {out}{err}");
+            Some(out + &err)
+        }
+        Err(error) => {
+            let _ = writeln!(io::stderr(), "SKIPPED {test}: {program}: {error}");
+            None
+        }
+    }
+}
+
+#[test]
+fn an_animated_png_has_every_pixel_of_every_frame() {
+    let test = "an_animated_png_has_every_pixel_of_every_frame";
+    let Some((folder, frames)) = clip_or_skip(test) else { return };
+    written(folder.path(), "apng");
+    let path = folder.path().join("run.apng");
+    let decoder = PngDecoder::new(BufReader::new(File::open(&path).unwrap())).unwrap();
+    let decoded = decoder.apng().unwrap().into_frames().collect_frames().unwrap();
+    assert_eq!(decoded.len(), FRAMES);
+    for (decoded, frame) in decoded.iter().zip(&frames) {
+        assert!(decoded.buffer() == frame);
+        let (ms, per) = decoded.delay().numer_denom_ms();
+        assert_eq!(ms * 12, 1000 * per);
+    }
+    if let Some(said) = asked_or_skip(test, "pngcheck", &[], &path) {
+        assert!(said.contains("OK: "), "{said}");
+    }
+}
+
+#[test]
+fn single_frames_are_read_by_a_decoder_that_is_not_ours() {
+    let test = "single_frames_are_read_by_a_decoder_that_is_not_ours";
+    let Some((folder, _)) = clip_or_skip(test) else { return };
+    for n in 0..FRAMES {
+        let path = folder.path().join(format!("clip/frame-{n:06}.png"));
+        let Some(said) = asked_or_skip(test, "pngcheck", &[], &path) else { return };
+        assert!(said.contains("OK: ") && said.contains("(93x51, 32-bit RGB+alpha, "), "{said}");
+    }
+}
+
+#[test]
+fn a_gif_keeps_time_and_looks_alike() {
+    let test = "a_gif_keeps_time_and_looks_alike";
+    let Some((folder, frames)) = clip_or_skip(test) else { return };
+    written(folder.path(), "gif");
+    let path = folder.path().join("run.gif");
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(BufReader::new(File::open(&path).unwrap())).unwrap();
+    let mut decoded = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        decoded.push((frame.delay, frame.buffer.to_vec()));
+    }
+    assert_eq!(decoded.len(), FRAMES);
+    // 7 frames at 12 a second are 0.583 s; a GIF counts hundredths.
+    let delays: Vec<u16> = decoded.iter().map(|(delay, _)| *delay).collect();
+    assert_eq!(delays.iter().sum::<u16>(), 58, "{delays:?}");
+    assert!(delays.iter().all(|delay| [8, 9].contains(delay)), "{delays:?}");
+    for ((_, decoded), frame) in decoded.iter().zip(&frames) {
+        let off = decoded.iter().zip(frame.iter()).map(|(a, b)| u64::from(a.abs_diff(*b)));
+        let mean = off.sum::<u64>() as f64 / frame.len() as f64;
+        assert!(mean < 6.0, "off by {mean} on average");
+    }
+    if let Some(said) = asked_or_skip(test, "gifsicle", &["--info"], &path) {
+        assert!(said.contains("7 images") && said.contains("logical screen 93x51"), "{said}");
+        assert!(said.contains("loop forever"), "{said}");
+    }
+}
+
+#[test]
+fn y4m_has_a_header_and_three_planes_a_frame() {
+    let test = "y4m_has_a_header_and_three_planes_a_frame";
+    let Some((folder, frames)) = clip_or_skip(test) else { return };
+    let bytes = written(folder.path(), "y4m");
+    let header = b"YUV4MPEG2 W93 H51 F12:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n";
+    let mut rest = bytes.strip_prefix(header).expect("the header");
+    for frame in &frames {
+        rest = rest.strip_prefix(b"FRAME\n").expect("a frame");
+        let (planes, after) = rest.split_at(3 * 93 * 51);
+        rest = after;
+        for (pixel, &luma) in frame.pixels().zip(&planes[..93 * 51]) {
+            let [r, g, b, _] = pixel.0.map(f64::from);
+            let expected = 16.0 + (65.481 * r + 128.553 * g + 24.966 * b) / 255.0;
+            assert!((f64::from(luma) - expected).abs() < 1.5, "{luma}, not {expected}");
+        }
+    }
+    assert!(rest.is_empty());
+}
+
+#[test]
+fn ffmpeg_reads_every_film_and_sees_the_frames_that_were_drawn() {
+    let test = "ffmpeg_reads_every_film_and_sees_the_frames_that_were_drawn";
+    let Some((folder, frames)) = clip_or_skip(test) else { return };
+    let drawn: Vec<u8> = frames.iter().flat_map(|frame| frame.as_raw().clone()).collect();
+    // Chroma is rounded to a byte and luma to its range of 219; a GIF has 256 colours.
+    for (format, codec, rate, most, mean) in [
+        ("apng", "apng", "12/1", 0, 0.0),
+        ("y4m", "rawvideo", "12/1", 3, 1.0),
+        ("gif", "gif", "143/12", 255, 6.0),
+    ] {
+        written(folder.path(), format);
+        let film = folder.path().join(format!("run.{format}"));
+        let shown = "stream=codec_name,width,height,r_frame_rate,nb_read_frames";
+        let probe = ["-v", "error", "-count_frames", "-show_entries", shown, "-of", "csv=p=0"];
+        let Some(said) = asked_or_skip(test, "ffprobe", &probe, &film) else { return };
+        assert_eq!(said.trim(), format!("{codec},93,51,{rate},7"), "{format}");
+
+        let raw = folder.path().join("raw");
+        let film = film.to_str().expect("plain letters");
+        let decode = ["-v", "error", "-y", "-i", film, "-fps_mode", "passthrough"];
+        let to_rgba = ["-f", "rawvideo", "-pix_fmt", "rgba"];
+        let Some(_) = asked_or_skip(test, "ffmpeg", &[&decode[..], &to_rgba].concat(), &raw) else {
+            return;
+        };
+        let read = fs::read(raw).unwrap();
+        assert_eq!(read.len(), drawn.len(), "{format}");
+        let off = read.iter().zip(&drawn).map(|(a, b)| a.abs_diff(*b));
+        let (largest, sum) =
+            off.fold((0, 0), |(largest, sum), d| (d.max(largest), sum + u64::from(d)));
+        assert!(largest <= most, "{format}: off by {largest}");
+        assert!(sum as f64 <= mean * drawn.len() as f64, "{format}: off by {sum} in all");
+    }
+}
+
+#[test]
+fn the_readmes_pipe_to_ffmpeg_makes_a_film() {
+    let test = "the_readmes_pipe_to_ffmpeg_makes_a_film";
+    let readme = include_str!("../../../README.md");
+    let line = readme.lines().find(|line| line.contains("| ffmpeg")).expect("the README's line");
+    let (ours, theirs) = line.split_once(" | ").expect("a pipe");
+    let folder = tempfile::tempdir().unwrap();
+    let Some(_) = asked_or_skip(test, "ffmpeg", &[], Path::new("-version")) else { return };
+    let smaller = "--frames 12 --size 160x90 --scale 0.5";
+    let ours = ours.replace("--seconds 10", smaller).replace("regatta ", "");
+    let Some(stream) = drawn_or_skip(test, folder.path(), &ours) else { return };
+    assert_eq!(stream.status.code(), Some(0), "{}", stderr(&stream));
+    let arguments: Vec<&str> = theirs.split(' ').skip(1).collect();
+    let mut ffmpeg = Command::new("ffmpeg");
+    ffmpeg.args(["-v", "error"]).args(arguments).current_dir(folder.path());
+    let mut ffmpeg = ffmpeg.stdin(Stdio::piped()).spawn().unwrap();
+    ffmpeg.stdin.take().expect("a pipe").write_all(&stream.stdout).unwrap();
+    assert!(ffmpeg.wait().unwrap().success());
+    let probe = ["-v", "error", "-count_frames", "-show_entries", "stream=width,nb_read_frames"];
+    let of = ["-of", "csv=p=0"];
+    let film = folder.path().join("clip.mp4");
+    let said = asked_or_skip(test, "ffprobe", &[&probe[..], &of].concat(), &film);
+    assert_eq!(said.expect("it comes with ffmpeg").trim(), "160,12");
+}
+
+#[test]
+fn raw_frames_are_the_pixels_and_standard_output_has_the_same_bytes_as_a_file() {
+    let test = "raw_frames_are_the_pixels_and_standard_output_has_the_same_bytes_as_a_file";
+    let Some((folder, frames)) = clip_or_skip(test) else { return };
+    let pixels: Vec<u8> = frames.iter().flat_map(|frame| frame.as_raw().clone()).collect();
+    assert!(written(folder.path(), "rgba") == pixels);
+    for format in ["rgba", "y4m", "gif", "apng"] {
+        let output = run_in(folder.path(), &format!("{RUN} --format {format} --out -"));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(output.stdout == written(folder.path(), format), "{format}");
+    }
+}
+
+#[test]
+fn a_sheet_has_time_across_and_lanes_down() {
+    let test = "a_sheet_has_time_across_and_lanes_down";
+    let folder = tempfile::tempdir().unwrap();
+    let sheet = "capture --scene spring --format sheet --frames 3 --size 90x50 --out sheet.png";
+    let Some(output) = drawn_or_skip(test, folder.path(), sheet) else { return };
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let down = "down: explicit-euler, semi-implicit-euler, ";
+    assert!(said.starts_with("wrote a sheet of 270x250: sheet.png; 3 moments across; "), "{said}");
+    assert!(said.contains(down), "{said}");
+    let sheet = image::open(folder.path().join("sheet.png")).unwrap().into_rgba8();
+    assert_eq!(sheet.dimensions(), (270, 250));
+    let alone = "capture --scene spring --method explicit-euler --frames 3 --fps 1 --panels off \
+                 --size 90x50 --out alone";
+    assert_eq!(run_in(folder.path(), alone).status.code(), Some(0));
+    for column in 0..3 {
+        let name = format!("alone/frame-{column:06}.png");
+        let frame = image::open(folder.path().join(name)).unwrap().into_rgba8();
+        let cell = image::imageops::crop_imm(&sheet, 90 * column, 0, 90, 50).to_image();
+        assert!(cell == frame, "column {column}");
+    }
+}
+
+#[test]
+fn a_pipe_that_closes_ends_a_stream_quietly() {
+    let test = "a_pipe_that_closes_ends_a_stream_quietly";
+    let Some((folder, _)) = clip_or_skip(test) else { return };
+    for format in ["rgba", "y4m", "gif", "apng"] {
+        let mut child = regatta()
+            .current_dir(folder.path())
+            .args(RUN.split(' '))
+            .args(["--format", format, "--out", "-"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut first = [0; 10];
+        let mut stdout = child.stdout.take().unwrap();
+        stdout.read_exact(&mut first).unwrap();
+        drop(stdout);
+        let output = child.wait_with_output().unwrap();
+        assert_eq!((stderr(&output).as_str(), output.status.code()), ("", Some(0)), "{format}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_stream_leaves_no_file() {
+    let test = "an_interrupted_stream_leaves_no_file";
+    let Some((folder, _)) = clip_or_skip(test) else { return };
+    let run = RUN.replace("--frames 7", "--frames 100000");
+    let child = regatta()
+        .current_dir(folder.path())
+        .args(run.split(' '))
+        .args(["--format", "gif", "--out", "run.gif"])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let is_begun = || {
+        let mut entries = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap());
+        entries.any(|entry| {
+            let name = entry.file_name().into_string().unwrap();
+            let is_part = name.starts_with("run.gif.") && name.ends_with(".part");
+            is_part && entry.metadata().is_ok_and(|file| file.len() > 0)
+        })
+    };
+    while !is_begun() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(interrupt.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert_eq!(names(folder.path()), ["clip"]);
+}

@@ -1,0 +1,136 @@
+//! `identify`: a log in; the engine that made it, what a player sees and what to use out.
+
+use std::fs;
+
+use serde_json::Value;
+use tempfile::tempdir;
+
+use super::{run, run_in, stderr, stdout_of};
+
+const LOG: &str = "tests/data/engines/box2d__spring_1hz_z005_60hz.csv";
+const BODY: &str = "--tick-hz 60 --k 78.956835208714864 --c 1.25663706143591724 --mass 2";
+
+#[test]
+fn a_log_names_the_engine_that_made_it_and_what_a_player_sees() {
+    let text = stdout_of(&format!("identify {LOG} {BODY}"));
+    assert!(text.starts_with("made by engine-box2d ×4, residual "), "{text}");
+    assert!(text.contains("a player sees: 0.9965 Hz, damping ratio 0.0761"), "{text}");
+    assert!(text.contains("the equation says: 0.9987 Hz, damping ratio 0.0500"), "{text}");
+    assert!(text.contains("\nunder velocity-verlet: "), "{text}");
+
+    let json = stdout_of(&format!("identify {LOG} {BODY} --format json"));
+    let found: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(
+        (&found["word"], &found["best"], &found["substeps"], &found["held"]),
+        (&"identified".into(), &"engine-box2d".into(), &4.into(), &false.into())
+    );
+    let number = |key: &str| found[key].as_f64().unwrap_or_else(|| panic!("{key}: {found}"));
+    assert!(number("residual") < 1e-5 && number("runner_up_residual") > 1e-4);
+    assert!(found["runner_up"].is_string());
+    assert!((number("effective_frequency_hz") - 0.9965).abs() < 1e-3);
+    assert!((number("effective_damping_ratio") - 0.0761).abs() < 1e-3);
+    assert!((number("effective_stiffness_n_per_m") / 78.96 - 1.0).abs() < 0.01);
+    assert!(number("energy_halves_s") > 0.0 && found["energy_doubles_s"].is_null());
+}
+
+#[test]
+fn times_stand_for_ticks_and_columns_may_have_other_names() {
+    let rows = fs::read_to_string(LOG).unwrap();
+    let mut text = String::from("time,pos.x,vel.x,other\n");
+    for row in rows.lines().skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let tick: f64 = cells[0].parse().unwrap();
+        text += &format!("{:.5},{},{},junk\n", 12.0 + tick / 60.0, cells[1], cells[2]);
+    }
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("log.csv"), text).unwrap();
+    let named = "--t-column time --x-column pos.x --v-column vel.x";
+    let output = run_in(folder.path(), &format!("identify log.csv {BODY} {named}"));
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.starts_with("made by engine-box2d ×4"), "{said}");
+}
+
+#[test]
+fn a_log_that_cannot_be_read_is_refused_with_its_line_and_a_remedy() {
+    let folder = tempdir().unwrap();
+    for (text, told) in [
+        ("", "log.csv:1: no column \"x\"; here are no columns"),
+        (
+            "tick,y\n0,1\n",
+            "log.csv:1: no column \"x\"; here are \"tick\", \"y\"; name the coordinate's with --x-column",
+        ),
+        ("tick;x\n0;1\n", "here are \"tick;x\", without a comma between columns"),
+        ("x\n1\n", "log.csv:1: no column \"tick\" and none \"t\""),
+        ("tick,x\n0,1\n1,abc\n", "log.csv:3: column \"x\": \"abc\" is no number"),
+        ("tick,x\n0,1\n1,NaN\n", "log.csv:3: column \"x\": \"NaN\" is no number"),
+        ("tick,x\n0,1\n1\n", "log.csv:3: the row cannot be read"),
+        ("t,x\n0,1\n0.02,1\n", "log.csv:3: the row is 1.200 ticks of 60 Hz after the first"),
+        ("tick,x\n0,1\n0,2\n", "log.csv:3: tick 0 does not follow the row before"),
+        ("tick,x\n0,1\n1,2\n", "log.csv:1: a log of 2 rows says too little; log at least 4"),
+        ("tick,x\n0,1\n1,1\n2,1\n3,1\n", "log.csv:2: nothing moves; log a motion"),
+    ] {
+        fs::write(folder.path().join("log.csv"), text).unwrap();
+        let output = run_in(folder.path(), "identify log.csv --tick-hz 60 --k 40");
+        assert_eq!(output.status.code(), Some(2), "{text:?}");
+        assert!(output.stdout.is_empty());
+        let said = stderr(&output);
+        assert!(said.contains(told), "{text:?}: {said}");
+    }
+    for (arguments, told) in [
+        ("identify nothing.csv --tick-hz 60", "cannot read the log nothing.csv"),
+        ("identify log.csv", "--tick-hz"),
+        ("identify log.csv --tick-hz 0", "give a rate above 0"),
+        ("identify log.csv --tick-hz 60 --k -1", "give a number from 0 up"),
+        ("identify log.csv --tick-hz 60 --mass 0", "give a number above 0"),
+        ("identify log.csv --tick-hz 60 --c 1", "--k"),
+        (&format!("identify {LOG} --tick-hz 60 --v-column vel"), "no column \"vel\"; here are"),
+    ] {
+        let output = run(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments}");
+        assert!(stderr(&output).contains(told), "{arguments}: {}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_log_that_nothing_follows_is_unknown_and_what_is_not_known_is_null() {
+    let folder = tempdir().unwrap();
+    // A spring that is not given is read off ticks that follow each other.
+    let row = |tick: u32| format!("{tick},{}", (0.1 * f64::from(tick)).cos());
+    let rows: Vec<String> = (0..60).map(|i| row(3 * i)).collect();
+    fs::write(folder.path().join("log.csv"), format!("tick,x\n{}\n", rows.join("\n"))).unwrap();
+    let output = run_in(folder.path(), "identify log.csv --tick-hz 60");
+    assert_eq!(output.status.code(), Some(0));
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        said.starts_with(
+            "unknown: no method can follow this log; give the body with --k or --drag"
+        ),
+        "{said}"
+    );
+    let output = run_in(folder.path(), "identify log.csv --tick-hz 60 --format json");
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&found["word"], &found["best"]), (&"unknown".into(), &Value::Null));
+    assert!(found["residual"].is_null() && found["effective_frequency_hz"].is_null());
+}
+
+#[test]
+fn an_overdamped_spring_that_is_not_given_is_fitted() {
+    let folder = tempdir().unwrap();
+    let mut text = "t,x,v\n".to_owned();
+    let rates = [-5.0 + 21.0_f64.sqrt(), -5.0 - 21.0_f64.sqrt()];
+    for tick in 0..120 {
+        let t = f64::from(tick) / 60.0;
+        let [slow, fast] = rates.map(|rate| (rate * t).exp());
+        let share = rates[1] / (rates[1] - rates[0]);
+        let x = share * slow + (1.0 - share) * fast;
+        let v = share * rates[0] * slow + (1.0 - share) * rates[1] * fast;
+        text += &format!("{t},{x},{v}\n");
+    }
+    fs::write(folder.path().join("log.csv"), text).unwrap();
+    let output = run_in(folder.path(), "identify log.csv --tick-hz 60 --format json");
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_ne!(found["word"], "unknown", "{found}");
+    let ratio = found["effective_damping_ratio"].as_f64().unwrap_or_else(|| panic!("{found}"));
+    assert!((ratio - 2.5).abs() < 0.01, "{ratio}");
+    assert!(found["effective_frequency_hz"].is_null());
+}

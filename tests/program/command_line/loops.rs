@@ -1,0 +1,215 @@
+//! `loop`: a row for each policy and trace, frames, a picture, advice and snippets.
+
+use std::fs;
+
+use regatta::lab::pacing::{POLICIES, TRACES};
+use serde_json::Value;
+
+use super::capture::{dimensions, drawn_or_skip};
+use super::{refusal, run, run_in, stderr};
+
+const HEADER: &str = "policy,trace,tick_hz,frames,animation_error_rms_ms,animation_error_max_ms,\
+                      repeated_percent,double_percent,latency_mean_ms,latency_max_ms,dropped_ms,\
+                      owed_max_ms,position_error_rms,ticks,evaluations";
+
+/// The rows of `loop` with these options.
+fn rows(options: &str) -> Vec<Value> {
+    let output = run(&format!("loop {options} --format json"));
+    assert_eq!(output.status.code(), Some(0), "{options}: {}", stderr(&output));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn number(row: &Value, column: &str) -> f64 {
+    row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"))
+}
+
+/// What is not within 2 % of what was derived by hand is wrong, and of 0 more than a millionth is.
+fn near(row: &Value, column: &str, expected: f64) {
+    let value = number(row, column);
+    let is_near = value.is_finite() && (value - expected).abs() <= 0.02 * expected.abs() + 1e-6;
+    assert!(is_near, "{column} of {row}: {expected} was expected");
+}
+
+#[test]
+fn each_trace_and_policy_has_a_row_in_that_order_as_csv_and_as_json() {
+    let output = run("loop --seconds 0.5");
+    let csv = String::from_utf8(output.stdout).unwrap();
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines[0], HEADER);
+    let pairs = TRACES.iter().flat_map(|trace| POLICIES.iter().map(move |p| (p.id, trace.id)));
+    let expected: Vec<String> =
+        pairs.map(|(policy, trace)| format!("{policy},{trace},60,")).collect();
+    assert_eq!(lines.len() - 1, expected.len());
+    for (line, expected) in lines[1..].iter().zip(&expected) {
+        assert!(line.starts_with(expected.as_str()), "{line}");
+        assert_eq!(line.split(',').count(), HEADER.split(',').count(), "{line}");
+    }
+    let told = String::from_utf8(output.stderr).unwrap();
+    for trace in TRACES {
+        let lines = told.lines().filter(|line| line.starts_with(&format!("{} (", trace.id)));
+        assert_eq!(lines.count(), 1, "{}: {told}", trace.id);
+    }
+    let row = &rows("--seconds 0.5 --trace edge --policy fixed --policy fixed")[0];
+    let keys: Vec<&str> = row.as_object().unwrap().keys().map(String::as_str).collect();
+    assert_eq!(keys.join(","), HEADER);
+}
+
+#[test]
+fn the_table_derived_by_hand_is_reproduced() {
+    let fixed = |trace: &str| {
+        let mut rows =
+            rows(&format!("--trace {trace} --policy fixed --policy fixed-linear --seconds 300"));
+        (rows.remove(0), rows.remove(0))
+    };
+    for (trace, repeated, error) in [
+        ("steady-59.94", 0.0, 0.527),
+        ("steady-75", 20.0, 6.67),
+        ("steady-144", 58.33, 8.22),
+        ("steady-240", 75.0, 7.22),
+    ] {
+        let (raw, linear) = fixed(trace);
+        near(&raw, "repeated_percent", repeated);
+        near(&raw, "animation_error_rms_ms", error);
+        near(&linear, "animation_error_rms_ms", 0.0);
+        near(&linear, "repeated_percent", 0.0);
+        near(&linear, "latency_mean_ms", 1000.0 / 60.0);
+    }
+    // One double step in 16.7 s.
+    near(&fixed("steady-59.94").0, "double_percent", 100.0 / (16.667 * 59.94));
+    let (raw, linear) = fixed("edge");
+    near(&raw, "repeated_percent", 25.0);
+    near(&raw, "double_percent", 25.0);
+    near(&raw, "animation_error_rms_ms", 11.79);
+    near(&linear, "animation_error_rms_ms", 0.408);
+    let whole = &rows("--trace edge --policy whole-refresh --seconds 300")[0];
+    near(whole, "animation_error_rms_ms", 0.0);
+    let extrapolated = &rows("--trace steady-144 --policy fixed-extrapolated")[0];
+    near(extrapolated, "latency_mean_ms", 0.0);
+    assert!(number(extrapolated, "position_error_rms") > 1e-4, "it is wrong on curves");
+}
+
+#[test]
+fn every_frame_has_a_line_with_what_it_showed() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(
+        folder.path(),
+        "loop --trace steady-144 --policy fixed --seconds 1 --out rows.csv --frames frames.csv",
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = fs::read_to_string(folder.path().join("frames.csv")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert_eq!(lines[0], "trace,policy,frame,began_ms,displayed_ms,shown_ms,ticks,dropped_ms,q");
+    assert_eq!(lines.len(), 1 + 145);
+    assert_eq!(lines[1], "steady-144,fixed,0,0,0,0,0,0,1");
+    let shown = |line: &str| line.split(',').nth(5).unwrap().parse::<f64>().unwrap();
+    let repeated = lines[1..].windows(2).filter(|pair| shown(pair[0]) == shown(pair[1])).count();
+    // Seven in twelve of 144.
+    assert_eq!(repeated, 84);
+    let again = run_in(folder.path(), "loop --trace steady-144 --frames frames.csv");
+    assert_eq!(again.status.code(), Some(2));
+    assert!(stderr(&again).contains("--force"), "{}", stderr(&again));
+}
+
+#[test]
+fn a_recorded_log_is_a_trace_for_each_of_its_programs() {
+    let log = "tests/data/frame-traces/presentmon_test_case_5.csv";
+    let rows = rows(&format!("--trace {log} --policy fixed-linear --policy variable"));
+    assert_eq!(rows.len(), 2 * 7);
+    let bench = rows.iter().find(|row| row["trace"].as_str().unwrap().contains("PresentBench"));
+    let bench = bench.expect("the present benchmark has a stream");
+    assert_eq!(number(bench, "frames"), 258.0);
+    near(bench, "animation_error_rms_ms", 5.606);
+}
+
+#[test]
+fn a_log_in_utf_16_is_refused_by_the_name_of_its_encoding() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "\u{feff}MsBetweenPresents,MsBetweenDisplayChange\r\n16.7,16.7\r\n";
+    let bytes: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    fs::write(folder.path().join("log.csv"), bytes).unwrap();
+    let output = run_in(folder.path(), "loop --trace log.csv");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("UTF-16"), "{}", stderr(&output));
+}
+
+#[test]
+fn advice_names_a_policy_within_the_latency_with_its_constants() {
+    let told = |options: &str| stderr(&run(&format!("loop {options}")));
+    let of_edge = told("--trace edge --seconds 5");
+    assert!(of_edge.contains("take whole-refresh: animation error 0 ms"), "{of_edge}");
+    let at_once = told("--trace edge --seconds 5 --latency-ms 1");
+    assert!(!at_once.contains("take whole-refresh"), "{at_once}");
+    // A game in lockstep with the display has no error on it, and another speed on any other.
+    let lockstep = told("--trace edge --policy lockstep --seconds 5");
+    assert!(lockstep.contains("no policy here keeps the game's speed"), "{lockstep}");
+    let variable = told("--trace steady-144 --policy variable --policy fixed --seconds 5");
+    assert!(variable.contains("amplitudes: variable by"), "{variable}");
+    assert!(variable.contains("take variable") && !variable.contains("fixed by"), "{variable}");
+    // Whole periods of the spring later it is where it was, but not on the way there.
+    let periods = told("--trace steady-60 --policy lockstep --seconds 20");
+    assert!(periods.contains("lockstep by 2"), "{periods}");
+    // A step of five seconds is as smooth as any, and throws the spring out of the world.
+    let thrown = told("--trace alt-tab-5s --policy variable");
+    assert!(!thrown.contains("take variable"), "{thrown}");
+}
+
+#[test]
+fn a_trace_is_not_overwritten_by_what_is_measured_on_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("log.csv");
+    let text = "MsBetweenPresents,MsBetweenDisplayChange\n16.7,16.7\n16.7,16.7\n";
+    fs::write(&log, text).unwrap();
+    let output = run_in(folder.path(), "loop --trace log.csv --out ./log.csv --force");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("is read as a trace"), "{}", stderr(&output));
+    assert_eq!(fs::read_to_string(&log).unwrap(), text);
+}
+
+#[test]
+fn a_policy_is_printed_as_source_in_its_languages() {
+    for card in POLICIES {
+        for snippet in card.snippets {
+            let output = run(&format!("loop --show {} --language {}", card.id, snippet.language));
+            assert_eq!(String::from_utf8(output.stdout).unwrap(), snippet.source, "{}", card.id);
+        }
+    }
+    let refused = refusal("loop --show median --language c#", 2);
+    assert!(refused.contains("give --language rust"), "{refused}");
+}
+
+#[test]
+fn a_picture_is_drawn_of_the_first_trace() {
+    let folder = tempfile::tempdir().unwrap();
+    let test = "a_picture_is_drawn_of_the_first_trace";
+    let command = "loop --trace steady-144 --plot loops.png";
+    let Some(output) = drawn_or_skip(test, folder.path(), command) else { return };
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(dimensions(&folder.path().join("loops.png")), (1840, 900));
+}
+
+#[test]
+fn mistakes_are_told_with_a_remedy() {
+    for (options, says) in [
+        ("--policy fixd", "did you mean fixed?"),
+        ("--trace stedy-144", "did you mean steady-144?"),
+        ("--trace steady-144 --display-hz 60", "leave --display-hz out"),
+        ("--display-hz 0", "from 1 to 1000 Hz"),
+        ("--display-hz nan", "from 1 to 1000 Hz"),
+        ("--latency-ms -1", "give 0 to 10000 ms"),
+        ("--seconds 0", "more than 0 seconds"),
+        ("--tick-hz 0", "1..=10000"),
+        ("--scene nowhere", "nowhere"),
+        ("--trace Cargo.toml", "Cargo.toml"),
+        ("--out x.csv --frames x.csv", "the same place"),
+        ("--language rust", "--show"),
+        ("--show fixed --frames x.csv", "--frames"),
+        ("--show fixed --tick-hz 30", "--tick-hz"),
+    ] {
+        let refused = refusal(&format!("loop {options}"), 2);
+        assert!(refused.contains(says), "{options}: {refused}");
+    }
+    for command in ["capture", "play"] {
+        let refused = refusal(&format!("{command} --loop my/capture.csv"), 2);
+        assert!(refused.contains("drop the file on the window"), "{refused}");
+    }
+}

@@ -1,0 +1,179 @@
+//! The manifest beside the frames: what is in it, and that its description says so.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::process::Output;
+
+use regatta::commands::manifest::{Manifest, SCHEMA};
+use regatta::lab::{Command, Lab, METRICS, Scene};
+use serde_json::Value;
+
+use super::capture::drawn_or_skip;
+use super::{run_in, stderr};
+
+/// A small capture's manifest as text.
+fn manifest_or_skip(test: &str, arguments: &str) -> Option<String> {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = format!("capture --size 32x18 --scale 0.5 --out clip {arguments}");
+    let output = drawn_or_skip(test, folder.path(), &capture)?;
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    Some(fs::read_to_string(folder.path().join("clip/manifest.json")).unwrap())
+}
+
+fn keys(value: &Value, into: &mut BTreeSet<String>) {
+    match value {
+        Value::Object(entries) => entries.iter().for_each(|(key, value)| {
+            into.insert(key.clone());
+            keys(value, into);
+        }),
+        Value::Array(entries) => entries.iter().for_each(|value| keys(value, into)),
+        _ => {}
+    }
+}
+
+#[test]
+fn every_key_is_described_and_what_is_described_reads_back() {
+    let test = "every_key_is_described_and_what_is_described_reads_back";
+    let Some(text) = manifest_or_skip(test, "--race --frames 3") else { return };
+    let source = include_str!("../../../src/commands/manifest.rs");
+    let description: String = source.lines().take_while(|line| line.starts_with("//!")).collect();
+    let mut found = BTreeSet::new();
+    keys(&serde_json::from_str(&text).unwrap(), &mut found);
+    let metrics: Vec<&str> = METRICS.iter().map(|metric| metric.id).collect();
+    for key in found.iter().filter(|key| !metrics.contains(&key.as_str())) {
+        assert!(description.contains(&format!("`{key}`")), "{key} is not described");
+    }
+    assert!(metrics.iter().all(|&id| found.contains(id)));
+    let manifest: Manifest = serde_json::from_str(&text).unwrap();
+    assert_eq!(manifest.schema, SCHEMA);
+    assert!(manifest.to_text() == text, "what is read is written again to the byte");
+}
+
+/// Captures this scene, and what `verify` says of that.
+fn captured_or_skip(test: &str, scene: &str, arguments: &str) -> Option<(Manifest, Output)> {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("my.toml"), scene).unwrap();
+    let capture =
+        format!("capture --scene my.toml --size 32x18 --scale 0.5 --out clip {arguments}");
+    let output = drawn_or_skip(test, folder.path(), &capture)?;
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = fs::read_to_string(folder.path().join("clip/manifest.json")).unwrap();
+    let judged = run_in(folder.path(), "verify clip");
+    Some((serde_json::from_str(&text).unwrap(), judged))
+}
+
+const SPRING: &str = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1\n";
+
+#[test]
+fn settings_and_lanes_name_the_methods_that_flew() {
+    let test = "settings_and_lanes_name_the_methods_that_flew";
+    for (listed, option, selected, flown) in [
+        ("['explicit-euler']", "", "explicit-euler", vec!["explicit-euler"]),
+        ("['explicit-euler']", "--race", "explicit-euler", vec!["explicit-euler"]),
+        ("['midpoint', 'pefrl']", "", "midpoint", vec!["midpoint"]),
+        ("['midpoint', 'rk4']\nmethod = 'rk4'", "", "rk4", vec!["rk4"]),
+        ("['midpoint', 'pefrl']", "--race", "midpoint", vec!["midpoint", "pefrl"]),
+        ("['midpoint']", "--method bdf2", "bdf2", vec!["bdf2"]),
+    ] {
+        let scene = format!("title = 'x'\ntick_hz = 10\nseconds = 1\nmethods = {listed}\n{SPRING}");
+        let arguments = format!("--frames 2 {option}");
+        let Some((manifest, judged)) = captured_or_skip(test, &scene, &arguments) else { return };
+        assert_eq!(manifest.settings.selected.as_deref(), Some(selected), "{listed} {option}");
+        let lanes: Vec<_> = manifest.lanes.iter().map(|lane| lane.method.as_str()).collect();
+        assert_eq!(lanes, flown, "{listed} {option}");
+        assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
+    }
+}
+
+#[test]
+fn frames_show_their_moment_across_the_rates_that_a_script_sets() {
+    let test = "frames_show_their_moment_across_the_rates_that_a_script_sets";
+    let scene = format!(
+        "title = 'x'\ntick_hz = 1\nseconds = 9\n{SPRING}[[command]]\ntick = 5\ntick_hz = 100\n"
+    );
+    let arguments = "--fps 2 --frames 14";
+    let Some((manifest, judged)) = captured_or_skip(test, &scene, arguments) else { return };
+    let ticks: Vec<u64> = manifest.frames.iter().map(|frame| frame.tick).collect();
+    assert_eq!(ticks, [0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 55, 105, 155]);
+    assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
+}
+
+#[test]
+fn a_run_of_any_values_can_be_judged() {
+    let test = "a_run_of_any_values_can_be_judged";
+    let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\n\
+                 [[spring]]\nmass_kg = 1e-300\nstiffness_n_per_m = 1e-300\n\
+                 [[command]]\ntick = 3\nkick = 1e12\n";
+    let Some((_, judged)) = captured_or_skip(test, scene, "--race --frames 9") else { return };
+    assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
+}
+
+#[test]
+fn a_kick_past_all_bounds_leaves_a_manifest_that_can_be_judged() {
+    let test = "a_kick_past_all_bounds_leaves_a_manifest_that_can_be_judged";
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 60\nseconds = 1\nmethods = ['rk4']\n\
+                 [[spring]]\nname = 'light'\nmass_kg = 1e-300\nstiffness_n_per_m = 1\n\
+                 [[spring]]\nname = 'heavy'\nmass_kg = 1\nstiffness_n_per_m = 1\nkick_n_s = 0\n\
+                 [[command]]\ntick = 0\nkick = 1e14\n";
+    fs::write(folder.path().join("light.toml"), scene).unwrap();
+    let capture = "capture --scene light.toml --size 32x18 --scale 0.5 --frames 3 --out clip";
+    let Some(output) = drawn_or_skip(test, folder.path(), capture) else { return };
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = fs::read_to_string(folder.path().join("clip/manifest.json")).unwrap();
+    let manifest: Manifest = serde_json::from_str(&text).unwrap();
+    let lane = &manifest.lanes[0];
+    assert_eq!(lane.halted, Some(0));
+    assert_eq!(
+        (&lane.bodies[0]["halted"], &lane.bodies[1]["halted"]),
+        (&Value::from(0), &Value::Null)
+    );
+    assert!(lane.bodies[0]["position_error"].is_null());
+    assert!(lane.bodies[1]["position_error"].is_number());
+    let verify = run_in(folder.path(), "verify clip --physics-only");
+    assert_eq!(verify.status.code(), Some(0), "{}", stderr(&verify));
+}
+
+#[test]
+fn frames_and_marks_are_those_of_the_run() {
+    let test = "frames_and_marks_are_those_of_the_run";
+    let arguments = "--scene harbour --race --tick-hz 49 --frames 9 --fps 7 --mark-every 10";
+    let Some(text) = manifest_or_skip(test, arguments) else { return };
+    let manifest: Manifest = serde_json::from_str(&text).unwrap();
+    assert!(manifest.complete);
+    // 49 Hz at 7 frames a second: 7 ticks to a frame.
+    let ticks: Vec<u64> = manifest.frames.iter().map(|frame| frame.tick).collect();
+    assert_eq!(ticks, (0..9).map(|frame| 7 * frame).collect::<Vec<_>>());
+    for frame in &manifest.frames {
+        let [numerator, denominator] = frame.alpha;
+        assert!(numerator < denominator / 1_000_000, "a frame falls on a tick but for rounding");
+    }
+    let ticks: Vec<u64> = manifest.marks.iter().map(|mark| mark.tick).collect();
+    assert_eq!(ticks, [0, 10, 20, 30, 40, 50, 56]);
+
+    let mut scene = Scene::built_in("harbour").unwrap();
+    scene.tick_hz = 49;
+    let mut lab = Lab::new(scene);
+    lab.apply(Command::ToggleRace);
+    for mark in &manifest.marks {
+        while lab.race().tick() < mark.tick {
+            lab.tick();
+        }
+        let hashes = lab.race().lane_hashes().map(|hash| format!("{hash:016x}"));
+        assert!(hashes.eq(mark.lanes.iter().map(|lane| lane.hash.clone())));
+        for (lane, entrant) in mark.lanes.iter().zip(lab.race().entrants()) {
+            let q = entrant.lane.bodies().iter().map(|body| body.stepper.q().to_vec());
+            assert!(q.eq(lane.q.iter().cloned()), "coordinates to the bit");
+        }
+    }
+    let exact = lab.race().truth();
+    for (lane, entrant) in manifest.lanes.iter().zip(lab.race().entrants()) {
+        for (n, body) in lane.bodies.iter().enumerate() {
+            assert_eq!(body["name"], lab.scene().bodies[n].name);
+            for metric in METRICS {
+                let value = (metric.measure)(&entrant.lane.bodies()[n], &exact.bodies()[n]);
+                assert_eq!(body[metric.id], Value::from(value), "{}", metric.id);
+            }
+        }
+    }
+}

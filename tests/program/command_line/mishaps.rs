@@ -1,0 +1,199 @@
+//! Whatever happens to a capture: no frame is lost, half, or out of order, and what was stopped can be
+//! taken up again.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use super::capture::{dimensions, drawn_or_skip, names};
+use super::{regatta, run_in, stderr};
+
+const FRAMES: usize = 25;
+/// Frames that wait for the disk at most.
+const MOST_WAITING: usize = 4;
+const CAPTURE: &str = "capture --scene harbour --race --frames 25 --size 96x54 --scale 0.5 --out";
+
+/// Random numbers from a seed that is printed, so that a failure can be had again.
+pub(crate) struct XorShift(u64);
+
+impl XorShift {
+    pub(crate) fn new(test: &str) -> Self {
+        let since = SystemTime::now().duration_since(UNIX_EPOCH).expect("after 1970");
+        let given = std::env::var("SEED").ok().and_then(|seed| seed.parse().ok());
+        let seed = given.unwrap_or(since.as_nanos() as u64 | 1);
+        println!("{test}: SEED={seed}");
+        Self(seed)
+    }
+
+    pub(crate) fn below(&mut self, limit: u64) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0 % limit
+    }
+}
+
+fn start(folder: &Path, arguments: &str) -> Child {
+    let mut command = regatta();
+    command.current_dir(folder).args(arguments.split(' ')).stderr(Stdio::piped());
+    command.spawn().unwrap()
+}
+
+/// The whole capture, and how long it takes.
+fn whole_or_skip(test: &str, folder: &Path) -> Option<Duration> {
+    let begin = SystemTime::now();
+    let output = drawn_or_skip(test, folder, &format!("{CAPTURE} whole"))?;
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    Some(begin.elapsed().unwrap_or_default())
+}
+
+/// Whether the frames in `clip` are the first ones of `whole`, to the byte; the names of the rest.
+fn first_of_whole(folder: &Path) -> (usize, Vec<String>) {
+    let mut rest = if folder.join("clip").exists() { names(&folder.join("clip")) } else { vec![] };
+    let frame = |n: usize| format!("frame-{n:06}.png");
+    let mut frames = 0;
+    while let Some(at) = rest.iter().position(|name| *name == frame(frames)) {
+        let name = rest.remove(at);
+        let [clip, whole] = ["clip", "whole"].map(|dir| fs::read(folder.join(dir).join(&name)));
+        assert!(clip.unwrap() == whole.unwrap(), "{name} is not whole");
+        frames += 1;
+    }
+    (frames, rest)
+}
+
+fn resume(folder: &Path) {
+    let output = run_in(folder, &format!("{CAPTURE} clip --resume"));
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let (frames, rest) = first_of_whole(folder);
+    assert_eq!((frames, rest), (FRAMES, vec!["manifest.json".to_owned()]));
+    let [clip, whole] =
+        ["clip", "whole"].map(|dir| fs::read(folder.join(dir).join("manifest.json")));
+    assert!(clip.unwrap() == whole.unwrap(), "another manifest");
+}
+
+#[cfg(unix)]
+#[test]
+fn killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_resumed() {
+    let test = "killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_resumed";
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let Some(whole) = whole_or_skip(test, folder) else { return };
+    let mut random = XorShift::new(test);
+    for _ in 0..50 {
+        let _ = fs::remove_dir_all(folder.join("clip"));
+        let mut child = start(folder, &format!("{CAPTURE} clip"));
+        std::thread::sleep(Duration::from_micros(random.below(whole.as_micros() as u64)));
+        // That is SIGKILL.
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let (frames, rest) = first_of_whole(folder);
+        // Those that wait for the disk, the one being synced and the one being written.
+        let under_way = (frames..frames + MOST_WAITING + 2).map(|n| format!("frame-{n:06}.png."));
+        let under_way: Vec<_> = under_way.chain(["manifest.json.".to_owned()]).collect();
+        let is_part = |name: &String| {
+            name.ends_with(".part") && under_way.iter().any(|whole| name.starts_with(whole))
+        };
+        let is_done = frames == FRAMES && rest == ["manifest.json"];
+        assert!(is_done || rest.iter().all(is_part), "{frames} frames and {rest:?}");
+        resume(folder);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn interrupted_at_any_moment_it_leaves_a_manifest_of_what_is_there() {
+    let test = "interrupted_at_any_moment_it_leaves_a_manifest_of_what_is_there";
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let Some(_) = whole_or_skip(test, folder) else { return };
+    let mut random = XorShift::new(test);
+    let mut interrupted = 0;
+    for _ in 0..20 {
+        let _ = fs::remove_dir_all(folder.join("clip"));
+        let child = start(folder, &format!("{CAPTURE} clip"));
+        let frame = folder.join(format!("clip/frame-{:06}.png", random.below(FRAMES as u64)));
+        while !frame.exists() {
+            std::thread::sleep(Duration::from_micros(random.below(1000)));
+        }
+        let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(interrupt.unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        let (frames, rest) = first_of_whole(folder);
+        assert_eq!(rest, ["manifest.json"], "{}", stderr(&output));
+        let manifest = fs::read_to_string(folder.join("clip/manifest.json")).unwrap();
+        let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap();
+        assert_eq!(manifest["frames"].as_array().unwrap().len(), frames);
+        assert_eq!(manifest["complete"], frames == FRAMES);
+        if frames < FRAMES {
+            interrupted += 1;
+            assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+            for part in ["", " --physics-only"] {
+                let judged = run_in(folder, &format!("verify clip{part}"));
+                assert_eq!(judged.status.code(), Some(2), "{}", stderr(&judged));
+                let reason = format!("its capture was stopped after {frames} of {FRAMES} frames");
+                assert!(stderr(&judged).contains(&reason), "{}", stderr(&judged));
+            }
+        }
+        resume(folder);
+    }
+    assert!(interrupted > 0, "every run was done before it was interrupted");
+}
+
+#[test]
+fn a_capture_of_another_scene_is_not_resumed() {
+    let test = "a_capture_of_another_scene_is_not_resumed";
+    let folder = tempfile::tempdir().unwrap();
+    let Some(_) = whole_or_skip(test, folder.path()) else { return };
+    let other = CAPTURE.replace("harbour", "spring");
+    let output = run_in(folder.path(), &format!("{other} whole --resume"));
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output);
+    assert!(said.contains("frame-000000.png is not what this command draws here"), "{said}");
+    let judged = run_in(folder.path(), "verify whole");
+    assert_eq!(judged.status.code(), Some(0), "nothing was lost: {}", stderr(&judged));
+}
+
+#[test]
+fn a_directory_that_cannot_be_made_ends_the_capture() {
+    let folder = tempfile::tempdir().unwrap();
+    // Permissions do not stop the superuser; a file in the way stops everybody.
+    fs::write(folder.path().join("file"), "mine").unwrap();
+    let test = "a_directory_that_cannot_be_made_ends_the_capture";
+    let Some(output) = drawn_or_skip(test, folder.path(), &format!("{CAPTURE} file/clip")) else {
+        return;
+    };
+    assert!(matches!(output.status.code(), Some(1 | 2)), "{}", stderr(&output));
+    assert!(stderr(&output).contains("file/clip"), "{}", stderr(&output));
+    assert_eq!(fs::read(folder.path().join("file")).unwrap(), b"mine");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_ends_the_capture_with_whole_frames_only() {
+    let test = "a_full_disk_ends_the_capture_with_whole_frames_only";
+    let folder = tempfile::tempdir().unwrap();
+    let disk = folder.path().join("clip");
+    fs::create_dir(&disk).unwrap();
+    let mount = ["-t", "tmpfs", "-o", "size=2m", "tmpfs"];
+    let mounted = Command::new("mount").args(mount).arg(&disk).stderr(Stdio::null()).status();
+    if !mounted.is_ok_and(|status| status.success()) {
+        let _ = writeln!(io::stderr(), "SKIPPED {test}: a small disk cannot be mounted here");
+        return;
+    }
+    let capture = "capture --scene harbour --race --frames 400 --size 640x360 --out clip";
+    let output = drawn_or_skip(test, folder.path(), capture);
+    let left = names(&disk);
+    let sizes: Vec<_> = left.iter().map(|name| dimensions(&disk.join(name))).collect();
+    let unmounted = Command::new("umount").arg(&disk).status();
+    assert!(unmounted.unwrap().success());
+    let Some(output) = output else { return };
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("No space left on device"), "{said}");
+    assert!(said.contains("free some space, or give another --out"), "{said}");
+    let expected: Vec<_> = (0..left.len()).map(|n| format!("frame-{n:06}.png")).collect();
+    assert_eq!(left, expected);
+    assert!(!left.is_empty() && sizes.iter().all(|&size| size == (640, 360)));
+}

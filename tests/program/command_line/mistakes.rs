@@ -1,0 +1,179 @@
+//! Wrong arguments and wrong scene files: exit code 2, the reason and the remedy.
+
+use std::fs;
+
+use clap::CommandFactory;
+use regatta::commands::Cli;
+use regatta::lab::Scene;
+
+use super::{refusal, regatta, run, run_in, stderr, stdout_of};
+
+#[test]
+fn each_mistake_is_named_with_its_remedy() {
+    for (arguments, said) in [
+        ("trace --scene shp", "is called \"shp\"; did you mean ship?"),
+        ("trace --scene Stiff", "did you mean stiff?"),
+        ("trace --scene spring --method lerp-dt", "lerp-dt does not step the body \"spring\""),
+        (
+            "capture --out x --scene follow --method lerp-dt",
+            "only a `follow` of order 1; name another",
+        ),
+        (
+            "advise --scene lerp --method smooth-damp",
+            "smooth-damp does not step the body \"camera\"",
+        ),
+        ("sweep --scene spring --method lerp-dt", "lerp-dt does not step"),
+        ("loop --scene spring --method smooth-damp", "smooth-damp does not step"),
+        ("trace --scene nosuch.toml", "give one of these, or the path of a scene file"),
+        (
+            "trace --scene nosuch.toml",
+            "(harbour, ship, spring, stiff, surge, chain, pendulum, orbit, helm, follow, lerp, duffing, quarter-car, bouncing-bungee, lift, rope, cloth, bridge, engines, held-force, stiff-in-engines)",
+        ),
+        ("trace --scene .", ". is a directory; give a scene file in it"),
+        ("trace --method rk5", "did you mean rk4? `regatta list methods` names all"),
+        ("trace --method xpbd", "did you mean linearly-implicit-euler?"),
+        ("trace --method soft_constraint", "did you mean linearly-implicit-euler?"),
+        ("trace --method x", "no such method. `regatta list methods` names all"),
+        ("--method runge-kutta", "did you mean rk4?"),
+        ("trace --tick-hz 0", "1..=10000"),
+        ("trace --tick-hz 10001", "1..=10000"),
+        ("trace --tick-hz 59.9", "'59.9' for '--tick-hz <N>'"),
+        ("trace --seconds -1", "give 0 to 31536000 seconds"),
+        ("trace --seconds inf", "give 0 to 31536000 seconds"),
+        ("trace --seconds NaN", "give 0 to 31536000 seconds"),
+        ("trace --seconds soon", "give a number of seconds, such as 8.5"),
+        ("trace --every 0", "0 is not in 1..="),
+        ("trace --sceen ship", "a similar argument exists: '--scene'"),
+        ("trace --format xml", "csv, json"),
+        ("list", "<scenes|methods|bodies|metrics|policies|traces|keys>"),
+        ("list method", "a similar value exists: 'methods'"),
+        ("sail", "unrecognized subcommand 'sail'"),
+        ("completions", "<SHELL>"),
+        ("capture --scene ship", "--out <DIR|FILE>"),
+        ("capture --out x --size 0x720", "each side has 1 to 8192 pixels"),
+        ("capture --out x --size 1280x8193", "each side has 1 to 8192 pixels"),
+        ("capture --out x --size big", "such as 1280x720"),
+        ("capture --out x --scale 0", "give a number from 0.5 to 4"),
+        ("capture --out x --fps 0", "0 is not in 1..=1000"),
+        ("capture --out x --frames 0", "0 is not in 1..=1000000"),
+        ("capture --out x --frames 2 --seconds 2", "cannot be used with"),
+        ("capture --out x --frames 1000000 --size 8192x8192", "fewer --frames or a smaller --size"),
+        ("capture --out x --fps 1000 --seconds 9999", "a lower --fps or fewer --seconds"),
+        ("capture --out LICENSE-MIT", "LICENSE-MIT is not a directory; give another --out"),
+        ("capture --out src", "src is not empty; give another --out, or --force"),
+        ("capture --out x --panels some", "on, off"),
+        ("capture --out x --format avi", "png, apng, gif, y4m, rgba, sheet"),
+        ("capture --out x --format gif --fps 51", "at most 50 frames a second, not 51"),
+        ("capture --out x --format gif --resume", "only pictures in a directory can be resumed"),
+        ("capture --out src --format gif", "src is a directory; give --out a file"),
+        ("capture --out src --format gif --force", "src is a directory; give --out a file"),
+        ("capture --out x.png", "x.png is the name of one picture; give --format sheet or"),
+        ("capture --out x.png --format gif", "give a name that ends in .gif, or --format sheet"),
+        ("capture --out x.gif --format png", "give the name of a directory, or --format gif"),
+        ("capture --out x.gif --format sheet", "give a name that ends in .png, or --format gif"),
+        (
+            "capture --out x.txt",
+            "regatta capture writes no .txt files; give x.txt without its ending",
+        ),
+        ("capture --out x.sheet", "or in .png with --format sheet"),
+        ("capture --out x.csv --format gif", "or a name that ends in .gif"),
+        ("capture --out x.mp4", "regatta writes no .mp4 files; give --format y4m --out -"),
+        ("capture --out x.mp4 --format y4m", "give a name that ends in .y4m, or"),
+        ("capture --out x.gif --resume", "only pictures in a directory can be resumed"),
+        ("capture --out x.gif --fps 51", "at most 50 frames a second, not 51"),
+        ("capture --out -", "numbered pictures need a directory; give --format y4m, rgba, apng"),
+        ("capture --out LICENSE-MIT --format y4m", "LICENSE-MIT already exists"),
+        ("capture --out x --format sheet --frames 9999", "fewer --frames or a smaller --size"),
+        ("capture --out x --mark-every 0", "0 is not in 1..="),
+        ("verify src", "cannot judge src/manifest.json: No such file"),
+        ("verify nowhere", "`regatta capture` writes it"),
+        ("verify src --max-pixels 101", "give a percentage from 0 to 100"),
+        ("verify src --report xml x", "no report format is called \"xml\"; give junit or json"),
+        ("verify src --report json x --report xml y", "no report format is called \"xml\""),
+        ("verify src --report json x --report junit x", "two reports would go to x"),
+        ("verify src --bless", "cannot judge src/manifest.json: No such file"),
+    ] {
+        let message = refusal(arguments, 2);
+        assert!(message.starts_with("error: "), "{arguments}: {message}");
+        assert!(message.contains(said), "{arguments}: {message}");
+    }
+}
+
+#[test]
+fn a_bad_scene_file_is_shown_line_by_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = \"x\"\ntick_hz = 60\nseconds = nan\nmethods = [\"rk5\"]\n[[sprong]]\n";
+    fs::write(folder.path().join("bad.toml"), scene).unwrap();
+    let expected = "\
+bad.toml:3:11: `seconds` is nan, out of range; write a number from 0.0001 to 31536000
+  |
+3 | seconds = nan
+  |           ^^^
+bad.toml:4:12: unknown method \"rk5\" in `methods`; did you mean \"rk4\"?
+  |
+4 | methods = [\"rk5\"]
+  |            ^^^^^
+bad.toml:5:3: unknown table `sprong`; did you mean `[[spring]]`?
+  |
+5 | [[sprong]]
+  |   ^^^^^^
+";
+    for command in ["trace", "play", "capture --out x"] {
+        let output = run_in(folder.path(), &format!("{command} --scene bad.toml"));
+        assert_eq!(stderr(&output), expected, "{command}");
+        assert_eq!(output.status.code(), Some(2), "{command}");
+    }
+}
+
+#[test]
+fn files_that_are_no_text_or_too_large_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (bytes, said) in [
+        (vec![0xff, 0xfe], "bad.toml:1:1: the file is not text: byte 0 is not UTF-8"),
+        (vec![b'#'; 5 << 20], "bad.toml:1:1: the file holds more than 1048576 bytes"),
+        (vec![], "bad.toml:1:1: the file holds no scene"),
+    ] {
+        fs::write(folder.path().join("bad.toml"), bytes).unwrap();
+        let output = run_in(folder.path(), "trace --scene bad.toml");
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).starts_with(said), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn help_and_version_are_data() {
+    for arguments in ["--help", "-h", "help trace", "trace --help", "--version", "help capture"] {
+        let output = run(arguments);
+        assert_eq!(output.status.code(), Some(0), "{arguments}");
+        assert!(!output.stdout.is_empty() && output.stderr.is_empty(), "{arguments}");
+    }
+}
+
+#[test]
+fn the_first_example_names_the_method_that_the_harbour_opens_with() {
+    let opening = Scene::built_in("harbour").unwrap().opening_method.unwrap();
+    let example = format!("open the harbour under {}\n", opening.name.to_lowercase());
+    let help = stdout_of("--help").to_lowercase();
+    assert!(help.contains(&example), "{help}");
+}
+
+#[test]
+fn every_help_fits_a_hundred_columns_and_breaks_lines_where_it_is_written_to() {
+    let cli = Cli::command();
+    for command in [&cli].into_iter().chain(cli.get_subcommands()) {
+        let name = command.get_name();
+        let called: &[&str] = if name == cli.get_name() { &[] } else { &[name] };
+        for (help, columns) in [("-h", None), ("--help", None), ("--help", Some("200"))] {
+            let mut program = regatta();
+            program.args(called).arg(help);
+            columns.map(|columns| program.env("COLUMNS", columns));
+            let said = String::from_utf8(program.output().unwrap().stdout).unwrap();
+            let widest = said.lines().map(|line| line.chars().count()).max();
+            assert!(widest <= Some(100), "{name} {help}: {widest:?} columns");
+            assert!(said.contains("Examples:\n  regatta"), "{name} {help}: {said}");
+            let after = command.get_after_help().unwrap().to_string();
+            let broken = after.lines().find(|line| !said.lines().any(|shown| shown == *line));
+            assert_eq!(broken, None, "{name} {help}");
+        }
+    }
+}

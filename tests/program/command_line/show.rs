@@ -1,0 +1,95 @@
+//! `show`: a method as a function in four languages.
+
+use std::io::Read as _;
+use std::process::Stdio;
+
+use regatta::lab::{Language, source_code};
+use regatta::sim::integrators::METHODS;
+
+use super::{refusal, regatta, run, stdout_of};
+
+#[test]
+fn every_method_is_shown_in_every_language() {
+    for method in METHODS {
+        for language in Language::ALL {
+            let arguments = format!("show {} --as {}", method.id, language.id());
+            match source_code(method, language) {
+                Ok(code) => assert_eq!(stdout_of(&arguments), code),
+                Err(refused) => {
+                    assert!(refusal(&arguments, 2).contains(refused.reason), "{refused}")
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn without_a_language_a_method_is_shown_in_rust() {
+    assert_eq!(stdout_of("show rk4"), stdout_of("show rk4 --as rust"));
+}
+
+#[test]
+fn another_name_of_a_method_shows_the_method_and_says_which_it_is() {
+    let aliases = METHODS.iter().flat_map(|m| m.also.iter().map(move |alias| (m, *alias)));
+    let aliases: Vec<_> = aliases.collect();
+    assert!(aliases.iter().any(|(_, alias)| *alias == "xpbd"), "{aliases:?}");
+    for (method, alias) in aliases {
+        let shown = run(&format!("show {alias} --as c"));
+        assert_eq!(
+            String::from_utf8(shown.stdout).unwrap(),
+            stdout_of(&format!("show {} --as c", method.id))
+        );
+        let note = format!("note: {alias} is another name of {}, which is shown\n", method.id);
+        assert_eq!(
+            (shown.status.code(), String::from_utf8(shown.stderr).unwrap()),
+            (Some(0), note)
+        );
+        // A scene has one name for a method.
+        let raced = refusal(&format!("trace --scene spring --method {alias}"), 2);
+        assert!(raced.contains(&format!("did you mean {}?", method.id)), "{raced}");
+    }
+}
+
+#[test]
+fn a_mistake_in_a_name_is_told_with_the_nearest() {
+    for (arguments, said) in [
+        ("show", "<METHOD>"),
+        ("show rk5", "did you mean rk4? `regatta list methods` names all"),
+        ("show runge-kutta", "did you mean rk4?"),
+        ("show x", "no such method. `regatta list methods` names all"),
+        ("show rk4 --as cobol", "[possible values: rust, c, csharp, gdscript]"),
+        ("show rk4 --as csharpp", "a similar value exists: 'csharp'"),
+    ] {
+        let said_so = refusal(arguments, 2);
+        assert!(said_so.contains(said), "{arguments}: {said_so}");
+    }
+}
+
+#[test]
+fn a_pipe_that_closes_early_ends_it_in_silence() {
+    let mut command = regatta();
+    command.args(["show", "dormand-prince-54"]).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
+    drop(child.stdout.take());
+    let mut said = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+    assert_eq!((child.wait().unwrap().code(), &*said), (Some(0), ""));
+}
+
+#[test]
+fn the_readme_shows_what_is_printed() {
+    let readme = include_str!("../../../README.md");
+    let (_, example) = readme.split_once("$ regatta show position-verlet --as csharp\n").unwrap();
+    let (shown, _) = example.split_once("```").unwrap();
+    assert_eq!(stdout_of("show position-verlet --as csharp"), shown);
+}
+
+#[test]
+fn completions_name_the_command_and_its_languages() {
+    for shell in ["bash", "fish", "zsh"] {
+        let script = stdout_of(&format!("completions {shell}"));
+        assert!(script.contains("gdscript"), "{shell}");
+    }
+    let help = run("--help");
+    assert!(String::from_utf8(help.stdout).unwrap().contains("\n  show "));
+}

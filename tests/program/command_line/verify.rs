@@ -1,0 +1,335 @@
+//! `verify`: what is the same, what is another, and what cannot be judged.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use regatta::commands::manifest::{Manifest, fingerprint};
+use tempfile::TempDir;
+
+use super::capture::{dimensions, drawn_or_skip};
+use super::{regatta, run_in, stderr};
+
+/// Captures the spring racing into `clip`: 7 frames, 12 ticks, a mark at each.
+pub(super) fn clip_or_skip(test: &str) -> Option<TempDir> {
+    let folder = tempfile::tempdir().unwrap();
+    let capture = "capture --scene spring --race --frames 7 --size 64x36 --scale 0.5 --out clip";
+    let output = drawn_or_skip(test, folder.path(), capture)?;
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    Some(folder)
+}
+
+/// Exit code, standard output and standard error of `verify clip`.
+pub(super) fn verify(folder: &Path, arguments: &str) -> (Option<i32>, String, String) {
+    let output = run_in(folder, &format!("verify clip {arguments}"));
+    let stdout = String::from_utf8(output.stdout.clone()).unwrap();
+    (output.status.code(), stdout, stderr(&output))
+}
+
+fn manifest_of(folder: &Path) -> PathBuf {
+    folder.join("clip/manifest.json")
+}
+
+/// Changes the manifest, whatever its hashes say.
+fn edit(folder: &Path, change: impl FnOnce(&mut Manifest)) {
+    let mut manifest = read(folder);
+    change(&mut manifest);
+    fs::write(manifest_of(folder), manifest.to_text()).unwrap();
+}
+
+fn read(folder: &Path) -> Manifest {
+    serde_json::from_str(&fs::read_to_string(manifest_of(folder)).unwrap()).unwrap()
+}
+
+#[test]
+fn what_was_captured_here_is_the_same_here() {
+    let Some(folder) = clip_or_skip("what_was_captured_here_is_the_same_here") else { return };
+    let (code, stdout, stderr) = verify(folder.path(), "");
+    assert_eq!((code, &*stderr), (Some(0), ""));
+    let expected =
+        "physics: same to the bit: 5 lanes to tick 12\npixels: same: 7 frames, every pixel\n";
+    assert_eq!(stdout, expected);
+}
+
+#[test]
+fn the_physics_is_judged_without_a_gpu_and_the_pixels_are_not() {
+    let test = "the_physics_is_judged_without_a_gpu_and_the_pixels_are_not";
+    let Some(folder) = clip_or_skip(test) else { return };
+    let verify = |arguments: &[&str]| {
+        regatta()
+            .current_dir(folder.path())
+            .env("WGPU_BACKEND", "dx12")
+            .args(["verify", "clip"])
+            .args(arguments)
+            .output()
+            .unwrap()
+    };
+    let output = verify(&["--physics-only"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(output.stdout, b"physics: same to the bit: 5 lanes to tick 12\n");
+    let output = verify(&[]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = stderr(&output);
+    assert!(said.contains("the pixels cannot be judged: no usable graphics adapter"), "{said}");
+}
+
+#[test]
+fn one_bit_of_one_frame_is_a_change_of_pixels_and_not_of_physics() {
+    let test = "one_bit_of_one_frame_is_a_change_of_pixels_and_not_of_physics";
+    let Some(folder) = clip_or_skip(test) else { return };
+    let path = folder.path().join("clip/frame-000003.png");
+    let mut picture = image::open(&path).unwrap().into_rgba8();
+    picture.get_pixel_mut(5, 6).0[1] ^= 4;
+    picture.save(&path).unwrap();
+    let (code, stdout, stderr) = verify(folder.path(), "--diff off/here");
+    assert_eq!(code, Some(1), "{stdout}{stderr}");
+    let lines: Vec<_> = stdout.lines().collect();
+    assert_eq!(lines[0], "physics: same to the bit: 5 lanes to tick 12");
+    let expected = "pixels: frame-000003.png: 1 pixels off, the worst by 4; the file was altered \
+                    after the capture, its hash says; see off/here/frame-000003.png";
+    assert_eq!(lines[1..], [expected, "pixels: 1 of 7 frames differ"]);
+    assert!(stderr.contains("pixels differ from clip/manifest.json"), "{stderr}");
+    let difference = folder.path().join("off/here/frame-000003.png");
+    assert_eq!(dimensions(&difference), (64, 36));
+    let picture = image::open(difference).unwrap().into_rgba8();
+    assert_eq!(picture.get_pixel(5, 6).0, [0, 255, 0, 255]);
+    assert_eq!(picture.pixels().filter(|pixel| pixel.0 != [0, 0, 0, 255]).count(), 1);
+}
+
+#[test]
+fn a_frame_that_is_gone_or_broken_is_named() {
+    let Some(folder) = clip_or_skip("a_frame_that_is_gone_or_broken_is_named") else { return };
+    let clip = folder.path().join("clip");
+    fs::remove_file(clip.join("frame-000000.png")).unwrap();
+    fs::write(clip.join("frame-000001.png"), "half").unwrap();
+    fs::copy(clip.join("frame-000004.png"), clip.join("frame-000005.png")).unwrap();
+    let (code, stdout, _) = verify(folder.path(), "");
+    assert_eq!(code, Some(1));
+    assert!(stdout.contains("pixels: frame-000000.png: cannot be read: "), "{stdout}");
+    assert!(stdout.contains("pixels: frame-000001.png: cannot be decoded: "), "{stdout}");
+    assert!(stdout.contains("pixels: frame-000005.png: "), "{stdout}");
+    assert!(stdout.ends_with("pixels: 3 of 7 frames differ\n"), "{stdout}");
+}
+
+#[test]
+fn a_state_of_another_run_is_a_change_of_physics_at_its_tick() {
+    let test = "a_state_of_another_run_is_a_change_of_physics_at_its_tick";
+    let Some(folder) = clip_or_skip(test) else { return };
+    edit(folder.path(), |manifest| {
+        for mark in &mut manifest.marks[8..] {
+            mark.lanes[1].v[0][0] += 0.25;
+        }
+        manifest.marks[9].lanes[0].hash = "0".repeat(16);
+    });
+    let (code, stdout, stderr) = verify(folder.path(), "--physics-only");
+    assert_eq!(code, Some(1));
+    assert!(stderr.contains("physics differ from"), "{stderr}");
+    let first = "physics: differs first at tick 8: lane 2, semi-implicit-euler, ";
+    assert!(stdout.starts_with(first), "{stdout}");
+    assert!(stdout.ends_with(", off by 2.5e-1\n"), "{stdout}");
+}
+
+#[test]
+fn a_lane_that_ends_otherwise_is_a_change_of_physics() {
+    let test = "a_lane_that_ends_otherwise_is_a_change_of_physics";
+    let Some(folder) = clip_or_skip(test) else { return };
+    let whole = fs::read(manifest_of(folder.path())).unwrap();
+    type Change = fn(&mut Manifest);
+    let changes: [(Change, &str); 3] = [
+        (
+            |manifest| manifest.lanes[1].hash = "0".repeat(16),
+            "its hash at the end is 0000000000000000",
+        ),
+        (|manifest| manifest.lanes[1].method = "rk4".into(), "its method at the end is rk4"),
+        (|manifest| manifest.lanes[1].halted = Some(3), "its halt at the end is at tick 3"),
+    ];
+    for (change, said) in changes {
+        fs::write(manifest_of(folder.path()), &whole).unwrap();
+        edit(folder.path(), change);
+        let (code, stdout, stderr) = verify(folder.path(), "--physics-only");
+        assert_eq!(code, Some(1), "{stdout}{stderr}");
+        let first = format!(
+            "physics: differs first at tick 12: lane 2, semi-implicit-euler, {said} in the manifest"
+        );
+        assert!(stdout.starts_with(&first), "{stdout}");
+    }
+}
+
+#[test]
+fn a_changed_constant_is_a_change_of_physics_at_the_first_tick() {
+    let test = "a_changed_constant_is_a_change_of_physics_at_the_first_tick";
+    let Some(folder) = clip_or_skip(test) else { return };
+    edit(folder.path(), |manifest| {
+        let settings = &mut manifest.settings;
+        let text = settings.scene.text.replace("mass_kg = 1.0", "mass_kg = 1.0000001");
+        assert_ne!(settings.scene.text, text);
+        settings.scene.hash = fingerprint(text.as_bytes());
+        settings.scene.text = text;
+        manifest.settings_hash = settings.hash();
+    });
+    let (code, stdout, stderr) = verify(folder.path(), "--physics-only");
+    assert_eq!(code, Some(1));
+    assert!(stdout.starts_with("physics: differs first at tick 1: lane 1, "), "{stdout}");
+    assert!(stderr.contains("the built-in scene spring has changed"), "{stderr}");
+    let verify = regatta()
+        .current_dir(folder.path())
+        .env("WGPU_BACKEND", "dx12")
+        .args(["verify", "clip"])
+        .output()
+        .unwrap();
+    assert_eq!(verify.status.code(), Some(1), "different, though the pixels cannot be judged");
+}
+
+#[test]
+fn what_cannot_be_judged_says_why() {
+    let Some(folder) = clip_or_skip("what_cannot_be_judged_says_why") else { return };
+    let whole = fs::read(manifest_of(folder.path())).unwrap();
+    let refused = |change: &dyn Fn(&mut Manifest), said: &str| {
+        fs::write(manifest_of(folder.path()), &whole).unwrap();
+        edit(folder.path(), |manifest| change(manifest));
+        let (code, stdout, stderr) = verify(folder.path(), "");
+        assert_eq!((code, &*stdout), (Some(2), ""), "{stderr}");
+        assert!(stderr.contains("cannot judge clip/manifest.json: "), "{stderr}");
+        assert!(stderr.contains(said), "{stderr}");
+    };
+    refused(
+        &|manifest| manifest.settings.tick_hz = 50,
+        "it says 50 Hz, but at 30 frames per second its frames are those of 60 Hz",
+    );
+    refused(&|manifest| manifest.settings.scene.text.push(' '), "the scene's text was altered");
+    refused(&|manifest| manifest.settings.scale = 0.75, "its settings were altered");
+    refused(&|manifest| manifest.schema = 9, "it is of schema 9, and this program reads 1");
+    refused(
+        &|manifest| manifest.frames[1].file = "../x.png".into(),
+        "in the place of frame-000001",
+    );
+    let rehash = |manifest: &mut Manifest| manifest.settings_hash = manifest.settings.hash();
+    refused(
+        &|manifest| {
+            manifest.settings.lanes[0].method = "rk5".into();
+            rehash(manifest);
+        },
+        "this program has no method \"rk5\"",
+    );
+    refused(
+        &|manifest| {
+            manifest.settings.scale = 0.0;
+            rehash(manifest);
+        },
+        "its scale is out of range",
+    );
+    refused(
+        &|manifest| {
+            manifest.settings.lanes[4].tolerance = Some(-1.0);
+            rehash(manifest);
+        },
+        "its tolerance is out of range",
+    );
+    refused(
+        &|manifest| {
+            manifest.settings.lanes[0].tolerance = Some(1e-3);
+            rehash(manifest);
+        },
+        "its explicit-euler has a tolerance, but the method takes none",
+    );
+    refused(&|manifest| drop(manifest.frames.pop()), "it lists 6 frames of 7");
+    refused(&|manifest| manifest.lanes.clear(), "it lists the ends of 0 lanes of 5; capture again");
+    refused(
+        &|manifest| {
+            manifest.frames.pop();
+            manifest.complete = false;
+        },
+        "its capture was stopped after 6 of 7 frames; complete it with the same command and --resume",
+    );
+    for (text, said) in [("{", "it is not JSON"), ("{}", "does not name its schema")] {
+        fs::write(manifest_of(folder.path()), text).unwrap();
+        let (code, _, stderr) = verify(folder.path(), "");
+        assert_eq!(code, Some(2));
+        assert!(stderr.contains(said), "{stderr}");
+    }
+}
+
+#[test]
+fn another_driver_is_said_and_has_its_limits() {
+    let Some(folder) = clip_or_skip("another_driver_is_said_and_has_its_limits") else { return };
+    edit(folder.path(), |manifest| manifest.adapter.name = "another card".into());
+    let (code, stdout, stderr) = verify(folder.path(), "");
+    assert_eq!(code, Some(0), "{stdout}{stderr}");
+    assert!(stderr.starts_with("drawn then with another card ("), "{stderr}");
+    assert!(stderr.contains("a channel may differ by 2, and 0.01 % "), "{stderr}");
+    assert!(stdout.ends_with("pixels: same within the limits: 7 frames\n"), "{stdout}");
+}
+
+/// Mesa draws in software under both interfaces; elsewhere one of them may be missing.
+#[cfg(target_os = "linux")]
+#[test]
+fn opengl_draws_what_vulkan_drew_within_the_limits() {
+    let test = "opengl_draws_what_vulkan_drew_within_the_limits";
+    let folder = tempfile::tempdir().unwrap();
+    let with = |backend: &str, arguments: &str| {
+        let mut command = regatta();
+        command.current_dir(folder.path()).env("WGPU_BACKEND", backend);
+        command.args(arguments.split(' ')).output().unwrap()
+    };
+    let capture = "capture --scene harbour --race --frames 9 --fps 3 --size 640x360 --out clip";
+    for (backend, arguments) in [("vulkan", capture), ("gl", "verify clip --diff off")] {
+        let output = with(backend, arguments);
+        let said = stderr(&output);
+        if said.contains("no usable graphics adapter") {
+            let _ = writeln!(io::stderr(), "SKIPPED {test}: {said}");
+            return;
+        }
+        let stdout = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{stdout}{said}");
+        if backend == "gl" {
+            assert!(said.starts_with("drawn then with "), "{said}");
+            assert!(stdout.starts_with("physics: same to the bit: "), "{stdout}");
+        }
+    }
+}
+
+#[test]
+fn differences_never_replace_what_is_judged_or_what_is_not_ours() {
+    let test = "differences_never_replace_what_is_judged_or_what_is_not_ours";
+    let Some(folder) = clip_or_skip(test) else { return };
+    let frame = folder.path().join("clip/frame-000003.png");
+    fs::copy(folder.path().join("clip/frame-000004.png"), &frame).unwrap();
+    let before = fs::read(&frame).unwrap();
+    let (code, _, stderr) = verify(folder.path(), "--diff clip");
+    assert_eq!(code, Some(2), "{stderr}");
+    assert!(
+        stderr.contains("clip holds the frames that are judged; give another --diff"),
+        "{stderr}"
+    );
+    assert!(fs::read(&frame).unwrap() == before);
+    let other = folder.path().join("other");
+    fs::create_dir(&other).unwrap();
+    for name in ["manifest.json", "frame-000003.png"] {
+        fs::copy(folder.path().join("clip").join(name), other.join(name)).unwrap();
+    }
+    let (code, _, stderr) = verify(folder.path(), "--diff other");
+    assert_eq!(code, Some(2), "{stderr}");
+    assert!(stderr.contains("other holds another capture; give another --diff"), "{stderr}");
+    assert!(fs::read(other.join("frame-000003.png")).unwrap() == before);
+    fs::create_dir(folder.path().join("off")).unwrap();
+    fs::write(folder.path().join("off/frame-000003.png"), "mine").unwrap();
+    let (code, _, stderr) = verify(folder.path(), "--diff off");
+    assert_eq!(code, Some(2), "{stderr}");
+    assert!(stderr.contains("off/frame-000003.png was not made by regatta"), "{stderr}");
+    assert_eq!(fs::read(folder.path().join("off/frame-000003.png")).unwrap(), b"mine");
+}
+
+#[test]
+fn blessed_frames_are_the_same_again() {
+    let Some(folder) = clip_or_skip("blessed_frames_are_the_same_again") else { return };
+    let whole = fs::read(manifest_of(folder.path())).unwrap();
+    let frame = folder.path().join("clip/frame-000001.png");
+    fs::write(&frame, "broken").unwrap();
+    edit(folder.path(), |manifest| manifest.marks[3].lanes[0].hash = "other".into());
+    assert_eq!(verify(folder.path(), "").0, Some(1));
+    let (code, stdout, stderr) = verify(folder.path(), "--bless");
+    assert_eq!((code, &*stdout), (Some(0), ""), "{stderr}");
+    assert!(stderr.starts_with("wrote 7 frames of 64x36"), "{stderr}");
+    assert_eq!(verify(folder.path(), "").0, Some(0));
+    assert!(fs::read(manifest_of(folder.path())).unwrap() == whole);
+}

@@ -1,0 +1,222 @@
+//! Frames of every scene against committed pictures, drawn by a software adapter.
+//!
+//! `BLESS=1 cargo test --test program golden` writes the pictures anew; look at them before committing.
+#![cfg(feature = "desktop")]
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{DynamicImage, RgbaImage};
+use regatta::lab::{Action, Command, Lab, SCENES, Scene};
+use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels};
+
+const SIZE_PX: [u32; 2] = [400, 225];
+/// As in a window of 800 × 450 points, where all panels show.
+const SCALE: f32 = 0.5;
+/// What the frames of one driver differ by from another's, and a little more: a channel by at most 2,
+/// and at most one pixel in ten thousand by more than 1.
+const LARGEST_DIFFERENCE: u8 = 2;
+const PIXELS_OFF: f64 = 1e-4;
+/// A golden picture that is larger holds more than a frame of ours should.
+const LARGEST_FILE: usize = 64 * 1024;
+
+/// Just long enough for explicit Euler to halt on the stiff spring; longer trails make larger files.
+const FRAMES: u64 = 130;
+
+fn gpu_or_skip(test: &str) -> Option<Gpu> {
+    Gpu::headless(AdapterPreference::CpuOnly)
+        // Not `eprintln!`, which the test runner hides when a test passes.
+        .inspect_err(|error| drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")))
+        .ok()
+}
+
+/// The lab of a built-in scene, in solo or racing, after [`FRAMES`] at 60 a second.
+fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Lab)) -> Lab {
+    let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+    if race {
+        lab.apply(Command::ToggleRace);
+    } else {
+        lab.apply(Command::Pick(1));
+    }
+    for frame in 0..FRAMES {
+        if frame == FRAMES / 2 && !race {
+            lab.apply(Command::Kick(1.0));
+            lab.apply(Command::Pick(3));
+        }
+        lab.advance(16_666_667);
+        lab.analyse();
+        each_frame(&lab);
+    }
+    lab
+}
+
+/// The worst channel difference, and how many pixels are off by more than 1.
+fn difference(a: &RgbaImage, b: &RgbaImage) -> (u8, usize) {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let worst = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
+        a.0.iter().zip(b.0).map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
+    };
+    let each = a.pixels().zip(b.pixels()).map(worst);
+    each.fold((0, 0), |(most, off), d| (most.max(d), off + usize::from(d > 1)))
+}
+
+/// Without alpha, which is full, and as small as may be: pictures in a repository stay for ever.
+fn write_small(picture: &RgbaImage, path: &Path) {
+    let mut file = Vec::new();
+    let encoder =
+        PngEncoder::new_with_quality(&mut file, CompressionType::Best, FilterType::Adaptive);
+    DynamicImage::from(picture.clone()).into_rgb8().write_with_encoder(encoder).unwrap();
+    std::fs::write(path, file).unwrap();
+}
+
+#[test]
+fn the_comparison_sees_one_pixel_and_one_level() {
+    let black = RgbaImage::new(20, 10);
+    let mut other = black.clone();
+    assert_eq!(difference(&black, &other), (0, 0));
+    other.get_pixel_mut(3, 4).0[2] = 1;
+    assert_eq!(difference(&black, &other), (1, 0));
+    other.get_pixel_mut(3, 4).0[2] = 200;
+    other.get_pixel_mut(9, 9).0[0] = 2;
+    assert_eq!(difference(&black, &other), (200, 2));
+}
+
+/// What an renderer for pictures of `size_px` makes of a lab.
+fn drawn(renderer: &mut OffscreenRenderer, size_px: [u32; 2], lab: &Lab) -> RgbaImage {
+    let mut rgba = Vec::new();
+    renderer.draw(lab, &mut rgba).unwrap();
+    RgbaImage::from_raw(size_px[0], size_px[1], rgba).unwrap()
+}
+
+/// What is wrong with a picture beside the golden one of this name, or of that one; with `BLESS=1` it becomes that one.
+fn wrong(name: &str, drawn: &RgbaImage) -> Option<String> {
+    let path = PathBuf::from("tests/golden").join(name);
+    if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
+        write_small(drawn, &path);
+    }
+    let golden = match image::open(&path) {
+        Ok(golden) => golden.into_rgba8(),
+        Err(error) => return Some(format!("{name}: {error}; BLESS=1 writes it")),
+    };
+    let bytes = std::fs::metadata(&path).unwrap().len() as usize;
+    let (most, off) = difference(&golden, drawn);
+    let allowed = (PIXELS_OFF * f64::from(drawn.width() * drawn.height())) as usize;
+    if most <= LARGEST_DIFFERENCE && off <= allowed && bytes <= LARGEST_FILE {
+        return None;
+    }
+    let kept = std::env::temp_dir().join(format!("regatta-{name}"));
+    write_small(drawn, &kept);
+    Some(format!(
+        "{name}: {off} pixels off by more than 1, the worst by {most}, {bytes} bytes; drawn now: {}",
+        kept.display()
+    ))
+}
+
+#[test]
+fn every_scene_looks_as_it_did_solo_and_racing() {
+    let Some(gpu) = gpu_or_skip("every_scene_looks_as_it_did_solo_and_racing") else { return };
+    let mut renderer = OffscreenRenderer::new(gpu, SIZE_PX, SCALE).unwrap();
+    let mut all_wrong = Vec::new();
+    for scene in SCENES {
+        for (mode, race) in [("solo", false), ("race", true)] {
+            let name = format!("{}-{mode}.png", scene.name);
+            let drawn = drawn(&mut renderer, SIZE_PX, &sailed(scene.name, race, |_| ()));
+            all_wrong.extend(wrong(&name, &drawn));
+        }
+    }
+    assert!(all_wrong.is_empty(), "\n{}", all_wrong.join("\n"));
+}
+
+#[test]
+fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
+    let test = "the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did";
+    let Some(gpu) = gpu_or_skip(test) else { return };
+    // 1280 × 720 points.
+    let size_px = [512, 288];
+    let mut lab = sailed("spring", false, |_| ());
+    lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value: 90.0 }));
+    lab.apply(Command::SecondForward);
+    lab.apply(Command::Seek(FRAMES - 20));
+    lab.apply(Command::ToggleInspector);
+    lab.analyse();
+    let drawn = drawn(&mut OffscreenRenderer::new(gpu, size_px, 0.4).unwrap(), size_px, &lab);
+    assert_eq!(wrong("spring-inspector.png", &drawn), None);
+}
+
+#[test]
+fn the_loop_lab_looks_as_it_did() {
+    let Some(gpu) = gpu_or_skip("the_loop_lab_looks_as_it_did") else { return };
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.open_loop_lab_on("steady-144");
+    (0..FRAMES).for_each(|_| _ = lab.advance(16_666_667));
+    let drawn = drawn(&mut OffscreenRenderer::new(gpu, SIZE_PX, SCALE).unwrap(), SIZE_PX, &lab);
+    assert_eq!(wrong("spring-loops.png", &drawn), None);
+}
+
+#[test]
+fn the_same_lab_gives_the_same_bytes_from_two_renderers() {
+    let test = "the_same_lab_gives_the_same_bytes_from_two_renderers";
+    let Some(gpu) = gpu_or_skip(test) else { return };
+    let lab = sailed("harbour", true, |_| ());
+    let draw = || {
+        let mut rgba = Vec::new();
+        OffscreenRenderer::new(gpu.clone(), SIZE_PX, SCALE).unwrap().draw(&lab, &mut rgba).unwrap();
+        rgba
+    };
+    assert!(draw() == draw());
+}
+
+#[test]
+fn without_panels_the_stage_fills_the_frame() {
+    let Some(gpu) = gpu_or_skip("without_panels_the_stage_fills_the_frame") else { return };
+    let lab = sailed("harbour", true, |_| ());
+    let draw = |panels| {
+        let mut rgba = Vec::new();
+        let mut renderer =
+            OffscreenRenderer::new(gpu.clone(), SIZE_PX, SCALE).unwrap().with_panels(panels);
+        renderer.draw(&lab, &mut rgba).unwrap();
+        RgbaImage::from_raw(SIZE_PX[0], SIZE_PX[1], rgba).unwrap()
+    };
+    let (shown, off) = (draw(Panels::Shown), draw(Panels::Off));
+    assert_eq!(shown, draw(Panels::default()));
+    // Where panels are, the stage alone has sea.
+    let [right, bottom] = SIZE_PX.map(|side| side - 1);
+    let places = (20..bottom).step_by(7).map(|y| (right, y));
+    let places = places.chain((20..right).step_by(7).map(|x| (x, bottom)));
+    for (x, y) in places {
+        let [r, g, b, _] = off.get_pixel(x, y).0;
+        assert!(b > g && g > r && b > r + 15, "no sea at ({x}, {y}): {r} {g} {b}");
+        assert_ne!(shown.get_pixel(x, y), off.get_pixel(x, y), "no panel at ({x}, {y})");
+    }
+}
+
+#[test]
+fn drawing_changes_no_bit_of_the_physics() {
+    let Some(gpu) = gpu_or_skip("drawing_changes_no_bit_of_the_physics") else { return };
+    let mut renderer = OffscreenRenderer::new(gpu, [64, 36], 0.1).unwrap();
+    let mut rgba = Vec::new();
+    for race in [false, true] {
+        let drawn = sailed("harbour", race, |lab| renderer.draw(lab, &mut rgba).unwrap());
+        let unseen = sailed("harbour", race, |_| ());
+        assert_eq!(drawn.race().tick(), FRAMES);
+        assert_eq!(drawn.race().state_hash(), unseen.race().state_hash());
+    }
+}
+
+#[test]
+fn frames_of_every_size_from_one_pixel_up_are_drawn() {
+    let Some(gpu) = gpu_or_skip("frames_of_every_size_from_one_pixel_up_are_drawn") else { return };
+    let lab = sailed("harbour", true, |_| ());
+    let mut rgba = Vec::new();
+    for size_px in [[1, 1], [1, 300], [300, 1], [17, 33], [121, 261], [421, 201], [1001, 501]] {
+        for scale in [0.5, 1.0, 2.0] {
+            OffscreenRenderer::new(gpu.clone(), size_px, scale)
+                .unwrap()
+                .draw(&lab, &mut rgba)
+                .unwrap();
+            assert_eq!(rgba.len(), 4 * (size_px[0] * size_px[1]) as usize, "{size_px:?}");
+            assert!(rgba.chunks_exact(4).all(|pixel| pixel[3] == 255), "{size_px:?} at {scale}");
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! What the program holds on to after thousands of random events: the laboratory, the panels and the renderer, without a
+//! window. Every byte is counted, which the memory of a process does not tell so closely.
+#![cfg(feature = "desktop")]
+
+use std::alloc::{GlobalAlloc, Layout, System as SystemAllocator};
+use std::io::{self, Write};
+use std::sync::atomic::{AtomicIsize, Ordering};
+
+use egui::{
+    Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, RawInput, TouchPhase, pos2,
+    vec2,
+};
+use regatta::lab::{Command, KEYS, Lab, Scene};
+use regatta::view::{AdapterPreference, FrameRenderer, Gpu, Offscreen};
+
+use crate::dice::Dice;
+
+/// The bytes that are allocated now, on all threads.
+static HELD: AtomicIsize = AtomicIsize::new(0);
+
+struct Counting;
+
+// SAFETY: everything is passed on unchanged; the count needs no allocation.
+#[expect(unsafe_code, reason = "a global allocator that counts can only be written so")]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        HELD.fetch_add(layout.size() as isize, Ordering::Relaxed);
+        unsafe { SystemAllocator.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        HELD.fetch_sub(layout.size() as isize, Ordering::Relaxed);
+        unsafe { SystemAllocator.dealloc(memory, layout) }
+    }
+
+    unsafe fn realloc(&self, memory: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        HELD.fetch_add(size as isize - layout.size() as isize, Ordering::Relaxed);
+        unsafe { SystemAllocator.realloc(memory, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+const SIZE_PX: [u32; 2] = [1280, 720];
+const EVENTS: usize = 3000;
+/// The memory for rewinding, in MB: small enough to be full at each rest.
+const REWIND_MB: usize = 1;
+/// The most that the program may hold more after the second half of the events than after the first, in MB, and the least
+/// that it holds at all.
+const MOST_GROWTH_MB: f64 = 5.0;
+const LEAST_MB: f64 = 1.0;
+
+struct Program {
+    lab: Lab,
+    gpu: Gpu,
+    canvas: Offscreen,
+    renderer: FrameRenderer,
+    time_s: f64,
+}
+
+impl Program {
+    /// Shows a frame with these events in it, and does what they ask for.
+    fn frame(&mut self, events: Vec<Event>) {
+        let Self { lab, gpu, canvas, renderer, time_s } = self;
+        *time_s += 1.0 / 60.0;
+        lab.advance(16_666_667);
+        let input = RawInput { time: Some(*time_s), events, ..RawInput::default() };
+        let (commands, output) = renderer.draw(gpu, &canvas.view, SIZE_PX, 1.0, input, lab);
+        gpu.queue.submit(output.drawing);
+        let wait = wgpu::PollType::Wait { submission_index: None, timeout: None };
+        gpu.device.poll(wait).expect("the device is there");
+        for command in commands {
+            lab.apply(command);
+        }
+    }
+
+    /// Opens a scene of one body, so that nothing of the runs before is needed any more, and returns what is then held, in MB.
+    fn at_rest(&mut self) -> f64 {
+        self.lab.apply(Command::CloseDialog);
+        let scene = Scene::built_in("spring").expect("a built-in scene");
+        self.lab.open_file("rest.toml".as_ref(), scene);
+        (0..30).for_each(|_| self.frame(vec![Event::PointerGone]));
+        HELD.load(Ordering::Relaxed) as f64 / f64::from(1 << 20)
+    }
+
+    fn random_event(&mut self, dice: &mut Dice) {
+        let mut place = || pos2(dice.between(0.0, 1280.0) as f32, dice.between(0.0, 720.0) as f32);
+        let [from, to] = [place(), place()];
+        let button = |pos, button, pressed| Event::PointerButton {
+            pos,
+            button,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        let click = |at, with| {
+            vec![Event::PointerMoved(at), button(at, with, true), button(at, with, false)]
+        };
+        match (10.0 * dice.part()) as u32 {
+            0 => self.frame(click(from, PointerButton::Secondary)),
+            1..=2 => self.frame(click(from, PointerButton::Primary)),
+            3 => {
+                self.frame(vec![
+                    Event::PointerMoved(from),
+                    button(from, PointerButton::Primary, true),
+                ]);
+                self.frame(vec![Event::PointerMoved(to)]);
+                self.frame(vec![button(to, PointerButton::Primary, false)]);
+            }
+            4 => {
+                let (unit, delta, phase) = (
+                    MouseWheelUnit::Line,
+                    vec2(0.0, dice.between(-2.0, 2.0) as f32),
+                    TouchPhase::Move,
+                );
+                let (source, modifiers) = (MouseWheelSource::Wheel, Modifiers::NONE);
+                let wheel = Event::MouseWheel { unit, source, delta, phase, modifiers };
+                self.frame(vec![Event::PointerMoved(from), wheel]);
+            }
+            _ => {
+                let bound = &KEYS[(dice.part() * KEYS.len() as f64) as usize].keys;
+                let (_, command) = &bound[(dice.part() * bound.len() as f64) as usize];
+                self.lab.apply(command.clone());
+                self.frame(Vec::new());
+            }
+        }
+    }
+}
+
+#[test]
+fn thousands_of_random_events_leave_no_more_memory_held_than_a_few_megabytes() {
+    let test = "thousands_of_random_events_leave_no_more_memory_held_than_a_few_megabytes";
+    let gpu = match Gpu::headless(AdapterPreference::CpuOnly) {
+        Ok(gpu) => gpu,
+        // Not `eprintln!`, which the test runner hides when a test passes.
+        Err(error) => return drop(writeln!(io::stderr(), "SKIPPED {test}: {error}")),
+    };
+    let mut lab = Lab::new(Scene::built_in("harbour").expect("a built-in scene"));
+    lab.set_rewind_bytes(REWIND_MB << 20);
+    let canvas = Offscreen::new(&gpu, SIZE_PX).expect("1280x720 is within any limit");
+    let renderer = FrameRenderer::new(&gpu, Offscreen::FORMAT);
+    let mut program = Program { lab, gpu, canvas, renderer, time_s: 0.0 };
+    let mut dice = Dice::new(12);
+    let mut held = Vec::new();
+    for event in 1..=EVENTS {
+        program.random_event(&mut dice);
+        if event % (EVENTS / 6) == 0 {
+            held.push(program.at_rest());
+        }
+    }
+    println!("held at rest: {held:.2?} MB");
+    let [first, second] =
+        [&held[..3], &held[3..]].map(|half| half.iter().copied().fold(f64::INFINITY, f64::min));
+    assert!(first > LEAST_MB && second > LEAST_MB, "{held:?}");
+    assert!(second - first < MOST_GROWTH_MB, "{held:?}");
+}
