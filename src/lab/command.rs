@@ -5,6 +5,7 @@ use super::held::HeldBody;
 use super::instrument::Instrument;
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopCommand;
+use super::quantity::Quantity;
 use super::source_code::Language;
 use super::zoom_pan::ZoomPan;
 use crate::sim::integrators::Method;
@@ -104,6 +105,8 @@ pub enum Command {
     UsualScale,
     /// Shows this instrument.
     Instrument(Instrument),
+    /// Shows this quantity in the motion instrument.
+    Quantity(Quantity),
     /// Shows this parameter of the displayed body on the stability map, by its place.
     MapParameter(usize),
     /// The next instrument, cyclically.

@@ -3,6 +3,7 @@
 use super::instrument::Instrument;
 use super::interpolation::Interpolation;
 use super::palette::Theme;
+use super::quantity::Quantity;
 use super::zoom_pan::ZoomPan;
 
 /// How the lanes of a race share the stage.
@@ -26,6 +27,8 @@ pub struct Display {
     pub instrument: Instrument,
     /// Whether the instrument covers the stage too.
     pub enlarged: bool,
+    /// What the motion instrument shows of every body.
+    pub quantity: Quantity,
     /// The metric of the error instrument, by its place in [`METRICS`](super::METRICS).
     pub metric: usize,
     /// The body of the plots and the lane list, by its place in the scene.

@@ -35,6 +35,7 @@ pub mod pacing;
 pub mod palette;
 mod past;
 pub mod picture;
+mod quantity;
 mod race;
 mod report;
 mod scene;
@@ -85,6 +86,7 @@ pub use past::{
     CAPACITY, Energies, History, Past, Run, Sample, Samples, Summary, SweptRange, TruthCurve,
     TruthSample,
 };
+pub use quantity::Quantity;
 pub use race::{Entrant, Mode, Observer, Race};
 pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
 pub use scene::{

@@ -10,6 +10,7 @@ use super::interpolation::Interpolation;
 use super::lane_spec::LaneSpec;
 use super::live_loop::LiveLoop;
 use super::palette::Theme;
+use super::quantity::Quantity;
 use super::source_code::Language;
 
 /// A dialog over the window.
@@ -73,6 +74,7 @@ impl Viewer {
                 ghost: true,
                 interpolation: Interpolation::Hermite,
                 instrument: Instrument::Motion,
+                quantity: Quantity::default(),
                 enlarged: false,
                 metric: 0,
                 body: 0,

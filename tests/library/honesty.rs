@@ -1,7 +1,6 @@
 //! Verdicts and advice on random scenes, compared with plain simulation: the library's steppers, and none of the code that
 //! judges. The seed is printed; `REGATTA_SEED` sets another.
 
-
 use crate::dice::Dice;
 use regatta::lab::{Adviser, CRITERIA, Judge, LaneSpec, Outcome, Scene, Verdict};
 use regatta::sim::bodies::{Input, Truth};

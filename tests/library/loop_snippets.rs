@@ -7,7 +7,6 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-
 use crate::compilers::{build_folder, compiled_or_skip};
 use regatta::lab::pacing::{POLICIES, Pacer, PolicyCard, RefreshRate, TimeBase, policy};
 

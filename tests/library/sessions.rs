@@ -3,7 +3,6 @@
 
 use std::sync::Arc;
 
-
 use crate::dice::Dice;
 use regatta::lab::{
     Action, Command, Event, EventKind, Lab, LaneSpec, Past, SNAPSHOT_BYTES, Scene, Session,

@@ -10,6 +10,7 @@ use super::energies::Energies;
 use super::swept_range::SweptRange;
 use super::windowed_log::WindowedLog;
 use crate::lab::lane::LaneBody;
+use crate::lab::quantity::Quantity;
 use crate::lab::race::LastTick;
 use crate::sim::bodies::Input;
 use crate::sim::{Solver, Stepper};
@@ -123,10 +124,15 @@ impl TruthCurve {
         TruthSample::of(t, &*truth.stepper)
     }
 
-    /// The first coordinate over time through consecutive `samples` of the true body `truth`, at least every `spacing_s`
-    /// seconds. A body of one coordinate is set to a sample and advanced from there, if that leads to the next sample;
-    /// what an input or an edit has changed since, and a body of several coordinates, is a cubic through both samples.
-    pub fn finer(truth: &LaneBody, samples: &[TruthSample], spacing_s: f64) -> Vec<[f64; 2]> {
+    /// A quantity over time through consecutive `samples` of the true body `truth`, at least every `spacing_s` seconds.
+    /// A body of one coordinate is set to a sample and advanced from there, if that leads to the next sample; what an
+    /// input or an edit has changed since, and a body of several coordinates, is a cubic through both samples.
+    pub fn finer(
+        truth: &LaneBody,
+        quantity: Quantity,
+        samples: &[TruthSample],
+        spacing_s: f64,
+    ) -> Vec<[f64; 2]> {
         let mut copy = truth.stepper.with_solver(Solver::Truth, 0.0);
         let mut flow = |from: &TruthSample, t: f64| {
             if truth.coordinates.len() > 1 {
@@ -146,11 +152,11 @@ impl TruthCurve {
             for i in 0..count {
                 let part = f64::from(i) / f64::from(count);
                 let t = from.t + part * wide;
-                let q = if follows { flow(from, t).map(|[q, _]| q) } else { None };
-                points.push([t, q.unwrap_or_else(|| cubic(from, to, part))]);
+                let state = if follows { flow(from, t) } else { None };
+                points.push([t, quantity.among(state.unwrap_or_else(|| cubic(from, to, part)))]);
             }
         }
-        points.extend(samples.last().map(|last| [last.t, last.q]));
+        points.extend(samples.last().map(|last| [last.t, quantity.among([last.q, last.v])]));
         points
     }
 
@@ -267,12 +273,20 @@ impl TruthCurve {
     }
 }
 
-/// The first coordinate at a part of the way between two samples, on the cubic through both with their velocities.
-fn cubic(from: &TruthSample, to: &TruthSample, part: f64) -> f64 {
+/// The coordinate and its velocity at a part of the way between two samples, on the cubic through both with their
+/// velocities. Where no time passes, they are those of the first.
+fn cubic(from: &TruthSample, to: &TruthSample, part: f64) -> [f64; 2] {
     let (wide, rest) = (to.t - from.t, 1.0 - part);
+    if wide <= 0.0 {
+        return [from.q, from.v];
+    }
     let [out, into] = [from.v, to.v].map(|v| wide * v);
-    rest * rest * ((1.0 + 2.0 * part) * from.q + part * out)
-        + part * part * ((3.0 - 2.0 * part) * to.q - rest * into)
+    let q = rest * rest * ((1.0 + 2.0 * part) * from.q + part * out)
+        + part * part * ((3.0 - 2.0 * part) * to.q - rest * into);
+    let v = 6.0 * part * rest * (to.q - from.q) / wide
+        + rest * (1.0 - 3.0 * part) * from.v
+        + part * (3.0 * part - 2.0) * to.v;
+    [q, v]
 }
 
 #[cfg(test)]
@@ -291,16 +305,20 @@ mod tests {
             ..TruthCurve::present(truth, t)
         };
         let samples: Vec<TruthSample> = (0..5).map(|i| sample(0.1 * f64::from(i))).collect();
-        let points = TruthCurve::finer(truth, &samples, 0.001);
+        let points = TruthCurve::finer(truth, Quantity::Position, &samples, 0.001);
         assert!(points.len() >= 400 && points.windows(2).all(|pair| pair[1][0] > pair[0][0]));
         for [t, q] in &points {
             assert!((q - libm::cos(tau * t)).abs() < 1e-11, "{q} at {t} s");
         }
+        for [t, v] in TruthCurve::finer(truth, Quantity::Velocity, &samples, 0.001) {
+            assert!((v + tau * libm::sin(tau * t)).abs() < 1e-10, "{v} at {t} s");
+        }
         // A jump that the flow does not make: the ends stay, and nothing else is known.
         let put = TruthSample { q: 3.0, ..samples[1] };
-        let points = TruthCurve::finer(truth, &[samples[0], put], 0.01);
+        let points = TruthCurve::finer(truth, Quantity::Position, &[samples[0], put], 0.01);
         assert_eq!((points[0][1], points[points.len() - 1][1]), (1.0, 3.0));
-        let middle = cubic(&samples[0], &samples[1], 0.5);
-        assert!((middle - libm::cos(tau * 0.05)).abs() < 1e-3, "{middle}");
+        let [q, v] = cubic(&samples[0], &samples[1], 0.5);
+        assert!((q - libm::cos(tau * 0.05)).abs() < 1e-3, "{q}");
+        assert!((v + tau * libm::sin(tau * 0.05)).abs() < 1e-2, "{v}");
     }
 }

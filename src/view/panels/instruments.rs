@@ -10,6 +10,7 @@ use super::tracks::Detail;
 use super::{advice, cost, ink, loops, one_step, stability_map};
 use crate::lab::{
     Command, FRAME_METRICS, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS,
+    Quantity,
 };
 use crate::view::plot;
 use crate::view::theme::strong_font;
@@ -165,6 +166,11 @@ fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         choice(ui, "metric", offered.collect(), Command::Metric(chosen), commands);
     }
     let has_all = instrument == Instrument::Motion && lab.loop_lab().is_none();
+    if has_all {
+        let offered = Quantity::ALL.map(|quantity| (Command::Quantity(quantity), quantity.name()));
+        let chosen = Command::Quantity(lab.display().quantity);
+        choice(ui, "quantity", offered.into(), chosen, commands);
+    }
     if !has_all && lab.scene().bodies.len() > 1 {
         let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
         let offered = (0..).map(Command::Body).zip(names);

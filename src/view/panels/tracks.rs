@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 use egui_plot::PlotBounds;
 
 use super::roster::Roster;
-use crate::lab::{Entrant, History, Lab, Sample, Summary};
+use crate::lab::{Entrant, History, Lab, Quantity, Sample, Summary};
 use crate::view::curves::{Curve, Dots};
 use crate::view::plot::{Arrow, Drawing, Switch};
 
@@ -81,8 +81,17 @@ impl Track {
         })
     }
 
-    /// A track for each lane, of the body's first coordinate over time, with all that it comes to between samples.
-    pub(super) fn of_coordinate(lab: &Lab, body: usize, detail: Detail) -> Vec<Self> {
+    /// A track for each lane, of a quantity of the body over time; of a coordinate with all that it comes to between
+    /// samples.
+    pub(super) fn of_quantity(
+        lab: &Lab,
+        body: usize,
+        quantity: Quantity,
+        detail: Detail,
+    ) -> Vec<Self> {
+        if quantity != Quantity::Position {
+            return Self::of(lab, body, |sample| [sample.t, quantity.among([sample.q, sample.v])]);
+        }
         let point = |s: Summary| Point {
             t: s.t,
             entry: s.entry,

@@ -2,8 +2,8 @@
 
 use regatta::lab::{Columns, Identification, Log as Text, LoggedBody, Word, identify};
 
-use crate::dice::Dice;
 use super::log::{Log, Row};
+use crate::dice::Dice;
 
 /// What is read of a log as a person would write it.
 fn identified(log: &Log, rows: &[Row], has_velocity: bool) -> Identification {

@@ -4,8 +4,8 @@ use regatta::lab::SceneBody;
 use regatta::sim::Solver;
 use regatta::sim::law::{CoordinateText, Equations, LawText, Part};
 
-use crate::dice::Dice;
 use super::{body, stepper};
+use crate::dice::Dice;
 
 /// A random expression in x, v and t, smooth or with corners, of bounded size.
 fn expression(dice: &mut Dice, depth: usize) -> String {

@@ -6,9 +6,9 @@ use std::{env, fs};
 use regatta::lab::{Language, source_code};
 use regatta::sim::integrators::METHODS;
 
-use crate::compilers::{build_folder, compiled_or_skip};
 use super::drivers;
 use super::known::{FORCES, Force, STEPS, steps};
+use crate::compilers::{build_folder, compiled_or_skip};
 
 /// The methods whose function does not make the same operations as the method of the table: those that solve
 /// equations, for which Newton's iteration is written out for one coordinate, and those that use a power or an

@@ -1,4 +1,4 @@
-//! Every body's first coordinate over time, under all lanes and exactly.
+//! A quantity of every body over time, under all lanes and exactly.
 
 use super::super::ranges;
 use super::super::roster::Roster;
@@ -27,19 +27,20 @@ pub(super) fn sheet(lab: &Lab, detail: Detail) -> Sheet {
 fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
     let truth = &lab.race().truth().bodies()[body];
     let coordinate = &truth.coordinates[0];
-    let tracks = Track::of_coordinate(lab, body, detail);
-    let exact = ExactLine::of_coordinate(lab, body);
+    let quantity = lab.display().quantity;
+    let tracks = Track::of_quantity(lab, body, quantity, detail);
+    let exact = ExactLine::of_quantity(lab, body, quantity);
     let y =
         ranges::around_truth(exact.fitted(lab, 1), &Track::fitted(lab, &tracks), 1, healthy(lab));
     let name = capitalised(&lab.scene().bodies[body].name);
     PlotModel {
-        id: format!("motion of {body}"),
+        id: format!("{} of {body}", quantity.symbol(coordinate)),
         title: match truth.halted() {
             Some(_) => format!("{name}, {}", truth.truth().missing()),
             None => name,
         },
         body,
-        axes: [PlotAxis::time(), PlotAxis::of(coordinate)],
+        axes: [PlotAxis::time(), PlotAxis::of_quantity(quantity, coordinate)],
         fit: over_time(lab, y),
         tracks,
         look: Look { width: FRONT, dots: Dots::SparseAlongX, bounded: [false, true] },

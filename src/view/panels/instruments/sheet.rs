@@ -10,7 +10,7 @@ use super::super::ink_of;
 use super::super::roster::{Roster, Runner};
 use super::super::tracks::{self, Look, Track};
 use crate::lab::number::significant;
-use crate::lab::{Coordinate, Lab, LaneBody, TruthCurve, TruthSample, Unit};
+use crate::lab::{Coordinate, Lab, LaneBody, Quantity, TruthCurve, TruthSample, Unit};
 use crate::view::axis_scale::AxisScale;
 use crate::view::curves::{Curve, Dots};
 use crate::view::plot::{Drawing, SwitchMark};
@@ -64,8 +64,8 @@ pub(super) struct ExactLine {
     pub(super) part: &'static str,
     /// The points at which the body was put elsewhere, by their places: no path leads to them.
     jumps: Vec<usize>,
-    /// Whether it is the first coordinate over time, which is known between the points too.
-    is_coordinate: bool,
+    /// What it is of the samples over time, where it is known between the points too.
+    known: Option<Quantity>,
     samples: Vec<TruthSample>,
 }
 
@@ -92,6 +92,14 @@ impl PlotAxis {
     /// The velocity of a coordinate.
     pub(super) fn of_velocity(coordinate: &Coordinate) -> Self {
         Self::new(coordinate.velocity, &Unit::Velocity.on(coordinate), AxisScale::Linear)
+    }
+
+    /// A quantity of a coordinate.
+    pub(super) fn of_quantity(quantity: Quantity, coordinate: &Coordinate) -> Self {
+        match quantity {
+            Quantity::Position => Self::of(coordinate),
+            Quantity::Velocity => Self::of_velocity(coordinate),
+        }
     }
 
     pub(super) fn time() -> Self {
@@ -159,16 +167,20 @@ impl ExactLine {
         let dash = [1.0, 0.0];
         let swept = Vec::new();
         let curve = Curve { colour, width: EXACT, dash, dots: Dots::None, points, swept };
-        Self { curve, times, part: "", jumps, is_coordinate: false, samples: Vec::new() }
+        Self { curve, times, part: "", jumps, known: None, samples: Vec::new() }
     }
 
-    /// The first coordinate of a body over time.
-    pub(super) fn of_coordinate(lab: &Lab, body: usize) -> Self {
-        let finite = samples(lab, body).filter(|s| s.t.is_finite() && s.q.is_finite());
+    /// A quantity of a body over time.
+    pub(super) fn of_quantity(lab: &Lab, body: usize, quantity: Quantity) -> Self {
+        let value = |s: &TruthSample| quantity.among([s.q, s.v]);
+        let finite = samples(lab, body).filter(|s| s.t.is_finite() && value(s).is_finite());
         let samples: Vec<TruthSample> = finite.collect();
-        let line = Self::of_samples(lab, samples.iter().copied(), |s| Some([s.t, s.q]));
-        let swept = samples.iter().map(|sample| sample.swept.ends()).collect();
-        Self { curve: Curve { swept, ..line.curve }, is_coordinate: true, samples, ..line }
+        let line = Self::of_samples(lab, samples.iter().copied(), |s| Some([s.t, value(s)]));
+        let swept = match quantity {
+            Quantity::Position => samples.iter().map(|sample| sample.swept.ends()).collect(),
+            Quantity::Velocity => Vec::new(),
+        };
+        Self { curve: Curve { swept, ..line.curve }, known: Some(quantity), samples, ..line }
     }
 
     /// The same line as a part of the solution, with a dash of its own, and so much of its colour.
@@ -198,15 +210,15 @@ impl ExactLine {
         columns: f32,
     ) -> Curve {
         let samples = self.samples.get(piece.clone()).unwrap_or_default();
-        let known = samples.iter().filter(|s| (from..=to).contains(&s.t)).count();
-        if !self.is_coordinate || known as f32 > columns {
+        let in_view = samples.iter().filter(|s| (from..=to).contains(&s.t)).count();
+        let Some(quantity) = self.known.filter(|_| in_view as f32 <= columns) else {
             let swept = self.curve.swept.get(piece.clone()).unwrap_or_default().to_vec();
             return Curve { points: self.curve.points[piece].to_vec(), swept, ..self.curve };
-        }
+        };
         let wide = (to - from) / f64::from(columns.max(1.0));
         let first = samples.partition_point(|s| s.t < from).saturating_sub(1);
         let last = (samples.partition_point(|s| s.t <= to) + 1).min(samples.len());
-        let points = TruthCurve::finer(truth, &samples[first..last], wide);
+        let points = TruthCurve::finer(truth, quantity, &samples[first..last], wide);
         Curve { points, swept: Vec::new(), ..self.curve }
     }
 

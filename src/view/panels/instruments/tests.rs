@@ -260,6 +260,31 @@ fn a_click_on_a_curve_selects_its_lane() {
 }
 
 #[test]
+fn motion_shows_the_chosen_quantity_and_its_table_follows() {
+    // The ship of the guide: Euler's speed is ahead of the exact one, and its place behind.
+    let mut lab = Lab::new(Scene::built_in("ship").unwrap());
+    let euler = lab.entries().iter().position(|spec| spec.method.id == "explicit-euler");
+    lab.apply(Command::Pick(euler.unwrap()));
+    lab.apply(Command::TickHz(2));
+    lab.apply(Command::Restart);
+    (0..17).for_each(|_| lab.tick());
+    let at_the_end = |lab: &Lab| {
+        let sheet = sheet_of(lab, Detail::Samples).unwrap();
+        let readouts = sheet.plots[0].readouts(&sheet.roster, 8.5);
+        [readouts[0].at[1], readouts[1].at[1]]
+    };
+    let [place, exact_place] = at_the_end(&lab);
+    assert!(place < exact_place - 1.0, "{place} and {exact_place}");
+    lab.apply(Command::Quantity(Quantity::Velocity));
+    let [speed, exact_speed] = at_the_end(&lab);
+    assert!((speed - 11.64).abs() < 0.01 && (exact_speed - 11.45).abs() < 0.01, "{speed}");
+    let table = csv(&lab).unwrap();
+    assert!(table.lines().skip(1).all(|line| line.contains(",v,m/s,")), "{table}");
+    assert!(svg(&lab).unwrap().contains(">v, m/s<"));
+    assert_legible(&lab, "the ship's velocity");
+}
+
+#[test]
 fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     lab.apply(Command::Pick(3));

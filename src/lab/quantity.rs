@@ -1,0 +1,42 @@
+//! What of a coordinate the motion instrument shows.
+
+use crate::sim::bodies::Coordinate;
+
+/// What of a coordinate the motion instrument shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quantity {
+    /// The coordinate.
+    #[default]
+    Position,
+    /// Its rate of change.
+    Velocity,
+}
+
+impl Quantity {
+    /// Both, the usual one first.
+    pub const ALL: [Quantity; 2] = [Quantity::Position, Quantity::Velocity];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Position => "position",
+            Quantity::Velocity => "velocity",
+        }
+    }
+
+    /// Its symbol for this coordinate.
+    pub fn symbol(self, coordinate: &Coordinate) -> &'static str {
+        match self {
+            Quantity::Position => coordinate.name,
+            Quantity::Velocity => coordinate.velocity,
+        }
+    }
+
+    /// Its value among a coordinate and its velocity.
+    pub fn among(self, [q, v]: [f64; 2]) -> f64 {
+        match self {
+            Quantity::Position => q,
+            Quantity::Velocity => v,
+        }
+    }
+}
