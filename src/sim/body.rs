@@ -8,6 +8,11 @@ use super::system::{State, System, Vector};
 
 /// Something that moves by an equation of motion.
 pub trait Body: System + Clone + Send + 'static {
+    /// Whether it follows a target, so that [followers](super::integrators::Family::Follower) step it.
+    const FOLLOWS: bool = false;
+    /// Whether physics engines can be [told](System::engine_settings) of it.
+    const HAS_JOINT: bool = true;
+
     /// The parameters of this kind of body. Its card lists their descriptions as
     /// [`Kind::parameters`](super::bodies::Kind::parameters).
     const PARAMETERS: &'static [ParameterOf<Self>] = &[];

@@ -4,77 +4,207 @@ use std::any::Any;
 
 use glam::DVec2;
 
-use super::body::{Body, Input};
+use super::body::Body;
 use super::exact_flow::ExactFlow;
 use super::exact_since_start::{ExactSinceStart, is_start};
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
-use super::propagator::{Jump, MethodPropagator, Propagator};
+use super::propagator::{MethodPropagator, Propagator};
 use super::reference::{MOST_REFERENCE_WORK, Reference};
 use super::solver::Solver;
-use super::stepper::{RecordedTick, Stepper};
+use super::stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
 use super::system::{Counted, Counts, Pursuit, Recorded, State, Vector};
 
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
     let state = body.start();
-    StepperParts { body: Counted::new(body), state, tolerance: None }.build(solver, 0.0)
+    with_solver(Placed { body: Counted::new(body), state }, solver, 0.0)
 }
 
-/// What a stepper is built from.
-struct StepperParts<B: Body> {
-    body: Counted<B>,
-    state: State<B::Vector>,
+/// Puts a body under `solver` at time `t` (s).
+pub(super) fn with_solver<B: Body>(placed: Placed<B>, solver: Solver, t: f64) -> Box<dyn Stepper> {
+    match solver {
+        Solver::Method(method) => construct(method, UnderMethod { placed, tolerance: None }),
+        Solver::WithTolerance(method, tolerance) => {
+            let tolerance = Some(Tolerance::uniform(tolerance));
+            construct(method, UnderMethod { placed, tolerance })
+        }
+        Solver::Truth if placed.body.system.exact(0.0, &placed.state).is_some() => {
+            let propagator = ExactFlow::new(&placed.state, t);
+            Box::new(BodyStepper { placed, propagator })
+        }
+        Solver::Truth if is_solved(&placed, t) => {
+            let propagator = ExactSinceStart::new(&placed.state);
+            Box::new(BodyStepper { placed, propagator })
+        }
+        Solver::Truth => {
+            let propagator = Reference::new(&placed.state);
+            Box::new(BodyStepper { placed, propagator })
+        }
+    }
+}
+
+/// Whether the body stands at its start, and knows its exact motion from there.
+fn is_solved<B: Body>(placed: &Placed<B>, t: f64) -> bool {
+    let body = &placed.body.system;
+    is_start(body, t, &placed.state) && body.exact_since_start(t, &mut placed.state.clone())
+}
+
+/// A body that is put under a method.
+struct UnderMethod<B: Body> {
+    placed: Placed<B>,
     /// Overrides the tolerance on the card of an adaptive method.
     tolerance: Option<Tolerance>,
 }
 
-impl<B: Body> StepperParts<B> {
-    fn build(self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        match solver {
-            Solver::Method(method) => construct(method, self),
-            Solver::WithTolerance(method, tolerance) => {
-                construct(method, Self { tolerance: Some(Tolerance::uniform(tolerance)), ..self })
-            }
-            Solver::Truth if self.body.system.exact(0.0, &self.state).is_some() => {
-                let propagator = ExactFlow::new(&self.state, t);
-                self.with_propagator(propagator)
-            }
-            Solver::Truth if self.is_solved(t) => {
-                let propagator = ExactSinceStart::new(&self.state);
-                self.with_propagator(propagator)
-            }
-            Solver::Truth => {
-                let propagator = Reference::new(&self.state);
-                self.with_propagator(propagator)
-            }
-        }
-    }
-
-    /// Whether the body stands at its start, and knows its exact motion from there.
-    fn is_solved(&self, t: f64) -> bool {
-        let body = &self.body.system;
-        is_start(body, t, &self.state) && body.exact_since_start(t, &mut self.state.clone())
-    }
-
-    fn with_propagator<D: Propagator<B>>(self, propagator: D) -> Box<dyn Stepper> {
-        let Self { body, state, .. } = self;
-        Box::new(BodyStepper { body, propagator, state })
-    }
-}
-
-impl<B: Body> Construct<Counted<B>> for StepperParts<B> {
+impl<B: Body> Construct<Counted<B>> for UnderMethod<B> {
     type Output = Box<dyn Stepper>;
 
+    const FOLLOWS: bool = B::FOLLOWS;
+    const HAS_JOINT: bool = B::HAS_JOINT;
+
+    #[inline(always)]
     fn of<I: Integrator<Counted<B>> + Clone + 'static>(
         self,
         new: impl FnOnce(&B::Vector) -> I,
     ) -> Self::Output {
-        let mut integrator = new(&self.state.q);
-        if let Some(tolerance) = self.tolerance {
+        let Self { placed, tolerance } = self;
+        let mut integrator = new(&placed.state.q);
+        if let Some(tolerance) = tolerance {
             integrator.set_tolerance(tolerance);
         }
-        self.with_propagator(MethodPropagator(integrator))
+        Box::new(BodyStepper { placed, propagator: MethodPropagator(integrator) })
     }
+}
+
+/// The stepper of a body. Monomorphic, so that force law and method are compiled into one loop.
+#[derive(Clone)]
+struct BodyStepper<B: Body, D> {
+    placed: Placed<B>,
+    propagator: D,
+}
+
+impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
+    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure> {
+        let Self { placed: Placed { body, state }, propagator } = self;
+        propagator.advance(body, t, h, substeps, state)
+    }
+
+    fn change(&mut self, t: f64, change: Change<'_>) -> bool {
+        let Self { placed: Placed { body, state }, propagator } = self;
+        propagator.jump(t, change, &mut body.system, state)
+    }
+
+    fn placed(&self) -> &(dyn PlacedBody + 'static) {
+        &self.placed
+    }
+
+    fn memory(&self) -> Memory<'_> {
+        let heap_bytes = self.propagator.heap_bytes();
+        Memory { propagator: &self.propagator, stepper_size: size_of::<Self>(), heap_bytes }
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Stepper> {
+        Box::new(self.clone())
+    }
+}
+
+/// A body and its state.
+#[derive(Clone)]
+pub(super) struct Placed<B: Body> {
+    pub(super) body: Counted<B>,
+    pub(super) state: State<B::Vector>,
+}
+
+impl<B: Body> PlacedBody for Placed<B> {
+    fn q(&self) -> &[f64] {
+        self.state.q.components()
+    }
+    fn v(&self) -> &[f64] {
+        self.state.v.components()
+    }
+
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
+        let mut at = self.state.clone();
+        write(&mut at, q, v);
+        let mut acceleration = self.state.q.clone();
+        self.body.system.acceleration(t, &at.q, &at.v, &mut acceleration);
+        a.copy_from_slice(acceleration.components());
+    }
+
+    fn record(
+        &self,
+        memory: Memory<'_>,
+        method: &Method,
+        t: f64,
+        h: f64,
+        substeps: u32,
+    ) -> Option<RecordedTick> {
+        let system = Recorded::new(&self.body.system);
+        let (propagator, state) = (memory.propagator, self.state.clone());
+        construct(method, Recording { system, propagator, state, t, h, substeps })
+    }
+
+    fn counts(&self) -> Counts {
+        self.body.counts()
+    }
+    fn is_linear(&self) -> bool {
+        self.body.system.is_linear()
+    }
+    fn is_beyond_reference(&self) -> bool {
+        self.body.system.reference_work() > MOST_REFERENCE_WORK
+    }
+    fn is_sparse(&self) -> bool {
+        B::Vector::IS_SPARSE
+    }
+
+    fn is_closed_form_of(&self, memory: Memory<'_>) -> bool {
+        truth::<B>(memory.propagator).is_some_and(Propagator::is_closed_form)
+    }
+
+    fn truth_error_of(&self, memory: Memory<'_>) -> Option<[f64; 2]> {
+        truth::<B>(memory.propagator)?.truth_error(&self.body, &self.state)
+    }
+
+    fn energy(&self) -> Option<f64> {
+        self.body.system.energy(&self.state)
+    }
+    fn kinetic_energy(&self) -> Option<f64> {
+        self.body.system.kinetic_energy(&self.state)
+    }
+    fn mechanical_energy(&self) -> Option<[f64; 2]> {
+        self.body.system.mechanical_energy(&self.state)
+    }
+
+    fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
+        let Pursuit { target, rate, order, is_still } = self.body.system.pursuit(t)?;
+        Some(Pursuit { target: target.components()[0], rate, order, is_still })
+    }
+
+    fn place(&self) -> DVec2 {
+        self.body.system.place(&self.state.q)
+    }
+    fn body(&self) -> &dyn Any {
+        &self.body.system
+    }
+
+    fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
+        with_solver(self.clone(), solver, t)
+    }
+
+    fn bytes_with(&self, memory: Memory<'_>) -> usize {
+        let Memory { stepper_size, heap_bytes, .. } = memory;
+        // An upper bound: as if every field were a coordinate vector.
+        let vectors = stepper_size / size_of::<B::Vector>() * self.state.q.heap_bytes();
+        stepper_size + vectors + self.body.system.heap_bytes() + heap_bytes
+    }
+}
+
+/// The propagator of a truth; `None` for a method.
+fn truth<B: Body>(propagator: &dyn Any) -> Option<&dyn Propagator<B>> {
+    let exact = propagator.downcast_ref::<ExactFlow<B::Vector>>().map(|truth| truth as _);
+    let since_start = || propagator.downcast_ref::<ExactSinceStart<B::Vector>>().map(|t| t as _);
+    let reference = || propagator.downcast_ref::<Reference<B::Vector>>().map(|truth| truth as _);
+    exact.or_else(since_start).or_else(reference)
 }
 
 /// A tick to record, with the method's memory in `propagator`.
@@ -103,124 +233,6 @@ impl<'a, V: Vector> Construct<Recorded<'a, V>> for Recording<'a, V> {
         let State { q, v } = state;
         let landing = stepped.map(|()| [q, v].map(|vector| vector.components().to_vec()));
         Some(RecordedTick { evaluations: system.into_evaluations(), landing })
-    }
-}
-
-/// The stepper of a body. Monomorphic, so that force law and method are compiled into one loop.
-#[derive(Clone)]
-struct BodyStepper<B: Body, D> {
-    body: Counted<B>,
-    propagator: D,
-    state: State<B::Vector>,
-}
-
-impl<B: Body, D: Propagator<B>> BodyStepper<B, D> {
-    fn jump(
-        &mut self,
-        jump: Jump,
-        t: f64,
-        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
-    ) -> bool {
-        self.propagator.jump(jump, t, &mut self.body.system, &mut self.state, change)
-    }
-}
-
-impl<B: Body, D: Propagator<B>> Stepper for BodyStepper<B, D> {
-    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure> {
-        self.propagator.advance(&self.body, t, h, substeps, &mut self.state)
-    }
-
-    fn q(&self) -> &[f64] {
-        self.state.q.components()
-    }
-    fn v(&self) -> &[f64] {
-        self.state.v.components()
-    }
-    fn set(&mut self, t: f64, q: &[f64], v: &[f64]) {
-        self.jump(Jump::Placed, t, |_, state| {
-            write(state, q, v);
-            true
-        });
-    }
-
-    fn input(&mut self, t: f64, input: Input) -> bool {
-        self.jump(Jump::Pushed, t, |body, state| body.input(input, state))
-    }
-
-    fn set_parameter(&mut self, t: f64, place: usize, value: f64) -> bool {
-        self.jump(Jump::Pushed, t, |body, _| body.set_parameter(place, value))
-    }
-
-    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
-        let mut at = self.state.clone();
-        write(&mut at, q, v);
-        let mut acceleration = self.state.q.clone();
-        self.body.system.acceleration(t, &at.q, &at.v, &mut acceleration);
-        a.copy_from_slice(acceleration.components());
-    }
-
-    fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick> {
-        let system = Recorded::new(&self.body.system);
-        let state = self.state.clone();
-        let propagator = &self.propagator;
-        construct(method, Recording { system, propagator, state, t, h, substeps })
-    }
-
-    fn counts(&self) -> Counts {
-        self.body.counts()
-    }
-    fn is_linear(&self) -> bool {
-        self.body.system.is_linear()
-    }
-    fn is_beyond_reference(&self) -> bool {
-        self.body.system.reference_work() > MOST_REFERENCE_WORK
-    }
-    fn is_sparse(&self) -> bool {
-        B::Vector::IS_SPARSE
-    }
-    fn is_closed_form(&self) -> bool {
-        self.propagator.is_closed_form()
-    }
-    fn truth_error(&self) -> Option<[f64; 2]> {
-        self.propagator.truth_error(&self.body, &self.state)
-    }
-    fn energy(&self) -> Option<f64> {
-        self.body.system.energy(&self.state)
-    }
-    fn kinetic_energy(&self) -> Option<f64> {
-        self.body.system.kinetic_energy(&self.state)
-    }
-
-    fn mechanical_energy(&self) -> Option<[f64; 2]> {
-        self.body.system.mechanical_energy(&self.state)
-    }
-
-    fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
-        let Pursuit { target, rate, order, is_still } = self.body.system.pursuit(t)?;
-        Some(Pursuit { target: target.components()[0], rate, order, is_still })
-    }
-
-    fn place(&self) -> DVec2 {
-        self.body.system.place(&self.state.q)
-    }
-    fn body(&self) -> &dyn Any {
-        &self.body.system
-    }
-
-    fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper> {
-        let (body, state) = (self.body.clone(), self.state.clone());
-        StepperParts { body, state, tolerance: None }.build(solver, t)
-    }
-
-    fn boxed_clone(&self) -> Box<dyn Stepper> {
-        Box::new(self.clone())
-    }
-
-    fn bytes(&self) -> usize {
-        // An upper bound: as if every field were a coordinate vector.
-        let vectors = size_of::<Self>() / size_of::<B::Vector>();
-        let vectors = vectors * self.state.q.heap_bytes();
-        size_of::<Self>() + vectors + self.body.system.heap_bytes() + self.propagator.heap_bytes()
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::body::Body;
 use super::integrators::StepFailure;
-use super::propagator::{Jump, Propagator};
+use super::propagator::Propagator;
+use super::stepper::Change;
 use super::system::{Counted, State, Vector};
 
 /// The exact flow. Each state is computed in one stride from the anchor, so that no error accumulates.
@@ -89,18 +90,15 @@ impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
 
     fn jump(
         &mut self,
-        jump: Jump,
         t: f64,
+        change: Change<'_>,
         body: &mut B,
         state: &mut State<B::Vector>,
-        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
     ) -> bool {
         let Self { anchor, t: now, scratch } = self;
-        let error = match jump {
-            Jump::Placed => [0.0; 2],
-            Jump::Pushed => anchor.error(body, *now, state, scratch),
-        };
-        let is_changed = change(body, state);
+        let error =
+            if change.is_placing() { [0.0; 2] } else { anchor.error(body, *now, state, scratch) };
+        let is_changed = change.apply(body, state);
         if is_changed {
             anchor.place(state, t, error);
             *now = t;

@@ -3,8 +3,9 @@
 
 use super::body::Body;
 use super::integrators::StepFailure;
-use super::propagator::{Jump, Propagator};
+use super::propagator::Propagator;
 use super::reference::Reference;
+use super::stepper::Change;
 use super::system::{Counted, State, Vector};
 
 /// The rounding of a closed form whose operations are not known, relative to its value.
@@ -51,15 +52,14 @@ impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
 
     fn jump(
         &mut self,
-        jump: Jump,
         t: f64,
+        change: Change<'_>,
         body: &mut B,
         state: &mut State<B::Vector>,
-        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
     ) -> bool {
-        let is_changed = self.reference.jump(jump, t, body, state, change);
+        let is_changed = self.reference.jump(t, change, body, state);
         if is_changed {
-            self.is_untouched = jump == Jump::Placed && is_start(body, t, state);
+            self.is_untouched = change.is_placing() && is_start(body, t, state);
             self.t = t;
         }
         is_changed

@@ -43,5 +43,5 @@ pub use least_squares::least_squares;
 pub use points::Points;
 pub use reference::{MOST_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
-pub use stepper::{RecordedTick, Stepper};
+pub use stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
 pub use system::{Counted, Counts, Evaluation, Pursuit, Recorded, State, System, Vector};

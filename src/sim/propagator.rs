@@ -18,10 +18,11 @@
 
 use super::body::Body;
 use super::integrators::{Integrator, StepFailure};
+use super::stepper::Change;
 use super::system::{Counted, State};
 
 /// A method or a truth that advances bodies of type `B`.
-pub(super) trait Propagator<B: Body>: Clone + Send + 'static {
+pub(super) trait Propagator<B: Body>: Send + 'static {
     /// Advances `state` from `t` to `t + h` (s). A method takes `substeps` equal steps; a truth ignores
     /// them.
     fn advance(
@@ -33,24 +34,22 @@ pub(super) trait Propagator<B: Body>: Clone + Send + 'static {
         state: &mut State<B::Vector>,
     ) -> Result<(), StepFailure>;
 
-    /// Lets `change` modify the body or its state at time `t` (s), and restarts from the result. If
-    /// `change` returns `false`, it has modified nothing and the propagator keeps its memory. Returns
-    /// what `change` returns.
+    /// Applies `change` to the body and its state at time `t` (s), and restarts from the result. If nothing
+    /// changed, the propagator keeps its memory. Returns whether anything changed.
     fn jump(
         &mut self,
-        jump: Jump,
         t: f64,
+        change: Change<'_>,
         body: &mut B,
         state: &mut State<B::Vector>,
-        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
     ) -> bool;
 
-    /// As [`Stepper::is_closed_form`](super::Stepper::is_closed_form).
+    /// Whether the state is that of a closed form.
     fn is_closed_form(&self) -> bool {
         false
     }
 
-    /// As [`Stepper::truth_error`](super::Stepper::truth_error), at the current `state`.
+    /// The error of a truth at the current `state`: of a coordinate and of a velocity.
     fn truth_error(&self, _body: &Counted<B>, _state: &State<B::Vector>) -> Option<[f64; 2]> {
         None
     }
@@ -59,15 +58,6 @@ pub(super) trait Propagator<B: Body>: Clone + Send + 'static {
     fn heap_bytes(&self) -> usize {
         0
     }
-}
-
-/// How the state after a jump relates to the state before it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Jump {
-    /// Not at all: the body is put into a state that is known exactly.
-    Placed,
-    /// An input or an edit changes the current state or the forces: the error before the jump remains.
-    Pushed,
 }
 
 /// A method from the table.
@@ -87,15 +77,15 @@ impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Propagator<B> for Met
         self.0.steps(body, t, h, substeps, state)
     }
 
+    #[inline]
     fn jump(
         &mut self,
-        _jump: Jump,
         _t: f64,
+        change: Change<'_>,
         body: &mut B,
         state: &mut State<B::Vector>,
-        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
     ) -> bool {
-        let is_changed = change(body, state);
+        let is_changed = change.apply(body, state);
         if is_changed {
             self.0.reset();
         }

@@ -6,7 +6,8 @@
 
 use super::body::Body;
 use super::integrators::StepFailure;
-use super::propagator::{Jump, Propagator};
+use super::propagator::Propagator;
+use super::stepper::Change;
 use super::system::{Counted, State, Vector};
 
 use extrapolation::Extrapolation;
@@ -177,17 +178,16 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
 
     fn jump(
         &mut self,
-        jump: Jump,
         t: f64,
+        change: Change<'_>,
         body: &mut B,
         state: &mut State<B::Vector>,
-        change: impl FnOnce(&mut B, &mut State<B::Vector>) -> bool,
     ) -> bool {
-        let is_changed = change(body, state);
-        match jump {
-            _ if !is_changed => {}
-            Jump::Placed => self.place(),
-            Jump::Pushed => self.push(body, t, state),
+        let is_changed = change.apply(body, state);
+        if is_changed && change.is_placing() {
+            self.place();
+        } else if is_changed {
+            self.push(body, t, state);
         }
         is_changed
     }

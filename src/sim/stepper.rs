@@ -1,13 +1,14 @@
 //! An object-safe stepper: a body, its solver and its state behind one dynamic call per tick.
 
 use std::any::Any;
+use std::ops::Deref;
 
 use glam::DVec2;
 
-use super::body::Input;
+use super::body::{Body, Input};
 use super::integrators::{Method, StepFailure};
 use super::solver::Solver;
-use super::system::{Counts, Evaluation, Pursuit};
+use super::system::{Counts, Evaluation, Pursuit, State, Vector};
 
 /// A tick that was taken on a copy of a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +19,10 @@ pub struct RecordedTick {
     pub landing: Result<[Vec<f64>; 2], StepFailure>,
 }
 
-/// A body under a solver. The layers above this one see bodies only through this trait.
+/// A body under a solver. The layers above this one see bodies only through `dyn Stepper`.
+///
+/// The trait has what depends on body and solver together, because that is compiled for each pair of them. It
+/// dereferences to the [body at its state](PlacedBody), which is compiled for each body.
 pub trait Stepper: Send {
     /// Advances from `t` to `t + h` (s). A method takes `substeps` equal steps.
     ///
@@ -26,30 +30,141 @@ pub trait Stepper: Send {
     /// As [`Integrator::step`](super::integrators::Integrator::step).
     fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure>;
 
-    /// The coordinates, in the order of the body kind's
-    /// [`coordinates`](super::bodies::Kind::coordinates).
-    fn q(&self) -> &[f64];
-    /// Their velocities.
-    fn v(&self) -> &[f64];
+    /// Changes the body or its state at time `t` (s), and restarts the solver there. Returns whether anything
+    /// changed.
+    fn change(&mut self, t: f64, change: Change<'_>) -> bool;
+
+    /// The body at its state.
+    fn placed(&self) -> &(dyn PlacedBody + 'static);
+
+    /// The solver's memory.
+    fn memory(&self) -> Memory<'_>;
+
+    /// A copy with all memory of the solver: original and copy continue with the same bits.
+    fn boxed_clone(&self) -> Box<dyn Stepper>;
+}
+
+/// What a solver keeps from tick to tick.
+pub struct Memory<'a> {
+    /// The propagator.
+    pub(super) propagator: &'a dyn Any,
+    /// The size of the whole stepper, in bytes.
+    pub(super) stepper_size: usize,
+    /// The propagator's memory on the heap without its coordinate vectors, in bytes.
+    pub(super) heap_bytes: usize,
+}
+
+impl Deref for dyn Stepper + '_ {
+    type Target = dyn PlacedBody;
+
+    fn deref(&self) -> &Self::Target {
+        self.placed()
+    }
+}
+
+impl dyn Stepper + '_ {
     /// Puts the body into a state at time `t` (s), and restarts the solver there.
-    fn set(&mut self, t: f64, q: &[f64], v: &[f64]);
+    pub fn set(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        self.change(t, Change::State { q, v });
+    }
 
     /// Gives the body an input at time `t` (s). Returns whether this kind of body accepts it.
-    fn input(&mut self, t: f64, input: Input) -> bool;
+    pub fn input(&mut self, t: f64, input: Input) -> bool {
+        self.change(t, Change::Input(input))
+    }
 
     /// Sets a parameter of the body at time `t` (s), by its index in the kind's
     /// [`parameters`](super::bodies::Kind::parameters). The state is unchanged. Returns whether the
     /// body changed: it does not if the value is equal to the old one, or if the parameter [acts at the
     /// start](super::bodies::Acts). `value` must be in the parameter's range and pass the kind's check.
-    fn set_parameter(&mut self, t: f64, place: usize, value: f64) -> bool;
+    pub fn set_parameter(&mut self, t: f64, index: usize, value: f64) -> bool {
+        self.change(t, Change::Parameter { index, value })
+    }
+
+    /// What [`Stepper::advance`] would do with the method's present memory, on a copy. The body and its
+    /// counts are unchanged. `None` unless the body is under `method`.
+    pub fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick> {
+        self.record(self.memory(), method, t, h, substeps)
+    }
+
+    /// Whether the current state is that of a closed form; `false` under a reference solution or a method. A body
+    /// that knows its exact motion from the start only has none after an input, an edit or a placing.
+    pub fn is_closed_form(&self) -> bool {
+        self.is_closed_form_of(self.memory())
+    }
+
+    /// The error of the truth at the current state: the largest of a coordinate and of a velocity, in
+    /// their own units. For a closed form it is a bound on rounding; for a reference solution it is an
+    /// estimate from a second solution with other steps. Infinite if nothing is known. `None` under a
+    /// method.
+    pub fn truth_error(&self) -> Option<[f64; 2]> {
+        self.truth_error_of(self.memory())
+    }
+
+    /// An upper bound on its memory, in bytes.
+    pub fn bytes(&self) -> usize {
+        self.bytes_with(self.memory())
+    }
+}
+
+impl Clone for Box<dyn Stepper> {
+    fn clone(&self) -> Self {
+        (**self).boxed_clone()
+    }
+}
+
+/// What can happen to a body between ticks.
+#[derive(Clone, Copy, Debug)]
+pub enum Change<'a> {
+    /// It is put into a state that is known exactly, unrelated to the one before.
+    State {
+        /// The coordinates.
+        q: &'a [f64],
+        /// The velocities.
+        v: &'a [f64],
+    },
+    /// An input changes its state or its forces.
+    Input(Input),
+    /// A parameter is edited.
+    Parameter {
+        /// Its index in the kind's [`parameters`](super::bodies::Kind::parameters).
+        index: usize,
+        /// Its new value.
+        value: f64,
+    },
+}
+
+impl Change<'_> {
+    /// Changes `body` or its `state`. Returns whether it did.
+    pub(super) fn apply<B: Body>(self, body: &mut B, state: &mut State<B::Vector>) -> bool {
+        match self {
+            Change::State { q, v } => {
+                state.q.components_mut().copy_from_slice(q);
+                state.v.components_mut().copy_from_slice(v);
+                true
+            }
+            Change::Input(input) => body.input(input, state),
+            Change::Parameter { index, value } => body.set_parameter(index, value),
+        }
+    }
+
+    /// Whether the error before the change is gone with it.
+    pub(super) fn is_placing(self) -> bool {
+        matches!(self, Change::State { .. })
+    }
+}
+
+/// What a [`Stepper`] knows of its body, whatever the solver.
+pub trait PlacedBody {
+    /// The coordinates, in the order of the body kind's
+    /// [`coordinates`](super::bodies::Kind::coordinates).
+    fn q(&self) -> &[f64];
+    /// Their velocities.
+    fn v(&self) -> &[f64];
 
     /// Overwrites `a` with the acceleration at the given state under the current input. The evaluation
     /// is not counted.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
-
-    /// What [`Stepper::advance`] would do with the method's present memory, on a copy. The body and its
-    /// counts are unchanged. `None` unless the body is under `method`.
-    fn recorded(&self, method: &Method, t: f64, h: f64, substeps: u32) -> Option<RecordedTick>;
 
     /// What all methods have done with the body since the start. The truth is not counted.
     fn counts(&self) -> Counts;
@@ -63,17 +178,9 @@ pub trait Stepper: Send {
     fn is_beyond_reference(&self) -> bool;
     /// Whether implicit methods solve the body's equations without a matrix.
     fn is_sparse(&self) -> bool;
-    /// Whether the current state is that of a closed form; `false` under a reference solution or a method. A body
-    /// that knows its exact motion from the start only has none after an input, an edit or a placing.
-    fn is_closed_form(&self) -> bool;
-    /// The error of the truth at the current state: the largest of a coordinate and of a velocity, in
-    /// their own units. For a closed form it is a bound on rounding; for a reference solution it is an
-    /// estimate from a second solution with other steps. Infinite if nothing is known. `None` under a
-    /// method.
-    fn truth_error(&self) -> Option<[f64; 2]>;
     /// The conserved energy in joules; `None` if the body conserves none under its current input.
     fn energy(&self) -> Option<f64>;
-    /// The kinetic part of [`Stepper::energy`], in joules. Never allocates.
+    /// The kinetic part of [`PlacedBody::energy`], in joules. Never allocates.
     fn kinetic_energy(&self) -> Option<f64>;
 
     /// The kinetic and the potential energy in joules, conserved or not; `None` if the body does not know
@@ -92,14 +199,19 @@ pub trait Stepper: Send {
     /// A copy of the body under another solver, with the same input and the same state to the bit.
     fn with_solver(&self, solver: Solver, t: f64) -> Box<dyn Stepper>;
 
-    /// A copy with all memory of the solver: original and copy continue with the same bits.
-    fn boxed_clone(&self) -> Box<dyn Stepper>;
-    /// An upper bound on its memory, in bytes.
-    fn bytes(&self) -> usize;
-}
-
-impl Clone for Box<dyn Stepper> {
-    fn clone(&self) -> Self {
-        (**self).boxed_clone()
-    }
+    /// A tick under `method` with a copy of this memory of it; see `recorded` of a [`Stepper`].
+    fn record(
+        &self,
+        memory: Memory<'_>,
+        method: &Method,
+        t: f64,
+        h: f64,
+        substeps: u32,
+    ) -> Option<RecordedTick>;
+    /// Whether a solver with this memory has the body in a state of a closed form.
+    fn is_closed_form_of(&self, memory: Memory<'_>) -> bool;
+    /// The error of the truth with this memory; `None` for that of a method.
+    fn truth_error_of(&self, memory: Memory<'_>) -> Option<[f64; 2]>;
+    /// An upper bound on the memory of the stepper with this solver, in bytes.
+    fn bytes_with(&self, memory: Memory<'_>) -> usize;
 }

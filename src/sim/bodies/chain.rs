@@ -203,6 +203,7 @@ impl System for Chain {
 }
 
 impl Body for Chain {
+    const HAS_JOINT: bool = false;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn prepare(&mut self) {

@@ -191,6 +191,8 @@ impl System for Follow {
 }
 
 impl Body for Follow {
+    const FOLLOWS: bool = true;
+    const HAS_JOINT: bool = false;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {

@@ -266,6 +266,7 @@ fn pull_slope([k, c, rest]: &[f64; 3], [d, w]: [[f64; 2]; 2], [dd, dw]: [[f64; 2
 }
 
 impl Body for Net {
+    const HAS_JOINT: bool = false;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn prepare(&mut self) {

@@ -117,6 +117,7 @@ impl System for Pendulum {
 }
 
 impl Body for Pendulum {
+    const HAS_JOINT: bool = false;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {

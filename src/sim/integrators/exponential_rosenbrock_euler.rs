@@ -74,7 +74,7 @@ impl<S: System> Integrator<S> for ExponentialRosenbrockEuler<S::Vector> {
         }
         x.fill(0.0);
         let norm = stiffness.max((time * h).abs() * by_q + h.abs() * by_v);
-        flow.advance(x, f, f_t, norm, |x, slope| {
+        flow.advance(x, f, f_t, norm, &mut |x, slope| {
             let (x_q, x_v) = x.split_at(n);
             let (slope_q, slope_v) = slope.split_at_mut(n);
             slope_q.iter_mut().zip(x_v).for_each(|(slope, v)| *slope = v / time);

@@ -11,6 +11,7 @@ use engine::{
 };
 use own::Own;
 use reset_on_change::ResetOnChange;
+use unfit::Unfit;
 
 use super::system::System;
 
@@ -55,6 +56,7 @@ mod ssp_rk3;
 mod stormer_verlet;
 mod tolerance;
 mod tr_bdf2;
+mod unfit;
 mod velocity_verlet;
 mod verlet_exact_drag;
 mod yoshida4;
@@ -121,12 +123,26 @@ pub use yoshida4::Yoshida4;
 pub trait Construct<S: System> {
     /// The result.
     type Output;
+    /// Whether the system may follow a target. If not, no [follower](Family::Follower) is compiled for it.
+    const FOLLOWS: bool = true;
+    /// Whether the system may be [told](System::engine_settings) to an engine. If not, no
+    /// [engine](Family::Engine) is compiled for it.
+    const HAS_JOINT: bool = true;
     /// Builds the result from integrators of the type `I`, which `new` makes for coordinate vectors shaped like the
     /// one that it is given.
     fn of<I: Integrator<S> + Clone + 'static>(
         self,
         new: impl FnOnce(&S::Vector) -> I,
     ) -> Self::Output;
+}
+
+/// Whether a method steps any system of the type for which `C` constructs.
+const fn fits<S: System, C: Construct<S>>(card: &Method) -> bool {
+    match card.family {
+        Family::Follower => C::FOLLOWS,
+        Family::Engine => C::HAS_JOINT,
+        _ => true,
+    }
 }
 
 macro_rules! methods {
@@ -136,16 +152,23 @@ macro_rules! methods {
 
         /// Calls `construct` with the integrator type of `method`.
         ///
+        /// A method that steps no such system is one that [refuses](StepFailure::Refused) every step.
+        ///
         /// # Panics
         /// If `method` is neither from [`METHODS`] nor [one's own](Method::own).
         pub fn construct<S: System, C: Construct<S>>(method: &Method, construct: C) -> C::Output {
             if let Some(build) = method.own {
                 return construct.of(|like| Own::new(build, like));
             }
-            $(if method.id == $file::CARD.id {
-                return construct.of(<$Type<S::Vector> as Integrator<S>>::new);
+            $(if const { fits::<S, C>(&$file::CARD) } {
+                if method.id == $file::CARD.id {
+                    return construct.of(<$Type<S::Vector> as Integrator<S>>::new);
+                }
             })+
-            panic!("{} is not in METHODS, and its card has no `own`", method.id)
+            let Some(only) = method.only else {
+                panic!("{} is not in METHODS, and its card has no `own`", method.id)
+            };
+            construct.of(|_| Unfit { reason: only.reason })
         }
     };
 }

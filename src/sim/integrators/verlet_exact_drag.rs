@@ -42,14 +42,14 @@ impl<V: Vector> VerletExactDrag<V> {
     /// `v = exp(h D / 2) v`
     fn decay(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         h: f64,
         v: &mut V,
     ) -> Result<(), StepFailure> {
         let Self { drag, decay, zeros, .. } = self;
         let [_, rate] = drag.norms(system);
         let norm = (h / 2.0 * rate).abs();
-        decay.advance(v.components_mut(), zeros, zeros, norm, |v, slope| {
+        decay.advance(v.components_mut(), zeros, zeros, norm, &mut |v, slope| {
             let slopes = drag.times(system, &[], v).components();
             slope.iter_mut().zip(slopes).for_each(|(slope, dv)| *slope = h / 2.0 * dv);
         })
@@ -58,7 +58,7 @@ impl<V: Vector> VerletExactDrag<V> {
 
 /// Overwrites `r` with `a - D v`.
 fn rest<V: Vector>(
-    system: &impl System<Vector = V>,
+    system: &dyn System<Vector = V>,
     drag: &mut Jacobian<V>,
     t: f64,
     q: &V,

@@ -52,7 +52,7 @@ impl<V: Vector> Jacobian<V> {
     /// Takes the derivatives at `t` and `y`, where the acceleration is `a`, for a step of `h`.
     pub(in crate::sim::integrators) fn take(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         t: f64,
         h: f64,
         y: &State<V>,
@@ -82,7 +82,7 @@ impl<V: Vector> Jacobian<V> {
     /// `∂a/∂q q + ∂a/∂v v`. An empty `q` stands for 0.
     pub(in crate::sim::integrators) fn times(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         q: &[f64],
         v: &[f64],
     ) -> &V {
@@ -111,7 +111,7 @@ impl<V: Vector> Jacobian<V> {
     /// Bounds of the largest row sums of `∂a/∂q` and of `∂a/∂v`.
     pub(in crate::sim::integrators) fn norms(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
     ) -> [f64; 2] {
         let Self { slopes, t, at, along, slope, by_q, by_v } = self;
         if V::IS_SPARSE {

@@ -50,7 +50,7 @@ impl LinearFlow {
         b: &[f64],
         c: &[f64],
         norm: f64,
-        mut product: impl FnMut(&[f64], &mut [f64]),
+        product: &mut dyn FnMut(&[f64], &mut [f64]),
     ) -> Result<(), StepFailure> {
         if !norm.is_finite() {
             x.fill(f64::NAN);
@@ -115,7 +115,7 @@ impl Squaring {
         b: &[f64],
         c: &[f64],
         norm: f64,
-        mut product: impl FnMut(&[f64], &mut [f64]),
+        product: &mut dyn FnMut(&[f64], &mut [f64]),
     ) {
         let Self { size, matrices: [scaled, power, next] } = self;
         let (size, n) = (*size, x.len());
@@ -185,7 +185,7 @@ mod tests {
         let product = |x: &[f64], y: &mut [f64]| {
             y.copy_from_slice(&[w * x[1], -w * x[0] - d * x[1]]);
         };
-        LinearFlow::new(2, is_sparse).advance(&mut x, &b, &c, norm, product)?;
+        LinearFlow::new(2, is_sparse).advance(&mut x, &b, &c, norm, &mut { product })?;
         Ok(x)
     }
 

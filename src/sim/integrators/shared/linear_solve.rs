@@ -51,7 +51,7 @@ impl<V: Vector> Iteration<V> {
 
     fn solve(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         stages: &Stages<1>,
         y: &State<V>,
         x: &mut V,
@@ -91,7 +91,7 @@ impl<V: Vector> LinearSolve<V> {
     /// Adds `times` the derivative of the acceleration at `y` in the direction `(along, 0)` to `x`.
     pub(in crate::sim::integrators) fn add_slope(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         t: f64,
         y: &State<V>,
         times: f64,
@@ -111,7 +111,7 @@ impl<V: Vector> LinearSolve<V> {
     /// [`StepFailure::Unsolved`] if the iteration for a sparse vector comes to no end.
     pub(in crate::sim::integrators) fn solve(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         t: f64,
         y: &State<V>,
         [alpha, beta]: [f64; 2],

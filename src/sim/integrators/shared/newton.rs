@@ -52,9 +52,10 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             a.components_mut().fill(0.0);
         }
         self.krylov.iter_mut().for_each(|krylov| krylov.begin_step());
-        let is_solved = match V::IS_SPARSE {
-            true => self.iterate_sparsely(system, stages),
-            false => self.iterate(system, stages) || self.solve_by_continuation(system, stages),
+        let is_solved = if const { V::IS_SPARSE } {
+            self.iterate_sparsely(system, stages)
+        } else {
+            self.iterate(system, stages) || self.solve_by_continuation(system, stages)
         };
         if is_solved {
             return Ok(());

@@ -41,7 +41,7 @@ impl<V: Vector> Slopes<V> {
     /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`.
     pub(in crate::sim::integrators) fn take(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         t: f64,
         y: &State<V>,
         along: &State<V>,

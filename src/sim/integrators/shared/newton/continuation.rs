@@ -34,7 +34,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     #[cold]
     pub(super) fn solve_by_continuation(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         stages: &Stages<S>,
     ) -> bool {
         LONGEST_STEPS.iter().any(|&longest| self.continue_by(system, stages, longest))
@@ -44,7 +44,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     /// accelerations.
     fn continue_by(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         stages: &Stages<S>,
         longest: f64,
     ) -> bool {
@@ -105,7 +105,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     }
 
     /// Computes the tangent at the current point, in the direction of travel.
-    fn update_tangent(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) {
+    fn update_tangent(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) {
         self.linearise_on_curve(system, stages);
         let Curve { scale, slope_by_lambda, tangent, tangent_lambda, .. } = &mut self.curve;
         let along = dot(slope_by_lambda, tangent) / (*scale * *scale) + *tangent_lambda;
@@ -122,7 +122,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     /// whether it converged to the curve.
     fn predict_and_correct(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         stages: &Stages<S>,
         step: f64,
     ) -> bool {
@@ -165,7 +165,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
 
     /// Evaluates the force, the Jacobian and the derivative of the solution with respect to λ at the
     /// current point.
-    fn linearise_on_curve(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) {
+    fn linearise_on_curve(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) {
         let lambda = self.curve.lambda;
         let here = stages.scaled(lambda);
         {

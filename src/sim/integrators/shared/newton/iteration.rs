@@ -75,7 +75,11 @@ impl<V: Vector, const S: usize> Newton<V, S> {
 
     /// Iterates from the current `A`. Returns whether it converged.
     #[inline(always)]
-    pub(super) fn iterate(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) -> bool {
+    pub(super) fn iterate(
+        &mut self,
+        system: &(impl System<Vector = V> + ?Sized),
+        stages: &Stages<S>,
+    ) -> bool {
         let mut is_stale = true;
         // No convergence rate is known before the second correction.
         let mut last = f64::NAN;
@@ -110,7 +114,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     #[inline(always)]
     pub(super) fn factor_jacobian(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &(impl System<Vector = V> + ?Sized),
         stages: &Stages<S>,
         whole: &Stages<S>,
     ) {

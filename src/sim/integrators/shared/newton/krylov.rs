@@ -95,11 +95,7 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
 
     /// The largest change of an acceleration at the first stage for a change of every coordinate by
     /// `distance`, each point against the last: near that of the stiffest motion.
-    pub(super) fn largest_change(
-        &mut self,
-        system: &impl System<Vector = V>,
-        distance: f64,
-    ) -> f64 {
+    pub(super) fn largest_change(&mut self, system: &dyn System<Vector = V>, distance: f64) -> f64 {
         let Matrix { at, along, slope, stages, .. } = &mut self.matrix;
         along.v.components_mut().fill(0.0);
         for (i, x) in along.q.components_mut().iter_mut().enumerate() {
@@ -115,7 +111,7 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
     /// near as the products left allow.
     pub(in crate::sim::integrators) fn solve(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         tolerance: f64,
         b: &mut [f64],
     ) {
@@ -133,7 +129,7 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
     /// Overwrites the residual `b` with a direction down the energy whose gradient it is: the solution by
     /// conjugate gradients, as far as the energy curves upwards (Steihaug, *The conjugate gradient method and
     /// trust regions in large scale optimization*, 1983). Returns whether it does so along all that was tried.
-    pub(super) fn descend(&mut self, system: &impl System<Vector = V>, b: &mut [f64]) -> bool {
+    pub(super) fn descend(&mut self, system: &dyn System<Vector = V>, b: &mut [f64]) -> bool {
         let Self { matrix, x, r, u: p, v: product, .. } = self;
         for (r, b) in r.iter_mut().flat_map(V::components_mut).zip(b.iter()) {
             *r = *b;
@@ -169,7 +165,7 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
 
     /// The iteration by its textbook letters: `x` the solution, `r` the residual, `u` a direction, and `v`,
     /// `s`, `w` and `t` their products.
-    fn iterate(&mut self, system: &impl System<Vector = V>, enough: f64) {
+    fn iterate(&mut self, system: &dyn System<Vector = V>, enough: f64) {
         let Self { matrix, x, r, shadow, u, v, s, w, t, .. } = self;
         assign(shadow, r);
         u.iter_mut().for_each(|u| u.components_mut().fill(0.0));
@@ -231,7 +227,7 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
 
 impl<V: Vector, const S: usize> Matrix<V, S> {
     /// Overwrites `y` with the product of the matrix and `x`.
-    fn multiply(&mut self, system: &impl System<Vector = V>, x: &[V; S], y: &mut [V; S]) {
+    fn multiply(&mut self, system: &dyn System<Vector = V>, x: &[V; S], y: &mut [V; S]) {
         self.left -= 1;
         for i in 0..S {
             let Self { stages, at, along, slope, .. } = self;
@@ -249,7 +245,7 @@ impl<V: Vector, const S: usize> Matrix<V, S> {
     }
 
     /// The slope of the force at stage `i` by a difference, for a force without a formula for it.
-    fn take_difference(&mut self, system: &impl System<Vector = V>, i: usize) {
+    fn take_difference(&mut self, system: &dyn System<Vector = V>, i: usize) {
         let Self { stages, at, along, slope, moved, forces, .. } = self;
         let size = |state: &State<V>| {
             largest(state.q.components().iter()).max(largest(state.v.components().iter()))

@@ -43,7 +43,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     /// Iterates from the current `A`. Returns whether it converged.
     pub(super) fn iterate_sparsely(
         &mut self,
-        system: &impl System<Vector = V>,
+        system: &dyn System<Vector = V>,
         stages: &Stages<S>,
     ) -> bool {
         if self.correct_sparsely(system, stages) {
@@ -69,7 +69,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     }
 
     /// A step down the energy whose gradient is the residual.
-    fn descend(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) -> Descent {
+    fn descend(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) -> Descent {
         let Self { known, a, evaluated, stage, residual, krylov, .. } = self;
         let krylov = krylov.as_mut().expect("a sparse vector has it");
         stages.evaluate(system, known, a, stage, evaluated);
@@ -102,7 +102,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     }
 
     /// Newton's iteration from the current `A`. Returns whether it converged.
-    fn correct_sparsely(&mut self, system: &impl System<Vector = V>, stages: &Stages<S>) -> bool {
+    fn correct_sparsely(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) -> bool {
         let Self { known, a, evaluated, perturbed, stage, residual, krylov, .. } = self;
         let krylov = krylov.as_mut().expect("a sparse vector has it");
         let distance = largest(known.iter().flat_map(|known| known.q.components()));

@@ -37,7 +37,7 @@ impl<const S: usize> Stages<S> {
     #[inline]
     pub(super) fn evaluate<V: Vector>(
         &self,
-        system: &impl System<Vector = V>,
+        system: &(impl System<Vector = V> + ?Sized),
         known: &[State<V>; S],
         a: &[V; S],
         stage: &mut State<V>,
