@@ -107,6 +107,13 @@ pub enum Command {
     Instrument(Instrument),
     /// Shows this quantity in the motion instrument.
     Quantity(Quantity),
+    /// Shows this coordinate of a body in the plots.
+    Coordinate {
+        /// The body's place in the scene.
+        body: usize,
+        /// The index of the coordinate.
+        coordinate: usize,
+    },
     /// Shows this parameter of the displayed body on the stability map, by its place.
     MapParameter(usize),
     /// The next instrument, cyclically.

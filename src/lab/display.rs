@@ -29,6 +29,9 @@ pub struct Display {
     pub enlarged: bool,
     /// What the motion instrument shows of every body.
     pub quantity: Quantity,
+    /// The coordinate of each body that a person has chosen for the plots, by its index; a body beyond the end has the
+    /// [usual one](crate::sim::Stepper::plotted_coordinate).
+    pub coordinates: Vec<Option<usize>>,
     /// The metric of the error instrument, by its place in [`METRICS`](super::METRICS).
     pub metric: usize,
     /// The body of the plots and the lane list, by its place in the scene.
@@ -55,6 +58,13 @@ impl Display {
     /// The zoom and the pan of the body at this place of the scene.
     pub fn zoom_pan(&self, body: usize) -> ZoomPan {
         self.zoom_pans.get(body).copied().unwrap_or_default()
+    }
+
+    pub(super) fn choose_coordinate(&mut self, body: usize, coordinate: usize) {
+        if self.coordinates.len() <= body {
+            self.coordinates.resize(body + 1, None);
+        }
+        self.coordinates[body] = Some(coordinate);
     }
 
     pub(super) fn set_zoom_pan(&mut self, body: usize, zoom_pan: ZoomPan) {

@@ -20,6 +20,7 @@ mod findings;
 mod guiding;
 mod looping;
 mod opening;
+mod plotting;
 mod restarting;
 
 use restarting::RunBefore;

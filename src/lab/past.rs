@@ -6,6 +6,7 @@
 use super::action::Action;
 use super::lane::{Resumed, ResumedFrom};
 use super::race::{Entrant, Observer, Race};
+use crate::sim::bodies::Coordinate;
 use history::HistoryMark;
 
 mod energies;
@@ -62,14 +63,26 @@ impl PastMark {
 }
 
 impl Past {
-    /// A past of `span_s` seconds that begins with the present of `race`.
+    /// A past of `span_s` seconds that begins with the present of `race`. It records of each body the coordinate that
+    /// plots show unless a person chooses another.
     pub fn new(race: &Race, span_s: f64) -> Self {
+        let bodies = race.truth().bodies().iter();
+        Self::of_coordinates(race, span_s, bodies.map(|body| body.stepper.plotted_coordinate()))
+    }
+
+    /// Like [`Past::new`], of the coordinates with these indices, one for each body.
+    pub(super) fn of_coordinates(
+        race: &Race,
+        span_s: f64,
+        coordinates: impl Iterator<Item = usize>,
+    ) -> Self {
         let bodies = race.truth().bodies();
+        let curves = bodies.iter().zip(coordinates);
         let histories = || bodies.iter().map(|_| History::new()).collect();
         let mut past = Self {
             histories: race.entrants().iter().map(|_| histories()).collect(),
             lanes: race.entrants().iter().map(|entrant| entrant.lane_number).collect(),
-            truth_curves: bodies.iter().map(|body| TruthCurve::new(body, span_s)).collect(),
+            truth_curves: curves.map(|(body, of)| TruthCurve::new(body, of, span_s)).collect(),
             span_s,
             changed_s: f64::NEG_INFINITY,
         };
@@ -85,6 +98,17 @@ impl Past {
     /// The recent past of the truth, one curve for each body.
     pub fn truth_curves(&self) -> &[TruthCurve] {
         &self.truth_curves
+    }
+
+    /// The indices of the recorded coordinates, one for each body.
+    pub fn coordinates(&self) -> impl Iterator<Item = usize> {
+        self.truth_curves.iter().map(TruthCurve::coordinate)
+    }
+
+    /// The recorded coordinate of the body at this place of the scene, and its index.
+    pub fn coordinate(&self, race: &Race, body: usize) -> (&'static Coordinate, usize) {
+        let index = self.truth_curves[body].coordinate();
+        (&race.truth().bodies()[body].coordinates[index], index)
     }
 
     /// Since when (s) the motion is one: since a body was last placed or a parameter last set, or since before the start.
@@ -122,9 +146,10 @@ impl Past {
             return self.each(race, History::record);
         }
         for (entrant, histories) in race.entrants().iter().zip(&mut self.histories) {
-            let bodies = entrant.lane.bodies().iter().zip(histories);
-            for (body, history) in bodies.filter(|(body, _)| body.halted().is_none()) {
-                history.pass(body.stepper.q()[0]);
+            let curves = histories.iter_mut().zip(&self.truth_curves);
+            let bodies = entrant.lane.bodies().iter().zip(curves);
+            for (body, (history, curve)) in bodies.filter(|(body, _)| body.halted().is_none()) {
+                history.pass(body.stepper.q()[curve.coordinate()]);
             }
         }
     }
@@ -134,9 +159,12 @@ impl Past {
         for (Entrant { entry, lane, .. }, histories) in
             race.entrants().iter().zip(&mut self.histories)
         {
-            let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(histories);
-            for ((body, truth), history) in bodies.filter(|((b, _), _)| b.halted().is_none()) {
-                add(history, Sample::new(t, *entry, body, truth));
+            let curves = histories.iter_mut().zip(&self.truth_curves);
+            let bodies = lane.bodies().iter().zip(race.truth().bodies()).zip(curves);
+            for ((body, truth), (history, curve)) in
+                bodies.filter(|((b, _), _)| b.halted().is_none())
+            {
+                add(history, Sample::new(t, *entry, curve.coordinate(), [body, truth]));
             }
         }
     }
@@ -226,19 +254,23 @@ impl Observer for Past {
         }
         if let Action::Place { body, .. } = action {
             let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
+            let coordinate = self.truth_curves[*body].coordinate();
             for (entrant, histories) in race.entrants().iter().zip(&mut self.histories) {
                 let placed = &entrant.lane.bodies()[*body];
                 if placed.halted().is_none() {
-                    histories[*body].end_run(Sample::new(t, entrant.entry, placed, truth));
+                    let sample = Sample::new(t, entrant.entry, coordinate, [placed, truth]);
+                    histories[*body].end_run(sample);
                 }
             }
         }
         if let Some(place) = race.switched_by(action) {
             let Entrant { entry, lane, .. } = &race.entrants()[place];
             let bodies = lane.bodies().iter().zip(race.truth().bodies());
-            for ((body, truth), history) in bodies.zip(&mut self.histories[place]) {
+            let curves = self.histories[place].iter_mut().zip(&self.truth_curves);
+            for ((body, truth), (history, curve)) in bodies.zip(curves) {
                 if body.halted().is_none() {
-                    history.end_run(Sample::new(race.t(), *entry, body, truth));
+                    let sample = Sample::new(race.t(), *entry, curve.coordinate(), [body, truth]);
+                    history.end_run(sample);
                 }
             }
         }
@@ -260,9 +292,10 @@ impl Observer for Past {
                 self.changed_s = race.t();
                 let (t, truth) = (race.t(), &race.truth().bodies()[*body]);
                 self.truth_curves[*body].jump(t, truth);
+                let coordinate = self.truth_curves[*body].coordinate();
                 for (entrant, histories) in race.entrants().iter().zip(&mut self.histories) {
                     let placed = &entrant.lane.bodies()[*body];
-                    let sample = Sample::new(t, entrant.entry, placed, truth);
+                    let sample = Sample::new(t, entrant.entry, coordinate, [placed, truth]);
                     histories[*body].jump(sample);
                 }
             }
@@ -272,10 +305,11 @@ impl Observer for Past {
         let Some(place) = race.switched_by(action) else { return };
         let Entrant { entry, lane, .. } = &race.entrants()[place];
         let bodies = lane.bodies().iter().zip(race.truth().bodies()).enumerate();
-        for ((index, (body, truth)), history) in bodies.zip(&mut self.histories[place]) {
+        let curves = self.histories[place].iter_mut().zip(&self.truth_curves);
+        for ((index, (body, truth)), (history, curve)) in bodies.zip(curves) {
             let from_truth = |it: &&Resumed| it.halt.body == index && it.from == ResumedFrom::Truth;
             let jumped = resumed.iter().any(|it| from_truth(&it));
-            let sample = Sample::new(race.t(), *entry, body, truth);
+            let sample = Sample::new(race.t(), *entry, curve.coordinate(), [body, truth]);
             history.begin_run(Sample { jumped, ..sample });
         }
     }

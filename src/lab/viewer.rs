@@ -75,6 +75,7 @@ impl Viewer {
                 interpolation: Interpolation::Hermite,
                 instrument: Instrument::Motion,
                 quantity: Quantity::default(),
+                coordinates: Vec::new(),
                 enlarged: false,
                 metric: 0,
                 body: 0,

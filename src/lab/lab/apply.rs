@@ -119,6 +119,7 @@ impl Lab {
             Command::UsualScale => self.viewer.show_scale(USUAL_SCALE_PERCENT),
             Command::Instrument(instrument) => self.viewer.display.instrument = instrument,
             Command::Quantity(quantity) => self.viewer.display.quantity = quantity,
+            Command::Coordinate { body, coordinate } => self.plot_coordinate(body, coordinate),
             Command::MapParameter(parameter) => {
                 let display = &mut self.viewer.display;
                 display.mapped_parameter = Some((display.body, parameter));

@@ -153,7 +153,8 @@ impl Lab {
         lab.scene_list = self.scene_list.clone();
         lab.scene_list.set_open(place);
         lab.start.mode = if lab.scene().opens_as_race { Mode::Race } else { self.mode() };
-        lab.viewer.display = Display { body: 0, zoom_pans: Vec::new(), ..self.display().clone() };
+        let (coordinates, zoom_pans) = (Vec::new(), Vec::new());
+        lab.viewer.display = Display { body: 0, coordinates, zoom_pans, ..self.display().clone() };
         lab.viewer.typed_path = self.viewer.typed_path.clone();
         lab.viewer.pace = self.viewer.pace;
         lab.viewer.theme_is_chosen = self.viewer.theme_is_chosen;

@@ -20,6 +20,7 @@ impl Lab {
     /// Begins the run again with the present settings. The run so far is lost unless it was [kept](Self::keep_run).
     pub(super) fn restart(&mut self) {
         self.timeline = Timeline::with_limit(self.start.session(), self.timeline.limit());
+        self.record_chosen_coordinates();
         self.before_discard = None;
         self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
         self.viewer.notice = None;
@@ -76,6 +77,7 @@ impl Lab {
         self.run_before = Some(run);
         self.viewer.held = None;
         self.viewer.findings = None;
+        self.record_chosen_coordinates();
         self.timeline.show_present();
         self.clock.set_tick_hz(self.race().tick_hz());
         self.set_notice("the run before the restart is back: Ctrl Z goes to the new one again");

@@ -18,7 +18,7 @@ pub struct History {
     summaries: [SummaryLog; MOST_SUMMED.len()],
     /// The present, if no sample is due at it.
     present: Option<Sample>,
-    /// The range of the first coordinate since the newest sample.
+    /// The range of the recorded coordinate since the newest sample.
     since: SweptRange,
 }
 

@@ -18,9 +18,9 @@ pub(super) const SPARE: usize = 1024;
 pub struct Sample {
     /// Time in seconds.
     pub t: f64,
-    /// The first coordinate.
+    /// The recorded coordinate.
     pub q: f64,
-    /// The range of the first coordinate since the sample before.
+    /// The range of that coordinate since the sample before.
     pub swept: SweptRange,
     /// Its velocity.
     pub v: f64,
@@ -50,9 +50,14 @@ impl PartialEq for Sample {
 }
 
 impl Sample {
-    /// The present of `body`, in a lane whose method has place `entry`.
-    pub(in crate::lab) fn new(t: f64, entry: usize, body: &LaneBody, truth: &LaneBody) -> Self {
-        let (q, v) = (body.stepper.q()[0], body.stepper.v()[0]);
+    /// The present of `body`, of its coordinate with this index, in a lane whose method has place `entry`.
+    pub(in crate::lab) fn new(
+        t: f64,
+        entry: usize,
+        coordinate: usize,
+        [body, truth]: [&LaneBody; 2],
+    ) -> Self {
+        let (q, v) = (body.stepper.q()[coordinate], body.stepper.v()[coordinate]);
         let metrics =
             std::array::from_fn(|i| (METRICS[i].measure)(body, truth).unwrap_or(f64::NAN));
         let (swept, at) = (SweptRange::at(q), body.stepper.place());

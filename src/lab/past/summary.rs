@@ -15,9 +15,9 @@ pub(super) const MOST_SUMMED: [usize; 2] = [4, 2];
 pub struct Summary {
     /// The time of the last of them, in seconds.
     pub t: f64,
-    /// The first coordinate there.
+    /// The recorded coordinate there.
     pub q: f64,
-    /// The range of the first coordinate since the summary before.
+    /// The range of that coordinate since the summary before.
     pub swept: SweptRange,
     /// The lane's place on the list of methods.
     pub entry: usize,

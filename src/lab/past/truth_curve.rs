@@ -38,9 +38,9 @@ const SPARE: usize = GRID / 2;
 pub struct TruthSample {
     /// Time in seconds.
     pub t: f64,
-    /// The first coordinate.
+    /// The recorded coordinate.
     pub q: f64,
-    /// The range of the first coordinate at ticks since the sample before.
+    /// The range of that coordinate at ticks since the sample before.
     pub swept: SweptRange,
     /// Its velocity.
     pub v: f64,
@@ -53,11 +53,11 @@ pub struct TruthSample {
 }
 
 impl TruthSample {
-    fn of(t: f64, stepper: &dyn Stepper) -> Self {
-        let q = stepper.q()[0];
+    fn of(t: f64, coordinate: usize, stepper: &dyn Stepper) -> Self {
+        let (q, v) = (stepper.q()[coordinate], stepper.v()[coordinate]);
         let (swept, at) = (SweptRange::at(q), stepper.place());
         let energies = Energies::of(stepper);
-        Self { t, q, swept, v: stepper.v()[0], at, energies, jumped: false }
+        Self { t, q, swept, v, at, energies, jumped: false }
     }
 
     fn is_finite(&self) -> bool {
@@ -75,8 +75,10 @@ pub struct TruthCurve {
     /// Whether the truth has changed otherwise, so that a new copy is needed.
     is_stale: bool,
     spacing_s: f64,
+    /// The index of the recorded coordinate.
+    coordinate: usize,
     samples: WindowedLog<TruthSample>,
-    /// The range of the first coordinate at ticks since the newest sample.
+    /// The range of that coordinate at ticks since the newest sample.
     since: SweptRange,
 }
 
@@ -89,13 +91,14 @@ pub(super) struct TruthMark {
 }
 
 impl TruthCurve {
-    /// The curve of `truth` at its start, with a capacity of `span_s` seconds.
-    pub(super) fn new(truth: &LaneBody, span_s: f64) -> Self {
+    /// The curve of `truth` at its start, of the coordinate with this index, with a capacity of `span_s` seconds.
+    pub(super) fn new(truth: &LaneBody, coordinate: usize, span_s: f64) -> Self {
         let mut curve = Self {
             between: truth.stepper.with_solver(Solver::Truth, 0.0),
             pending: Vec::with_capacity(KINDS_OF_INPUT),
             is_stale: false,
             spacing_s: span_s / GRID as f64,
+            coordinate,
             samples: WindowedLog::new(GRID + OFF_GRID, SPARE),
             since: SweptRange::NOTHING,
         };
@@ -120,8 +123,13 @@ impl TruthCurve {
     }
 
     /// The present of the true body `truth`, at time `t` (s): the curve's end, wherever the grid is.
-    pub fn present(truth: &LaneBody, t: f64) -> TruthSample {
-        TruthSample::of(t, &*truth.stepper)
+    pub fn present(&self, truth: &LaneBody, t: f64) -> TruthSample {
+        TruthSample::of(t, self.coordinate, &*truth.stepper)
+    }
+
+    /// The index of the recorded coordinate.
+    pub fn coordinate(&self) -> usize {
+        self.coordinate
     }
 
     /// A quantity over time through consecutive `samples` of the true body `truth`, at least every `spacing_s` seconds.
@@ -188,7 +196,7 @@ impl TruthCurve {
         let first = libm::floor(from_s / spacing_s);
         let count = (libm::floor(to_s / spacing_s) - first) as u64;
         if count == 0 {
-            self.since = self.since.and(truth.stepper.q()[0]);
+            self.since = self.since.and(truth.stepper.q()[self.coordinate]);
             return;
         }
         self.between.set(from_s, &truth.previous_q, &truth.previous_v);
@@ -199,23 +207,23 @@ impl TruthCurve {
                 return;
             }
             t = next;
-            self.push(TruthSample::of(t, &*self.between));
+            self.push(TruthSample::of(t, self.coordinate, &*self.between));
         }
         // Where the grid is finer than the ticks, the grid points alone are drawn.
         if t < to_s && to_s - from_s < spacing_s {
-            self.since = self.since.and(truth.stepper.q()[0]);
+            self.since = self.since.and(truth.stepper.q()[self.coordinate]);
         }
     }
 
     /// Keeps the present of `truth`, at time `t`: before and after an input, where the curve has a
     /// corner. Never allocates.
     pub(super) fn keep(&mut self, t: f64, truth: &LaneBody) {
-        self.push(TruthSample::of(t, &*truth.stepper));
+        self.push(self.present(truth, t));
     }
 
     /// Keeps the present of `truth`, at time `t`, where the body was put. Never allocates.
     pub(super) fn jump(&mut self, t: f64, truth: &LaneBody) {
-        self.push(TruthSample { jumped: true, ..TruthSample::of(t, &*truth.stepper) });
+        self.push(TruthSample { jumped: true, ..self.present(truth, t) });
     }
 
     /// Takes notice of an input that was given to the truth.
@@ -302,7 +310,7 @@ mod tests {
         let sample = |t: f64| TruthSample {
             q: libm::cos(tau * t),
             v: -tau * libm::sin(tau * t),
-            ..TruthCurve::present(truth, t)
+            ..TruthSample::of(t, 0, &*truth.stepper)
         };
         let samples: Vec<TruthSample> = (0..5).map(|i| sample(0.1 * f64::from(i))).collect();
         let points = TruthCurve::finer(truth, Quantity::Position, &samples, 0.001);

@@ -237,7 +237,8 @@ impl Chip {
             sign,
             colours: [tone, moment.style(entrant.entry).0],
             verdict: Verdict { body_name: None, ..verdict.clone() }.to_string(),
-            swing: verdict.swings.then(|| format!("{}, exact {}", how_far(lane), how_far(exact))),
+            swing: (verdict.swings && past.coordinate(moment.lab.race(), index).1 == 0)
+                .then(|| format!("{}, exact {}", how_far(lane), how_far(exact))),
         })
     }
 

@@ -12,6 +12,13 @@ pub const SNAPSHOT_BYTES: usize = 64 << 20;
 /// The initial spacing of snapshots in ticks, which are repeated in less than a frame.
 const SPACING: u64 = 32;
 
+/// The most work of a run that is repeated to record another coordinate: evaluations of accelerations, times the
+/// coordinates of a body and [`WORK_OF_AN_EVALUATION`]. It takes about a second.
+const MOST_REPEATED_WORK: u64 = 10_000_000;
+
+/// What an evaluation costs beside its coordinates, in the cost of one.
+const WORK_OF_AN_EVALUATION: u64 = 4;
+
 /// A session that can go back and forth in time.
 ///
 /// It keeps snapshots of the session at regular ticks, and reaches any tick from the nearest snapshot before it by
@@ -241,6 +248,41 @@ impl Timeline {
         }
     }
 
+    /// Records of each body the coordinate with this index from now on, and from the start of the run by running it
+    /// again to the present tick. Returns whether it does: a run that takes more than a second or so keeps its record.
+    pub fn record_coordinates(&mut self, coordinates: &[usize]) -> bool {
+        if self.past.coordinates().eq(coordinates.iter().copied()) {
+            return true;
+        }
+        let bodies = self.session.race.entrants().iter().flat_map(|entrant| entrant.lane.bodies());
+        let work = bodies.map(|body| {
+            body.stepper.evaluations() * (body.coordinates.len() as u64 + WORK_OF_AN_EVALUATION)
+        });
+        if work.sum::<u64>() > MOST_REPEATED_WORK {
+            return false;
+        }
+        let (tick, journal) = (self.session.race.tick(), self.session.journal().clone());
+        let done = self.session.race.done();
+        // The other snapshots are marks of a past that was recorded otherwise.
+        self.snapshots.truncate(1);
+        self.undone.iter_mut().for_each(|undone| undone.snapshots.clear());
+        self.session.race = self.snapshots[0].race.clone();
+        self.begin_past(coordinates.to_vec());
+        self.snapshots[0].mark = self.past.mark();
+        self.session.race.set_journal(journal);
+        self.repeat_to(tick);
+        if self.session.race.done() < done {
+            self.session.race.catch_up(&mut self.past);
+        }
+        true
+    }
+
+    /// Forgets the recorded past, and begins another at the present.
+    fn begin_past(&mut self, coordinates: Vec<usize>) {
+        let (race, span_s) = (&self.session.race, self.session.scene().seconds);
+        self.past = Past::of_coordinates(race, span_s, coordinates.into_iter());
+    }
+
     /// Goes to `tick` from a snapshot.
     fn restore(&mut self, tick: u64) {
         let nearest = self.snapshots.partition_point(|s| s.race.tick() <= tick) - 1;
@@ -259,11 +301,16 @@ impl Timeline {
                 }
                 None => {
                     self.session.race = self.snapshots[0].race.clone();
-                    self.past = Past::new(&self.session.race, self.session.scene().seconds);
+                    self.begin_past(self.past.coordinates().collect());
                 }
             }
             self.session.race.set_journal(journal);
         }
+        self.repeat_to(tick);
+    }
+
+    /// Makes the ticks up to `tick` again.
+    fn repeat_to(&mut self, tick: u64) {
         while self.session.race.tick() < tick {
             self.session.tick_seen(&mut self.past);
             if self.session.race.tick().is_multiple_of(self.spacing) {

@@ -14,6 +14,7 @@ use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::system::{State, System};
 use frame::{FIXED, Frame};
+use survey::Survey;
 
 mod frame;
 mod kind;
@@ -69,7 +70,7 @@ pub struct Net {
     /// Shared by all copies until a parameter changes.
     springs: Arc<Springs>,
     /// Shared by all copies.
-    range: Arc<OnceLock<[DVec2; 2]>>,
+    survey: Arc<OnceLock<Survey>>,
 }
 
 /// The springs, in the order of the frame's arrays.
@@ -95,7 +96,7 @@ impl Net {
             rest_ratio: 1.0,
             kick: DVec2::ZERO,
             springs: Arc::default(),
-            range: Arc::default(),
+            survey: Arc::default(),
         }
     }
 
@@ -137,7 +138,11 @@ impl Net {
     /// The lower left and the upper right corner of the rectangle that holds all nodes in the first seconds
     /// of the motion, for drawing.
     pub fn range(&self) -> [DVec2; 2] {
-        *self.range.get_or_init(|| survey::range(self))
+        self.survey().range
+    }
+
+    fn survey(&self) -> &Survey {
+        self.survey.get_or_init(|| Survey::of(self))
     }
 
     /// A bound on the fastest frequency, in radians per second, and on the fastest rate of damping.
@@ -323,6 +328,11 @@ impl Body for Net {
 
     fn place(&self, q: &Points) -> DVec2 {
         DVec2::from(q.pairs()[0])
+    }
+
+    /// That which moves farthest in the first seconds: of a bridge the height of its middle.
+    fn plotted_coordinate(&self) -> usize {
+        self.survey().farthest
     }
 }
 

@@ -3,14 +3,14 @@
 //! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
 //! arrow in its colour says so.
 
-use egui::{Button, Color32, ComboBox, FontId, Label, RichText, Sense, Stroke, Ui, vec2};
+use egui::{Button, Color32, ComboBox, FontId, Label, Rect, RichText, Sense, Stroke, Ui, vec2};
 
 use super::roster::Roster;
 use super::tracks::Detail;
 use super::{advice, cost, ink, loops, one_step, stability_map};
 use crate::lab::{
-    Command, FRAME_METRICS, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow, Lab, METRICS,
-    Quantity,
+    Command, Coordinate, FRAME_METRICS, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow,
+    Lab, METRICS, Quantity,
 };
 use crate::view::plot;
 use crate::view::theme::strong_font;
@@ -162,40 +162,69 @@ fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
                 (names.collect(), lab.display().metric)
             }
         };
+        let name = offered.iter().find(|(place, _)| *place == chosen).map(|(_, name)| *name);
         let offered = offered.into_iter().map(|(place, name)| (Command::Metric(place), name));
-        choice(ui, "metric", offered.collect(), Command::Metric(chosen), commands);
+        let chosen = (Command::Metric(chosen), name.unwrap_or_default());
+        choice(ui, "metric", offered, chosen, commands);
     }
     let has_all = instrument == Instrument::Motion && lab.loop_lab().is_none();
     if has_all {
-        let offered = Quantity::ALL.map(|quantity| (Command::Quantity(quantity), quantity.name()));
-        let chosen = Command::Quantity(lab.display().quantity);
-        choice(ui, "quantity", offered.into(), chosen, commands);
+        let named = |quantity: Quantity| (Command::Quantity(quantity), quantity.name());
+        let chosen = named(lab.display().quantity);
+        choice(ui, "quantity", Quantity::ALL.into_iter().map(named), chosen, commands);
+    }
+    if has_all || instrument == Instrument::Phase && lab.loop_lab().is_none() {
+        coordinate_choice(ui, lab, commands);
     }
     if !has_all && lab.scene().bodies.len() > 1 {
         let names = lab.scene().bodies.iter().map(|body| body.name.as_str());
-        let offered = (0..).map(Command::Body).zip(names);
-        let chosen = Command::Body(lab.display().body);
+        let body = lab.display().body;
+        let chosen = (Command::Body(body), lab.scene().bodies[body].name.as_str());
         ui.label(RichText::new("of").color(ink(ui).dim));
-        choice(ui, "body", offered.collect(), chosen, commands);
+        choice(ui, "body", (0..).map(Command::Body).zip(names), chosen, commands);
+    }
+}
+
+/// Offers the coordinates of the displayed body, if it has several.
+fn coordinate_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let body = lab.display().body;
+    let coordinates = lab.race().truth().bodies()[body].coordinates;
+    if coordinates.len() > 1 {
+        let named = |(index, coordinate): (usize, &'static Coordinate)| {
+            (Command::Coordinate { body, coordinate: index }, coordinate.name)
+        };
+        let (chosen, index) = lab.past().coordinate(lab.race(), body);
+        ui.label(RichText::new("of").color(ink(ui).dim));
+        let offered = coordinates.iter().enumerate().map(named);
+        choice(ui, "coordinate", offered, named((index, chosen)), commands);
     }
 }
 
 /// Offers commands by name, as a menu.
-fn choice(
+fn choice<'a>(
     ui: &mut Ui,
     id: &str,
-    offered: Vec<(Command, &str)>,
-    chosen: Command,
+    offered: impl Iterator<Item = (Command, &'a str)>,
+    chosen: (Command, &str),
     commands: &mut Vec<Command>,
 ) {
-    let name = offered.iter().find(|(command, _)| *command == chosen).map(|(_, name)| *name);
-    ComboBox::from_id_salt(id).selected_text(name.unwrap_or_default()).show_ui(ui, |ui| {
+    let menu = ComboBox::from_id_salt(id).selected_text(chosen.1).width(0.0).show_ui(ui, |ui| {
+        let mut height = None;
         for (command, name) in offered {
-            if ui.selectable_label(command == chosen, name).clicked() {
+            // A net offers thousands, of which a few are in sight.
+            let place = Rect::from_min_size(ui.cursor().min, vec2(1.0, height.unwrap_or_default()));
+            if height.is_some() && !ui.is_rect_visible(place) {
+                ui.allocate_space(place.size());
+                continue;
+            }
+            let label = ui.selectable_label(command == chosen.0, name);
+            height = Some(label.rect.height());
+            if label.clicked() {
                 commands.push(command);
             }
         }
     });
+    menu.response.on_hover_text(id);
 }
 
 /// A line of the legend.

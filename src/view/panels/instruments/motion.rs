@@ -26,7 +26,7 @@ pub(super) fn sheet(lab: &Lab, detail: Detail) -> Sheet {
 
 fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
     let truth = &lab.race().truth().bodies()[body];
-    let coordinate = &truth.coordinates[0];
+    let (coordinate, _) = lab.past().coordinate(lab.race(), body);
     let quantity = lab.display().quantity;
     let tracks = Track::of_quantity(lab, body, quantity, detail);
     let exact = ExactLine::of_quantity(lab, body, quantity);

@@ -26,9 +26,9 @@ pub(super) fn sheet(lab: &Lab) -> Sheet {
     let fitted = Track::fitted(lab, &tracks);
     let [x, y] = [0, 1]
         .map(|axis| ranges::around_orbit(exact.fitted(lab, axis), &fitted, axis, healthy(lab)));
-    let coordinate = &lab.race().truth().bodies()[body].coordinates[0];
+    let (coordinate, _) = lab.past().coordinate(lab.race(), body);
     let plot = PlotModel {
-        id: format!("phase portrait of {body}"),
+        id: format!("phase portrait of {} of {body}", coordinate.name),
         title: capitalised(&lab.scene().bodies[body].name),
         body,
         axes: [PlotAxis::of(coordinate), PlotAxis::of_velocity(coordinate)],

@@ -255,7 +255,7 @@ fn samples(lab: &Lab, body: usize) -> impl Iterator<Item = TruthSample> {
     let (curve, t) = (&lab.past().truth_curves()[body], lab.race().t());
     let truth = &lab.race().truth().bodies()[body];
     let goes_on = truth.halted().is_none() && curve.samples().next_back().is_some_and(|s| s.t < t);
-    let present = goes_on.then(|| TruthCurve::present(truth, t));
+    let present = goes_on.then(|| curve.present(truth, t));
     curve.samples().copied().chain(present)
 }
 

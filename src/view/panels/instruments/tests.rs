@@ -285,6 +285,33 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
 }
 
 #[test]
+fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
+    let mut lab = Lab::new(Scene::built_in("bridge").unwrap());
+    let named = |lab: &Lab| lab.past().coordinate(lab.race(), 0).0.name;
+    assert_eq!(named(&lab), "y4", "the sag in the middle");
+    (0..90).for_each(|_| lab.tick());
+    let coordinates = lab.race().truth().bodies()[0].coordinates;
+    let chosen = coordinates.iter().position(|coordinate| coordinate.name == "x7").unwrap();
+    lab.apply(Command::Coordinate { body: 0, coordinate: chosen });
+    assert_eq!(lab.race().tick(), 90);
+    let table = csv(&lab).unwrap();
+    let rows: Vec<&str> = table.lines().filter(|line| line.contains(",x7,m,")).collect();
+    assert!(rows.len() > 90 && rows.len() + 1 == table.lines().count(), "from the start: {table}");
+    let now = lab.race().entrants()[0].lane.bodies()[0].stepper.q()[chosen];
+    let sheet = sheet_of(&lab, Detail::Samples).unwrap();
+    assert_eq!(sheet.plots[0].readouts(&sheet.roster, lab.race().t())[0].at[1], now);
+    // To go back repeats the run as it was recorded.
+    lab.apply(Command::Seek(40));
+    lab.apply(Command::Seek(90));
+    assert_eq!(csv(&lab).unwrap(), table);
+    lab.apply(Command::Restart);
+    assert_eq!(named(&lab), "x7", "the choice stays with the scene");
+    lab.apply(Command::Instrument(Instrument::Phase));
+    assert_legible(&lab, "the phase portrait of a node");
+    assert!(svg(&lab).unwrap().contains(">vx7, m/s<"));
+}
+
+#[test]
 fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     lab.apply(Command::Pick(3));

@@ -1,0 +1,31 @@
+//! Which coordinates the plots show, and so which the run records.
+
+use super::Lab;
+
+impl Lab {
+    /// Shows this coordinate of a body in the plots; where the run so far is too long to be run again for it, from the
+    /// next restart on.
+    pub(super) fn plot_coordinate(&mut self, body: usize, coordinate: usize) {
+        let Some(of) = self.race().truth().bodies().get(body) else { return };
+        let Some(chosen) = of.coordinates.get(coordinate) else { return };
+        self.viewer.display.choose_coordinate(body, coordinate);
+        if self.record_chosen_coordinates() {
+            return self.timeline.show_present();
+        }
+        self.set_notice(format!("{} is plotted from the next restart on: press Home", chosen.name));
+    }
+
+    /// Records the coordinates that a person has chosen, and of other bodies the usual ones. Returns whether it could.
+    pub(super) fn record_chosen_coordinates(&mut self) -> bool {
+        let chosen = &self.viewer.display.coordinates;
+        let coordinate = |(place, usual): (usize, usize)| {
+            let count = self.race().truth().bodies()[place].coordinates.len();
+            let chosen = chosen.get(place).copied().flatten();
+            chosen.filter(|&index| index < count).unwrap_or(usual)
+        };
+        let bodies = self.race().truth().bodies().iter();
+        let usual = bodies.map(|body| body.stepper.plotted_coordinate()).enumerate();
+        let coordinates: Vec<usize> = usual.map(coordinate).collect();
+        self.timeline.record_coordinates(&coordinates)
+    }
+}
