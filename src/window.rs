@@ -101,6 +101,7 @@ pub fn run(
         meter: Meter::default(),
         title: String::new(),
         screenshot: false,
+        simulated: Instant::now(),
         started: Instant::now(),
         interrupted: false,
         outcome: Ok(()),
@@ -128,6 +129,8 @@ struct App {
     held: Modifiers,
     /// When the last frame began; `None` if time did not run.
     last_frame: Option<Instant>,
+    /// When the lab was last simulated, whether time ran or not.
+    simulated: Instant,
     /// Whether a redraw was requested and the window system has not asked for it yet.
     redraw_owed: bool,
     occluded: bool,
@@ -176,7 +179,10 @@ impl App {
                     || self.screenshot
                     || waits_for_field;
                 self.asked.extend(commands);
-                self.schedule(event_loop, now, if again { Duration::ZERO } else { repaint_after });
+                let notice_leaves = self.lab.notice_left_ns().map(|ns| ns.unsigned_abs());
+                let notice_leaves = notice_leaves.map_or(Duration::MAX, Duration::from_nanos);
+                let after = if again { Duration::ZERO } else { repaint_after.min(notice_leaves) };
+                self.schedule(event_loop, now, after);
             }
             Ok(Drawn::Skipped) => {
                 event_loop.set_control_flow(ControlFlow::WaitUntil(now + LONGEST_WAIT));
@@ -220,6 +226,10 @@ impl App {
         self.tick_timer.ask(&self.lab, now);
         let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
         self.last_frame = self.lab.running().then_some(now);
+        let passed = now.duration_since(std::mem::replace(&mut self.simulated, now));
+        if !self.lab.time_runs() {
+            self.lab.rest(i64::try_from(passed.as_nanos()).unwrap_or(i64::MAX));
+        }
         let last = self.seconds.map_or(u64::MAX, |s| self.lab.nearest_tick(s));
         let frame_ns = i64::try_from(frame.as_nanos()).unwrap_or(i64::MAX);
         self.lab.advance_in_time(last, frame_ns, &mut || now.elapsed() < LONGEST_SIMULATION);

@@ -174,6 +174,8 @@ pub enum Command {
     GoToStop(usize),
     /// Opens the next stop of the guide, if the guide is open and has one.
     NextStop,
+    /// Opens the previous stop of the guide, if the guide is open and has one.
+    PreviousStop,
     /// Predicts this choice of the guide's stop, from 0.
     Predict(usize),
     /// Releases the held body, else closes the overlay, else the guide, else shrinks the

@@ -4,6 +4,7 @@
 //! What the stops claim is measured by `tests/guide.rs`.
 
 use super::display::Display;
+use super::instrument::Instrument;
 use super::interpolation::Interpolation;
 use super::key::Key;
 use super::race::{Mode, Race};
@@ -27,6 +28,8 @@ pub struct Stop {
     pub tick_hz: u32,
     /// Solo or a race.
     pub mode: Mode,
+    /// The instrument that it opens, in which the answer is seen.
+    pub instrument: Instrument,
     /// What happens here, and the question. Keys stand between backticks.
     pub question: &'static str,
     /// The predictions to choose from.
@@ -56,6 +59,12 @@ pub enum Goal {
     SpeedFrom(u32),
     /// Time stands still.
     Paused,
+    /// Time stands still at this tick or a later one. Such a stop opens paused, and a person steps to the tick.
+    SteppedTo(u64),
+    /// This instrument is shown.
+    Instrument(Instrument),
+    /// The loop lab is open.
+    LoopLab,
     /// All methods race.
     Race,
     /// Bodies are drawn so between ticks.
@@ -68,6 +77,7 @@ pub(super) struct Situation<'a> {
     pub(super) method: &'static str,
     pub(super) speed_percent: u32,
     pub(super) is_running: bool,
+    pub(super) is_in_loop_lab: bool,
     pub(super) display: &'a Display,
 }
 
@@ -79,6 +89,9 @@ impl Goal {
             Goal::TickHzTo(hz) => now.race.tick_hz() <= hz,
             Goal::SpeedFrom(percent) => now.speed_percent >= percent,
             Goal::Paused => !now.is_running,
+            Goal::SteppedTo(tick) => !now.is_running && now.race.tick() >= tick,
+            Goal::Instrument(wanted) => now.display.instrument == wanted,
+            Goal::LoopLab => now.is_in_loop_lab,
             Goal::Race => now.race.mode() == Mode::Race,
             Goal::Interpolation(wanted) => now.display.interpolation == wanted,
         }

@@ -27,6 +27,8 @@ pub enum Key {
     Right,
     /// Home.
     Home,
+    /// Page Up.
+    PageUp,
     /// Page Down.
     PageDown,
     /// Enter, or Return.
@@ -262,9 +264,9 @@ pub static KEYS: &[Binding] = &[
         repeats: false,
     },
     Binding {
-        shown: "Page Down",
-        about: "next stop of the guide, while it is open",
-        keys: &[(Key::PageDown, Command::NextStop)],
+        shown: "Page Up, Down",
+        about: "previous, next stop of the guide, while it is open",
+        keys: &[(Key::PageUp, Command::PreviousStop), (Key::PageDown, Command::NextStop)],
         repeats: false,
     },
     Binding {

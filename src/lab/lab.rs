@@ -4,6 +4,7 @@ use super::command::SCALE_LADDER;
 use super::display::{Display, Pace};
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopLab;
+use super::notice::Notice;
 use super::palette::Theme;
 use super::past::{History, Past};
 use super::race::{Entrant, Mode, Race};
@@ -200,9 +201,18 @@ impl Lab {
     pub fn set_tick_times(&mut self, times: Vec<(LaneSpec, Option<f64>)>) {
         self.viewer.tick_times = times;
     }
-    /// Shows a message.
+    /// Shows a message for some seconds.
     pub fn set_notice(&mut self, notice: impl Into<String>) {
-        self.viewer.notice = Some(notice.into());
+        self.viewer.notice = Some(notice.into().into());
+    }
+
+    /// So many nanoseconds of real time go by while time in the lab stands still.
+    pub fn rest(&mut self, ns: i64) {
+        self.viewer.pass(ns);
+    }
+    /// After how many nanoseconds of real time the message leaves; `None` if there is none.
+    pub fn notice_left_ns(&self) -> Option<i64> {
+        self.viewer.notice.as_ref().map(Notice::left_ns)
     }
 
     /// The window's title: people and tests read it.

@@ -12,6 +12,7 @@ mod display;
 mod duration;
 mod equal_cost;
 mod extent;
+mod gesture;
 mod guide;
 mod held;
 mod identify;
@@ -27,6 +28,7 @@ mod lane_spec;
 mod live_loop;
 mod loop_lab;
 mod metrics;
+mod notice;
 mod notices;
 pub mod number;
 mod one_step;
@@ -61,6 +63,7 @@ pub use chase::Chase;
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 pub use display::{Arrangement, Display, DriverRequest, Pace};
 pub use equal_cost::{equal_cost, lanes_that_race};
+pub use gesture::{GESTURES, Gesture};
 pub use guide::{Goal, STOPS, Stop, Tour};
 pub use held::HeldBody;
 pub use identify::{
@@ -80,6 +83,7 @@ pub use loop_lab::{
     MOST_ON_STAGE, SLOWNESS,
 };
 pub use metrics::{METRICS, Metric, Scale, Unit};
+pub use notice::Notice;
 pub use one_step::{FORMULAS, Formula, OneStep, Slope};
 pub use own::{Draw, Options, OptionsError};
 pub use past::{

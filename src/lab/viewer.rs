@@ -9,6 +9,7 @@ use super::instrument::Instrument;
 use super::interpolation::Interpolation;
 use super::lane_spec::LaneSpec;
 use super::live_loop::LiveLoop;
+use super::notice::Notice;
 use super::palette::Theme;
 use super::quantity::Quantity;
 use super::source_code::Language;
@@ -46,8 +47,8 @@ pub struct Viewer {
     /// The time of a tick of each lane that flew when the driver measured it last, in nanoseconds: `None` of a lane that
     /// halted.
     pub tick_times: Vec<(LaneSpec, Option<f64>)>,
-    /// The latest message, such as a screenshot's file name.
-    pub notice: Option<String>,
+    /// The latest message, until it has been shown for some seconds.
+    pub notice: Option<Notice>,
     /// The last frames of the lab's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
@@ -153,17 +154,23 @@ impl Viewer {
         self.findings.as_ref()?.map.as_ref()
     }
 
+    /// So many nanoseconds of real time go by: a notice leaves.
+    pub(super) fn pass(&mut self, ns: i64) {
+        self.notice.iter_mut().for_each(|notice| notice.pass(ns));
+        self.notice.take_if(|notice| notice.left_ns() == 0);
+    }
+
     /// Switches to the next way of drawing between ticks, and shows its name.
     pub(super) fn next_interpolation(&mut self) {
         self.display.interpolation = self.display.interpolation.next();
         let name = self.display.interpolation.name();
-        self.notice = Some(format!("drawing between ticks: {name}"));
+        self.notice = Some(format!("drawing between ticks: {name}").into());
     }
 
     /// Shows type and panels at this size, and tells which.
     pub(super) fn show_scale(&mut self, percent: u32) {
         self.display.scale_percent = percent;
-        self.notice = Some(format!("text and panels at {percent} %"));
+        self.notice = Some(format!("text and panels at {percent} %").into());
     }
 
     /// Shows the lanes of a race in the other arrangement, and tells which.
@@ -173,7 +180,7 @@ impl Viewer {
             Arrangement::SideBySide => (Arrangement::Overlay, "lanes over each other"),
         };
         self.display.arrangement = arrangement;
-        self.notice = Some(told.into());
+        self.notice = Some(told.to_owned().into());
     }
 
     /// Switches to the instrument so many tabs further on, cyclically.

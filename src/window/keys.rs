@@ -164,6 +164,7 @@ fn from_parts(physical: PhysicalKey, logical: &Logical, held: Modifiers) -> Opti
             NamedKey::ArrowLeft => Key::Left,
             NamedKey::ArrowRight => Key::Right,
             NamedKey::Home => Key::Home,
+            NamedKey::PageUp => Key::PageUp,
             NamedKey::PageDown => Key::PageDown,
             NamedKey::Enter => Key::Enter,
             NamedKey::Escape => Key::Escape,

@@ -1,8 +1,8 @@
 //! The guide: every stop is done by its keys and by nothing less, and what it claims is so.
 
 use regatta::lab::{
-    Command, Goal, Judge, Lab, LaneSpec, Mode, Outcome, Race, SCENES, STOPS, Scene, Verdict,
-    command_for,
+    Command, Goal, Instrument, Judge, Lab, LaneSpec, LoopCommand, LoopLab, OneStep, Outcome, Race,
+    SCENES, STOPS, Scene, Verdict, command_for,
 };
 use regatta::sim::integrators::method;
 
@@ -25,8 +25,12 @@ fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
         assert_eq!(lab.scene().name, stop.scene, "{}", stop.title);
         assert_eq!(lab.entries()[lab.active()].method.id, stop.method, "{}", stop.title);
         assert_eq!((lab.clock().tick_hz(), lab.mode()), (stop.tick_hz, stop.mode));
-        assert_eq!((lab.race().tick(), lab.running()), (0, true));
-        (0..5).for_each(|_| lab.tick());
+        assert_eq!(lab.display().instrument, stop.instrument, "{}", stop.title);
+        let is_stepped = matches!(stop.goal, Goal::SteppedTo(_));
+        assert_eq!((lab.race().tick(), lab.running()), (0, !is_stepped));
+        if !is_stepped {
+            (0..5).for_each(|_| lab.tick());
+        }
         lab.apply(Command::Predict(stop.right));
         assert!(!is_done(&lab), "{} is done before it begins", stop.title);
         assert!(!stop.keys.is_empty());
@@ -61,8 +65,6 @@ fn stops_name_scenes_and_methods_that_there_are_and_keys_between_pairs_of_backti
 #[test]
 fn the_guide_closes_with_escape_and_opens_where_it_was_left() {
     let mut lab = lab_at(3);
-    lab.apply(Command::NextScene);
-    assert_eq!(lab.viewer().tour().unwrap().place(), 3, "another scene leaves it open");
     assert_eq!(lab.apply(Command::Escape), None);
     assert!(lab.viewer().tour().is_none());
     lab.apply(Command::ToggleGuide);
@@ -72,14 +74,54 @@ fn the_guide_closes_with_escape_and_opens_where_it_was_left() {
     assert_eq!(lab.viewer().tour().unwrap().place(), STOPS.len() - 1);
 }
 
+fn place_of(goal: Goal) -> usize {
+    STOPS.iter().position(|stop| stop.goal == goal).expect("a stop of this goal")
+}
+
 #[test]
-fn a_task_done_in_another_scene_does_not_count() {
-    let place = STOPS.iter().position(|stop| stop.goal == Goal::Race).unwrap();
-    let mut lab = lab_at(place);
+fn what_a_stop_says_never_stays_over_another_scene_or_mode() {
+    let place = place_of(Goal::Race);
+    for elsewhere in [
+        Command::NextScene,
+        Command::PreviousScene,
+        Command::Scene(0),
+        Command::Loop(LoopCommand::ToggleLab),
+    ] {
+        let mut lab = lab_at(place);
+        lab.apply(elsewhere.clone());
+        assert!(lab.viewer().tour().is_none(), "{elsewhere:?}");
+        let notice = lab.viewer().notice.as_deref().expect("the way back");
+        assert!(notice.contains("F2"), "{notice}");
+        lab.apply(Command::ToggleGuide);
+        assert_eq!(lab.viewer().tour().map(|tour| tour.place()), Some(place));
+        assert_eq!(lab.scene().name, STOPS[place].scene);
+        assert!(lab.loop_lab().is_none());
+    }
+    // The loop lab is what this stop is about; another scene in it is not.
+    let mut lab = lab_at(place_of(Goal::LoopLab));
+    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    assert!(is_done(&lab));
     lab.apply(Command::NextScene);
-    lab.apply(Command::ToggleRace);
-    assert_eq!(lab.mode(), Mode::Race);
-    assert!(!is_done(&lab));
+    assert!(lab.loop_lab().is_some() && lab.viewer().tour().is_none());
+}
+
+#[test]
+fn the_guide_visits_the_instruments_that_explain_and_the_loop_lab() {
+    let visits = |instrument: Instrument| {
+        let mut stops = STOPS.iter();
+        stops.any(|stop| stop.instrument == instrument || stop.goal == Goal::Instrument(instrument))
+    };
+    for instrument in [
+        Instrument::OneStep,
+        Instrument::StabilityMap,
+        Instrument::Energy,
+        Instrument::Phase,
+        Instrument::Cost,
+        Instrument::Error,
+    ] {
+        assert!(visits(instrument), "{}", instrument.name());
+    }
+    assert!(STOPS.iter().any(|stop| stop.goal == Goal::LoopLab));
 }
 
 fn verdict(scene: &str, id: &str, tick_hz: u32) -> Verdict {
@@ -125,6 +167,12 @@ fn the_errors_on_the_ship_are_those_that_the_guide_names() {
     let improved = error_percent("improved-euler", 2).abs();
     assert!((0.025..0.035).contains(&improved), "{improved}");
     assert!((50.0..70.0).contains(&(euler / improved)), "{}", euler / improved);
+    let mut scene = Scene::built_in("ship").unwrap();
+    scene.tick_hz = 2;
+    let mut race = Race::new(&scene, [(0, LaneSpec::plain(method("explicit-euler").unwrap()))]);
+    race.run(17);
+    let position = |lane: &regatta::lab::Lane| lane.bodies()[0].stepper.q()[0];
+    assert!(position(&race.entrants()[0].lane) < position(race.truth()), "it is behind");
     let rk4 = error_percent("rk4", 2).abs();
     assert!((3e-6..5e-6).contains(&rk4), "{rk4}");
 }
@@ -195,6 +243,70 @@ fn runge_kutta_on_the_ship_comes_within_rounding_and_then_more_ticks_take_no_err
     let [fine, finest] = [240, 10_000].map(|hz| error_percent("rk4", hz).abs());
     // Truncation alone would be three million times smaller.
     assert!(finest > 0.1 * fine, "{fine} {finest}");
+}
+
+#[test]
+fn each_step_of_explicit_euler_makes_the_swing_18_percent_wider_at_10_hz() {
+    let mut lab = lab_at(place_of(Goal::SteppedTo(3)));
+    let omega = std::f64::consts::TAU;
+    let swing = |[q, v]: [f64; 2]| q.hypot(v / omega);
+    for _ in 0..4 {
+        let OneStep { from, landing, .. } = lab.one_step().expect("a next step");
+        let wider = swing(landing.expect("it lands")) / swing(from);
+        assert!((1.175..1.185).contains(&wider), "{wider}");
+        lab.apply(Command::TickForward);
+    }
+}
+
+#[test]
+fn semi_implicit_euler_keeps_the_energy_to_5_percent_and_explicit_euler_does_not() {
+    let drifts = |id: &str, seconds: u64| {
+        let scene = Scene::built_in("spring").unwrap();
+        let mut race = Race::new(&scene, [(0, LaneSpec::plain(method(id).unwrap()))]);
+        let energy = |race: &Race| race.entrants()[0].lane.bodies()[0].stepper.energy().unwrap();
+        let start = energy(&race);
+        (0..60 * seconds).fold(0.0_f64, |most, _| {
+            race.run(1);
+            most.max((energy(&race) / start - 1.0).abs())
+        })
+    };
+    let [second, minute] = [1, 60].map(|seconds| drifts("semi-implicit-euler", seconds));
+    assert!(
+        (0.045..0.056).contains(&second) && (0.045..0.056).contains(&minute),
+        "{second} {minute}"
+    );
+    assert!(drifts("explicit-euler", 1) > 0.5);
+}
+
+#[test]
+fn a_spring_4_times_as_stiff_needs_2_times_the_tick_rate() {
+    let is_bounded = |stiffness: f64, hz: u32| {
+        let mut scene = Scene::built_in("stiff").unwrap();
+        let body = &mut scene.bodies[0];
+        let key = "stiffness_n_per_m";
+        let place = body.kind.parameters.iter().position(|it| it.key == key).unwrap();
+        body.values[place] *= stiffness;
+        let spec = LaneSpec::plain(method("semi-implicit-euler").unwrap());
+        Judge::new(&scene, 1.0).verdict(spec, hz).is_bounded
+    };
+    assert_eq!([49, 50].map(|hz| is_bounded(1.0, hz)), [Some(false), Some(true)]);
+    assert_eq!([99, 100].map(|hz| is_bounded(4.0, hz)), [Some(false), Some(true)]);
+}
+
+#[test]
+fn the_fixed_loop_judders_by_12_ms_and_the_one_that_counts_refreshes_does_not() {
+    let mut lab = lab_at(place_of(Goal::LoopLab));
+    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    let loops: &LoopLab = lab.loop_lab().expect("it opens");
+    assert_eq!(loops.slowness(), 8);
+    let shown: Vec<(&str, f64)> = loops
+        .on_stage()
+        .iter()
+        .map(|&place| &loops.lanes()[place])
+        .map(|lane| (lane.card().id, lane.report().animation_error_rms_ms.unwrap()))
+        .collect();
+    let [("fixed", fixed), ("whole-refresh", whole)] = shown[..] else { panic!("{shown:?}") };
+    assert!((11.5..12.5).contains(&fixed) && whole < 1e-6, "{shown:?}");
 }
 
 #[test]

@@ -173,6 +173,45 @@ fn explicit_euler_is_calm_on_all_three_ships_one_press_higher() {
 }
 
 #[test]
+fn the_ship_under_explicit_euler_is_faster_than_the_ghost_and_behind_it_all_the_way() {
+    let mut lab = open("ship");
+    while lab.race().t() < lab.scene().seconds {
+        lab.tick();
+        let [ship, ghost] = [&lab.race().entrants()[0].lane, lab.race().truth()]
+            .map(|lane| [lane.bodies()[0].stepper.q()[0], lane.bodies()[0].stepper.v()[0]]);
+        assert!(ship[1] > ghost[1] && ship[0] < ghost[0], "{ship:?} {ghost:?}");
+    }
+}
+
+#[test]
+fn after_home_the_next_step_of_the_tour_is_shown_and_what_brings_back_the_run_after_the_last() {
+    let mut lab = open("spring");
+    let restart_later = |lab: &mut Lab| {
+        press(lab, &[Key::Digit(2)]);
+        (0..10).for_each(|_| lab.tick());
+        press(lab, &[Key::Home]);
+        (lab.hint(), lab.viewer().notice.as_deref().map(str::to_owned))
+    };
+    let (hint, notice) = restart_later(&mut lab);
+    assert_eq!((hint.unwrap().contains("`C`"), notice), (true, None));
+    for command in [
+        Command::ToggleRace,
+        Command::TickBack,
+        Command::NextInstrument,
+        Command::TickRateUp,
+        Command::ToggleGuide,
+        Command::Escape,
+        // The hint of the scene that the guide opened.
+        Command::ToggleRace,
+        Command::ToggleRace,
+    ] {
+        lab.apply(command);
+    }
+    let (hint, notice) = restart_later(&mut lab);
+    assert_eq!((hint, notice.is_some_and(|told| told.contains("Ctrl Z"))), (None, true));
+}
+
+#[test]
 fn the_arrows_steer_the_helm_from_the_first_press_on() {
     let mut lab = open("helm");
     press(&mut lab, &[Key::Right, Key::Right, Key::Up, Key::Down]);

@@ -278,7 +278,7 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         lab.apply(Command::Act(Action::Kick(-0.4)));
         assert_eq!((lab.timeline().end(), lab.timeline().is_in_past()), (400, false));
         assert_eq!(lab.timeline().session().journal().rows().len(), rows, "one came, one went");
-        let notice = lab.viewer().notice.clone().expect("it says so");
+        let notice = lab.viewer().notice.as_deref().expect("it says so");
         assert!(notice.contains("Ctrl Z"), "{notice}");
         (0..900).for_each(|_| lab.tick());
         assert_ne!(shown(lab.timeline()).hashes, end.hashes);

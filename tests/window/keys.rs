@@ -35,6 +35,7 @@ fn x_name(key: Key) -> String {
         Key::Right => "Right".into(),
         Key::Down => "Down".into(),
         Key::Home => "Home".into(),
+        Key::PageUp => "Page_Up".into(),
         Key::PageDown => "Page_Down".into(),
         Key::Enter => "Return".into(),
         Key::Escape => "Escape".into(),

@@ -176,10 +176,11 @@ impl Twin {
         self.show([Event::PointerMoved(ASIDE)]);
     }
 
-    /// Waits for the window to show what is shown here.
+    /// Waits for the window to show what is shown here, without notices, which leave.
     #[track_caller]
     pub(crate) fn looks_alike(&mut self, desk: &Desk) {
         self.move_aside(desk);
+        self.lab.rest(i64::MAX);
         self.settle();
         let drawing = self.frame(None).drawing;
         let mut rgba = Vec::new();

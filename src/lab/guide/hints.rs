@@ -3,7 +3,6 @@
 
 use crate::lab::analysis::Outcome;
 use crate::lab::command::Command;
-use crate::lab::instrument::Instrument;
 use crate::lab::key::{KEYS, Key};
 
 /// What a hint after the scene's own asks for.
@@ -29,8 +28,11 @@ static LEADS: [Lead; 6] = [
         },
     },
     Lead {
-        text: "Press `T` for the next instrument: errors, energy, phase.",
-        is_done_by: |command| matches!(command, Command::NextInstrument | Command::Instrument(_)),
+        text: "Press `T` until the stability map is there, and drag its cross.",
+        is_done_by: |command| {
+            let is_next = matches!(command, Command::NextInstrument | Command::PreviousInstrument);
+            is_next || matches!(command, Command::Instrument(_))
+        },
     },
     Lead {
         text: "Press `[` and `]` to change the tick rate: who survives a coarse one?",
@@ -45,9 +47,6 @@ static LEADS: [Lead; 6] = [
         },
     },
 ];
-
-/// The place of the lead that names the instruments.
-const INSTRUMENTS: usize = 3;
 
 /// Which hints a person has followed.
 #[derive(Clone, Debug, Default)]
@@ -84,10 +83,6 @@ impl Hints {
         let next = self.leads.iter().position(|done| !done)?;
         if next == 0 && hint.is_some() {
             return Some(format!("{method} {}. {}", reaction(outcome), LEADS[0].text));
-        }
-        let has_map = Instrument::all().any(|instrument| instrument.name().contains("tability"));
-        if next == INSTRUMENTS && has_map {
-            return Some("Press `T` until the stability map is there, and drag its cross.".into());
         }
         Some(LEADS[next].text.to_owned())
     }
@@ -151,6 +146,7 @@ fn is_named(key: Key, name: &str) -> bool {
         Key::Left => name == "←",
         Key::Right => name == "→",
         Key::Home => name == "Home",
+        Key::PageUp => name == "Page Up",
         Key::PageDown => name == "Page Down",
         Key::Enter => name == "Enter",
         Key::Escape => name == "Esc",

@@ -5,7 +5,6 @@ use crate::lab::action::Action;
 use crate::lab::command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 use crate::lab::display::DriverRequest;
 use crate::lab::equal_cost::equal_cost;
-use crate::lab::guide::STOPS;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::loop_lab::LoopCommand;
 use crate::lab::metrics::METRICS;
@@ -92,7 +91,8 @@ impl Lab {
             }
             Command::Undo => self.undo(),
             Command::Restart => {
-                if self.restart_keeping_run() {
+                // A hint leads on; the old run is a click away on the timeline.
+                if self.restart_keeping_run() && self.hint().is_none() {
                     self.set_notice("restarted: Ctrl Z brings back the run");
                 }
             }
@@ -164,12 +164,8 @@ impl Lab {
             Command::Escape if self.viewer.display.help => self.viewer.display.help = false,
             Command::ToggleGuide => self.toggle_guide(),
             Command::GoToStop(place) => self.go_to_stop(place),
-            Command::NextStop => {
-                let next = self.viewer.tour.as_ref().map(|tour| tour.place() + 1);
-                next.filter(|place| *place < STOPS.len())
-                    .into_iter()
-                    .for_each(|place| self.go_to_stop(place));
-            }
+            Command::NextStop => self.go_to_stop_beside(1),
+            Command::PreviousStop => self.go_to_stop_beside(-1),
             Command::Predict(choice) => {
                 self.viewer.tour.iter_mut().for_each(|tour| tour.predict(choice));
             }
@@ -210,7 +206,7 @@ impl Lab {
         }
         let discarded = was_past.then(|| {
             let tick = self.race().tick();
-            format!("a new future begins at tick {tick}: Ctrl Z restores the old one")
+            format!("you changed the past at tick {tick}: Ctrl Z takes it back")
         });
         let released = released.map(|control| {
             format!("the {} is yours: the script leaves it alone until a restart", control.name())

@@ -41,6 +41,7 @@ impl Lab {
             self.viewer.live.jump();
             return Due::default();
         }
+        self.viewer.pass(frame_ns);
         if let Some(loops) = &mut self.loop_lab {
             loops.advance(frame_ns);
             return Due::default();
@@ -91,8 +92,8 @@ impl Lab {
     }
 
     pub(super) fn tell(&mut self, told: Option<String>) {
-        if told.is_some() {
-            self.viewer.notice = told;
+        if let Some(told) = told {
+            self.set_notice(told);
         }
     }
 

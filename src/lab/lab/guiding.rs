@@ -2,7 +2,7 @@
 
 use super::Lab;
 use crate::lab::command::Command;
-use crate::lab::guide::{Hints, STOPS, Situation, Stop, Tour, suits_race};
+use crate::lab::guide::{Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
 use crate::lab::interpolation::Interpolation;
 use crate::lab::race::Mode;
 use crate::lab::scene::SCENES;
@@ -12,11 +12,16 @@ impl Lab {
     pub fn hint(&self) -> Option<String> {
         if let Some(tour) = &self.viewer.tour {
             let is_last = tour.place() + 1 == STOPS.len();
-            let next = match is_last {
-                true => "That was the last stop. Press `Esc` to close the guide.",
-                false => "Press `Page Down` for the next stop, or `Esc` to close the guide.",
+            let next = match (tour.is_done(), is_last) {
+                (true, true) => "That was the last stop. Press `Esc` to close the guide.",
+                (true, false) => {
+                    "Press `Page Down` for the next stop, or `Esc` to close the guide."
+                }
+                (false, _) => {
+                    "`Page Down` goes to the next stop, `Page Up` back, `Esc` closes the guide."
+                }
             };
-            return Some(if tour.is_done() { next } else { tour.stop().task }.to_owned());
+            return Some(next.to_owned());
         }
         let entry = self.active();
         let outcome = self.viewer.verdict(entry).map(|verdict| verdict.outcome);
@@ -41,10 +46,27 @@ impl Lab {
         }
     }
 
-    /// Opens this stop of the guide: its scene from the start, running in real time, under its method and rate.
+    /// Closes the guide, as what it tells of is no longer shown.
+    pub(super) fn leave_guide(&mut self) {
+        if let Some(tour) = self.viewer.tour.take() {
+            self.viewer.left_at = tour.place();
+            self.set_notice("the guide is closed: F2 opens it where you left it");
+        }
+    }
+
+    /// Opens the stop so many further on, if the guide is open and has one.
+    pub(super) fn go_to_stop_beside(&mut self, step: isize) {
+        let Some(tour) = &self.viewer.tour else { return };
+        let place = tour.place().checked_add_signed(step).filter(|place| *place < STOPS.len());
+        place.into_iter().for_each(|place| self.go_to_stop(place));
+    }
+
+    /// Opens this stop of the guide: its scene from the start under its method and rate, and its instrument. Time runs,
+    /// unless a person is to step.
     pub(super) fn go_to_stop(&mut self, place: usize) {
         let tour = Tour::at(place);
-        let Stop { scene, method, tick_hz, mode, .. } = *tour.stop();
+        let Stop { scene, method, tick_hz, mode, instrument, goal, .. } = *tour.stop();
+        self.viewer.tour = None;
         let listed = SCENES.iter().position(|built_in| built_in.name == scene);
         self.open(listed.expect("a stop names a built-in scene"));
         let method = self.entries().iter().position(|spec| spec.method.id == method);
@@ -53,7 +75,8 @@ impl Lab {
         self.start.mode = mode;
         self.restart();
         self.clock.set_speed_percent(100);
-        self.running = true;
+        self.running = !matches!(goal, Goal::SteppedTo(_));
+        self.viewer.display.instrument = instrument;
         self.viewer.display.interpolation = Interpolation::Hermite;
         self.viewer.tour = Some(tour);
     }
@@ -61,15 +84,14 @@ impl Lab {
     /// Notes whether the task of the guide's stop is done.
     pub(super) fn look_at_goal(&mut self) {
         let Some(mut tour) = self.viewer.tour.take() else { return };
-        if self.scene().name == tour.stop().scene {
-            tour.look(&Situation {
-                race: self.race(),
-                method: self.entries()[self.active()].method.id,
-                speed_percent: self.clock.speed_percent(),
-                is_running: self.running,
-                display: self.display(),
-            });
-        }
+        tour.look(&Situation {
+            race: self.race(),
+            method: self.entries()[self.active()].method.id,
+            speed_percent: self.clock.speed_percent(),
+            is_running: self.running,
+            is_in_loop_lab: self.loop_lab.is_some(),
+            display: self.display(),
+        });
         self.viewer.tour = Some(tour);
     }
 }
@@ -80,15 +102,22 @@ mod tests {
     use crate::lab::{Key, Scene, command_for};
 
     #[test]
-    fn a_key_goes_to_the_next_stop_of_the_open_guide_and_stays_at_the_last() {
-        let (next, _) = command_for(Key::PageDown).expect("a key of the table");
+    fn keys_go_through_the_stops_of_the_open_guide_both_ways_and_stay_at_its_ends() {
+        let [next, back] = [Key::PageDown, Key::PageUp].map(|key| command_for(key).unwrap().0);
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         lab.apply(next.clone());
+        lab.apply(back.clone());
         assert!(lab.viewer.tour.is_none(), "the guide is closed");
         lab.apply(Command::ToggleGuide);
-        for place in (1..STOPS.len()).chain([STOPS.len() - 1]) {
-            lab.apply(next.clone());
-            assert_eq!(lab.viewer.tour.as_ref().map(Tour::place), Some(place));
+        let last = STOPS.len() - 1;
+        for (command, places) in [
+            (next, (1..=last).chain([last]).collect::<Vec<_>>()),
+            (back, (0..last).rev().chain([0]).collect()),
+        ] {
+            for place in places {
+                lab.apply(command.clone());
+                assert_eq!(lab.viewer.tour.as_ref().map(Tour::place), Some(place));
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Lab;
 use crate::lab::command::{Command, TICK_LADDER};
+use crate::lab::guide::Goal;
 use crate::lab::instrument::Instrument;
 use crate::lab::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
 use crate::lab::pacing::FrameTrace;
@@ -32,6 +33,9 @@ impl Lab {
         self.viewer.display.inspector = false;
         self.viewer.held = None;
         self.viewer.notice = None;
+        if self.viewer.tour.as_ref().is_some_and(|tour| tour.stop().goal != Goal::LoopLab) {
+            self.leave_guide();
+        }
         self.running = true;
     }
 
@@ -151,7 +155,6 @@ impl Lab {
             | Command::NextInterpolation
             | Command::ToggleInspector
             | Command::Record
-            | Command::ToggleGuide
             | Command::Seek(_) => {
                 self.set_notice("not in the loop lab: L leaves it");
             }

@@ -53,25 +53,26 @@ impl Lab {
         let name = self.scene_name();
         if is_equal {
             self.viewer.dialog.take_if(|dialog| matches!(dialog, Dialog::Mistakes { .. }));
-            return self
-                .set_notice(format!("{name} changed in nothing that runs: the run goes on"));
+            return self.set_notice(format!("{name} saved; nothing that matters changed"));
         }
         let is_by_hand = is_by_hand(&self.timeline);
-        if !keeps {
+        let told = if !keeps {
             self.open(place);
-            self.set_notice(format!("{name} changed: it begins again, with other lanes or bodies"));
+            "reloaded from the start, with other lanes or bodies".into()
         } else if tick > LONGEST_RERUN {
             self.run_again(place, 0);
-            self.set_notice(format!("{name} changed: it begins again, as tick {tick} is far"));
+            format!("reloaded from the start, as tick {tick} is far")
         } else {
             self.run_again(place, tick);
-            self.set_notice(format!("{name} changed: run again to tick {tick}"));
-        }
-        if is_by_hand && let Some(notice) = &mut self.viewer.notice {
-            *notice += ", without what was done by hand";
+            format!("reloaded and rerun to tick {tick}")
+        };
+        let left_out = match (is_by_hand, keeps) {
+            (false, _) => "",
+            (true, true) => " (your kicks and edits left out; Ctrl Z: old run)",
             // Another scene has another lab.
-            *notice += if keeps { ": Ctrl Z brings back the old run" } else { "" };
-        }
+            (true, false) => " (your kicks and edits left out)",
+        };
+        self.set_notice(format!("{name}: {told}{left_out}"));
     }
 
     /// Shows why the scene at the typed path, which is that of the file at `path`, cannot be opened. The field for the
@@ -145,8 +146,8 @@ impl Lab {
         self.open(self.scene_list.open().map_or(0, |here| (here + offset) % count));
     }
 
-    /// Opens the scene at this place of the list, modulo its length, under the scene's opening method. The look stays,
-    /// and so does the mode, unless the scene opens as a race.
+    /// Opens the scene at this place of the list, modulo its length, under the scene's opening method, and closes the
+    /// guide, which is about another. The look stays, and so does the mode, unless the scene opens as a race.
     pub(super) fn open(&mut self, place: usize) {
         let place = place % self.scene_list.count();
         let mut lab = Lab::new(self.scene_list.scene(place));
@@ -168,6 +169,7 @@ impl Lab {
         let file = lab.scene_list.file(place);
         let mistakes = file.and_then(|file| Some((file.name(), file.mistakes.clone()?)));
         lab.viewer.dialog = mistakes.map(|(file, report)| Dialog::Mistakes { file, report });
+        lab.leave_guide();
         *self = lab;
     }
 }

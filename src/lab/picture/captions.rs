@@ -77,6 +77,9 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, entra
     }
 }
 
+/// What the stage says of a body whose truth is not tried.
+const NO_COMPARISON: &str = "Too many springs for an exact comparison; judged by its energy.";
+
 /// Says at the foot of a cell what no longer goes on in it: bodies, where the lane's name does not say so, and
 /// the truth.
 pub(super) fn halts<'h>(
@@ -96,12 +99,14 @@ pub(super) fn halts<'h>(
     });
     let of_bodies: Vec<String> = of_bodies.collect();
     let of_bodies = (!of_bodies.is_empty()).then(|| of_bodies.join(" · "));
-    let of_truth = truth
-        .halted()
-        .map(|halt| format!("{} from tick {} on", truth.truth().missing(), halt.tick));
-    for (words, y) in of_bodies.into_iter().chain(of_truth).zip([12.0, 27.0]) {
+    let of_truth = truth.halted().map(|halt| match halt.failure.is_foreseen() {
+        true => (NO_COMPARISON.to_owned(), palette.dim),
+        false => (format!("{} from tick {} on", truth.truth().missing(), halt.tick), palette.bad),
+    });
+    let of_bodies = of_bodies.map(|words| (words, palette.bad));
+    for ((words, colour), y) in of_bodies.into_iter().chain(of_truth).zip([12.0, 27.0]) {
         let at = [rect.min[0] + 9.0 + inset(rect), rect.max[1] - y];
-        picture.labels.push(text(palette, at, Align::Left, 11.0, palette.bad, words));
+        picture.labels.push(text(palette, at, Align::Left, 11.0, colour, words));
     }
 }
 

@@ -186,7 +186,8 @@ impl Timeline {
 
     fn note_halts(&mut self) {
         let race = self.session.race();
-        self.halts.extend(race.just_halted().map(|(place, halt)| {
+        let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
+        self.halts.extend(halts.map(|(place, halt)| {
             let lane = place.map_or(0, |place| race.entrants()[place].lane_number);
             let is_blow_up = halt.is_blow_up();
             Event { tick: halt.tick, kind: EventKind::Halted { lane, body: halt.body, is_blow_up } }

@@ -55,6 +55,13 @@ pub enum StepFailure {
     },
 }
 
+impl StepFailure {
+    /// Whether it is known before the first step, and nothing went wrong: a reference solution was not tried.
+    pub fn is_foreseen(&self) -> bool {
+        matches!(self, Self::ReferenceTooDear { .. })
+    }
+}
+
 impl std::error::Error for StepFailure {}
 
 impl fmt::Display for StepFailure {
@@ -83,8 +90,8 @@ impl fmt::Display for StepFailure {
             ),
             Self::ReferenceTooDear { work_per_s, most } => write!(
                 f,
-                "has no reference solution, which would evaluate some {work_per_s:.0e} springs per simulated second; at \
-                 most {most:.0e} are spent",
+                "has no reference solution: too many springs for an exact comparison, some {work_per_s:.0e} evaluations \
+                 per simulated second, and the limit is {most:.0e}",
             ),
             Self::Refused { reason } => write!(f, "cannot be stepped by this method: {reason}"),
             Self::NotFinite { coordinate, value } => {

@@ -11,6 +11,8 @@ pub(super) const HEIGHT: f32 = 32.0;
 
 /// From this width on, in points, there are keys beside the hint.
 const ROOM_FOR_KEYS: f32 = 560.0;
+/// The size of the count of dropped ticks, in points.
+const DROPPED: f32 = 11.0;
 /// The room between two hints, in points.
 const GAP: f32 = 16.0;
 
@@ -25,14 +27,14 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         if lab.dropped() > 0 && lab.loop_lab().is_none() {
-            let text = match lab.dropped() {
-                1 => "1 tick dropped".to_owned(),
-                many => format!("{many} ticks dropped"),
-            };
-            ui.label(RichText::new(text).color(ink(ui).bad))
-                .on_hover_text("the simulation fell behind real time and gave these up");
-            ui.add_space(GAP);
-        } else if width >= ROOM_FOR_KEYS {
+            let count = lab.dropped();
+            let ticks = if count == 1 { "tick" } else { "ticks" };
+            let text = RichText::new(format!("−{count} {ticks}")).size(DROPPED);
+            let about = format!("{count} {ticks} dropped: the simulation fell behind real time");
+            let response = ui.label(text.color(ink(ui).bad)).on_hover_text(&about);
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &about));
+        }
+        if width >= ROOM_FOR_KEYS {
             // From the right: the first are the last to go.
             for hint in key_hints(lab) {
                 if ui.available_width() - width_of(ui, &hint) < room_for_hint {
@@ -52,9 +54,11 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 /// The notice, or else the hint, or else what the scene is about; and whether it is one of the first two.
 fn sentence(lab: &Lab) -> (String, bool) {
     if let Some(notice) = &lab.viewer().notice {
-        return (notice.clone(), true);
+        return (notice.to_string(), true);
     }
-    if let Some(loops) = lab.loop_lab() {
+    if let Some(loops) = lab.loop_lab()
+        && lab.viewer().tour().is_none()
+    {
         return (loops::hints::sentence(loops), true);
     }
     match lab.hint() {

@@ -37,18 +37,23 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
             if ui.button("Close").on_hover_text("close the guide (Esc)").clicked() {
                 commands.push(Command::ToggleGuide);
             }
-            let key = RichText::new("Page Down").size(11.0).color(ink(ui).dim);
-            let next = Button::new("Next").right_text(key);
+            let dim = ink(ui).dim;
+            let key = |name: &str| RichText::new(name).size(11.0).color(dim);
+            let next = Button::new("Next").right_text(key("Page Down"));
             let next = if tour.is_done() { next.selected(true) } else { next };
             let next = ui.add_enabled(place + 1 < count, next);
             next.widget_info(|| {
-                egui::WidgetInfo::labeled(egui::Role::Button, place + 1 < count, "Next")
+                egui::WidgetInfo::labeled(egui::Role::Button, place + 1 < count, "Next (Page Down)")
             });
             if next.clicked() {
                 commands.push(Command::NextStop);
             }
-            if ui.add_enabled(place > 0, Button::new("Back")).clicked() {
-                commands.push(Command::GoToStop(place - 1));
+            let back = ui.add_enabled(place > 0, Button::new("Back").right_text(key("Page Up")));
+            back.widget_info(|| {
+                egui::WidgetInfo::labeled(egui::Role::Button, place > 0, "Back (Page Up)")
+            });
+            if back.clicked() {
+                commands.push(Command::PreviousStop);
             }
             if ui.button("⏮").on_hover_text("show this stop again").clicked() {
                 commands.push(Command::GoToStop(place));

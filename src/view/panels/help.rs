@@ -1,16 +1,17 @@
-//! The help overlay: every key, from the one table of keys.
+//! The help overlay: every key and what the mouse does, from their tables.
 
 use egui::scroll_area::ScrollBarVisibility;
-use egui::{Align2, Order, RichText, ScrollArea, Ui, Vec2, Window, vec2};
+use egui::{Align2, FontId, Order, RichText, ScrollArea, Ui, Vec2, Window, pos2, vec2};
 
-use super::{ink, keycap};
-use crate::lab::{Binding, Command, KEYS};
+use super::{ink, keycap, short};
+use crate::lab::{Command, GESTURES, KEYS};
+use crate::view::theme::TYPE;
 
 /// From this width on, in points, the keys stand in two columns.
 const ROOM_FOR_TWO: f32 = 860.0;
 /// The width of a column, and of the keys in it.
 const COLUMN: f32 = 480.0;
-const KEY: f32 = 106.0;
+const KEY: f32 = 112.0;
 /// What a window has around its content.
 const AROUND: Vec2 = vec2(48.0, 110.0);
 
@@ -18,7 +19,8 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
     let screen = ui.ctx().content_rect().size();
     let columns = if screen.x >= ROOM_FOR_TWO { 2 } else { 1 };
     let width = (COLUMN * columns as f32).min(screen.x - AROUND.x).max(0.0);
-    let window = Window::new("Keys").order(Order::Foreground).collapsible(false).resizable(false);
+    let window =
+        Window::new("Keys and mouse").order(Order::Foreground).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ui.ctx(), |ui| {
         ui.set_width(width);
         // A bar that is there whenever there is more to see.
@@ -34,10 +36,13 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
             ui.spacing_mut().item_spacing = vec2(10.0, 3.0);
             let own = width / columns as f32 - 20.0;
             ui.horizontal_top(|ui| {
-                for part in KEYS.chunks(KEYS.len().div_ceil(columns)) {
+                let keys = KEYS.iter().map(|binding| (binding.shown, binding.about, true));
+                let mouse = GESTURES.iter().map(|gesture| (gesture.shown, gesture.about, false));
+                let rows: Vec<_> = keys.chain(mouse).collect();
+                for part in rows.chunks(rows.len().div_ceil(columns)) {
                     ui.vertical(|ui| {
                         ui.set_width(own);
-                        part.iter().for_each(|binding| row(ui, binding, own));
+                        part.iter().for_each(|of| row(ui, *of, own));
                     });
                 }
             });
@@ -55,14 +60,23 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
     });
 }
 
-fn row(ui: &mut Ui, binding: &Binding, width: f32) {
+/// Shows a key or a gesture, and what it does.
+fn row(ui: &mut Ui, (shown, about, is_key): (&str, &str, bool), width: f32) {
     ui.horizontal(|ui| {
         let size = vec2(KEY, keycap::HEIGHT);
-        let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-        keycap::paint(ui, rect.left(), rect.center().y, binding.shown, ink(ui).accent);
+        let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, shown));
+        if is_key {
+            keycap::paint(ui, rect.left(), rect.center().y, shown, ink(ui).accent);
+        } else {
+            let colour = ink(ui).accent;
+            let (words, _) = short(ui, shown, FontId::proportional(TYPE), KEY, colour);
+            let top = rect.center().y - words.size().y / 2.0;
+            ui.painter().galley(pos2(rect.left(), top), words, colour);
+        }
         ui.scope(|ui| {
             ui.set_max_width((width - KEY - 12.0).max(0.0));
-            ui.add(egui::Label::new(binding.about).wrap());
+            ui.add(egui::Label::new(about).wrap());
         });
     });
 }

@@ -98,7 +98,9 @@ pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32) {
             match piece {
                 Piece::Key(key) => {
                     let size = vec2(width(ui.painter(), key), HEIGHT - 2.0);
-                    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+                    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+                    response
+                        .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, key));
                     paint(ui, rect.left(), rect.center().y, key, ink(ui).accent);
                 }
                 Piece::Words(words) => {
@@ -112,6 +114,24 @@ pub(super) fn paragraph(ui: &mut Ui, sentence: &str, colour: Color32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_screen_reader_hears_the_keys_of_a_paragraph() {
+        let context = egui::Context::default();
+        context.enable_accesskit();
+        let mut output = context.run_ui(egui::RawInput::default(), |ui| {
+            paragraph(ui, "Press `2` to switch.", Color32::WHITE);
+        });
+        output.textures_delta.clear();
+        let update = output.platform_output.accesskit_update.take().expect("it is enabled");
+        let labels = update.nodes.iter().filter_map(|(_, node)| node.label().or(node.value()));
+        let heard: Vec<&str> =
+            labels.filter(|words| "Press 2 to switch.".contains(words)).collect();
+        assert!(
+            ["Press", "2", "to switch."].iter().all(|words| heard.contains(words)),
+            "{heard:?}"
+        );
+    }
 
     #[test]
     fn keys_stand_between_backticks() {

@@ -177,6 +177,6 @@ fn a_method_that_does_not_fit_is_not_taken_up_and_the_reason_is_told() {
     let before = lab.active();
     lab.apply(Command::Method(method("smooth-damp").unwrap()));
     assert_eq!(lab.active(), before);
-    let notice = lab.viewer().notice.clone().unwrap_or_default();
+    let notice = lab.viewer().notice.as_deref().unwrap_or_default();
     assert!(notice.contains("smooth-damp does not step the body \"spring\""), "{notice}");
 }

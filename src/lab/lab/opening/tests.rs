@@ -54,8 +54,7 @@ fn a_changed_file_with_the_same_lanes_and_bodies_is_run_again_to_the_tick() {
     assert_eq!(
         old.viewer().notice.as_deref(),
         Some(
-            "ship.toml changed: run again to tick 50, without what was done by hand: \
-             Ctrl Z brings back the old run"
+            "ship.toml: reloaded and rerun to tick 50 (your kicks and edits left out; Ctrl Z: old run)"
         )
     );
     assert_eq!((old.mode(), old.active()), (Mode::Race, 2));
@@ -76,7 +75,7 @@ fn a_file_that_changes_in_comments_only_leaves_the_run_and_its_journal_alone() {
     lab.apply(Command::Act(Action::Kick(1.0)));
     let (hash, rows) = (lab.race().state_hash(), lab.race().journal().rows().len());
     lab.reload_file(Path::new(PATH), scene(&format!("# A remark.\n{}", text("spring"))));
-    let notice = "ship.toml changed in nothing that runs: the run goes on";
+    let notice = "ship.toml saved; nothing that matters changed";
     assert_eq!(lab.viewer().notice.as_deref(), Some(notice));
     assert_eq!(lab.race().state_hash(), hash);
     assert_eq!((lab.race().tick(), lab.race().journal().rows().len()), (50, rows));
@@ -93,7 +92,7 @@ fn a_changed_file_with_other_bodies_or_lanes_begins_again() {
         (0..50).for_each(|_| lab.tick());
         lab.reload_file(Path::new(PATH), scene(&after));
         assert_eq!(lab.race().tick(), 0);
-        assert!(lab.viewer().notice.as_deref().unwrap().contains("begins again"));
+        assert!(lab.viewer().notice.as_deref().unwrap().contains("from the start"));
     }
 }
 

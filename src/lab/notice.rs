@@ -1,0 +1,67 @@
+//! A message that leaves by itself.
+
+use std::ops::Deref;
+
+/// How long a message is shown at least, and for each of its letters, in nanoseconds: time to find and to read it.
+const MIN_NS: i64 = 3_000_000_000;
+const LETTER_NS: i64 = 60_000_000;
+
+/// A message to the person, such as a screenshot's file name. It is shown for some seconds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    text: String,
+    left_ns: i64,
+}
+
+impl Notice {
+    /// How long it is still shown, in nanoseconds.
+    pub(super) fn left_ns(&self) -> i64 {
+        self.left_ns
+    }
+
+    /// Takes away so many nanoseconds of the time for which it is still shown.
+    pub(super) fn pass(&mut self, ns: i64) {
+        self.left_ns = self.left_ns.saturating_sub(ns.max(0));
+    }
+}
+
+impl From<String> for Notice {
+    fn from(text: String) -> Self {
+        let left_ns = MIN_NS + LETTER_NS * text.chars().count() as i64;
+        Self { text, left_ns }
+    }
+}
+
+impl Deref for Notice {
+    type Target = str;
+
+    fn deref(&self) -> &str {
+        &self.text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lab::{Lab, Scene};
+
+    #[test]
+    fn a_notice_leaves_after_some_seconds_and_a_long_one_later_whether_time_runs_or_not() {
+        for is_running in [true, false] {
+            let shown_s = |words: &str| {
+                let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+                lab.running = is_running;
+                lab.set_notice(words);
+                let mut frames = 0;
+                while lab.viewer().notice.is_some() {
+                    lab.advance(100_000_000);
+                    lab.rest(if is_running { 0 } else { 100_000_000 });
+                    frames += 1;
+                }
+                assert_eq!(lab.notice_left_ns(), None);
+                f64::from(frames) / 10.0
+            };
+            let [short, long] = [shown_s("saved"), shown_s(&"word ".repeat(20))];
+            assert!((3.0..4.0).contains(&short) && (8.0..10.0).contains(&long), "{short} {long}");
+        }
+    }
+}
