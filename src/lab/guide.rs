@@ -7,6 +7,7 @@ use super::display::Display;
 use super::instrument::Instrument;
 use super::interpolation::Interpolation;
 use super::key::Key;
+use super::quantity::Quantity;
 use super::race::{Mode, Race};
 
 mod hints;
@@ -30,6 +31,8 @@ pub struct Stop {
     pub mode: Mode,
     /// The instrument that it opens, in which the answer is seen.
     pub instrument: Instrument,
+    /// The quantity that *Motion* shows, and whose error *Error* shows.
+    pub quantity: Quantity,
     /// What happens here, and the question. Keys stand between backticks.
     pub question: &'static str,
     /// The predictions to choose from.

@@ -1,8 +1,8 @@
 //! The guide: every stop is done by its keys and by nothing less, and what it claims is so.
 
 use regatta::lab::{
-    Command, Goal, Instrument, Judge, Lab, LaneSpec, LoopCommand, LoopLab, OneStep, Outcome, Race,
-    SCENES, STOPS, Scene, Verdict, command_for,
+    Command, Goal, Instrument, Judge, Lab, LaneSpec, LoopCommand, LoopLab, METRICS, OneStep,
+    Outcome, Quantity, Race, SCENES, STOPS, Scene, Verdict, command_for,
 };
 use regatta::sim::integrators::method;
 
@@ -26,6 +26,12 @@ fn every_stop_opens_as_it_says_and_is_done_by_its_last_key_at_the_latest() {
         assert_eq!(lab.entries()[lab.active()].method.id, stop.method, "{}", stop.title);
         assert_eq!((lab.clock().tick_hz(), lab.mode()), (stop.tick_hz, stop.mode));
         assert_eq!(lab.display().instrument, stop.instrument, "{}", stop.title);
+        assert_eq!(lab.display().quantity, stop.quantity, "{}", stop.title);
+        let shown = METRICS[lab.display().metric].name;
+        assert!(shown.starts_with(stop.quantity.name()), "{}: {shown}", stop.title);
+        if stop.question.contains("speed") && stop.instrument == Instrument::Motion {
+            assert_eq!(stop.quantity, Quantity::Velocity, "{}", stop.title);
+        }
         let is_stepped = matches!(stop.goal, Goal::SteppedTo(_));
         assert_eq!((lab.race().tick(), lab.running()), (0, !is_stepped));
         if !is_stepped {

@@ -4,6 +4,8 @@ use super::Lab;
 use crate::lab::command::Command;
 use crate::lab::guide::{Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
 use crate::lab::interpolation::Interpolation;
+use crate::lab::metrics::METRICS;
+use crate::lab::quantity::Quantity;
 use crate::lab::race::Mode;
 use crate::lab::scene::SCENES;
 
@@ -65,7 +67,7 @@ impl Lab {
     /// unless a person is to step.
     pub(super) fn go_to_stop(&mut self, place: usize) {
         let tour = Tour::at(place);
-        let Stop { scene, method, tick_hz, mode, instrument, goal, .. } = *tour.stop();
+        let Stop { scene, method, tick_hz, mode, instrument, quantity, goal, .. } = *tour.stop();
         self.viewer.tour = None;
         let listed = SCENES.iter().position(|built_in| built_in.name == scene);
         self.open(listed.expect("a stop names a built-in scene"));
@@ -77,6 +79,8 @@ impl Lab {
         self.clock.set_speed_percent(100);
         self.running = !matches!(goal, Goal::SteppedTo(_));
         self.viewer.display.instrument = instrument;
+        self.viewer.display.quantity = quantity;
+        self.viewer.display.metric = error_of(quantity);
         self.viewer.display.interpolation = Interpolation::Hermite;
         self.viewer.tour = Some(tour);
     }
@@ -94,6 +98,15 @@ impl Lab {
         });
         self.viewer.tour = Some(tour);
     }
+}
+
+/// The place of the metric that compares this quantity with the truth's.
+fn error_of(quantity: Quantity) -> usize {
+    let id = match quantity {
+        Quantity::Position => "position_error",
+        Quantity::Velocity => "velocity_error",
+    };
+    METRICS.iter().position(|metric| metric.id == id).expect("there is such a metric")
 }
 
 #[cfg(test)]
