@@ -165,7 +165,7 @@ impl App {
         let Some(canvas) = &mut self.canvas else { return };
         // Text for a field that is not shown yet waits until it is.
         let early = if waits_for_field { canvas.take_events() } else { Vec::new() };
-        let drawn = canvas.draw(&self.lab);
+        let drawn = canvas.draw(&self.lab, &mut self.clipboard);
         canvas.put_back(early);
         match drawn {
             Ok(Drawn::Shown { commands, repaint_after }) => {
@@ -348,6 +348,7 @@ impl ApplicationHandler<Event> for App {
         if matches!(event, WindowEvent::RedrawRequested) {
             return self.frame(event_loop);
         }
+        self.fetch_pasted(&event);
         let Some(canvas) = &mut self.canvas else { return };
         let before = canvas.egui.egui_input().events.len();
         let response = canvas.egui.on_window_event(&canvas.window, &event);

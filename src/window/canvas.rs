@@ -6,6 +6,7 @@ use std::time::Duration;
 use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::Window;
 
+use super::clipboard::Clipboard;
 use super::{Event, WindowError, screen_reader};
 use crate::lab::{Command, Lab};
 use crate::view::{FrameRenderer, Gpu, Screen};
@@ -82,8 +83,12 @@ impl Canvas {
         }
     }
 
-    /// Draws a frame and shows it.
-    pub(super) fn draw(&mut self, lab: &Lab) -> Result<Drawn, WindowError> {
+    /// Draws a frame and shows it. What was copied from a text field goes to the clipboard.
+    pub(super) fn draw(
+        &mut self,
+        lab: &Lab,
+        clipboard: &mut Clipboard,
+    ) -> Result<Drawn, WindowError> {
         if self.surface_is_lost || self.gpu.is_lost() {
             self.renew()?;
         }
@@ -96,6 +101,7 @@ impl Canvas {
         if let Some(drawing) = output.drawing {
             self.gpu.queue.submit([drawing]);
         }
+        clipboard.set_copied(&output.platform.commands);
         self.egui.handle_platform_output(&self.window, output.platform);
         self.window.pre_present_notify();
         self.gpu.queue.present(texture);

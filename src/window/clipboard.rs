@@ -1,8 +1,14 @@
-//! The clipboard of the desktop.
+//! The clipboard of the desktop. What is copied from a text field reaches it, and what is on it can be pasted into one:
+//! egui's own clipboard, which keeps a text within the window, is filled from it before each paste.
 
+use winit::event::{ElementState, KeyEvent, WindowEvent};
+use winit::keyboard::{Key as Logical, KeyCode, NamedKey, PhysicalKey};
+
+use super::App;
 use super::error::reason;
+use super::keys::Modifiers;
 
-/// The clipboard, opened when something is copied first.
+/// The clipboard, opened when something is copied or pasted first.
 #[derive(Default)]
 pub(super) struct Clipboard {
     /// Kept: on X and on Wayland what was copied is there as long as its program offers it.
@@ -15,10 +21,62 @@ impl Clipboard {
     /// # Errors
     /// Why there is none, or why it does not take the text.
     pub(super) fn set_text(&mut self, text: String) -> Result<(), String> {
+        self.opened()?.set_text(text).map_err(|error| reason(&error))
+    }
+
+    /// Puts the texts that were copied from text fields on the clipboard.
+    pub(super) fn set_copied(&mut self, commands: &[egui::OutputCommand]) {
+        for command in commands {
+            if let egui::OutputCommand::CopyText(text) = command
+                && let Err(reason) = self.set_text(text.clone())
+            {
+                log::warn!("what was copied can be pasted in this window only: {reason}");
+            }
+        }
+    }
+
+    /// The text on the clipboard, empty if it holds something else; `None` if there is no clipboard.
+    fn text(&mut self) -> Option<String> {
+        match self.opened().ok()?.get_text() {
+            Ok(text) => Some(text),
+            Err(arboard::Error::ContentNotAvailable) => Some(String::new()),
+            Err(error) => {
+                log::warn!("nothing is pasted from other programs: {}", reason(&error));
+                None
+            }
+        }
+    }
+
+    fn opened(&mut self) -> Result<&mut arboard::Clipboard, String> {
         let clipboard = match self.open.take() {
             Some(clipboard) => clipboard,
             None => arboard::Clipboard::new().map_err(|error| reason(&error))?,
         };
-        self.open.insert(clipboard).set_text(text).map_err(|error| reason(&error))
+        Ok(self.open.insert(clipboard))
     }
+}
+
+impl App {
+    /// Gives the text on the clipboard to egui, if this event pastes.
+    pub(super) fn fetch_pasted(&mut self, event: &WindowEvent) {
+        if let WindowEvent::KeyboardInput { event, is_synthetic: false, .. } = event
+            && pastes(event, self.held)
+            && let Some(text) = self.clipboard.text()
+            && let Some(canvas) = &mut self.canvas
+        {
+            canvas.egui.set_clipboard_text(text);
+        }
+    }
+}
+
+/// Whether egui pastes at this key. A layout without Latin letters pastes by the place of V.
+fn pastes(event: &KeyEvent, held: Modifiers) -> bool {
+    let is_v = match &event.logical_key {
+        Logical::Character(sign) if sign.is_ascii() => sign.eq_ignore_ascii_case("v"),
+        _ => event.physical_key == PhysicalKey::Code(KeyCode::KeyV),
+    };
+    let is_insert = cfg!(windows) && event.logical_key == Logical::Named(NamedKey::Insert);
+    let is_paste = event.logical_key == Logical::Named(NamedKey::Paste);
+    event.state == ElementState::Pressed
+        && (is_paste || is_v && held.control || is_insert && held.shift)
 }

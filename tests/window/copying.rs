@@ -1,9 +1,9 @@
-//! What another program can paste after something was copied in the window.
+//! Copying in the window and pasting in another program, and the other way round.
 
 use regatta::lab::{Language, source_code};
 use regatta::sim::integrators::method;
 
-use crate::desk::until;
+use crate::desk::{Desk, until};
 use crate::widgets::paused;
 
 #[test]
@@ -32,5 +32,23 @@ fn control_c_on_a_lane_copies_its_method_and_the_menu_of_the_lane_has_the_langua
         let text = desk.clipboard();
         (!text.is_empty() && !text.contains("Euler (")).then_some(())
     });
+    desk.quit();
+}
+
+#[test]
+fn a_text_of_another_program_is_pasted_into_a_field_and_a_text_of_a_field_into_another_program() {
+    let test = "a_text_of_another_program_is_pasted_into_a_field_and_a_text_of_a_field_into_another_program";
+    let Some(desk) = Desk::open(test, "--scene spring") else { return };
+    desk.copy_elsewhere("ship");
+    // The path is pasted before a frame has shown its field.
+    desk.press("o ctrl+v Return");
+    desk.titled("Regatta - ship - Explicit Euler - 2 Hz");
+    desk.press("o");
+    desk.xdotool("type --delay 1 pendulum");
+    desk.press("ctrl+a ctrl+x");
+    until("the path on the clipboard", || (desk.clipboard() == "pendulum").then_some(()));
+    desk.copy_elsewhere("orbit");
+    desk.press("ctrl+v Return");
+    desk.titled("Regatta - orbit - Explicit Euler - 30 Hz");
     desk.quit();
 }

@@ -8,14 +8,8 @@ use std::time::{Duration, Instant};
 
 use image::{Rgba, RgbaImage};
 use tempfile::TempDir;
-use x11rb::connection::Connection as _;
-use x11rb::protocol::Event;
-use x11rb::protocol::xproto::{
-    AtomEnum, ClientMessageEvent, ConnectionExt, CreateWindowAux, EventMask, ImageFormat, Window,
-    WindowClass,
-};
+use x11rb::protocol::xproto::{ClientMessageEvent, ConnectionExt, EventMask, ImageFormat, Window};
 use x11rb::rust_connection::RustConnection;
-use x11rb::{CURRENT_TIME, NONE};
 
 use crate::program::{Program, end};
 
@@ -252,31 +246,6 @@ impl Desk {
     pub(crate) fn connect(&self) -> (RustConnection, Window) {
         let (connection, _) = RustConnection::connect(Some(&self.display.name)).unwrap();
         (connection, self.window.parse().unwrap())
-    }
-
-    /// The text that another program would paste; empty if there is none.
-    #[track_caller]
-    pub(crate) fn clipboard(&self) -> String {
-        let (connection, screen) = RustConnection::connect(Some(&self.display.name)).unwrap();
-        let root = connection.setup().roots[screen].root;
-        let (window, input_only) = (connection.generate_id().unwrap(), WindowClass::INPUT_ONLY);
-        let aux = CreateWindowAux::new();
-        connection.create_window(0, window, root, 0, 0, 1, 1, 0, input_only, 0, &aux).unwrap();
-        let atom = |name: &[u8]| connection.intern_atom(false, name).unwrap().reply().unwrap().atom;
-        let [clipboard, text, place] =
-            [&b"CLIPBOARD"[..], b"UTF8_STRING", b"REGATTA_PASTED"].map(atom);
-        connection.convert_selection(window, clipboard, text, place, CURRENT_TIME).unwrap();
-        connection.flush().unwrap();
-        let given = loop {
-            if let Event::SelectionNotify(given) = connection.wait_for_event().unwrap() {
-                break given.property;
-            }
-        };
-        if given == NONE {
-            return String::new();
-        }
-        let property = connection.get_property(false, window, given, AtomEnum::ANY, 0, u32::MAX);
-        String::from_utf8(property.unwrap().reply().unwrap().value).unwrap()
     }
 
     /// Lays another window of the program over this one.

@@ -2,6 +2,7 @@
 //! and exit code out.
 #![cfg(all(feature = "desktop", target_os = "linux"))]
 
+mod clipboard;
 mod copying;
 mod desk;
 #[path = "../dice/mod.rs"]
