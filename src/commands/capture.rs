@@ -94,10 +94,6 @@ pub(super) struct CaptureArgs {
     /// Replace the frames in DIR, where other files stay; or replace FILE
     #[arg(long)]
     force: bool,
-
-    /// Keep the frames that the same command left when it was stopped, and draw the rest
-    #[arg(long, conflicts_with = "force")]
-    resume: bool,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -136,7 +132,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     let experiment = args.experiment.load(lineup)?;
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let fps = args.fps.unwrap_or(format.or_sheet(FPS, SHEET_FPS));
-    format.check(args.resume, fps)?;
+    format.check(fps)?;
     let frames = match (args.frames, args.seconds) {
         (Some(frames), _) => frames,
         (None, Some(seconds)) => frames_in(seconds, fps)?,
@@ -160,11 +156,7 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     };
     let movie = match format {
         PictureFormat::Png => {
-            let existing = match (args.force, args.resume) {
-                (true, _) => Existing::Replace,
-                (_, true) => Existing::Continue,
-                _ => Existing::Refuse,
-            };
+            let existing = if args.force { Existing::Replace } else { Existing::Refuse };
             let folder = FrameFolder::inspect(&args.out, existing, "--out")?;
             return Ok(clip::record(&experiment, recording, folder)?);
         }

@@ -2,8 +2,8 @@
 
 use super::experiment::Experiment;
 use super::fingerprint::fingerprint;
+use super::frame_folder::FrameFolder;
 use super::frame_folder::names::frame_name;
-use super::frame_folder::{FrameFolder, FrameFolderError};
 use super::interrupt::watch_for_interrupt;
 use super::manifest::{FrameEntry, Manifest, SCHEMA};
 use super::pipeline::{Drawn, Run, Stop};
@@ -22,15 +22,13 @@ pub(super) fn record(
     let Recording { schedule, size_px, .. } = recording;
     let mut renderer = recording.renderer()?;
     let adapter = adapter(&renderer);
-    folder.clear(schedule.frames)?;
+    folder.clear()?;
 
     let interrupted = watch_for_interrupt();
     let progress = progress(schedule.frames, "frames");
     let mut lab = recording.lab(experiment);
     let mut state_log = StateLog::new(recording.mark_every, lab.race());
     let mut entries = Vec::new();
-    // Frames that are kept are drawn again: to prove that they belong to this run, and because a glyph's
-    // place in egui's atlas, and with it the last bit of a few pixels, depends on the frames before it.
     let run = Run {
         renderer: &mut renderer,
         lab: &mut lab,
@@ -52,7 +50,6 @@ pub(super) fn record(
     match drawn {
         Ok(_) => {}
         Err(Stop::Readback(error)) => return Err(error.into()),
-        Err(Stop::Taken(source @ FrameFolderError::Foreign { .. })) => return Err(source.into()),
         Err(Stop::Taken(source)) => return Err(RecordingError::Write { source, whole }),
     }
     settled.map_err(|source| RecordingError::Write { source, whole: whole.clone() })?;

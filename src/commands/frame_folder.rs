@@ -1,8 +1,7 @@
 //! The directory that a capture fills with numbered pictures and a manifest, each of which appears whole
 //! or not at all.
 
-use std::collections::BTreeSet;
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -31,8 +30,6 @@ pub(super) enum Existing {
     Refuse,
     /// Frames make way for the new ones; other entries stay.
     Replace,
-    /// The frames before the first gap stay, and so does a manifest; other files of a capture make way.
-    Continue,
     /// Frames make way once all the new ones are written.
     Bless,
 }
@@ -45,12 +42,8 @@ pub(super) struct FrameFolder {
     /// The command-line option that names the folder.
     option: &'static str,
     entries: Entries,
-    /// How many frames of an earlier capture may stay.
-    kept: u32,
     /// How many frames were added.
     frames: u32,
-    /// How many of the frames added were there already.
-    stayed: u32,
     // What follows is dropped in this order: no frame comes after its directory or its lock is gone.
     queue: FrameQueue,
     /// The directory of new frames that will be swapped in.
@@ -61,7 +54,8 @@ pub(super) struct FrameFolder {
 
 impl FrameFolder {
     /// Examines the folder at `path`, which need not exist yet and which the command-line option `option`
-    /// names. Changes nothing, except that a blessing interrupted during its swap is completed.
+    /// names. Changes nothing, except that a blessing interrupted during its swap is completed, where frames may be
+    /// replaced.
     pub(super) fn inspect(
         path: &Path,
         existing: Existing,
@@ -72,9 +66,7 @@ impl FrameFolder {
             existing,
             option,
             entries: Entries::default(),
-            kept: 0,
             frames: 0,
-            stayed: 0,
             queue: FrameQueue::default(),
             blessing: None,
             lock: None,
@@ -108,7 +100,7 @@ impl FrameFolder {
         unreachable!("no file system holds as many directories")
     }
 
-    /// Locks the folder, reads its entries, and decides which may stay.
+    /// Locks the folder and reads its entries.
     fn look(&mut self) -> Result<(), FrameFolderError> {
         let (path, option) = (&self.path, self.option);
         let lock = DirectoryLock::exclusive(path).map_err(FileError::of("lock", path, option))?;
@@ -116,28 +108,26 @@ impl FrameFolder {
             return Err(FrameFolderError::Busy { path: path.clone(), option });
         }
         self.lock = lock;
-        if self.existing != Existing::Refuse && blessing::is_pending(path) {
-            blessing::complete(path).map_err(FileError::of(
-                "finish the --bless in",
-                path,
-                option,
-            ))?;
+        let read = || Entries::read(path).map_err(FileError::of("read", path, option));
+        let mut entries = read()?;
+        if self.existing == Existing::Refuse && !entries.is_empty() {
+            return Err(FrameFolderError::NotEmpty { path: path.clone() });
         }
-        let mut entries = Entries::read(path).map_err(FileError::of("read", path, option))?;
-        match self.existing {
-            Existing::Refuse if !entries.is_empty() => {
-                return Err(FrameFolderError::NotEmpty { path: path.clone() });
-            }
-            Existing::Refuse | Existing::Replace => {}
-            Existing::Continue => {
-                self.kept = entries.frames();
-                // The old manifest describes the frames until the new one is written.
-                entries.ours.remove(OsStr::new(manifest::FILE_NAME));
-            }
+        if self.existing == Existing::Bless {
             // A capture may stop before the frame that a directory blocks; a swap replaces all frames.
-            Existing::Bless => entries.foreign = entries.foreign.or(entries.in_the_way.take()),
+            entries.foreign = entries.foreign.or(entries.in_the_way.take());
         }
         if let Some(path) = entries.foreign {
+            return Err(FrameFolderError::NotOurs { path, option });
+        }
+        if self.existing != Existing::Refuse && blessing::is_pending(path) {
+            let fail = FileError::of("finish the --bless in", path, option);
+            blessing::complete(path).map_err(fail)?;
+            entries = read()?;
+        }
+        if self.existing == Existing::Bless
+            && let Some(path) = blessing::in_the_way(path)
+        {
             return Err(FrameFolderError::NotOurs { path, option });
         }
         self.entries = entries;
@@ -159,9 +149,9 @@ impl FrameFolder {
         self.blessing.as_ref().map_or(&self.path, Blessing::place)
     }
 
-    /// Creates the folder if necessary and removes the files of an earlier capture, except the first
-    /// `frames` of the frames to keep. The folder never holds frames of two captures.
-    pub(super) fn clear(&mut self, frames: u32) -> Result<(), FrameFolderError> {
+    /// Creates the folder if necessary and removes the files of an earlier capture. The folder never holds frames of two
+    /// captures.
+    pub(super) fn clear(&mut self) -> Result<(), FrameFolderError> {
         if self.lock.is_none() {
             fs::create_dir_all(&self.path).map_err(FileError::of(
                 "make the directory",
@@ -175,12 +165,9 @@ impl FrameFolder {
             let path = self.path.join(name);
             fs::remove_dir_all(&path).map_err(fail(&path))?;
         }
-        self.kept = self.kept.min(frames);
-        let kept: BTreeSet<OsString> =
-            (0..self.kept).map(|frame| frame_name(frame).into()).collect();
         let goes = |name: &OsString| match self.existing {
             Existing::Bless => name.to_str().is_some_and(|name| !is_a_captures(name)),
-            _ => !kept.contains(name),
+            _ => true,
         };
         // The manifest, which speaks of the frames, goes before them.
         for name in self.entries.ours.iter().rev().filter(|name| goes(name)) {
@@ -196,26 +183,17 @@ impl FrameFolder {
         Ok(())
     }
 
-    /// Adds the next frame. If the frame is there already, it must be the same to the byte. The error may be
-    /// that of an earlier frame.
+    /// Adds the next frame. The error may be that of an earlier frame.
     pub(super) fn push(&mut self, picture: &[u8]) -> Result<(), FrameFolderError> {
         let name = frame_name(self.frames);
         let shown = self.path.join(&name);
-        if self.frames < self.kept {
-            let fail = FileError::of("read", &shown, self.option);
-            if fs::read(&shown).map_err(fail)? != picture {
-                return Err(FrameFolderError::Foreign { path: shown });
-            }
-            self.stayed += 1;
-        } else {
-            let written = AtomicFile::create(&self.place().join(name)).and_then(|mut file| {
-                file.write_all(picture)?;
-                Ok(file)
-            });
-            let file = written.map_err(FileError::of("write", &shown, self.option))?;
-            if !self.queue.push(file, shown) {
-                return self.settle();
-            }
+        let written = AtomicFile::create(&self.place().join(name)).and_then(|mut file| {
+            file.write_all(picture)?;
+            Ok(file)
+        });
+        let file = written.map_err(FileError::of("write", &shown, self.option))?;
+        if !self.queue.push(file, shown) {
+            return self.settle();
         }
         self.frames += 1;
         Ok(())
@@ -225,7 +203,7 @@ impl FrameFolder {
     /// remain.
     pub(super) fn settle(&mut self) -> Result<(), FrameFolderError> {
         let Some(Settled { frames, failed }) = self.queue.close() else { return Ok(()) };
-        self.frames = self.stayed + frames;
+        self.frames = frames;
         match failed {
             Some((error, path)) => Err(FileError::of("write", &path, self.option)(error).into()),
             None => Ok(()),

@@ -80,7 +80,7 @@ pub(super) enum RecordingError {
     #[error(transparent)]
     Folder(#[from] FrameFolderError),
     /// A frame could not be written.
-    #[error("{source}; whole before that: {whole}")]
+    #[error("{source}; whole before that: {whole}; the same command with --force draws all frames")]
     Write {
         /// The error.
         source: FrameFolderError,

@@ -138,8 +138,7 @@ fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
     let (experiment, recording) = settings::read(&manifest.settings).map_err(unjudged)?;
     if !manifest.complete {
         return Err(unjudged(format!(
-            "its capture was stopped after {} of {} frames; complete it with the same command and \
-             --resume, or draw all frames with --bless",
+            "its capture was stopped after {} of {} frames; draw all frames with --bless",
             manifest.frames.len(),
             manifest.settings.frames
         )));
@@ -187,27 +186,21 @@ fn bless(dir: &Path, unjudged: impl Fn(String) -> VerifyError) -> Result<(), Ver
     }
 }
 
-/// Locks `dir` against writers while it is judged; completes an interrupted `--bless` first. `None` if there is no such
-/// directory.
+/// Locks `dir` against writers while it is judged. `None` if there is no such directory.
 fn lock(dir: &Path) -> Result<Option<DirectoryLock>, String> {
     let busy = || "another regatta is writing to it; wait until it has finished".to_owned();
-    if blessing::is_pending(dir) {
-        let stopped = "a --bless was interrupted while it replaced the frames";
-        let fail = |error| format!("{stopped}, and cannot be completed: {error}");
-        let _writer = DirectoryLock::exclusive(dir).map_err(fail)?.ok_or_else(busy)?;
-        // Another process may have completed it meanwhile.
-        if blessing::is_pending(dir) {
-            blessing::complete(dir).map_err(fail)?;
-            tell(&format!("{stopped}; now it is complete: {}", dir.display()));
-        }
-    }
-    match DirectoryLock::shared(dir) {
-        Ok(lock) => lock.ok_or_else(busy).map(Some),
+    let lock = match DirectoryLock::shared(dir) {
+        Ok(lock) => lock.ok_or_else(busy)?,
         Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
-            Ok(None)
+            return Ok(None);
         }
-        Err(error) => Err(format!("it cannot be locked: {error}")),
+        Err(error) => return Err(format!("it cannot be locked: {error}")),
+    };
+    if blessing::is_pending(dir) {
+        let reason = "a --bless was interrupted while it replaced the frames; --bless completes it";
+        return Err(reason.into());
     }
+    Ok(Some(lock))
 }
 
 fn judge_pixels(

@@ -1,4 +1,5 @@
-//! New frames for an existing clip: drawn into a directory beside it, and swapped in once all are written.
+//! New frames for an existing clip: drawn into a directory inside it, and swapped in once all are written. A clip may be
+//! a link, a mount point or the working directory, none of which can be renamed.
 //!
 //! A process killed at any moment leaves the old clip whole, or the new one whole in the directory
 //! `.regatta-blessed`, from which [`complete`] finishes the swap.
@@ -48,9 +49,11 @@ impl Blessing {
     }
 }
 
-/// Whether a swap was interrupted.
+/// Whether a swap was interrupted: the manifest, which comes last, has not taken its place.
 pub(crate) fn is_pending(clip: &Path) -> bool {
-    fs::symlink_metadata(clip.join(READY)).is_ok_and(|entry| entry.is_dir())
+    let ready = clip.join(READY);
+    fs::symlink_metadata(&ready).is_ok_and(|entry| entry.is_dir())
+        && frames_claimed(&ready.join(manifest::FILE_NAME)).is_some()
 }
 
 /// Whether this is the name of a directory that an interrupted blessing left.
@@ -58,34 +61,41 @@ pub(crate) fn is_left_over(name: &str) -> bool {
     name.starts_with(UNDER_WAY)
 }
 
-/// Finishes an interrupted swap. Every step can be repeated, and the manifest comes last.
+/// Finishes a [pending](is_pending) swap: moves the frames that the new manifest lists, and no other file. Every step can
+/// be repeated, and the manifest comes last.
 pub(crate) fn complete(clip: &Path) -> io::Result<()> {
     let ready = clip.join(READY);
-    for entry in fs::read_dir(&ready)? {
-        let name = entry?.file_name();
-        if name != manifest::FILE_NAME {
-            fs::rename(ready.join(&name), clip.join(&name))?;
+    let [older, newer] = [clip, &ready]
+        .map(|folder| frames_claimed(&folder.join(manifest::FILE_NAME)).unwrap_or_default());
+    for name in newer.iter().filter(|name| frame_number(name).is_some()) {
+        match fs::rename(ready.join(name), clip.join(name)) {
+            // It was moved before the interruption.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            moved => moved?,
         }
     }
-    let [older, newer] =
-        [clip, &ready].map(|folder| frames_claimed(&folder.join(manifest::FILE_NAME)));
-    if let Some(newer) = newer {
-        let older = older.unwrap_or_default();
-        for entry in fs::read_dir(clip)? {
-            let entry = entry?;
-            let Some(name) = entry.file_name().to_str().map(String::from) else { continue };
-            let is_of_the_old = frame_number(&name).is_some()
-                && !newer.contains(&name)
-                && (older.contains(&name) || is_marked(&entry.path()));
-            if is_of_the_old {
-                fs::remove_file(entry.path())?;
-            }
+    for entry in fs::read_dir(clip)? {
+        let entry = entry?;
+        let Some(name) = entry.file_name().to_str().map(String::from) else { continue };
+        let is_of_the_old = frame_number(&name).is_some()
+            && !newer.contains(&name)
+            && (older.contains(&name) || is_marked(&entry.path()));
+        if is_of_the_old {
+            fs::remove_file(entry.path())?;
         }
-        sync_directory(clip)?;
-        fs::rename(ready.join(manifest::FILE_NAME), clip.join(manifest::FILE_NAME))?;
     }
-    fs::remove_dir(&ready)?;
+    sync_directory(clip)?;
+    fs::rename(ready.join(manifest::FILE_NAME), clip.join(manifest::FILE_NAME))?;
+    // Another file in it is not ours to remove.
+    _ = fs::remove_dir(&ready);
     sync_directory(clip)
+}
+
+/// The place of the new frames, if something that no swap made is there. What a swap leaves, an empty directory, goes.
+pub(crate) fn in_the_way(clip: &Path) -> Option<PathBuf> {
+    let ready = clip.join(READY);
+    _ = fs::remove_dir(&ready);
+    fs::symlink_metadata(&ready).is_ok().then_some(ready)
 }
 
 #[cfg(test)]
@@ -151,9 +161,12 @@ mod tests {
                 }
                 fs::rename(ready.join(&name), clip.path().join(&name)).unwrap();
             }
-            assert!(is_pending(clip.path()));
-            complete(clip.path()).unwrap();
-            assert!(!is_pending(clip.path()));
+            // Once the manifest is in its place, only an empty directory is left.
+            assert_eq!(is_pending(clip.path()), moved < 3);
+            if moved < 3 {
+                complete(clip.path()).unwrap();
+            }
+            assert_eq!(in_the_way(clip.path()), None);
             let expected = [
                 (FRAMES[0], "new".to_owned()),
                 (FRAMES[1], "new".to_owned()),

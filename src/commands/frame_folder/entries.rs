@@ -1,13 +1,13 @@
 //! The entries of a folder of frames: which of them a capture made.
 
 use std::collections::BTreeSet;
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::blessing;
-use super::names::{MOST_FRAMES, frame_name, frame_number, frames_claimed, is_marked};
+use super::names::{frame_number, frames_claimed, is_marked};
 use crate::commands::manifest;
 use crate::commands::output::{final_name, is_lock};
 
@@ -68,12 +68,6 @@ impl Entries {
             && self.our_directories.is_empty()
             && self.others.is_empty()
             && self.foreign.is_none()
-    }
-
-    /// The number of frames of a capture before the first gap.
-    pub(super) fn frames(&self) -> u32 {
-        let is_there = |frame: &u32| self.ours.contains(OsStr::new(&frame_name(*frame)));
-        (0..MOST_FRAMES).take_while(is_there).count() as u32
     }
 }
 

@@ -16,8 +16,7 @@ pub(crate) enum FrameFolderError {
     },
     /// The folder is in use.
     #[error(
-        "{} is not empty; give another --out, or --force to replace the frames in it, or --resume \
-         to add those that are missing",
+        "{} is not empty; give another --out, or --force to replace the frames in it",
         .path.display()
     )]
     NotEmpty {
@@ -42,16 +41,6 @@ pub(crate) enum FrameFolderError {
         path: PathBuf,
         /// What names its folder on the command line.
         option: &'static str,
-    },
-    /// A frame that already exists is none of this capture.
-    #[error(
-        "{} is not what this command draws here; give the command that drew it, or --force to draw \
-         all again",
-        .path.display()
-    )]
-    Foreign {
-        /// The frame.
-        path: PathBuf,
     },
     /// The system refused.
     #[error(transparent)]

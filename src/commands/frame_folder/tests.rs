@@ -42,7 +42,7 @@ fn frames_replace_frames_and_nothing_else() {
         fs::write(file(name), "mine").unwrap();
     }
     let mut frames = inspect(folder.path(), Existing::Replace).unwrap();
-    frames.clear(9).unwrap();
+    frames.clear().unwrap();
     frames.push(&frame(1)).unwrap();
     frames.settle().unwrap();
     let others = ["frame-000001.png.part", "manifest.json.part", "notes.txt"];
@@ -58,7 +58,7 @@ fn frames_replace_frames_and_nothing_else() {
 
 #[test]
 fn what_only_has_the_name_of_ours_is_never_touched() {
-    for existing in [Existing::Replace, Existing::Continue, Existing::Bless] {
+    for existing in [Existing::Replace, Existing::Bless] {
         for (name, bytes) in [
             ("manifest.json", &br#"{"name":"my web app","version":"1"}"#[..]),
             ("frame-000003.png", b"a frame of another program"),
@@ -75,38 +75,17 @@ fn what_only_has_the_name_of_ours_is_never_touched() {
 }
 
 #[test]
-fn frames_up_to_the_first_gap_are_kept_and_have_to_be_the_same() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str| folder.path().join(name);
-    for name in
-        ["frame-000000.png", "frame-000001.png", "frame-000002.png.a1B2c3.part", "frame-000003.png"]
-    {
-        fs::write(file(name), frame(0)).unwrap();
-    }
-    let mut frames = inspect(folder.path(), Existing::Continue).unwrap();
-    frames.clear(9).unwrap();
-    assert_eq!((frames.kept, names(folder.path()).len()), (2, 2));
-    frames.push(&frame(0)).unwrap();
-    let error = frames.push(&frame(1)).unwrap_err();
-    assert!(matches!(error, FrameFolderError::Foreign { .. }), "{error}");
-    frames.push(&frame(0)).unwrap();
-    frames.push(&frame(1)).unwrap();
-    frames.settle().unwrap();
-    assert_eq!(fs::read(file("frame-000002.png")).unwrap(), frame(1));
-}
-
-#[test]
 fn a_folder_has_one_writer_at_a_time() {
     let parent = tempfile::tempdir().unwrap();
     let path = parent.path().join("clip");
     let [mut first, mut second] = [0, 1].map(|_| inspect(&path, Existing::Replace).unwrap());
-    first.clear(9).unwrap();
-    for busy in [second.clear(9).unwrap_err(), inspect(&path, Existing::Refuse).unwrap_err()] {
+    first.clear().unwrap();
+    for busy in [second.clear().unwrap_err(), inspect(&path, Existing::Refuse).unwrap_err()] {
         assert!(matches!(busy, FrameFolderError::Busy { .. }), "{busy}");
     }
     first.push(&frame(0)).unwrap();
     drop(first);
-    second.clear(9).unwrap();
+    second.clear().unwrap();
     assert!(names(&path).is_empty(), "the second found what the first had left");
 }
 
@@ -115,10 +94,10 @@ fn a_folder_filled_while_it_was_waited_for_is_refused() {
     let parent = tempfile::tempdir().unwrap();
     let path = parent.path().join("clip");
     let [mut first, mut second] = [0, 1].map(|_| inspect(&path, Existing::Refuse).unwrap());
-    first.clear(9).unwrap();
+    first.clear().unwrap();
     first.push(&frame(0)).unwrap();
     first.finish("{}").unwrap();
-    let error = second.clear(9).unwrap_err();
+    let error = second.clear().unwrap_err();
     assert!(matches!(error, FrameFolderError::NotEmpty { .. }), "{error}");
 }
 
@@ -126,7 +105,7 @@ fn a_folder_filled_while_it_was_waited_for_is_refused() {
 fn a_frame_that_cannot_be_written_leaves_nothing_behind() {
     let parent = tempfile::tempdir().unwrap();
     let mut frames = inspect(parent.path(), Existing::Refuse).unwrap();
-    frames.clear(9).unwrap();
+    frames.clear().unwrap();
     // A directory of that name cannot be replaced by a file.
     fs::create_dir_all(parent.path().join("frame-000001.png/in the way")).unwrap();
     frames.push(&frame(0)).unwrap();

@@ -116,9 +116,6 @@ pub(crate) enum FormatError {
         "numbered pictures need a directory; give --format y4m, rgba, apng, gif or sheet with --out -"
     )]
     NoStream,
-    /// Only a directory can be taken up again.
-    #[error("only pictures in a directory can be resumed; leave out --resume, or --format")]
-    NotResumable,
     /// A GIF would be played slower.
     #[error("a GIF has at most {MOST_GIF_FPS} frames a second, not {fps}; give a lower --fps")]
     TooFastForGif {
@@ -170,11 +167,9 @@ impl PictureFormat {
         }
     }
 
-    /// Whether a run can be written like this: resumed, or as fast as this.
-    pub(crate) fn check(self, resumes: bool, fps: u32) -> Result<(), FormatError> {
+    /// Whether a run can be written at this many frames per second.
+    pub(crate) fn check(self, fps: u32) -> Result<(), FormatError> {
         match self {
-            PictureFormat::Png => Ok(()),
-            _ if resumes => Err(FormatError::NotResumable),
             PictureFormat::Gif if fps > MOST_GIF_FPS => Err(FormatError::TooFastForGif { fps }),
             _ => Ok(()),
         }

@@ -70,11 +70,18 @@ fn killed_at_any_moment_it_leaves_the_old_clip_or_the_new_one() {
         // That is SIGKILL.
         child.kill().unwrap();
         child.wait().unwrap();
+        let left = content(folder);
         let judged = run_in(folder, "verify clip --physics-only");
-        assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
-        let mut left = content(folder);
-        left.retain(|name, _| !name.starts_with(".regatta-bless-"));
-        assert!(left == old || left == new, "{:?}", left.keys());
+        assert!(content(folder) == left, "a judge changes nothing");
+        if judged.status.code() == Some(2) {
+            let said = stderr(&judged);
+            assert!(said.contains("a --bless was interrupted while it replaced"), "{said}");
+        } else {
+            assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
+            let is_frame = |name: &str| !name.starts_with(".regatta-bless");
+            let left: Content = left.into_iter().filter(|(name, _)| is_frame(name)).collect();
+            assert!(left == old || left == new, "{:?}", left.keys());
+        }
         let blessed = run_in(folder, "verify clip --bless");
         assert_eq!(blessed.status.code(), Some(0), "{}", stderr(&blessed));
         assert!(content(folder) == new);
@@ -116,28 +123,52 @@ fn interrupted_it_leaves_the_old_clip_as_it_was() {
 }
 
 #[test]
-fn a_swap_that_was_stopped_is_finished_by_the_next_command_which_says_so() {
-    let test = "a_swap_that_was_stopped_is_finished_by_the_next_command_which_says_so";
+fn a_swap_that_was_stopped_is_told_by_verify_and_finished_by_bless() {
+    let test = "a_swap_that_was_stopped_is_told_by_verify_and_finished_by_bless";
     let Some((folder, old, new, _)) = clip_or_skip(test) else { return };
     let folder = folder.path();
-    for (command, said) in [
-        (
-            "verify clip",
-            "a --bless was interrupted while it replaced the frames; now it is complete",
-        ),
-        ("verify clip --bless", "wrote 12 frames"),
-    ] {
-        restore(folder, &old);
-        let ready = folder.join("clip/.regatta-blessed");
-        fs::create_dir(&ready).unwrap();
-        for (name, bytes) in new.iter().filter(|(name, _)| **name != "notes.txt") {
-            fs::write(ready.join(name), bytes).unwrap();
+    restore(folder, &old);
+    let ready = folder.join("clip/.regatta-blessed");
+    fs::create_dir(&ready).unwrap();
+    for (name, bytes) in new.iter().filter(|(name, _)| **name != "notes.txt") {
+        fs::write(ready.join(name), bytes).unwrap();
+    }
+    fs::rename(ready.join("frame-000000.png"), folder.join("clip/frame-000000.png")).unwrap();
+    let before = content(folder);
+    let judged = run_in(folder, "verify clip");
+    assert_eq!(judged.status.code(), Some(2), "{}", stderr(&judged));
+    let said = "a --bless was interrupted while it replaced the frames; --bless completes it";
+    assert!(stderr(&judged).contains(said), "{}", stderr(&judged));
+    assert!(content(folder) == before);
+    let blessed = run_in(folder, "verify clip --bless");
+    assert_eq!(blessed.status.code(), Some(0), "{}", stderr(&blessed));
+    assert!(content(folder) == new);
+}
+
+#[test]
+fn a_file_in_the_directory_of_a_swap_never_replaces_another() {
+    let test = "a_file_in_the_directory_of_a_swap_never_replaces_another";
+    let Some((folder, _, new, _)) = clip_or_skip(test) else { return };
+    let folder = folder.path();
+    let stray = folder.join("clip/.regatta-blessed");
+    fs::create_dir(&stray).unwrap();
+    fs::write(stray.join("notes.txt"), "not mine").unwrap();
+    let mut expected = new.clone();
+    expected.insert(".regatta-blessed".into(), Vec::new());
+    // Without a manifest there is no swap to complete; with one, it is of the frames alone.
+    for (has_manifest, judged) in [(false, 0), (true, 2)] {
+        if has_manifest {
+            fs::write(stray.join("manifest.json"), &new["manifest.json"]).unwrap();
         }
-        fs::rename(ready.join("frame-000000.png"), folder.join("clip/frame-000000.png")).unwrap();
-        let output = run_in(folder, command);
-        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-        assert!(stderr(&output).starts_with(said), "{}", stderr(&output));
-        assert!(content(folder) == new);
+        for (command, code) in [("verify clip", judged), ("verify clip --bless", 2)] {
+            let output = run_in(folder, command);
+            let said = stderr(&output);
+            assert_eq!(output.status.code(), Some(code), "{command}: {said}");
+            assert!(content(folder) == expected, "{command}: {:?}", content(folder).keys());
+            let is_told = said.contains("clip/.regatta-blessed was not made by regatta");
+            assert_eq!(is_told, command.ends_with("--bless"), "{said}");
+        }
+        assert_eq!(fs::read(stray.join("notes.txt")).unwrap(), b"not mine");
     }
 }
 

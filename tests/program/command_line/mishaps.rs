@@ -1,5 +1,5 @@
 //! Whatever happens to a capture: no frame is lost, half, or out of order, and what was stopped can be
-//! taken up again.
+//! drawn again in the same place.
 
 use std::fs;
 use std::io::{self, Write};
@@ -63,8 +63,8 @@ fn first_of_whole(folder: &Path) -> (usize, Vec<String>) {
     (frames, rest)
 }
 
-fn resume(folder: &Path) {
-    let output = run_in(folder, &format!("{CAPTURE} clip --resume"));
+fn draw_again(folder: &Path) {
+    let output = run_in(folder, &format!("{CAPTURE} clip --force"));
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let (frames, rest) = first_of_whole(folder);
     assert_eq!((frames, rest), (FRAMES, vec!["manifest.json".to_owned()]));
@@ -75,8 +75,8 @@ fn resume(folder: &Path) {
 
 #[cfg(unix)]
 #[test]
-fn killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_resumed() {
-    let test = "killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_resumed";
+fn killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_drawn_again() {
+    let test = "killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_drawn_again";
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let Some(whole) = whole_or_skip(test, folder) else { return };
@@ -97,7 +97,7 @@ fn killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_resumed() {
         };
         let is_done = frames == FRAMES && rest == ["manifest.json"];
         assert!(is_done || rest.iter().all(is_part), "{frames} frames and {rest:?}");
-        resume(folder);
+        draw_again(folder);
     }
 }
 
@@ -136,23 +136,9 @@ fn interrupted_at_any_moment_it_leaves_a_manifest_of_what_is_there() {
                 assert!(stderr(&judged).contains(&reason), "{}", stderr(&judged));
             }
         }
-        resume(folder);
+        draw_again(folder);
     }
     assert!(interrupted > 0, "every run was done before it was interrupted");
-}
-
-#[test]
-fn a_capture_of_another_scene_is_not_resumed() {
-    let test = "a_capture_of_another_scene_is_not_resumed";
-    let folder = tempfile::tempdir().unwrap();
-    let Some(_) = whole_or_skip(test, folder.path()) else { return };
-    let other = CAPTURE.replace("harbour", "spring");
-    let output = run_in(folder.path(), &format!("{other} whole --resume"));
-    assert_eq!(output.status.code(), Some(2));
-    let said = stderr(&output);
-    assert!(said.contains("frame-000000.png is not what this command draws here"), "{said}");
-    let judged = run_in(folder.path(), "verify whole");
-    assert_eq!(judged.status.code(), Some(0), "nothing was lost: {}", stderr(&judged));
 }
 
 #[test]
@@ -193,6 +179,7 @@ fn a_full_disk_ends_the_capture_with_whole_frames_only() {
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("No space left on device"), "{said}");
     assert!(said.contains("free some space, or give another --out"), "{said}");
+    assert!(said.contains("the same command with --force draws all frames"), "{said}");
     let expected: Vec<_> = (0..left.len()).map(|n| format!("frame-{n:06}.png")).collect();
     assert_eq!(left, expected);
     assert!(!left.is_empty() && sizes.iter().all(|&size| size == (640, 360)));

@@ -239,7 +239,7 @@ fn what_cannot_be_judged_says_why() {
             manifest.frames.pop();
             manifest.complete = false;
         },
-        "its capture was stopped after 6 of 7 frames; complete it with the same command and --resume",
+        "its capture was stopped after 6 of 7 frames; draw all frames with --bless",
     );
     for (text, said) in [("{", "it is not JSON"), ("{}", "does not name its schema")] {
         fs::write(manifest_of(folder.path()), text).unwrap();
