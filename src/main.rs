@@ -24,7 +24,14 @@ fn run() -> ExitCode {
         Ok(cli) => cli,
         Err(answer) => {
             // Help and version come this way too. A closed pipe is no reason to complain.
-            let _ = answer.print();
+            let printed = answer.print().and_then(|()| io::stdout().flush());
+            if let Err(error) = printed
+                && !answer.use_stderr()
+                && error.kind() != io::ErrorKind::BrokenPipe
+            {
+                commands::tell(&format!("error: cannot write to standard output: {error}"));
+                return ExitCode::FAILURE;
+            }
             return ExitCode::from(u8::try_from(answer.exit_code()).unwrap_or(1));
         }
     };

@@ -26,6 +26,7 @@ mod new_file;
 mod opening;
 mod pace;
 mod recording;
+pub(crate) mod regular_file;
 mod run_of_session;
 mod schedule;
 mod screen_reader;

@@ -17,7 +17,6 @@ use super::output::table::{self, Column, RowFormat};
 use super::output::{AtomicOutput, Older, Place, STDOUT, finish, print};
 use super::plot::Plot;
 use super::scene_file;
-use super::terminal::tell;
 use super::trace_source::traces;
 use crate::lab::pacing::{FrameTrace, LEAST_RUN_S, POLICIES, PolicyCard, RefreshRate, trace_card};
 use crate::lab::{Clock, LaneSpec, Scene};
@@ -38,7 +37,8 @@ One row for each trace and policy, in the order asked for:
   repeated_percent        displayed frames that show the same moment again
   double_percent          displayed frames that show two ticks or more at once, half a tick or
                           more ahead
-  latency_mean_ms         moment of display minus moment shown
+  latency_mean_ms         moment of display minus moment shown; of a file up to a constant, as the
+                          clocks of its two columns have no common origin
   latency_max_ms
   dropped_ms              real time given up
   owed_max_ms             the most real time neither simulated nor given up
@@ -98,7 +98,7 @@ pub(super) struct LoopArgs {
     #[arg(long, value_name = "S", value_parser = some_seconds, allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// The largest mean latency in ms of the policy that is advised
+    /// The largest mean latency in ms of the policy that is advised; on a trace from a file, above the least
     #[arg(long, value_name = "MS", default_value_t = 20.0, value_parser = latency)]
     #[arg(allow_negative_numbers = true)]
     latency_ms: f64,
@@ -218,11 +218,7 @@ pub(super) fn run(args: &LoopArgs) -> Result<(), Error> {
     let what = format!("{} row{}", rows.len(), if rows.len() == 1 { "" } else { "s" });
     finish(out, table::rows(format, COLUMNS, &rows).as_bytes(), &what)?;
     if let Some(frames) = frames {
-        let name = frames.name();
-        frames.close()?;
-        if name != STDOUT {
-            tell(&format!("wrote the frames: {name}"));
-        }
+        finish(frames, &[], "the frames")?;
     }
     if let Some(plot) = plot {
         let (output, [width, height], png) = plot.draw(&diagram::figure(&scene, &rows))?;

@@ -1,7 +1,5 @@
 //! `regatta identify`: which method, with how many substeps, made a log of a motion.
 
-use std::fs;
-use std::io;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -10,6 +8,7 @@ use super::error::{Cause, Error};
 use super::output::print;
 use super::output::table::TableFormat;
 use crate::lab::{Columns, Log, LogError, LoggedBody, identify};
+use crate::window::regular_file::{self, MAX_TABLE_BYTES, Unreadable};
 
 mod findings;
 
@@ -106,13 +105,13 @@ pub(super) struct IdentifyArgs {
 /// Why nothing can be said of a log.
 #[derive(Debug, thiserror::Error)]
 enum IdentifyError {
-    /// The file cannot be read.
-    #[error("cannot read the log {}: {source}; give a CSV file that you may read", .path.display())]
+    /// The file is not read.
+    #[error("cannot read the log {}: {source}", .path.display())]
     Unreadable {
         /// As it was given.
         path: PathBuf,
-        /// What the system says.
-        source: io::Error,
+        /// Why.
+        source: Unreadable,
     },
     /// The file is no log.
     #[error("{0}")]
@@ -149,7 +148,7 @@ fn signed(written: &str) -> Result<f64, String> {
 pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
     let path = &args.log;
     let unreadable = |source| IdentifyError::Unreadable { path: path.clone(), source };
-    let bytes = fs::read(path).map_err(unreadable)?;
+    let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(unreadable)?;
     let text = String::from_utf8_lossy(&bytes);
     let columns = Columns {
         tick: args.tick_column.clone(),

@@ -10,7 +10,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::terminal::tell;
 use crate::lab::palette::Theme;
-use crate::lab::{Lab, SCALE_LADDER};
+use crate::lab::{LARGEST_FILE, Lab, SCALE_LADDER};
+use crate::window::regular_file;
 
 /// The name of the file.
 const FILE_NAME: &str = "window.toml";
@@ -32,11 +33,18 @@ impl Preferences {
     /// What the file says; nothing where there is none.
     pub(super) fn load() -> Self {
         let Some(path) = path() else { return Self::default() };
-        let Ok(text) = std::fs::read_to_string(&path) else { return Self::default() };
-        Self::parse(&text).unwrap_or_else(|why| {
+        Self::read(&path).unwrap_or_else(|why| {
             tell(&format!("{} is ignored: {why}", path.display()));
             Self::default()
         })
+    }
+
+    fn read(path: &Path) -> Result<Self, String> {
+        let bytes = match regular_file::read(path, LARGEST_FILE) {
+            Err(missing) if missing.is_missing() => return Ok(Self::default()),
+            read => read.map_err(|why| why.to_string())?,
+        };
+        Self::parse(str::from_utf8(&bytes).map_err(|_| "it is not text")?)
     }
 
     /// Writes the file. Where that is not possible, nothing is remembered.
@@ -145,6 +153,16 @@ mod tests {
         ] {
             assert_eq!(Preferences::parse(&preferences.to_text()), Ok(preferences));
         }
+    }
+
+    #[test]
+    fn a_file_that_is_not_there_is_nothing_to_remember_and_one_that_is_no_text_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(FILE_NAME);
+        assert_eq!(Preferences::read(&path), Ok(Preferences::default()));
+        std::fs::write(&path, [0xff, 0xfe, 0x00]).unwrap();
+        assert_eq!(Preferences::read(&path), Err("it is not text".into()));
+        assert!(Preferences::read(folder.path()).is_err());
     }
 
     #[test]

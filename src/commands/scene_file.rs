@@ -1,7 +1,5 @@
 //! Loads the scene that `--scene` names: a built-in scene, or else a file.
 
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
@@ -9,6 +7,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use super::error::{Cause, message};
 use crate::lab::{BuiltIn, LARGEST_FILE, Refusal, SCENES, Scene, SceneErrors, nearest};
 use crate::sim::integrators::Method;
+use crate::window::regular_file::{self, Unreadable};
 
 /// The reason why a scene cannot be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -25,13 +24,13 @@ pub(super) enum SceneFileError {
         /// As it was given.
         path: PathBuf,
     },
-    /// The file is there but cannot be read.
-    #[error("cannot read the scene file {}: {source}; give one that you may read", .path.display())]
+    /// The file is there but is not read.
+    #[error("cannot read the scene file {}: {source}", .path.display())]
     Unreadable {
         /// As it was given.
         path: PathBuf,
-        /// What the system says.
-        source: io::Error,
+        /// Why.
+        source: Unreadable,
     },
     /// A method that the command line names does not step a body of the scene.
     #[error("--method {0}; name another, which `regatta list methods` has, or another scene")]
@@ -78,23 +77,18 @@ fn built_in(path: &Path) -> Option<&'static BuiltIn> {
     SCENES.iter().find(|scene| path.to_str() == Some(scene.name))
 }
 
-/// Reads a file, at most one byte more than a scene file may have.
 fn read(path: &Path) -> Result<Vec<u8>, SceneFileError> {
-    let fail = |source: io::Error| {
+    regular_file::read(path, LARGEST_FILE).map_err(|source| {
         let path = path.to_owned();
-        match source.kind() {
-            io::ErrorKind::NotFound => SceneFileError::NotFound { path },
-            io::ErrorKind::IsADirectory => SceneFileError::Directory { path },
-            _ => SceneFileError::Unreadable { path, source },
+        match source {
+            Unreadable::Directory => SceneFileError::Directory { path },
+            Unreadable::TooLarge { .. } => {
+                SceneErrors::too_large(&path.display().to_string()).into()
+            }
+            missing if missing.is_missing() => SceneFileError::NotFound { path },
+            source => SceneFileError::Unreadable { path, source },
         }
-    };
-    let file = File::open(path).map_err(fail)?;
-    if file.metadata().map_err(fail)?.is_dir() {
-        return Err(SceneFileError::Directory { path: path.to_owned() });
-    }
-    let mut bytes = Vec::new();
-    file.take(LARGEST_FILE as u64 + 1).read_to_end(&mut bytes).map_err(fail)?;
-    Ok(bytes)
+    })
 }
 
 /// The error messages, each followed by the lines of the file that it refers to.

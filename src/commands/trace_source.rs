@@ -1,13 +1,12 @@
 //! Finds the frame traces that `--trace` names: a built-in one, or else the streams of a file.
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use super::error::Cause;
 use crate::lab::nearest;
 use crate::lab::pacing::trace_file::{self, TraceFileError};
 use crate::lab::pacing::{FrameTrace, RefreshRate, TRACES, steady_trace, trace_card};
+use crate::window::regular_file::{self, MAX_TABLE_BYTES, Unreadable};
 
 /// The refresh rate of a trace that any display will do for.
 const USUAL: RefreshRate = RefreshRate::new(60, 1);
@@ -21,13 +20,13 @@ pub(super) enum TraceError {
         /// As it was given.
         path: PathBuf,
     },
-    /// The file is there but cannot be read.
-    #[error("cannot read the trace {}: {source}; give a CSV file that you may read", .path.display())]
+    /// The file is there but is not read.
+    #[error("cannot read the trace {}: {source}", .path.display())]
     Unreadable {
         /// As it was given.
         path: PathBuf,
-        /// What the system says.
-        source: io::Error,
+        /// Why.
+        source: Unreadable,
     },
     /// The file holds no trace.
     #[error("{source}")]
@@ -86,9 +85,12 @@ fn named(path: &Path, display: Option<RefreshRate>) -> Result<Vec<FrameTrace>, T
             _ => Ok(vec![card.trace(display.unwrap_or(USUAL))]),
         };
     }
-    let bytes = fs::read(path).map_err(|source| match source.kind() {
-        io::ErrorKind::NotFound => TraceError::NotFound { path: path.into() },
-        _ => TraceError::Unreadable { path: path.into(), source },
+    let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(|source| {
+        let path = path.into();
+        match source.is_missing() {
+            true => TraceError::NotFound { path },
+            false => TraceError::Unreadable { path, source },
+        }
     })?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let traces =

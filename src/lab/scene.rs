@@ -12,7 +12,7 @@ use crate::sim::bodies::Kind;
 use crate::sim::integrators::Method;
 
 mod cause;
-mod clip;
+pub(super) mod clip;
 mod described;
 mod document;
 mod edit;

@@ -3,6 +3,7 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 use std::sync::Arc;
 
+use super::regular_file::{self, MAX_TABLE_BYTES};
 use crate::lab::pacing::trace_file;
 use crate::lab::{Command, Lab, SCENES, Scene};
 
@@ -40,9 +41,8 @@ fn is_trace(path: &Path) -> bool {
 
 /// Opens the loop lab on the traces in a CSV file.
 fn open_trace(lab: &mut Lab, path: &Path) -> Result<(), String> {
-    check_regular(path)?;
-    let bytes = std::fs::read(path)
-        .map_err(|error| format!("error: cannot read {}: {error}", path.display()))?;
+    let bytes = regular_file::read(path, MAX_TABLE_BYTES)
+        .map_err(|why| format!("error: cannot read {}: {why}", path.display()))?;
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let traces = trace_file::from_bytes(&name, &bytes);
     lab.open_traces(traces.map_err(|error| format!("error: {error}"))?);
@@ -50,7 +50,7 @@ fn open_trace(lab: &mut Lab, path: &Path) -> Result<(), String> {
 }
 
 fn open_listed(lab: &mut Lab, read: &ReadScene, path: &Path) -> Result<String, String> {
-    let (scene, text) = read_regular(read, path)?;
+    let (scene, text) = read(path)?;
     lab.open_file(path, scene);
     Ok(text)
 }
@@ -81,21 +81,6 @@ pub(super) fn open_typed(lab: &mut Lab, read: &ReadScene) -> Option<(PathBuf, St
                 }
             }
         }
-    }
-}
-
-fn read_regular(read: &ReadScene, path: &Path) -> Result<(Scene, String), String> {
-    check_regular(path)?;
-    read(path)
-}
-
-/// Fails for a pipe or a device: reading one would block the window until its other end is written.
-fn check_regular(path: &Path) -> Result<(), String> {
-    match path.metadata() {
-        Ok(found) if !found.is_file() && !found.is_dir() => {
-            Err(format!("error: {} is not a regular file", path.display()))
-        }
-        _ => Ok(()),
     }
 }
 

@@ -1,11 +1,10 @@
 //! The window on a run that a program of one's own has made.
 
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Closed, SceneFiles, WindowError, WindowSettings, run};
-use crate::lab::{Lab, Scene, Session};
+use super::{Closed, SceneFiles, WindowError, WindowSettings, regular_file, run};
+use crate::lab::{LARGEST_FILE, Lab, Scene, Session};
 
 /// The window of the program.
 #[derive(Debug)]
@@ -28,7 +27,8 @@ impl Window {
     pub fn run(session: Session) -> Result<Closed, WindowError> {
         let read = |path: &Path| {
             let name = path.display().to_string();
-            let bytes = fs::read(path).map_err(|error| format!("cannot read {name}: {error}"))?;
+            let bytes = regular_file::read(path, LARGEST_FILE)
+                .map_err(|why| format!("error: cannot read {name}: {why}"))?;
             let scene = Scene::from_bytes(&name, &bytes).map_err(|errors| errors.to_string())?;
             Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
         };

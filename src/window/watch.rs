@@ -1,19 +1,24 @@
 //! Watches the opened scene files for changes, on a thread of its own because a disk can be slow.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use winit::event_loop::EventLoopProxy;
 
 use super::Event;
 use super::opening::ReadScene;
+use super::regular_file::{self, Unreadable};
+use crate::lab::LARGEST_FILE;
 
 /// The time between two looks at the files: short enough for a change to seem immediate.
 const INTERVAL: Duration = Duration::from_millis(400);
 /// How long a changed file must stay the same before it is read: an editor may empty it first.
 const STEADY: Duration = Duration::from_millis(60);
+/// How many looks in a row read a file with the same stamp: for some two seconds, as coarse as the times of file systems
+/// are.
+const READS: u32 = 6;
 /// How many looks in a row must find no file before it counts as gone. After one, an editor may be about to replace it.
 const MISSING_WHEN_GONE: u32 = 2;
 
@@ -85,24 +90,63 @@ enum Look {
     Back,
 }
 
+/// What tells a file from the one that was there before without reading it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Stamp {
+    bytes: u64,
+    modified: Option<SystemTime>,
+    /// The inode and the time of its last change, which no program can set.
+    #[cfg(unix)]
+    inode: (u64, u64, i64, i64),
+    #[cfg(not(unix))]
+    created: Option<SystemTime>,
+}
+
+impl Stamp {
+    fn of(path: &Path) -> Option<Self> {
+        let found = path.metadata().ok()?;
+        #[cfg(unix)]
+        use std::os::unix::fs::MetadataExt;
+        Some(Self {
+            bytes: found.len(),
+            modified: found.modified().ok(),
+            #[cfg(unix)]
+            inode: (found.dev(), found.ino(), found.ctime(), found.ctime_nsec()),
+            #[cfg(not(unix))]
+            created: found.created().ok(),
+        })
+    }
+}
+
 /// A file with the bytes that it had when it was last read.
 struct WatchedFile {
     path: PathBuf,
-    bytes: Vec<u8>,
+    /// `None` if it was too large for a scene.
+    bytes: Option<Vec<u8>>,
     /// How many looks in a row found no file.
     missing: u32,
+    stamp: Option<Stamp>,
+    /// How many looks in a row have found this stamp, and read the file.
+    reads: u32,
 }
 
 impl WatchedFile {
     fn new(path: PathBuf, bytes: Vec<u8>) -> Self {
-        Self { path, bytes, missing: 0 }
+        Self { path, bytes: Some(bytes), missing: 0, stamp: None, reads: 0 }
     }
 
     /// Looks at the file; while it is being written, waits until it stays as it is.
     ///
-    /// Compares bytes and not times of modification: two changes can have the same time, and a file that replaces
-    /// another can be older.
+    /// Compares bytes, because two changes can have the same time and a file that replaces another can be older; until
+    /// the stamp has stayed the same for [`READS`] looks, from when on every change gives it another time.
     fn look(&mut self) -> Look {
+        let stamp = Stamp::of(&self.path);
+        if stamp != self.stamp || stamp.is_none() {
+            (self.stamp, self.reads) = (stamp, 0);
+        } else if self.reads == READS {
+            return Look::Same;
+        }
+        self.reads += 1;
         let Some(bytes) = self.read_steady() else {
             self.missing = self.missing.saturating_add(1);
             return if self.missing == MISSING_WHEN_GONE { Look::Gone } else { Look::Same };
@@ -116,7 +160,7 @@ impl WatchedFile {
     }
 
     /// The bytes of the file. If they are new, waits until they have stayed the same for [`STEADY`].
-    fn read_steady(&self) -> Option<Vec<u8>> {
+    fn read_steady(&self) -> Option<Option<Vec<u8>>> {
         let mut bytes = self.read()?;
         while bytes != self.bytes {
             thread::sleep(STEADY);
@@ -128,10 +172,12 @@ impl WatchedFile {
         Some(bytes)
     }
 
-    fn read(&self) -> Option<Vec<u8>> {
-        // Reading a pipe would block until its other end is written.
-        self.path.metadata().ok().filter(|found| found.is_file())?;
-        std::fs::read(&self.path).ok()
+    fn read(&self) -> Option<Option<Vec<u8>>> {
+        match regular_file::read(&self.path, LARGEST_FILE) {
+            Ok(bytes) => Some(Some(bytes)),
+            Err(Unreadable::TooLarge { .. }) => Some(None),
+            Err(_) => None,
+        }
     }
 }
 
@@ -180,5 +226,26 @@ mod tests {
             std::fs::write(&watched.path, text).unwrap();
             assert_eq!(looks(&mut watched, 2), [found, Look::Same]);
         }
+    }
+
+    #[test]
+    fn a_file_that_stays_is_not_read_again_until_it_changes() {
+        let (_folder, mut watched) = watched();
+        let reads = |watched: &mut WatchedFile| {
+            looks(watched, 20);
+            watched.reads
+        };
+        assert_eq!(reads(&mut watched), READS);
+        std::fs::write(&watched.path, "two").unwrap();
+        assert_eq!(watched.look(), Look::Changed);
+        assert!(watched.reads < READS);
+        assert_eq!(reads(&mut watched), READS);
+        // A file that can never be a scene is not read to its end.
+        let large = std::fs::File::create(&watched.path).unwrap();
+        large.set_len(1 << 40).unwrap();
+        assert_eq!(looks(&mut watched, 2), [Look::Changed, Look::Same]);
+        assert_eq!(watched.bytes, None);
+        std::fs::write(&watched.path, "two").unwrap();
+        assert_eq!(looks(&mut watched, 2), [Look::Changed, Look::Same]);
     }
 }

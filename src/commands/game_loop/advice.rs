@@ -15,8 +15,12 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
         format!("{} ({} Hz display, {} Hz ticks)", first.trace, first.refresh, first.tick_hz);
     let measured: Vec<(&'static PolicyCard, PacingReport)> =
         rows.iter().map(|row| (row.card, row.report.clone())).collect();
-    match advised_loop(&measured, latency_ms) {
-        Some(place) => tell(&format!("{trace}: take {}", words(&rows[place]))),
+    // Of two clocks without a common origin only differences of latencies mean something.
+    let latencies = rows.iter().filter_map(|row| row.report.latency_mean_ms);
+    let origin_ms =
+        if first.has_one_clock { 0.0 } else { latencies.reduce(f64::min).unwrap_or(0.0) };
+    match advised_loop(&measured, origin_ms + latency_ms) {
+        Some(place) => tell(&format!("{trace}: take {}", words(&rows[place], origin_ms))),
         None if rows.iter().all(|row| row.report.animation_error_rms_ms.is_none()) => {
             tell(&format!(
                 "{trace}: fewer than two frames were displayed, and nothing can be said"
@@ -26,6 +30,12 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
             "{trace}: no policy here keeps the game's speed at half the frame rate, stays stable, and has a mean latency \
              of {latency_ms} ms or less; try more policies, or a larger --latency-ms"
         )),
+    }
+    if !first.has_one_clock {
+        tell(
+            "  the log's two clocks have no common origin: latencies are counted from the least here, and in the rows they \
+             have a constant too many or too few",
+        );
     }
     let depends = rows.iter().filter_map(|row| {
         let difference = row.report.state_difference.filter(|difference| *difference > NOTED)?;
@@ -40,15 +50,15 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     }
 }
 
-/// A policy with what was measured and its constants.
-fn words(row: &Measured) -> String {
+/// A policy with what was measured and its constants. Latencies are counted from `origin_ms`.
+fn words(row: &Measured, origin_ms: f64) -> String {
     // Traces are counted in whole nanoseconds: what is less than a microsecond is their rounding.
     let to_microseconds = |ms: f64| (1000.0 * ms).round() / 1000.0;
     let ms = |value: Option<f64>| {
         value.map_or("unknown".into(), |ms| format!("{} ms", round(to_microseconds(ms), 3)))
     };
     let error = ms(row.report.animation_error_rms_ms);
-    let latency = ms(row.report.latency_mean_ms);
+    let latency = ms(row.report.latency_mean_ms.map(|latency| latency - origin_ms));
     let constants = match row.card.constants {
         "" => String::new(),
         constants => format!("; {constants}"),

@@ -21,6 +21,8 @@ pub(super) struct Measured {
     pub(super) trace: String,
     pub(super) refresh: RefreshRate,
     pub(super) tick_hz: u32,
+    /// Whether frames begin and are displayed by one clock. In the logs of tools they do not.
+    pub(super) has_one_clock: bool,
     pub(super) report: PacingReport,
     /// The moments of display and the moments shown of the frames that are drawn, in milliseconds.
     pub(super) drawn: Vec<[f64; 2]>,
@@ -58,8 +60,8 @@ pub(super) fn measure(
             write_frame(lines, &format!("{name},{}", card.id), run, record);
         }
     });
-    let (trace, refresh, tick_hz) = (trace.name().to_owned(), trace.refresh(), scene.tick_hz);
-    Measured { card, trace, refresh, tick_hz, report, drawn }
+    let (name, refresh, tick_hz) = (trace.name().to_owned(), trace.refresh(), scene.tick_hz);
+    Measured { card, trace: name, refresh, tick_hz, has_one_clock: !trace.ends(), report, drawn }
 }
 
 /// When the frames that are drawn begin to be displayed: at the start, or shortly before the longest frame if one is long.

@@ -11,6 +11,9 @@ use crate::commands::scene_file;
 use crate::commands::terminal::tell;
 use crate::lab::{Action, Check, Lab, Observer, Race, Resumed, Scene, Session};
 
+/// The most ticks that a race is run for its checks: a day at 1000 Hz and more, which takes a body minutes.
+const MAX_TICKS: u64 = 100_000_000;
+
 /// Why a scene file does not pass.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CheckError {
@@ -37,6 +40,29 @@ pub(super) enum CheckError {
         /// The file.
         path: PathBuf,
     },
+    /// A check names a lane that is not in the race any more, which no hash can mend.
+    #[error(
+        "not blessed: lane {lane} of {} has left the race at tick {tick}, where a [[check]] names it; take that check out, \
+         or the `solo` that removes the lane", .path.display()
+    )]
+    LaneLeft {
+        /// The lane's number, from 1.
+        lane: usize,
+        /// The tick of the check.
+        tick: u64,
+        /// The file.
+        path: PathBuf,
+    },
+    /// A check is too late to be reached.
+    #[error(
+        "{} has a [[check]] at tick {tick}, and verify runs {MAX_TICKS} ticks at most; take it out", .path.display()
+    )]
+    TooLate {
+        /// The tick of the check.
+        tick: u64,
+        /// The file.
+        path: PathBuf,
+    },
     /// The file has no checks.
     #[error("{} has no [[check]] to be judged by; --bless writes one for each second and the end, or fewer if the scene is long", .path.display())]
     NoChecks {
@@ -51,6 +77,8 @@ impl Cause for CheckError {
             CheckError::Different { .. } => 1,
             CheckError::OfCaptures { .. }
             | CheckError::ReportOverScene { .. }
+            | CheckError::LaneLeft { .. }
+            | CheckError::TooLate { .. }
             | CheckError::NoChecks { .. } => 2,
         }
     }
@@ -129,7 +157,7 @@ pub(super) fn judge(
     if scene.checks.is_empty() {
         return Err(CheckError::NoChecks { path: path.to_owned() }.into());
     }
-    tell_of_late_checks(path, &scene);
+    check_ticks(path, &scene)?;
     let checked = Checked { path: path.to_owned(), lanes: compare(&scene) };
     for lane in &checked.lanes {
         say(&lane.line())?;
@@ -142,11 +170,15 @@ pub(super) fn judge(
 }
 
 /// Says that checks lie beyond the scene's end, if some do: they are judged all the same, which can take longer than
-/// the scene.
-fn tell_of_late_checks(path: &Path, scene: &Scene) {
+/// the scene. Fails where it would take too long.
+fn check_ticks(path: &Path, scene: &Scene) -> Result<(), CheckError> {
+    let last = scene.checks.iter().map(|check| check.tick).max();
+    if let Some(tick) = last.filter(|tick| *tick > MAX_TICKS) {
+        return Err(CheckError::TooLate { tick, path: path.to_owned() });
+    }
     let end = Lab::new(scene.clone()).nearest_tick(scene.seconds);
     let late = scene.checks.iter().map(|check| check.tick).filter(|tick| *tick > end);
-    let Some(last) = late.clone().max() else { return };
+    let Some(last) = late.clone().max() else { return Ok(()) };
     let (are, count) = match late.count() {
         1 => ("check lies", 1),
         count => ("checks lie", count),
@@ -156,6 +188,7 @@ fn tell_of_late_checks(path: &Path, scene: &Scene) {
         path.display(),
         scene.seconds
     ));
+    Ok(())
 }
 
 /// Replaces the hashes in the checks of the file at `path` by those of a run now. A file without checks gets those
@@ -169,9 +202,11 @@ pub(super) fn bless(path: &Path) -> Result<(), Error> {
         with_line_ends_of(&text, &format!("{}\n{rows}", text.trim_end()))
     } else {
         let mut hashes: Vec<u64> = scene.checks.iter().map(|check| check.hash).collect();
-        tell_of_late_checks(path, &scene);
-        for reached in replay(&scene, &mut ()) {
-            hashes[reached.row] = reached.hash.unwrap_or(hashes[reached.row]);
+        check_ticks(path, &scene)?;
+        for Reached { row, hash, .. } in replay(&scene, &mut ()) {
+            let Check { tick, lane, .. } = scene.checks[row];
+            let path = path.to_owned();
+            hashes[row] = hash.ok_or(CheckError::LaneLeft { lane, tick, path })?;
         }
         Scene::with_hashes(&text, &hashes)
     };

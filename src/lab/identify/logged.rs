@@ -1,5 +1,7 @@
 //! A log of one coordinate, from text.
 
+use crate::lab::scene::clip::{clip, clip_list};
+
 /// A row of a log.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogRow {
@@ -78,13 +80,14 @@ impl Log {
         let header = reader.headers().map_err(|e| broken(&e))?.clone();
         let place = |wanted: &str| header.iter().position(|known| known == wanted);
         let found = || {
-            let names: Vec<String> = header.iter().map(|name| format!("{name:?}")).collect();
+            let names: Vec<String> = header.iter().map(|name| format!("\"{name}\"")).collect();
+            let listed = clip_list(names.iter().map(String::as_str));
             match &names[..] {
                 [] => "no columns".to_owned(),
                 [one] if one.contains([';', '\t']) => {
-                    format!("{one}, without a comma between columns")
+                    format!("{listed}, without a comma between columns")
                 }
-                _ => names.join(", "),
+                _ => listed,
             }
         };
         let Some(x) = place(&columns.x) else {
@@ -127,8 +130,8 @@ impl Log {
                 let cell = &record[place];
                 let found = cell.parse::<f64>().ok().filter(|number| number.is_finite());
                 found.ok_or_else(|| {
-                    let column = &header[place];
-                    error(line, format!("column {column:?}: {cell:?} is no number; write one, or cut the log before it"))
+                    let [column, cell] = [&header[place], cell].map(clip);
+                    error(line, format!("column \"{column}\": \"{cell}\" is no number; write one, or cut the log before it"))
                 })
             };
             let at = match (tick, t) {

@@ -3,16 +3,30 @@
 /// The most characters of a file's text in one message, so that it stays a line.
 const MOST_QUOTED_CHARS: usize = 40;
 
+/// The most characters of a list of names from a file, such as a header.
+const MOST_LISTED_CHARS: usize = 200;
+
 /// Text of a file for a message: shortened, and without control characters.
-pub(super) fn clip(text: &str) -> String {
+pub(in crate::lab) fn clip(text: &str) -> String {
+    clip_to(MOST_QUOTED_CHARS, text)
+}
+
+/// Names from a file for a message, with commas between.
+pub(in crate::lab) fn clip_list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    // No more of a file's text than can be shown.
+    let shown = names.take(MOST_LISTED_CHARS).map(clip).collect::<Vec<_>>().join(", ");
+    clip_to(MOST_LISTED_CHARS, &shown)
+}
+
+fn clip_to(most_chars: usize, text: &str) -> String {
     let mut shown = String::new();
-    for character in text.chars().take(MOST_QUOTED_CHARS) {
+    for character in text.chars().take(most_chars) {
         match character {
             '"' | '\'' | '\\' => shown.push(character),
             _ => shown.extend(character.escape_debug()),
         }
     }
-    if text.chars().nth(MOST_QUOTED_CHARS).is_some() {
+    if text.chars().nth(most_chars).is_some() {
         shown.push('…');
     }
     shown

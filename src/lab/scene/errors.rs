@@ -50,7 +50,8 @@ impl SceneErrors {
         Self { file: file.into(), text: text.into(), errors, more }
     }
 
-    pub(super) fn too_large(file: &str) -> Self {
+    /// The error of a file that is larger than a scene file may be, whatever it holds.
+    pub fn too_large(file: &str) -> Self {
         let error = SceneError { span: 0..0, cause: Cause::TooLarge };
         Self::new(file, "", vec![error])
     }

@@ -154,6 +154,35 @@ fn advice_names_a_policy_within_the_latency_with_its_constants() {
 }
 
 #[test]
+fn the_latency_on_a_log_is_counted_from_the_least_because_its_clocks_have_no_common_origin() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = |name: &str, first_display_ms: f64| {
+        let rows: String = (0..300).map(|_| "16.7,16.7\n").collect();
+        let text =
+            format!("MsBetweenPresents,MsBetweenDisplayChange\n16.7,{first_display_ms}\n{rows}");
+        fs::write(folder.path().join(name), text).unwrap();
+        let output = run_in(folder.path(), &format!("loop --trace {name}"));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stderr(&output).replace(name, "log")
+    };
+    let told = log("a.csv", 16.7);
+    assert!(told.contains("the log's two clocks have no common origin"), "{told}");
+    assert!(told.contains("log ("), "{told}");
+    let built_in = stderr(&run("loop --trace steady-60 --policy fixed --seconds 5"));
+    assert!(!built_in.contains("common origin"), "{built_in}");
+}
+
+#[test]
+fn what_goes_to_standard_output_is_not_told_as_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let frames = "loop --trace edge --policy fixed --seconds 2 --out rows.csv --frames";
+    let to_stdout = run_in(folder.path(), &format!("{frames} -"));
+    assert_eq!(stderr(&to_stdout).matches("wrote").collect::<Vec<_>>(), ["wrote"]);
+    let to_file = run_in(folder.path(), &format!("{frames} frames.csv --force"));
+    assert!(stderr(&to_file).contains("wrote the frames: frames.csv"), "{}", stderr(&to_file));
+}
+
+#[test]
 fn a_trace_is_not_overwritten_by_what_is_measured_on_it() {
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("log.csv");

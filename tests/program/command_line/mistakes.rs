@@ -64,7 +64,6 @@ fn each_mistake_is_named_with_its_remedy() {
         ("capture --out x --panels some", "on, off"),
         ("capture --out x --format avi", "png, apng, gif, y4m, rgba, sheet"),
         ("capture --out x --format gif --fps 51", "at most 50 frames a second, not 51"),
-        ("capture --out x --format gif --resume", "only pictures in a directory can be resumed"),
         ("capture --out src --format gif", "src is a directory; give --out a file"),
         ("capture --out src --format gif --force", "src is a directory; give --out a file"),
         ("capture --out x.png", "x.png is the name of one picture; give --format sheet or"),
@@ -79,12 +78,15 @@ fn each_mistake_is_named_with_its_remedy() {
         ("capture --out x.csv --format gif", "or a name that ends in .gif"),
         ("capture --out x.mp4", "regatta writes no .mp4 files; give --format y4m --out -"),
         ("capture --out x.mp4 --format y4m", "give a name that ends in .y4m, or"),
-        ("capture --out x.gif --resume", "only pictures in a directory can be resumed"),
         ("capture --out x.gif --fps 51", "at most 50 frames a second, not 51"),
         ("capture --out -", "numbered pictures need a directory; give --format y4m, rgba, apng"),
         ("capture --out LICENSE-MIT --format y4m", "LICENSE-MIT already exists"),
         ("capture --out x --format sheet --frames 9999", "fewer --frames or a smaller --size"),
         ("capture --out x --mark-every 0", "0 is not in 1..="),
+        ("identify /dev/zero --tick-hz 60", "cannot read the log /dev/zero: it is no regular file"),
+        ("identify src --tick-hz 60", "cannot read the log src: it is a directory"),
+        ("loop --trace /dev/zero", "cannot read the trace /dev/zero: it is no regular file"),
+        ("advise --scene /dev/zero", "cannot read the scene file /dev/zero: it is no regular file"),
         ("verify src", "cannot judge src/manifest.json: No such file"),
         ("verify nowhere", "`regatta capture` writes it"),
         ("verify src --max-pixels 101", "give a percentage from 0 to 100"),
@@ -122,6 +124,46 @@ bad.toml:5:3: unknown table `sprong`; did you mean `[[spring]]`?
         let output = run_in(folder.path(), &format!("{command} --scene bad.toml"));
         assert_eq!(stderr(&output), expected, "{command}");
         assert_eq!(output.status.code(), Some(2), "{command}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_without_a_writer_is_refused_and_not_waited_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe.csv");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    for command in [
+        "identify pipe.csv --tick-hz 60",
+        "loop --trace pipe.csv",
+        "loop --scene pipe.csv",
+        "trace --scene pipe.csv",
+    ] {
+        let output = run_in(folder.path(), command);
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        let said = stderr(&output);
+        assert!(said.contains("no regular file but a pipe or a device"), "{command}: {said}");
+    }
+}
+
+#[test]
+fn a_message_quotes_a_line_of_a_file_and_no_megabytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = "x".repeat(1_000_000);
+    for (text, command) in [
+        (format!("tick,{long}\n0,1\n"), "identify long --tick-hz 60"),
+        (format!("tick,x\n0,{long}\n"), "identify long --tick-hz 60"),
+        (format!("{long}\n1\n"), "loop --trace long"),
+        (format!("MsBetweenPresents,MsBetweenDisplayChange\n{long},1\n"), "loop --trace long"),
+        (format!("title = '{long}'\n"), "trace --scene long"),
+        (long.clone(), "trace --scene long"),
+    ] {
+        fs::write(folder.path().join("long"), text).unwrap();
+        let output = run_in(folder.path(), command);
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        let said = stderr(&output);
+        let longest = said.lines().map(|line| line.chars().count()).max();
+        assert!(longest < Some(600) && said.contains("long:"), "{longest:?}: {said:.900}");
     }
 }
 

@@ -145,6 +145,37 @@ fn a_lane_is_named_by_its_number_and_by_every_method_that_it_had() {
 }
 
 #[test]
+fn a_check_that_no_run_reaches_is_not_blessed_and_the_file_stays_as_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let check = |tick: u64, lane: usize| {
+        format!("[[check]]\ntick = {tick}\nlane = {lane}\nhash = '0123456789abcdef'\n")
+    };
+    let scene = "title = 'x'\ntick_hz = 30\nseconds = 1\nmethods = ['rk4', 'midpoint']\n\
+                 [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 40\n";
+    let solo = "[[command]]\ntick = 5\nsolo = 1\n";
+    for (text, options, said) in [
+        (
+            format!("{scene}{solo}{}{}", check(30, 1), check(30, 2)),
+            &["--bless"][..],
+            "not blessed: lane 2 of run.toml has left the race at tick 30, where a [[check]] names it",
+        ),
+        (
+            format!("{scene}{}", check(100_000_001, 1)),
+            &["", "--bless"][..],
+            "run.toml has a [[check]] at tick 100000001, and verify runs 100000000 ticks at most",
+        ),
+    ] {
+        fs::write(folder.path().join("run.toml"), &text).unwrap();
+        for option in options {
+            let (code, _, messages) = verify(&folder, option);
+            assert_eq!(code, Some(2), "{messages}");
+            assert!(messages.contains(said), "{messages}");
+            assert_eq!(fs::read_to_string(folder.path().join("run.toml")).unwrap(), text);
+        }
+    }
+}
+
+#[test]
 fn checks_beyond_the_end_of_the_scene_are_announced_and_judged() {
     let folder = recorded();
     edit(&folder, |text| text.replacen("seconds = 2.1666666666666665", "seconds = 1.5", 1));

@@ -336,7 +336,8 @@ fn a_pipe_that_closes_early_ends_the_trace_quietly() {
 #[test]
 fn a_full_disk_is_an_error() {
     let full = || fs::File::options().write(true).open("/dev/full").unwrap();
-    for arguments in ["trace --scene ship", "list methods", "completions bash"] {
+    for arguments in ["trace --scene ship", "list methods", "completions bash", "help", "--version"]
+    {
         let output = regatta().args(arguments.split(' ')).stdout(full()).output().unwrap();
         assert_eq!(output.status.code(), Some(1), "{arguments}");
         let said = stderr(&output);

@@ -4,6 +4,7 @@ use csv::StringRecord;
 
 use super::error::Fault;
 use super::milliseconds;
+use crate::lab::scene::clip::{clip, clip_list};
 
 /// Whether a row says how long it took until its frame, or from its frame on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,9 +20,6 @@ const TIMES: [(Span, &str, &str); 2] = [
     (Span::Before, "MsBetweenPresents", "MsBetweenDisplayChange"),
     (Span::After, "MsFrameTime", "MsDisplayedTime"),
 ];
-
-/// The most characters of a wrong header that are shown.
-const MOST_SHOWN: usize = 300;
 
 /// Where the columns are.
 pub(super) struct Columns {
@@ -68,10 +66,7 @@ impl Columns {
             Some((span, column(began)?, column(displayed)?))
         };
         let Some((span, began, displayed)) = TIMES.iter().find_map(times) else {
-            let mut found = header.iter().map(str::trim).collect::<Vec<_>>().join(", ");
-            if let Some((end, _)) = found.char_indices().nth(MOST_SHOWN) {
-                found.replace_range(end.., "…");
-            }
+            let found = clip_list(header.iter().map(str::trim));
             return Err(Fault::Columns { found });
         };
         Ok(Self {
@@ -120,7 +115,7 @@ impl Column {
         match row[self.place].trim() {
             "1" => Ok(true),
             "0" => Ok(false),
-            cell => Err(Fault::NotAFlag { column: self.name.clone(), cell: cell.into() }),
+            cell => Err(Fault::NotAFlag { column: self.name.clone(), cell: clip(cell) }),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Milliseconds as logs write them, read into whole nanoseconds.
 
+use crate::lab::scene::clip::clip;
+
 const DAY_NS: i64 = 86_400_000_000_000;
 
 /// Why a cell is no time.
@@ -24,10 +26,10 @@ pub(super) fn nanoseconds(cell: &str) -> Result<Option<i64>, Unreadable> {
         Some(number) => (true, number),
         None => (false, cell.strip_prefix('+').unwrap_or(cell)),
     };
-    let ns = unsigned(number).ok_or_else(|| Unreadable::NotANumber(cell.into()))?;
+    let ns = unsigned(number).ok_or_else(|| Unreadable::NotANumber(clip(cell)))?;
     match ns {
-        1.. if negative => Err(Unreadable::Negative(cell.into())),
-        DAY_NS.. => Err(Unreadable::TooLong(cell.into())),
+        1.. if negative => Err(Unreadable::Negative(clip(cell))),
+        DAY_NS.. => Err(Unreadable::TooLong(clip(cell))),
         _ => Ok(Some(ns)),
     }
 }

@@ -1,0 +1,88 @@
+//! Reads the files that a person names: regular ones, up to a stated size. Reading a pipe or a device could wait for ever.
+
+use std::fs::{File, Metadata};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// The most bytes of a table that is read, a log of a motion or of frames: half an hour of frames at 144 Hz.
+pub(crate) const MAX_TABLE_BYTES: usize = 64 << 20;
+
+/// Why a file is not read, with the remedy.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Unreadable {
+    /// The system refuses, or there is no such file.
+    #[error("{0}; give one that you may read")]
+    System(#[from] io::Error),
+    /// The path is that of a directory.
+    #[error("it is a directory; give a file in it")]
+    Directory,
+    /// The path is that of a pipe, a device or a socket.
+    #[error(
+        "it is no regular file but a pipe or a device, which may never end; write it to a file"
+    )]
+    NotRegular,
+    /// The file is larger than what is asked for can be.
+    #[error("it holds more than {max_bytes} bytes; give a shorter one")]
+    TooLarge {
+        /// The most bytes that it may have.
+        max_bytes: usize,
+    },
+}
+
+impl Unreadable {
+    /// Whether there is no such file.
+    pub(crate) fn is_missing(&self) -> bool {
+        matches!(self, Unreadable::System(error) if error.kind() == io::ErrorKind::NotFound)
+    }
+}
+
+/// The bytes of a regular file of at most `max_bytes`.
+pub(crate) fn read(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable> {
+    // Before it is opened: opening a pipe waits for its other end.
+    check(&path.metadata()?)?;
+    let file = File::open(path)?;
+    check(&file.metadata()?)?;
+    let mut bytes = Vec::new();
+    file.take(max_bytes as u64 + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > max_bytes {
+        return Err(Unreadable::TooLarge { max_bytes });
+    }
+    Ok(bytes)
+}
+
+fn check(found: &Metadata) -> Result<(), Unreadable> {
+    match found {
+        found if found.is_file() => Ok(()),
+        found if found.is_dir() => Err(Unreadable::Directory),
+        _ => Err(Unreadable::NotRegular),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        std::fs::write(&path, "four").unwrap();
+        assert_eq!(read(&path, 4).unwrap(), b"four");
+        assert!(matches!(read(&path, 3), Err(Unreadable::TooLarge { max_bytes: 3 })));
+        assert!(matches!(read(folder.path(), 4), Err(Unreadable::Directory)));
+        assert!(read(&folder.path().join("b"), 4).unwrap_err().is_missing());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_may_never_end_is_not_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+        assert!(made.success());
+        for endless in [pipe.as_path(), Path::new("/dev/zero")] {
+            let error = read(endless, 4).unwrap_err();
+            assert!(matches!(error, Unreadable::NotRegular), "{}: {error}", endless.display());
+        }
+    }
+}
