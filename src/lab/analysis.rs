@@ -35,4 +35,4 @@ pub use run::MOST_WORK;
 pub use stability_map::{Coverage, Here, MapRequest, Region, StabilityMap};
 pub use truth::LONG_RUN;
 pub use verdict::{NoTruth, NotJudged, RunFailure, Verdict, duration};
-pub use worker::{Advice, AnalysisRequest, AnalysisWorker, Findings};
+pub use worker::{Advice, AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings};

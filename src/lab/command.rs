@@ -142,6 +142,8 @@ pub enum Command {
     ExportInstrument,
     /// Selects the body of the plots and the lane list, by its place in the scene, from 0.
     Body(usize),
+    /// Has the advice be about the displayed body alone, or about all bodies.
+    AdviseOnOneBody(bool),
     /// Holds a body; time stands still until it is released. To place it is an [`Action`].
     Hold(HeldBody),
     /// Releases the held body, which goes on from where it was grabbed.

@@ -36,6 +36,8 @@ pub struct Display {
     pub metric: usize,
     /// The body of the plots and the lane list, by its place in the scene.
     pub body: usize,
+    /// Whether the advice is about that body alone, and not about all.
+    pub advises_on_one_body: bool,
     /// The body and its parameter that a person has chosen for the stability map, by their places.
     pub mapped_parameter: Option<(usize, usize)>,
     /// How the lanes of a race share the stage.

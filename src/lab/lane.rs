@@ -21,6 +21,8 @@ pub const ESCAPE: f64 = 1e38;
 pub struct Halt {
     /// The tick that failed. The body keeps its state from before that tick.
     pub tick: u64,
+    /// When that tick began, in seconds.
+    pub t: f64,
     /// The body that failed, by its place in the scene.
     pub body: usize,
     /// Why.
@@ -68,6 +70,8 @@ pub struct LaneBody {
     /// The state before the last input, which is restored if the input makes the body fail.
     before_input: [Vec<f64>; 2],
     halted: Option<Halt>,
+    /// Its evaluations before the last tick.
+    evaluations_before: u64,
     /// The range of the true motion so far; `None` under a method.
     extent: Option<Extent>,
     chase: Option<Chase>,
@@ -96,6 +100,7 @@ impl LaneBody {
             previous_v,
             before_input: state,
             halted: None,
+            evaluations_before: 0,
             extent: (solver == Solver::Truth).then(Extent::default),
             chase,
         };
@@ -106,6 +111,11 @@ impl LaneBody {
     /// Why and when the body stopped, if it did.
     pub fn halted(&self) -> Option<&Halt> {
         self.halted.as_ref()
+    }
+
+    /// The evaluations of its acceleration in the last tick.
+    pub fn evaluations_of_last_tick(&self) -> u64 {
+        self.stepper.evaluations() - self.evaluations_before
     }
 
     /// The range of the true motion so far; `None` under a method.
@@ -164,6 +174,7 @@ impl LaneBody {
             return;
         }
         self.remember();
+        self.evaluations_before = self.stepper.evaluations();
         let stepped = self
             .stepper
             .advance(t, h, substeps)
@@ -176,7 +187,7 @@ impl LaneBody {
             }
             Err(failure) => {
                 self.stepper.set(t, &self.previous_q, &self.previous_v);
-                self.halted = Some(Halt { tick, body: place, failure });
+                self.halted = Some(Halt { tick, t, body: place, failure });
             }
         }
     }
@@ -205,7 +216,7 @@ impl LaneBody {
                 let [q, v] = &self.before_input;
                 self.stepper.set(t, q, v);
                 self.remember();
-                self.halted = Some(Halt { tick, body: place, failure });
+                self.halted = Some(Halt { tick, t, body: place, failure });
             }
         }
     }
@@ -233,7 +244,7 @@ impl LaneBody {
         if let Err(failure) = check(&*self.stepper, self.coordinates) {
             let [q, v] = &self.before_input;
             self.stepper.set(t, q, v);
-            self.halted = Some(Halt { tick, body: place, failure });
+            self.halted = Some(Halt { tick, t, body: place, failure });
         }
         self.remember();
         self.cover();

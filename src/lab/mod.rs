@@ -53,11 +53,11 @@ pub use crate::sim::bodies::{Acts, Coordinate, Parameter, Range};
 pub use crate::sim::stability::NoSmallMotion;
 pub use action::Action;
 pub use analysis::{
-    Advice, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, ChaseFinding, Coverage, Criterion,
-    CriterionMet, CriterionResult, EnergyFinding, FREQUENCY_TOLERANCE, Findings, Here, Judge,
-    LONG_RUN, LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK, MapRequest, MethodAdvice,
-    NoTruth, NotJudged, Outcome, Region, RunFailure, Severity, StabilityMap, TOLERANCE, VISIBLE,
-    Verdict, duration, recommended,
+    Advice, AdvisedBodies, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, ChaseFinding,
+    Coverage, Criterion, CriterionMet, CriterionResult, EnergyFinding, FREQUENCY_TOLERANCE,
+    Findings, Here, Judge, LONG_RUN, LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK,
+    MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome, Region, RunFailure, Severity,
+    StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
 };
 pub use chase::Chase;
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};

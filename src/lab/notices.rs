@@ -1,10 +1,13 @@
 //! Notices about bodies that halt and bodies that resume.
 
 use super::action::Action;
-use super::lane::{Halt, Resumed, ResumedFrom};
+use super::analysis::duration;
+use super::lane::{Halt, LaneBody, Resumed, ResumedFrom};
+use super::number::superscript;
 use super::race::{Observer, Race};
 use super::scene::Scene;
 use crate::sim::bodies::FalseClaims;
+use crate::sim::integrators::StepFailure;
 
 /// Collects notices from a race.
 pub(super) struct Notices<'s> {
@@ -36,19 +39,67 @@ impl Observer for Notices<'_> {
     }
 }
 
+impl Halt {
+    /// What became of the body, and when: `blew up at 8.4 s`.
+    pub fn fate(&self) -> String {
+        let fate = if self.is_blow_up() { "blew up" } else { "gave up" };
+        format!("{fate} at {}", duration(self.t))
+    }
+}
+
+impl LaneBody {
+    /// What became of the body, if it halted, and with what values: `blew up at 8.4 s (speed 10³⁸ m/s)`.
+    pub fn fate(&self) -> Option<String> {
+        let halt = self.halted()?;
+        let (fate, how) = (halt.fate(), |name| self.quantity(name));
+        Some(match &halt.failure {
+            StepFailure::Escaped { coordinate, value } => {
+                let size = superscript(libm::round(libm::log10(value.abs())) as i32);
+                let (quantity, unit) = how(coordinate);
+                format!("{fate} ({quantity} 10{size}{unit})")
+            }
+            StepFailure::NotFinite { coordinate, .. } => {
+                format!("{fate} ({} beyond all numbers)", how(coordinate).0)
+            }
+            failure => format!("{fate}: {failure}"),
+        })
+    }
+
+    /// The quantity of the body that has this name, in words, and its unit after a space, if it has one.
+    fn quantity(&self, name: &str) -> (String, String) {
+        let several = self.coordinates.len() > 1;
+        let velocity = self.coordinates.iter().find(|coordinate| coordinate.velocity == name);
+        let of = velocity.or(self.coordinates.iter().find(|coordinate| coordinate.name == name));
+        let quantity = match velocity {
+            _ if several => name,
+            Some(_) => "speed",
+            None => "position",
+        };
+        let unit = match (of.map_or("1", |coordinate| coordinate.unit), velocity.is_some()) {
+            ("1", false) => String::new(),
+            ("1", true) => " per second".into(),
+            (unit, false) => format!(" {unit}"),
+            (unit, true) => format!(" {unit}/s"),
+        };
+        (quantity.to_owned(), unit)
+    }
+}
+
 /// A notice about the bodies that halted in the last tick, if any did. Allocates nothing if none did. A reference that
 /// was not tried is told of on the stage.
 fn of_halts(scene: &Scene, race: &Race) -> Option<String> {
     let halts = || race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
     halts().next()?;
-    let told = halts().map(|(place, Halt { tick, body, failure })| {
-        let truth = race.truth().bodies()[*body].truth().id();
-        let body = &scene.bodies[*body];
+    let told = halts().map(|(place, Halt { tick, body: index, failure, .. })| {
+        let truth = race.truth().bodies()[*index].truth().id();
+        let body = &scene.bodies[*index];
         match place {
             Some(place) => {
-                let spec = race.list()[race.entrants()[place].entry];
+                let entrant = &race.entrants()[place];
+                let spec = race.list()[entrant.entry];
                 let name = spec.told_apart(spec.method.name, race.list());
-                format!("{name} halted at tick {tick}: {} {failure}", body.name)
+                let fate = entrant.lane.bodies()[*index].fate().unwrap_or_default();
+                format!("{name}: {} {fate}", body.name)
             }
             None => {
                 let name = &body.name;
@@ -92,7 +143,6 @@ fn of_claims(scene: &Scene, race: &Race, action: &Action) -> Option<String> {
 mod tests {
     use super::*;
     use crate::lab::{Command, Lab, METRICS};
-    use crate::sim::integrators::StepFailure;
 
     #[test]
     fn what_goes_on_is_told_with_what_became_of_it_and_where_it_begins() {
@@ -101,7 +151,8 @@ mod tests {
             StepFailure::NewtonFailed { limit: 9 },
             StepFailure::NotFinite { coordinate: "x", value: f64::NAN },
         ];
-        let [gave_up, blew_up] = failures.map(|failure| Halt { tick: 3, body: 0, failure });
+        let [gave_up, blew_up] =
+            failures.map(|failure| Halt { tick: 3, t: 0.05, body: 0, failure });
         let told = |halt: &Halt, from| of_taken_up(&scene, &[Resumed { halt: halt.clone(), from }]);
         assert_eq!(
             told(&gave_up, ResumedFrom::Truth).unwrap(),
@@ -112,6 +163,24 @@ mod tests {
             "helm had blown up: resumed from its last good state"
         );
         assert_eq!(of_taken_up(&scene, &[]), None);
+    }
+
+    #[test]
+    fn a_body_that_blew_up_says_when_and_with_what_value_in_its_unit() {
+        let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+        lab.apply(Command::Method(crate::sim::integrators::method("explicit-euler").unwrap()));
+        lab.apply(Command::TickHz(10));
+        while lab.selected().lane.halted().is_none() {
+            lab.tick();
+        }
+        let halt = lab.selected().lane.halted().unwrap().clone();
+        assert_eq!(halt.t, halt.tick as f64 / 10.0);
+        let when = format!("blew up at {}", duration(halt.t));
+        assert_eq!(halt.fate(), when);
+        let fate = lab.selected().lane.bodies()[halt.body].fate().unwrap();
+        assert_eq!(fate, format!("{when} (speed 10³⁹ m/s)"));
+        let notice = lab.viewer.notice.take().unwrap();
+        assert_eq!(notice, format!("Explicit Euler: stiff spring {fate}"));
     }
 
     #[test]

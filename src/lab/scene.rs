@@ -170,6 +170,19 @@ impl Scene {
         self.lanes.iter().copied().chain(others.map(LaneSpec::plain)).collect()
     }
 
+    /// The scene with the body at this place alone. It has no checks: they are of all bodies.
+    pub(super) fn of_one_body(mut self, place: usize) -> Scene {
+        self.bodies = vec![self.bodies.swap_remove(place)];
+        self.checks.clear();
+        self.script.retain_mut(|scripted| match &mut scripted.action {
+            Action::Set { body, .. } | Action::Place { body, .. } => {
+                std::mem::replace(body, 0) == place
+            }
+            _ => true,
+        });
+        self
+    }
+
     /// The name of a body, or the id of a lane's method, that is written in Rust, so that no scene file holds it; `None`
     /// if there is none.
     pub fn in_rust(&self) -> Option<&str> {

@@ -80,6 +80,7 @@ impl Viewer {
                 enlarged: false,
                 metric: 0,
                 body: 0,
+                advises_on_one_body: false,
                 mapped_parameter: None,
                 arrangement: Arrangement::Overlay,
                 theme: Theme::Dark,

@@ -83,8 +83,8 @@ fn a_verdict_says_the_number_that_its_word_is_about() {
         doubles_in_s: Some(1.0),
         ..plain(Outcome::BlewUp)
     };
-    is(ended.clone(), "blew up after 4 s");
-    is(Verdict { outcome: Outcome::GaveUp, ..ended }, &format!("gave up after 4 s: {failure}"));
+    is(ended.clone(), "will blow up at 4 s");
+    is(Verdict { outcome: Outcome::GaveUp, ..ended }, &format!("will give up at 4 s: {failure}"));
 
     let without = |why| Verdict { no_truth: Some(why), ..plain(Outcome::NoTruth) };
     is(

@@ -151,10 +151,14 @@ impl Verdict {
         duration(self.starts_at_s + seconds)
     }
 
-    /// When the run failed, `seconds` after the judged part begins: a time of the run.
-    fn failed(&self, seconds: f64) -> String {
-        let how = if self.starts_at_s == 0.0 { "after" } else { "at" };
-        format!("{how} {}", self.moment(seconds))
+    /// Where the run begins in which the lane fails, if it fails: that run need not be the one on the screen.
+    pub fn proviso(&self) -> Option<String> {
+        let fails = matches!(self.outcome, Outcome::BlewUp | Outcome::GaveUp);
+        let begins = match self.starts_at_s {
+            0.0 => "the start".to_owned(),
+            seconds => duration(seconds),
+        };
+        fails.then(|| format!("if run from {begins}"))
     }
 
     pub(super) fn is_worse_than(&self, other: &Self) -> bool {
@@ -231,9 +235,11 @@ impl fmt::Display for Verdict {
             (Outcome::LosesEnergy, ..) => {
                 write!(f, "loses energy: {}", self.swing(self.halves_in_s, "½"))?;
             }
-            (Outcome::BlewUp, Some(failure), _) => write!(f, "blew up {}", self.failed(failure.t))?,
+            (Outcome::BlewUp, Some(failure), _) => {
+                write!(f, "will blow up at {}", self.moment(failure.t))?;
+            }
             (Outcome::GaveUp, Some(failure), _) => {
-                write!(f, "gave up {}: {}", self.failed(failure.t), failure.cause)?;
+                write!(f, "will give up at {}: {}", self.moment(failure.t), failure.cause)?;
             }
             (Outcome::NoTruth, ..) if let Some(found) = self.by_energy => {
                 write!(f, "{}", found.kept(&horizon))?;
@@ -329,7 +335,7 @@ mod tests {
             ("spring", "improved-euler", 300, "accurate: error 0.92 % in 20 s; swing ×2 in 26.7 h"),
             ("spring", "rk4", 60, "accurate: error 0.013 % in 20 s"),
             ("spring", "rk4", 10, "loses energy: swing ½ in 171 s"),
-            ("stiff", "semi-implicit-euler", 49, "blew up after 4.14 s"),
+            ("stiff", "semi-implicit-euler", 49, "will blow up at 4.14 s"),
             ("ship", "explicit-euler", 2, "stable, off by 1.9 % at 10 s, settled by 60 s"),
             // The verdict is that of the worst body.
             ("harbour", "explicit-euler", 60, "gains energy: swing ×2 in 2.12 s (free spring)"),
@@ -342,7 +348,7 @@ mod tests {
     fn moments_are_times_of_the_run_and_lengths_count_from_where_it_is_judged() {
         for (scene, id, tick_hz, shown) in [
             ("spring", "explicit-euler", 60, "gains energy: swing ×2 in 2.12 s"),
-            ("stiff", "semi-implicit-euler", 49, "blew up at 104 s"),
+            ("stiff", "semi-implicit-euler", 49, "will blow up at 104 s"),
             ("ship", "explicit-euler", 2, "stable, off by 1.9 % at 110 s, settled by 160 s"),
         ] {
             let verdict = verdict(scene, id, tick_hz).starting_at(100.0);

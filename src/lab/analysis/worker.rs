@@ -12,6 +12,26 @@ use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 use crate::sim::integrators::Method;
 
+/// The bodies of a scene that advice is about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AdvisedBodies {
+    /// All of them, under one method.
+    #[default]
+    All,
+    /// The body at this place of the scene, alone.
+    One(usize),
+}
+
+impl AdvisedBodies {
+    /// The scene of these bodies alone.
+    fn of(self, scene: Scene) -> Scene {
+        match self {
+            AdvisedBodies::All => scene,
+            AdvisedBodies::One(body) => scene.of_one_body(body),
+        }
+    }
+}
+
 /// The verdicts and the advice that a lab wants. Two requests of one [`Lab`](crate::lab::Lab) are equal if they have the
 /// same answer.
 #[derive(Clone, Debug)]
@@ -22,8 +42,8 @@ pub struct AnalysisRequest {
     pub(in crate::lab) tick_hz: u32,
     /// What has changed in the run that is judged.
     pub(in crate::lab) by_hand: Interventions,
-    /// Whether advice is wanted.
-    pub(in crate::lab) advice: bool,
+    /// The bodies that advice is wanted on, if it is wanted.
+    pub(in crate::lab) advice: Option<AdvisedBodies>,
     /// The stability map, if it is wanted.
     pub(in crate::lab) map: Option<MapRequest>,
 }
@@ -68,6 +88,8 @@ impl Findings {
 /// The advice on every method on a scene.
 #[derive(Clone, Debug)]
 pub struct Advice {
+    /// The bodies that it is about.
+    pub bodies: AdvisedBodies,
     /// The requested rate in Hz.
     pub tick_hz: u32,
     /// The horizon in simulated seconds.
@@ -92,6 +114,7 @@ pub struct AnalysisWorker {
 
 /// Advice being computed, method by method and criterion by criterion.
 struct AdviceInProgress {
+    bodies: AdvisedBodies,
     adviser: Adviser,
     /// The methods that step the scene.
     methods: Vec<&'static Method>,
@@ -143,6 +166,9 @@ impl AnalysisWorker {
         if request.entries != self.request.entries {
             self.judged = 0;
         }
+        if let Some(bodies) = request.advice {
+            self.advising.take_if(|advising| advising.bodies != bodies);
+        }
         self.request = request;
     }
 
@@ -172,12 +198,20 @@ impl AnalysisWorker {
             let verdict = judge.verdict(spec, *tick_hz);
             self.verdicts[self.judged] = Some(verdict.starting_at(by_hand.starts_at_s()));
             self.judged += 1;
-        } else if *advice {
-            let advising = self.advising.get_or_insert_with(|| AdviceInProgress {
-                adviser: Adviser::new(&by_hand.applied_to(scene), 1.0, *tick_hz),
-                methods: scene.own_methods().collect(),
-                advised: Vec::new(),
-                met: Vec::new(),
+        } else if let Some(bodies) = *advice {
+            let advising = self.advising.get_or_insert_with(|| {
+                let scene = bodies.of(by_hand.applied_to(scene));
+                let lane_of = |method: &Method| scene.lanes.iter().position(|l| l.method == method);
+                let mut methods: Vec<_> = scene.own_methods().collect();
+                // Those that race come first: they are what a person sees.
+                methods.sort_by_key(|method| lane_of(method).unwrap_or(usize::MAX));
+                AdviceInProgress {
+                    bodies,
+                    adviser: Adviser::new(&scene, 1.0, *tick_hz),
+                    methods,
+                    advised: Vec::new(),
+                    met: Vec::new(),
+                }
             });
             advising.advance();
         }
@@ -198,18 +232,20 @@ impl AnalysisWorker {
     fn is_done(&self) -> bool {
         let advised = self.advising.as_ref().is_some_and(AdviceInProgress::is_done);
         let judged = self.judged == self.request.entries.len();
-        judged && self.is_mapped() && (advised || !self.request.advice)
+        judged && self.is_mapped() && (advised || self.request.advice.is_none())
     }
 
     /// The findings so far.
     pub fn findings(&self) -> Findings {
-        let advice = self.advising.as_ref().filter(|_| self.request.advice);
-        let advice = advice.map(|AdviceInProgress { adviser, methods, advised, .. }| Advice {
-            tick_hz: adviser.tick_hz(),
-            horizon_s: adviser.judge().horizon_s(),
-            wanted: methods.len(),
-            advised: advised.clone(),
-        });
+        let advice = self.advising.as_ref().filter(|_| self.request.advice.is_some());
+        let advice =
+            advice.map(|AdviceInProgress { bodies, adviser, methods, advised, .. }| Advice {
+                bodies: *bodies,
+                tick_hz: adviser.tick_hz(),
+                horizon_s: adviser.judge().horizon_s(),
+                wanted: methods.len(),
+                advised: advised.clone(),
+            });
         Findings {
             request: self.request.clone(),
             verdicts: self.verdicts.clone(),
@@ -234,7 +270,7 @@ mod tests {
             entries,
             tick_hz: 60,
             by_hand: Interventions::default(),
-            advice: false,
+            advice: None,
             map: None,
         }
     }
@@ -325,11 +361,38 @@ mod tests {
         let mut worker = AnalysisWorker::new(unasked.clone());
         answer(&mut worker, &unasked);
         assert!(worker.findings().advice.is_none());
-        worker.set_request(AnalysisRequest { advice: true, ..unasked });
+        worker.set_request(AnalysisRequest { advice: Some(AdvisedBodies::All), ..unasked });
         let bits = 1 + (0..).take_while(|_| worker.work()).count();
         assert!((3..2000).contains(&bits), "{bits} times");
         let advice = worker.findings().advice.unwrap();
         assert_eq!([advice.advised.len(), advice.wanted], [GENERAL_METHODS.len(); 2]);
         assert!(worker.findings().complete);
+    }
+
+    #[test]
+    fn a_body_can_be_asked_about_alone() {
+        let harbour = request("harbour");
+        let advised = |bodies: AdvisedBodies| {
+            let advice = Some(bodies);
+            let mut worker = AnalysisWorker::new(AnalysisRequest { advice, ..harbour.clone() });
+            while worker.findings().advice.is_none_or(|advice| advice.advised.len() < 2) {
+                worker.work();
+            }
+            let advice = worker.findings().advice.unwrap();
+            assert_eq!(advice.bodies, bodies);
+            assert_eq!(advice.advised[1].spec.method.id, "semi-implicit-euler");
+            let met = advice.advised[1].met[0].met().cloned().expect("it is bounded");
+            (worker, met)
+        };
+        let (mut worker, one) = advised(AdvisedBodies::One(1));
+        assert_eq!(one.evaluations_per_s, f64::from(60 * one.substeps), "one evaluation a step");
+        let (_, all) = advised(AdvisedBodies::All);
+        assert_eq!(all.evaluations_per_s, f64::from(3 * 60 * all.substeps), "of three bodies");
+        let bodies = Some(AdvisedBodies::One(1));
+        for (advice, is_kept) in [(None, true), (Some(AdvisedBodies::All), false)] {
+            worker.set_request(AnalysisRequest { advice, ..harbour.clone() });
+            worker.set_request(AnalysisRequest { advice: bodies, ..harbour.clone() });
+            assert_eq!(worker.findings().advice.is_some(), is_kept, "{advice:?}");
+        }
     }
 }

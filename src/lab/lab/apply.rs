@@ -146,6 +146,9 @@ impl Lab {
             Command::Body(body) => {
                 self.viewer.display.body = body.min(self.scene().bodies.len() - 1);
             }
+            Command::AdviseOnOneBody(is_one) => {
+                self.viewer.display.advises_on_one_body = is_one;
+            }
             Command::ToggleHelp => self.viewer.display.help = !self.viewer.display.help,
             Command::ToggleInspector => {
                 self.viewer.display.inspector = !self.viewer.display.inspector;

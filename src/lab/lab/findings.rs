@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Lab;
-use crate::lab::analysis::{AnalysisRequest, AnalysisWorker, Findings, MapRequest};
+use crate::lab::analysis::{AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings, MapRequest};
 use crate::lab::instrument::Instrument;
 use crate::lab::intervention::Interventions;
 use crate::lab::scene::SceneBody;
@@ -22,10 +22,19 @@ impl Lab {
             by_hand: Interventions::in_race(self.race()),
             entries: self.entries().to_vec(),
             tick_hz: self.clock.tick_hz(),
-            advice: self.display().instrument == Instrument::Advice,
+            advice: (self.display().instrument == Instrument::Advice)
+                .then(|| self.advised_bodies()),
             map: (self.display().instrument == Instrument::StabilityMap)
                 .then(|| self.map_request())
                 .flatten(),
+        }
+    }
+
+    /// The bodies that advice is about.
+    fn advised_bodies(&self) -> AdvisedBodies {
+        match self.display() {
+            display if display.advises_on_one_body => AdvisedBodies::One(display.body),
+            _ => AdvisedBodies::All,
         }
     }
 

@@ -8,7 +8,7 @@ use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::number::{round, significant};
 use crate::lab::palette::{Palette, faded};
 use crate::lab::race::Entrant;
-use crate::lab::{Halt, LaneBody, Severity, Verdict};
+use crate::lab::{Halt, Lab, LaneBody, Severity, Verdict};
 
 /// The least height of a cell, in points, that marks along its bottom do not crowd.
 const ROOM_FOR_BAR: f32 = 64.0;
@@ -26,6 +26,13 @@ const CHIP: f32 = 27.0;
 const NAME_LETTER: f32 = 8.5;
 const VERDICT_LETTER: f32 = 7.6;
 const LETTER: f32 = 6.7;
+/// The column of lane names at the left of a race, in points: at least so wide where names fit, and where only numbers do.
+const LANES: (f32, f32) = (124.0, 18.0);
+/// From this width of the stage on, in points, lane names fit, and the part of it that they may take.
+const ROOM_FOR_LANES: f32 = 520.0;
+const MOST_FOR_LANES: f32 = 0.28;
+/// How far the name of a lane keeps from the left edge of its column, in points.
+const LANE_INSET: f32 = 8.0;
 /// From this width of a cell on, in points, numbers fit beside its caption.
 const ROOM_FOR_NUMBERS: f32 = 330.0;
 /// How far captions keep from the left edge of a wide cell, in points.
@@ -43,11 +50,22 @@ fn text(
     Label { at, align, size, colour, is_strong: false, halo: faded(palette.sea[1], 0.85), text }
 }
 
+fn lane_name(lab: &Lab, entrant: &Entrant) -> String {
+    format!("{} {}", entrant.entry + 1, lab.lane_name(entrant.entry))
+}
+
+/// The width of the column at the left of a stage this wide in which [`lane`] names each of these, in points.
+pub(super) fn lanes_width(lab: &Lab, entrants: &[&Entrant], stage: f32) -> f32 {
+    let width = |lane: &&Entrant| LANE_INSET + LETTER * lane_name(lab, lane).chars().count() as f32;
+    let widest = entrants.iter().map(width).fold(LANES.0, f32::max);
+    if stage >= ROOM_FOR_LANES { widest.min(MOST_FOR_LANES * stage) } else { LANES.1 }
+}
+
 /// Names a lane at the left of its row, with a bar where it is selected.
 pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, entrant: &Entrant) {
     let lab = moment.lab;
     let (colour, _) = moment.style(entrant.entry);
-    let (left, right) = (rect.min[0] + 8.0, rect.max[0]);
+    let (left, right) = (rect.min[0] + LANE_INSET, rect.max[0]);
     let middle = (rect.min[1] + rect.max[1]) / 2.0;
     if entrant.lane_number == lab.selected().lane_number {
         let (top, bottom) = (rect.min[1] + 4.0, rect.max[1] - 4.0);
@@ -59,11 +77,15 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, entra
         let at = [left, y];
         picture.labels.push(text(moment.palette, at, Align::Left, 12.0, colour, words));
     };
-    let number = entrant.entry + 1;
-    let name = format!("{number} {}", lab.lane_name(entrant.entry));
-    if right - left < (LETTER * name.chars().count() as f32).max(ROOM_FOR_CAPTION[0]) {
-        write(middle, colour, format!("{number}"));
+    let mut name = lane_name(lab, entrant);
+    if right - left < ROOM_FOR_CAPTION[0] {
+        write(middle, colour, format!("{}", entrant.entry + 1));
         return;
+    }
+    // Half a point, for a column of just the width of its widest name.
+    let letters = ((right - left + 0.5) / LETTER) as usize;
+    if name.chars().count() > letters {
+        name = name.chars().take(letters - 1).chain(['…']).collect();
     }
     // Of several bodies, each has its own cell to say so in.
     let alone = match entrant.lane.bodies() {
@@ -241,7 +263,10 @@ impl Chip {
         Some(Self {
             sign,
             colours: [tone, moment.style(entrant.entry).0],
-            verdict: Verdict { body_name: None, ..verdict.clone() }.to_string(),
+            verdict: match entrant.lane.bodies()[index].halted() {
+                Some(halt) => halt.fate(),
+                None => Verdict { body_name: None, ..verdict.clone() }.to_string(),
+            },
             swing: (verdict.swings && past.coordinate(moment.lab.race(), index).1 == 0)
                 .then(|| format!("{}, exact {}", how_far(lane), how_far(exact))),
         })

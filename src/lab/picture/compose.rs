@@ -18,10 +18,6 @@ use crate::lab::{Arrangement, Lab, Mode, ZoomPan};
 
 /// The head of a cell in which its lane is named, and may have halted, in points.
 const CAPTION: f32 = 32.0;
-/// The column of lane names at the left of a race, in points: where names fit, and where only numbers do.
-const GUTTERS: (f32, f32) = (124.0, 18.0);
-/// From this width of the stage on, in points, lane names fit.
-const ROOM_FOR_NAMES: f32 = 520.0;
 /// From this height of the stage on, in points, a ruler fits above it.
 const ROOM_FOR_RULER: f32 = 260.0;
 /// How much is seen of a body where it was taken from, while it is held.
@@ -167,8 +163,7 @@ fn side_by_side(
         }
         return;
     }
-    let width = stage.max[0] - stage.min[0];
-    let gutter = if width >= ROOM_FOR_NAMES { GUTTERS.0 } else { GUTTERS.1 };
+    let gutter = captions::lanes_width(moment.lab, entrants, stage.max[0] - stage.min[0]);
     let right = Rect { min: [stage.min[0] + gutter, stage.min[1]], ..stage };
     let cells = grid(right, entrants.len(), bodies);
     for (entrant, row) in entrants.iter().zip(cells.chunks(bodies)) {

@@ -1,39 +1,67 @@
-//! Which method to take for the scene at its tick rate: what is known by now, as a table.
+//! Which method to take for the scene at its tick rate: the answer as far as it is known, then what is known of every
+//! method, as a table.
 
-use egui::{Grid, Label, Response, RichText, ScrollArea, Ui};
+use egui::{Align, FontId, Label, Layout, Response, RichText, ScrollArea, Ui, vec2};
 
-use super::{ink, tone};
+use super::{ink, strong_font, tone};
 use crate::lab::number::significant;
 use crate::lab::{
-    Advice, CRITERIA, Command, CriterionMet, CriterionResult, Lab, LaneSpec, MOST_ADVISED_SUBSTEPS,
-    MethodAdvice, recommended,
+    Advice, AdvisedBodies, CRITERIA, Command, CriterionMet, CriterionResult, Lab, LaneSpec,
+    MOST_ADVISED_SUBSTEPS, MethodAdvice, recommended,
 };
+use crate::view::theme::TYPE;
 
-/// What is written in a cell.
-const CELLS: &str = "in each cell: use ×substeps · evaluations/s";
+/// What is written in a cell, where there is room for it and where there is not.
+const CELLS: [&str; 2] = [
+    "click a cell to use it: substeps per tick · force evaluations per second",
+    "click a cell to use it: substeps per tick",
+];
+/// The size of the type in the table, in points.
+const SMALL: f32 = 11.5;
+/// The height of a line, the room between two columns and the least width of a method's name, in points.
+const LINE: f32 = 20.0;
+const GAP: f32 = 6.0;
+const LEAST_NAME: f32 = 120.0;
+/// The width of a criterion's name before its answer, in points.
+const CRITERION: f32 = 76.0;
+/// What a scroll bar may cover at the right, in points.
+const BAR: f32 = 8.0;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    ui.spacing_mut().item_spacing.y = 2.0;
+    which_bodies(ui, lab, commands);
     let Some(advice) = lab.viewer().advice() else {
-        ui.label(RichText::new("judging every method …").color(ink(ui).dim));
+        line(ui, RichText::new("judging every method …").color(ink(ui).dim));
         return;
     };
     let best: Vec<Option<usize>> = (0..CRITERIA.len()).map(|i| best(advice, i)).collect();
-    summary(ui, advice, &best);
-    line(ui, RichText::new(CELLS).size(10.5).color(ink(ui).dim));
-    ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-        let columns = 2 + CRITERIA.len();
-        let grid = Grid::new("advice").num_columns(columns).spacing([10.0, 2.0]);
-        grid.min_row_height(15.0).show(ui, |ui| {
-            head(ui, "method").on_hover_text("the row's verdict is in its tooltip");
-            for criterion in &CRITERIA {
-                head(ui, criterion.name()).on_hover_text(criterion.about());
+    answer(ui, lab, advice, &best, commands);
+    ui.separator();
+    let whose = match advice.bodies {
+        AdvisedBodies::All if lab.scene().bodies.len() > 1 => ", all bodies",
+        _ => "",
+    };
+    table(ui, advice, whose, &best, commands);
+}
+
+/// The choice between all bodies and the selected one, if there are several.
+fn which_bodies(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let bodies = &lab.scene().bodies;
+    if bodies.len() < 2 {
+        return;
+    }
+    let display = lab.display();
+    ui.horizontal(|ui| {
+        for (is_one, name) in [
+            (false, format!("all {} bodies", bodies.len())),
+            (true, format!("{} alone", bodies[display.body].name)),
+        ] {
+            let is_chosen = display.advises_on_one_body == is_one;
+            let choice = ui.selectable_label(is_chosen, RichText::new(name).size(SMALL));
+            if choice.on_hover_text("the bodies that the advice is about").clicked() {
+                commands.push(Command::AdviseOnOneBody(is_one));
             }
-            ui.end_row();
-            for (i, advised) in advice.advised.iter().enumerate() {
-                row(ui, advised, &best, i, commands);
-                ui.end_row();
-            }
-        });
+        }
     });
 }
 
@@ -42,82 +70,197 @@ fn best(advice: &Advice, criterion: usize) -> Option<usize> {
     recommended(&advice.advised, criterion, 1.0, |_, met| met.evaluations_per_s)
 }
 
-fn head(ui: &mut Ui, text: &str) -> Response {
-    ui.label(RichText::new(text).size(10.5).color(ink(ui).dim))
+/// A line, which is cut off rather than to widen the panel.
+fn line(ui: &mut Ui, text: RichText) -> Response {
+    ui.add(Label::new(text).truncate())
 }
 
-/// A line above the table, which is cut off rather than to widen the panel.
-fn line(ui: &mut Ui, text: RichText) {
-    ui.add(Label::new(text).truncate());
+/// Something in a place of this width, at its left and cut off at its right.
+fn slot<R>(ui: &mut Ui, width: f32, content: impl FnOnce(&mut Ui) -> R) -> R {
+    let layout = Layout::left_to_right(Align::Center);
+    let place = ui.allocate_ui_with_layout(vec2(width, LINE), layout, |ui| {
+        ui.set_min_width(width);
+        content(ui)
+    });
+    place.inner
+}
+
+/// What to take for each criterion, of the methods judged by now.
+fn answer(
+    ui: &mut Ui,
+    lab: &Lab,
+    advice: &Advice,
+    best: &[Option<usize>],
+    commands: &mut Vec<Command>,
+) {
+    let (done, wanted) = (advice.advised.len(), advice.wanted);
+    let told = match done < wanted {
+        true => format!("At {} Hz, the best of {done} of {wanted} methods judged:", advice.tick_hz),
+        false => format!("At {} Hz, take:", advice.tick_hz),
+    };
+    line(ui, RichText::new(told).color(ink(ui).dim));
+    for (i, (criterion, best)) in CRITERIA.iter().zip(best).enumerate() {
+        let taken = best.and_then(|row| {
+            let advised = &advice.advised[row];
+            Some((advised.spec, advised.met[i].met()?))
+        });
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            let name = RichText::new(criterion.name()).color(ink(ui).dim);
+            slot(ui, CRITERION, |ui| line(ui, name)).on_hover_text(criterion.about());
+            let Some((spec, met)) = taken else {
+                let all_miss = advice.advised.iter().all(|row| row.met[i] == CriterionResult::No);
+                let none = match () {
+                    () if done < wanted => "none yet".to_owned(),
+                    () if all_miss => format!("none with up to {MOST_ADVISED_SUBSTEPS} substeps"),
+                    () => "not known of any that might".into(),
+                };
+                line(ui, RichText::new(none).color(ink(ui).text));
+                return;
+            };
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                copy_button(ui, lab, spec, commands);
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    let name = format!("{} ×{}", spec.method.name, met.substeps);
+                    let name = RichText::new(name).font(strong_font(TYPE)).color(ink(ui).good);
+                    line(ui, name).on_hover_text(told_of(met));
+                });
+            });
+        });
+    }
+}
+
+/// A button that copies a method as source code.
+fn copy_button(ui: &mut Ui, lab: &Lab, spec: LaneSpec, commands: &mut Vec<Command>) {
+    let Some(entry) = lab.entries().iter().position(|entry| entry.method == spec.method) else {
+        return;
+    };
+    let language = lab.viewer().language();
+    let about = format!("copy {} as {language}; other languages: right click", spec.method.name);
+    let response = ui.button(RichText::new("Copy code").size(SMALL)).on_hover_text(&about);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
+    if response.clicked() {
+        commands.push(Command::CopyMethod { entry, language });
+    }
+    response.context_menu(|ui| super::lanes::menu(ui, lab, entry, commands));
+}
+
+/// How wide the columns of the table are, in points.
+struct Widths {
+    name: f32,
+    cell: f32,
+    /// Whether a cell has room for the evaluations too.
+    has_rates: bool,
+}
+
+impl Widths {
+    /// The widths at which all columns fit into `room`: cells are as wide as the widest, and the names of the methods
+    /// take the rest.
+    fn within(ui: &Ui, advice: &Advice, room: f32) -> Self {
+        let width = |words: &str, size: f32| {
+            let font = FontId::proportional(size);
+            ui.painter().layout_no_wrap(words.to_owned(), font, ink(ui).text).size().x
+        };
+        let padding = 2.0 * ui.spacing().button_padding.x + 2.0;
+        let heads = CRITERIA.iter().map(|criterion| width(criterion.name(), SMALL));
+        let head = heads.fold(0.0, f32::max);
+        let met =
+            || advice.advised.iter().flat_map(|row| &row.met).filter_map(CriterionResult::met);
+        let widest = |has_rates: bool| {
+            let cells = met().map(|met| width(&cell_text(met, has_rates), SMALL) + padding);
+            cells.fold(head, f32::max)
+        };
+        let beside = |cell: f32| room - CRITERIA.len() as f32 * (cell + GAP);
+        let with_rates = widest(true);
+        let has_rates = beside(with_rates) >= LEAST_NAME;
+        let cell = if has_rates { with_rates } else { widest(false) };
+        Self { name: beside(cell).max(0.0), cell, has_rates }
+    }
+}
+
+/// What is known of each method; `whose` says of what bodies the evaluations are.
+fn table(ui: &mut Ui, advice: &Advice, whose: &str, best: &[Option<usize>], commands: &mut Vec<Command>) {
+    let widths = Widths::within(ui, advice, ui.available_width() - BAR);
+    let cells = if widths.has_rates { CELLS[0] } else { CELLS[1] };
+    let whose = if widths.has_rates { whose } else { "" };
+    line(ui, RichText::new(format!("{cells}{whose}")).size(SMALL).color(ink(ui).dim));
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = GAP;
+        let head = |text: &str| RichText::new(text).size(SMALL).color(ink(ui).dim);
+        let heads: Vec<RichText> = CRITERIA.iter().map(|of| head(of.name())).collect();
+        let method = head("method");
+        slot(ui, widths.name, |ui| line(ui, method))
+            .on_hover_text("the row's verdict is in its tooltip");
+        for (criterion, name) in CRITERIA.iter().zip(heads) {
+            slot(ui, widths.cell, |ui| ui.label(name)).on_hover_text(criterion.about());
+        }
+    });
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        for (i, advised) in advice.advised.iter().enumerate() {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = GAP;
+                row(ui, advised, &widths, best, i, commands);
+            });
+        }
+    });
 }
 
 fn row(
     ui: &mut Ui,
     advised: &MethodAdvice,
+    widths: &Widths,
     best: &[Option<usize>],
     index: usize,
     commands: &mut Vec<Command>,
 ) {
     let MethodAdvice { spec, verdict, met } = advised;
-    ui.label(RichText::new(spec.method.name).color(tone(ui, verdict.outcome)))
-        .on_hover_text(verdict.to_string());
+    let name = RichText::new(spec.method.name).color(tone(ui, verdict.outcome));
+    slot(ui, widths.name, |ui| line(ui, name)).on_hover_text(verdict.to_string());
     for ((met, best), criterion) in met.iter().zip(best).zip(&CRITERIA) {
-        let met = match met {
-            CriterionResult::With(met) => met,
-            CriterionResult::No => {
-                let missed = format!("not with {MOST_ADVISED_SUBSTEPS} substeps");
-                ui.label(RichText::new("-").color(ink(ui).dim)).on_hover_text(missed);
-                continue;
+        slot(ui, widths.cell, |ui| {
+            let met = match met {
+                CriterionResult::With(met) => met,
+                CriterionResult::No => {
+                    let missed = format!("not with {MOST_ADVISED_SUBSTEPS} substeps");
+                    ui.label(RichText::new("-").color(ink(ui).dim)).on_hover_text(missed);
+                    return;
+                }
+                CriterionResult::Unknown => {
+                    ui.label(RichText::new("?").color(ink(ui).dim))
+                        .on_hover_text("not known: there is no truth, or it takes too much work");
+                    return;
+                }
+            };
+            let colour = if *best == Some(index) { ink(ui).good } else { ink(ui).text };
+            let text = cell_text(met, widths.has_rates);
+            let used = ui.button(RichText::new(text).color(colour).size(SMALL));
+            let name = format!("{}: {}", criterion.name(), spec.method.name);
+            used.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+            if used.on_hover_text(format!("use this: {}", told_of(met))).clicked() {
+                commands.push(Command::Fly(LaneSpec { substeps: met.substeps, ..*spec }));
             }
-            CriterionResult::Unknown => {
-                ui.label(RichText::new("?").color(ink(ui).dim))
-                    .on_hover_text("not known: there is no truth, or it takes too much work");
-                continue;
-            }
-        };
-        let colour = if *best == Some(index) { ink(ui).good } else { ink(ui).text };
-        let rate = whole(met.evaluations_per_s);
-        let text = format!("use ×{} · {rate}/s", met.substeps);
-        let used = ui.button(RichText::new(text).color(colour).size(11.5));
-        let name = format!("{}: {}", criterion.name(), spec.method.name);
-        used.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
-        if used.on_hover_text(told(met)).clicked() {
-            commands.push(Command::Fly(LaneSpec { substeps: met.substeps, ..*spec }));
-        }
+        });
+    }
+}
+
+/// What is written in the cell of a method that meets a criterion.
+fn cell_text(met: &CriterionMet, has_rates: bool) -> String {
+    let substeps = met.substeps;
+    match has_rates {
+        true => format!("×{substeps} · {}/s", whole(met.evaluations_per_s)),
+        false => format!("×{substeps}"),
     }
 }
 
 /// What is behind a cell.
-fn told(met: &CriterionMet) -> String {
+fn told_of(met: &CriterionMet) -> String {
     format!(
-        "use this: {} substep{} a tick, {} evaluations per simulated second; {}",
+        "{} substep{} a tick, {} evaluations per simulated second; {}",
         met.substeps,
         if met.substeps == 1 { "" } else { "s" },
         whole(met.evaluations_per_s),
         met.margins(),
     )
-}
-
-/// What to take, once all is known.
-fn summary(ui: &mut Ui, advice: &Advice, best: &[Option<usize>]) {
-    let done = advice.advised.len();
-    if done < advice.wanted {
-        let text = format!("judging every method: {done} of {} …", advice.wanted);
-        line(ui, RichText::new(text).color(ink(ui).dim));
-        return;
-    }
-    for (i, (criterion, best)) in CRITERIA.iter().zip(best).enumerate() {
-        let taken = best.and_then(|row| {
-            let advised = &advice.advised[row];
-            Some((advised, advised.met[i].met()?))
-        });
-        let what = match taken {
-            Some((advised, met)) => format!("{} ×{}", advised.spec.method.name, met.substeps),
-            None => format!("none with up to {MOST_ADVISED_SUBSTEPS} substeps"),
-        };
-        let text = format!("at {} Hz, {}: {what}", advice.tick_hz, criterion.name());
-        line(ui, RichText::new(text).color(ink(ui).text));
-    }
 }
 
 /// A count in as few figures as tell it.
@@ -127,69 +270,114 @@ fn whole(count: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use egui::{
-        Context, Event, Modifiers, MouseWheelUnit, Pos2, RawInput, Rect, Shape, TouchPhase, vec2,
-    };
+    use egui::{Context, Pos2, RawInput, Rect, Shape};
 
     use super::*;
-    use crate::lab::{Instrument, Scene};
+    use crate::lab::{AnalysisWorker, Instrument, Scene};
     use crate::view::panels;
     use crate::view::theme;
 
-    /// Shows a frame of this size. Returns the stage and every text that is seen whole.
-    fn frame(
-        context: &Context,
-        lab: &Lab,
-        size: [f32; 2],
-        events: Vec<Event>,
-    ) -> (Rect, Vec<String>) {
-        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size.into()));
-        let input = RawInput { screen_rect, events, ..RawInput::default() };
-        let mut stage = Rect::NOTHING;
-        let mut output = context.run_ui(input, |ui| stage = panels::show(ui, lab).1);
-        output.textures_delta.clear();
-        let texts = output.shapes.iter().filter_map(|shape| match &shape.shape {
-            Shape::Text(text) => {
-                let is_seen = shape.clip_rect.contains_rect(text.visual_bounding_rect());
-                is_seen.then(|| text.galley.text().to_owned())
-            }
-            _ => None,
-        });
-        (stage, texts.collect())
+    /// Shows frames of this size. Returns the stage and every text that is seen whole, with where it stands.
+    fn shown(lab: &Lab, size: [f32; 2]) -> (Rect, Vec<(Pos2, String)>) {
+        let context = Context::default();
+        theme::dress(&context);
+        let mut shown = (Rect::NOTHING, Vec::new());
+        for _ in 0..3 {
+            let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, size.into()));
+            let input = RawInput { screen_rect, ..RawInput::default() };
+            let mut output = context.run_ui(input, |ui| shown.0 = panels::show(ui, lab).1);
+            output.textures_delta.clear();
+            let texts = output.shapes.iter().filter_map(|shape| match &shape.shape {
+                Shape::Text(text) => {
+                    let rect = text.visual_bounding_rect();
+                    let is_whole = shape.clip_rect.contains_rect(rect) && !text.galley.elided;
+                    is_whole.then(|| (rect.left_top(), text.galley.text().to_owned()))
+                }
+                _ => None,
+            });
+            shown.1 = texts.collect();
+        }
+        shown
+    }
+
+    const SIZES: [[f32; 2]; 5] = [
+        [800.0, 600.0],
+        [900.0, 600.0],
+        [1024.0, 640.0],
+        [1280.0, 720.0],
+        [1920.0, 1080.0],
+    ];
+
+    fn asked(scene: &str, is_of_one: bool) -> (Lab, AnalysisWorker) {
+        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+        lab.apply(Command::Instrument(Instrument::Advice));
+        lab.apply(Command::AdviseOnOneBody(is_of_one));
+        let worker = AnalysisWorker::new(lab.analysis_request());
+        (lab, worker)
+    }
+
+    /// Has so many methods judged.
+    fn judge(lab: &mut Lab, worker: &mut AnalysisWorker, count: usize) {
+        while lab.viewer().advice().is_none_or(|advice| advice.advised.len() < count) {
+            worker.work();
+            lab.accept_findings(worker.findings());
+        }
     }
 
     #[test]
-    fn the_table_keeps_off_the_stage_and_its_last_column_can_be_reached() {
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        lab.apply(Command::Instrument(Instrument::Advice));
-        lab.analyse();
-        assert_eq!(
-            lab.viewer().advice().map(|advice| advice.advised.len()),
-            lab.viewer().advice().map(|a| a.wanted)
-        );
-        for size in [[800.0, 600.0], [900.0, 600.0], [1024.0, 640.0], [1280.0, 720.0]] {
-            let context = Context::default();
-            theme::dress(&context);
+    fn every_column_is_seen_whole_and_the_stage_keeps_its_room() {
+        let (mut lab, mut worker) = asked("spring", false);
+        let wanted = lab.scene().own_methods().count();
+        judge(&mut lab, &mut worker, wanted);
+        for size in SIZES {
+            let (stage, texts) = shown(&lab, size);
             let stage_to = size[0] * (1.0 - panels::INSTRUMENTS);
-            for _ in 0..3 {
-                let (stage, texts) = frame(&context, &lab, size, Vec::new());
-                assert!((stage.right() - stage_to).abs() < 1.0, "{size:?}: {stage:?}");
-                assert!(texts.iter().any(|text| text == CELLS), "{size:?}: {texts:?}");
+            assert!((stage.right() - stage_to).abs() < 1.0, "{size:?}: {stage:?}");
+            for criterion in &CRITERIA {
+                // It stands before its answer too, which is above the column.
+                let at = texts.iter().filter(|(_, text)| text == criterion.name());
+                let head = at.map(|(at, _)| *at).max_by(|a, b| a.y.total_cmp(&b.y));
+                let head = head.unwrap_or_else(|| panic!("{size:?}: {texts:?}"));
+                let is_under = |(at, text): &&(Pos2, String)| {
+                    text.starts_with('×') && at.y > head.y && (at.x - head.x).abs() < 12.0
+                };
+                assert!(texts.iter().any(|text| is_under(&text)), "{size:?}: {head:?} {texts:?}");
             }
-            let events = vec![
-                Event::PointerMoved(Pos2::new(0.9 * size[0], 0.57 * size[1])),
-                Event::MouseWheel {
-                    unit: MouseWheelUnit::Point,
-                    source: egui::MouseWheelSource::Unknown,
-                    delta: vec2(-1000.0, 0.0),
-                    phase: TouchPhase::Move,
-                    modifiers: Modifiers::NONE,
-                },
-            ];
-            frame(&context, &lab, size, events);
-            let last = CRITERIA[CRITERIA.len() - 1].name();
-            let mut frames = (0..60).map(|_| frame(&context, &lab, size, Vec::new()).1);
-            assert!(frames.any(|texts| texts.iter().any(|text| text == last)), "{size:?}");
         }
+    }
+
+    #[test]
+    fn the_answer_stands_above_the_table_from_the_first_method_on_and_grows() {
+        let (mut lab, mut worker) = asked("spring", false);
+        let of = |lab: &Lab, words: &str| {
+            let (_, texts) = shown(lab, [1280.0, 720.0]);
+            let found = texts.iter().find(|(_, text)| text == words).map(|(at, _)| at.y);
+            found.unwrap_or_else(|| panic!("{words}: {texts:?}"))
+        };
+        let wanted = lab.scene().own_methods().count();
+        let told = |done| format!("At 60 Hz, the best of {done} of {wanted} methods judged:");
+        judge(&mut lab, &mut worker, 1);
+        of(&lab, &told(1));
+        // Explicit Euler grows under any number of substeps.
+        of(&lab, "none yet");
+        judge(&mut lab, &mut worker, 2);
+        of(&lab, &told(2));
+        assert!(of(&lab, "Semi-implicit Euler ×1") < of(&lab, "method"));
+    }
+
+    #[test]
+    fn the_selected_body_can_be_asked_about_alone() {
+        let counts = |is_of_one: bool| {
+            let (mut lab, mut worker) = asked("harbour", is_of_one);
+            judge(&mut lab, &mut worker, 2);
+            let (_, texts) = shown(&lab, [1280.0, 720.0]);
+            assert!(texts.iter().any(|(_, text)| text == "free spring alone"), "{texts:?}");
+            let whose = texts.iter().any(|(_, text)| text.ends_with(", all bodies"));
+            assert_eq!(whose, !is_of_one, "{texts:?}");
+            let euler = &lab.viewer().advice().unwrap().advised[1];
+            assert_eq!(euler.spec.method.id, "semi-implicit-euler");
+            euler.met[0].met().unwrap().evaluations_per_s
+        };
+        assert_eq!([counts(true), counts(false)], [60.0, 180.0]);
     }
 }

@@ -91,10 +91,15 @@ fn key_hints(lab: &Lab) -> Vec<KeyHint> {
         hints.push(hint(".", "next frame", Command::TickForward));
         return hints;
     }
-    let inputs =
-        [("throttle", "↑ ↓", lab.race().throttle()), ("rudder", "← →", lab.race().rudder())];
-    for (input, key, part) in inputs {
-        if lab.race().takes(input) {
+    let inputs = [
+        ("throttle", "↑ ↓", lab.race().throttle(), 1.0),
+        ("rudder", "← →", lab.race().rudder(), 0.0),
+    ];
+    // Of a body that nobody looks at, an input is told only where it is in use.
+    let shown = lab.scene().bodies[lab.display().body].kind;
+    for (input, key, part, at_start) in inputs {
+        let is_in_use = shown.inputs.contains(&input) || part != at_start;
+        if lab.race().takes(input) && is_in_use {
             hints.push((key, format!("{input} {} %", round(part * 100.0, 3)), None));
         }
     }
@@ -138,5 +143,28 @@ fn show_hint(ui: &mut Ui, hint: KeyHint, commands: &mut Vec<Command>) {
     ui.painter().galley(at, text, colour);
     if response.clicked() {
         commands.extend(command);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Scene;
+
+    #[test]
+    fn the_throttle_is_told_of_a_ship_that_is_looked_at_or_whose_throttle_is_not_full() {
+        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        let is_told =
+            |lab: &Lab| key_hints(lab).iter().any(|(_, what, _)| what.starts_with("throttle"));
+        let kinds = lab.scene().bodies.iter().map(|body| body.kind.id);
+        let ship = kinds.clone().position(|id| id == "ship").unwrap();
+        let spring = kinds.clone().position(|id| id == "spring").unwrap();
+        lab.apply(Command::Body(spring));
+        assert!(!is_told(&lab));
+        lab.apply(Command::Body(ship));
+        assert!(is_told(&lab));
+        lab.apply(Command::Body(spring));
+        lab.apply(Command::ThrottleDown);
+        assert!(is_told(&lab));
     }
 }

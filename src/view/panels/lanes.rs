@@ -77,7 +77,11 @@ fn head(ui: &mut Ui, lab: &Lab, columns: &[(&Column, f32, f32)], width: f32) -> 
         });
         let sign = sorting::sign(order, place);
         let words = match column.cell {
-            Cell::Verdict => format!("{} at {} Hz", column.head, lab.clock().tick_hz()),
+            Cell::Verdict => {
+                let whose = row::judged_body(lab).map(|body| &lab.scene().bodies[body].name);
+                let whose = whose.map(|name| format!(" ({name})")).unwrap_or_default();
+                format!("{} at {} Hz{whose}", column.head, lab.clock().tick_hz())
+            }
             _ => column.head.to_owned(),
         };
         let colour =
@@ -148,7 +152,7 @@ fn show_row(
     let name = [
         Some(format!("{} {}", row.entry + 1, row.method_name())),
         row.is_of_body.then(|| lab.scene().bodies[row.body].name.clone()),
-        said.as_ref().map(|said| said.whole().to_owned()),
+        Some(said.whole().to_owned()),
     ];
     let name = name.into_iter().flatten().collect::<Vec<_>>().join(", ");
     response.widget_info(|| {
@@ -165,11 +169,11 @@ fn show_row(
     }
     for &(column, left, own) in columns {
         let from = pos2(rect.left() + MARGIN + left, rect.center().y);
-        cell(ui, row, column, from, own, said.as_ref());
+        cell(ui, row, column, from, own, &said);
     }
     response.context_menu(|ui| menu(ui, lab, row.entry, commands));
     let is_pointed_at = response.hovered() || response.has_focus();
-    if tooltip(response, row, said.as_ref().map(verdict::Said::whole)).clicked() {
+    if tooltip(response, row, said.whole()).clicked() {
         commands.push(match row.is_of_body {
             true => Command::Body(row.body),
             false => Command::Pick(row.entry),
@@ -179,7 +183,7 @@ fn show_row(
 }
 
 /// The menu of a row: its method as code, in each language.
-fn menu(ui: &mut Ui, lab: &Lab, entry: usize, commands: &mut Vec<Command>) {
+pub(super) fn menu(ui: &mut Ui, lab: &Lab, entry: usize, commands: &mut Vec<Command>) {
     for language in Language::ALL {
         let key = if language == lab.viewer().language() { " (Ctrl C)" } else { "" };
         if ui.button(format!("Copy as {language}{key}")).clicked() {
@@ -189,14 +193,7 @@ fn menu(ui: &mut Ui, lab: &Lab, entry: usize, commands: &mut Vec<Command>) {
     }
 }
 
-fn cell(
-    ui: &Ui,
-    row: &Row<'_>,
-    column: &Column,
-    from: Pos2,
-    width: f32,
-    said: Option<&verdict::Said>,
-) {
+fn cell(ui: &Ui, row: &Row<'_>, column: &Column, from: Pos2, width: f32, said: &verdict::Said) {
     let text = if row.flown.is_some() { ink(ui).text } else { ink(ui).dim };
     let write = |words: &str, font: FontId| {
         let (galley, _) = short(ui, words, font, width, text);
@@ -220,7 +217,7 @@ fn cell(
         Cell::Key | Cell::Swatch | Cell::Method => {}
         Cell::Body => write(row.body_name().unwrap_or_default(), FontId::proportional(TYPE)),
         Cell::Verdict => {
-            said.into_iter().for_each(|said| said.paint(ui, from, from.x + width, text));
+            said.paint(ui, from, from.x + width, text);
         }
         Cell::Number(show) => {
             if let Some(words) = show(row) {
@@ -233,7 +230,7 @@ fn cell(
 }
 
 /// The method's card and the whole verdict.
-fn tooltip(response: Response, row: &Row<'_>, said: Option<&str>) -> Response {
+fn tooltip(response: Response, row: &Row<'_>, said: &str) -> Response {
     response.on_hover_ui(|ui| {
         ui.set_max_width(420.0);
         let method = row.spec.method;
@@ -246,9 +243,7 @@ fn tooltip(response: Response, row: &Row<'_>, said: Option<&str>) -> Response {
         for line in formula.map_or(&[][..], |formula| formula.lines) {
             ui.label(formula::job(line, 16.0, ink(ui).text));
         }
-        if let Some(said) = said {
-            ui.label(format!("At {} Hz: {said}.", row.lab.clock().tick_hz()));
-        }
+        ui.label(format!("At {} Hz: {said}.", row.lab.clock().tick_hz()));
         let order = match method.order == method.order_with_drag {
             true => format!("Order {}", method.order),
             false => format!("Order {}, {} with drag", method.order, method.order_with_drag),
@@ -283,65 +278,4 @@ pub(super) fn offset_to_follow(ui: &Ui, id: Id, selected: usize, rows: usize) ->
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lab::Scene;
-
-    fn race() -> Lab {
-        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-        lab.apply(Command::ToggleRace);
-        (0..60).for_each(|_| lab.tick());
-        lab.analyse();
-        lab
-    }
-
-    fn entries(lab: &Lab, order: Order) -> Vec<usize> {
-        sorted(lab, order).iter().map(|row| row.entry).collect()
-    }
-
-    #[test]
-    fn without_an_order_rows_are_in_that_of_the_keys() {
-        let lab = race();
-        assert!(entries(&lab, None).into_iter().eq(0..lab.entries().len()));
-    }
-
-    #[test]
-    fn every_column_sorts_all_rows_both_ways_and_those_without_a_value_last() {
-        let lab = race();
-        let all: Vec<usize> = (0..lab.entries().len()).collect();
-        for (by, column) in COLUMNS.iter().enumerate() {
-            for is_reversed in [false, true] {
-                let rows = sorted(&lab, Some((by, is_reversed)));
-                let mut found: Vec<usize> = rows.iter().map(|row| row.entry).collect();
-                found.sort_unstable();
-                assert_eq!(found, all, "{}", column.head);
-                let ranks: Vec<Rank> = rows.iter().map(column.rank).collect();
-                let nothing = ranks.iter().position(|rank| *rank == Rank::Nothing);
-                let (ranked, rest) = ranks.split_at(nothing.unwrap_or(ranks.len()));
-                assert!(rest.iter().all(|rank| *rank == Rank::Nothing), "{}", column.head);
-                let is_in_order = |pair: &[Rank]| match is_reversed {
-                    true => pair[0] >= pair[1],
-                    false => pair[0] <= pair[1],
-                };
-                assert!(ranked.windows(2).all(is_in_order), "{}: {ranked:?}", column.head);
-            }
-        }
-        let error = COLUMNS.iter().position(|column| column.head == "error").unwrap();
-        let by_error = entries(&lab, Some((error, false)));
-        assert_ne!(by_error, entries(&lab, None), "some lane is worse than the next");
-    }
-
-    #[test]
-    fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
-        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
-        lab.apply(Command::Pick(1));
-        lab.tick();
-        let bodies = lab.scene().bodies.len();
-        for (by, column) in COLUMNS.iter().enumerate() {
-            let rows = sorted(&lab, Some((by, true)));
-            let first = rows.iter().position(|row| row.is_of_body).expect("the flown lane");
-            let of_lane = rows[first..first + bodies].iter();
-            assert!(of_lane.map(|row| row.body).eq(0..bodies), "{}", column.head);
-        }
-    }
-}
+mod tests;

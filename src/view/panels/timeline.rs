@@ -33,6 +33,8 @@ pub(super) const MEMORY: f32 = 104.0;
 /// What the ends of the track keep free for half a number, and for the *undo* button where nothing else is there.
 pub(super) const MARGIN: f32 = 14.0;
 const UNDO: f32 = 52.0;
+/// The memory is told from this part of its bound on: below it is nobody's concern.
+const NEAR_THE_BOUND: f64 = 0.75;
 /// The least distances in points between the numbers along the track, and between two marks.
 const NUMBERS_APART: f64 = 64.0;
 const MARKS_APART: f32 = 15.0;
@@ -292,9 +294,10 @@ pub(super) fn handle(painter: &Painter, centre: Pos2, has_focus: bool, ink: &Ink
 /// The *undo* button, and the memory that the past takes.
 fn beside(ui: &mut Ui, lab: &Lab, room: Rect, commands: &mut Vec<Command>) {
     let timeline = lab.timeline();
+    let is_near = timeline.bytes() as f64 >= NEAR_THE_BOUND * timeline.limit() as f64;
     // A recording of the picture says nothing of the machine that it is made on.
     let is_told = lab.viewer().pace.is_some() && room.width() >= MEMORY - 1.0;
-    if is_told && room.height() > HEIGHT_OF_TRACK {
+    if is_told && is_near && room.height() > HEIGHT_OF_TRACK {
         let text = memory(timeline.bytes(), timeline.limit());
         let at = room.right_bottom();
         ui.painter().text(at, Align2::RIGHT_BOTTOM, text, FontId::proportional(10.5), ink(ui).dim);

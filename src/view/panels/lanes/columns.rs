@@ -42,6 +42,10 @@ pub(super) struct Column {
 /// The room between two columns, and the least width of the verdict, in points.
 pub(super) const GAP: f32 = 8.0;
 const LEAST_VERDICT: f32 = 320.0;
+/// The least width that the verdict keeps beside columns of what the stage or an instrument shows too, in points.
+const ROOMY_VERDICT: f32 = 700.0;
+/// The first turn of such columns.
+const TURN_OF_EXTRAS: u8 = 5;
 
 fn always(_: &Lab) -> bool {
     true
@@ -99,18 +103,18 @@ pub(super) static COLUMNS: &[Column] = &[
     },
     Column {
         head: "Verdict",
-        about: "what this method does to the scene at this tick rate, judged on its worst body; sorted from best to worst",
+        about: "what this method does to the scene at this tick rate, judged on its worst body, in a run of its own; sorted from best to worst",
         width: 0.0,
         turn: 0,
         is_wanted: always,
         cell: Cell::Verdict,
-        rank: |row| row.said().map_or(Rank::Nothing, |said| Rank::Number(said.rank())),
+        rank: |row| number(row.said().rank()),
     },
     Column {
         head: "position",
         about: "first coordinate of the body in this lane",
         width: 88.0,
-        turn: 4,
+        turn: 5,
         is_wanted: always,
         cell: Cell::Number(|row| row.in_unit(row.position()?)),
         rank: |row| number(row.position()),
@@ -119,7 +123,7 @@ pub(super) static COLUMNS: &[Column] = &[
         head: "exact",
         about: "the same coordinate of the exact solution",
         width: 88.0,
-        turn: 6,
+        turn: 7,
         is_wanted: |lab| lab.mode() == Mode::Solo,
         cell: Cell::Number(|row| row.in_unit(row.exact()?)),
         rank: |row| number(row.exact()),
@@ -173,16 +177,16 @@ pub(super) static COLUMNS: &[Column] = &[
         head: "evaluations",
         about: "evaluations of this body's acceleration since the start",
         width: 84.0,
-        turn: 5,
+        turn: 6,
         is_wanted: always,
         cell: Cell::Number(|row| row.evaluations().map(|count| format!("{count}"))),
         rank: |row| number(row.evaluations().map(|count| count as f64)),
     },
     Column {
         head: "cost",
-        about: "evaluations per tick: explicit Euler with one substep costs 1 ×",
+        about: "evaluations per tick, now: explicit Euler with one substep costs 1 ×",
         width: 48.0,
-        turn: 5,
+        turn: 4,
         is_wanted: always,
         cell: Cell::Number(|row| Some(format!("{} ×", crate::lab::number::round(row.cost()?, 3)))),
         rank: |row| number(row.cost()),
@@ -201,9 +205,10 @@ pub(super) fn fitting(lab: &Lab, width: f32) -> Vec<(&'static Column, f32, f32)>
         let columns = COLUMNS.iter().filter(wanted).filter(|column| taken.contains(&column.turn));
         width - columns.map(|column| column.width + GAP).sum::<f32>()
     };
-    for turn in 1..=6 {
+    for turn in 1..=7 {
         let more = [&taken[..], &[turn]].concat();
-        if room_for_verdict(&more) >= LEAST_VERDICT {
+        let least = if turn < TURN_OF_EXTRAS { LEAST_VERDICT } else { ROOMY_VERDICT };
+        if room_for_verdict(&more) >= least {
             taken = more;
         }
     }
@@ -217,4 +222,23 @@ pub(super) fn fitting(lab: &Lab, width: f32) -> Vec<(&'static Column, f32, f32)>
         (column, here, own)
     });
     placed.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{Command, Scene};
+
+    #[test]
+    fn what_the_stage_shows_too_has_a_column_only_where_there_is_room_for_it() {
+        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        lab.apply(Command::ToggleRace);
+        let heads = |width: f32| -> Vec<&str> {
+            fitting(&lab, width).iter().map(|(column, ..)| column.head).collect()
+        };
+        let narrow = ["Key", "", "Method", "Verdict", "error", "energy", "cost"];
+        assert_eq!(heads(1264.0), narrow);
+        let wide = ["position", "error", "energy", "evaluations", "cost"];
+        assert_eq!(heads(1904.0)[4..], wide);
+    }
 }

@@ -46,7 +46,7 @@ impl<'a> Row<'a> {
     }
 
     /// What is said of it.
-    pub(super) fn said(&self) -> Option<Said> {
+    pub(super) fn said(&self) -> Said {
         // A method that is not flown names the judged body in the column of bodies.
         let is_named_beside = self.lab.mode() == Mode::Solo && self.lab.scene().bodies.len() > 1;
         let verdict = self.lab.viewer().verdict(self.entry);
@@ -55,7 +55,7 @@ impl<'a> Row<'a> {
             (false, true) => verdict.map(|verdict| verdict.body),
             (false, false) => None,
         };
-        Said::of(self.lab, self.entry, self.flown, body)
+        Said::of(self.lab, self.entry, self.flown, body, judged_body(self.lab))
     }
 
     /// The body of the row, or else the one that the verdict is about.
@@ -133,12 +133,27 @@ impl<'a> Row<'a> {
         Some(self.flown_body()?.stepper.evaluations())
     }
 
-    /// Evaluations per tick: measured if it is flown, else those of its card.
+    /// Evaluations per tick now: those of the method's card, or else of the last tick. `None` of a halted body.
     pub(super) fn cost(&self) -> Option<f64> {
-        let ticks = self.lab.race().tick();
-        match self.evaluations().filter(|_| ticks > 0) {
-            Some(count) => Some(count as f64 / ticks as f64),
-            None => self.spec.method.evaluations_per_tick(self.spec.substeps).map(f64::from),
+        let body = self.flown_body();
+        if body.is_some_and(|body| body.halted().is_some()) {
+            return None;
         }
+        let substeps = self.flown.map_or(self.spec.substeps, |flown| flown.lane.substeps());
+        let of_card = self.spec.method.evaluations_per_tick(substeps).map(f64::from);
+        let of_last_tick = || body.map(|body| body.evaluations_of_last_tick() as f64);
+        of_card.or_else(|| of_last_tick().filter(|&count| count > 0.0))
     }
+}
+
+/// The body that the verdicts on all methods of a race are about, if there are several bodies and it is one: it is
+/// named once, above them.
+pub(super) fn judged_body(lab: &Lab) -> Option<usize> {
+    if lab.mode() == Mode::Solo || lab.scene().bodies.len() < 2 {
+        return None;
+    }
+    let lanes = lab.race().entrants().iter();
+    let mut bodies = lanes.map(|lane| Some(lab.viewer().verdict(lane.entry)?.body));
+    let first = bodies.next()??;
+    bodies.all(|body| body == Some(first)).then_some(first)
 }

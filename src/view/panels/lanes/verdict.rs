@@ -4,7 +4,7 @@ use egui::epaint::PathShape;
 use egui::{Color32, FontId, Pos2, Stroke, Ui, pos2};
 
 use crate::lab::{Entrant, Lab, Outcome, Verdict};
-use crate::view::panels::{short, tone};
+use crate::view::panels::{ink, short, tone};
 use crate::view::theme::TYPE;
 
 /// Half the size of a glyph, in points.
@@ -14,19 +14,21 @@ pub(super) const GLYPH: f32 = 17.0;
 
 /// What is said in a row, from the longest wording to the shortest.
 pub(super) struct Said {
-    outcome: Outcome,
+    /// What is known of the method; `None` while it is being judged.
+    outcome: Option<Outcome>,
     wordings: Vec<String>,
 }
 
 impl Said {
     /// What is said of the method on this place of the list, and of the lane under it if there is one. The judged body is
-    /// named, unless the row is the body's own.
+    /// named, unless the row is the body's own or it is the one `named_above`.
     pub(super) fn of(
         lab: &Lab,
         entry: usize,
         flown: Option<&Entrant>,
         body: Option<usize>,
-    ) -> Option<Self> {
+        named_above: Option<usize>,
+    ) -> Self {
         let halts = flown.into_iter().flat_map(|entrant| entrant.lane.halts());
         let mut halts: Vec<_> = halts.filter(|halt| body.is_none_or(|b| b == halt.body)).collect();
         // The displayed body first: of several, not all may fit.
@@ -34,34 +36,47 @@ impl Said {
         if let Some(first) = halts.first() {
             let did = if first.is_blow_up() { "blew up" } else { "gave up" };
             let several = lab.scene().bodies.len() > 1 && body.is_none();
-            let name = |body: usize| match several {
+            let name = |body: usize| match several && named_above != Some(body) {
                 true => format!(" ({})", lab.scene().bodies[body].name),
                 false => String::new(),
             };
+            let bodies = flown.map_or(&[][..], |entrant| entrant.lane.bodies());
             let all = halts.iter().map(|halt| {
                 let name = &lab.scene().bodies[halt.body].name;
-                format!("{name} halted at tick {}: {}", halt.tick, halt.failure)
+                format!("{name} {}", bodies[halt.body].fate().unwrap_or_default())
             });
-            let short = format!("{did} at tick {}{}", first.tick, name(first.body));
+            let short = format!("{}{}", first.fate(), name(first.body));
             let outcome = if first.is_blow_up() { Outcome::BlewUp } else { Outcome::GaveUp };
             let all: Vec<String> = all.collect();
-            return Some(Self { outcome, wordings: vec![all.join("; "), short, did.into()] });
+            let wordings = vec![all.join("; "), short, did.into()];
+            return Self { outcome: Some(outcome), wordings };
         }
-        let verdict = lab.viewer().verdict(entry)?;
+        let verdict = lab.viewer().verdict(entry);
         let verdict = match body {
-            Some(body) => Verdict { body_name: None, ..verdict.of_bodies.get(body)?.clone() },
-            None => verdict.clone(),
+            Some(body) => verdict.and_then(|verdict| verdict.of_bodies.get(body)),
+            None => verdict,
         };
+        let Some(verdict) = verdict else {
+            return Self { outcome: None, wordings: vec!["judging…".into()] };
+        };
+        let is_named = body.is_none() && named_above != Some(verdict.body);
+        let body_name = verdict.body_name.clone().filter(|_| is_named);
+        let verdict = Verdict { body_name, ..verdict.clone() };
         let (full, missing) = (verdict.to_string(), verdict.missing_truth());
+        let proviso = verdict.proviso().map(|proviso| format!("{full}, {proviso}"));
         let name = verdict.body_name.map(|name| format!(" ({name})")).unwrap_or_default();
         let first = full.split(';').next().unwrap_or_default().to_owned();
         let bare = first.split(" (").next().unwrap_or_default();
         let bare = format!("{bare}{name}");
         let outcome = verdict.outcome;
+        let said = |wordings: Vec<String>| Self {
+            outcome: Some(outcome),
+            wordings: proviso.clone().into_iter().chain(wordings).collect(),
+        };
         let shorter = bare.strip_prefix("stable, ").unwrap_or(&bare).to_owned();
         let shortest = format!("{}{name}", outcome.text());
         let Some(missing) = missing else {
-            return Some(Self { outcome, wordings: vec![full, first, bare, shorter, shortest] });
+            return said(vec![full, first, bare, shorter, shortest]);
         };
         // Without its reason such a verdict would look like any other.
         let why = |said: &str| format!("{said}; {missing}");
@@ -69,7 +84,7 @@ impl Said {
             Outcome::NoTruth => vec![why(&first), why(&shorter), missing.into()],
             _ => vec![why(&first), why(&shorter), why(&shortest), shortest],
         };
-        Some(Self { outcome, wordings: [vec![full], wordings].concat() })
+        said([vec![full], wordings].concat())
     }
 
     /// Everything.
@@ -77,15 +92,19 @@ impl Said {
         &self.wordings[0]
     }
 
-    /// By how bad it is.
-    pub(super) fn rank(&self) -> f64 {
-        let place = Outcome::ALL.iter().position(|outcome| *outcome == self.outcome);
-        place.unwrap_or_default() as f64
+    /// By how bad it is, once that is known.
+    pub(super) fn rank(&self) -> Option<f64> {
+        let outcome = self.outcome?;
+        let place = Outcome::ALL.iter().position(|known| *known == outcome);
+        place.map(|place| place as f64)
     }
 
     /// Draws the glyph and the longest wording that fits between here and `right`.
     pub(super) fn paint(&self, ui: &Ui, left: Pos2, right: f32, colour: Color32) {
-        glyph(ui, pos2(left.x + HALF, left.y), self.outcome);
+        if let Some(outcome) = self.outcome {
+            glyph(ui, pos2(left.x + HALF, left.y), outcome);
+        }
+        let colour = if self.outcome.is_some() { colour } else { ink(ui).dim };
         let room = right - left.x - GLYPH;
         let font = || FontId::proportional(TYPE);
         let fits = |words: &&String| short(ui, words, font(), room, colour).1;

@@ -1,0 +1,132 @@
+//! The table of lanes: its rows, their order, and what is said in them.
+
+use super::*;
+use crate::lab::Scene;
+
+fn race() -> Lab {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    lab.apply(Command::ToggleRace);
+    (0..60).for_each(|_| lab.tick());
+    lab.analyse();
+    lab
+}
+
+fn entries(lab: &Lab, order: Order) -> Vec<usize> {
+    sorted(lab, order).iter().map(|row| row.entry).collect()
+}
+
+#[test]
+fn without_an_order_rows_are_in_that_of_the_keys() {
+    let lab = race();
+    assert!(entries(&lab, None).into_iter().eq(0..lab.entries().len()));
+}
+
+#[test]
+fn every_column_sorts_all_rows_both_ways_and_those_without_a_value_last() {
+    let lab = race();
+    let all: Vec<usize> = (0..lab.entries().len()).collect();
+    for (by, column) in COLUMNS.iter().enumerate() {
+        for is_reversed in [false, true] {
+            let rows = sorted(&lab, Some((by, is_reversed)));
+            let mut found: Vec<usize> = rows.iter().map(|row| row.entry).collect();
+            found.sort_unstable();
+            assert_eq!(found, all, "{}", column.head);
+            let ranks: Vec<Rank> = rows.iter().map(column.rank).collect();
+            let nothing = ranks.iter().position(|rank| *rank == Rank::Nothing);
+            let (ranked, rest) = ranks.split_at(nothing.unwrap_or(ranks.len()));
+            assert!(rest.iter().all(|rank| *rank == Rank::Nothing), "{}", column.head);
+            let is_in_order = |pair: &[Rank]| match is_reversed {
+                true => pair[0] >= pair[1],
+                false => pair[0] <= pair[1],
+            };
+            assert!(ranked.windows(2).all(is_in_order), "{}: {ranked:?}", column.head);
+        }
+    }
+    let error = COLUMNS.iter().position(|column| column.head == "error").unwrap();
+    let by_error = entries(&lab, Some((error, false)));
+    assert_ne!(by_error, entries(&lab, None), "some lane is worse than the next");
+}
+
+#[test]
+fn in_solo_the_rows_of_the_bodies_stay_together_under_every_order() {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    lab.apply(Command::Pick(1));
+    lab.tick();
+    let bodies = lab.scene().bodies.len();
+    for (by, column) in COLUMNS.iter().enumerate() {
+        let rows = sorted(&lab, Some((by, true)));
+        let first = rows.iter().position(|row| row.is_of_body).expect("the flown lane");
+        let of_lane = rows[first..first + bodies].iter();
+        assert!(of_lane.map(|row| row.body).eq(0..bodies), "{}", column.head);
+    }
+}
+
+fn said(lab: &Lab) -> Vec<String> {
+    sorted(lab, None).iter().map(|row| row.said().whole().to_owned()).collect()
+}
+
+#[test]
+fn a_method_is_being_judged_until_it_is() {
+    let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+    assert!(said(&lab).iter().all(|said| said == "judging…"), "{:?}", said(&lab));
+    lab.analyse();
+    assert!(said(&lab).iter().all(|said| said != "judging…"), "{:?}", said(&lab));
+}
+
+#[test]
+fn a_verdict_tells_what_will_be_and_a_halt_what_was() {
+    let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+    lab.apply(Command::ToggleRace);
+    lab.apply(Command::TickHz(49));
+    lab.analyse();
+    let euler = lab.entries().iter().position(|spec| spec.method.id == "semi-implicit-euler");
+    let euler = euler.unwrap();
+    assert_eq!(said(&lab)[euler], "will blow up at 4.14 s, if run from the start");
+    while !lab
+        .race()
+        .entrants()
+        .iter()
+        .any(|lane| lane.entry == euler && lane.lane.halted().is_some())
+    {
+        lab.tick();
+    }
+    assert!(said(&lab)[euler].contains(" blew up at 4.1"), "{:?}", said(&lab));
+}
+
+#[test]
+fn the_body_that_every_verdict_is_about_is_named_once() {
+    let mut lab = race();
+    let flown: Vec<usize> = lab.race().entrants().iter().map(|lane| lane.entry).collect();
+    let names = |lab: &Lab| {
+        let said = said(lab);
+        flown.iter().filter(|&&entry| said[entry].contains("free spring")).count()
+    };
+    assert_eq!(
+        row::judged_body(&lab).map(|body| &*lab.scene().bodies[body].name),
+        Some("free spring")
+    );
+    assert_eq!(names(&lab), 0, "{:?}", said(&lab));
+    // At a low rate the stiffest body of some lanes is another.
+    lab.apply(Command::TickHz(2));
+    lab.analyse();
+    assert_eq!(row::judged_body(&lab), None, "{:?}", said(&lab));
+    assert!(names(&lab) > 0, "{:?}", said(&lab));
+}
+
+#[test]
+fn the_cost_is_that_of_a_tick_now() {
+    let mut lab = race();
+    let costs = |lab: &Lab| -> Vec<Option<f64>> {
+        let flown = lab.race().entrants().iter().map(|lane| lane.entry);
+        flown.map(|entry| Row::of_method(lab, entry, &lab.entries()[entry])[0].cost()).collect()
+    };
+    let before = costs(&lab);
+    assert_eq!(before[..4], [1.0, 1.0, 2.0, 4.0].map(Some), "{before:?}");
+    lab.apply(Command::ToggleEqualCost);
+    for _ in 0..3 {
+        let now = costs(&lab);
+        let dearest = now.iter().flatten().fold(0.0, |most: f64, &cost| most.max(cost));
+        assert!(now[..4].iter().all(|cost| *cost > Some(0.75 * dearest)), "{now:?}");
+        lab.tick();
+    }
+}
