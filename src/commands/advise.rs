@@ -10,7 +10,8 @@ use super::interrupt::{Interrupted, watch_for_interrupt};
 use super::output::print;
 use super::output::table::TableFormat;
 use super::scene_file;
-use crate::lab::{Adviser, LaneSpec, Scene, nearest};
+use super::show::language;
+use crate::lab::{Adviser, LaneSpec, Language, Scene, nearest};
 use crate::sim::integrators::{Family, METHODS};
 
 mod judged;
@@ -38,8 +39,13 @@ which the named parameter may grow. Either is not known, and null in JSON, where
 no truth or takes too much work. The recommended method is the cheapest; between times within a
 fifth of each other, evaluations decide.
 
+The recommendations come first. For a spring of one's own (--k or --frequency), or with --as, the
+method recommended for looks-right, or else for bounded, follows as a function.
+
 Examples:
   regatta advise --scene harbour
+  regatta advise --k 900 --c 4 --mass 12 --as csharp
+  regatta advise --frequency 1.5 --damping-ratio 0.3 --tick-hz 30
   regatta advise --scene my.toml --tick-hz 50 --format json
   regatta advise --scene spring --method rk4 --method semi-implicit-euler --rates
   regatta advise --scene engines --family engine";
@@ -60,6 +66,11 @@ pub(super) struct AdviseArgs {
     /// as-printed, follower or engine; those of engines are judged only so
     #[arg(long, value_name = "FAMILY", value_parser = known_family, conflicts_with = "methods")]
     family: Option<Family>,
+
+    /// Print the recommended method too, as a function in this language, in text [default: rust for a
+    /// spring of --k or --frequency]
+    #[arg(long = "as", value_name = "LANGUAGE", value_parser = language())]
+    language: Option<Language>,
 
     /// The format: text or json
     #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
@@ -107,7 +118,10 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
         row.time(scene);
     }
     let text = match args.format {
-        TableFormat::Text => report::text(scene, &adviser, &rows, wanted),
+        TableFormat::Text => {
+            let usual = args.experiment.is_a_spring().then(Language::default);
+            report::text(scene, &adviser, &rows, wanted, args.language.or(usual))
+        }
         TableFormat::Json => format!("{:#}\n", report::object(scene, &adviser, &rows, wanted)),
     };
     print(&text)?;

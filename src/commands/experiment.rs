@@ -7,6 +7,7 @@ use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::scene_file::{self, SceneFileError};
+use super::spring::SpringArgs;
 use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
 use crate::lab::{
@@ -21,7 +22,11 @@ pub(super) struct ExperimentArgs {
     /// [default: harbour]
     #[arg(long, value_name = "NAME|FILE")]
     #[arg(value_parser = PathOrName(scene_names), hide_possible_values = true)]
+    #[arg(conflicts_with = "spring")]
     scene: Option<PathBuf>,
+
+    #[command(flatten)]
+    spring: SpringArgs,
 
     /// An integrator (`regatta list methods`); give several to race them
     #[arg(long = "method", value_name = "ID", value_parser = MethodParser)]
@@ -60,7 +65,10 @@ pub(super) struct Experiment {
 impl ExperimentArgs {
     /// Reads the scene and applies the other options to it.
     pub(super) fn load(&self, lineup: Lineup) -> Result<Experiment, SceneFileError> {
-        let (scene, text) = self.read(self.scene())?;
+        let (scene, text) = match self.spring.load()? {
+            Some((scene, text)) => (self.applied_to(scene)?, text),
+            None => self.read(self.scene())?,
+        };
         let lineup = match self.methods.len() {
             0 if scene.opens_as_race => Lineup::Everyone,
             0 | 1 => lineup,
@@ -73,22 +81,28 @@ impl ExperimentArgs {
     /// Reads a scene, and applies the other options to it if it is the one that was given.
     pub(super) fn read(&self, path: &Path) -> Result<(Scene, String), SceneFileError> {
         let (mut scene, text) = scene_file::load(path)?;
-        if path == self.scene() {
-            scene.tick_hz = self.tick_hz.unwrap_or(scene.tick_hz);
-            self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
-            if self.methods.len() > 1 {
-                scene.lanes = lanes_of(&scene, &self.methods);
-            }
-            // The methods of engines are on the list of no scene that does not name one.
-            for &method in self.methods.iter().filter(|method| method.is_engine()) {
-                if scene.lanes.iter().all(|lane| lane.method != method) {
-                    scene.lanes.push(LaneSpec::plain(method));
-                }
-            }
+        if path == self.scene() && !self.spring.is_given() {
+            scene = self.applied_to(scene)?;
         }
         scene.lanes = lanes_that_race(&scene);
         scene.equal_cost = false;
         Ok((scene, text))
+    }
+
+    /// A scene with the other options.
+    fn applied_to(&self, mut scene: Scene) -> Result<Scene, SceneFileError> {
+        scene.tick_hz = self.tick_hz.unwrap_or(scene.tick_hz);
+        self.methods.iter().try_for_each(|method| scene_file::check_method(&scene, method))?;
+        if self.methods.len() > 1 {
+            scene.lanes = lanes_of(&scene, &self.methods);
+        }
+        // The methods of engines are on the list of no scene that does not name one.
+        for &method in self.methods.iter().filter(|method| method.is_engine()) {
+            if scene.lanes.iter().all(|lane| lane.method != method) {
+                scene.lanes.push(LaneSpec::plain(method));
+            }
+        }
+        Ok(scene)
     }
 
     /// The scene as it was given, a name or a path, or else the first built-in scene.
@@ -98,14 +112,19 @@ impl ExperimentArgs {
 
     /// The same options with this scene, unless they choose the scene, its methods or its tick rate.
     pub(super) fn or_scene(&self, scene: &Path) -> Self {
-        let is_chosen = self.scene.is_some() || !self.methods.is_empty() || self.tick_hz.is_some();
+        let is_chosen = self.names_a_scene() || !self.methods.is_empty() || self.tick_hz.is_some();
         let scene = if is_chosen { self.scene.clone() } else { Some(scene.to_owned()) };
         Self { scene, ..self.clone() }
     }
 
-    /// Whether a scene is given.
+    /// Whether a scene is given, or a spring in its place.
     pub(super) fn names_a_scene(&self) -> bool {
-        self.scene.is_some()
+        self.scene.is_some() || self.is_a_spring()
+    }
+
+    /// Whether a spring is given in the place of a scene.
+    pub(super) fn is_a_spring(&self) -> bool {
+        self.spring.is_given()
     }
 
     /// The lanes of the methods named, as `scene` has them.

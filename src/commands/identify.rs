@@ -133,11 +133,11 @@ fn rate(written: &str) -> Result<f64, String> {
     parsed(written, |hz| hz > 0.0 && hz <= 1e6, "a rate above 0 and up to 1000000 Hz, such as 60")
 }
 
-fn number(written: &str) -> Result<f64, String> {
+pub(super) fn number(written: &str) -> Result<f64, String> {
     parsed(written, |x| x >= 0.0, "a number from 0 up")
 }
 
-fn positive(written: &str) -> Result<f64, String> {
+pub(super) fn positive(written: &str) -> Result<f64, String> {
     parsed(written, |x| x > 0.0, "a number above 0")
 }
 

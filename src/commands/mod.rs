@@ -25,6 +25,7 @@ mod verify;
 
 mod experiment;
 mod scene_file;
+mod spring;
 mod trace_source;
 
 mod clip;

@@ -90,7 +90,7 @@ impl Cause for NoSourceCode {
 }
 
 /// Takes the id of a language; offers all of them to the shell's completion.
-fn language() -> impl TypedValueParser<Value = Language> {
+pub(super) fn language() -> impl TypedValueParser<Value = Language> {
     let known = PossibleValuesParser::new(Language::ALL.map(Language::id));
     known.map(|id| Language::ALL.into_iter().find(|known| known.id() == id).unwrap_or_default())
 }

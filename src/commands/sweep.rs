@@ -13,6 +13,7 @@ use super::output::table::{self, Column, RowFormat};
 use super::output::{AtomicOutput, Older, Place, STDOUT, finish};
 use super::plot::Plot;
 use super::scene_file;
+use super::spring::SpringArgs;
 use crate::lab::{Clock, SCENES, Scene, SceneBody};
 use crate::sim::bodies::refusal;
 use crate::sim::integrators::{METHODS, Method};
@@ -61,8 +62,11 @@ pub(super) struct SweepArgs {
     /// A built-in scene (`regatta list scenes`), or else the path of a scene file; give several to sweep
     /// them [default: all built-in scenes]
     #[arg(long = "scene", value_name = "NAME|FILE", value_parser = PathOrName(scene_names))]
-    #[arg(hide_possible_values = true)]
+    #[arg(hide_possible_values = true, conflicts_with = "spring")]
     scenes: Vec<PathBuf>,
+
+    #[command(flatten)]
+    spring: SpringArgs,
 
     /// An integrator (`regatta list methods`); give several to sweep them [default: all]
     #[arg(long = "method", value_name = "ID", value_parser = MethodParser)]
@@ -138,8 +142,13 @@ impl SweepArgs {
     /// The scenes, methods and rates asked for, without repetitions.
     fn load(&self) -> Result<Swept, Error> {
         let built_in = || SCENES.iter().map(|scene| PathBuf::from(scene.name)).collect();
-        let paths = if self.scenes.is_empty() { built_in() } else { self.scenes.clone() };
-        let mut scenes: Vec<(String, Scene)> = Vec::new();
+        let spring = self.spring.load()?.map(|(scene, _)| (scene.name.clone(), scene));
+        let paths = match self.scenes.is_empty() {
+            true if spring.is_some() => Vec::new(),
+            true => built_in(),
+            false => self.scenes.clone(),
+        };
+        let mut scenes: Vec<(String, Scene)> = spring.into_iter().collect();
         for path in paths {
             let name = path.display().to_string();
             if scenes.iter().all(|(other, _)| *other != name) {

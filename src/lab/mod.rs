@@ -28,6 +28,7 @@ mod lane_spec;
 mod live_loop;
 mod loop_lab;
 mod metrics;
+mod my_spring;
 mod notice;
 mod notices;
 pub mod number;
@@ -83,6 +84,7 @@ pub use loop_lab::{
     MOST_ON_STAGE, SLOWNESS,
 };
 pub use metrics::{METRICS, Metric, Scale, Unit};
+pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use one_step::{FORMULAS, Formula, OneStep, Slope};
 pub use own::{Draw, Options, OptionsError};
@@ -96,8 +98,8 @@ pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
 pub use scene::{
     BuiltIn, Check, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES,
     MOST_NAME_CHARS, MOST_SECONDS, MOST_SHOWN, MOST_SUBSTEPS, MOST_TICK_HZ, Refusal, SCENES, Scene,
-    SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, edited_values, nearest,
-    parameter_named,
+    SceneBody, SceneError, SceneErrors, Scripted, TOLERANCES, USUAL_SECONDS, edited_values,
+    nearest, parameter_named,
 };
 pub use scene_list::SceneList;
 pub use session::{Event, EventKind, RecordingError, SNAPSHOT_BYTES, Session, TimeScale, Timeline};

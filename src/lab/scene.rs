@@ -47,6 +47,9 @@ pub const MOST_SECONDS: f64 = 365.0 * 86_400.0;
 /// The shortest that a scene may run, in seconds: a tick at [`MOST_TICK_HZ`].
 pub const LEAST_SECONDS: f64 = 1.0 / MOST_TICK_HZ as f64;
 
+/// How long a scene runs that does not say so, in seconds: twenty swings of a spring at 1 Hz.
+pub const USUAL_SECONDS: f64 = 20.0;
+
 /// The last tick of the longest scene at the highest rate.
 pub const LAST_TICK: u64 = 365 * 86_400 * MOST_TICK_HZ as u64;
 

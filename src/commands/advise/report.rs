@@ -6,13 +6,27 @@ use super::judged::{Row, best};
 use crate::commands::output::table::{self, Column};
 use crate::lab::number::round;
 use crate::lab::{
-    Adviser, CRITERIA, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS, Recommendation, Scene,
-    Verdict,
+    Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, Language, MOST_ADVISED_SUBSTEPS,
+    Recommendation, Scene, Verdict, source_code,
 };
 
-/// The answer as text: the methods that meet each criterion with their costs, then the recommendations.
-pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> String {
-    let mut text = table::text(VERDICTS, rows, "");
+/// The answer as text: the recommendations, the recommended method in this language if there is one, the verdicts, and
+/// the methods that meet each criterion with their costs.
+pub(super) fn text(
+    scene: &Scene,
+    adviser: &Adviser,
+    rows: &[Row],
+    wanted: usize,
+    language: Option<Language>,
+) -> String {
+    let mut text = recommendations(scene, adviser, rows, wanted);
+    if let Some(code) = language.and_then(|language| code(adviser, rows, language)) {
+        text += &format!("\n{code}");
+    }
+    if rows.is_empty() {
+        return text;
+    }
+    text += &format!("\n{}", table::text(VERDICTS, rows, ""));
     for (i, criterion) in CRITERIA.iter().enumerate() {
         let met: Vec<MetRow> = rows.iter().filter_map(|row| MetRow::of(row, i)).collect();
         text += &format!("\n{}: {}\n", criterion.id(), criterion.about());
@@ -34,7 +48,12 @@ pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
         text += "\nslowest tick rates in one step a tick, in Hz\n";
         text += &table::text(RATES, rows, "  ");
     }
-    text.push('\n');
+    text
+}
+
+/// The method to take for each criterion.
+fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> String {
+    let mut text = String::new();
     if rows.len() < wanted {
         text += &format!("interrupted: {} of {wanted} methods were judged\n", rows.len());
     }
@@ -64,6 +83,17 @@ pub(super) fn text(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
         text.push('\n');
     }
     text
+}
+
+/// The method recommended for what looks right, or else for what is bounded, as a function with how often to call it.
+fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
+    let place = |criterion| CRITERIA.iter().position(|one| *one == criterion);
+    let wanted = [Criterion::LooksRight, Criterion::Bounded];
+    let (row, met) = wanted.into_iter().find_map(|criterion| best(rows, place(criterion)?))?;
+    let code = source_code(row.advised.spec.method, language).ok()?;
+    let (steps, hz) = (met.substeps, u64::from(adviser.tick_hz()) * u64::from(met.substeps));
+    let times = if steps == 1 { "once".into() } else { format!("{steps} times") };
+    Some(format!("Call this {times} a tick with h = 1/{hz} s:\n\n{code}"))
 }
 
 /// The answer as JSON.

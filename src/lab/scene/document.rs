@@ -13,7 +13,9 @@ use super::fitting::{check_method, every_lane};
 use super::script::{self, SceneContext};
 use super::syntax;
 use super::table::{Field, Table};
-use super::{LEAST_SECONDS, MOST_LANES, MOST_SECONDS, MOST_SUBSTEPS, MOST_TICK_HZ, Scene};
+use super::{
+    LEAST_SECONDS, MOST_LANES, MOST_SECONDS, MOST_SUBSTEPS, MOST_TICK_HZ, Scene, USUAL_SECONDS,
+};
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
 use crate::sim::integrators::Method;
@@ -52,6 +54,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let hint = top.text(HINT, MOST_HINT_CHARS);
     let tick_hz = top.whole(TICK_HZ, 1..=MOST_TICK_HZ);
     let seconds = top.number(SECONDS, Range::Between(LEAST_SECONDS, MOST_SECONDS));
+    let seconds = seconds.unwrap_or(USUAL_SECONDS);
     let mut bodies = read_bodies(&mut top);
     check_names(text, &bodies, &mut top);
     name_the_nameless(&mut bodies);
@@ -72,8 +75,8 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
         errors.push(SceneError { span: text.len()..text.len(), cause: Cause::NoBody });
     }
 
-    match (title, tick_hz, seconds) {
-        (Some(title), Some(tick_hz), Some(seconds)) if errors.is_empty() => {
+    match (title, tick_hz) {
+        (Some(title), Some(tick_hz)) if errors.is_empty() => {
             let (name, bodies) = (name.into(), finish_bodies(bodies));
             Ok(Scene {
                 name,

@@ -179,7 +179,13 @@ impl Widths {
 }
 
 /// What is known of each method; `whose` says of what bodies the evaluations are.
-fn table(ui: &mut Ui, advice: &Advice, whose: &str, best: &[Option<usize>], commands: &mut Vec<Command>) {
+fn table(
+    ui: &mut Ui,
+    advice: &Advice,
+    whose: &str,
+    best: &[Option<usize>],
+    commands: &mut Vec<Command>,
+) {
     let widths = Widths::within(ui, advice, ui.available_width() - BAR);
     let cells = if widths.has_rates { CELLS[0] } else { CELLS[1] };
     let whose = if widths.has_rates { whose } else { "" };
@@ -300,13 +306,8 @@ mod tests {
         shown
     }
 
-    const SIZES: [[f32; 2]; 5] = [
-        [800.0, 600.0],
-        [900.0, 600.0],
-        [1024.0, 640.0],
-        [1280.0, 720.0],
-        [1920.0, 1080.0],
-    ];
+    const SIZES: [[f32; 2]; 5] =
+        [[800.0, 600.0], [900.0, 600.0], [1024.0, 640.0], [1280.0, 720.0], [1920.0, 1080.0]];
 
     fn asked(scene: &str, is_of_one: bool) -> (Lab, AnalysisWorker) {
         let mut lab = Lab::new(Scene::built_in(scene).unwrap());

@@ -5,7 +5,7 @@ use std::fs;
 use regatta::sim::integrators::GENERAL_METHODS;
 use serde_json::Value;
 
-use super::{refusal, run_in, stdout_of};
+use super::{refusal, regatta, run_in, stdout_of};
 
 fn advice(arguments: &str) -> Value {
     serde_json::from_str(&stdout_of(&format!("advise {arguments} --format json"))).unwrap()
@@ -102,17 +102,62 @@ fn text_is_a_table_of_verdicts_one_for_each_criterion_and_a_line_for_each() {
     let text =
         stdout_of("advise --scene stiff --method semi-implicit-euler --method explicit-euler");
     let lines: Vec<&str> = text.lines().collect();
-    assert!(lines[0].starts_with("METHOD") && lines[0].ends_with("VERDICT"), "{text}");
+    let table = &lines[4..];
+    assert!(table[0].starts_with("METHOD") && table[0].ends_with("VERDICT"), "{text}");
     let places = |line: &str, word: &str| line.find(word).map(|at| line[..at].chars().count());
-    assert_eq!(places(lines[0], "VERDICT"), places(lines[1], "stable,"), "{text}");
-    assert_eq!(places(lines[0], "VERDICT"), places(lines[2], "will blow up"), "{text}");
+    assert_eq!(places(table[0], "VERDICT"), places(table[1], "stable,"), "{text}");
+    assert_eq!(places(table[0], "VERDICT"), places(table[2], "will blow up"), "{text}");
     let taken = "at 60 Hz: bounded: semi-implicit-euler ×1 \
                  (60 evaluations/s; holds down to 50 Hz, or 1.4 × stiffness)";
-    assert_eq!(lines[lines.len() - 3], taken);
-    assert!(lines[lines.len() - 2].starts_with("at 60 Hz: looks-right: "), "{text}");
-    assert!(lines[lines.len() - 1].starts_with("at 60 Hz: accurate: "), "{text}");
+    // The answer comes first.
+    assert_eq!(lines[0], taken);
+    assert!(lines[1].starts_with("at 60 Hz: looks-right: "), "{text}");
+    assert!(lines[2].starts_with("at 60 Hz: accurate: "), "{text}");
     assert!(lines.contains(&"  not with up to 64 substeps: explicit-euler"), "{text}");
     assert!(lines.iter().all(|line| line.trim_end() == *line), "{text}");
+}
+
+#[test]
+fn a_spring_is_advised_on_from_three_numbers_with_the_code_to_paste() {
+    let one = "--method semi-implicit-euler --tick-hz 30";
+    let by_stiffness = stdout_of(&format!("advise --k 900 --c 4 --mass 12 {one}"));
+    let lines: Vec<&str> = by_stiffness.lines().collect();
+    assert!(lines[0].starts_with("at 30 Hz: bounded: semi-implicit-euler ×1"), "{by_stiffness}");
+    assert!(lines[4].starts_with("Call this "), "{by_stiffness}");
+    assert!(by_stiffness.contains("fn semi_implicit_euler"), "{by_stiffness}");
+    let frequency = 75f64.sqrt() / std::f64::consts::TAU;
+    let ratio = 4.0 / (2.0 * 10_800f64.sqrt());
+    let by_frequency = stdout_of(&format!(
+        "advise --frequency {frequency} --damping-ratio {ratio} --mass 12 {one}"
+    ));
+    assert_eq!(by_frequency.lines().next(), by_stiffness.lines().next());
+    let c_sharp = stdout_of(&format!("advise --k 900 --as csharp {one}"));
+    assert!(c_sharp.contains("double "), "{c_sharp}");
+    let trace = stdout_of("trace --k 900 --mass 12 --method rk4 --seconds 0.1");
+    assert!(trace.contains(",my spring,x,"), "{trace}");
+    let sweep = stdout_of("sweep --k 900 --mass 12 --method rk4 --tick-hz 60");
+    assert!(
+        sweep.lines().nth(1).is_some_and(|row| row.starts_with("my-spring,my spring,rk4,60,")),
+        "{sweep}"
+    );
+}
+
+#[test]
+fn a_spring_stands_in_the_place_of_a_scene_and_has_possible_numbers() {
+    for (options, said) in [
+        ("--k 900 --scene spring", "cannot be used with"),
+        ("--k 900 --frequency 2", "cannot be used with"),
+        ("--c 4", "--k"),
+        ("--mass 12", "--k"),
+        ("--k 0", "a number above 0"),
+        ("--k 900 --c -1", "a number from 0 up"),
+        ("--k 1e300", "stiffness_n_per_m"),
+    ] {
+        let run = regatta().arg("advise").args(options.split(' ')).output().unwrap();
+        let error = String::from_utf8(run.stderr).unwrap();
+        assert_eq!(run.status.code(), Some(2), "{options}: {error}");
+        assert!(error.contains(said), "{options}: {error}");
+    }
 }
 
 #[test]
