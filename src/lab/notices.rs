@@ -179,7 +179,7 @@ mod tests {
         assert_eq!(halt.fate(), when);
         let fate = lab.selected().lane.bodies()[halt.body].fate().unwrap();
         assert_eq!(fate, format!("{when} (speed 10³⁹ m/s)"));
-        let notice = lab.viewer.notice.take().unwrap();
+        let notice = lab.viewer.notice.take().unwrap().to_string();
         assert_eq!(notice, format!("Explicit Euler: stiff spring {fate}"));
     }
 
