@@ -171,14 +171,15 @@ fn each_halt_is_announced_once_with_method_body_tick_and_reason() {
                 let method = lab.entries()[entrant.entry].method.name;
                 let body = &lab.scene().bodies[halt.body].name;
                 assert!(scene == "stiff" || names.contains(&body.as_str()));
-                format!("{method} halted at tick {}: {body} {}", halt.tick, halt.failure)
+                let fate = entrant.lane.bodies()[halt.body].fate().expect("it halted");
+                format!("{method}: {body} {fate}")
             })
             .collect();
         expected.sort();
         notices.sort();
         assert_eq!(notices, expected);
         assert!(notices.len() > usize::from(scene == "harbour"), "{notices:?}");
-        assert!(notices.iter().all(|notice| notice.contains(" left the stage: ")), "{notices:?}");
+        assert!(notices.iter().all(|notice| notice.contains(" blew up at ")), "{notices:?}");
     }
 }
 
