@@ -161,7 +161,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         record.write_all(text.as_bytes()).map_err(|error| record.failed(error))?;
         let name = record.close_beside()?;
         if name != wanted {
-            tell(&format!("{wanted} was made by somebody else during the run, and is kept"));
+            tell(&format!("another program created {wanted} during the run; it was not replaced"));
         }
         if lab.scene().name != played {
             let scene = lab.scene_name();

@@ -133,7 +133,7 @@ pub(super) fn closing_line(recording: &Recording, place: &str) -> String {
     let Schedule { frames, fps } = recording.schedule;
     let [width, height] = recording.size_px;
     let plural = if frames == 1 { "" } else { "s" };
-    format!("wrote {frames} frame{plural} of {width}x{height}, {fps} a second: {place}")
+    format!("wrote {frames} frame{plural}, {width}x{height}, {fps} fps: {place}")
 }
 
 /// The adapter as the manifest describes it.

@@ -55,7 +55,7 @@ Examples:
   regatta sweep --scene spring --method rk4 --method velocity-verlet --tick-hz 30,60,120
   regatta sweep --scene my.toml --seconds 5 --out sweep.json --plot sweep.png";
 
-/// Go through methods, tick rates and scenes, and write a row for each
+/// Run every method at every tick rate on every scene and write one row per run
 #[derive(Debug, Args)]
 #[command(after_help = ABOUT)]
 pub(super) struct SweepArgs {
@@ -73,8 +73,7 @@ pub(super) struct SweepArgs {
     #[arg(hide_possible_values = true)]
     methods: Vec<&'static Method>,
 
-    /// Ticks in a second, 1 to 10000; give several, with commas between [default: octaves about the
-    /// scene's own]
+    /// Tick rates in Hz, 1 to 10000, separated by commas [default: octaves about the scene's own]
     #[arg(long, value_name = "N", value_delimiter = ',')]
     #[arg(value_parser = clap::value_parser!(u32).range(range_of(Clock::TICK_HZ)))]
     tick_hz: Vec<u32>,

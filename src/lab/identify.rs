@@ -1,7 +1,7 @@
 //! Which method made a log of one body: the methods of the table are run beside it, and the one that fits is named.
 //!
 //! Every method with steps of one length is run under 1 to 16 substeps, from a start that is fitted to the log by least
-//! squares. What is left over decides: a method is named if it explains the log to the noise and no other does.
+//! squares. The residual decides: a method is named if its residual is at noise level and no other's is.
 
 use crate::sim::integrators::{METHODS, Method};
 

@@ -109,7 +109,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Ctrl Z",
-        about: "bring back a future that an action in the past discarded, or else the run before a restart",
+        about: "undo the last change to the past, or the last restart",
         keys: &[(Key::ControlSign('z'), Command::Undo)],
         repeats: false,
     },

@@ -129,7 +129,7 @@ impl LaneBody {
         self.chase.as_ref()
     }
 
-    /// Of `values`, one per coordinate, those whose coordinate has the unit of the first coordinate.
+    /// The values whose coordinate has the same unit as the first; `values` has one per coordinate.
     pub(super) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
         let unit = self.coordinates[0].unit;
         let pairs = self.coordinates.iter().zip(values);

@@ -17,7 +17,7 @@ use crate::sim::{State, System, Vector};
 /// Draws a system whose coordinates are these, in metres, x right and y up.
 pub type Draw<S> = fn(&S, &<S as System>::Vector) -> Vec<Mark>;
 
-/// The experiment on a body of one's own. Take [`Options::default`] for what need not be said.
+/// The experiment on a custom body. Every field has a [default](Options::default).
 pub struct Options<S: System> {
     /// The name of the body, for people: at most [`MOST_NAME_CHARS`] characters. The default is `body`.
     pub name: &'static str,
@@ -47,7 +47,7 @@ impl<S: System> Default for Options<S> {
     }
 }
 
-/// An option that cannot be, or that is not so.
+/// An invalid option, or a claim that the equation contradicts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OptionsError {
     /// The field of [`Options`] or [`Extras`], or `start`.
@@ -218,7 +218,7 @@ fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {
     Ok(())
 }
 
-/// What the picture draws such a body by. It is kept as long as the program runs.
+/// The drawing function of a user-defined body. Leaked, because `Kind` is `'static`.
 fn drawing<S: System + 'static>(
     draw: Draw<S>,
     like: S::Vector,

@@ -52,8 +52,7 @@ pub struct Report {
     pub methods: Vec<MethodReport>,
     /// The cheapest method that meets each criterion, by its evaluations; `None` if none does, or if it is not known.
     pub recommended: Criteria<Option<Recommendation>>,
-    /// The ids of the methods of which it is not known whether they meet a criterion: there is no truth, or it takes too
-    /// much work.
+    /// Ids of the methods with an unknown result: no truth, or too much work.
     pub not_known: Criteria<Vec<&'static str>>,
 }
 

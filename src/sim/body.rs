@@ -168,8 +168,8 @@ pub trait Body: System + Clone + Send + 'static {
         Some(self.energy(state)? - self.energy(&still)?)
     }
 
-    /// The kinetic and the potential energy in joules, conserved or not; `None` if they are not known. Of
-    /// their sum, what damps the motion can only take.
+    /// The kinetic and the potential energy in joules, conserved or not; `None` if they are not known.
+    /// Damping can only decrease their sum.
     fn mechanical_energy(&self, state: &State<Self::Vector>) -> Option<[f64; 2]> {
         let kinetic = self.kinetic_energy(state)?;
         Some([kinetic, self.energy(state)? - kinetic])

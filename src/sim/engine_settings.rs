@@ -1,4 +1,4 @@
-//! What a physics engine is told of a body.
+//! Joint and damping settings of a body in a physics engine.
 
 /// The part of an acceleration that an engine's joint and its damping take over: `-(K q + c v) - C v`, the same for
 /// every coordinate, with the spring at rest where `q` is 0.

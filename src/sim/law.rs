@@ -376,8 +376,7 @@ impl Equations {
         true
     }
 
-    /// The rates at which the energy changes by the velocities and by the accelerations, in watts; together
-    /// they are 0 where the energy is conserved. `None` if the law gives no energy.
+    /// dE/dt split into ∂E/∂q·v and ∂E/∂v·a, in watts; their sum is 0 if energy is conserved. `None` if the law gives no energy.
     pub(super) fn power(&self, registers: &Registers, [q, v, a]: [&[f64]; 3]) -> Option<[f64; 2]> {
         let tape = self.energy.as_ref()?;
         let n = q.len();

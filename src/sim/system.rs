@@ -218,8 +218,8 @@ pub trait System {
         None
     }
 
-    /// How a physics engine is told of the body: settings that it takes over, and the rest as a force of user code
-    /// per unit of mass, with which `force` is overwritten. It counts as an evaluation. `None` if it cannot be told.
+    /// The body as a physics engine sees it: the joint and damping settings it integrates itself. Writes the remaining
+    /// force per unit mass to `force`. It counts as an evaluation. `None` if the body cannot be expressed so.
     #[inline]
     fn engine_settings(
         &self,

@@ -46,9 +46,9 @@ const SAMPLE: f32 = 1.5;
 /// And where the dots are all that is drawn.
 pub(super) const SCATTERED: f32 = 1.0;
 
-/// A curve that covers more than this part of the room it takes is drawn solid: no pattern could be told.
+/// Above this coverage of its bounding box a curve is drawn solid, because dashes would not be visible.
 const CROWDED: f32 = 0.5;
-/// Added to that room on all sides, in points, for a curve that has only begun.
+/// Added to that box on all sides, in points, for a curve that has only begun.
 const BEGINNING: f32 = 8.0;
 /// The radius of an arrow and its distance from the edges of the plot, in points.
 const ARROW: f32 = 5.0;

@@ -17,7 +17,7 @@ use crate::lab::{Command, Lab};
 /// Where the copies of a label lie that make its halo, in points.
 const HALO: [[f32; 2]; 4] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// What whoever shows the frame has to do for it.
+/// What the caller must do to show the frame.
 #[must_use]
 pub struct FrameOutput {
     /// What draws it, to be submitted; `None` on a lost device.

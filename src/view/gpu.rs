@@ -185,8 +185,8 @@ impl Gpu {
     }
 }
 
-/// An instance that does not check indirect draws, of which there are none here: the check needs compute
-/// shaders, which some drivers' GL lacks.
+/// Creates an instance without validation of indirect draws, which we never issue: it needs compute shaders, which
+/// some drivers' GL lacks.
 pub(super) fn instance(mut descriptor: wgpu::InstanceDescriptor) -> wgpu::Instance {
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     wgpu::Instance::new(descriptor)

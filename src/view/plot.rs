@@ -9,8 +9,7 @@ use crate::lab::number::round;
 /// The radius of the ring round a switch, in points of the screen.
 const RING: f32 = 4.0;
 
-/// A lane that leaves the plot on the way from one point to another, which is outside. Where both are
-/// the same, it is outside.
+/// A lane leaving the plot: its last point inside and its first outside. Equal if it was never inside.
 pub(super) struct Arrow {
     pub(super) from: [f64; 2],
     pub(super) to: [f64; 2],

@@ -112,7 +112,7 @@ impl Touch {
         self.point_out(ui, &stage, hover);
     }
 
-    /// A body may have left the hand otherwise than by the pointer, or the pointer have been forgotten.
+    /// The lab may have released the body itself (Escape), or may still hold one that this state forgot.
     fn agree_with(&mut self, lab: &Lab, commands: &mut Vec<Command>) {
         let holds = matches!(self.press, Some(Press { on: Pressed::Body { .. }, .. }));
         match lab.viewer().held() {

@@ -8,7 +8,7 @@ use crate::lab::Lab;
 /// Saves the run so far under a new name, and returns a notice with the name or the error.
 pub(super) fn save(lab: &Lab) -> String {
     match try_save(lab) {
-        Ok(path) => format!("recorded in {0}: regatta verify {0}", path.display()),
+        Ok(path) => format!("Saved {0}. Check it with: regatta verify {0}", path.display()),
         Err(reason) => format!("no recording: {reason}"),
     }
 }

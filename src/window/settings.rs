@@ -17,7 +17,7 @@ pub struct WindowSettings {
     pub heeds_interrupts: bool,
 }
 
-/// What is left of a window.
+/// What a closed window returns.
 pub struct Closed {
     /// The lab in its last state.
     pub lab: Lab,

@@ -45,7 +45,7 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     if !depends.is_empty() {
         let listed = depends.join(", ");
         tell(&format!(
-            "  at half the frame rate the motion is another, by up to so many amplitudes: {listed}"
+            "  at half the frame rate the motion differs by up to (amplitudes): {listed}"
         ));
     }
 }

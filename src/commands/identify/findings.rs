@@ -98,7 +98,7 @@ fn seen(effective: &Effective) -> String {
     };
     let (thing, halves) = match ratio {
         Some(_) => ("the energy", effective.energy_halves_s()),
-        None => ("the way to its last speed", effective.speed_halves_s()),
+        None => ("the gap to its terminal speed", effective.speed_halves_s()),
     };
     let lasting = halves.filter(|seconds| seconds.abs() < 1e5);
     let lasting = lasting.map(|seconds| {

@@ -50,7 +50,7 @@ fn work_precision(title: &str, curves: Vec<FigureCurve>) -> Chart {
         title: title.into(),
         legend: Legend::Shared,
         axes: [
-            Axis { name: "evaluations in a simulated second", view: work, marks: Marks::Decades },
+            Axis { name: "evaluations per simulated second", view: work, marks: Marks::Decades },
             Axis {
                 name: "error (amplitudes)",
                 view: [error[0].min(LOST / 100.0), error[1].min(LOST)],

@@ -161,7 +161,7 @@ fn compare(
     }
     let mut what = format!("{} pixels off, the worst by {}", difference.off, difference.worst);
     if was_altered {
-        what.push_str("; the file was altered after the capture, its hash says");
+        what.push_str("; the file no longer matches its hash in the manifest");
     }
     if let Some(directory) = folder.differences.filter(|_| difference.off > 0) {
         let path = directory.join(&entry.file);

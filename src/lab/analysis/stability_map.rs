@@ -332,8 +332,8 @@ fn chooses_steps(spec: &LaneSpec) -> bool {
     spec.method.tolerance.is_some() || !spec.method.keeps_time
 }
 
-/// The stability of a method on a mode, which is that on a spring of its frequency and damping, for a follower that on a
-/// body of its rate, and for an engine that on a ship of its drag where the body is one. `None` if the method fails.
+/// Stability on one mode, measured on a stand-in: a spring; for a follower method a follower; for an engine on a ship a
+/// ship. `None` if the method fails.
 fn stability(spec: &LaneSpec, is_ship: bool, mode: &NormalMode, hz: f64) -> Option<Stability> {
     let NormalMode { omega_squared, damping_per_s, .. } = *mode;
     let order = spec.method.only.and_then(|only| only.with).map(|(_, order)| order);

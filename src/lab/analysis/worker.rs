@@ -172,7 +172,7 @@ impl AnalysisWorker {
         self.request = request;
     }
 
-    /// Has the map answer another request; with a parameter that is not on the map, the scene changes as well.
+    /// Updates the map's request; a map of another body is dropped.
     fn set_map(&mut self, request: &AnalysisRequest) {
         let Some(wanted) = &request.map else { return };
         let kind = request.scene.bodies[wanted.body].kind;

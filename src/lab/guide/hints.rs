@@ -62,7 +62,7 @@ impl Hints {
         Self { scene: false, leads: self.leads }
     }
 
-    /// Notes what a command does of what the hints ask for. `hint` is the scene's.
+    /// Marks the hints that this command fulfils. `hint` is the scene's.
     pub(in crate::lab) fn see(&mut self, command: &Command, hint: Option<&str>) {
         self.scene |= hint.and_then(asked).is_some_and(|asked| asked.contains(&command));
         for (done, lead) in self.leads.iter_mut().zip(&LEADS) {

@@ -7,13 +7,12 @@ use super::candidates::{Candidate, candidates};
 use super::fit::Fit;
 use super::logged_body::LoggedBody;
 
-/// What rounding leaves over in a run, in units of the largest values: the least, in double precision, and the most, in
+/// The residual of rounding in a run, in units of the largest values: the least, in double precision, and the most, in
 /// single precision.
 const ROUNDING: [f64; 2] = [1e-9, 3e-5];
-/// Nothing below this many times what the closest candidate leaves over tells candidates apart, up to the most that
-/// rounding leaves over.
+/// Residuals below this multiple of the smallest count as rounding, up to `ROUNDING[1]`.
 const TIMES_CLOSEST: f64 = 10.0;
-/// Among candidates that do the same, one that leaves over this many times what the nearest does is not named.
+/// An equivalent candidate is not reported if its residual exceeds the smallest by this factor.
 const TIMES_NEAREST: f64 = 3.0;
 /// Candidates whose runs are nowhere farther apart, with the same spring, do the same.
 const SAME: f64 = 1e-5;

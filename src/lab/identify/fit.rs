@@ -25,9 +25,9 @@ const NOTHING: f64 = 0.01;
 const HALVINGS: u32 = 8;
 /// In fewer rows than this, noise cannot be told from what follows from row to row.
 const LEAST_ROWS_OF_NOISE: usize = 20;
-/// What is left over may follow from row to row by this much more than chance allows.
+/// Autocorrelation tolerated beyond the 3σ bound of white noise.
 const FOLLOWING: f64 = 0.1;
-/// How many rows apart what is left over is compared.
+/// How many rows apart residuals are compared.
 const LAGS: usize = 3;
 
 /// A candidate's run beside a log.
@@ -198,7 +198,7 @@ impl Fit {
         self.run.len() < LEAST_ROWS_OF_NOISE
     }
 
-    /// Whether what is left over may be neither rounding nor noise.
+    /// Whether the residual may be neither rounding nor noise.
     pub(super) fn is_doubtful(&self) -> bool {
         let is_beyond_rounding = self.residual() > EXACT;
         is_beyond_rounding

@@ -13,8 +13,8 @@ const APART: f64 = 4.0;
 
 /// The candidates that may explain `log`, and the nearest that does not, each fitted.
 ///
-/// What a candidate leaves over of the first part of a log is the least that it leaves over of the whole. So candidates
-/// are taken in that order, until the next is bound to leave over too much.
+/// The residual on the head of a log is a lower bound for that on the whole log. So candidates are taken in that order,
+/// until the bound of the next is too large.
 pub(super) fn search(log: &Log, body: &LoggedBody, tick_hz: f64) -> Vec<(Candidate, Fit)> {
     let head = if body.spring.is_some() { log.head(HEAD_TICKS) } else { log.clone() };
     let is_whole = head.rows().len() == log.rows().len();

@@ -39,7 +39,7 @@ impl LoopLane {
         let late = match late {
             late if late < LATE_TICKS => String::new(),
             late if (late - 1.0).abs() < 0.1 => ", one tick late".into(),
-            late => format!(", {} ticks late", round(late, 2)),
+            _ => format!(", shows the past of {} ms ago", round(latency, 2)),
         };
         let [repeated, doubled] = [report.repeated_percent, report.double_percent]
             .map(|percent| round(percent.unwrap_or_default(), 3));

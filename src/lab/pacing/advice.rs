@@ -11,9 +11,9 @@ const AS_FAST_MS: f64 = 100.0;
 /// A motion that is further off than this, in amplitudes, has blown up: what is shown late is off by two at most.
 const BLOWN_UP: f64 = 4.0;
 
-/// The loop with the least animation error among those that are as fast at any frame rate, whose motion stays bounded, and
-/// whose mean latency is at most `latency_ms`. Between loops alike in that, one whose physics is the same to the bit is better, and then the one whose
-/// pictures are nearer to the exact solution. Returns its place in `measured`.
+/// The loop with the least animation error among loops whose speed does not depend on the frame rate, whose motion stays
+/// bounded, and whose mean latency is at most `latency_ms`. Ties go to the fixed tick, then to the smaller position error.
+/// Returns its place in `measured`.
 pub fn advised_loop(
     measured: &[(&'static PolicyCard, PacingReport)],
     latency_ms: f64,

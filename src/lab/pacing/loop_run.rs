@@ -13,7 +13,7 @@ use crate::lab::lane::{Lane, LaneBody};
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 
-/// The least length of a run whose length nobody chose, in seconds: what happens once in a built-in trace is over by then.
+/// Default minimum length, in seconds: every one-off event of a built-in trace lies before it.
 pub const LEAST_RUN_S: f64 = 10.0;
 
 /// A scene under one method in one loop, frame by frame.

@@ -59,8 +59,8 @@ impl History {
         self.after(0)
     }
 
-    /// The samples in fewer records, oldest first: in the fewest that are `least` at least and reach as far back. `None` if
-    /// there are none such.
+    /// The coarsest summary with at least `least` records that covers the same time, oldest first. `None` if there is
+    /// none.
     pub fn summaries(&self, least: usize) -> Option<impl Iterator<Item = Summary>> {
         self.summaries.iter().zip(MOST_SUMMED).find_map(|(log, most_summed)| {
             let oldest = self.samples.range(most_summed.min(self.samples.len())).next();

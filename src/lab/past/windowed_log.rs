@@ -1,4 +1,4 @@
-//! Records in order, of which a window is shown that ends at the present or at a moment in the past.
+//! A bounded log with a movable end: the window shown ends at the present or earlier.
 
 use std::collections::{VecDeque, vec_deque};
 

@@ -153,9 +153,8 @@ fn capitalised(name: &str) -> String {
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// What stands at the head of a cell beside the name of a body that is alone there: where it is at the present tick, and
-/// what is to be said of its method, where that does not do what it should. Where there is not room for both, the
-/// latter.
+/// Draws the state of the present tick and, if the method fails, its verdict beside the body's name. If both do not fit,
+/// only the verdict.
 pub(super) fn head(
     picture: &mut Picture,
     rect: Rect,

@@ -43,7 +43,7 @@ impl Names<'_> {
         pascal
     }
 
-    /// The name of a function of the source, under which those of several methods can stand in one file.
+    /// The function's name, prefixed with the method's id so that several fit in one file.
     pub(super) fn function(&self, name: &str) -> String {
         match self.language {
             Language::CSharp => pascal(name),

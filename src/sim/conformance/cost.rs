@@ -30,7 +30,7 @@ fn costs<S: System + 'static>(
     Ok((first, others))
 }
 
-/// The evaluations of a step: always as many as the card says, or not always as many.
+/// Evaluations per step: equal to the card's count at every step, or varying if the card gives none.
 pub(super) fn evaluations(method: &Method) -> Claim {
     const STEPS: u32 = 100;
     let damped = costs(method, spring(5.0, 0.1), State { q: 1.0, v: 0.0 }, 0.25, STEPS);

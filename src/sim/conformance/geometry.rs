@@ -44,7 +44,7 @@ fn area<S: System<Vector = f64> + 'static>(
     Ok(by_q[0] * by_v[1] - by_q[1] * by_v[0])
 }
 
-/// Whether two quantities that should be 0 are, where nothing lies between being 0 and not.
+/// Whether both defects are zero; an error if one lies between the two thresholds.
 fn both_kept(off: [Result<f64, StepFailure>; 2], what: &str) -> Result<(bool, String), String> {
     let [straight, curved] = off;
     let off = [straight, curved].map(|off| off.map_err(|failure| failure.to_string()));

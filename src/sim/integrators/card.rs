@@ -100,8 +100,8 @@ pub struct Engine {
     pub damping_ratio: Option<f64>,
     /// Whether it substeps a tick by itself. If not, substeps are whole ticks that the caller makes.
     pub has_substeps: bool,
-    /// What it does to a body that spins freely in space. `None` where nothing is claimed: for engines in the plane,
-    /// for pybullet's multibody and for a held force.
+    /// How it integrates torque-free rotation in 3D; `None` if unknown or planar: for engines in the plane, for
+    /// pybullet's multibody and for a held force.
     pub free_spin: Option<FreeSpin>,
 }
 

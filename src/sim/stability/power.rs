@@ -19,8 +19,8 @@ const DISPLACEMENT: f64 = 1e-7;
 /// the iteration has not settled within `most_evaluations`, and for a method with memory, whose map is not one of
 /// the state alone: it resets where the state is displaced.
 ///
-/// Rounding apart, the product of many maps grows as ρⁿ nᵖ; the power p of a body that drifts is eliminated by
-/// two ratios.
+/// Up to rounding, n iterations grow like ρⁿ nᵖ (p > 0 for a drifting body); a second difference of the
+/// logarithm removes p.
 ///
 /// # Errors
 /// The failure of the method.

@@ -141,8 +141,8 @@ impl CoupledMotion {
         Ok(stability)
     }
 
-    /// Takes the eigenvalues nearest to 1 for 1, one for each true mode without a force: no method changes what rests or
-    /// drifts freely, but rounding splits a double eigenvalue by its root.
+    /// Sets to 1 as many of the eigenvalues nearest 1 as there are force-free modes: methods preserve uniform drift,
+    /// but rounding splits a double eigenvalue by √ε.
     fn keep_what_drifts(&self, values: &mut [Eigenvalue]) {
         let distance = |value: &Eigenvalue| {
             let re = value.modulus * libm::cos(value.angle);
@@ -159,7 +159,7 @@ impl CoupledMotion {
 /// Times in seconds at which the derivatives of the force must be those of the start.
 const LATER_S: [f64; 2] = [0.37, 2.9];
 
-/// A true rate below this fraction of the largest is none: twice the digits that a double eigenvalue keeps.
+/// Rates below this fraction of the largest count as zero: twice the digits that a double eigenvalue keeps.
 const STILL: f64 = 1e-7;
 
 /// The furthest that rounding moves a double eigenvalue.

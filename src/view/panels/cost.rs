@@ -14,8 +14,7 @@ const ROW: f32 = 20.0;
 /// A frame at 60 Hz, in nanoseconds.
 const FRAME_NS: f64 = 1e9 / 60.0;
 /// Said below the table.
-const MEASURED: &str =
-    "Time is the least of several runs of this race's lanes, measured aside once a second.";
+const MEASURED: &str = "Fastest of several timed runs, repeated once per second.";
 const NOT_MEASURED: &str = "Time is measured in the window.";
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {

@@ -10,7 +10,7 @@ use crate::view::theme::TYPE;
 /// From this width on, in points, the keys stand in two columns.
 const ROOM_FOR_TWO: f32 = 860.0;
 /// The width of a column, and of the keys in it.
-const COLUMN: f32 = 480.0;
+const COLUMN: f32 = 560.0;
 const KEY: f32 = 112.0;
 /// What a window has around its content.
 const AROUND: Vec2 = vec2(48.0, 110.0);
@@ -33,7 +33,7 @@ pub(super) fn show(ui: &Ui, commands: &mut Vec<Command>) {
             .auto_shrink([false, true])
             .scroll_bar_visibility(ScrollBarVisibility::VisibleWhenNeeded);
         list.show(ui, |ui| {
-            ui.spacing_mut().item_spacing = vec2(10.0, 3.0);
+            ui.spacing_mut().item_spacing = vec2(10.0, 1.0);
             let own = width / columns as f32 - 20.0;
             ui.horizontal_top(|ui| {
                 let keys = KEYS.iter().map(|binding| (binding.shown, binding.about, true));

@@ -186,7 +186,7 @@ fn named(ui: &mut Ui, button: Button<'_>, about: &str) -> Response {
     response
 }
 
-/// What makes everything as the scene has it: nothing, where it is so.
+/// Commands that restore every edited value; empty if nothing was edited.
 fn restoring(lab: &Lab) -> Vec<Command> {
     let changed = (0..lab.scene().bodies.len()).flat_map(|body| {
         let changed = move |row: Row| {
@@ -196,7 +196,7 @@ fn restoring(lab: &Lab) -> Vec<Command> {
         rows(lab, body).into_iter().filter_map(changed)
     });
     let sets: Vec<Command> = changed.collect();
-    // Again for those that do not go with others before these are restored.
+    // Twice, because a value may be refused until another is restored.
     let twice = sets.iter().chain(&sets).cloned();
     twice.chain(run::restoring(lab)).collect()
 }

@@ -169,7 +169,7 @@ fn tone(ui: &Ui, word: Outcome) -> Color32 {
     severity_tone(ui, word.severity())
 }
 
-/// The colour of what is so bad.
+/// The colour of a severity.
 fn severity_tone(ui: &Ui, severity: Severity) -> Color32 {
     match severity {
         Severity::Fine => ink(ui).good,

@@ -1,4 +1,4 @@
-//! A plot that a panel paints by itself: a frame, marks along two axes, and what plots of explanations need.
+//! A plot that a panel paints by itself: a frame, marks along two axes, arrows and labels.
 
 use egui::epaint::TextShape;
 use egui::{

@@ -1,5 +1,5 @@
 //! What part of each axis a plot shows: the truth and the healthy lanes. A lane far beyond them is cut off
-//! and bends no axis.
+//! and does not change an axis.
 
 use super::tracks::Track;
 use crate::view::axis_scale::AxisScale;

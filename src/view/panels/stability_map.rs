@@ -122,8 +122,7 @@ fn plot(ui: &mut Ui, lab: &Lab, map: &StabilityMap, size: Vec2, commands: &mut V
     cross(ui, lab, map, &area, commands);
 }
 
-/// The tint of the water: deeper where more methods are stable. A method that is stable everywhere tints nothing, so
-/// that land is where only such methods are.
+/// Tints the plane: deeper where more methods are stable. A method that is stable everywhere tints nothing.
 fn water(ui: &Ui, map: &StabilityMap, area: &PlotArea) {
     let painter = ui.painter().with_clip_rect(area.rect);
     let part: Vec<_> =

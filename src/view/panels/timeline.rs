@@ -232,7 +232,7 @@ fn fill(painter: &Painter, lab: &Lab, events: &[Event], track: &Track<'_>) {
     }
 }
 
-/// A race is of many colours: that of the selected lane is kept back.
+/// The colour of the selected lane on the track: dimmed in a race, whose lanes have many colours.
 fn strength(colour: Color32, mode: Mode, ink: &Ink) -> Color32 {
     match mode {
         Mode::Solo => colour,

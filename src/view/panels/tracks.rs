@@ -67,8 +67,7 @@ pub(super) struct Track {
     is_held: bool,
 }
 
-/// What is drawn of a lane that comes back into the plot: nothing, until it has stayed for this part of
-/// the time in view. A swing that grows for ever passes the plot time and again.
+/// A lane that re-enters the plot is drawn again once it has stayed for this fraction of the visible time. A swing that grows for ever passes the plot time and again.
 const RETURNED: f64 = 0.1;
 
 impl Track {

@@ -45,7 +45,7 @@ fn the_same_command_makes_the_same_bytes() {
         assert!(output.stdout.is_empty());
         let last = stderr(&output).lines().last().unwrap().to_owned();
         let names = format!("{out}/frame-000000.png … frame-000002.png");
-        assert_eq!(last, format!("wrote 3 frames of 320x180, 10 a second: {names}"));
+        assert_eq!(last, format!("wrote 3 frames, 320x180, 10 fps: {names}"));
     }
     let [a, b] = ["a", "b/c"].map(|out| folder.path().join(out));
     let frames = ["frame-000000.png", "frame-000001.png", "frame-000002.png"];
@@ -161,7 +161,7 @@ fn without_a_display_the_demo_is_drawn_into_a_fresh_directory() {
         assert_eq!(output.status.code(), Some(0), "{said}");
         assert!(said.starts_with("no display to open a window on (neither "), "{said}");
         assert!(said.contains(&format!("0.1 s of it into {out} instead\n")), "{said}");
-        let wrote = format!("wrote 3 frames of 1280x720, 30 a second: {out}/frame-000000.png");
+        let wrote = format!("wrote 3 frames, 1280x720, 30 fps: {out}/frame-000000.png");
         assert!(said.contains(&wrote), "{said}");
         assert_eq!(names(&folder.path().join(out)).len(), 4);
     }

@@ -30,7 +30,7 @@ fn written(folder: &Path, format: &str) -> Vec<u8> {
     let output = run_in(folder, &format!("{RUN} --format {format} --out run.{format} --force"));
     let said = stderr(&output);
     assert_eq!(output.status.code(), Some(0), "{said}");
-    assert_eq!(said, format!("wrote 7 frames of 93x51, 12 a second: run.{format}\n"));
+    assert_eq!(said, format!("wrote 7 frames, 93x51, 12 fps: run.{format}\n"));
     fs::read(folder.join(format!("run.{format}"))).unwrap()
 }
 

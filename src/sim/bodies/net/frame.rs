@@ -21,8 +21,7 @@ pub(super) struct Frame {
     pub(super) start: Points,
     /// The places of the ends, among the free nodes, of each spring between two of them.
     pub(super) ends: Vec<[u32; 2]>,
-    /// The place, among the free nodes, of the free end of each spring with a fixed end, and where the other
-    /// end is.
+    /// For each anchored spring: index of its free node, position of its anchor.
     pub(super) anchors: Vec<(u32, [f64; 2])>,
     /// The springs of the plan in the order of the arrays: those of `ends`, then those of `anchors`.
     pub(super) order: Vec<usize>,

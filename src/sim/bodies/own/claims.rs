@@ -5,7 +5,7 @@ use crate::sim::body::Body;
 use crate::sim::dice::Dice;
 use crate::sim::system::{State, System};
 
-/// What is told of a body of one's own, and is not so. Messages are in lower case.
+/// A claim about a custom body that does not hold. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OwnFault {
     /// The field of [`Extras`](super::Extras), or `start`.
@@ -40,7 +40,7 @@ fn is_derivative(of: impl Fn(f64) -> f64, wanted: f64, scale: f64) -> bool {
     STEPS.iter().any(|&h| (derivative(&of, h) - wanted).abs() <= TOLERANCE * scale)
 }
 
-/// Where the exact solution is none; `None` if it is one, or if there is none.
+/// The first violation of the equation by `exact`; `None` if it holds or was not given.
 pub(super) fn find_unsolved(own: &Own) -> Option<OwnFault> {
     let remedy = "correct it, or remove `exact`";
     let fault = |what: String| Some(OwnFault { field: "exact", what, remedy });
@@ -86,7 +86,7 @@ pub(super) fn find_unsolved(own: &Own) -> Option<OwnFault> {
     None
 }
 
-/// Where energy leaks; `None` if it does not, or if nobody has said what it is.
+/// A state at which `energy` is not conserved; `None` if conserved or not given.
 pub(super) fn find_leak(own: &Own) -> Option<OwnFault> {
     let remedy = "correct it, take out what drives or damps the motion, or remove `energy`";
     let fault = |what: String| Some(OwnFault { field: "energy", what, remedy });

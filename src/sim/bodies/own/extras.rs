@@ -9,7 +9,7 @@ pub type Energy<S> = fn(&S, &State<<S as System>::Vector>) -> f64;
 /// The exact state of a system at a time (s) after the start.
 pub type Exact<S> = fn(&S, f64) -> State<<S as System>::Vector>;
 
-/// What may be told of a body of one's own beyond its equation of motion and its start. Each has a default.
+/// Optional properties of a custom body. Each has a default.
 pub struct Extras<S: System> {
     /// The name and the unit of each coordinate, such as `("height", "m")`; an angle has the unit `rad`. Empty:
     /// x, y and z, or q1, q2 …, in metres.

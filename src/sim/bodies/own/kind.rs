@@ -16,7 +16,7 @@ use crate::sim::system::{State, System, Vector};
 /// The key of the parameter that bodies without parameters of their own have.
 const FORCE: &str = "force";
 
-/// The largest number of coordinates. More are a matter for a body that knows which of them act on each other.
+/// The largest number of coordinates. Larger systems need a sparse Jacobian; write a body.
 const MOST_COORDINATES: usize = 256;
 
 /// The kind of bodies that move as `system` does, from `start`. What a layer above needs to draw them is in

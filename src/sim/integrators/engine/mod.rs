@@ -59,7 +59,7 @@ pub trait Rule: Clone + Default + Send + 'static {
     /// and is 0 at the start.
     fn tick<V: Vector>(&self, tick: Tick<'_, V>, spare: &mut V, q: &mut V, v: &mut V);
 
-    /// Overwrites `force` with what is to be held for a tick, and returns the settings that do the rest.
+    /// Writes the force the engine holds constant for the tick; returns the settings it integrates itself.
     ///
     /// # Errors
     /// If the engine cannot express the system.

@@ -6,7 +6,7 @@ use super::newton::largest;
 use super::slopes::Slopes;
 use crate::sim::system::{State, System, Vector};
 
-/// What the row sums of a sparse matrix may be, in units of the largest entry of its product with `±1` in turn.
+/// Safety factor that turns max|J·(±1, …)| into a bound on ‖J‖∞.
 const SPARSE_NORM: f64 = 2.0;
 
 /// `∂a/∂q` and `∂a/∂v` at a state.

@@ -1,8 +1,8 @@
 //! The flow of a linear equation, by the exponential of its matrix applied to a vector.
 //!
 //! The Taylor series acts on the vector, over as many pieces of the step as the size of the matrix asks (Al-Mohy
-//! & Higham, *Computing the action of the matrix exponential*, 2011). Where that are too many and the matrix
-//! is small, the exponential itself is found by scaling and squaring. Both use products and sums only.
+//! & Higham, *Computing the action of the matrix exponential*, 2011). If that takes too many pieces and the matrix
+//! is small, scaling and squaring is used instead. Both use products and sums only.
 
 use super::newton::largest;
 use crate::sim::integrators::failure::StepFailure;

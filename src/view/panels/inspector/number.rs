@@ -120,7 +120,7 @@ fn is_left_by_escape(ui: &Ui, field: Id) -> bool {
     })
 }
 
-/// A number in as few signs as tell it, such as can be typed in again.
+/// The shortest text of a number that can be typed back in.
 fn plain(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     match rounded.abs() {

@@ -24,9 +24,8 @@ const PARTS: [Part; 3] = [
 pub(super) fn sheet(lab: &Lab) -> Sheet {
     let body = lab.display().body;
     let drift = METRICS.iter().position(|metric| metric.id == "energy_drift");
-    let drift = drift.map(|place| {
-        error::plot(lab, body, place, "Energy gained, share of what is exchanged".into())
-    });
+    let drift = drift
+        .map(|place| error::plot(lab, body, place, "Energy drift, % of the swing's energy".into()));
     let energies = energies(lab, body);
     let conserves = !energies.exact.iter().all(|line| line.times.is_empty());
     // Why there is no drift is said only where there is no energy either.

@@ -53,7 +53,7 @@ pub(super) static COLUMNS: &[Column] = &[
     metric("latency", 70.0, 3, "latency_mean_ms"),
     metric("dropped", 70.0, 7, "dropped_ms"),
     metric("position", 72.0, 8, "position_error_rms"),
-    metric("half rate", 72.0, 6, "state_difference"),
+    metric("at ½ rate", 72.0, 6, "state_difference"),
 ];
 
 impl Cell {

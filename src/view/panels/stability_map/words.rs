@@ -168,11 +168,12 @@ pub(super) fn notes(map: &StabilityMap) -> String {
     let (nowhere, own) = (named(Coverage::Nowhere), named(Coverage::OwnSteps));
     let mut notes = String::new();
     if !nowhere.is_empty() {
-        notes += &format!(" Stable nowhere here: {}.", nowhere.join(", "));
+        let verb = if nowhere.len() == 1 { "is" } else { "are" };
+        notes += &format!(" {} {verb} stable nowhere here.", nowhere.join(", "));
     }
     if !own.is_empty() {
-        let verb = if own.len() == 1 { "chooses its" } else { "choose their" };
-        notes += &format!(" {} {verb} own steps: no tick rate bounds that.", own.join(", "));
+        let verb = if own.len() == 1 { "picks its" } else { "pick their" };
+        notes += &format!(" {} {verb} own steps.", own.join(", "));
     }
     if !map.is_linear {
         notes += " The map holds for small motions about rest.";

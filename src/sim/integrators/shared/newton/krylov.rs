@@ -93,8 +93,8 @@ impl<V: Vector, const S: usize> Krylov<V, S> {
         }
     }
 
-    /// The largest change of an acceleration at the first stage for a change of every coordinate by
-    /// `distance`, each point against the last: near that of the stiffest motion.
+    /// Largest acceleration at the first stage when neighbours are displaced by ±`distance`: an estimate of the
+    /// stiffest mode.
     pub(super) fn largest_change(&mut self, system: &dyn System<Vector = V>, distance: f64) -> f64 {
         let Matrix { at, along, slope, stages, .. } = &mut self.matrix;
         along.v.components_mut().fill(0.0);
