@@ -329,7 +329,7 @@ fn blessed_frames_are_the_same_again() {
     assert_eq!(verify(folder.path(), "").0, Some(1));
     let (code, stdout, stderr) = verify(folder.path(), "--bless");
     assert_eq!((code, &*stdout), (Some(0), ""), "{stderr}");
-    assert!(stderr.starts_with("wrote 7 frames of 64x36"), "{stderr}");
+    assert!(stderr.starts_with("wrote 7 frames, 64x36"), "{stderr}");
     assert_eq!(verify(folder.path(), "").0, Some(0));
     assert!(fs::read(manifest_of(folder.path())).unwrap() == whole);
 }
