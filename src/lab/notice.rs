@@ -21,7 +21,7 @@ impl Notice {
 
     /// Takes away so many nanoseconds of the time for which it is still shown.
     pub(super) fn pass(&mut self, ns: i64) {
-        self.left_ns = self.left_ns.saturating_sub(ns.max(0));
+        self.left_ns = self.left_ns.saturating_sub(ns.max(0)).max(0);
     }
 }
 
@@ -53,12 +53,12 @@ mod tests {
                 lab.set_notice(words);
                 let mut frames = 0;
                 while lab.viewer().notice.is_some() {
-                    lab.advance(100_000_000);
-                    lab.rest(if is_running { 0 } else { 100_000_000 });
+                    lab.advance(70_000_000);
+                    lab.rest(if is_running { 0 } else { 70_000_000 });
                     frames += 1;
                 }
                 assert_eq!(lab.notice_left_ns(), None);
-                f64::from(frames) / 10.0
+                f64::from(frames) * 0.07
             };
             let [short, long] = [shown_s("saved"), shown_s(&"word ".repeat(20))];
             assert!((3.0..4.0).contains(&short) && (8.0..10.0).contains(&long), "{short} {long}");
