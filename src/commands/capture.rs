@@ -122,6 +122,17 @@ impl Cause for LoopSheet {
     }
 }
 
+/// The loop lab does not take the scene's body.
+#[derive(Debug, thiserror::Error)]
+#[error("--loop: {0}")]
+struct NoLoop(String);
+
+impl Cause for NoLoop {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
+
 pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
     let format = PictureFormat::of(&args.out, args.format)?;
     let everyone = args.race || format == PictureFormat::Sheet && args.experiment.names_no_method();
@@ -130,6 +141,11 @@ pub(super) fn run(args: &CaptureArgs) -> Result<(), Error> {
         return Err(LoopSheet.into());
     }
     let experiment = args.experiment.load(lineup)?;
+    if args.loop_trace.is_some()
+        && let Some(refusal) = experiment.lab().loop_lab_refusal()
+    {
+        return Err(NoLoop(refusal).into());
+    }
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let fps = args.fps.unwrap_or(format.or_sheet(FPS, SHEET_FPS));
     format.check(fps)?;

@@ -13,16 +13,20 @@ use crate::sim::integrators::{Method, method};
 const METHOD_AT_FIRST: &str = "rk4";
 
 impl Lab {
-    /// Opens the loop lab with the displayed body, unless that is a net: what is made ready for every loop would take too
-    /// long.
+    /// Why the loop lab does not take the displayed body: a net, because what is made ready for every loop would take too
+    /// long. `None` if it does.
+    pub fn loop_lab_refusal(&self) -> Option<String> {
+        let SceneBody { name, kind, .. } = &self.scene().bodies[self.display().body];
+        let refusal = "is a net, which the loop lab does not take; open another scene";
+        kind.net.is_some().then(|| format!("{name} {refusal}"))
+    }
+
+    /// Opens the loop lab with the displayed body, unless it is [refused](Self::loop_lab_refusal).
     pub(super) fn open_loop_lab(&mut self) {
         let method = method(METHOD_AT_FIRST).expect("a built-in method");
         let body = self.display().body;
-        let SceneBody { name, kind, .. } = &self.scene().bodies[body];
-        if kind.net.is_some() {
-            let notice =
-                format!("{name} is a net, which the loop lab does not take; open another scene");
-            return self.set_notice(notice);
+        if let Some(refusal) = self.loop_lab_refusal() {
+            return self.set_notice(refusal);
         }
         let mut loops = LoopLab::new(self.scene(), body, method);
         loops.offer(self.viewer.live.trace());
@@ -130,6 +134,11 @@ impl Lab {
                 self.carry_out(command);
                 self.loop_lab = loops;
                 self.running = running;
+                if let Some(refusal) = self.loop_lab_refusal() {
+                    self.leave_loop_lab();
+                    self.set_notice(refusal);
+                    return None;
+                }
                 let (scene, body) = (self.start.scene.clone(), self.display().body);
                 self.loop_lab.iter_mut().for_each(|loops| loops.show(&scene, body));
             }

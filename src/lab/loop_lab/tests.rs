@@ -119,3 +119,16 @@ fn a_net_is_not_taken_and_the_reason_is_told() {
     assert!(lab.loop_lab().is_none());
     assert!(lab.viewer().notice.as_ref().is_some_and(|told| told.starts_with("rope is a net")));
 }
+
+#[test]
+fn a_net_that_is_opened_in_it_leaves_it_with_the_reason() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    assert!(lab.loop_lab().is_some());
+    let rope = crate::lab::SCENES.iter().position(|scene| scene.name == "rope").unwrap();
+    lab.apply(Command::Scene(rope));
+    assert!(lab.loop_lab().is_none());
+    assert_eq!(lab.scene_name(), "rope");
+    let notice = lab.viewer().notice.as_deref().unwrap_or_default();
+    assert!(notice.contains("is a net, which the loop lab does not take"), "{notice}");
+}

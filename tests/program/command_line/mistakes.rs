@@ -62,6 +62,7 @@ fn each_mistake_is_named_with_its_remedy() {
         ("capture --out LICENSE-MIT", "LICENSE-MIT is not a directory; give another --out"),
         ("capture --out src", "src is not empty; give another --out, or --force"),
         ("capture --out x --panels some", "on, off"),
+        ("capture --out x --scene rope --loop", "is a net, which the loop lab does not take"),
         ("capture --out x --format avi", "png, apng, gif, y4m, rgba, sheet"),
         ("capture --out x --format gif --fps 51", "at most 50 frames a second, not 51"),
         ("capture --out src --format gif", "src is a directory; give --out a file"),
