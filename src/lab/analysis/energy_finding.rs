@@ -16,8 +16,8 @@ pub struct EnergyFinding {
     pub change: f64,
     /// Whether the body conserves its energy, so that a loss is the method's too.
     pub is_conserved: bool,
-    /// The spectral radius of a tick about the start; `None` for a method with memory or steps of its own,
-    /// and where it takes too much work.
+    /// The spectral radius of a tick about the start, of state and memory; `None` for a method that chooses its
+    /// substeps, for an implicit one with memory, and where it takes too much work.
     pub spectral_radius: Option<f64>,
 }
 

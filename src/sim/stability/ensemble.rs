@@ -4,7 +4,7 @@
 use nalgebra::DMatrix;
 
 use crate::sim::integrators::{Integrator, Method, StepFailure, Tolerance, integrator};
-use crate::sim::{State, Stepper, System};
+use crate::sim::{Solver, State, Stepper, System};
 
 /// An acceleration function on slices: time, coordinates, velocities, output.
 type Acceleration = Box<dyn Fn(f64, &[f64], &[f64], &mut [f64])>;
@@ -79,6 +79,37 @@ impl Ensemble {
         Self::of(acceleration, n, method, 1)
     }
 
+    /// A deviation from the state of `body` at time `t`, under the forces linearised there by differences along the
+    /// deviation: of `displacement` times the size of the state, whatever the deviation's own size. Velocities count
+    /// times `h`.
+    pub(super) fn of_deviation(
+        body: &dyn Stepper,
+        t: f64,
+        h: f64,
+        displacement: f64,
+        method: &Method,
+    ) -> Self {
+        let body = body.with_solver(Solver::Truth, t);
+        let (q0, v0) = (body.q().to_vec(), body.v().to_vec());
+        let n = q0.len();
+        let largest =
+            |x: &[f64], unit: f64| x.iter().fold(0.0, |most: f64, x| most.max((x * unit).abs()));
+        let size = largest(&q0, 1.0).max(largest(&v0, h));
+        let distance = displacement * if size > 0.0 { size } else { 1.0 };
+        let mut a0 = vec![0.0; n];
+        body.acceleration(t, &q0, &v0, &mut a0);
+        let moved = |x0: &[f64], part: f64, x: &[f64]| {
+            x0.iter().zip(x).map(|(x0, x)| x0 + part * x).collect()
+        };
+        let acceleration: Acceleration = Box::new(move |_, q, v, a| {
+            let part = distance / largest(q, 1.0).max(largest(v, h));
+            let (q, v): (Vec<f64>, Vec<f64>) = (moved(&q0, part, q), moved(&v0, part, v));
+            body.acceleration(t, &q, &v, a);
+            a.iter_mut().zip(&a0).for_each(|(a, a0)| *a = (*a - a0) / part);
+        });
+        Self::of(acceleration, n, method, 1)
+    }
+
     fn of(acceleration: Acceleration, n: usize, method: &Method, count: usize) -> Self {
         let state = State { q: vec![0.0; n * count], v: vec![0.0; n * count] };
         let integrator = integrator(method, &state.q);
@@ -117,7 +148,6 @@ impl Ensemble {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::Solver;
     use crate::sim::bodies::kind;
     use crate::sim::integrators::{GENERAL_METHODS, method};
 

@@ -31,7 +31,7 @@ fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so
         let said = verdict.to_string();
         assert_eq!(verdict.outcome, outcome, "{id}: {said}");
         let found = verdict.by_energy.expect("no truth tells");
-        let found_radius = found.spectral_radius.unwrap_or_else(|| panic!("{id} has no memory"));
+        let found_radius = found.spectral_radius.unwrap_or_else(|| panic!("{id} has one"));
         assert!(radius.contains(&found_radius), "{id}: {found_radius}");
         assert!(said.contains("; no reference: by energy and spectral radius "), "{id}: {said}");
         assert!(found.is_conserved && !verdict.is_accurate(), "{id}");
@@ -42,10 +42,31 @@ fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so
     }
     let kept = verdict(&scene, "implicit-midpoint").to_string();
     assert!(kept.starts_with("keeps its energy to "), "{kept}");
-    // The map of a method with memory is not one of the state alone.
+    // An implicit method with memory: its map is not one of the state alone.
     let alone = verdict(&scene, "bdf2");
     assert_eq!(alone.by_energy.unwrap().spectral_radius, None);
     assert!(alone.to_string().ends_with("; no reference: by energy alone"), "{alone}");
+}
+
+#[test]
+fn velocity_verlet_on_a_damped_net_has_no_radius_of_a_net_that_stays() {
+    let scene = |tick_hz: u32| {
+        let net = scene(1000.0, "damping_n_s_per_m = 0.635");
+        Scene::parse("t", &net.to_toml().replace("tick_hz = 60", &format!("tick_hz = {tick_hz}")))
+            .unwrap()
+    };
+    let velocity_verlet = LaneSpec::plain(method("velocity-verlet").unwrap());
+    let radius = |tick_hz: u32| {
+        let verdict = Judge::new(&scene(tick_hz), 1.0).verdict(velocity_verlet, tick_hz);
+        let found = verdict.by_energy.expect("no truth tells").spectral_radius;
+        (verdict.outcome, found.expect("it is explicit"))
+    };
+    let (outcome, found) = radius(360);
+    assert_eq!(outcome, Outcome::BlewUp);
+    assert!(found > 1.02, "{found}");
+    let (outcome, found) = radius(500);
+    assert_ne!(outcome, Outcome::BlewUp);
+    assert!((0.99..1.001).contains(&found), "{found}");
 }
 
 #[test]
