@@ -9,19 +9,19 @@ use super::error::{Cause, Error};
 use super::experiment::MethodParser;
 use super::output::print;
 use super::terminal::tell;
-use crate::lab::{Language, NoSourceCode, source_code};
+use crate::lab::{Language, NoSourceCode, Precision, source_code};
 use crate::sim::integrators::{METHODS, Method};
 
 const ABOUT: &str = "\
 The function makes one step of h seconds for one coordinate: of its position x, its velocity v and
 a function a(x, v) for the acceleration. A method with memory takes its memory too, a follower the
-position of its target and a rate, and an engine the settings of its joint and its body. Forces that
-depend on time are left out. Above the function stand the method's source, its order, its stability
-limit, and how it restarts.
+position of its target and a rate, and an engine the settings of its joint and its body. Above the
+function stand the method's source, its order, its stability limit, how it restarts, and what to do
+with forces that depend on time.
 
 Examples:
   regatta show rk4
-  regatta show semi-implicit-euler --as csharp
+  regatta show semi-implicit-euler --as csharp --float
   regatta show bdf2 --as c > bdf2.h
   regatta show critically-damped-spring --as gdscript > spring.gd";
 
@@ -37,6 +37,10 @@ pub(super) struct ShowArgs {
     #[arg(long = "as", value_name = "LANGUAGE", default_value = Language::Rust.id())]
     #[arg(value_parser = language())]
     language: Language,
+
+    /// Numbers of single precision, as Unity and Godot have them
+    #[arg(long)]
+    float: bool,
 }
 
 /// A method that was asked for.
@@ -97,7 +101,8 @@ pub(super) fn language() -> impl TypedValueParser<Value = Language> {
 
 pub(super) fn run(args: &ShowArgs) -> Result<(), Error> {
     let Asked { method, alias } = args.asked;
-    let code = source_code(method, args.language)?;
+    let precision = if args.float { Precision::Single } else { Precision::Double };
+    let code = source_code(method, args.language, precision)?;
     if let Some(alias) = alias {
         tell(&format!("note: {alias} is another name of {}, which is shown", method.id));
     }

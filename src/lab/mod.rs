@@ -104,7 +104,7 @@ pub use scene::{
 pub use scene_list::SceneList;
 pub use session::{Event, EventKind, RecordingError, SNAPSHOT_BYTES, Session, TimeScale, Timeline};
 pub use source_code::{
-    Language, METHOD_SOURCES, MethodInput, MethodSource, NoSourceCode, source_code,
+    Language, METHOD_SOURCES, MethodInput, MethodSource, NoSourceCode, Precision, source_code,
 };
 pub use viewer::{Dialog, Viewer};
 pub use zoom_pan::{ZOOMS, ZoomPan};

@@ -12,9 +12,12 @@
 //! | `use solve` | the functions of `assets/methods/shared/solve.step` |
 //! | `fn solve(a(x, v), x) {` | a function that returns a number |
 //! | `const`, `let`, `var` | a constant, a number, a number that changes; `+=` and the like change it |
+//! | `count`, and `takes whole n` | a whole number that changes, and one that is an input |
+//! | `4e-15\|2e-6` | a number in double and in single precision |
 //! | `if … {`, `} else {`, `while … {`, `}` | with `and` and `or` |
-//! | `fail` | ends the step with `x` and `v` not a number |
+//! | `fail`, `stay` | ends the step with `x` and `v` not a number, or with what they are |
 //! | `stability: when`, and `order`, `symplectic` | what the header says in place of the card's sentence |
+//! | `several: how`, `held: where` | what it says of several coordinates, and of forces that depend on time |
 //! | `refused c: why`, `refused: why` | there is no such function in this language, or in any |
 //!
 //! A comment begins with `#`; those before the first statement go to the header. A line that begins with an operator
@@ -24,7 +27,7 @@ use std::fmt;
 
 use crate::sim::integrators::Method;
 
-pub use dialect::Language;
+pub use dialect::{Language, Precision};
 pub use program::MethodInput;
 use program::Program;
 
@@ -141,19 +144,24 @@ impl fmt::Display for NoSourceCode {
     }
 }
 
-/// The function of a method in a language, with what it is on its card as a comment above it.
+/// The function of a method in a language and a precision, with what it is on its card as a comment above it.
 ///
 /// # Errors
-/// If the method is [one's own](Method::own), or cannot be written as such a function.
-pub fn source_code(method: &Method, language: Language) -> Result<String, NoSourceCode> {
+/// If the method is [one's own](Method::own), or cannot be written as such a function, or the language has no such
+/// precision.
+pub fn source_code(
+    method: &Method,
+    language: Language,
+    precision: Precision,
+) -> Result<String, NoSourceCode> {
     let refused = |reason| NoSourceCode { method: method.id, language, reason };
     let source = METHOD_SOURCES.iter().find(|source| source.method == method.id);
     let source =
         source.ok_or(refused("it is a method of one's own, whose code is where it was made"))?;
     let program = Program::read(source.text);
-    if let Some(reason) = program.refusal(language) {
+    if let Some(reason) = program.refusal(language).or(language.refusal(precision)) {
         return Err(refused(reason));
     }
     let header = header::lines(method, &program, language);
-    Ok(printer::print(method.id, &program, language, &header))
+    Ok(printer::print(method.id, &program, language, precision, &header))
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::App;
 use super::new_file::write_new;
-use crate::lab::{Lab, Language, source_code};
+use crate::lab::{Lab, Language, Precision, source_code};
 use crate::sim::integrators::Method;
 use crate::view::{Gpu, OffscreenRenderer, Panels, instrument_csv, instrument_svg, png};
 
@@ -31,7 +31,7 @@ impl App {
     pub(super) fn copy_method(&mut self, entry: usize) {
         let language = self.lab.viewer().language();
         let Some(method) = self.lab.entries().get(entry).map(|spec| spec.method) else { return };
-        self.lab.set_notice(match source_code(method, language) {
+        self.lab.set_notice(match source_code(method, language, Precision::Double) {
             Ok(code) => method_notice(self.clipboard.set_text(code), method, language),
             Err(refused) => refused.to_string(),
         });

@@ -1,6 +1,6 @@
 //! Copying in the window and pasting in another program, and the other way round.
 
-use regatta::lab::{Language, source_code};
+use regatta::lab::{Language, Precision, source_code};
 use regatta::sim::integrators::method;
 
 use crate::desk::{Desk, until};
@@ -11,7 +11,7 @@ fn control_c_on_a_lane_copies_its_method_and_the_menu_of_the_lane_has_the_langua
     let test = "control_c_on_a_lane_copies_its_method_and_the_menu_of_the_lane_has_the_languages";
     let Some((desk, mut twin)) = paused(test, "spring") else { return };
     let holds = |id: &str, language: Language| {
-        let code = source_code(method(id).unwrap(), language).unwrap();
+        let code = source_code(method(id).unwrap(), language, Precision::Double).unwrap();
         until("the method on the clipboard", || (desk.clipboard() == code).then_some(()));
     };
     twin.click(&desk, "4 Runge-Kutta 4");

@@ -7,7 +7,7 @@ use crate::commands::output::table::{self, Column};
 use crate::lab::number::round;
 use crate::lab::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, Language, MOST_ADVISED_SUBSTEPS,
-    Recommendation, Scene, Verdict, source_code,
+    Precision, Recommendation, Scene, Verdict, source_code,
 };
 
 /// The answer as text: the recommendations, the recommended method in this language if there is one, the verdicts, and
@@ -90,7 +90,7 @@ fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
     let place = |criterion| CRITERIA.iter().position(|one| *one == criterion);
     let wanted = [Criterion::LooksRight, Criterion::Bounded];
     let (row, met) = wanted.into_iter().find_map(|criterion| best(rows, place(criterion)?))?;
-    let code = source_code(row.advised.spec.method, language).ok()?;
+    let code = source_code(row.advised.spec.method, language, Precision::Double).ok()?;
     let (steps, hz) = (met.substeps, u64::from(adviser.tick_hz()) * u64::from(met.substeps));
     let times = if steps == 1 { "once".into() } else { format!("{steps} times") };
     Some(format!("Call this {times} a tick with h = 1/{hz} s:\n\n{code}"))

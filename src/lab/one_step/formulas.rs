@@ -150,7 +150,11 @@ pub const FORMULAS: &[Formula] = &[
     ),
     formula(
         "exponential-rosenbrock-euler",
-        &["y′ = y + h φ₁(h J) f(t, y), J = ∂f/∂y", "φ₁(z) = (exp(z) − 1) / z"],
+        &[
+            "y′ = y + h φ₁(h J) f(t, y) + h² φ₂(h J) fₜ",
+            "J = ∂f/∂y, fₜ = (f(t + h, y) − f(t, y)) / h",
+            "φ₁(z) = (exp(z) − 1) / z, φ₂(z) = (φ₁(z) − 1) / z",
+        ],
         &[],
     ),
     formula(
@@ -222,8 +226,8 @@ pub const FORMULAS: &[Formula] = &[
     formula(
         "engine-avian-motor",
         &[
-            "v = v / (1 + h C) + h f, once + Σ d₋₁",
-            "n times: x = x + h v",
+            "n times: v = v / (1 + h C) + h f, x = x + h v",
+            "the first time v + Σ d₋₁ before x",
             "d = −h² (K x + c v) / D, x = x + d, v = v + d / h",
         ],
         &[],
@@ -256,8 +260,9 @@ pub const FORMULAS: &[Formula] = &[
         "engine-bullet",
         &[
             "n times: v = v e^(−C h)",
-            "v = v − h (K x + c v) + h f, x = x + h v",
-            "K ≤ 1 / (16 h²), c ≤ 1 / h",
+            "g = −h (K x + c v), K ≤ 1 / (16 h²), c ≤ 1 / h",
+            "if f ≠ 0: g = g − h f between 0, g and −h c v",
+            "v = v + g + h f, x = x + h v",
         ],
         &[],
     ),

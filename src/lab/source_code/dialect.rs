@@ -41,6 +41,12 @@ impl Language {
         }
     }
 
+    /// Why it cannot compute in this precision, if it cannot.
+    pub(super) fn refusal(self, precision: Precision) -> Option<&'static str> {
+        (self == Language::GdScript && precision == Precision::Single)
+            .then_some("its `float` has double precision always")
+    }
+
     pub(super) fn dialect(self) -> &'static Dialect {
         match self {
             Language::Rust => &RUST,
@@ -51,19 +57,57 @@ impl Language {
     }
 }
 
+impl Dialect {
+    /// The type of a number.
+    pub(super) fn type_in(&self, precision: Precision) -> &'static str {
+        self.types[precision as usize]
+    }
+
+    /// A template with what the precision decides filled in.
+    pub(super) fn written(&self, template: &str, precision: Precision) -> String {
+        let type_name = self.type_in(precision);
+        let (suffix, cast) = match precision {
+            Precision::Double => ("", String::new()),
+            Precision::Single => (self.single_suffix, format!("({type_name})")),
+        };
+        template.replace("TYPE", type_name).replace("SUFFIX", suffix).replace("CAST", &cast)
+    }
+}
+
 impl fmt::Display for Language {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
 }
 
-/// How a language writes a statement. In the templates `NAME` and `VALUE` are replaced.
+/// The precision of the numbers of a function.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// 64 bits.
+    #[default]
+    Double,
+    /// 32 bits.
+    Single,
+}
+
+/// How a language writes a statement. In the templates `NAME` and `VALUE` are replaced, `TYPE` by the type of a number,
+/// `SUFFIX` by what ends the name of a function of C in this precision, and `CAST` by what makes a number of this
+/// precision of a `double`.
 pub(super) struct Dialect {
     pub(super) comment: &'static str,
     pub(super) indent: &'static str,
+    /// The types of a number of double and of single precision.
+    pub(super) types: [&'static str; 2],
+    /// What ends a number of single precision.
+    pub(super) single_suffix: &'static str,
+    /// A whole number where a number is wanted.
+    pub(super) converted: &'static str,
+    /// The type of a whole number.
+    pub(super) whole: &'static str,
     pub(super) constant: &'static str,
     pub(super) number: &'static str,
     pub(super) variable: &'static str,
+    pub(super) counter: &'static str,
     pub(super) assignment: &'static str,
     pub(super) if_block: &'static str,
     pub(super) else_block: &'static str,
@@ -73,6 +117,8 @@ pub(super) struct Dialect {
     /// What ends a line whose expression goes on in the next.
     pub(super) line_break: &'static str,
     pub(super) return_value: &'static str,
+    /// The value at the end of a function.
+    pub(super) last_value: &'static str,
     /// The words that are not as in the sources, each with how they are written.
     pub(super) words: &'static [(&'static str, &'static str)],
 }
@@ -80,9 +126,14 @@ pub(super) struct Dialect {
 const RUST: Dialect = Dialect {
     comment: "//",
     indent: "    ",
-    constant: "const NAME: f64 = VALUE;",
+    types: ["f64", "f32"],
+    single_suffix: "",
+    converted: "NAME as TYPE",
+    whole: "u32",
+    constant: "const NAME: TYPE = VALUE;",
     number: "let NAME = VALUE;",
     variable: "let mut NAME = VALUE;",
+    counter: "let mut NAME = VALUE;",
     assignment: "VALUE;",
     if_block: "if VALUE {",
     else_block: "} else {",
@@ -90,25 +141,32 @@ const RUST: Dialect = Dialect {
     end: "}",
     line_break: "",
     return_value: "return VALUE;",
+    last_value: "VALUE",
     words: &[
         ("and", "&&"),
         ("or", "||"),
-        ("nan", "f64::NAN"),
-        ("is_nan", "f64::is_nan"),
-        ("abs", "f64::abs"),
-        ("min", "f64::min"),
-        ("max", "f64::max"),
-        ("sqrt", "f64::sqrt"),
-        ("pow", "f64::powf"),
-        ("exp", "f64::exp"),
-        ("ceil", "f64::ceil"),
+        ("nan", "TYPE::NAN"),
+        ("is_nan", "TYPE::is_nan"),
+        ("abs", "TYPE::abs"),
+        ("min", "TYPE::min"),
+        ("max", "TYPE::max"),
+        ("sqrt", "TYPE::sqrt"),
+        ("pow", "TYPE::powf"),
+        ("exp", "TYPE::exp"),
+        ("ceil", "TYPE::ceil"),
     ],
 };
 
 const C: Dialect = Dialect {
-    constant: "const double NAME = VALUE;",
-    number: "const double NAME = VALUE;",
-    variable: "double NAME = VALUE;",
+    types: ["double", "float"],
+    single_suffix: "f",
+    converted: "(TYPE)NAME",
+    whole: "int",
+    constant: "const TYPE NAME = VALUE;",
+    number: "const TYPE NAME = VALUE;",
+    variable: "TYPE NAME = VALUE;",
+    counter: "int NAME = VALUE;",
+    last_value: "return VALUE;",
     if_block: "if (VALUE) {",
     while_block: "while (VALUE) {",
     words: &[
@@ -116,27 +174,35 @@ const C: Dialect = Dialect {
         ("or", "||"),
         ("nan", "NAN"),
         ("is_nan", "isnan"),
-        ("abs", "fabs"),
-        ("min", "fmin"),
-        ("max", "fmax"),
+        ("abs", "fabsSUFFIX"),
+        ("min", "fminSUFFIX"),
+        ("max", "fmaxSUFFIX"),
+        ("sqrt", "sqrtSUFFIX"),
+        ("pow", "powSUFFIX"),
+        ("exp", "expSUFFIX"),
+        ("ceil", "ceilSUFFIX"),
     ],
     ..RUST
 };
 
 const C_SHARP: Dialect = Dialect {
-    number: "double NAME = VALUE;",
+    converted: "NAME",
+    number: "TYPE NAME = VALUE;",
+    if_block: "if (VALUE)\n{",
+    else_block: "}\nelse\n{",
+    while_block: "while (VALUE)\n{",
     words: &[
         ("and", "&&"),
         ("or", "||"),
-        ("nan", "double.NaN"),
-        ("is_nan", "double.IsNaN"),
+        ("nan", "TYPE.NaN"),
+        ("is_nan", "TYPE.IsNaN"),
         ("abs", "Math.Abs"),
         ("min", "Math.Min"),
         ("max", "Math.Max"),
-        ("sqrt", "Math.Sqrt"),
-        ("pow", "Math.Pow"),
-        ("exp", "Math.Exp"),
-        ("ceil", "Math.Ceiling"),
+        ("sqrt", "CASTMath.Sqrt"),
+        ("pow", "CASTMath.Pow"),
+        ("exp", "CASTMath.Exp"),
+        ("ceil", "CASTMath.Ceiling"),
     ],
     ..C
 };
@@ -144,9 +210,14 @@ const C_SHARP: Dialect = Dialect {
 const GD_SCRIPT: Dialect = Dialect {
     comment: "#",
     indent: "\t",
+    types: ["float"; 2],
+    single_suffix: "",
+    converted: "NAME",
+    whole: "int",
     constant: "const NAME: float = VALUE",
     number: "var NAME: float = VALUE",
     variable: "var NAME: float = VALUE",
+    counter: "var NAME: int = VALUE",
     assignment: "VALUE",
     if_block: "if VALUE:",
     else_block: "else:",
@@ -154,5 +225,6 @@ const GD_SCRIPT: Dialect = Dialect {
     end: "",
     line_break: " \\",
     return_value: "return VALUE",
+    last_value: "return VALUE",
     words: &[("nan", "NAN"), ("abs", "absf"), ("min", "minf"), ("max", "maxf")],
 };

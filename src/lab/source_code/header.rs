@@ -38,19 +38,25 @@ pub(super) fn lines(method: &Method, program: &Program<'_>, language: Language) 
     paragraphs.extend(program.notes.iter().map(|note| (*note).to_owned()));
     paragraphs.push(String::new());
     let solves = program.functions.iter().any(|function| SOLVERS.contains(&function.name));
-    let state = match (program.takes("force"), solves) {
+    let several = match (program.takes("force"), solves) {
         // Of engines only what they are told is known.
-        (true, _) => "x, v: position and velocity of one coordinate.",
-        (false, false) => {
-            "x, v: position and velocity of one coordinate; for several that feel each other, make them vectors."
-        }
-        (false, true) => {
-            "x, v: position and velocity of one coordinate; for several that feel each other, slopes are matrices and a \
-             division is the solution of a linear system."
-        }
+        (true, _) => String::new(),
+        (false, false) => "; for several that feel each other, make them vectors".into(),
+        (false, true) => "; for several that feel each other, slopes are matrices and a division is the solution of a \
+                          linear system"
+            .into(),
     };
-    paragraphs.extend([state.into(), "h: the step, in seconds.".into()]);
+    let several = program.claim("several").map_or(several, |own| format!("; {own}"));
+    let state = format!("x, v: position and velocity of one coordinate{several}.");
+    paragraphs.extend([state, "h: the step, in seconds.".into()]);
     paragraphs.extend(program.inputs.iter().map(input));
+    if program.takes("a") {
+        let held = "in its middle, t + h / 2; the order is then 2 at most".to_owned();
+        paragraphs.push(format!(
+            "Forces that depend on time: a is not told it; hold them for the step at their value {}.",
+            claim("held", held)
+        ));
+    }
     paragraphs.push(answer(language, program));
     paragraphs.iter().flat_map(|paragraph| wrapped(paragraph)).collect()
 }

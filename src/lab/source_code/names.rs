@@ -1,6 +1,6 @@
 //! How the names of a source, and the expressions made of them, are written in a language.
 
-use super::dialect::Language;
+use super::dialect::{Language, Precision};
 use super::program::{Function, MethodInput};
 
 /// The names inside one function.
@@ -8,6 +8,9 @@ pub(super) struct Names<'a> {
     /// The id of the method.
     pub(super) id: &'a str,
     pub(super) language: Language,
+    pub(super) precision: Precision,
+    /// The whole numbers.
+    pub(super) whole: Vec<&'a str>,
     /// What the function takes.
     pub(super) inputs: &'a [MethodInput<'a>],
     /// The functions that it can call.
@@ -51,8 +54,17 @@ impl Names<'_> {
         }
     }
 
-    /// An expression, word by word.
+    /// A number, word by word: whole numbers in it are converted.
     pub(super) fn expression(&self, text: &str) -> String {
+        self.written(text, true)
+    }
+
+    /// A condition, or what changes a whole number.
+    pub(super) fn unconverted(&self, text: &str) -> String {
+        self.written(text, false)
+    }
+
+    fn written(&self, text: &str, converts: bool) -> String {
         let mut written = String::with_capacity(text.len());
         // For each open parenthesis, whether C's `user` is the last argument in it.
         let mut takes_user = Vec::new();
@@ -61,6 +73,7 @@ impl Names<'_> {
         while let Some(first) = rest.chars().next() {
             let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
             let end = match is_part(first) {
+                _ if first.is_ascii_digit() => number_end(rest),
                 true => rest.find(|c| !is_part(c)).unwrap_or(rest.len()),
                 false => first.len_utf8(),
             };
@@ -77,7 +90,13 @@ impl Names<'_> {
                 _ if first.is_ascii_alphabetic() => {
                     let is_call = after.starts_with('(');
                     calls_with_user = is_call && self.takes_user(token);
-                    written.push_str(&self.word(token, is_call));
+                    written.push_str(&self.word(token, is_call, converts));
+                }
+                _ if first.is_ascii_digit() => {
+                    let (number, after_number) = self.number(token, after);
+                    written.push_str(&number);
+                    rest = after_number;
+                    continue;
                 }
                 _ => written.push_str(token),
             }
@@ -95,7 +114,23 @@ impl Names<'_> {
         self.language == Language::C && is_given
     }
 
-    fn word(&self, word: &str, is_call: bool) -> String {
+    /// The number `token`, or in single precision the one that `after` has for it, and what follows.
+    fn number<'t>(&self, token: &'t str, after: &'t str) -> (String, &'t str) {
+        let (double, (single, after)) = match after.strip_prefix('|') {
+            Some(after) => (token, after.split_at(number_end(after))),
+            None => (token, (token, after)),
+        };
+        let is_whole = token.chars().all(|c| c.is_ascii_digit());
+        let number = match self.precision {
+            Precision::Single if !is_whole => {
+                format!("{single}{}", self.language.dialect().single_suffix)
+            }
+            _ => double.to_owned(),
+        };
+        (number, after)
+    }
+
+    fn word(&self, word: &str, is_call: bool, converts: bool) -> String {
         let input = self.inputs.iter().find(|input| input.name == word);
         if input.is_some_and(|input| !input.arguments.is_empty()) {
             let name = self.name(word);
@@ -108,10 +143,28 @@ impl Names<'_> {
         if is_call && self.functions.iter().any(|function| function.name == word) {
             return self.function(word);
         }
-        let words = self.language.dialect().words;
-        let written = words.iter().find(|(source, _)| *source == word);
-        written.map_or_else(|| self.name(word), |(_, written)| (*written).to_owned())
+        let dialect = self.language.dialect();
+        if converts && self.whole.contains(&word) {
+            let converted = dialect.written(dialect.converted, self.precision);
+            return converted.replace("NAME", &self.name(word));
+        }
+        let written = dialect.words.iter().find(|(source, _)| *source == word);
+        written.map_or_else(
+            || self.name(word),
+            |(_, written)| dialect.written(written, self.precision),
+        )
     }
+}
+
+/// Where the number ends with which `text` begins.
+fn number_end(text: &str) -> usize {
+    let mut before = '0';
+    let is_end = |c: char| {
+        let is_sign_of_exponent = before == 'e' && (c == '-' || c == '+');
+        before = c;
+        !(c.is_ascii_digit() || c == '.' || c == 'e' || is_sign_of_exponent)
+    };
+    text.find(is_end).unwrap_or(text.len())
 }
 
 #[cfg(test)]
@@ -119,8 +172,12 @@ mod tests {
     use super::*;
 
     fn written(language: Language, text: &str) -> String {
-        let a = MethodInput { name: "a", arguments: vec!["x", "v"], about: "" };
-        let k = MethodInput { name: "k", arguments: Vec::new(), about: "" };
+        written_in(language, Precision::Double, text)
+    }
+
+    fn written_in(language: Language, precision: Precision, text: &str) -> String {
+        let input = |name, arguments| MethodInput { name, arguments, is_whole: false, about: "" };
+        let (a, k) = (input("a", vec!["x", "v"]), input("k", Vec::new()));
         let solve = Function {
             name: "solve",
             inputs: vec![a.clone()],
@@ -128,7 +185,29 @@ mod tests {
             body: Vec::new(),
         };
         let (inputs, functions) = ([a, k], [solve]);
-        Names { id: "my-method", language, inputs: &inputs, functions: &functions }.expression(text)
+        let (inputs, functions) = (&inputs[..], &functions[..]);
+        Names { id: "my-method", language, precision, whole: vec!["n"], inputs, functions }
+            .expression(text)
+    }
+
+    #[test]
+    fn a_number_has_the_precision_that_is_asked_for() {
+        let text = "sqrt(1.5e-8|4e-4 * k) / n - 2.0 * max(k, nan)";
+        let double = [
+            "f64::sqrt(1.5e-8 * k) / n as f64 - 2.0 * f64::max(k, f64::NAN)",
+            "sqrt(1.5e-8 * k) / (double)n - 2.0 * fmax(k, NAN)",
+            "Math.Sqrt(1.5e-8 * k) / n - 2.0 * Math.Max(k, double.NaN)",
+            "sqrt(1.5e-8 * k) / n - 2.0 * maxf(k, NAN)",
+        ];
+        let single = [
+            "f32::sqrt(4e-4 * k) / n as f32 - 2.0 * f32::max(k, f32::NAN)",
+            "sqrtf(4e-4f * k) / (float)n - 2.0f * fmaxf(k, NAN)",
+            "(float)Math.Sqrt(4e-4f * k) / n - 2.0f * Math.Max(k, float.NaN)",
+        ];
+        assert_eq!(Language::ALL.map(|language| written(language, text)), double);
+        let languages = [Language::Rust, Language::C, Language::CSharp];
+        let found = languages.map(|language| written_in(language, Precision::Single, text));
+        assert_eq!(found, single);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Prints a program in a language, line by line.
 
-use super::dialect::{Dialect, Language};
+use super::dialect::{Dialect, Language, Precision};
 use super::names::{Names, pascal, takes_function};
-use super::program::{Function, Line, MethodInput, Program};
+use super::program::{Function, Line, MethodInput, Program, whole_numbers};
 
 /// The longest line that is not broken at its commas.
 const LINE_CHARS: usize = 100;
@@ -12,9 +12,10 @@ pub(super) fn print(
     id: &str,
     program: &Program<'_>,
     language: Language,
+    precision: Precision,
     header: &[String],
 ) -> String {
-    let mut printer = Printer { id, program, language, text: String::new(), depth: 0 };
+    let mut printer = Printer { id, program, language, precision, text: String::new(), depth: 0 };
     for line in header {
         printer.comment(line);
     }
@@ -26,6 +27,7 @@ struct Printer<'a> {
     id: &'a str,
     program: &'a Program<'a>,
     language: Language,
+    precision: Precision,
     text: String,
     depth: usize,
 }
@@ -35,9 +37,16 @@ impl Printer<'_> {
         self.language.dialect()
     }
 
+    /// The type of a number.
+    fn number_type(&self) -> &'static str {
+        self.dialect().type_in(self.precision)
+    }
+
     /// The names inside a function that takes `inputs`.
-    fn names<'a>(&'a self, inputs: &'a [MethodInput<'a>]) -> Names<'a> {
-        Names { id: self.id, language: self.language, inputs, functions: &self.program.functions }
+    fn names<'a>(&'a self, inputs: &'a [MethodInput<'a>], body: &'a [Line<'a>]) -> Names<'a> {
+        let Self { id, language, precision, .. } = *self;
+        let whole = whole_numbers(inputs, body);
+        Names { id, language, precision, whole, inputs, functions: &self.program.functions }
     }
 
     fn whole(&mut self) {
@@ -74,7 +83,7 @@ impl Printer<'_> {
         if fields.is_empty() {
             return;
         }
-        let names = self.names(&[]);
+        let (names, number) = (self.names(&[], &[]), self.number_type());
         let starts: Vec<(String, String)> = fields
             .iter()
             .map(|field| (names.name(field.name), names.expression(field.start)))
@@ -89,17 +98,17 @@ impl Printer<'_> {
                     format!("fn default() -> Self {{\n        Self {{ {} }}", values.join(", "));
                 let close =
                     format!("}}\n\nimpl Default for {pascal}Memory {{\n    {start}\n    }}\n}}");
-                (open, each("    NAME: f64,"), close)
+                (open, each(&format!("    NAME: {number},")), close)
             }
             Language::C => {
                 let values: Vec<&str> = starts.iter().map(|(_, start)| &**start).collect();
                 let (upper, values) = (snake.to_uppercase(), values.join(", "));
                 let close = format!("}} {snake}_memory;\n\n#define {upper}_START {{ {values} }}");
-                ("typedef struct {".into(), each("    double NAME;"), close)
+                ("typedef struct {".into(), each(&format!("    {number} NAME;")), close)
             }
             Language::CSharp => {
                 let open = "public sealed class Memory\n{".to_owned();
-                (open, each("    public double NAME = VALUE;"), "}".into())
+                (open, each(&format!("    public {number} NAME = VALUE;")), "}".into())
             }
             Language::GdScript => {
                 (format!("class {pascal}Memory:"), each("\tvar NAME: float = VALUE"), String::new())
@@ -115,14 +124,15 @@ impl Printer<'_> {
 
     /// A function that returns a number.
     fn function(&mut self, function: &Function<'_>) {
-        let name = self.names(&[]).function(function.name);
+        let (name, number) = (self.names(&[], &[]).function(function.name), self.number_type());
         let (open, close) = match self.language {
-            Language::Rust => (format!("fn {name}("), ") -> f64 {"),
-            Language::C | Language::CSharp => (format!("static double {name}("), ")"),
-            Language::GdScript => (format!("static func {name}("), ") -> float:"),
+            Language::Rust => (format!("fn {name}("), format!(") -> {number} {{")),
+            Language::C => (format!("static {number} {name}("), ") {".into()),
+            Language::CSharp => (format!("static {number} {name}("), ")\n{".into()),
+            Language::GdScript => (format!("static func {name}("), ") -> float:".into()),
         };
         let inputs = self.parameters(&function.inputs);
-        self.signature(&open, &inputs, close);
+        self.signature(&open, &inputs, &close);
         self.depth += 1;
         self.body(&function.body, &function.inputs);
         self.depth -= 1;
@@ -134,38 +144,43 @@ impl Printer<'_> {
         let program = self.program;
         // What is not read is marked, or compilers warn of it.
         let mark = |name| if program.reads(name) { "" } else { "_" };
-        let (v, h) = (mark("v"), mark("h"));
+        let (v, h, number) = (mark("v"), mark("h"), self.number_type());
         let (open, memory, state, close) = match self.language {
             Language::Rust => {
-                let v = if v.is_empty() { "mut v: f64" } else { "_v: f64" };
-                let state = ["mut x: f64".into(), v.into(), format!("{h}h: f64")];
+                let v = if v.is_empty() { "mut v" } else { "_v" };
+                let state = ["mut x", v, &format!("{h}h")].map(|name| format!("{name}: {number}"));
                 let memory = format!("memory: &mut {pascal}Memory");
-                (format!("pub fn {snake}("), memory, state, ") -> (f64, f64) {")
+                let close = format!(") -> ({number}, {number}) {{");
+                (format!("pub fn {snake}("), memory, state, close)
             }
             Language::C => {
-                let state = ["double *position", "double *velocity", "double h"];
+                let state = ["*position", "*velocity", "h"].map(|name| format!("{number} {name}"));
                 let memory = format!("{snake}_memory *memory");
-                (format!("void {snake}("), memory, state.map(String::from), ")")
+                (format!("void {snake}("), memory, state, ") {".into())
             }
             Language::CSharp => {
-                let state = ["ref double x", "ref double v", "double h"].map(String::from);
-                ("public static void Step(".into(), "Memory memory".into(), state, ")")
+                let state = ["x", "v"].map(|name| format!("ref {number} {name}"));
+                let [x, v] = state;
+                let state = [x, v, format!("{number} h")];
+                ("public static void Step(".into(), "Memory memory".into(), state, ")\n{".into())
             }
             Language::GdScript => {
                 let state = ["x: float".into(), format!("{v}v: float"), format!("{h}h: float")];
                 let memory = format!("memory: {pascal}Memory");
-                (format!("static func {snake}("), memory, state, ") -> Array:")
+                (format!("static func {snake}("), memory, state, ") -> Array:".into())
             }
         };
         let has_memory = !program.memory.is_empty();
         let mut parameters: Vec<String> = has_memory.then_some(memory).into_iter().collect();
         parameters.extend(state);
         parameters.extend(self.parameters(&program.inputs));
-        self.signature(&open, &parameters, close);
+        self.signature(&open, &parameters, &close);
         self.depth += 1;
         match (self.language, v.is_empty()) {
-            (Language::C, true) => self.lines(&["double x = *position;", "double v = *velocity;"]),
-            (Language::C, false) => self.lines(&["double x = *position;", "double v;"]),
+            (Language::C, is_read) => {
+                let v = if is_read { "v = *velocity" } else { "v" };
+                self.lines(&[&format!("{number} x = *position;"), &format!("{number} {v};")]);
+            }
             (Language::Rust, false) => self.lines(&["let v;"]),
             (Language::GdScript, false) => self.lines(&["var v: float"]),
             (Language::Rust | Language::CSharp | Language::GdScript, _) => {}
@@ -186,22 +201,23 @@ impl Printer<'_> {
 
     /// The parameters of a function for these inputs.
     fn parameters(&self, inputs: &[MethodInput<'_>]) -> Vec<String> {
-        let names = self.names(inputs);
+        let names = self.names(inputs, &[]);
+        let number = self.number_type();
         let each = |input: &MethodInput<'_>| {
             let name = names.name(input.name);
             let arguments = &input.arguments;
-            let times = |word: &str| vec![word; arguments.len()].join(", ");
+            let times = || vec![number; arguments.len()].join(", ");
+            let own = if input.is_whole { self.dialect().whole } else { number };
             match (self.language, arguments.is_empty()) {
-                (Language::Rust, true) => format!("{name}: f64"),
-                (Language::Rust, false) => format!("{name}: impl Fn({}) -> f64", times("f64")),
-                (Language::C | Language::CSharp, true) => format!("double {name}"),
+                (Language::Rust | Language::GdScript, true) => format!("{name}: {own}"),
+                (Language::Rust, false) => format!("{name}: impl Fn({}) -> {number}", times()),
+                (Language::C | Language::CSharp, true) => format!("{own} {name}"),
                 (Language::C, false) => {
                     let arguments: Vec<String> =
-                        arguments.iter().map(|argument| format!("double {argument}, ")).collect();
-                    format!("double (*{name})({}void *user)", arguments.concat())
+                        arguments.iter().map(|argument| format!("{number} {argument}, ")).collect();
+                    format!("{number} (*{name})({}void *user)", arguments.concat())
                 }
-                (Language::CSharp, false) => format!("Func<{}, double> {name}", times("double")),
-                (Language::GdScript, true) => format!("{name}: float"),
+                (Language::CSharp, false) => format!("Func<{}, {number}> {name}", times()),
                 (Language::GdScript, false) => format!("{name}: Callable"),
             }
         };
@@ -230,9 +246,6 @@ impl Printer<'_> {
             self.depth -= 1;
             self.lines(&[close]);
         }
-        if matches!(self.language, Language::C | Language::CSharp) {
-            self.lines(&["{"]);
-        }
     }
 
     fn end(&mut self) {
@@ -244,7 +257,9 @@ impl Printer<'_> {
 
     fn body(&mut self, lines: &[Line<'_>], inputs: &[MethodInput<'_>]) {
         let dialect = self.dialect();
-        for line in lines {
+        let whole = whole_numbers(inputs, lines);
+        for (n, line) in lines.iter().enumerate() {
+            let is_last = n + 1 == lines.len();
             let (template, name, value) = match line {
                 Line::Blank => ("", "", ""),
                 Line::Comment(text) => {
@@ -254,12 +269,14 @@ impl Printer<'_> {
                 Line::Constant { name, value } => (dialect.constant, *name, &**value),
                 Line::Let { name, value } => (dialect.number, *name, &**value),
                 Line::Var { name, value } => (dialect.variable, *name, &**value),
+                Line::Counter { name, value } => (dialect.counter, *name, &**value),
                 Line::Assignment(text) => (dialect.assignment, "", &**text),
                 Line::If(condition) => (dialect.if_block, "", &**condition),
                 Line::While(condition) => (dialect.while_block, "", &**condition),
+                Line::Return(value) if is_last => (dialect.last_value, "", &**value),
                 Line::Return(value) => (dialect.return_value, "", &**value),
-                Line::Fail => {
-                    self.fail();
+                Line::Fail | Line::Stay => {
+                    self.end_early(*line == Line::Fail);
                     continue;
                 }
                 Line::Else | Line::End => {
@@ -273,24 +290,40 @@ impl Printer<'_> {
                     continue;
                 }
             };
-            let names = self.names(inputs);
+            let names = self.names(inputs, lines);
             let line_break = format!("{}\n{}", dialect.line_break, dialect.indent);
-            let value = names.expression(value).replace('\n', &line_break);
-            self.lines(&[&filled(template, &names.name(name), &value)]);
+            let counts = match line {
+                Line::If(_) | Line::While(_) | Line::Counter { .. } => true,
+                Line::Assignment(text) => {
+                    text.split(' ').next().is_some_and(|name| whole.contains(&name))
+                }
+                _ => false,
+            };
+            let value = if counts { names.unconverted(value) } else { names.expression(value) };
+            let value = value.replace('\n', &line_break);
+            let template_here = dialect.written(template, self.precision);
+            self.lines(&[&filled(&template_here, &names.name(name), &value)]);
             if [dialect.if_block, dialect.while_block].contains(&template) {
                 self.depth += 1;
             }
         }
     }
 
-    /// Ends the step without a result.
-    fn fail(&mut self) {
-        match self.language {
-            Language::Rust => self.lines(&["return (f64::NAN, f64::NAN);"]),
-            Language::C => self.lines(&["*position = NAN;", "*velocity = NAN;", "return;"]),
-            Language::CSharp => self.lines(&["x = double.NaN;", "v = double.NaN;", "return;"]),
-            Language::GdScript => self.lines(&["return [NAN, NAN]"]),
-        }
+    /// Ends the step without a result if it fails, else with what x and v are.
+    fn end_early(&mut self, fails: bool) {
+        let number = self.number_type();
+        let lines: &[&str] = match (self.language, fails) {
+            (Language::Rust, true) => &[&format!("return ({number}::NAN, {number}::NAN);")],
+            (Language::Rust, false) => &["return (x, v);"],
+            (Language::C, true) => &["*position = NAN;", "*velocity = NAN;", "return;"],
+            (Language::C | Language::CSharp, false) => &["return;"],
+            (Language::CSharp, true) => {
+                &[&format!("x = {number}.NaN;"), &format!("v = {number}.NaN;"), "return;"]
+            }
+            (Language::GdScript, true) => &["return [NAN, NAN]"],
+            (Language::GdScript, false) => &["return [x, v]"],
+        };
+        self.lines(lines);
     }
 
     fn comment(&mut self, text: &str) {

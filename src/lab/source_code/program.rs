@@ -9,6 +9,8 @@ pub struct MethodInput<'a> {
     pub name: &'a str,
     /// What it is a function of; empty for a number.
     pub arguments: Vec<&'a str>,
+    /// Whether it is a whole number.
+    pub is_whole: bool,
     /// What it is: a phrase in lower case.
     pub about: &'a str,
 }
@@ -47,6 +49,11 @@ pub(super) enum Line<'a> {
         name: &'a str,
         value: String,
     },
+    /// The declaration of a whole number that counts.
+    Counter {
+        name: &'a str,
+        value: String,
+    },
     /// With its operator: `x += h * v`.
     Assignment(String),
     If(String),
@@ -55,6 +62,7 @@ pub(super) enum Line<'a> {
     End,
     Return(String),
     Fail,
+    Stay,
 }
 
 /// The source of a method, read.
@@ -72,8 +80,9 @@ pub(super) struct Program<'a> {
     pub(super) body: Vec<Line<'a>>,
 }
 
-/// The claims of the card that a source can put in its own words.
-const CLAIMS: [&str; 3] = ["order", "stability", "symplectic"];
+/// What the header says that a source can put in its own words: claims of the card, what becomes of several
+/// coordinates, and where in the step a force that depends on time is held.
+const CLAIMS: [&str; 5] = ["order", "stability", "symplectic", "several", "held"];
 
 /// The functions that several methods use.
 const SHARED: [(&str, &str); 4] = [
@@ -149,13 +158,19 @@ impl<'a> Program<'a> {
             let text = match line {
                 Line::Constant { value, .. }
                 | Line::Let { value, .. }
+                | Line::Counter { value, .. }
                 | Line::Var { value, .. } => value,
                 Line::If(value) | Line::While(value) | Line::Return(value) => value,
                 Line::Assignment(text) => match text.split_once(" = ") {
                     Some((_, value)) => value,
                     None => text,
                 },
-                Line::Blank | Line::Comment(_) | Line::Else | Line::End | Line::Fail => "",
+                Line::Blank
+                | Line::Comment(_)
+                | Line::Else
+                | Line::End
+                | Line::Fail
+                | Line::Stay => "",
             };
             text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == name)
         })
@@ -179,7 +194,17 @@ impl<'a> Program<'a> {
     }
 }
 
-/// Reads inputs that are separated by commas: `a(x, v), x`.
+/// The names of the whole numbers: inputs, and counters that are declared in `body`.
+pub(super) fn whole_numbers<'a>(inputs: &[MethodInput<'a>], body: &[Line<'a>]) -> Vec<&'a str> {
+    let of_input = |input: &MethodInput<'a>| input.is_whole.then_some(input.name);
+    let of_line = |line: &Line<'a>| match line {
+        Line::Counter { name, .. } => Some(*name),
+        _ => None,
+    };
+    inputs.iter().filter_map(of_input).chain(body.iter().filter_map(of_line)).collect()
+}
+
+/// Reads inputs that are separated by commas: `a(x, v), x, whole n`.
 fn inputs<'a>(mut text: &'a str, about: &'a str) -> Vec<MethodInput<'a>> {
     let mut inputs = Vec::new();
     while !text.is_empty() {
@@ -191,7 +216,11 @@ fn inputs<'a>(mut text: &'a str, about: &'a str) -> Vec<MethodInput<'a>> {
             arguments = inside.split(", ").collect();
             rest = after;
         }
-        inputs.push(MethodInput { name: name.trim(), arguments, about });
+        let (name, is_whole) = match name.trim().strip_prefix("whole ") {
+            Some(name) => (name, true),
+            None => (name.trim(), false),
+        };
+        inputs.push(MethodInput { name, arguments, is_whole, about });
         text = rest.trim_start_matches([',', ' ']);
     }
     inputs
@@ -243,11 +272,16 @@ fn statement<'a>(first: &'a str, rest: &str) -> Line<'a> {
             let (name, value) = named();
             Line::Var { name, value }
         }
+        ("count", _) => {
+            let (name, value) = named();
+            Line::Counter { name, value }
+        }
         ("if", _) => Line::If(condition()),
         ("while", _) => Line::While(condition()),
         (_, "} else {") => Line::Else,
         (_, "}") => Line::End,
         (_, "fail") => Line::Fail,
+        (_, "stay") => Line::Stay,
         ("return", _) => Line::Return(format!("{after}{rest}")),
         _ => Line::Assignment(format!("{first}{rest}")),
     }

@@ -15,6 +15,8 @@
 # matrices and a division is the solution of a linear system.
 # h: the step, in seconds.
 # a(x, v): the acceleration at position x and velocity v.
+# Forces that depend on time: a is not told it; hold them for the step at their value at its end,
+# t + h; the order is then 2 at most.
 # Returns [x, v].
 
 class Bdf2Memory:
@@ -26,12 +28,14 @@ class Bdf2Memory:
 # not solve it. The slope is a difference quotient; with formulas for the derivatives of a it is
 # alpha da/dx + beta da/dv.
 static func bdf2_solve(a: Callable, x: float, v: float, alpha: float, beta: float) -> float:
+	if beta == 0.0:
+		return a.call(x, v)
 	var far_v: float = absf(v / beta)
 	var far_x: float = absf(x / alpha)
 	var s: float = 0.0
-	var n: float = 0.0
-	while n < 30.0:
-		n += 1.0
+	var n: int = 0
+	while n < 30:
+		n += 1
 		var found: float = a.call(x + alpha * s, v + beta * s)
 		var near: float = maxf(maxf(absf(found), absf(s)), far_v)
 		var other: float = s + maxf(maxf(6e-6 * near, 1e-11 * far_x), 1e-150)
@@ -44,6 +48,8 @@ static func bdf2_solve(a: Callable, x: float, v: float, alpha: float, beta: floa
 	return NAN
 
 static func bdf2(memory: Bdf2Memory, x: float, v: float, h: float, a: Callable) -> Array:
+	if h == 0.0:
+		return [x, v]
 	var from_x: float = x + 1.0 / 3.0 * x + -1.0 / 3.0 * memory.before_x
 	var from_v: float = v + 1.0 / 3.0 * v + -1.0 / 3.0 * memory.before_v
 	var c: float = h * 2.0 / 3.0

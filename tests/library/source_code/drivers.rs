@@ -1,25 +1,27 @@
-//! Programs that step every method as it is printed: each prints `id force x v` for every step, the numbers as bits.
+//! Programs that step every method as it is printed: each prints `id case x v` for every step, the numbers as bits.
 
 use std::fmt::Write as _;
 
-use regatta::lab::{Language, MethodSource, source_code};
+use regatta::lab::{Language, MethodSource, Precision, source_code};
 use regatta::sim::integrators::Method;
 
-use super::known::{
-    FORCE, FORCES, LENGTHS, RATE, SETTINGS, START, STEPS, SUBSTEPS, TARGET, sources,
-};
+use super::known::{CASES, FORCE, FORCES, RATE, SETTINGS, STEPS, SUBSTEPS, TARGET, sources};
 
-/// What stands for each input of a method in a call.
-fn arguments(source: &MethodSource, function: &str) -> String {
+/// What stands for each input of a method in a call. A number is written with `suffix`.
+fn arguments(source: &MethodSource, function: &str, suffix: &str) -> String {
+    let cast = |number: String| match suffix {
+        "f" => format!(", (float)({number})"),
+        _ => format!(", ({number}){suffix}"),
+    };
     let each = |input: regatta::lab::MethodInput<'_>| match input.name {
         "a" => format!(", {function}"),
-        "target" => format!(", {TARGET}"),
-        "rate" => format!(", {RATE:?}"),
-        "stiffness" => format!(", {:?}", SETTINGS[0]),
-        "damping" => format!(", {:?}", SETTINGS[1]),
-        "drag" => format!(", {:?}", SETTINGS[2]),
-        "force" => format!(", {FORCE:?}"),
-        "substeps" => format!(", {SUBSTEPS}.0"),
+        "target" => cast(TARGET.to_owned()),
+        "rate" => cast(format!("{RATE:?}")),
+        "stiffness" => cast(format!("{:?}", SETTINGS[0])),
+        "damping" => cast(format!("{:?}", SETTINGS[1])),
+        "drag" => cast(format!("{:?}", SETTINGS[2])),
+        "force" => cast(format!("{FORCE:?}")),
+        "substeps" => format!(", {SUBSTEPS}"),
         other => panic!("{other} is not known here"),
     };
     source.inputs().into_iter().map(each).collect()
@@ -29,16 +31,29 @@ fn takes_function(source: &MethodSource) -> bool {
     source.inputs().iter().any(|input| !input.arguments.is_empty())
 }
 
-fn printed(method: &Method, language: Language) -> String {
-    source_code(method, language).unwrap()
+/// The cases as the elements of an array: force, start and lengths.
+fn cases() -> String {
+    let each = |case: &super::known::Case| {
+        let ([x, v], [a, b, c, d]) = (case.start, case.lengths);
+        format!("{x:?}, {v:?}, {a:?}, {b:?}, {c:?}, {d:?}")
+    };
+    CASES.iter().map(each).collect::<Vec<_>>().join(", ")
+}
+
+/// The index of the force of each case.
+fn forces() -> String {
+    CASES.map(|case| case.force.to_string()).join(", ")
 }
 
 /// The methods that this language has, each with its name in it.
 fn in_language(
     language: Language,
-) -> impl Iterator<Item = (&'static Method, &'static MethodSource, String)> {
-    let has = move |(method, _): &(&Method, _)| source_code(method, language).is_ok();
-    sources().filter(has).map(|(method, source)| (method, source, method.id.replace('-', "_")))
+    precision: Precision,
+) -> impl Iterator<Item = (&'static Method, &'static MethodSource, String, String)> {
+    sources().filter_map(move |(method, source)| {
+        let printed = source_code(method, language, precision).ok()?;
+        Some((method, source, method.id.replace('-', "_"), printed))
+    })
 }
 
 fn pascal(snake: &str) -> String {
@@ -46,11 +61,10 @@ fn pascal(snake: &str) -> String {
     snake.split('_').map(capital).collect()
 }
 
-pub(crate) fn rust() -> String {
-    let mut text = String::new();
-    let mut calls = String::new();
-    for (method, source, name) in in_language(Language::Rust) {
-        let printed = printed(method, Language::Rust);
+pub(crate) fn rust(precision: Precision) -> String {
+    let (mut text, mut calls) = (String::new(), String::new());
+    let number = if precision == Precision::Single { "f32" } else { "f64" };
+    for (method, source, name, printed) in in_language(Language::Rust, precision) {
         writeln!(text, "mod {name} {{\n{printed}}}").unwrap();
         let (memory, given) = match source.has_memory() {
             true => {
@@ -58,51 +72,61 @@ pub(crate) fn rust() -> String {
             }
             false => (String::new(), ""),
         };
-        let more = arguments(source, "|x, v| a(k, x, v)");
+        let function = format!("|x, v| a(FORCES[k], x as f64, v as f64) as {number}");
+        let more = arguments(source, &function, &format!(" as {number}"));
         writeln!(
             calls,
-            "let (mut x, mut v) = ({:?}, {:?}); {memory} for n in 0..{STEPS} {{ let h = {LENGTHS:?}[2 * n / {STEPS}]; \
-             let t = n as f64 * h + h; (x, v) = {name}::{name}({given}x, v, h{more}); _ = t; println!(\"{} {{k}} \
-             {{:016x}} {{:016x}}\", x.to_bits(), v.to_bits()); }}",
-            START[0], START[1], method.id
-        )
-        .unwrap();
-    }
-    let forces = FORCES.map(|force| force.text);
-    let [first, second, third] = forces;
-    format!(
-        "{text}\nfn a(k: u32, x: f64, v: f64) -> f64 {{ match k {{ 0 => {first}, 1 => {second}, _ => {third} }} }}\n\
-         fn main() {{ for k in 0..3 {{\n{calls}}} }}\n"
-    )
-}
-
-pub(crate) fn c() -> String {
-    let mut text = String::from("#include <stdio.h>\n#include <string.h>\n");
-    let mut calls = String::new();
-    for (method, source, name) in in_language(Language::C) {
-        text.push_str(&printed(method, Language::C));
-        let (memory, given) = match source.has_memory() {
-            true => (format!("{name}_memory m = {}_START;", name.to_uppercase()), "&m, "),
-            false => (String::new(), ""),
-        };
-        let more = arguments(source, "a");
-        let user = if takes_function(source) { ", &k" } else { "" };
-        writeln!(
-            calls,
-            "{{ double x = {:?}, v = {:?}; {memory} for (int n = 0; n < {STEPS}; n++) {{ const double h = lengths[2 * n \
-             / {STEPS}]; const double t = n * h + h; {name}({given}&x, &v, h{more}{user}); (void)t; show(\"{}\", k, x, \
-             v); }} }}",
-            START[0], START[1], method.id
+            "let (mut x, mut v) = (c[0] as {number}, c[1] as {number}); {memory} for n in 0..{STEPS} {{ let h = c[2 + 4 * n / \
+             {STEPS}]; let t = n as f64 * h + h; (x, v) = {name}::{name}({given}x, v, h as {number}{more}); _ = t; \
+             println!(\"{} {{k}} {{:016x}} {{:016x}}\", (x as f64).to_bits(), (v as f64).to_bits()); }}",
+            method.id
         )
         .unwrap();
     }
     let [first, second, third] = FORCES.map(|force| force.text);
-    let [long, short] = LENGTHS;
+    let (cases, forces, count) = (cases(), forces(), CASES.len());
+    format!(
+        "#![allow(unused_parens)]\n{text}\nconst FORCES: [u32; {count}] = [{forces}];\nconst CASES: [f64; 6 * {count}] = [{cases}];\n\
+         fn a(k: u32, x: f64, v: f64) -> f64 {{ match k {{ 0 => {first}, 1 => {second}, _ => {third} }} }}\n\
+         fn main() {{ for k in 0..{count} {{\nlet c = &CASES[6 * k..6 * k + 6];\n{calls}}} }}\n"
+    )
+}
+
+pub(crate) fn c(precision: Precision) -> String {
+    let mut text = String::from("#include <stdio.h>\n#include <string.h>\n");
+    let mut calls = String::new();
+    let (number, suffix) = match precision {
+        Precision::Double => ("double", ""),
+        Precision::Single => ("float", "f"),
+    };
+    for (method, source, name, printed) in in_language(Language::C, precision) {
+        text.push_str(&printed);
+        let (memory, given) = match source.has_memory() {
+            true => (format!("{name}_memory m = {}_START;", name.to_uppercase()), "&m, "),
+            false => (String::new(), ""),
+        };
+        let more = arguments(source, "a", suffix);
+        let user = if takes_function(source) { ", &forces[k]" } else { "" };
+        writeln!(
+            calls,
+            "{{ {number} x = ({number})c[0], v = ({number})c[1]; {memory} for (int n = 0; n < {STEPS}; n++) {{ const double h = c[2 \
+             + 4 * n / {STEPS}]; const double t = n * h + h; {name}({given}&x, &v, ({number})h{more}{user}); (void)t; \
+             show(\"{}\", k, (double)x, (double)v); }} }}",
+            method.id
+        )
+        .unwrap();
+    }
+    let [first, second, third] = FORCES.map(|force| force.text);
+    let (cases, forces, count) = (cases(), forces(), CASES.len());
     format!(
         "{text}
-static double a(double x, double v, void *user)
+static double force(int k, double x, double v)
 {{
-    switch (*(int *)user) {{ case 0: return {first}; case 1: return {second}; default: return {third}; }}
+    switch (k) {{ case 0: return {first}; case 1: return {second}; default: return {third}; }}
+}}
+static {number} a({number} x, {number} v, void *user)
+{{
+    return ({number})force(*(int *)user, (double)x, (double)v);
 }}
 static void show(const char *id, int k, double x, double v)
 {{
@@ -113,8 +137,10 @@ static void show(const char *id, int k, double x, double v)
 }}
 int main(void)
 {{
-    const double lengths[2] = {{ {long:?}, {short:?} }};
-    for (int k = 0; k < 3; k++) {{
+    const double cases[] = {{ {cases} }};
+    int forces[] = {{ {forces} }};
+    for (int k = 0; k < {count}; k++) {{
+        const double *c = &cases[6 * k];
 {calls}    }}
     return 0;
 }}
@@ -122,29 +148,33 @@ int main(void)
     )
 }
 
-pub(crate) fn c_sharp() -> String {
+pub(crate) fn c_sharp(precision: Precision) -> String {
     let mut text = String::from("using System;\n");
     let mut calls = String::new();
-    for (method, source, name) in in_language(Language::CSharp) {
+    let (number, suffix) = match precision {
+        Precision::Double => ("double", ""),
+        Precision::Single => ("float", "f"),
+    };
+    for (method, source, name, printed) in in_language(Language::CSharp, precision) {
         // The file has one `using` at its head.
-        text.push_str(&printed(method, Language::CSharp).replace("using System;\n", ""));
+        text.push_str(&printed.replace("using System;\n", ""));
         let class = pascal(&name);
         let (memory, given) = match source.has_memory() {
             true => (format!("var m = new {class}.Memory();"), "m, "),
             false => (String::new(), ""),
         };
-        let more = arguments(source, "a");
+        let more = arguments(source, "a", suffix);
         writeln!(
             calls,
-            "{{ double x = {:?}, v = {:?}; {memory} for (int n = 0; n < {STEPS}; n++) {{ double h = lengths[2 * n / \
-             {STEPS}]; double t = n * h + h; {class}.Step({given}ref x, ref v, h{more}); Show(\"{}\", k, x, v + 0.0 * t); }} \
-             }}",
-            START[0], START[1], method.id
+            "{{ {number} x = ({number})c[0], v = ({number})c[1]; {memory} for (int n = 0; n < {STEPS}; n++) {{ double h = c[2 + 4 * \
+             n / {STEPS}]; double t = n * h + h; {class}.Step({given}ref x, ref v, ({number})h{more}); Show(\"{}\", k, x, v + \
+             0.0 * t); }} }}",
+            method.id
         )
         .unwrap();
     }
     let [first, second, third] = FORCES.map(|force| force.text);
-    let [long, short] = LENGTHS;
+    let (cases, forces, count) = (cases(), forces(), CASES.len());
     format!(
         "{text}
 public static class Driver
@@ -154,16 +184,23 @@ public static class Driver
         Console.WriteLine(\"{{0}} {{1}} {{2:x16}} {{3:x16}}\", id, k, BitConverter.DoubleToInt64Bits(x),
             BitConverter.DoubleToInt64Bits(v));
     }}
+    static double Force(int k, double x, double v)
+    {{
+        return k == 0 ? {first} : k == 1 ? {second} : {third};
+    }}
     public static void Main()
     {{
-        double[] lengths = {{ {long:?}, {short:?} }};
-        for (int number = 0; number < 3; number++) {{
+        double[] cases = {{ {cases} }};
+        int[] forces = {{ {forces} }};
+        for (int number = 0; number < {count}; number++) {{
             int k = number;
-            Func<double, double, double> a = (x, v) => k == 0 ? {first} : k == 1 ? {second} : {third};
-            Run(k, a, lengths);
+            Func<{number}, {number}, {number}> a = (x, v) => ({number})Force(forces[k], x, v);
+            double[] c = new double[6];
+            Array.Copy(cases, 6 * k, c, 0, 6);
+            Run(k, a, c);
         }}
     }}
-    static void Run(int k, Func<double, double, double> a, double[] lengths)
+    static void Run(int k, Func<{number}, {number}, {number}> a, double[] c)
     {{
 {calls}    }}
 }}

@@ -4,14 +4,14 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::{env, fs};
 
-use regatta::lab::{Language, source_code};
+use regatta::lab::{Language, Precision, source_code};
 use regatta::sim::integrators::{METHODS, method};
 
 /// The functions and words of GDScript that may be used without a declaration.
-const KNOWN: [&str; 24] = [
-    "static", "func", "class", "float", "Callable", "Array", "call", "var", "const", "if", "else",
-    "while", "return", "and", "or", "NAN", "is_nan", "absf", "minf", "maxf", "sqrt", "pow", "exp",
-    "ceil",
+const KNOWN: [&str; 25] = [
+    "static", "func", "class", "float", "int", "Callable", "Array", "call", "var", "const", "if",
+    "else", "while", "return", "and", "or", "NAN", "is_nan", "absf", "minf", "maxf", "sqrt", "pow",
+    "exp", "ceil",
 ];
 
 /// What is wrong with a file, if anything.
@@ -86,7 +86,7 @@ fn is_part(c: char) -> bool {
 #[test]
 fn every_function_in_gdscript_is_grammatical() {
     for method in METHODS {
-        let Ok(text) = source_code(method, Language::GdScript) else { continue };
+        let Ok(text) = source_code(method, Language::GdScript, Precision::Double) else { continue };
         assert_eq!(complaint(&text), None, "{text}");
     }
 }
@@ -115,8 +115,8 @@ fn bad_gdscript_is_seen() {
 
 #[test]
 fn bdf2_in_gdscript_is_as_committed() {
-    let text = source_code(method("bdf2").unwrap(), Language::GdScript).unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/source_code/bdf2.gd");
+    let text = source_code(method("bdf2").unwrap(), Language::GdScript, Precision::Double).unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/library/source_code/bdf2.gd");
     if env::var_os("BLESS").is_some() {
         fs::write(&path, &text).unwrap();
     }

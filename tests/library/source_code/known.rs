@@ -24,10 +24,43 @@ pub(crate) const FORCES: [Force; 3] = [
     force!("a pendulum", |x, v| -30.0 * (x - x * x * x / 6.0 + x * x * x * x * x / 120.0)
         - 0.1 * v),
 ];
-/// Steps of a run. Half of them have one length, half another, so that a memory is restarted.
+/// Steps of a run.
 pub(crate) const STEPS: u32 = 200;
-pub(crate) const LENGTHS: [f64; 2] = [1.0 / 64.0, 1.0 / 100.0];
-pub(crate) const START: [f64; 2] = [1.0, 0.5];
+/// The lengths of the steps of each quarter of a run that is compared: a change restarts a memory.
+const LENGTHS: [f64; 4] = [1.0 / 64.0, 1.0 / 64.0, 1.0 / 100.0, 1.0 / 100.0];
+/// Those of a run with frames in which no time passes.
+const PAUSED: [f64; 4] = [0.0, 1.0 / 64.0, 0.0, 1.0 / 64.0];
+const START: [f64; 2] = [1.0, 0.5];
+
+/// A run of every method.
+pub(crate) struct Case {
+    /// The index of its force.
+    pub(crate) force: usize,
+    /// Position and velocity.
+    pub(crate) start: [f64; 2],
+    /// The length of the steps of each quarter.
+    pub(crate) lengths: [f64; 4],
+}
+
+impl Case {
+    pub(crate) fn length(&self, n: u32) -> f64 {
+        self.lengths[(4 * n / STEPS) as usize]
+    }
+
+    /// Whether it has steps of no length, which the methods of the table need not make.
+    pub(crate) fn is_paused(&self) -> bool {
+        self.lengths.contains(&0.0)
+    }
+}
+
+pub(crate) const CASES: [Case; 6] = [
+    Case { force: 0, start: START, lengths: LENGTHS },
+    Case { force: 1, start: START, lengths: LENGTHS },
+    Case { force: 2, start: START, lengths: LENGTHS },
+    Case { force: 0, start: [0.0, 0.0], lengths: PAUSED },
+    Case { force: 2, start: START, lengths: PAUSED },
+    Case { force: 1, start: [1.0, 0.0], lengths: PAUSED },
+];
 pub(crate) const RATE: f64 = 6.0;
 pub(crate) const SETTINGS: [f64; 3] = [40.0, 1.5, 0.3];
 pub(crate) const FORCE: f64 = 2.5;
@@ -66,14 +99,16 @@ impl System for Run {
 }
 
 /// The states that the method of the table passes through.
-pub(crate) fn steps(method: &Method, force: fn(f64, f64) -> f64) -> Vec<[f64; 2]> {
+pub(crate) fn steps(method: &Method, case: &Case) -> Vec<[f64; 2]> {
+    let force = FORCES[case.force].a;
     let order = method.only.and_then(|only| only.with).map_or(1, |(_, order)| order as u32);
     let run = Run { force, order, has_joint: method.id != "engine-pybullet" };
-    let mut state = State { q: START[0], v: START[1] };
+    let [q, v] = case.start;
+    let mut state = State { q, v };
     let mut stepper = integrator(method, &state.q);
     (0..STEPS)
         .map(|n| {
-            let h = LENGTHS[(2 * n / STEPS) as usize];
+            let h = case.length(n);
             let substeps =
                 if method.engine.is_some_and(|engine| engine.has_substeps) { SUBSTEPS } else { 1 };
             stepper.steps(&run, f64::from(n) * h, h, substeps, &mut state).unwrap();

@@ -6,5 +6,6 @@ mod compiled;
 mod copying;
 mod drivers;
 mod gdscript;
+mod held;
 mod known;
 mod text;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use regatta::lab::{Language, METHOD_SOURCES, source_code};
+use regatta::lab::{Language, METHOD_SOURCES, Precision, source_code};
 use regatta::sim::integrators::METHODS;
 
 use super::known::sources;
@@ -26,7 +26,7 @@ fn every_method_has_a_source_and_every_file_is_one() {
 fn every_method_is_printed_in_every_language_or_says_why_not() {
     for method in METHODS {
         for language in Language::ALL {
-            match source_code(method, language) {
+            match source_code(method, language, Precision::Double) {
                 Ok(text) => {
                     assert!(text.contains(method.name) && text.contains(method.id), "{text}");
                     let wide = text.lines().find(|line| line.chars().count() > 120);
@@ -46,7 +46,7 @@ fn every_method_is_printed_in_every_language_or_says_why_not() {
 #[test]
 fn a_header_says_what_is_on_the_card() {
     for (method, source) in sources() {
-        let text = source_code(method, Language::GdScript).unwrap();
+        let text = source_code(method, Language::GdScript, Precision::Double).unwrap();
         let header: Vec<&str> = text.lines().map_while(|line| line.strip_prefix('#')).collect();
         let header = header.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ");
         assert!(header.contains(method.about) && header.contains(method.source), "{header}");
@@ -87,7 +87,7 @@ fn a_header_says_what_is_on_the_card() {
 /// What the header of a method says, on one line.
 fn header(id: &str) -> String {
     let method = regatta::sim::integrators::method(id).unwrap();
-    let text = source_code(method, Language::C).unwrap();
+    let text = source_code(method, Language::C, Precision::Double).unwrap();
     let lines: Vec<&str> = text.lines().map_while(|line| line.strip_prefix("//")).collect();
     lines.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ")
 }
@@ -113,6 +113,61 @@ fn the_header_of_an_engine_claims_what_holds_for_a_joint_and_for_all_substeps() 
         let limits_a_substep = has_substeps && takes_joint && method.stability_limit.is_some();
         assert_eq!(header.contains(" times the substeps"), limits_a_substep, "{header}");
     }
+}
+
+#[test]
+fn a_source_that_compares_coordinates_says_what_becomes_of_several() {
+    for (method, source) in sources() {
+        let text = source.text;
+        let compares =
+            text.contains("if error") || text.contains("abs(v1") || text.contains("end > target");
+        assert_eq!(compares, source.claim("several").is_some(), "{}", method.id);
+        let header = header(method.id);
+        assert!(!compares || !header.contains("each other, make them vectors."), "{header}");
+    }
+}
+
+#[test]
+fn no_rust_function_ends_in_a_return_and_c_sharp_has_each_brace_on_a_line_of_its_own() {
+    for method in METHODS {
+        if let Ok(text) = source_code(method, Language::Rust, Precision::Double) {
+            let lines: Vec<&str> = text.lines().collect();
+            let ends = |pair: &[&str]| pair[0].starts_with("    return") && pair[1] == "}";
+            assert!(!lines.windows(2).any(ends), "{text}");
+        }
+        if let Ok(text) = source_code(method, Language::C, Precision::Double) {
+            assert!(!text.lines().any(|line| line.trim() == "{"), "{text}");
+        }
+        if let Ok(text) = source_code(method, Language::CSharp, Precision::Double) {
+            let opens = |line: &str| line.ends_with('{') && line.trim() != "{";
+            assert!(!text.lines().any(opens), "{text}");
+        }
+    }
+}
+
+#[test]
+fn single_precision_is_refused_where_there_is_none_and_has_no_double_in_it() {
+    for method in METHODS {
+        for language in Language::ALL {
+            let found = source_code(method, language, Precision::Single);
+            let Ok(text) = found else {
+                let is_refused = source_code(method, language, Precision::Double).is_err();
+                assert!(is_refused || language == Language::GdScript, "{found:?}");
+                continue;
+            };
+            let code = text.lines().filter(|line| !line.trim().starts_with("//"));
+            for double in ["f64", "double"] {
+                assert!(!code.clone().any(|line| line.contains(double)), "{text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn smooth_damp_says_its_rate_in_unitys_words() {
+    let header = header("smooth-damp");
+    assert!(header.contains("rate = 2 / smoothTime"), "{header}");
+    assert!(header.contains("maxSpeed is left out"), "{header}");
 }
 
 #[test]

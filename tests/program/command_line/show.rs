@@ -3,7 +3,7 @@
 use std::io::Read as _;
 use std::process::Stdio;
 
-use regatta::lab::{Language, source_code};
+use regatta::lab::{Language, Precision, source_code};
 use regatta::sim::integrators::METHODS;
 
 use super::{refusal, regatta, run, stdout_of};
@@ -13,7 +13,7 @@ fn every_method_is_shown_in_every_language() {
     for method in METHODS {
         for language in Language::ALL {
             let arguments = format!("show {} --as {}", method.id, language.id());
-            match source_code(method, language) {
+            match source_code(method, language, Precision::Double) {
                 Ok(code) => assert_eq!(stdout_of(&arguments), code),
                 Err(refused) => {
                     assert!(refusal(&arguments, 2).contains(refused.reason), "{refused}")
