@@ -74,10 +74,27 @@ pub(super) fn ns_per_s(
     Some(time(scene, spec, tick_hz, ticks, effort)?.ns_per_s)
 }
 
-/// Nanoseconds per tick, over as many runs as have [`TOGETHER`] ticks.
+/// Nanoseconds per tick, over as many runs as have [`TOGETHER`] ticks; over one, if that takes `effort`.
 fn ns_per_tick(scene: &Scene, spec: LaneSpec, tick_hz: u32, ticks: u64, effort: Duration) -> f64 {
+    // To make a lane may take longer than to step it.
+    let (mut elapsed, mut done) = elapsed_in(scene, spec, tick_hz, ticks, effort, 1);
+    if done < TOGETHER && elapsed < effort {
+        let runs = TOGETHER.div_ceil(ticks);
+        (elapsed, done) = elapsed_in(scene, spec, tick_hz, ticks, effort, runs);
+    }
+    elapsed.as_nanos() as f64 / done as f64
+}
+
+/// The time that this many runs take, until `effort` has passed, and their ticks.
+fn elapsed_in(
+    scene: &Scene,
+    spec: LaneSpec,
+    tick_hz: u32,
+    ticks: u64,
+    effort: Duration,
+    runs: u64,
+) -> (Duration, u64) {
     let hz = f64::from(tick_hz);
-    let runs = TOGETHER.div_ceil(ticks);
     let mut lanes: Vec<Lane> =
         (0..runs).map(|_| Lane::new(scene, spec.solver(), spec.substeps)).collect();
     let (start, mut done) = (Instant::now(), 0);
@@ -91,7 +108,7 @@ fn ns_per_tick(scene: &Scene, spec: LaneSpec, tick_hz: u32, ticks: u64, effort: 
     }
     let elapsed = start.elapsed();
     black_box(&lanes);
-    elapsed.as_nanos() as f64 / done as f64
+    (elapsed, done)
 }
 
 #[cfg(test)]

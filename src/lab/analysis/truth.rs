@@ -56,6 +56,8 @@ pub(super) struct BodyTruth {
     pub(super) swing: Option<Swing>,
     /// Why the truth is not known over the whole horizon; `None` if it is known.
     pub(super) failure: Option<StepFailure>,
+    /// Whether it fails before anything has moved: no other walk gets further, and each would pay for it again.
+    fails_at_start: bool,
     series_by_rate: TruthSeriesByRate,
 }
 
@@ -94,6 +96,7 @@ impl BodyTruth {
             exchanged_j: None,
             swing: None,
             failure: None,
+            fails_at_start: false,
             series_by_rate: TruthSeriesByRate::default(),
         };
         truth.survey();
@@ -155,7 +158,9 @@ impl BodyTruth {
         let mut extent = Extent::default();
         extent.cover(0.0, body.kinetic_energy());
         let conserves = body.energy().is_some() && self.inputs.is_empty();
+        let mut has_moved = false;
         let walked = follow_truth(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
+            has_moved = true;
             ranges.take_in(from, to);
             for moment in fastest(from, to).into_iter().filter(|_| conserves) {
                 there.set(0.0, &moment.x[..n], &moment.x[n..]);
@@ -166,6 +171,7 @@ impl BodyTruth {
         });
         self.exchanged_j = extent.exchanged_j(&*self.start(Solver::Truth));
         self.failure = walked.err();
+        self.fails_at_start = self.failure.is_some() && !has_moved;
         self.amplitudes = amplitudes(&ranges.0, self.coordinates());
         self.energy_scale =
             Some(kinetic).filter(|&scale| conserves && scale > 0.0 && scale.is_finite());
@@ -175,7 +181,7 @@ impl BodyTruth {
             self.swing = self.watch(&self.centres, most);
         }
         let returns = self.swing.as_ref().is_some_and(|swing| swing.crossings.len() > 2);
-        if !self.is_oscillator() && !returns {
+        if !self.is_oscillator() && !returns && !self.fails_at_start {
             // Other motions are followed beyond the horizon, as far as the truth goes.
             let mut body = self.start(Solver::Truth);
             ranges = Ranges::at(&*body);
@@ -206,8 +212,8 @@ impl BodyTruth {
         };
         self.reach = (0..2 * n).map(reach).collect();
         let halves: Vec<f64> = self.reach.iter().map(|(_, half)| *half).collect();
-        let coordinates = self.coordinates();
-        (0..2 * n).for_each(|i| self.reach[i].1 = largest_alike(coordinates, &halves, i));
+        let largest = largest_alike(self.coordinates(), &halves);
+        self.reach.iter_mut().zip(largest).for_each(|(reach, largest)| reach.1 = largest);
     }
 
     /// Whether a reference solution would take too much work, so that there is none.

@@ -5,28 +5,40 @@ use crate::sim::bodies::Coordinate;
 /// A component whose half range is smaller than this part of its largest value is constant but for rounding.
 const KEEPS_STILL: f64 = 1e-9;
 
-/// The largest value among the components that have the unit of component `i` and are, like it, coordinates or
-/// velocities.
-pub(super) fn largest_alike(coordinates: &[Coordinate], values: &[f64], i: usize) -> f64 {
-    let n = coordinates.len();
-    let is_alike = |j: &usize| i / n == j / n && coordinates[i % n].unit == coordinates[j % n].unit;
-    (0..2 * n).filter(is_alike).map(|j| values[j]).fold(0.0, f64::max)
+/// For each component, the largest value among those that have its unit and are, like it, coordinates or velocities.
+pub(super) fn largest_alike(coordinates: &[Coordinate], values: &[f64]) -> Vec<f64> {
+    let mut units: Vec<&str> = Vec::new();
+    let mut unit_index = |unit: &'static str| {
+        units.iter().position(|known| *known == unit).unwrap_or_else(|| {
+            units.push(unit);
+            units.len() - 1
+        })
+    };
+    let of_coordinate: Vec<usize> =
+        coordinates.iter().map(|coordinate| unit_index(coordinate.unit)).collect();
+    let groups = || {
+        let velocities = of_coordinate.iter().map(|unit| units.len() + unit);
+        of_coordinate.iter().copied().chain(velocities)
+    };
+    let mut largest = vec![0.0_f64; 2 * units.len()];
+    for (group, value) in groups().zip(values) {
+        largest[group] = largest[group].max(*value);
+    }
+    groups().map(|group| largest[group]).collect()
 }
 
 /// The amplitude of each component, from the true ranges.
 pub(super) fn amplitudes(ranges: &[(f64, f64)], coordinates: &[Coordinate]) -> Vec<f64> {
     let halves: Vec<f64> = ranges.iter().map(|(low, high)| (high - low) / 2.0).collect();
     let sizes: Vec<f64> = ranges.iter().map(|(low, high)| low.abs().max(high.abs())).collect();
-    let amplitude = |i: usize| {
-        let half = largest_alike(coordinates, &halves, i);
-        let largest = largest_alike(coordinates, &sizes, i);
-        match (half > KEEPS_STILL * largest, largest > 0.0) {
+    let largest = largest_alike(coordinates, &sizes);
+    let amplitude =
+        |(half, largest): (f64, f64)| match (half > KEEPS_STILL * largest, largest > 0.0) {
             (true, _) => half,
             (false, true) => largest,
             (false, false) => 1.0,
-        }
-    };
-    (0..ranges.len()).map(amplitude).collect()
+        };
+    largest_alike(coordinates, &halves).into_iter().zip(largest).map(amplitude).collect()
 }
 
 #[cfg(test)]
@@ -39,5 +51,13 @@ mod tests {
         let ship = kind("ship").unwrap().plain_coordinates();
         assert_eq!(amplitudes(&[(-1.0, 3.0), (20.0, 20.0)], ship), [2.0, 20.0]);
         assert_eq!(amplitudes(&[(0.0, 0.0), (5.0, 5.0 + 1e-12)], ship), [1.0, 5.0 + 1e-12]);
+    }
+
+    #[test]
+    fn components_of_one_unit_share_the_largest_and_velocities_are_apart() {
+        let coordinate = |name, unit| Coordinate { name, velocity: name, unit };
+        let coordinates = [coordinate("x", "m"), coordinate("a", "rad"), coordinate("y", "m")];
+        let found = largest_alike(&coordinates, &[1.0, 7.0, 3.0, 20.0, 5.0, 10.0]);
+        assert_eq!(found, [3.0, 7.0, 3.0, 20.0, 5.0, 20.0]);
     }
 }

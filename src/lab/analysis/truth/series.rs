@@ -97,6 +97,10 @@ impl BodyTruth {
             series.is_too_much = true;
             return series;
         }
+        if self.fails_at_start && ticks > 0 {
+            series.failure.clone_from(&self.failure);
+            return series;
+        }
         for tick in 0..ticks {
             self.apply_inputs(&mut *body, tick, tick_hz);
             let advanced = body.advance(tick as f64 / hz, 1.0 / hz, 1);
