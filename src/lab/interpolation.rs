@@ -56,6 +56,20 @@ impl Interpolation {
             Interpolation::Extrapolated => each(&|i| q1[i] + alpha * h * v1[i]),
         }
     }
+
+    /// The velocities with which the [coordinates](Self::coordinates) that are shown change.
+    pub fn velocities(self, body: &LaneBody, alpha: f64, h: f64) -> Vec<f64> {
+        let (q0, v0) = (&body.previous_q, &body.previous_v);
+        let (q1, v1) = (body.stepper.q(), body.stepper.v());
+        let each = |f: &dyn Fn(usize) -> f64| (0..v1.len()).map(f).collect();
+        match self {
+            Interpolation::Linear if h > 0.0 => each(&|i| (q1[i] - q0[i]) / h),
+            Interpolation::Hermite if h > 0.0 => {
+                each(&|i| slope(alpha, h, [q0[i], q1[i]], [v0[i], v1[i]]))
+            }
+            _ => v1.to_vec(),
+        }
+    }
 }
 
 /// The cubic through `q` at both ends of a tick of `h` seconds with the velocities `v` there, at the part `alpha` of it.
@@ -63,6 +77,12 @@ fn hermite(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
     let (a, b) = (alpha, 1.0 - alpha);
     let ends = b * b * (1.0 + 2.0 * a) * q[0] + a * a * (1.0 + 2.0 * b) * q[1];
     ends + h * a * b * (b * v[0] - a * v[1])
+}
+
+/// The slope of [`hermite`].
+fn slope(alpha: f64, h: f64, q: [f64; 2], v: [f64; 2]) -> f64 {
+    let (a, b) = (alpha, 1.0 - alpha);
+    6.0 * a * b * (q[1] - q[0]) / h + b * (b - 2.0 * a) * v[0] + a * (a - 2.0 * b) * v[1]
 }
 
 #[cfg(test)]
@@ -76,6 +96,8 @@ mod tests {
             let h = 0.5;
             let shown = hermite(alpha, h, [q(1.0), q(1.5)], [v(1.0), v(1.5)]);
             assert!((shown - q(1.0 + alpha * h)).abs() < 1e-15, "at {alpha}: {shown}");
+            let slope = slope(alpha, h, [q(1.0), q(1.5)], [v(1.0), v(1.5)]);
+            assert!((slope - v(1.0 + alpha * h)).abs() < 1e-14, "at {alpha}: {slope}");
         }
     }
 

@@ -23,6 +23,7 @@ mod looping;
 mod opening;
 mod plotting;
 mod restarting;
+mod showing;
 
 use restarting::RunBefore;
 

@@ -123,8 +123,8 @@ impl Past {
         if has_begun { f64::NEG_INFINITY } else { self.changed_s }
     }
 
-    /// The true coordinates and velocities of the body at this place of the scene within the last tick of `race`; `part`
-    /// goes from 0 at its start to 1 at its end.
+    /// The true coordinates and velocities of the body at this place of the scene within the last tick of `race`, in which
+    /// `part` goes from 0 to 1, or beyond it.
     pub fn truth_between(&self, race: &Race, body: usize, part: f64) -> (Vec<f64>, Vec<f64>) {
         self.truth_curves[body].state(&race.truth().bodies()[body], race.last_tick(), part)
     }

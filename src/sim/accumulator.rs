@@ -37,6 +37,11 @@ impl Accumulator {
         Due { ticks: ticks as u32, dropped: whole - ticks }
     }
 
+    /// Owes a tick of length `tick` but for the least time.
+    pub fn fill(&mut self, tick: i128) {
+        self.owed = tick - 1;
+    }
+
     /// Forgets the time owed.
     pub fn clear(&mut self) {
         self.owed = 0;

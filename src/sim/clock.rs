@@ -76,6 +76,11 @@ impl Clock {
         (self.accumulator.owed() as u64, TICK as u64)
     }
 
+    /// Sets the owed time to a tick but for the least time: the next frame makes one.
+    pub fn fill(&mut self) {
+        self.accumulator.fill(TICK);
+    }
+
     /// Sets the owed time to 0.
     pub fn restart(&mut self) {
         self.accumulator.clear();
@@ -174,6 +179,16 @@ mod tests {
         assert_eq!((clock.alpha(), clock.tick_hz(), clock.speed_percent()), (0.0, 20, 50));
         assert_eq!(clock.advance(99_999_999).ticks, 0);
         assert_eq!(clock.advance(1).ticks, 1);
+    }
+
+    #[test]
+    fn a_full_clock_makes_a_tick_with_the_next_frame_and_loses_no_time() {
+        let mut clock = Clock::new(60);
+        clock.fill();
+        assert!(clock.alpha() < 1.0 && clock.alpha() > 1.0 - 1e-10);
+        assert_eq!(clock.advance(0).ticks, 0);
+        assert_eq!(clock.advance(16_000_000).ticks, 1);
+        assert!((clock.alpha() - 0.96).abs() < 1e-9);
     }
 
     #[test]

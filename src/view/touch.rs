@@ -136,7 +136,7 @@ impl Touch {
                 Pressed::Body { grasp, entry }
             }
             None => {
-                let zoom_pan = stage.lab.display().zoom_pan(cell.body);
+                let zoom_pan = stage.lab.display().zoom_pan(cell.zoomed_as);
                 Pressed::Sea { cell: cell.clone(), zoom_pan }
             }
         };
@@ -160,7 +160,7 @@ impl Touch {
             Pressed::Sea { cell, zoom_pan } => {
                 let [from, to] = [press.from, at].map(|at| cell.part(stage.point(at)));
                 let zoom_pan = zoom_pan.panned([to[0] - from[0], to[1] - from[1]]);
-                commands.push(Command::ZoomPan { body: cell.body, zoom_pan });
+                commands.push(Command::ZoomPan { body: cell.zoomed_as, zoom_pan });
             }
         }
     }
@@ -227,7 +227,7 @@ fn zoom(ui: &Ui, stage: &Stage<'_>, at: Pos2, commands: &mut Vec<Command>) {
         let fits = input.pointer.button_double_clicked(PointerButton::Primary);
         (input.smooth_scroll_delta().y, input.zoom_delta(), fits)
     });
-    let body = cell.body;
+    let body = cell.zoomed_as;
     let times = (scrolled / WHEEL).exp() * pinched;
     if fits {
         commands.push(Command::ZoomPan { body, zoom_pan: ZoomPan::default() });

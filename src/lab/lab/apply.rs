@@ -16,7 +16,11 @@ impl Lab {
     /// Carries out a command. Returns what the driver has to do for it, if anything.
     pub fn apply(&mut self, command: Command) -> Option<DriverRequest> {
         self.viewer.hints.see(&command, self.start.scene.hint.as_deref());
+        let ran = self.time_runs();
         let request = self.carry_out(command);
+        if !ran && self.time_runs() {
+            self.run_on();
+        }
         self.look_at_goal();
         request
     }

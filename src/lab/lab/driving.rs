@@ -71,8 +71,7 @@ impl Lab {
     }
 
     fn note_frame(&mut self, duration_ns: i64, due: Due) {
-        let (alpha, h) = (self.clock.alpha(), self.race().last_step_s());
-        let shown_s = self.race().t() + h * self.display().interpolation.shown(alpha);
+        let shown_s = self.shown_s();
         let speed = f64::from(self.clock.speed_percent()) / 100.0;
         let Due { ticks, dropped } = due;
         let frame = LiveFrame { duration_ns, ticks, dropped, animation_error_ms: 0.0 };

@@ -168,19 +168,31 @@ impl TruthCurve {
         points
     }
 
-    /// The coordinates and velocities of `truth` within its last tick; `part` goes from 0 at its start to 1 at its end.
+    /// The coordinates and velocities of `truth` within its last tick, in which `part` goes from 0 to 1, or beyond it.
     pub(super) fn state(
         &self,
         truth: &LaneBody,
         LastTick { from_s, to_s }: LastTick,
         part: f64,
     ) -> (Vec<f64>, Vec<f64>) {
-        let body = if self.is_stale { &truth.stepper } else { &self.between };
-        let mut copy = body.with_solver(Solver::Truth, from_s);
-        copy.set(from_s, &truth.previous_q, &truth.previous_v);
-        let reached = copy.advance(from_s, part * (to_s - from_s), 1);
+        let present = &truth.stepper;
+        let is_within = part < 1.0;
+        let (body, from, q, v) = match is_within {
+            true if !self.is_stale => {
+                (&self.between, from_s, &truth.previous_q[..], &truth.previous_v[..])
+            }
+            true => (present, from_s, &truth.previous_q[..], &truth.previous_v[..]),
+            false => (present, to_s, present.q(), present.v()),
+        };
+        let h = if is_within { part } else { part - 1.0 } * (to_s - from_s);
+        if h == 0.0 {
+            return (q.to_vec(), v.to_vec());
+        }
+        let mut copy = body.with_solver(Solver::Truth, from);
+        copy.set(from, q, v);
+        let reached = copy.advance(from, h, 1);
         if reached.is_err() || copy.q().iter().chain(copy.v()).any(|value| !value.is_finite()) {
-            return (truth.previous_q.clone(), truth.previous_v.clone());
+            return (q.to_vec(), v.to_vec());
         }
         (copy.q().to_vec(), copy.v().to_vec())
     }

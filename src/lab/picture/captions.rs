@@ -153,7 +153,7 @@ fn capitalised(name: &str) -> String {
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Draws the state of the present tick and, if the method fails, its verdict beside the body's name. If both do not fit,
+/// Draws the state of the moment shown and, if the method fails, its verdict beside the body's name. If both do not fit,
 /// only the verdict.
 pub(super) fn head(
     picture: &mut Picture,
@@ -188,7 +188,7 @@ fn widest_state(body: &LaneBody) -> usize {
     words.map(str::len).iter().sum::<usize>() + 2 * NUMBER + 9
 }
 
-/// Says where a body is at the present tick.
+/// Says where a body is at the moment drawn.
 fn state(
     picture: &mut Picture,
     at: [f32; 2],
@@ -204,8 +204,8 @@ fn state(
     } else if rect.max[0] - rect.min[0] > ROOM_FOR_NUMBERS {
         let held = moment.lab.viewer().held().filter(|held| held.body == index);
         let (q, v) = match held {
-            Some(held) => (&*held.q, &*held.v),
-            None => (body.stepper.q(), body.stepper.v()),
+            Some(held) => (held.q.to_vec(), held.v.to_vec()),
+            None => moment.lab.shown_state(body),
         };
         let coordinate = &body.coordinates[0];
         let words = format!(

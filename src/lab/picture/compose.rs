@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::body::Seen;
 use super::flags::{Flag, Lost, badges, flags, row_width};
-use super::framed::{View, quay_width};
+use super::framed::{View, on_one_stage, quay_width};
 use super::ghost::Ghost;
 use super::layout::{bands, grid, mosaic};
 use super::loupe::Near;
@@ -30,8 +30,6 @@ const FILL: f32 = 0.2;
 const BEHIND: (f32, f32) = (0.9, 0.45);
 /// How far a trail may be drawn from the true one, in points: less than anybody sees.
 const TOLERANCE: f64 = 0.15;
-/// Chart recorders whose scales differ by less than this factor have one scale.
-const ALIKE: f64 = 5.0;
 
 /// The picture of the lab on a stage of `size` points.
 pub fn compose(lab: &Lab, size: [f32; 2]) -> Picture {
@@ -65,15 +63,12 @@ fn overlay(
     entrants: &[&Entrant],
 ) {
     let front = moment.lab.selected();
-    let views: Vec<View> = ghosts.iter().map(|ghost| ghost.view).collect();
-    let views: Vec<View> = match moment.lab.mode() {
-        Mode::Solo => {
-            let widened = |(index, view): (usize, View)| view.widened(moment, front, index);
-            views.into_iter().enumerate().map(widened).collect()
+    let views = on_one_stage(ghosts.iter().map(|ghost| ghost.view).collect(), |index, view| {
+        match moment.lab.mode() {
+            Mode::Solo => view.widened(moment, front, index),
+            Mode::Race => view,
         }
-        Mode::Race => views,
-    };
-    let views = alike(views);
+    });
     // A ship on a straight course has its own marks.
     let has_ruler = stage.max[1] - stage.min[1] >= ROOM_FOR_RULER
         && (!matches!(views[0].framing, Framing::Follow { .. }) || views[0].turns);
@@ -92,7 +87,7 @@ fn overlay(
     }
     for (index, ((ghost, view), cell)) in ghosts.iter().zip(&views).zip(&cells).enumerate() {
         let camera = moment.camera(*cell, index, view);
-        let of_body = Band { moment, index, ghost, camera, lanes: entrants, front };
+        let of_body = Band { moment, index, ghost, view, camera, lanes: entrants, front };
         of_body.draw(picture);
         captions::name(picture, *cell, moment, index);
         if moment.lab.mode() == Mode::Solo {
@@ -117,20 +112,6 @@ fn overlay(
     }
 }
 
-/// The same views, chart recorders of about one scale with one scale.
-fn alike(mut views: Vec<View>) -> Vec<View> {
-    let widest = views.iter().filter_map(View::recorded_m).fold(0.0, f64::max);
-    for view in &mut views {
-        if let (Some(half_m), Framing::Recorder { half_width_m }) =
-            (view.recorded_m(), &mut view.framing)
-            && half_m * ALIKE > widest
-        {
-            *half_width_m = widest;
-        }
-    }
-    views
-}
-
 /// Each lane in cells of its own.
 fn side_by_side(
     picture: &mut Picture,
@@ -142,12 +123,13 @@ fn side_by_side(
     let bodies = ghosts.len();
     let draw = |picture: &mut Picture, cell: Rect, index: usize, entrant: &&Entrant| {
         let ghost = &ghosts[index];
-        let camera = moment.camera(cell, index, &ghost.view);
+        let view = &ghost.view;
+        let camera = moment.camera(cell, index, view);
         let lanes = std::slice::from_ref(entrant);
-        if ghost.view.recorded_m().is_some() {
+        if view.recorded_m().is_some() {
             chart::quay(&mut picture.shapes, &camera, moment.palette);
         }
-        Band { moment, index, ghost, camera, lanes, front: entrant }.draw(picture);
+        Band { moment, index, ghost, view, camera, lanes, front: entrant }.draw(picture);
         frame(picture, cell, faded(moment.palette.chart, 0.3));
         if entrant.lane_number == entrants[entrants.len() - 1].lane_number {
             captions::scale_bar(picture, &camera, moment.palette);
@@ -190,6 +172,8 @@ struct Band<'a> {
     moment: &'a Moment<'a>,
     index: usize,
     ghost: &'a Ghost,
+    /// What the camera shows, of the ghost's world and of others that are seen with it.
+    view: &'a View,
     camera: Camera,
     lanes: &'a [&'a Entrant],
     front: &'a Entrant,
@@ -197,8 +181,8 @@ struct Band<'a> {
 
 impl Band<'_> {
     fn draw(&self, picture: &mut Picture) {
-        let Self { moment, index, ghost, ref camera, .. } = *self;
-        let (lab, framing, palette) = (moment.lab, ghost.view.framing, moment.palette);
+        let Self { moment, index, ghost, view, ref camera, .. } = *self;
+        let (lab, framing, palette) = (moment.lab, view.framing, moment.palette);
         let truth = &lab.race().truth().bodies()[index];
         let shows_ghost = lab.display().ghost && truth.halted().is_none();
         self.ground(picture, shows_ghost);
@@ -212,13 +196,14 @@ impl Band<'_> {
             lane: self.front.lane_number,
             entry: self.front.entry,
             body: index,
+            zoomed_as: view.zoomed_as,
             grips: Vec::new(),
             camera: *camera,
         };
         for lane in behind.chain([&self.front]) {
             let body = &lane.lane.bodies()[index];
-            let (look, coordinates) = (Look::of(body.kind), moment.coordinates(body));
-            let outline = look.outline(&*body.stepper, moment.lanes_t, &coordinates);
+            let (look, coordinates) = (Look::of(body.kind), lab.shown_state(body).0);
+            let outline = look.outline(&*body.stepper, moment.t, &coordinates);
             let (colour, dash) = moment.style(lane.entry);
             let at = camera.points(outline.at);
             let flag = Flag { at, number: lane.entry + 1, colour };
@@ -229,9 +214,9 @@ impl Band<'_> {
             let whose = Whose::Lane { number: lane.lane_number, entry: lane.entry };
             cell.add_grips(body, &coordinates, whose);
             let held = lab.viewer().held().filter(|held| held.body == index);
-            let stays = self.trail(picture, lane, outline.at);
-            if held.is_none() && !(stays && self.room().contains(at)) {
-                lost.push(Lost { flag, place: body.stepper.place() });
+            let away = self.trail(picture, lane, outline.at, flag).filter(|_| held.is_none());
+            lost.extend(away);
+            if held.is_none() && !self.room().contains(at) {
                 if is_front {
                     seen.still(picture);
                     self.draw_ghost(picture, shows_ghost);
@@ -244,7 +229,7 @@ impl Band<'_> {
                 flagged.push(flag);
                 continue;
             }
-            let in_hand = held.map(|held| look.outline(&*body.stepper, moment.lanes_t, &held.q));
+            let in_hand = held.map(|held| look.outline(&*body.stepper, moment.t, &held.q));
             let shown = Seen { outline: in_hand.as_ref().unwrap_or(&outline), ..seen };
             if held.is_some() {
                 let left = Coat { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };
@@ -296,7 +281,7 @@ impl Band<'_> {
     /// Where a body can be seen: the cell, and of one with a quay what is beside that.
     fn room(&self) -> Rect {
         let mut room = self.camera.rect;
-        if let Framing::Recorder { .. } = self.ghost.view.framing {
+        if let Framing::Recorder { .. } = self.view.framing {
             let quay = self.camera.points(DVec2::new(self.camera.quay_m, 0.0))[0];
             room.min[0] = room.min[0].max(quay);
         }
@@ -309,10 +294,10 @@ impl Band<'_> {
 
     /// What lies under the bodies: the quay, a course, the exact trail, and how far the exact body swings.
     fn ground(&self, picture: &mut Picture, shows_ghost: bool) {
-        let Self { moment, index, ghost, ref camera, .. } = *self;
-        let framing = ghost.view.framing;
+        let Self { moment, index, ghost, view, ref camera, .. } = *self;
+        let framing = view.framing;
         match framing {
-            Framing::Follow { .. } if !ghost.view.turns => {
+            Framing::Follow { .. } if !view.turns => {
                 captions::course(picture, camera, moment.palette);
             }
             Framing::Recorder { .. } => {
@@ -336,26 +321,33 @@ impl Band<'_> {
         }
     }
 
-    /// Where a lane's body has been, which is now at `from`. Returns whether it stayed within the cell: of one that did
-    /// not nothing is drawn.
-    fn trail(&self, picture: &mut Picture, lane: &Entrant, from: DVec2) -> bool {
-        let Self { moment, index, ghost, ref camera, .. } = *self;
-        let (framing, is_front) = (ghost.view.framing, self.is_front(lane));
+    /// Draws where a lane's body has been, which is now at `from`; nothing of one that was beyond the cell. Returns what
+    /// is to be told of that one under this flag.
+    fn trail(
+        &self,
+        picture: &mut Picture,
+        lane: &Entrant,
+        from: DVec2,
+        flag: Flag,
+    ) -> Option<Lost> {
+        let Self { moment, index, view, ref camera, .. } = *self;
+        let (framing, is_front) = (view.framing, self.is_front(lane));
         let history = moment.history(lane, index);
+        let now = Lost::of(flag, camera, self.room(), std::iter::once(from));
         if let Framing::Follow { width_m, wake_s, .. } = framing {
             if is_front {
                 moment.wake(picture, camera, from, history, (width_m, wake_s));
             }
-            return true;
+            return now;
         }
-        let Some(trail_s) = trail_s(framing, moment) else { return true };
+        let Some(trail_s) = trail_s(framing, moment) else { return now };
         let mut legs = moment.legs(from, history, trail_s);
+        let places = legs.iter().flatten().map(|place| place.at);
+        let away = Lost::of(flag, camera, self.room(), std::iter::once(from).chain(places));
         // A person who zooms in has chosen what to see.
-        let is_fitted = moment.lab.display().zoom_pan(index) == ZoomPan::default();
-        let room = self.room();
-        let stayed = legs.iter().flatten().all(|place| room.contains(camera.points(place.at)));
-        if is_fitted && !stayed {
-            return false;
+        let is_fitted = moment.lab.display().zoom_pan(view.zoomed_as) == ZoomPan::default();
+        if is_fitted && away.is_some() {
+            return away;
         }
         for leg in &mut legs {
             if !is_front {
@@ -366,7 +358,7 @@ impl Band<'_> {
                 moment.dots(picture, camera, framing, leg);
             }
         }
-        true
+        now
     }
 }
 

@@ -17,10 +17,13 @@ const NEAR: f32 = 9.0;
 const MOST_NUMBERS: usize = 3;
 /// How often flags are pushed apart, for each of them.
 const PUSHES: usize = 3;
-/// The height of a badge, and the width of one with a number and without.
+/// The height of a badge, the least width of one with words, and the width of one without.
 const BADGE: f32 = 24.0;
 const WIDE_BADGE: f32 = 92.0;
 const NARROW_BADGE: f32 = 26.0;
+/// What a badge has beside its words, and at least the mean width of their letters, in points.
+const BESIDE_WORDS: f32 = 40.0;
+const LETTER: f32 = 7.3;
 /// From this value on, places are told as powers of ten.
 const FAR_AWAY: f64 = 1e4;
 
@@ -137,15 +140,59 @@ fn board(
     });
 }
 
-/// A lane whose body is drawn beyond the edge of its cell.
-#[derive(Clone, Copy, Debug)]
+/// A lane whose body is beyond the edge of its cell, or comes and goes.
+#[derive(Clone, Debug)]
 pub(super) struct Lost {
-    pub(super) flag: Flag,
-    /// Where the body is at the present tick, in metres.
-    pub(super) place: DVec2,
+    flag: Flag,
+    /// Whether it is told of at the right edge.
+    is_right: bool,
+    words: String,
 }
 
-/// Badges at the edges of a cell, one below the other, for the lanes that left it. Returns what they leave free.
+impl Lost {
+    /// A body that was at these places, newest first, if at any of them it was outside `room`.
+    pub(super) fn of(
+        flag: Flag,
+        camera: &Camera,
+        room: Rect,
+        places: impl Iterator<Item = DVec2> + Clone,
+    ) -> Option<Self> {
+        // On which side of the room a place is, along each axis.
+        let side = |place: DVec2| {
+            let at = camera.points(place);
+            [0, 1].map(|i| i32::from(at[i] > room.max[i]) - i32::from(at[i] < room.min[i]))
+        };
+        let sides: Vec<[i32; 2]> = places.clone().map(side).collect();
+        let oldest = sides.iter().rposition(|side| *side != [0; 2])?;
+        let axis = usize::from(sides[oldest][0] == 0);
+        let swings = [-1, 1].iter().all(|way| sides.iter().any(|side| side[axis] == *way));
+        let comes_back = sides[..oldest].contains(&[0; 2]);
+        let along = |place: DVec2| [place.x, place.y][axis];
+        let furthest =
+            places.clone().reduce(|a, b| if along(b).abs() > along(a).abs() { b } else { a });
+        let (newest, furthest) = (places.clone().next()?, furthest?);
+        let told = |value: f64, digits| format!("{} {}", distance(value, digits), camera.unit);
+        let (words, at) = match (swings, comes_back) {
+            (true, _) => (format!("swings ±{}", told(along(furthest).abs(), 2)), None),
+            (false, true) => (format!("out to {}", told(along(furthest), 2)), Some(furthest)),
+            (false, false) => (told(along(newest), 3), Some(newest)),
+        };
+        let middle = (camera.rect.min[0] + camera.rect.max[0]) / 2.0;
+        let is_right = at.is_none_or(|place| camera.points(place)[0] > middle);
+        Some(Self { flag, is_right, words })
+    }
+}
+
+/// A distance, from [`FAR_AWAY`] on as a power of ten.
+fn distance(value: f64, digits: usize) -> String {
+    if value.abs() < FAR_AWAY {
+        return significant(value, digits);
+    }
+    let sign = if value < 0.0 { "−" } else { "" };
+    format!("{sign}10{}", superscript(libm::floor(libm::log10(value.abs())) as i32))
+}
+
+/// Badges at the edges of a cell, one below the other, for the lanes that leave it. Returns what they leave free.
 pub(super) fn badges(
     picture: &mut Picture,
     camera: &Camera,
@@ -157,12 +204,12 @@ pub(super) fn badges(
     let mut free = clip;
     let (width, height) = (clip.max[0] - clip.min[0], clip.max[1] - clip.min[1]);
     for is_right in [false, true] {
-        let middle = (clip.min[0] + clip.max[0]) / 2.0;
-        let side = |badge: &&Lost| (camera.points(badge.place)[0] > middle) == is_right;
-        let of_side: Vec<&Lost> = lost.iter().filter(side).collect();
+        let of_side: Vec<&Lost> = lost.iter().filter(|badge| badge.is_right == is_right).collect();
         let rows = ((height - top) / (BADGE + 3.0)).max(1.0) as usize;
-        let is_wide = of_side.len() <= rows && width > 3.0 * WIDE_BADGE;
-        let wide = if is_wide { WIDE_BADGE } else { NARROW_BADGE };
+        let letters = of_side.iter().map(|badge| badge.words.chars().count()).max().unwrap_or(0);
+        let widest = (BESIDE_WORDS + LETTER * letters as f32).max(WIDE_BADGE);
+        let is_wide = of_side.len() <= rows && width > 3.0 * widest;
+        let wide = if is_wide { widest } else { NARROW_BADGE };
         let taken = of_side.len().div_ceil(rows) as f32 * (wide + 8.0);
         match is_right {
             true => free.max[0] -= taken,
@@ -201,22 +248,43 @@ pub(super) fn badges(
             write(at, 12.0, dark, badge.flag.number.to_string());
             if is_wide {
                 let middle_of_text = (far - inwards * 24.0 + shoulder) / 2.0;
-                write([middle_of_text, middle], 12.5, palette.text, told(camera, badge));
+                write([middle_of_text, middle], 12.5, palette.text, badge.words.clone());
             }
         }
     }
     free
 }
 
-/// How far a body is, along the way on which it left.
-fn told(camera: &Camera, lost: &Lost) -> String {
-    let Rect { min, max } = camera.rect;
-    let at = camera.points(lost.place);
-    let axis = (0..2).find(|&axis| at[axis] < min[axis] || at[axis] > max[axis]).unwrap_or(0);
-    let value = [lost.place.x, lost.place.y][axis];
-    if value.abs() < FAR_AWAY {
-        return format!("{} m", significant(value, 3));
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is told of a body that was at these places in a cell that shows 5 m to each side, and whether at the right.
+    fn told(places: &[f64]) -> Option<(String, bool)> {
+        let rect = Rect { min: [0.0; 2], max: [100.0, 50.0] };
+        let camera = Camera {
+            rect,
+            centre_m: DVec2::ZERO,
+            at: [50.0, 25.0],
+            points_per_metre: 10.0,
+            paper: 0.0,
+            block: 10.0,
+            quay_m: 0.0,
+            unit: "m",
+        };
+        let flag = Flag { at: [0.0; 2], number: 1, colour: [255; 4] };
+        let places = places.iter().map(|x| DVec2::new(*x, 0.0));
+        Lost::of(flag, &camera, rect, places).map(|lost| (lost.words, lost.is_right))
     }
-    let sign = if value < 0.0 { "−" } else { "" };
-    format!("{sign}10{} m", superscript(libm::floor(libm::log10(value.abs())) as i32))
+
+    #[test]
+    fn a_body_beyond_the_stage_is_told_of_by_its_place_and_one_that_returns_by_its_swing() {
+        let said = |words: &str, is_right| Some((words.to_owned(), is_right));
+        assert_eq!(told(&[1.0, -4.9, 4.9]), None, "it stayed");
+        assert_eq!(told(&[23.4, 6.0, 2.0]), said("23.4 m", true), "it left");
+        assert_eq!(told(&[-3e6, -7.0]), said("−10⁶ m", false), "it left long ago");
+        assert_eq!(told(&[2.31, -12.0, 0.0, 14.2]), said("swings ±14 m", true));
+        assert_eq!(told(&[-14.2, 3.0, 12.0]), said("swings ±14 m", true), "the badge stays there");
+        assert_eq!(told(&[2.0, -7.5, 2.0]), said("out to −7.5 m", false));
+    }
 }

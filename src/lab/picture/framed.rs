@@ -19,6 +19,8 @@ const BLOCKS: (f32, f32) = (12.0, 88.0);
 /// recorder, and where the body moves both across and up.
 const MOST_SWING: f64 = 2.3;
 const MOST_ROOM: f64 = 5.0;
+/// Chart recorders whose scales differ by less than this factor have one scale.
+const ALIKE: f64 = 5.0;
 
 /// What a camera fits into its cell.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +31,32 @@ pub(super) struct View {
     /// How far a body goes from what its camera looks at, along x and along y, in metres.
     pub(super) reach_m: DVec2,
     pub(super) turns: bool,
+    /// The body whose zoom and pan it is seen with, by its place in the scene.
+    pub(super) zoomed_as: usize,
+}
+
+/// The views of the bodies of a scene that share a stage, each with the room that `widened` makes in it. Chart recorders
+/// are moored to one quay, and are zoomed as one; those of about one scale have one scale.
+pub(super) fn on_one_stage(views: Vec<View>, widened: impl Fn(usize, View) -> View) -> Vec<View> {
+    let recorded = |view: &View| view.recorded_m().unwrap_or_default();
+    let (first, widest) = (
+        views.iter().position(|view| view.recorded_m().is_some()),
+        views.iter().map(recorded).fold(0.0, f64::max),
+    );
+    let is_alike: Vec<bool> = views.iter().map(|view| recorded(view) * ALIKE > widest).collect();
+    let mut views: Vec<View> =
+        views.into_iter().zip(0..).map(|(view, i)| widened(i, view)).collect();
+    let shared = views.iter().zip(&is_alike).filter(|(_, is_alike)| **is_alike);
+    let shared_m = shared.map(|(view, _)| recorded(view)).fold(0.0, f64::max);
+    for (view, is_alike) in views.iter_mut().zip(is_alike) {
+        if let Framing::Recorder { half_width_m } = &mut view.framing {
+            view.zoomed_as = first.unwrap_or(view.zoomed_as);
+            if is_alike {
+                *half_width_m = shared_m;
+            }
+        }
+    }
+    views
 }
 
 impl View {
@@ -73,7 +101,7 @@ impl Moment<'_> {
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &View) -> Camera {
         let unit = self.lab.race().truth().bodies()[index].kind.drawn_unit();
         let camera = Camera { unit, ..self.fitted(rect, view) };
-        camera.through(self.lab.display().zoom_pan(index))
+        camera.through(self.lab.display().zoom_pan(view.zoomed_as))
     }
 
     fn fitted(&self, rect: Rect, view: &View) -> Camera {
@@ -142,6 +170,7 @@ impl Moment<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::lab::picture::compose;
     use crate::lab::{Command, Lab, Scene};
 
@@ -160,6 +189,26 @@ mod tests {
             let truth = lab.race().truth().bodies()[0].stepper.place();
             assert!(camera.rect.contains(camera.points(truth)));
             assert_eq!(camera.rect.contains(camera.points(place)), is_seen, "{place}");
+        }
+    }
+
+    #[test]
+    fn bodies_on_one_ruler_are_zoomed_as_one_and_it_with_them() {
+        for over in [0, 1] {
+            let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+            lab.advance(100_000_000);
+            let before = compose(&lab, [780.0, 500.0]);
+            let zoomed_as = before.cells[over].zoomed_as;
+            let zoom_pan = lab.display().zoom_pan(zoomed_as).zoomed(0.5, [0.1, 0.0]);
+            lab.apply(Command::ZoomPan { body: zoomed_as, zoom_pan });
+            let after = compose(&lab, [780.0, 500.0]);
+            let [free, damped, ship] = [0, 1, 2].map(|body| after.cells[body].camera);
+            assert_eq!(free.points_per_metre, before.cells[0].camera.points_per_metre / 2.0);
+            let scale = |camera: &Camera| (camera.points_per_metre, camera.at[0], camera.quay_m);
+            assert_eq!(scale(&free), scale(&damped), "over {over}");
+            let nought = after.labels.iter().find(|label| label.text == "0 m");
+            assert_eq!(nought.map(|label| label.at[0]), Some(free.points(DVec2::ZERO)[0]));
+            assert_eq!(ship, before.cells[2].camera, "it has marks of its own");
         }
     }
 }

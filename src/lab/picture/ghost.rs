@@ -20,14 +20,13 @@ pub(super) struct Ghost {
 }
 
 impl Ghost {
-    /// The ghost of the body at this place of the scene. It is the exact flow at the moment drawn, however lanes are
-    /// drawn between ticks.
+    /// The ghost of the body at this place of the scene: the exact flow at the moment drawn, which is that of the lanes.
     pub(super) fn new(moment: &Moment<'_>, index: usize) -> Self {
         let race = moment.lab.race();
         let body = &race.truth().bodies()[index];
         let remembered = moment.lab.past();
         let curve = &remembered.truth_curves()[index];
-        let (q, _) = remembered.truth_between(race, index, moment.alpha);
+        let (q, _) = moment.lab.shown_truth(index);
         let look = Look::of(body.kind);
         let outline = look.outline(&*body.stepper, moment.t, &q);
         let framing = look.framing(&*body.stepper);
@@ -38,7 +37,8 @@ impl Ghost {
         let since_s = remembered.swing_since_s(race.t());
         let reach_m = curve.since(since_s).map(|s| (s.at - centre_m).abs());
         let reach_m = reach_m.fold(DVec2::ZERO, DVec2::max);
-        let view = View { framing, followed: outline.at, reach_m, turns: turns(body) };
+        let (followed, turns) = (outline.at, turns(body));
+        let view = View { framing, followed, reach_m, turns, zoomed_as: index };
         Self { view, q, outline }
     }
 

@@ -20,6 +20,8 @@ pub struct Cell {
     pub entry: usize,
     /// The body's place in the scene.
     pub body: usize,
+    /// The body whose zoom and pan it is seen with, by its place in the scene: with those on one ruler that of the first.
+    pub zoomed_as: usize,
     /// Where the body can be taken hold of.
     pub grips: Vec<Grip>,
     pub(super) camera: Camera,

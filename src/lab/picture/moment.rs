@@ -15,30 +15,18 @@ const LONGEST_PAPER_S: f64 = 3.0;
 pub(super) struct Moment<'a> {
     pub(super) lab: &'a Lab,
     pub(super) palette: &'static Palette,
-    /// How far the moment is from the previous tick to the present one.
-    pub(super) alpha: f64,
-    /// The last tick's length in seconds.
-    h: f64,
     /// The moment in seconds.
     pub(super) t: f64,
-    /// The moment at which lanes are drawn, in seconds: without interpolation the present tick.
-    pub(super) lanes_t: f64,
     /// How far a chart recorder's trail reaches back, in seconds.
     pub(super) paper_s: f64,
 }
 
 impl<'a> Moment<'a> {
     pub(super) fn of(lab: &'a Lab) -> Self {
-        let race = lab.race();
-        let (alpha, h) = (lab.clock().alpha(), race.last_step_s());
-        let t = race.t() - (1.0 - alpha) * h;
         Self {
             lab,
             palette: lab.display().theme.palette(),
-            alpha,
-            h,
-            t,
-            lanes_t: race.t() + h * lab.display().interpolation.shown(alpha),
+            t: lab.shown_s(),
             paper_s: (PAPER * lab.scene().seconds).min(LONGEST_PAPER_S),
         }
     }
@@ -47,11 +35,6 @@ impl<'a> Moment<'a> {
     pub(super) fn style(&self, entry: usize) -> (Rgba, [f32; 2]) {
         let lanes = self.lab.entries();
         self.lab.display().theme.lane_style(lanes, &lanes[entry])
-    }
-
-    /// A body's coordinates at the moment drawn.
-    pub(super) fn coordinates(&self, body: &LaneBody) -> Vec<f64> {
-        self.lab.display().interpolation.coordinates(body, self.alpha, self.h)
     }
 
     /// What is remembered of a body in a lane.
@@ -65,4 +48,89 @@ impl<'a> Moment<'a> {
 /// Whether a body leaves the line that it starts on: the one coordinate of the others is along it.
 pub(super) fn turns(body: &LaneBody) -> bool {
     body.coordinates.len() > 1
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lab::number::significant;
+    use crate::lab::picture::{Whose, compose};
+    use crate::lab::{Command, Interpolation, Lab, Scene};
+
+    /// A spring under RK4 at a rate at which a tick can be seen.
+    fn lab() -> Lab {
+        let scene = Scene { tick_hz: 5, ..Scene::built_in("spring").unwrap() };
+        let mut lab = Lab::new(scene);
+        let rk4 = lab.entries().iter().position(|spec| spec.method.id == "rk4");
+        lab.apply(Command::Pick(rk4.unwrap()));
+        lab
+    }
+
+    /// Where the mass and the ghost are drawn, in metres, and what the stage says of the mass.
+    fn drawn(lab: &Lab) -> ([f64; 2], String) {
+        let picture = compose(lab, [780.0, 500.0]);
+        let cell = &picture.cells[0];
+        let of = |truth: bool| {
+            let grip = cell.grips.iter().find(|grip| (grip.whose == Whose::Truth) == truth);
+            cell.camera.metres(grip.expect("it is on the stage").at).x
+        };
+        let mut texts = picture.labels.into_iter().map(|label| label.text);
+        ([of(false), of(true)], texts.find(|text| text.contains(" m/s")).expect("its numbers"))
+    }
+
+    fn is_near(a: f64, b: f64) -> bool {
+        (a - b).abs() < 1e-4
+    }
+
+    #[test]
+    fn at_rest_everything_is_of_the_tick_of_the_title_however_bodies_are_drawn_between_ticks() {
+        for _ in Interpolation::ALL {
+            let mut lab = lab();
+            lab.apply(Command::TogglePause);
+            lab.apply(Command::Restart);
+            lab.apply(Command::TickForward);
+            lab.apply(Command::TickForward);
+            for _ in Interpolation::ALL {
+                let [mass, truth] = [&lab.race().entrants()[0].lane, lab.race().truth()]
+                    .map(|lane| lane.bodies()[0].stepper.q()[0]);
+                let ([block, ghost], said) = drawn(&lab);
+                let way = lab.display().interpolation;
+                assert!(is_near(block, mass) && is_near(ghost, truth), "{way:?}: {block} {ghost}");
+                assert!(said.contains(&format!("x = {} m", significant(mass, 4))), "{said}");
+                assert_eq!(lab.shown_s(), lab.race().t());
+                lab.apply(Command::NextInterpolation);
+            }
+        }
+    }
+
+    #[test]
+    fn while_time_runs_bodies_ghost_and_numbers_share_the_moment_drawn() {
+        let mut lab = lab();
+        for part in [0.35, 0.7, 1.0, 1.3, 1.75] {
+            lab.apply(Command::Restart);
+            lab.advance((part * 0.2e9) as i64);
+            lab.advance(100_000_000);
+            for way in Interpolation::ALL {
+                let ([block, ghost], said) = drawn(&lab);
+                let exact = libm::cos(std::f64::consts::TAU * lab.shown_s());
+                assert!(is_near(ghost, exact), "{way:?}: {ghost} at {} s", lab.shown_s());
+                assert!(said.contains(&format!("x = {} m", significant(block, 3)[..5].trim())));
+                lab.apply(Command::NextInterpolation);
+            }
+        }
+    }
+
+    #[test]
+    fn when_time_runs_on_the_stage_goes_on_from_what_was_shown_at_rest() {
+        for ways in 0..Interpolation::ALL.len() {
+            let mut lab = lab();
+            (0..ways).for_each(|_| _ = lab.apply(Command::NextInterpolation));
+            lab.advance(730_000_000);
+            lab.apply(Command::TogglePause);
+            let (rest, _) = drawn(&lab);
+            lab.apply(Command::TogglePause);
+            let (on, _) = drawn(&lab);
+            let way = lab.display().interpolation;
+            assert!(is_near(rest[0], on[0]) && is_near(rest[1], on[1]), "{way:?}: {rest:?} {on:?}");
+        }
+    }
 }

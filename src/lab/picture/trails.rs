@@ -44,7 +44,7 @@ impl Moment<'_> {
         history: &'h History,
         trail_s: f64,
     ) -> impl Iterator<Item = (f64, &'h Sample)> {
-        let shown = self.lanes_t;
+        let shown = self.t;
         // A body that was put elsewhere did not move there.
         let mut has_jumped = false;
         let recent = move |s: &&Sample| {

@@ -5,7 +5,7 @@ use egui::{Align2, FontId, Id, Pos2, Rect, Response, ScrollArea, Sense, Ui, Vec2
 
 use super::sorting::{self, Order};
 use super::{formula, ink, keycap, short};
-use crate::lab::{Command, FORMULAS, Lab, Language, Mode};
+use crate::lab::{Command, FORMULAS, Lab, LaneBody, Language, Mode};
 use crate::view::plot;
 use crate::view::theme::{TYPE, strong_font};
 
@@ -122,9 +122,15 @@ fn whose_numbers(ui: &Ui, lab: &Lab, rect: Rect, beside: &str) {
 
 /// All rows in this order. The rows of a method stay together.
 fn sorted(lab: &Lab, order: Order) -> Vec<Row<'_>> {
+    let truth = lab.race().truth().bodies().iter().enumerate();
+    let exact = |(body, truth): (usize, &LaneBody)| {
+        let (q, _) = truth.halted().is_none().then(|| lab.shown_truth(body))?;
+        q.first().copied()
+    };
+    let exact: Vec<Option<f64>> = truth.map(exact).collect();
     let methods = lab.entries().iter().enumerate();
     let mut methods: Vec<Vec<Row<'_>>> =
-        methods.map(|(entry, spec)| Row::of_method(lab, entry, spec)).collect();
+        methods.map(|method| Row::of_method(lab, method, &exact)).collect();
     if let Some((by, is_reversed)) = order {
         let rank = |rows: &Vec<Row<'_>>| (COLUMNS[by].rank)(&rows[0]);
         methods.sort_by(|a, b| {

@@ -54,10 +54,10 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
                         pace(ui, lab);
                         ui.separator();
                     }
-                    let race = lab.race();
+                    let t = lab.shown_s();
                     match is_wide {
-                        true => format!("t = {:.3} s · tick {}", race.t(), race.tick()),
-                        false => format!("{:.3} s", race.t()),
+                        true => format!("t = {t:.3} s · tick {}", lab.race().tick()),
+                        false => format!("{t:.3} s"),
                     }
                 }
             };

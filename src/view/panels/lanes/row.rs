@@ -19,11 +19,17 @@ pub(super) struct Row<'a> {
     /// Whether it is the first row of its method.
     pub(super) is_first: bool,
     pub(super) is_selected: bool,
+    /// The first coordinate of the exact body at the moment shown, while there is one.
+    exact: Option<f64>,
 }
 
 impl<'a> Row<'a> {
-    /// The rows of the method on this place of the list.
-    pub(super) fn of_method(lab: &'a Lab, entry: usize, spec: &'a LaneSpec) -> Vec<Self> {
+    /// The rows of the method on this place of the list. `exact` holds where each exact body is.
+    pub(super) fn of_method(
+        lab: &'a Lab,
+        (entry, spec): (usize, &'a LaneSpec),
+        exact: &[Option<f64>],
+    ) -> Vec<Self> {
         let flown = lab.race().entrants().iter().find(|entrant| entrant.entry == entry);
         let shown = lab.display().body;
         let count = lab.scene().bodies.len();
@@ -38,6 +44,7 @@ impl<'a> Row<'a> {
             is_of_body,
             is_first: !is_of_body || body == 0,
             is_selected: is_active && (!is_of_body || body == shown),
+            exact: exact[body],
         };
         match is_of_body {
             true => (0..count).map(row).collect(),
@@ -88,12 +95,12 @@ impl<'a> Row<'a> {
     }
 
     pub(super) fn position(&self) -> Option<f64> {
-        self.flown_body()?.stepper.q().first().copied()
+        let (q, _) = self.lab.shown_state(self.flown_body()?);
+        q.first().copied()
     }
 
     pub(super) fn exact(&self) -> Option<f64> {
-        let truth = self.flown_body().map(|_| self.truth())?;
-        truth.halted().is_none().then(|| truth.stepper.q()[0])
+        self.flown_body().and(self.exact)
     }
 
     /// What stands for an error where there is nothing to compare with.
