@@ -19,7 +19,7 @@ use super::terminal::tell;
 use super::{clip, scene_file, state_log};
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
-use crate::lab::{Lab, RecordingError};
+use crate::lab::{Lab, Motion, RecordingError};
 use crate::view::Panels;
 use crate::window::{self, Closed, SceneFiles, WindowError, WindowSettings};
 
@@ -117,7 +117,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     };
     let experiment = Experiment { loop_trace: args.loop_trace, ..experiment };
     let mut lab = experiment.lab();
-    lab.set_motion(!args.reduced_motion);
+    lab.set_motion(if args.reduced_motion { Motion::Reduced } else { Motion::Live });
     if let Some(mb) = args.rewind_mb {
         lab.set_rewind_bytes(usize::from(mb) << 20);
     }

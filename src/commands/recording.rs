@@ -7,8 +7,8 @@ use super::interrupt::Interrupted;
 use super::manifest::Adapter;
 use super::output::OutputError;
 use super::schedule::Schedule;
-use crate::lab::Lab;
 use crate::lab::palette::Theme;
+use crate::lab::{Lab, Motion};
 use crate::view::{AdapterPreference, Gpu, GpuError, OffscreenRenderer, Panels, ReadbackError};
 
 /// The most pixels of a whole capture: hours of drawing and about a hundred gigabytes of files. More is
@@ -34,7 +34,7 @@ impl Recording {
     /// The lab at the start of the run.
     pub(super) fn lab(&self, experiment: &Experiment) -> Lab {
         let mut lab = experiment.lab();
-        lab.set_motion(self.motion);
+        lab.set_motion(if self.motion { Motion::Recorded } else { Motion::Reduced });
         lab.choose_theme(self.theme);
         lab
     }

@@ -42,6 +42,8 @@ pub enum Command {
     SecondBack,
     /// Pauses and goes to this tick, at most the last tick reached.
     Seek(u64),
+    /// Goes back to before the selected lane blew up, and runs on.
+    WatchAgain,
     /// Restores the future that was discarded last.
     Undo,
     /// Back to tick 0, the bodies at their start and the script from its top. The method and the tick

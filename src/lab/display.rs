@@ -16,6 +16,18 @@ pub enum Arrangement {
     SideBySide,
 }
 
+/// What moves on a stage besides the bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Nothing.
+    Reduced,
+    /// Trails fade, and the camera follows bodies smoothly.
+    Recorded,
+    /// The stage also zooms out after a lane that outgrows it, while time slows down, and a run rests where the scene or its
+    /// bodies end: for a person who watches.
+    Live,
+}
+
 /// How the lab is displayed. It does not affect the physics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Display {
@@ -50,8 +62,8 @@ pub struct Display {
     pub help: bool,
     /// Whether the inspector is open.
     pub inspector: bool,
-    /// Whether trails fade and the camera follows smoothly.
-    pub motion: bool,
+    /// What moves besides the bodies.
+    pub motion: Motion,
     /// The zoom and the pan of each body, by its place in the scene; a body beyond the end is fitted.
     pub zoom_pans: Vec<ZoomPan>,
 }

@@ -108,6 +108,12 @@ pub static KEYS: &[Binding] = &[
         repeats: true,
     },
     Binding {
+        shown: "W",
+        about: "watch the selected lane blow up again",
+        keys: &[(Key::Sign('w'), Command::WatchAgain)],
+        repeats: false,
+    },
+    Binding {
         shown: "Ctrl Z",
         about: "undo the last change to the past, or the last restart",
         keys: &[(Key::ControlSign('z'), Command::Undo)],

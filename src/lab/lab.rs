@@ -1,7 +1,7 @@
 //! The lab: a run with its past, the clock that drives it, and its display. Commands come in; state goes out.
 
 use super::command::SCALE_LADDER;
-use super::display::{Display, Pace};
+use super::display::{Display, Motion, Pace};
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopLab;
 use super::notice::Notice;
@@ -23,6 +23,7 @@ mod looping;
 mod opening;
 mod plotting;
 mod restarting;
+mod resting;
 mod showing;
 
 use restarting::RunBefore;
@@ -170,8 +171,8 @@ impl Lab {
     pub fn set_rewind_bytes(&mut self, bytes: usize) {
         self.timeline.set_limit(bytes);
     }
-    /// Sets whether trails fade and the camera follows smoothly.
-    pub fn set_motion(&mut self, motion: bool) {
+    /// Sets what moves on the stage besides the bodies.
+    pub fn set_motion(&mut self, motion: Motion) {
         self.viewer.display.motion = motion;
     }
     /// Shows the system's theme, unless a person has chosen one.

@@ -62,7 +62,7 @@ pub use analysis::{
 };
 pub use chase::Chase;
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
-pub use display::{Arrangement, Display, DriverRequest, Pace};
+pub use display::{Arrangement, Display, DriverRequest, Motion, Pace};
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub use gesture::{GESTURES, Gesture};
 pub use guide::{Goal, STOPS, Stop, Tour};

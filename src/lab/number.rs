@@ -22,10 +22,11 @@ pub fn significant(value: f64, digits: usize) -> String {
 /// A number without trailing zeros, for the marks of an axis.
 pub fn round(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
-    if text.contains('.') && !text.contains('·') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    let (number, power) = text.split_at(text.find('·').unwrap_or(text.len()));
+    if number.contains('.') {
+        format!("{}{power}", number.trim_end_matches('0').trim_end_matches('.'))
     } else {
-        text.replace(".000·", "·")
+        text
     }
 }
 
@@ -87,10 +88,15 @@ mod tests {
 
     #[test]
     fn round_numbers_lose_their_noughts() {
-        for (value, shown) in
-            [(20.0, "20"), (0.5, "0.5"), (-2.5, "\u{2212}2.5"), (0.0, "0"), (2e6, "2·10⁶")]
-        {
-            assert_eq!(round(value, 4), shown);
+        for (value, digits, shown) in [
+            (20.0, 4, "20"),
+            (0.5, 4, "0.5"),
+            (-2.5, 4, "\u{2212}2.5"),
+            (0.0, 4, "0"),
+            (2e6, 4, "2·10⁶"),
+            (-2.5e25, 6, "\u{2212}2.5·10²⁵"),
+        ] {
+            assert_eq!(round(value, digits), shown);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::analysis::{Advice, Findings, StabilityMap, Verdict};
 use super::command::USUAL_SCALE_PERCENT;
-use super::display::{Arrangement, Display, Pace};
+use super::display::{Arrangement, Display, Motion, Pace};
 use super::guide::{Hints, Tour};
 use super::held::HeldBody;
 use super::instrument::Instrument;
@@ -38,6 +38,8 @@ pub struct Viewer {
     pub display: Display,
     /// The number of the lane selected in a race: it stays selected, whatever method it is put under.
     pub(super) selected: usize,
+    /// Whether a person, a script or a verdict has selected it.
+    pub(super) is_selected: bool,
     /// The place of the lane that the pointer or the keyboard's focus is on.
     pub(super) pointed: Option<usize>,
     /// The language in which a method was copied last.
@@ -87,10 +89,11 @@ impl Viewer {
                 scale_percent: USUAL_SCALE_PERCENT,
                 help: false,
                 inspector: false,
-                motion: true,
+                motion: Motion::Recorded,
                 zoom_pans: Vec::new(),
             },
             selected,
+            is_selected: false,
             pointed: None,
             language: Language::default(),
             pace: None,

@@ -232,7 +232,7 @@ fn a_body_that_comes_and_goes_is_drawn_while_it_is_inside_and_told_of_by_how_far
         let told = badges(&picture);
         assert_eq!(told.len(), 1, "{told:?} at frame {frame}");
         let swing: f64 = told[0][9..].trim_end_matches(" m").parse().expect("a number");
-        assert!(swing >= 0.95 * furthest && swing < 40.0, "{told:?}, furthest {furthest}");
+        assert!(swing >= 0.85 * furthest && swing < 40.0, "{told:?}, furthest {furthest}");
     }
     assert!(drawn > 3, "it passes");
 }

@@ -93,6 +93,7 @@ impl Lab {
                 self.running = false;
                 self.seek(tick);
             }
+            Command::WatchAgain => self.watch_again(),
             Command::Undo => self.undo(),
             Command::Restart => {
                 // A hint leads on; the old run is a click away on the timeline.
@@ -235,6 +236,7 @@ impl Lab {
     fn pick(&mut self, entry: usize) {
         let Some(lane) = self.picked(entry) else { return };
         self.viewer.selected = lane;
+        self.viewer.is_selected = true;
         self.start.entry = entry;
         if self.mode() == Mode::Solo {
             let spec = self.entries()[entry];
@@ -329,7 +331,7 @@ impl Lab {
         self.timeline.show_present();
     }
 
-    fn seek(&mut self, tick: u64) {
+    pub(super) fn seek(&mut self, tick: u64) {
         self.timeline.seek(tick);
         self.timeline.show_present();
         self.clock.set_tick_hz(self.race().tick_hz());

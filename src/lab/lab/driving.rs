@@ -5,6 +5,7 @@ use crate::lab::action::Action;
 use crate::lab::live_loop::LiveFrame;
 use crate::lab::notices::Notices;
 use crate::lab::pacing::Due;
+use crate::lab::picture::slow_motion_percent;
 use crate::lab::race::{Mode, Observer};
 use crate::lab::session::Timeline;
 
@@ -50,12 +51,20 @@ impl Lab {
         let ((), told) =
             self.watched(|timeline, notices| timeline.catch_up(&mut (notices, &mut *observer)));
         self.tell(told);
-        let mut due = self.clock.advance(frame_ns);
+        let percent = slow_motion_percent(self);
+        let mut due = self.clock.advance(frame_ns.saturating_mul(i64::from(percent)) / 100);
         for made in 1..=due.ticks {
             if self.race().tick() >= last {
                 break;
             }
             self.tick_seen(observer);
+            if last == u64::MAX && self.comes_to_rest() {
+                due.ticks = made;
+                self.running = false;
+                // What to do next is told as a hint.
+                self.viewer.notice = None;
+                break;
+            }
             if !is_time_left() {
                 due.dropped += u64::from(due.ticks - made);
                 due.ticks = made;
@@ -72,7 +81,8 @@ impl Lab {
 
     fn note_frame(&mut self, duration_ns: i64, due: Due) {
         let shown_s = self.shown_s();
-        let speed = f64::from(self.clock.speed_percent()) / 100.0;
+        let percent = self.clock.speed_percent() * slow_motion_percent(self);
+        let speed = f64::from(percent) / 1e4;
         let Due { ticks, dropped } = due;
         let frame = LiveFrame { duration_ns, ticks, dropped, animation_error_ms: 0.0 };
         self.viewer.live.add(frame, shown_s, speed);
@@ -121,6 +131,7 @@ impl Lab {
             let lane = race.entrants().iter().find(|e| race.list()[e.entry].method == method);
             if let Some(lane) = lane {
                 self.viewer.selected = lane.lane_number;
+                self.viewer.is_selected = true;
             }
         }
     }

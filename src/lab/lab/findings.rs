@@ -6,6 +6,7 @@ use super::Lab;
 use crate::lab::analysis::{AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings, MapRequest};
 use crate::lab::instrument::Instrument;
 use crate::lab::intervention::Interventions;
+use crate::lab::race::{Entrant, Mode};
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Acts, Range};
 
@@ -86,7 +87,30 @@ impl Lab {
     pub fn accept_findings(&mut self, findings: Findings) {
         if findings.request.is_of(&self.start.scene) {
             self.viewer.findings = Some(findings);
+            self.select_best();
         }
+    }
+
+    /// Selects the best of many lanes once all are judged, if nobody has selected one: the first may be the first that
+    /// leaves the stage.
+    fn select_best(&mut self) {
+        /// From so many lanes on: those of a built-in scene are told apart whichever is in front.
+        const MANY: usize = 10;
+        let lanes = self.race().entrants();
+        if self.viewer.is_selected || self.mode() == Mode::Solo || lanes.len() < MANY {
+            return;
+        }
+        let judged = |lane: &Entrant| {
+            let verdict = self.viewer.verdict(lane.entry)?;
+            Some(((verdict.outcome, verdict.error), (lane.lane_number, lane.entry)))
+        };
+        let Some(judged) = lanes.iter().map(judged).collect::<Option<Vec<_>>>() else { return };
+        let best =
+            judged.into_iter().reduce(|best, other| if other.0 < best.0 { other } else { best });
+        let Some((_, (number, entry))) = best else { return };
+        self.viewer.selected = number;
+        self.start.entry = entry;
+        self.viewer.is_selected = true;
     }
 
     /// Computes all requested verdicts and advice now.
@@ -95,6 +119,33 @@ impl Lab {
         let known = &self.viewer.findings;
         if !known.as_ref().is_some_and(|known| known.answer(&request)) {
             self.accept_findings(AnalysisWorker::new(request).finish());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lab::{Command, Lab, Scene};
+
+    #[test]
+    fn of_many_lanes_the_best_is_selected_unless_somebody_has_selected_one() {
+        for (lanes, picks, is_best) in [(10, false, true), (10, true, false), (5, false, false)] {
+            let scene = Scene { seconds: 2.0, ..Scene::built_in("spring").unwrap() };
+            let all = Lab::new(scene.clone()).entries()[..lanes].to_vec();
+            let mut lab = Lab::new(Scene { lanes: all, ..scene });
+            lab.apply(Command::ToggleRace);
+            if picks {
+                lab.apply(Command::Pick(0));
+            }
+            let first = lab.active();
+            lab.analyse();
+            let outcome = |entry: usize| lab.viewer().verdict(entry).expect("it is judged").outcome;
+            let best = (0..lanes).map(outcome).min().expect("there are lanes");
+            assert_eq!(lab.active() != first, is_best, "{lanes} lanes, picked: {picks}");
+            assert_eq!(outcome(lab.active()) == best, is_best, "{lanes} lanes, picked: {picks}");
+            let selected = lab.active();
+            lab.apply(Command::Restart);
+            assert_eq!(lab.active(), selected);
         }
     }
 }

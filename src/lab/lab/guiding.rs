@@ -25,6 +25,9 @@ impl Lab {
             };
             return Some(next.to_owned());
         }
+        if let Some(rest) = self.rest_hint() {
+            return Some(rest);
+        }
         let entry = self.active();
         let outcome = self.viewer.verdict(entry).map(|verdict| verdict.outcome);
         let flown = (self.entries()[entry].method.name, outcome);

@@ -159,6 +159,7 @@ impl Lab {
             | Command::RudderRight
             | Command::Kick(_)
             | Command::Undo
+            | Command::WatchAgain
             | Command::Hold(_)
             | Command::ToggleEqualCost
             | Command::NextInterpolation

@@ -30,7 +30,7 @@ impl Seen<'_> {
         Berth {
             at: self.camera.points(self.outline.at),
             bow: [bow.x as f32, -bow.y as f32],
-            length: self.camera.length(length),
+            length: self.camera.size(length),
         }
     }
 
@@ -50,7 +50,7 @@ impl Seen<'_> {
     pub(super) fn number(&self, picture: &mut Picture, number: usize, on: Rgba) {
         let mut sizes = self.outline.marks.iter().filter_map(|mark| match *mark {
             Mark::Sprung => Some(0.42 * self.camera.block),
-            Mark::Disc { radius, .. } => Some(1.1 * self.camera.length(radius)),
+            Mark::Disc { radius, .. } => Some(1.1 * self.camera.size(radius)),
             _ => None,
         });
         let (Some(size), None) = (sizes.next().filter(|size| *size >= 9.0), sizes.next()) else {
@@ -106,7 +106,7 @@ impl Seen<'_> {
                 }
                 Mark::Sprung => coil(shapes, self.span(), self.palette, clip),
                 Mark::Anchor { centre, radius } => {
-                    mass::ball(shapes, camera.points(centre), camera.length(radius), still, clip);
+                    mass::ball(shapes, camera.points(centre), camera.size(radius), still, clip);
                 }
                 Mark::Disc { .. } | Mark::Hull { .. } | Mark::Name { .. } => {}
             }
@@ -140,7 +140,7 @@ impl Seen<'_> {
                     mass::ball(
                         shapes,
                         camera.points(centre),
-                        camera.length(radius),
+                        camera.size(radius),
                         coat.colour,
                         clip,
                     );
@@ -174,7 +174,7 @@ impl Seen<'_> {
                     shapes.push(path(ends, 1.4, faded(coat.colour, 0.7), coat.dash, clip));
                 }
                 Mark::Disc { centre, radius } => {
-                    let radius = camera.length(radius);
+                    let radius = camera.size(radius);
                     mass::hollow_disc(shapes, camera.points(centre), radius, coat, clip);
                 }
                 Mark::Sprung => {
@@ -205,7 +205,7 @@ impl Seen<'_> {
                     shapes.push(path(ends, 1.4, faded(palette.exact, 0.8), SOLID, clip));
                 }
                 Mark::Disc { centre, radius } => {
-                    let radius = camera.length(radius);
+                    let radius = camera.size(radius);
                     mass::ghost_disc(shapes, camera.points(centre), radius, palette, clip);
                 }
                 Mark::Sprung => silhouette(shapes, self.span(), palette, clip),

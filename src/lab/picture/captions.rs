@@ -33,6 +33,8 @@ const ROOM_FOR_LANES: f32 = 520.0;
 const MOST_FOR_LANES: f32 = 0.28;
 /// How far the name of a lane keeps from the left edge of its column, in points.
 const LANE_INSET: f32 = 8.0;
+/// Room for a word at the ghost, in points.
+const ROOM_FOR_EXACT: f32 = 52.0;
 /// From this width of a cell on, in points, numbers fit beside its caption.
 const ROOM_FOR_NUMBERS: f32 = 330.0;
 /// How far captions keep from the left edge of a wide cell, in points.
@@ -305,6 +307,29 @@ impl Chip {
             write(right - 11.0, Align::Right, 12.5, palette.dim, false, swing);
         }
     }
+}
+
+/// Writes at the ghost, which is here, what it is; `beside` it by so many points.
+pub(super) fn exact(
+    picture: &mut Picture,
+    camera: &Camera,
+    ghost: DVec2,
+    beside: f32,
+    palette: &Palette,
+) {
+    let Rect { min, max } = camera.rect;
+    let [x, y] = camera.points(ghost);
+    if max[1] - min[1] < ROOM_FOR_CHIP || !camera.rect.contains([x, y]) {
+        return;
+    }
+    let is_left = x + beside + ROOM_FOR_EXACT > max[0];
+    let way = if is_left { -1.0 } else { 1.0 };
+    let at = [x + way * (beside + 8.0), (y + beside + 6.0).min(max[1] - 8.0)];
+    let from = [x + 0.7 * way * beside, y + 0.7 * beside];
+    picture.shapes.push(line(from, [at[0] - 3.0 * way, at[1]], 1.0, palette.exact, camera.rect));
+    let align = if is_left { Align::Right } else { Align::Left };
+    let label = text(palette, at, align, 12.0, palette.exact, "exact".into());
+    picture.labels.push(Label { is_strong: true, ..label });
 }
 
 /// The line of a ship's course with distance marks.

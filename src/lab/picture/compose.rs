@@ -63,12 +63,8 @@ fn overlay(
     entrants: &[&Entrant],
 ) {
     let front = moment.lab.selected();
-    let views = on_one_stage(ghosts.iter().map(|ghost| ghost.view).collect(), |index, view| {
-        match moment.lab.mode() {
-            Mode::Solo => view.widened(moment, front, index),
-            Mode::Race => view,
-        }
-    });
+    let alone = (moment.lab.mode() == Mode::Solo).then_some(front);
+    let views = on_one_stage(moment, ghosts.iter().map(|ghost| ghost.view).collect(), alone);
     // A ship on a straight course has its own marks.
     let has_ruler = stage.max[1] - stage.min[1] >= ROOM_FOR_RULER
         && (!matches!(views[0].framing, Framing::Follow { .. }) || views[0].turns);
@@ -259,7 +255,11 @@ impl Band<'_> {
             let half = row_width(flagged.len()) / 2.0 + camera.block;
             let [x, y] = camera.points(ghost.outline.at);
             let busy = Rect { min: [x - half, y - 2.0 * lift], max: [x + half, y + half] };
-            loupe::draw(picture, moment, camera, &near, (room, busy));
+            let reach_m = ghost.view.reach_m.max_element();
+            loupe::draw(picture, moment, camera, (&near, reach_m), (room, busy));
+            if lab.mode() == Mode::Solo && index == 0 {
+                captions::exact(picture, camera, ghost.outline.at, lift, palette);
+            }
         }
         let is_alone = self.lanes.len() == 1;
         let says_beside =

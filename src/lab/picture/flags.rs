@@ -268,6 +268,7 @@ mod tests {
             at: [50.0, 25.0],
             points_per_metre: 10.0,
             paper: 0.0,
+            magnified: 1.0,
             block: 10.0,
             quay_m: 0.0,
             unit: "m",

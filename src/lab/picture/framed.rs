@@ -3,8 +3,10 @@
 use glam::DVec2;
 
 use super::moment::{Moment, turns};
+use super::outgrown::{Room, strayed_m};
 use super::sketch::Camera;
 use super::{Framing, Rect};
+use crate::lab::Motion;
 use crate::lab::race::Entrant;
 
 /// The head of a cell that a body with a fixed camera leaves to the caption, in points.
@@ -19,6 +21,8 @@ const BLOCKS: (f32, f32) = (12.0, 88.0);
 /// recorder, and where the body moves both across and up.
 const MOST_SWING: f64 = 2.3;
 const MOST_ROOM: f64 = 5.0;
+/// How far from the true body a ship may be before the stage zooms out, as a part of what is seen.
+const STRAYED: f64 = 0.35;
 /// Chart recorders whose scales differ by less than this factor have one scale.
 const ALIKE: f64 = 5.0;
 
@@ -33,30 +37,49 @@ pub(super) struct View {
     pub(super) turns: bool,
     /// The body whose zoom and pan it is seen with, by its place in the scene.
     pub(super) zoomed_as: usize,
+    /// How many times more it shows because a lane has outgrown the stage.
+    pub(super) grown: f64,
 }
 
-/// The views of the bodies of a scene that share a stage, each with the room that `widened` makes in it. Chart recorders
-/// are moored to one quay, and are zoomed as one; those of about one scale have one scale.
-pub(super) fn on_one_stage(views: Vec<View>, widened: impl Fn(usize, View) -> View) -> Vec<View> {
+/// The views of the bodies of a scene that share a stage. Where a lane is alone on it they have room for that lane. Chart
+/// recorders are moored to one quay, and are zoomed as one; those of about one scale have one scale.
+pub(super) fn on_one_stage(
+    moment: &Moment<'_>,
+    mut views: Vec<View>,
+    alone: Option<&Entrant>,
+) -> Vec<View> {
+    let first = views.iter().position(|view| view.recorded_m().is_some());
     let recorded = |view: &View| view.recorded_m().unwrap_or_default();
-    let (first, widest) = (
-        views.iter().position(|view| view.recorded_m().is_some()),
-        views.iter().map(recorded).fold(0.0, f64::max),
-    );
-    let is_alike: Vec<bool> = views.iter().map(|view| recorded(view) * ALIKE > widest).collect();
-    let mut views: Vec<View> =
-        views.into_iter().zip(0..).map(|(view, i)| widened(i, view)).collect();
-    let shared = views.iter().zip(&is_alike).filter(|(_, is_alike)| **is_alike);
-    let shared_m = shared.map(|(view, _)| recorded(view)).fold(0.0, f64::max);
-    for (view, is_alike) in views.iter_mut().zip(is_alike) {
-        if let Framing::Recorder { half_width_m } = &mut view.framing {
+    let widest_m = views.iter().map(recorded).fold(0.0, f64::max);
+    let is_alike: Vec<bool> = views.iter().map(|view| recorded(view) * ALIKE > widest_m).collect();
+    share(&mut views, &is_alike);
+    let before: Vec<f64> = views.iter().map(View::half_m).collect();
+    for (index, view) in views.iter_mut().enumerate() {
+        if let Some(lane) = alone {
+            *view = view.widened(moment, lane, index);
+        }
+    }
+    share(&mut views, &is_alike);
+    for (view, before_m) in views.iter_mut().zip(before) {
+        if moment.lab.display().motion == Motion::Live {
+            view.grown = view.half_m() / before_m;
+        }
+        if let Framing::Recorder { .. } = view.framing {
             view.zoomed_as = first.unwrap_or(view.zoomed_as);
-            if is_alike {
-                *half_width_m = shared_m;
-            }
         }
     }
     views
+}
+
+/// Gives the chart recorders that are alike the scale of the widest of them.
+fn share(views: &mut [View], is_alike: &[bool]) {
+    let alike = views.iter().zip(is_alike).filter(|(_, is_alike)| **is_alike);
+    let widest_m = alike.filter_map(|(view, _)| view.recorded_m()).fold(0.0, f64::max);
+    for (view, _) in views.iter_mut().zip(is_alike).filter(|(_, is_alike)| **is_alike) {
+        if let Framing::Recorder { half_width_m } = &mut view.framing {
+            *half_width_m = widest_m;
+        }
+    }
 }
 
 impl View {
@@ -68,8 +91,21 @@ impl View {
         }
     }
 
-    /// Makes room for how far a lane goes, which is alone on the stage: some times further than the truth.
-    pub(super) fn widened(mut self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> Self {
+    /// Half of what it shows, in metres: across, or up where that is more.
+    fn half_m(&self) -> f64 {
+        match self.framing {
+            Framing::Recorder { half_width_m } => half_width_m.max(1.1 * self.reach_m.x),
+            Framing::Fixed { half_m, .. } => half_m.max(1.05 * self.reach_m).max_element(),
+            Framing::Follow { width_m, .. } => width_m / 2.0,
+        }
+    }
+
+    /// Makes room for how far a lane goes, which is alone on the stage: some times further than the truth, or for a person
+    /// who watches as far as it goes.
+    fn widened(mut self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> Self {
+        if moment.lab.display().motion == Motion::Live {
+            return self.outgrown(moment, lane, body);
+        }
         let since_s = moment.lab.past().swing_since_s(moment.lab.race().t());
         let furthest = |centre_m: DVec2| {
             let samples = moment.history(lane, body).since(since_s);
@@ -89,6 +125,28 @@ impl View {
         }
         self
     }
+
+    /// Makes room for all of a lane's motion.
+    fn outgrown(mut self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> Self {
+        match &mut self.framing {
+            Framing::Recorder { half_width_m } => {
+                let base_m = DVec2::new(half_width_m.max(1.1 * self.reach_m.x) / 1.1, f64::MAX);
+                let room = Room { centre_m: DVec2::ZERO, base_m, window_s: moment.paper_s };
+                self.reach_m.x = room.taken(moment, lane, body).x;
+            }
+            Framing::Fixed { centre_m, half_m, trail_s } => {
+                let base_m = half_m.max(1.05 * self.reach_m) / 1.05;
+                let room = Room { centre_m: *centre_m, base_m, window_s: *trail_s };
+                self.reach_m = room.taken(moment, lane, body);
+            }
+            Framing::Follow { width_m, height_m, .. } => {
+                let wide = if self.turns { width_m.min(*height_m) } else { *width_m };
+                let times = (strayed_m(moment, lane, body) / (STRAYED * wide)).max(1.0);
+                (*width_m, *height_m) = (times * *width_m, times * *height_m);
+            }
+        }
+        self
+    }
 }
 
 /// The width of the quay at the left of a cell, in points.
@@ -100,7 +158,7 @@ impl Moment<'_> {
     /// The camera of a cell that shows the body at this place of the scene, zoomed and panned as a person has it.
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &View) -> Camera {
         let unit = self.lab.race().truth().bodies()[index].kind.drawn_unit();
-        let camera = Camera { unit, ..self.fitted(rect, view) };
+        let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
         camera.through(self.lab.display().zoom_pan(view.zoomed_as))
     }
 
@@ -113,13 +171,14 @@ impl Moment<'_> {
             at: middle,
             points_per_metre: 1.0,
             paper: 0.0,
+            magnified: 1.0,
             block: (BLOCK * height as f32).clamp(BLOCKS.0, BLOCKS.1),
             quay_m: 0.0,
             unit: "m",
         };
         match view.framing {
             Framing::Follow { width_m, height_m, .. } => {
-                let centre_m = if self.lab.display().motion {
+                let centre_m = if self.lab.display().motion != Motion::Reduced {
                     view.followed
                 } else {
                     // In pages, so that nothing but the ship moves.
@@ -206,7 +265,7 @@ mod tests {
             assert_eq!(free.points_per_metre, before.cells[0].camera.points_per_metre / 2.0);
             let scale = |camera: &Camera| (camera.points_per_metre, camera.at[0], camera.quay_m);
             assert_eq!(scale(&free), scale(&damped), "over {over}");
-            let nought = after.labels.iter().find(|label| label.text == "0 m");
+            let nought = after.labels.iter().find(|it| it.text == "0 m" && it.at[1] < 24.0);
             assert_eq!(nought.map(|label| label.at[0]), Some(free.points(DVec2::ZERO)[0]));
             assert_eq!(ship, before.cells[2].camera, "it has marks of its own");
         }

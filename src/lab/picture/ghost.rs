@@ -38,7 +38,7 @@ impl Ghost {
         let reach_m = curve.since(since_s).map(|s| (s.at - centre_m).abs());
         let reach_m = reach_m.fold(DVec2::ZERO, DVec2::max);
         let (followed, turns) = (outline.at, turns(body));
-        let view = View { framing, followed, reach_m, turns, zoomed_as: index };
+        let view = View { framing, followed, reach_m, turns, zoomed_as: index, grown: 1.0 };
         Self { view, q, outline }
     }
 

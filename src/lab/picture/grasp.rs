@@ -89,7 +89,7 @@ impl Cell {
         let least =
             if is_recorder { LEAST_RADIUS.max(self.camera.block / 2.0) } else { LEAST_RADIUS };
         self.grips.extend(handles.into_iter().enumerate().map(|(handle, part)| {
-            let radius = self.camera.length(part.radius).max(least);
+            let radius = self.camera.size(part.radius).max(least);
             Grip { at: self.camera.points(part.at), radius, handle, whose }
         }));
     }

@@ -199,6 +199,7 @@ impl<'a> Band<'a> {
             at: [x, y],
             points_per_metre: 1.0,
             paper: 0.0,
+            magnified: 1.0,
             block: (BLOCK * height as f32).min(LARGEST_BLOCK),
             quay_m: 0.0,
             unit: "m",

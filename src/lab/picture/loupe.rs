@@ -22,6 +22,8 @@ const REACH: f64 = 0.5;
 const SEEN: f64 = 2.0;
 /// It shows lanes that were close to the truth for this long, in seconds: a swing of the harbour's spring.
 const LATELY_S: f64 = 1.0;
+/// Lanes nearer to the truth than this part of how far it goes differ by rounding, or by a motion that has died away.
+const ROUNDING: f64 = 1e-9;
 /// The radius of a lane in it, in points.
 const LANE: f32 = 4.0;
 
@@ -47,19 +49,22 @@ impl Near {
     }
 }
 
-/// Draws the lanes about the truth in the upper right corner of `room`, unless what is `busy` reaches there, if all of
-/// them are too close to the truth to be seen and have been for a while. The one in front is the last.
+/// Draws the lanes about the truth, which goes `reach_m` far, in the upper right corner of `room`, unless what is `busy`
+/// reaches there, if all of them are too close to the truth to be seen and have been for a while. The one in front is the
+/// last.
 pub(super) fn draw(
     picture: &mut Picture,
     moment: &Moment<'_>,
     camera: &Camera,
-    lanes: &[Near],
+    (lanes, reach_m): (&[Near], f64),
     (room, busy): (Rect, Rect),
 ) {
     let furthest_m = lanes.iter().map(|lane| lane.lately_m.max(lane.off_m.length()));
-    let furthest = camera.points_per_metre * furthest_m.fold(0.0, f64::max);
+    let furthest_m = furthest_m.fold(0.0, f64::max);
+    let furthest = camera.points_per_metre * furthest_m;
     let has_room = (0..2).all(|axis| room.max[axis] - room.min[axis] >= ROOM[axis]);
-    if lanes.len() < 2 || !has_room || furthest > SEEN || moment.lab.race().t() < LATELY_S {
+    let is_apart = furthest <= SEEN && furthest_m >= ROUNDING * reach_m;
+    if lanes.len() < 2 || !has_room || !is_apart || moment.lab.race().t() < LATELY_S {
         return;
     }
     let Some(times) = enlargement(furthest, REACH * f64::from(RADIUS)) else { return };
@@ -132,5 +137,23 @@ mod tests {
         assert_eq!(found.len(), 1, "{found:?}");
         let far = labels("spring", &["explicit-euler", "semi-implicit-euler", "rk4"], 3);
         assert_eq!(far, Vec::<String>::new(), "semi-implicit Euler can be seen");
+    }
+
+    #[test]
+    fn rounding_is_not_magnified() {
+        // A damped spring that has come to rest.
+        let text = "title = 't'\ntick_hz = 60\nseconds = 20\nmethods = ['rk4', 'gauss-legendre-4']\n\
+             [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 90\ndamping_n_s_per_m = 4\nx0_m = 1\n";
+        let mut lab = Lab::new(Scene::parse("t.toml", text).unwrap());
+        lab.apply(Command::ToggleRace);
+        let mut shown = [2_u32, 16].map(|seconds| {
+            while lab.race().t() < f64::from(seconds) {
+                lab.tick();
+            }
+            let labels = compose(&lab, [800.0, 440.0]).labels.into_iter().map(|label| label.text);
+            labels.filter(|text| text.starts_with('×')).count()
+        });
+        shown.reverse();
+        assert_eq!(shown, [0, 1], "at rest, and while it moves");
     }
 }

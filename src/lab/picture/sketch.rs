@@ -18,6 +18,8 @@ pub(super) struct Camera {
     pub(super) points_per_metre: f64,
     /// How long a chart recorder's paper is from the body down, in points.
     pub(super) paper: f64,
+    /// How many times larger than life bodies are drawn: on a stage that has zoomed out far they would vanish.
+    pub(super) magnified: f64,
     /// The side of a block on a spring, in points.
     pub(super) block: f32,
     /// Where the edge of the quay is, at which springs are moored, in metres.
@@ -27,6 +29,15 @@ pub(super) struct Camera {
 }
 
 impl Camera {
+    /// The same camera, of a stage that has grown so many times larger: bodies become smaller with it, and more slowly the
+    /// further it goes.
+    pub(super) fn grown(self, times: f64) -> Self {
+        /// The least part of its size that a body keeps.
+        const LEAST: f64 = 0.4;
+        let size = (1.0 / libm::sqrt(times)).max(LEAST);
+        Self { magnified: times * size, block: self.block * demote(size), ..self }
+    }
+
     /// The same camera, zoomed in and panned.
     pub(super) fn through(self, zoom_pan: ZoomPan) -> Self {
         let (seen, size) = (zoom_pan.seen(self.rect.part(self.at)), self.rect.size());
@@ -57,6 +68,11 @@ impl Camera {
 
     pub(super) fn length(&self, metres: f64) -> f32 {
         demote(metres * self.points_per_metre)
+    }
+
+    /// How large a part of a body of this size is drawn.
+    pub(super) fn size(&self, metres: f64) -> f32 {
+        self.length(self.magnified * metres)
     }
 
     /// The least and the greatest x in view, in metres.

@@ -8,7 +8,7 @@ use super::moment::Moment;
 use super::sketch::{Camera, SOLID, demote, disc};
 use super::{Framing, Path, PathPoint, Picture, Rect, Rgba, Shape};
 use crate::lab::palette::{faded, mixed};
-use crate::lab::{History, Sample};
+use crate::lab::{History, Motion, Sample};
 
 /// The most points in a lane's trail: more would not show.
 const TRAIL_POINTS: usize = 720;
@@ -75,7 +75,7 @@ impl Moment<'_> {
     }
 
     fn fade(&self, age: f64, trail_s: f64) -> f32 {
-        if self.lab.display().motion { demote(1.0 - age / trail_s) } else { 0.6 }
+        if self.lab.display().motion != Motion::Reduced { demote(1.0 - age / trail_s) } else { 0.6 }
     }
 
     /// Where a place lies on a chart recorder's paper: older is further down, from the pen under the block on.
@@ -160,7 +160,7 @@ impl Moment<'_> {
                     let colour = mixed(foam, place.colour, 0.35);
                     PathPoint {
                         at: camera.points(place.at),
-                        radius: camera.length(spread * unit * (0.8 + 0.9 * place.age / wake_s)),
+                        radius: camera.size(spread * unit * (0.8 + 0.9 * place.age / wake_s)),
                         colour: faded(colour, part * self.fade(place.age, wake_s)),
                     }
                 }));

@@ -103,6 +103,9 @@ fn key_hints(lab: &Lab) -> Vec<KeyHint> {
             hints.push((key, format!("{input} {} %", round(part * 100.0, 3)), None));
         }
     }
+    if lab.lost_at().is_some() {
+        hints.push(hint("W", "watch again", Command::WatchAgain));
+    }
     match lab.mode() {
         Mode::Race => {
             hints.push(hint("E", "inspector", Command::ToggleInspector));

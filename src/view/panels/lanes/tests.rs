@@ -118,7 +118,9 @@ fn the_cost_is_that_of_a_tick_now() {
     let mut lab = race();
     let costs = |lab: &Lab| -> Vec<Option<f64>> {
         let flown = lab.race().entrants().iter().map(|lane| lane.entry);
-        flown.map(|entry| Row::of_method(lab, entry, &lab.entries()[entry])[0].cost()).collect()
+        let exact = vec![None; lab.scene().bodies.len()];
+        let rows = |entry: usize| Row::of_method(lab, (entry, &lab.entries()[entry]), &exact);
+        flown.map(|entry| rows(entry)[0].cost()).collect()
     };
     let before = costs(&lab);
     assert_eq!(before[..4], [1.0, 1.0, 2.0, 4.0].map(Some), "{before:?}");

@@ -1,0 +1,168 @@
+//! Where a run that is watched rests: at its scene's length, and where all its bodies have blown up, which can be watched
+//! again.
+
+use super::Lab;
+use crate::lab::action::Action;
+use crate::lab::display::Motion;
+use crate::lab::journal::Source;
+use crate::lab::number::{round, significant};
+use crate::lab::race::Mode;
+
+/// How long before it was over a blow-up is watched again, in seconds, and at least in ticks.
+const LEAD_S: f64 = 1.0;
+const LEAST_LEAD: u64 = 24;
+
+impl Lab {
+    /// Whether the run rests at this tick.
+    pub(super) fn comes_to_rest(&self) -> bool {
+        self.is_at_its_end() || self.is_just_lost()
+    }
+
+    /// Whether a person only watches: the run of one lane whose bodies nobody steers, outside the guide.
+    fn is_watched(&self) -> bool {
+        let race = self.race();
+        let is_touched = |action: &Action| {
+            action.input().is_some() || matches!(action, Action::Place { .. } | Action::Set { .. })
+        };
+        let rows = &race.journal().rows()[..race.done()];
+        self.display().motion == Motion::Live
+            && self.mode() == Mode::Solo
+            && self.viewer.tour.is_none()
+            && !rows.iter().any(|row| row.source == Source::Hand && is_touched(&row.action))
+    }
+
+    /// Whether the scene's length is over.
+    fn is_at_its_end(&self) -> bool {
+        let race = self.race();
+        let (late_s, half_s) = (race.t() - self.scene().seconds, race.last_step_s() / 2.0);
+        late_s > -half_s && late_s <= half_s && self.is_watched()
+    }
+
+    /// Whether the last body of the lane on the stage has just halted.
+    fn is_just_lost(&self) -> bool {
+        let bodies = self.selected().lane.bodies();
+        let tick = self.race().tick();
+        self.display().motion == Motion::Live
+            && self.mode() == Mode::Solo
+            && bodies.iter().all(|body| body.halted().is_some())
+            && bodies.iter().any(|body| body.halted().is_some_and(|halt| halt.tick + 1 == tick))
+    }
+
+    /// What to do where the run rests. Keys stand between backticks.
+    pub(super) fn rest_hint(&self) -> Option<String> {
+        if self.running || !self.comes_to_rest() {
+            return None;
+        }
+        if self.is_just_lost() {
+            let name = self.lane_name(self.active());
+            let t = significant(self.race().t(), 3);
+            return Some(format!(
+                "{name} blew up at {t} s. `W` shows it again, `Home` starts over, `Space` goes on."
+            ));
+        }
+        let seconds = round(self.scene().seconds, 4);
+        Some(format!(
+            "The {seconds} s of this scene are over. `Home` starts again, `Space` goes on."
+        ))
+    }
+
+    /// The tick at which the last body that halted in the selected lane did so.
+    pub fn lost_at(&self) -> Option<u64> {
+        let bodies = self.selected().lane.bodies().iter();
+        bodies.filter_map(|body| body.halted().map(|halt| halt.tick)).max()
+    }
+
+    /// Goes back to before the selected lane was lost, and runs on from there.
+    pub(super) fn watch_again(&mut self) {
+        let Some(tick) = self.lost_at() else {
+            return self.set_notice("nothing has blown up in this lane");
+        };
+        let lead = ((LEAD_S * f64::from(self.race().tick_hz())) as u64).max(LEAST_LEAD);
+        self.seek(tick.saturating_sub(lead));
+        self.viewer.notice = None;
+        self.running = true;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::picture::slow_motion_percent;
+    use crate::lab::{Command, Lab, Scene};
+
+    /// A lab that somebody watches.
+    fn watched(scene: &str) -> Lab {
+        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+        lab.set_motion(Motion::Live);
+        lab
+    }
+
+    /// Lets time run, at most so many seconds of real time.
+    fn watch(lab: &mut Lab, seconds: u32) {
+        for _ in 0..60 * seconds {
+            if lab.running() {
+                lab.advance(16_666_667);
+            }
+        }
+    }
+
+    #[test]
+    fn a_run_that_is_watched_rests_at_the_length_of_its_scene_once() {
+        let mut lab = watched("spring");
+        // As long as the scene: nothing is slowed.
+        watch(&mut lab, 21);
+        assert_eq!((lab.race().t(), lab.running()), (lab.scene().seconds, false));
+        assert_eq!(slow_motion_percent(&lab), 100, "a swing that grows by itself is fast enough");
+        let hint = lab.hint().expect("what to do");
+        assert!(hint.contains("`Home`") && hint.contains("`Space`"), "{hint}");
+        lab.apply(Command::TogglePause);
+        watch(&mut lab, 2);
+        assert!(lab.running() && lab.race().t() > lab.scene().seconds);
+        assert!(!lab.hint().is_some_and(|hint| hint.contains("are over")));
+    }
+
+    #[test]
+    fn nothing_rests_that_is_recorded_steered_or_told_how_long_to_run() {
+        let ends = |mut lab: Lab| {
+            watch(&mut lab, 21);
+            lab.race().t() > lab.scene().seconds
+        };
+        assert!(ends(Lab::new(Scene::built_in("spring").unwrap())), "nobody watches");
+        let mut steered = watched("spring");
+        steered.apply(Command::Kick(1.0));
+        assert!(ends(steered), "a person is at it");
+        let mut told = watched("spring");
+        for _ in 0..60 * 21 {
+            told.advance_in_time(10_000, 16_666_667, &mut || true);
+        }
+        assert!(told.race().t() > told.scene().seconds);
+    }
+
+    #[test]
+    fn a_blow_up_is_slow_rests_and_can_be_watched_again_with_the_same_bits() {
+        let text = "title = 't'\ntick_hz = 60\nseconds = 20\nmethods = ['explicit-euler']\n\
+             [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 1e6\nx0_m = 1\n";
+        let scene = Scene::parse("t.toml", text).unwrap();
+        let mut frames = [Motion::Recorded, Motion::Live].map(|motion| {
+            let mut lab = Lab::new(scene.clone());
+            lab.set_motion(motion);
+            let halts = |lab: &Lab| lab.lost_at().is_some();
+            let frames = (0..2000).take_while(|_| {
+                lab.advance(16_666_667);
+                !halts(&lab)
+            });
+            (frames.count(), lab)
+        });
+        let [(usual, plain), (slow, lab)] = &mut frames;
+        assert!(*slow > 3 * *usual, "{slow} frames of what takes {usual}");
+        assert_eq!(lab.lost_at(), plain.lost_at());
+        assert!(!lab.running() && plain.running(), "it rests");
+        assert!(lab.hint().is_some_and(|hint| hint.contains("blew up") && hint.contains("`W`")));
+        let (end, hash) = (lab.race().tick(), lab.race().state_hash());
+        lab.apply(Command::WatchAgain);
+        assert!(lab.running() && lab.race().tick() < end);
+        watch(lab, 20);
+        assert_eq!((lab.race().tick(), lab.race().state_hash()), (end, hash));
+        assert!(!lab.running());
+    }
+}

@@ -1,0 +1,214 @@
+//! How far a lane goes beyond what the stage shows, and how fast. A stage that is watched zooms out after it, and time slows
+//! down while that is too fast to see. Both follow from the run and the moment shown: what is gone back to looks the same
+//! again.
+
+use glam::DVec2;
+
+use super::moment::Moment;
+use super::{Framing, Look, Outline};
+use crate::lab::race::Entrant;
+use crate::lab::{History, Lab, METRICS, Mode, Motion};
+
+/// For how long the zoom is evened out, in seconds: a swing of the harbour's spring; and in how many parts.
+const EVENED_S: f64 = 1.0;
+const PARTS: u32 = 12;
+/// How much more room than it takes an even growth gets.
+const MARGIN: f64 = 1.15;
+/// The fastest zoom that can be watched, in powers of ten per second of real time.
+const FASTEST: f64 = 6.0;
+/// The least part of its speed to which time slows down, in percent.
+const SLOWEST: u32 = 6;
+/// No cubic between two ticks goes further than a line between its ends does that is so many times ahead, from where each
+/// end is with so much of a tick's motion more.
+const AHEAD: f64 = 1.125;
+const OVERSHOT: f64 = 0.25;
+/// The newest samples of a motion, by which its growth is measured, and the time in seconds for which it is remembered where
+/// the body has been: longer than a swing that anybody waits for.
+const MEASURED: usize = 4;
+const REMEMBERED_S: f64 = 2.0;
+
+/// Where a lane moves: the room that the stage has for it, and for how long it stays.
+pub(super) struct Room {
+    pub(super) centre_m: DVec2,
+    /// How far the stage reaches without the lane, across and up, in metres.
+    pub(super) base_m: DVec2,
+    /// For how long a swing needs its room, in seconds: as long as its trail shows.
+    pub(super) window_s: f64,
+}
+
+impl Room {
+    /// How far the stage reaches with the lane, across and up, in metres.
+    pub(super) fn taken(&self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> DVec2 {
+        let history = moment.history(lane, body);
+        let furthest = |t: f64| self.furthest(history, [t - self.window_s, t]);
+        let part_s = EVENED_S / f64::from(PARTS);
+        let ln = |reach: DVec2| DVec2::new(libm::log(reach.x), libm::log(reach.y));
+        let evened = (0..PARTS).map(|i| {
+            let reach = MARGIN * furthest(moment.t - f64::from(i) * part_s);
+            ln(reach.max(self.base_m) / self.base_m) / f64::from(PARTS)
+        });
+        let evened: DVec2 = evened.sum();
+        let evened = self.base_m * DVec2::new(libm::exp(evened.x), libm::exp(evened.y));
+        evened.max(furthest(moment.t)).max(self.present(moment, lane, body))
+    }
+
+    /// How far a body went within a time in seconds.
+    fn furthest(&self, history: &History, [from, to]: [f64; 2]) -> DVec2 {
+        let samples = history.samples().rev().skip_while(|sample| sample.t > to);
+        let samples = samples.take_while(|sample| sample.t >= from);
+        let places = samples.map(|sample| (sample.at - self.centre_m).abs());
+        places.filter(|place| place.is_finite()).fold(DVec2::ZERO, DVec2::max)
+    }
+
+    /// How far the parts of a body are now, at most.
+    fn present(&self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> DVec2 {
+        let body = &lane.lane.bodies()[body];
+        let look = Look::of(body.kind);
+        let race = moment.lab.race();
+        let h = race.last_step_s();
+        let extent = |q: &[f64], v: &[f64]| {
+            let reaches = [-OVERSHOT * h, OVERSHOT * h].map(|h| {
+                let q: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + h * v).collect();
+                let outline = look.outline(&*body.stepper, moment.t, &q);
+                let reach = parts(&outline).map(|place| (place - self.centre_m).abs());
+                reach.filter(|reach| reach.is_finite()).fold(self.base_m, DVec2::max)
+            });
+            reaches[0].max(reaches[1])
+        };
+        let before = extent(&body.previous_q, &body.previous_v);
+        let after = extent(body.stepper.q(), body.stepper.v());
+        let part = if h > 0.0 { 1.0 - (race.t() - moment.t) / h } else { 1.0 };
+        before.lerp(after, (AHEAD * part).clamp(0.0, 1.0))
+    }
+}
+
+/// The places of what moves of a body.
+fn parts(outline: &Outline) -> impl Iterator<Item = DVec2> {
+    use super::Mark::Disc;
+    let discs = outline.marks.iter().filter_map(|mark| match mark {
+        Disc { centre, .. } => Some(*centre),
+        _ => None,
+    });
+    let nodes = outline.threads.iter().flat_map(|thread| &thread.points).copied();
+    discs.chain(nodes).chain([outline.at])
+}
+
+/// How far from the truth a lane has been lately, in metres.
+pub(super) fn strayed_m(moment: &Moment<'_>, lane: &Entrant, body: usize) -> f64 {
+    let error = METRICS.iter().position(|metric| metric.id == "position_error");
+    let lately = moment.history(lane, body).since(moment.t - REMEMBERED_S);
+    let errors = lately.filter_map(|sample| Some(sample.metrics[error?]));
+    errors.filter(|error| error.is_finite()).fold(0.0, f64::max)
+}
+
+/// How fast time runs so that a lane which outgrows the stage can be watched, in percent of the speed that is set.
+pub(in crate::lab) fn slow_motion_percent(lab: &Lab) -> u32 {
+    if lab.display().motion != Motion::Live || lab.mode() != Mode::Solo {
+        return 100;
+    }
+    let decades = lab.past().histories(0).iter().zip(lab.selected().lane.bodies());
+    let decades = decades.map(|(history, body)| {
+        let base_m = match Look::of(body.kind).framing(&*body.stepper) {
+            Framing::Recorder { half_width_m } => half_width_m,
+            Framing::Fixed { half_m, .. } => half_m.max_element(),
+            Framing::Follow { width_m, .. } => width_m,
+        };
+        if body.halted().is_some() { 0.0 } else { decades_per_s(history, base_m) }
+    });
+    let speed = f64::from(lab.clock().speed_percent()) / 100.0;
+    let fastest = speed * decades.fold(0.0, f64::max);
+    if fastest <= FASTEST { 100 } else { ((100.0 * FASTEST / fastest) as u32).max(SLOWEST) }
+}
+
+/// How fast a body goes beyond this distance and beyond where it has been, in powers of ten per simulated second.
+fn decades_per_s(history: &History, base_m: f64) -> f64 {
+    let newest = history.samples().rev();
+    let Some(now) = newest.clone().next() else { return 0.0 };
+    let Some(then) = newest.clone().nth(MEASURED) else { return 0.0 };
+    let reach = |from: usize| {
+        let lately = newest.clone().skip(from).take_while(|sample| now.t - sample.t < REMEMBERED_S);
+        lately.map(|sample| sample.at.length()).fold(base_m, f64::max)
+    };
+    libm::log10(reach(0) / reach(MEASURED)) / (now.t - then.t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::picture::{Whose, compose};
+    use crate::lab::{Command, Scene};
+
+    const SIZE: [f32; 2] = [780.0, 500.0];
+
+    fn watched(scene: &str) -> Lab {
+        let mut lab = Lab::new(Scene::built_in(scene).unwrap());
+        lab.set_motion(Motion::Live);
+        lab
+    }
+
+    /// Whether the lane's body is on the stage, and how many points a metre has there.
+    fn hero(lab: &Lab) -> (bool, f64) {
+        let picture = compose(lab, SIZE);
+        let cell = &picture.cells[0];
+        let is_lane = |whose| matches!(whose, Whose::Lane { .. });
+        let grip = cell.grips.iter().find(|grip| is_lane(grip.whose)).expect("it can be grabbed");
+        (cell.rect.contains(grip.at), cell.camera.points_per_metre)
+    }
+
+    #[test]
+    fn the_stage_zooms_out_evenly_after_a_swing_that_outgrows_it_and_keeps_it_in_sight() {
+        let mut lab = watched("harbour");
+        let (_, first) = hero(&lab);
+        let mut last = first;
+        for frame in 0..15 * 60 {
+            lab.advance(16_666_667);
+            let (is_seen, scale) = hero(&lab);
+            assert!(is_seen, "at frame {frame}");
+            assert!((0.95..1.02).contains(&(scale / last)), "{last} to {scale} at frame {frame}");
+            last = scale;
+        }
+        assert!(last < first / 20.0, "{first} to {last} points per metre");
+        // The swing that another method keeps has the stage that it found.
+        lab.apply(Command::Pick(1));
+        (0..300).for_each(|_| _ = lab.advance(16_666_667));
+        let (is_seen, held) = hero(&lab);
+        assert!(is_seen && (0.7..1.4).contains(&(held / last)), "{last} to {held}");
+        lab.apply(Command::Restart);
+        assert_eq!(hero(&lab).1, first);
+    }
+
+    #[test]
+    fn what_is_recorded_or_shown_with_reduced_motion_keeps_its_stage() {
+        for motion in [Motion::Recorded, Motion::Reduced] {
+            let mut lab = watched("harbour");
+            lab.set_motion(motion);
+            (0..15 * 60).for_each(|_| lab.tick());
+            let (_, scale) = hero(&lab);
+            lab.set_motion(Motion::Live);
+            assert!(hero(&lab).1 < scale / 8.0, "{motion:?}");
+        }
+    }
+
+    #[test]
+    fn what_blows_up_stays_on_the_stage_to_its_last_tick() {
+        for scene in ["stiff", "orbit", "chain", "rope"] {
+            let mut lab = watched(scene);
+            lab.apply(Command::Pick(0));
+            for frame in 0..400 {
+                lab.advance(16_666_667);
+                let picture = compose(&lab, SIZE);
+                let cell = &picture.cells[0];
+                let is_lane = |whose| matches!(whose, Whose::Lane { .. });
+                let is_near = |at: [f32; 2]| {
+                    [0, 1].iter().all(|&i| {
+                        let room = 0.1 * (cell.rect.max[i] - cell.rect.min[i]);
+                        (cell.rect.min[i] - room..cell.rect.max[i] + room).contains(&at[i])
+                    })
+                };
+                let grips = cell.grips.iter().filter(|grip| is_lane(grip.whose));
+                let away = grips.map(|grip| grip.at).find(|at| !is_near(*at));
+                assert_eq!(away, None, "{scene} at frame {frame}");
+            }
+        }
+    }
+}
