@@ -1,5 +1,7 @@
 //! All commands of a person. Keyboard, panels, scene scripts and tests all make the same [`Command`]s.
 
+use std::collections::BTreeMap;
+
 use super::action::Action;
 use super::held::HeldBody;
 use super::instrument::Instrument;
@@ -116,6 +118,8 @@ pub enum Command {
         /// The index of the coordinate.
         coordinate: usize,
     },
+    /// Zooms and pans the plots to these ranges of their axes, by name; all other axes are fitted.
+    PlotRanges(BTreeMap<String, [f64; 2]>),
     /// Shows this parameter of the displayed body on the stability map, by its place.
     MapParameter(usize),
     /// The next instrument, cyclically.

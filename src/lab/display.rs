@@ -1,5 +1,7 @@
 //! How a lab is displayed, and what it requests of its driver.
 
+use std::collections::BTreeMap;
+
 use super::instrument::Instrument;
 use super::interpolation::Interpolation;
 use super::palette::Theme;
@@ -64,6 +66,9 @@ pub struct Display {
     pub inspector: bool,
     /// What moves besides the bodies.
     pub motion: Motion,
+    /// What a person has zoomed and panned the plots to: a range of each axis, by its name. An axis without a range is
+    /// fitted.
+    pub plot_ranges: BTreeMap<String, [f64; 2]>,
     /// The zoom and the pan of each body, by its place in the scene; a body beyond the end is fitted.
     pub zoom_pans: Vec<ZoomPan>,
 }

@@ -31,7 +31,7 @@ impl Unit {
     pub fn on(self, coordinate: &Coordinate) -> String {
         match self {
             Unit::Of(unit) => unit.into(),
-            Unit::Coordinate => coordinate.unit.into(),
+            Unit::Coordinate => coordinate.shown_unit().into(),
             Unit::Velocity => format!("{}/s", coordinate.unit),
         }
     }

@@ -14,6 +14,10 @@ mod formulas;
 /// Points on the true motion over the tick: enough for it to look smooth if it makes less than a turn.
 const EXACT_POINTS: u32 = 48;
 
+/// Points of an orbit across a plot, and how often the place is halved at which it turns.
+const ORBIT_POINTS: u32 = 96;
+const HALVINGS: u32 = 40;
+
 /// A tick of a body in the phase plane of its first coordinate. Points are coordinate and velocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneStep {
@@ -33,6 +37,9 @@ pub struct OneStep {
     pub exact: Vec<[f64; 2]>,
     /// The weighted slopes added up, from the present state to the landing; empty if the landing is no such sum.
     pub chain: Vec<[f64; 2]>,
+    /// The change of the swing by the tick, as a part of it: of one tick, and of the same tick in twice as many steps.
+    /// `None` unless the body is linear, swings about 0 and conserves its energy.
+    pub growth: Option<[f64; 2]>,
 }
 
 /// An evaluation of the force.
@@ -68,6 +75,16 @@ impl Lab {
         one_step(&entrant.lane.bodies()[self.display().body], spec, race.tick(), tick)
     }
 
+    /// Lines through the states of the displayed body that have the energy of the state `through`, with coordinates in
+    /// `range`. Empty if the body has several coordinates, or conserves no energy.
+    pub fn orbit(&self, through: [f64; 2], range: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
+        let body = &self.selected().lane.bodies()[self.display().body];
+        match body.coordinates.len() {
+            1 => orbit(body, self.race().t(), through, range),
+            _ => Vec::new(),
+        }
+    }
+
     /// The evaluations in the next tick of the lane at this place among the entrants.
     pub fn evaluations_of_next_tick(&self, place: usize) -> u64 {
         let (race, mut lane) = (self.race(), self.race().entrants()[place].lane.clone());
@@ -98,9 +115,71 @@ fn one_step(body: &LaneBody, spec: LaneSpec, number: u64, tick: Tick) -> Option<
         landing: recorded.landing.ok().map(|[q, v]| [q[0], v[0]]),
         exact: exact(body, tick),
         chain: Vec::new(),
+        growth: growth(body, spec, tick),
     };
     step.chain = chain(&step);
     Some(step)
+}
+
+/// The change of the swing by a tick; see [`OneStep::growth`].
+fn growth(body: &LaneBody, spec: LaneSpec, Tick { t, h, substeps }: Tick) -> Option<[f64; 2]> {
+    let stepper = &body.stepper;
+    let mut at_rest = [0.0];
+    if body.coordinates.len() > 1 || !stepper.is_linear() {
+        return None;
+    }
+    stepper.acceleration(t, &[0.0], &[0.0], &mut at_rest);
+    let before = stepper.energy().filter(|&energy| energy > 0.0 && at_rest == [0.0])?;
+    let mut copy = stepper.clone();
+    let mut by = |substeps: u32| {
+        let [q, v] = stepper.recorded(spec.method, t, h, substeps)?.landing.ok()?;
+        copy.set(t, &q, &v);
+        Some((copy.energy()? / before).sqrt() - 1.0)
+    };
+    Some([by(substeps)?, by(2 * substeps)?])
+}
+
+/// The states of a body of one coordinate that have the energy of `through`, with coordinates from `low` to `high`: lines
+/// through them. Empty if the body conserves no energy.
+fn orbit(body: &LaneBody, t: f64, through: [f64; 2], [low, high]: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
+    let mut copy = body.stepper.clone();
+    let mut energy = |q: f64, v: f64| {
+        copy.set(t, &[q], &[v]);
+        copy.energy()
+    };
+    let mut speed = |q: f64| {
+        let (potential, kinetic) = (energy(q, 0.0)?, energy(q, 1.0)? - energy(q, 0.0)?);
+        Some(((energy(through[0], through[1])? - potential) / kinetic).sqrt())
+    };
+    let part = |i: u32| low + (high - low) * f64::from(i) / f64::from(ORBIT_POINTS);
+    let mut pieces = Vec::new();
+    let mut piece: Vec<[f64; 2]> = Vec::new();
+    for i in 0..=ORBIT_POINTS {
+        let Some(v) = speed(part(i)) else { return Vec::new() };
+        let was_seen = !piece.is_empty();
+        if i > 0 && was_seen != v.is_finite() {
+            // It turns between these two.
+            let (mut inside, mut outside) =
+                if was_seen { (part(i - 1), part(i)) } else { (part(i), part(i - 1)) };
+            for _ in 0..HALVINGS {
+                let middle = (inside + outside) / 2.0;
+                match speed(middle).is_some_and(f64::is_finite) {
+                    true => inside = middle,
+                    false => outside = middle,
+                }
+            }
+            piece.push([inside, 0.0]);
+        }
+        if v.is_finite() {
+            piece.push([part(i), v]);
+        } else if was_seen {
+            pieces.push(std::mem::take(&mut piece));
+        }
+    }
+    pieces.push(piece);
+    let mirrored = |line: &Vec<[f64; 2]>| line.iter().map(|[q, v]| [*q, -v]).collect();
+    let below: Vec<Vec<[f64; 2]>> = pieces.iter().map(mirrored).collect();
+    pieces.into_iter().chain(below).filter(|line| line.len() > 1).collect()
 }
 
 /// The true motion from the present state.

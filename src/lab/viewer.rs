@@ -1,5 +1,7 @@
 //! What a person looks at. It does not change a run and is not part of one.
 
+use std::collections::BTreeMap;
+
 use super::analysis::{Advice, Findings, StabilityMap, Verdict};
 use super::command::USUAL_SCALE_PERCENT;
 use super::display::{Arrangement, Display, Motion, Pace};
@@ -90,6 +92,7 @@ impl Viewer {
                 help: false,
                 inspector: false,
                 motion: Motion::Recorded,
+                plot_ranges: BTreeMap::new(),
                 zoom_pans: Vec::new(),
             },
             selected,

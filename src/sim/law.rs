@@ -40,6 +40,11 @@ pub const MOST_CONSTANTS: usize = 64;
 pub const UNITS: [&str; 14] =
     ["m", "rad", "km", "cm", "mm", "deg", "kg", "N", "J", "V", "A", "C", "K", "1"];
 
+/// A unit for people: empty for that of a pure number.
+pub(in crate::sim) fn shown_unit(unit: &'static str) -> &'static str {
+    if unit == "1" { "" } else { unit }
+}
+
 /// The operators of expressions: signs and words.
 pub fn operators() -> impl Iterator<Item = &'static str> {
     token::operator_signs().chain(op::OPERATOR_WORDS)
@@ -171,10 +176,7 @@ impl Equations {
     /// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate.
     pub fn drawn_unit(&self) -> &'static str {
         let drawn = self.text.plane.map_or(0, |[x, _]| x);
-        match self.text.coordinates[drawn].unit {
-            "1" => "",
-            unit => unit,
-        }
+        shown_unit(self.text.coordinates[drawn].unit)
     }
 
     /// The text of a part.

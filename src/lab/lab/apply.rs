@@ -125,6 +125,7 @@ impl Lab {
             Command::Instrument(instrument) => self.viewer.display.instrument = instrument,
             Command::Quantity(quantity) => self.viewer.display.quantity = quantity,
             Command::Coordinate { body, coordinate } => self.plot_coordinate(body, coordinate),
+            Command::PlotRanges(ranges) => self.viewer.display.plot_ranges = ranges,
             Command::MapParameter(parameter) => {
                 let display = &mut self.viewer.display;
                 display.mapped_parameter = Some((display.body, parameter));

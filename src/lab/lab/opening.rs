@@ -1,5 +1,6 @@
 //! Opening built-in scenes and scene files, which may change while they run.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::Lab;
@@ -154,8 +155,13 @@ impl Lab {
         lab.scene_list = self.scene_list.clone();
         lab.scene_list.set_open(place);
         lab.start.mode = if lab.scene().opens_as_race { Mode::Race } else { self.mode() };
-        let (coordinates, zoom_pans) = (Vec::new(), Vec::new());
-        lab.viewer.display = Display { body: 0, coordinates, zoom_pans, ..self.display().clone() };
+        lab.viewer.display = Display {
+            body: 0,
+            coordinates: Vec::new(),
+            plot_ranges: BTreeMap::new(),
+            zoom_pans: Vec::new(),
+            ..self.display().clone()
+        };
         lab.viewer.typed_path = self.viewer.typed_path.clone();
         lab.viewer.pace = self.viewer.pace;
         lab.viewer.theme_is_chosen = self.viewer.theme_is_chosen;

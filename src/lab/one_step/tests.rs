@@ -116,3 +116,39 @@ fn the_time_of_a_tick_is_the_least_of_its_runs_and_a_halted_lane_has_none() {
     let lane = &stiff.race().entrants()[0].lane;
     assert_eq!(lane.ns_per_tick(start, 400, 1, || 0), None);
 }
+
+#[test]
+fn runge_kutta_4_loses_the_same_part_of_the_swing_in_every_tick_and_a_32nd_of_it_in_half_ticks() {
+    for ticks in [0, 1, 5] {
+        let mut lab = lab("spring", "rk4", 0);
+        lab.apply(Command::TickHz(5));
+        lab.apply(Command::Restart);
+        (0..ticks).for_each(|_| lab.tick());
+        let [whole, halves] = lab.one_step().unwrap().growth.unwrap();
+        // |R(iz)|² = 1 - z⁶/72 + z⁸/576 with z = 2π/5.
+        let z = std::f64::consts::TAU / 5.0;
+        let wanted = (1.0 - z.powi(6) / 72.0 + z.powi(8) / 576.0).sqrt() - 1.0;
+        assert!((whole - wanted).abs() < 1e-6, "{whole}, not {wanted}");
+        assert!((25.0..40.0).contains(&(whole / halves)), "{}", whole / halves);
+    }
+    assert_eq!(lab("ship", "rk4", 3).one_step().unwrap().growth, None, "a ship does not swing");
+    assert_eq!(lab("chain", "rk4", 3).one_step().unwrap().growth, None);
+}
+
+#[test]
+fn an_orbit_has_the_energy_of_its_state_and_turns_where_it_has_no_speed() {
+    let lab = lab("spring", "rk4", 7);
+    let tau = std::f64::consts::TAU;
+    let size = |[q, v]: [f64; 2]| libm::hypot(q, v / tau);
+    let from = lab.one_step().unwrap().from;
+    let lines = lab.orbit(from, [-0.2, 2.0]);
+    assert_eq!(lines.len(), 2, "above and below");
+    for line in &lines {
+        assert!(line.len() > 40);
+        for at in line {
+            assert!((size(*at) - size(from)).abs() < 1e-6, "{at:?}");
+        }
+        let last = line[line.len() - 1];
+        assert!(last[1] == 0.0 && (last[0] - size(from)).abs() < 1e-9, "{last:?}");
+    }
+}

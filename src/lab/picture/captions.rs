@@ -210,13 +210,14 @@ fn state(
             None => moment.lab.shown_state(body),
         };
         let coordinate = &body.coordinates[0];
+        let place = format!("{} {}", significant(q[0], 4), coordinate.shown_unit());
         let words = format!(
-            "{} = {} {unit}   {} = {} {unit}/s",
+            "{} = {}   {} = {} {}/s",
             coordinate.name,
-            significant(q[0], 4),
+            place.trim_end(),
             coordinate.velocity,
             significant(v[0], 4),
-            unit = coordinate.unit,
+            coordinate.unit,
         );
         picture.labels.push(text(palette, at, Align::Left, 12.5, palette.dim, words));
     }
@@ -259,8 +260,9 @@ impl Chip {
         let lane = furthest(&mut samples.map(|sample| sample.q));
         let samples = past.truth_curves()[index].since(since_s);
         let exact = furthest(&mut samples.map(|sample| sample.q));
-        let unit = moment.lab.race().truth().bodies()[index].coordinates[0].unit;
-        let how_far = |reach: f64| format!("{} {unit}", significant(reach, 2));
+        let unit = moment.lab.race().truth().bodies()[index].coordinates[0].shown_unit();
+        let how_far =
+            |reach: f64| format!("{} {unit}", significant(reach, 2)).trim_end().to_owned();
         Some(Self {
             sign,
             colours: [tone, moment.style(entrant.entry).0],

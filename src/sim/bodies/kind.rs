@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::own_sheet::OwnSheet;
-use crate::sim::law::Equations;
+use crate::sim::law::{Equations, shown_unit};
 use crate::sim::net_plan::NetPlan;
 use crate::sim::parameter::{Fault, Parameter};
 use crate::sim::reference::REFERENCE_ACCURACY;
@@ -123,4 +123,11 @@ pub struct Coordinate {
     pub velocity: &'static str,
     /// Its unit.
     pub unit: &'static str,
+}
+
+impl Coordinate {
+    /// Its unit for people: empty for a pure number.
+    pub fn shown_unit(&self) -> &'static str {
+        shown_unit(self.unit)
+    }
 }

@@ -2,6 +2,8 @@
 
 use std::any::Any;
 
+use crate::sim::law::shown_unit;
+
 /// What is known of a body of one's own beside its motion.
 #[derive(Debug)]
 pub struct OwnSheet {
@@ -17,6 +19,6 @@ impl OwnSheet {
     /// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate.
     pub fn drawn_unit(&self) -> &'static str {
         let [_, unit] = self.coordinates[self.plane.map_or(0, |[x, _]| x)];
-        if unit == "1" { "" } else { unit }
+        shown_unit(unit)
     }
 }

@@ -7,7 +7,7 @@ use egui::{Button, Color32, ComboBox, FontId, Label, Rect, RichText, Sense, Stro
 
 use super::roster::Roster;
 use super::tracks::Detail;
-use super::{advice, cost, ink, loops, one_step, stability_map};
+use super::{advice, cost, focus_ring, ink, loops, one_step, stability_map};
 use crate::lab::{
     Command, Coordinate, FRAME_METRICS, INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow,
     Lab, METRICS, Quantity,
@@ -43,9 +43,25 @@ const WIDTH_BESIDE_TITLE: f32 = 420.0;
 /// The length of a line in the legend, in points.
 const SWATCH: f32 = 26.0;
 
-pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
-    tabs(ui, lab, commands);
+/// The least height of an instrument with its tabs, in points: below it the plot is a smudge, or words lie over words.
+pub(super) fn least_height(instrument: Instrument) -> f32 {
+    match instrument {
+        Instrument::OneStep => 430.0,
+        Instrument::StabilityMap | Instrument::Loop => 300.0,
+        Instrument::Energy | Instrument::Phase => 260.0,
+        Instrument::Motion | Instrument::Error | Instrument::Cost | Instrument::Advice => 200.0,
+    }
+}
+
+/// Shows the tabs, `indent` points from the left, and the chosen instrument.
+pub(super) fn show(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
+    tabs(ui, lab, indent, commands);
     ui.add_space(2.0);
+    show_alone(ui, lab, commands);
+}
+
+/// Shows the chosen instrument without tabs.
+pub(super) fn show_alone(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let room = ui.available_size() - vec2(10.0, 2.0);
     match lab.display().instrument {
         Instrument::Motion | Instrument::Error | Instrument::Energy | Instrument::Phase => {
@@ -63,7 +79,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 /// How closely a person looks at the plots in all that is left of `ui`.
 fn detail(ui: &Ui, lab: &Lab) -> Detail {
     let room = ui.available_rect_before_wrap();
-    match ui.rect_contains_pointer(room) || chart::is_zoomed(ui, lab) {
+    match ui.rect_contains_pointer(room) || chart::is_zoomed(lab) {
         true => Detail::Samples,
         false => Detail::Columns(room.width() * ui.pixels_per_point()),
     }
@@ -88,9 +104,10 @@ fn sheet_of(lab: &Lab, detail: Detail) -> Option<Sheet> {
 }
 
 /// Two rows of tabs.
-fn tabs(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
+fn tabs(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
     for row in InstrumentRow::ALL {
         ui.horizontal_wrapped(|ui| {
+            ui.add_space(indent);
             ui.spacing_mut().item_spacing.x = 2.0;
             let height = ui.spacing().interact_size.y;
             let (place, _) = ui.allocate_exact_size(vec2(ROW_NAME, height), Sense::hover());
@@ -267,6 +284,7 @@ fn legend(ui: &mut Ui, lines: &[LegendLine], roster: &Roster, commands: &mut Vec
         let at = rect.left_center() + vec2(SWATCH + 6.0, -words.size().y / 2.0);
         ui.painter().galley(at, words, inked);
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
+        focus_ring(ui, &response);
         if response.clicked() && roster.is_race {
             commands.extend(entry.map(Command::Pick));
         }

@@ -55,11 +55,9 @@ const HEIGHT_FOR_TIMES: f32 = 560.0;
 /// The part of the width that the instruments take.
 const INSTRUMENTS: f32 = 0.38;
 
-/// The part of their height that the inspector takes at first, the height in points from which on it leaves them some,
-/// and the least that either has.
+/// The part of their height that the inspector takes at first, where it leaves them enough, and the least that it has.
 const INSPECTOR: f32 = 0.62;
-const HEIGHT_FOR_INSPECTOR_BELOW: f32 = 330.0;
-const LEAST_BESIDE: f32 = 110.0;
+const LEAST_INSPECTOR: f32 = 130.0;
 
 /// Shows all panels. Returns what was asked for and the rectangle left for the stage, in points.
 pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
@@ -76,7 +74,8 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
         panel.show(ui, |ui| footer::show(ui, lab, &mut commands));
     }
     let mut pointed = None;
-    if size.y >= HEIGHT_FOR_LANES {
+    // An instrument that is enlarged has the table's room too.
+    if size.y >= HEIGHT_FOR_LANES && !lab.display().enlarged {
         let height = lab.loop_lab().map_or_else(|| lanes::height(lab), loops::table::height);
         let height = height.min(size.y * 0.4);
         // Without a margin: a row reaches from edge to edge.
@@ -103,13 +102,20 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
         });
     }
     if size.x >= WIDTH_FOR_INSTRUMENTS {
-        let width = if lab.display().enlarged { size.x } else { size.x * INSTRUMENTS };
+        let beside = size.x * INSTRUMENTS;
+        let (width, indent) = match lab.display().enlarged {
+            // The tabs stay where they are, under the pointer.
+            true => (size.x, size.x - beside),
+            false => (beside, 0.0),
+        };
         let panel =
             egui::Panel::right("instruments").exact_size(width).frame(frame(ink(ui).background));
         panel.show(ui, |ui| {
-            // The panel is as wide as what is in it.
-            ui.set_min_size(ui.available_size());
-            beside_the_stage(ui, lab, &mut commands);
+            // What is wider than the panel does not move its edge.
+            let room = ui.available_rect_before_wrap();
+            ui.allocate_rect(room, egui::Sense::hover());
+            let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(room));
+            beside_the_stage(&mut inside, lab, indent, &mut commands);
         });
     }
     if let Some(tour) = lab.viewer().tour() {
@@ -132,23 +138,37 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
 pub(super) fn show_instrument(ui: &mut Ui, lab: &Lab) {
     let frame = Frame::new().fill(ink(ui).background).inner_margin(Margin::symmetric(8, 4));
     let panel = egui::CentralPanel::default_margins().frame(frame);
-    panel.show(ui, |ui| instruments::show(ui, lab, &mut Vec::new()));
+    panel.show(ui, |ui| instruments::show_alone(ui, lab, &mut Vec::new()));
 }
 
 /// The instruments; with the inspector open they keep the upper part, where there is room for both.
-fn beside_the_stage(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
-    let height = ui.available_height();
+fn beside_the_stage(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
+    let most = ui.available_height() - instruments::least_height(lab.display().instrument);
     if !lab.display().inspector || lab.display().enlarged {
-        instruments::show(ui, lab, commands);
-    } else if height < HEIGHT_FOR_INSPECTOR_BELOW {
+        instruments::show(ui, lab, indent, commands);
+    } else if most < LEAST_INSPECTOR {
         inspector::show(ui, lab, commands);
     } else {
-        let panel = egui::Panel::bottom("inspector").default_size(height * INSPECTOR);
-        let panel = panel.size_range(LEAST_BESIDE..=height - LEAST_BESIDE).resizable(true);
+        let usual = (ui.available_height() * INSPECTOR).min(most);
+        let panel = egui::Panel::bottom("inspector").default_size(usual);
+        let panel = panel.size_range(LEAST_INSPECTOR..=most).resizable(true);
         let frame = Frame::new().inner_margin(Margin { top: 6, ..Margin::ZERO });
         panel.frame(frame).show(ui, |ui| inspector::show(ui, lab, commands));
-        instruments::show(ui, lab, commands);
+        instruments::show(ui, lab, indent, commands);
     }
+}
+
+/// Draws a ring round a widget that has the keyboard's focus and draws none of its own.
+fn focus_ring(ui: &Ui, response: &egui::Response) {
+    if response.has_focus() {
+        ring(ui, response.rect);
+    }
+}
+
+/// Draws the ring of the keyboard's focus.
+fn ring(ui: &Ui, rect: Rect) {
+    let stroke = egui::Stroke::new(1.6, ink(ui).accent);
+    ui.painter().rect_stroke(rect, 3.0, stroke, egui::StrokeKind::Inside);
 }
 
 fn frame(fill: Color32) -> Frame {

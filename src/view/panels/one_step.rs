@@ -8,7 +8,7 @@ use egui::{
 use super::plot_area::{PlotArea, arrow, label};
 use super::{colour, formula, ink, strong_font};
 use crate::lab::number::{round, significant};
-use crate::lab::{Lab, OneStep, Slope};
+use crate::lab::{Coordinate, Lab, OneStep, Slope, Unit};
 
 mod loupe;
 
@@ -29,6 +29,8 @@ const STATE: f32 = 5.0;
 const BADGE: f32 = 8.0;
 /// The length of the longest slope, as a part of the plot's diagonal.
 const SLOPE: f32 = 0.13;
+/// How much of its colour an orbit of constant energy has.
+const ORBIT: f32 = 0.7;
 /// The most evaluations that are drawn: an implicit or an adaptive method may take hundreds.
 const MOST_DRAWN: usize = 12;
 /// How much wider the plot is than what it shows.
@@ -102,13 +104,22 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     area.axes(&painter, ink, [&area.marks(0, 64.0), &area.marks(1, 26.0)]);
     let coordinate = &lab.race().truth().bodies()[lab.display().body].coordinates[0];
     let small = FontId::proportional(11.5);
-    let up = format!("velocity {}, {}/s", coordinate.velocity, coordinate.unit);
+    let up = format!("velocity {}, {}", coordinate.velocity, Unit::Velocity.on(coordinate));
     painter.text(whole.left_top(), Align2::LEFT_TOP, up, small.clone(), ink.dim);
-    let along = format!("{}, {}", coordinate.name, coordinate.unit);
+    let along = headed(coordinate.name, coordinate.shown_unit());
     painter.text(rect.right_top(), Align2::RIGHT_BOTTOM, along, small, ink.dim);
 
     let painter = painter.with_clip_rect(rect);
     let own = ink.style(lab.entries(), &step.spec).0;
+    // The states with the energy of the present one, and of the landing.
+    for (through, colour) in [(Some(step.from), ink.exact), (step.landing, own)] {
+        let lines = through.map(|through| lab.orbit(through, area.bounds[0])).unwrap_or_default();
+        for line in lines {
+            let line: Vec<Pos2> = line.into_iter().map(|point| area.at(point)).collect();
+            let thin = Stroke::new(1.0, colour.gamma_multiply(ORBIT));
+            painter.extend(egui::Shape::dashed_line(&line, thin, 6.0, 4.0));
+        }
+    }
     let exact: Vec<Pos2> = step.exact.iter().map(|point| area.at(*point)).collect();
     painter.line(exact, Stroke::new(2.4, ink.exact));
     let from = area.at(step.from);
@@ -245,13 +256,12 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
         }
         let grid = Grid::new("evaluations").num_columns(5).spacing([14.0, 1.0]).striped(true);
         grid.min_row_height(ROW - 2.0).show(ui, |ui| {
-            let unit = coordinate.unit;
             for head in [
                 String::new(),
                 "at".into(),
-                format!("{q}, {unit}"),
-                format!("{v}, {unit}/s"),
-                format!("a, {unit}/s²"),
+                headed(q, coordinate.shown_unit()),
+                headed(v, &Unit::Velocity.on(coordinate)),
+                format!("a, {}/s²", coordinate.unit),
             ] {
                 ui.label(RichText::new(head).size(11.0).color(ink(ui).dim));
             }
@@ -259,9 +269,9 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
             for (number, colour, slope) in drawn(ui, step) {
                 let (rect, _) = ui.allocate_exact_size(vec2(20.0, 18.0), Sense::hover());
                 badge(ui.painter(), rect.center(), number, [colour, ink(ui).background]);
-                ui.label(when(slope.when));
+                ui.label(RichText::new(when(slope.when)).color(colour));
                 for value in [slope.at[0], slope.at[1], slope.slope[1]] {
-                    ui.label(signed(value));
+                    ui.label(RichText::new(signed(value)).color(colour));
                 }
                 ui.end_row();
             }
@@ -278,18 +288,23 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
                 ui.end_row();
             }
         });
-        ui.add(Label::new(RichText::new(words(step, coordinate.unit)).color(ink(ui).text)).wrap());
+        ui.add(Label::new(RichText::new(words(step, coordinate)).color(ink(ui).text)).wrap());
     });
 }
 
-/// A part of the tick: `½ h`.
+/// A quantity with its unit, if it has one.
+fn headed(quantity: &str, unit: &str) -> String {
+    if unit.is_empty() { quantity.into() } else { format!("{quantity}, {unit}") }
+}
+
+/// A moment of the tick in words.
 fn when(part: f64) -> String {
     let is = |wanted: f64| (part - wanted).abs() < 1e-9;
     match part {
-        _ if is(0.0) => "t".into(),
-        _ if is(0.5) => "t + ½h".into(),
-        _ if is(1.0) => "t + h".into(),
-        part => format!("t + {}h", round(part, 3)),
+        _ if is(0.0) => "the start".into(),
+        _ if is(0.5) => "half-way".into(),
+        _ if is(1.0) => "the end".into(),
+        part => format!("{} h", round(part, 3)),
     }
 }
 
@@ -301,16 +316,41 @@ fn signed(value: f64) -> String {
     format!("{sign}{}", significant(value, 4))
 }
 
-/// How far the tick misses, and what is not drawn.
-fn words(step: &OneStep, unit: &str) -> String {
+/// A change of the swing below this part is rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// What the tick does to the swing, and what half the tick would.
+fn swing([whole, halves]: [f64; 2]) -> String {
+    if whole.abs() < ROUNDING {
+        return "This tick keeps the swing.".into();
+    }
+    let does = if whole < 0.0 { "loses" } else { "gains" };
+    let percent = significant(100.0 * whole.abs(), 2);
+    let ratio = (whole / halves).round();
+    let half = match ratio >= 2.0 && halves.abs() >= ROUNDING {
+        true => format!("; half the tick, 1/{ratio} of that"),
+        false => String::new(),
+    };
+    format!("This tick {does} {percent} % of the swing{half}.")
+}
+
+/// What the tick does to the swing, how far it misses, and what is not drawn.
+fn words(step: &OneStep, coordinate: &Coordinate) -> String {
     let mut words = match (step.landing, step.exact_landing()) {
         (None, _) => "The method fails in this tick.".into(),
         (_, None) => "The exact motion from this state is not known.".into(),
         (Some(landing), Some(exact)) => {
-            let [q, v] = std::array::from_fn(|i| significant((landing[i] - exact[i]).abs(), 2));
-            format!("This tick alone misses the exact motion by {q} {unit} and {v} {unit}/s.")
+            let units = [Unit::Coordinate, Unit::Velocity].map(|unit| unit.on(coordinate));
+            let [q, v] = std::array::from_fn(|i| {
+                let missed = significant((landing[i] - exact[i]).abs(), 2);
+                format!("{missed} {}", units[i]).trim_end().to_owned()
+            });
+            format!("This tick alone misses the exact motion by {q} and {v}.")
         }
     };
+    if let Some(growth) = step.growth {
+        words = format!("{} {words}", swing(growth));
+    }
     let more = step.evaluations.len().saturating_sub(MOST_DRAWN);
     if more > 0 {
         words += &format!(" {more} more evaluations are not drawn.");

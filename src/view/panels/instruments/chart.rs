@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use egui::{Align2, FontId, Id, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, pos2, vec2};
+use egui::{Align2, FontId, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, pos2, vec2};
 use egui_plot::PlotBounds;
 
-use super::super::ink;
 use super::super::roster::Roster;
+use super::super::{focus_ring, ink, ring, short};
 use super::hover;
 use super::layout::{Cell, MARKS_APART, NUMBER, NUMBERS, TITLE, WORDS, cells};
 use super::sheet::Sheet;
@@ -21,37 +21,16 @@ const WHEEL: f32 = 200.0;
 /// How far from a curve a click still picks it, in points.
 const NEAR: f32 = 9.0;
 
-/// What a person has zoomed and panned to: a range of each axis, by its name. An axis without a range is fitted.
-#[derive(Clone, Default)]
+/// What a person zooms and pans to: a range of each axis, by its name.
 struct Views(BTreeMap<String, [f64; 2]>);
 
 impl Views {
-    fn id(lab: &Lab) -> Id {
-        Id::unique(("plots", lab.scene_name(), lab.loop_lab().is_some()))
-    }
-
-    fn of(ui: &Ui, lab: &Lab) -> Self {
-        ui.data(|data| data.get_temp(Self::id(lab))).unwrap_or_default()
-    }
-
-    /// The names of a cell's axes. All plots over time have the same time in view.
-    fn names(cell: &Cell<'_>) -> [String; 2] {
-        let along = if cell.plot.is_over_time() { "time" } else { &cell.plot.id };
-        [format!("{along}, along"), format!("{}, up", cell.plot.id)]
-    }
-
     fn bounds(&self, cell: &Cell<'_>) -> PlotBounds {
-        let names = Self::names(cell);
-        let (low, high) = (cell.plot.fit.min(), cell.plot.fit.max());
-        let ranges = [0, 1].map(|axis| {
-            let fit = [low[axis], high[axis]];
-            self.0.get(&names[axis]).copied().unwrap_or(fit)
-        });
-        PlotBounds::from_min_max([ranges[0][0], ranges[1][0]], [ranges[0][1], ranges[1][1]])
+        cell.plot.in_view(&self.0)
     }
 
     fn fit(&mut self, cell: &Cell<'_>) {
-        let names = Self::names(cell);
+        let names = cell.plot.axis_names();
         self.0.retain(|name, _| !names.contains(name));
     }
 
@@ -59,7 +38,7 @@ impl Views {
     fn show(&mut self, cell: &Cell<'_>, part: [[f64; 2]; 2]) {
         let bounds = self.bounds(cell);
         let (low, high) = (bounds.min(), bounds.max());
-        for (axis, name) in Self::names(cell).into_iter().enumerate() {
+        for (axis, name) in cell.plot.axis_names().into_iter().enumerate() {
             let wide = high[axis] - low[axis];
             let range = part[axis].map(|part| low[axis] + part * wide);
             let far = range[0].abs().max(range[1].abs());
@@ -89,11 +68,11 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
     let room = ui.available_rect_before_wrap();
     ui.allocate_rect(room, Sense::hover());
     let body = lab.display().body;
-    let mut views = Views::of(ui, lab);
+    let mut views = Views(lab.display().plot_ranges.clone());
     // The heights of plots do not depend on the room beside them.
     let left = room_for_numbers(ui, &cells(sheet, room, LEFT, body), &views);
     let cells = cells(sheet, room, left, body);
-    let mut pointer = None;
+    let (mut pointer, mut focused) = (None, None);
     for (place, cell) in cells.iter().enumerate().filter(|(_, cell)| cell.plot.nothing.is_none()) {
         let response =
             ui.interact(cell.frame, ui.scope_id().with(&cell.plot.id), Sense::click_and_drag());
@@ -110,6 +89,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
         } else if response.dragged() {
             views.pan(cell, response.drag_delta());
         }
+        focused = focused.or(response.has_focus().then_some(response.rect));
         response.context_menu(|ui| menu(ui, cell, &mut views, commands));
     }
     for (place, cell) in cells.iter().enumerate() {
@@ -122,12 +102,15 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Com
             hover::show(ui, &sheet.roster, cell, &bounds(cell), t, place == 0);
         }
     }
-    ui.data_mut(|data| data.insert_temp(Views::id(lab), views));
+    focused.into_iter().for_each(|rect| ring(ui, rect));
+    if views.0 != lab.display().plot_ranges {
+        commands.push(Command::PlotRanges(views.0));
+    }
 }
 
 /// Whether a person has zoomed or panned.
-pub(super) fn is_zoomed(ui: &Ui, lab: &Lab) -> bool {
-    !Views::of(ui, lab).0.is_empty()
+pub(super) fn is_zoomed(lab: &Lab) -> bool {
+    !lab.display().plot_ranges.is_empty()
 }
 
 /// The room that the numbers of all plots take, in points.
@@ -225,7 +208,8 @@ fn show_plot(
     let title = pos2(frame.left().max(name.right() + 12.0), edge.y);
     let is_chosen = lab.display().body == plot.body;
     let font = if is_chosen { strong_font(WORDS) } else { FontId::proportional(WORDS) };
-    let words = painter.layout_no_wrap(plot.title.clone(), font, ink.text);
+    // Up to the values beside the plot.
+    let (words, is_whole) = short(ui, &plot.title, font, frame.right() - title.x, ink.text);
     let at = Align2::LEFT_CENTER.anchor_size(title, words.size()).min;
     let response = ui.interact(
         Rect::from_min_size(at, words.size()),
@@ -233,7 +217,11 @@ fn show_plot(
         Sense::click(),
     );
     painter.galley(at, words, ink.text);
-    if response.on_hover_text("show this body large, and in the other instruments").clicked() {
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &plot.title));
+    focus_ring(ui, &response);
+    let about = "show this body large, and in the other instruments";
+    let about = if is_whole { about.into() } else { format!("{}\n{about}", plot.title) };
+    if response.on_hover_text(about).clicked() {
         commands.push(Command::Body(plot.body));
     }
     if let Some(why) = &plot.nothing {

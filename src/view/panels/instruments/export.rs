@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use egui::{Color32, Pos2, Rect, pos2, vec2};
+use egui_plot::PlotBounds;
 
 use super::super::roster::Roster;
 use super::super::tracks::Detail;
@@ -162,14 +163,14 @@ impl Svg {
 
     fn plot(&mut self, lab: &Lab, roster: &Roster, cell: &Cell<'_>, place: usize) {
         let (frame, plot, ink) = (cell.frame, cell.plot, self.ink);
-        let bounds = plot.fit;
+        let bounds = plot.in_view(&lab.display().plot_ranges);
         self.rect(frame, ink.plot);
         let title = pos2(frame.center().x, frame.top() - TITLE / 2.0 + 4.0);
         self.words(title, "middle", WORDS, ink.text, &plot.title);
         if let Some(why) = &plot.nothing {
             return self.words(frame.center(), "middle", WORDS, ink.dim, why);
         }
-        self.axes(cell);
+        self.axes(cell, &bounds);
         let drawing = plot.drawing(lab, roster, &bounds, frame.width());
         self.line(format!(r#"<clipPath id="plot{place}">"#));
         self.rect(frame, ink.plot);
@@ -207,14 +208,14 @@ impl Svg {
         self.line("</g>".into());
     }
 
-    fn axes(&mut self, cell: &Cell<'_>) {
+    fn axes(&mut self, cell: &Cell<'_>, bounds: &PlotBounds) {
         let (frame, plot, ink) = (cell.frame, cell.plot, self.ink);
-        let (low, high) = (plot.fit.min(), plot.fit.max());
+        let (low, high) = (bounds.min(), bounds.max());
         let grid = (ink.grid, 1.0);
         let [along, up] = &plot.axes;
         let room = f64::from(frame.width());
         for (place, text) in along.scale.marks((low[0], high[0]), room, MARKS_APART[0]) {
-            let at = on_screen(frame, &plot.fit, [place, low[1]]);
+            let at = on_screen(frame, bounds, [place, low[1]]);
             self.stroke(&[pos2(at.x, frame.top()), at], grid, [1.0, 0.0]);
             if cell.is_lowest {
                 self.words(at + vec2(0.0, 14.0), "middle", NUMBER, ink.dim, &text);
@@ -222,7 +223,7 @@ impl Svg {
         }
         let room = f64::from(frame.height());
         for (place, text) in up.scale.marks((low[1], high[1]), room, MARKS_APART[1]) {
-            let at = on_screen(frame, &plot.fit, [low[0], place]);
+            let at = on_screen(frame, bounds, [low[0], place]);
             self.stroke(&[at, pos2(frame.right(), at.y)], grid, [1.0, 0.0]);
             self.words(at + vec2(-6.0, 4.0), "end", NUMBER, ink.dim, &text);
         }

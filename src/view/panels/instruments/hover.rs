@@ -73,7 +73,7 @@ pub(super) fn show(
         }
     }
     if cell.right > frame.right() {
-        values(ui, cell, bounds, readouts);
+        values(ui, cell, readouts);
     }
 }
 
@@ -96,8 +96,8 @@ fn time_tag(ui: &Ui, frame: Rect, x: f32, text: &str) {
     painter.galley(tag.min + vec2(7.0, 2.5), words, ink.on_accent);
 }
 
-/// Writes the values beside the plot, each near its curve and none over another.
-fn values(ui: &Ui, cell: &Cell<'_>, bounds: &PlotBounds, mut readouts: Vec<Readout>) {
+/// Writes the values beside the plot, in an order that stays: the exact solution, then the lanes by their numbers.
+fn values(ui: &Ui, cell: &Cell<'_>, mut readouts: Vec<Readout>) {
     let frame = cell.frame;
     let lines = |readout: &Readout| -> Vec<String> {
         let axes = cell.plot.axes.iter().zip(readout.at);
@@ -110,12 +110,9 @@ fn values(ui: &Ui, cell: &Cell<'_>, bounds: &PlotBounds, mut readouts: Vec<Reado
     if readouts.len() * each > most {
         readouts.retain(|readout| readout.is_front);
     }
-    readouts.sort_by(|a, b| b.at[1].total_cmp(&a.at[1]));
-    let heights = readouts
-        .iter()
-        .map(|readout| on_screen(frame, bounds, readout.at).y.clamp(frame.top(), frame.bottom()));
-    let places = spread(heights.collect(), LINE * each as f32, frame.bottom());
-    for (readout, y) in readouts.iter().zip(places) {
+    readouts.sort_by_key(|readout| readout.entry);
+    for (place, readout) in (0..).zip(&readouts) {
+        let y = frame.top() + LINE * ((place * each) as f32 + 0.5);
         let font = match readout.is_front {
             true => strong_font(WORDS),
             false => FontId::proportional(WORDS),
@@ -129,30 +126,5 @@ fn values(ui: &Ui, cell: &Cell<'_>, bounds: &PlotBounds, mut readouts: Vec<Reado
             let at = pos2(cell.right, y + LINE * line as f32);
             write(at, Align2::RIGHT_CENTER, &text);
         }
-    }
-}
-
-/// Heights at least `apart` from each other, in the same order, the last at most `lowest`.
-fn spread(mut heights: Vec<f32>, apart: f32, lowest: f32) -> Vec<f32> {
-    for i in 1..heights.len() {
-        heights[i] = heights[i].max(heights[i - 1] + apart);
-    }
-    let mut below = lowest + apart;
-    for height in heights.iter_mut().rev() {
-        *height = height.min(below - apart);
-        below = *height;
-    }
-    heights
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_keep_their_order_and_their_distance() {
-        assert_eq!(spread(vec![0.0, 1.0, 50.0], 10.0, 60.0), [0.0, 10.0, 50.0]);
-        assert_eq!(spread(vec![58.0, 59.0, 60.0], 10.0, 60.0), [40.0, 50.0, 60.0]);
-        assert_eq!(spread(Vec::new(), 10.0, 60.0), [0.0; 0]);
     }
 }

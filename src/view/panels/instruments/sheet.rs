@@ -1,6 +1,7 @@
 //! What an instrument shows, before it is drawn: plots over each other with one axis along. The window draws it, and what
 //! is copied or saved is made from it.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use egui::Color32;
@@ -13,7 +14,7 @@ use crate::lab::number::significant;
 use crate::lab::{Coordinate, Lab, LaneBody, Quantity, TruthCurve, TruthSample, Unit};
 use crate::view::axis_scale::AxisScale;
 use crate::view::curves::{Curve, Dots};
-use crate::view::plot::{Drawing, SwitchMark};
+use crate::view::plot::{Arrow, Drawing, SwitchMark};
 
 /// The width in points of the curve in front, and of the exact curve drawn over it: a lane that keeps to the truth is
 /// seen on both sides of it.
@@ -71,6 +72,8 @@ pub(super) struct ExactLine {
 
 /// The value of one curve at a moment.
 pub(super) struct Readout {
+    /// Its place on the roster; `None` for the exact solution.
+    pub(super) entry: Option<usize>,
     pub(super) colour: Color32,
     pub(super) is_front: bool,
     /// The digit of the method's key, and what the curve is of its lane.
@@ -86,7 +89,7 @@ impl PlotAxis {
 
     /// A coordinate.
     pub(super) fn of(coordinate: &Coordinate) -> Self {
-        Self::new(coordinate.name, coordinate.unit, AxisScale::Linear)
+        Self::new(coordinate.name, coordinate.shown_unit(), AxisScale::Linear)
     }
 
     /// The velocity of a coordinate.
@@ -265,6 +268,21 @@ impl PlotModel {
         self.axes[0].unit == "s"
     }
 
+    /// The names of its axes among all of a scene. All plots over one time have the same time in view.
+    pub(super) fn axis_names(&self) -> [String; 2] {
+        let along = if self.is_over_time() { &self.axes[0].quantity } else { &self.id };
+        [format!("{along}, along"), format!("{}, up", self.id)]
+    }
+
+    /// What is in view where these ranges are chosen.
+    pub(super) fn in_view(&self, ranges: &BTreeMap<String, [f64; 2]>) -> PlotBounds {
+        let names = self.axis_names();
+        let (low, high) = (self.fit.min(), self.fit.max());
+        let [x, y] =
+            [0, 1].map(|axis| ranges.get(&names[axis]).copied().unwrap_or([low[axis], high[axis]]));
+        PlotBounds::from_min_max([x[0], y[0]], [x[1], y[1]])
+    }
+
     /// Everything in the plot with `bounds` in view on so many columns of pixels.
     pub(super) fn drawing(
         &self,
@@ -281,6 +299,10 @@ impl PlotModel {
         let view = [bounds.min()[0], bounds.max()[0]];
         let curves = self.exact.iter().flat_map(|line| line.curves(truth, view, columns));
         drawing.truth = curves.collect();
+        if self.is_over_time() {
+            let left = drawing.truth.iter().filter_map(|curve| departure(curve, bounds));
+            drawing.arrows.extend(left.collect::<Vec<_>>());
+        }
         drawing
     }
 
@@ -290,14 +312,29 @@ impl PlotModel {
             let (entry, at) = track.at(t)?;
             let key = if roster.is_race { format!("{}", entry + 1) } else { String::new() };
             let (colour, name) = (roster.runners[entry].colour, joined(&key, track.part));
-            Some(Readout { colour, is_front: track.is_front, name, at })
+            Some(Readout { entry: Some(entry), colour, is_front: track.is_front, name, at })
         });
         let exact = self.exact.iter().filter_map(|line| {
             let (at, name) = (line.at(t)?, joined("", line.part));
-            Some(Readout { colour: roster.exact_colour, is_front: true, name, at })
+            Some(Readout { entry: None, colour: roster.exact_colour, is_front: true, name, at })
         });
         lanes.chain(exact).collect()
     }
+}
+
+/// Where a curve first leaves what is in view upwards or downwards, or where it ends if it is nowhere in view.
+fn departure(curve: &Curve, bounds: &PlotBounds) -> Option<Arrow> {
+    let (low, high) = (bounds.min(), bounds.max());
+    let is_at_hand = |at: &&[f64; 2]| (low[0]..=high[0]).contains(&at[0]);
+    let points: Vec<[f64; 2]> = curve.points.iter().filter(is_at_hand).copied().collect();
+    let is_seen = |at: &[f64; 2]| (low[1]..=high[1]).contains(&at[1]);
+    let leaves = points.windows(2).find(|ends| is_seen(&ends[0]) && !is_seen(&ends[1]));
+    let [from, to] = match leaves {
+        Some(ends) => [ends[0], ends[1]],
+        None if points.iter().any(is_seen) => return None,
+        None => [*points.last()?; 2],
+    };
+    Some(Arrow { from, to, colour: curve.colour })
 }
 
 fn joined(key: &str, part: &str) -> String {

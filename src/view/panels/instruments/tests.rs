@@ -10,6 +10,8 @@ use crate::lab::{Action, SCENES, Scene};
 use crate::view::panels;
 use crate::view::theme;
 
+mod shown;
+
 /// Every text that can be seen in a frame of this size, with its place.
 fn texts(lab: &Lab, size: Vec2) -> Vec<(Rect, String)> {
     let context = Context::default();
@@ -170,6 +172,15 @@ impl Person {
         (texts.into_iter().map(|(_, text)| text).collect(), commands)
     }
 
+    /// Shows a frame after these events, and does what was asked for. Returns every number in it.
+    fn numbers(&mut self, lab: &mut Lab, events: Vec<Event>) -> Vec<String> {
+        let (texts, commands) = self.frame(lab, events);
+        for command in commands {
+            lab.apply(command);
+        }
+        texts.into_iter().filter(|text| is_number(text)).collect()
+    }
+
     fn click(&mut self, lab: &Lab, at: Pos2) -> Vec<Command> {
         let button = |pressed| Event::PointerButton {
             pos: at,
@@ -205,14 +216,10 @@ fn a_pointer_reads_off_every_curve_at_its_time() {
 
 #[test]
 fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
-    let (lab, mut person) = (race_of_springs(), Person::new());
+    let (mut lab, mut person) = (race_of_springs(), Person::new());
     let at = FRAME.to_pos2() / 2.0;
-    let numbers = |person: &mut Person| -> Vec<String> {
-        let (texts, _) = person.frame(&lab, Vec::new());
-        texts.into_iter().filter(|text| is_number(text)).collect()
-    };
-    person.frame(&lab, vec![Event::PointerMoved(at)]);
-    let fitted = numbers(&mut person);
+    person.numbers(&mut lab, vec![Event::PointerMoved(at)]);
+    let fitted = person.numbers(&mut lab, Vec::new());
     let wheel = Event::MouseWheel {
         unit: MouseWheelUnit::Point,
         source: egui::MouseWheelSource::Unknown,
@@ -220,10 +227,12 @@ fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
         phase: TouchPhase::Move,
         modifiers: Modifiers::NONE,
     };
-    person.frame(&lab, vec![wheel]);
-    (0..40).for_each(|_| drop(person.frame(&lab, Vec::new())));
-    let zoomed = numbers(&mut person);
+    let drawn_whole = svg(&lab).unwrap();
+    person.numbers(&mut lab, vec![wheel]);
+    (0..40).for_each(|_| drop(person.numbers(&mut lab, Vec::new())));
+    let zoomed = person.numbers(&mut lab, Vec::new());
     assert_ne!(zoomed, fitted);
+    assert_ne!(svg(&lab).unwrap(), drawn_whole, "what is saved is what is seen");
     let button = |pos: Pos2, pressed: bool| Event::PointerButton {
         pos,
         button: PointerButton::Primary,
@@ -231,16 +240,21 @@ fn a_wheel_zooms_a_drag_pans_and_a_double_click_fits() {
         modifiers: Modifiers::NONE,
     };
     let to = at + vec2(-150.0, 0.0);
-    person.frame(&lab, vec![button(at, true)]);
-    person.frame(&lab, vec![Event::PointerMoved(to)]);
-    person.frame(&lab, vec![button(to, false)]);
-    let panned = numbers(&mut person);
+    person.numbers(&mut lab, vec![button(at, true)]);
+    person.numbers(&mut lab, vec![Event::PointerMoved(to)]);
+    person.numbers(&mut lab, vec![button(to, false)]);
+    let panned = person.numbers(&mut lab, Vec::new());
     assert_ne!(panned, zoomed);
     person.time += 1.0;
-    person.click(&lab, to);
-    person.click(&lab, to);
-    person.frame(&lab, vec![Event::PointerMoved(at)]);
-    assert_eq!(numbers(&mut person), fitted);
+    for _ in 0..2 {
+        let asked = person.click(&lab, to);
+        for command in asked {
+            lab.apply(command);
+        }
+    }
+    person.numbers(&mut lab, vec![Event::PointerMoved(at)]);
+    assert_eq!(person.numbers(&mut lab, Vec::new()), fitted);
+    assert_eq!(svg(&lab).unwrap(), drawn_whole);
 }
 
 #[test]
@@ -257,58 +271,6 @@ fn a_click_on_a_curve_selects_its_lane() {
     let is_pick = |command: &Command| *command == Command::Pick(widest);
     assert!(person.click(&lab, at).iter().any(is_pick));
     assert!(person.click(&lab, cell.frame.right_bottom() - vec2(9.0, 9.0)).is_empty());
-}
-
-#[test]
-fn motion_shows_the_chosen_quantity_and_its_table_follows() {
-    // The ship of the guide: Euler's speed is ahead of the exact one, and its place behind.
-    let mut lab = Lab::new(Scene::built_in("ship").unwrap());
-    let euler = lab.entries().iter().position(|spec| spec.method.id == "explicit-euler");
-    lab.apply(Command::Pick(euler.unwrap()));
-    lab.apply(Command::TickHz(2));
-    lab.apply(Command::Restart);
-    (0..17).for_each(|_| lab.tick());
-    let at_the_end = |lab: &Lab| {
-        let sheet = sheet_of(lab, Detail::Samples).unwrap();
-        let readouts = sheet.plots[0].readouts(&sheet.roster, 8.5);
-        [readouts[0].at[1], readouts[1].at[1]]
-    };
-    let [place, exact_place] = at_the_end(&lab);
-    assert!(place < exact_place - 1.0, "{place} and {exact_place}");
-    lab.apply(Command::Quantity(Quantity::Velocity));
-    let [speed, exact_speed] = at_the_end(&lab);
-    assert!((speed - 11.64).abs() < 0.01 && (exact_speed - 11.45).abs() < 0.01, "{speed}");
-    let table = csv(&lab).unwrap();
-    assert!(table.lines().skip(1).all(|line| line.contains(",v,m/s,")), "{table}");
-    assert!(svg(&lab).unwrap().contains(">v, m/s<"));
-    assert_legible(&lab, "the ship's velocity");
-}
-
-#[test]
-fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
-    let mut lab = Lab::new(Scene::built_in("bridge").unwrap());
-    let named = |lab: &Lab| lab.past().coordinate(lab.race(), 0).0.name;
-    assert_eq!(named(&lab), "y4", "the sag in the middle");
-    (0..90).for_each(|_| lab.tick());
-    let coordinates = lab.race().truth().bodies()[0].coordinates;
-    let chosen = coordinates.iter().position(|coordinate| coordinate.name == "x7").unwrap();
-    lab.apply(Command::Coordinate { body: 0, coordinate: chosen });
-    assert_eq!(lab.race().tick(), 90);
-    let table = csv(&lab).unwrap();
-    let rows: Vec<&str> = table.lines().filter(|line| line.contains(",x7,m,")).collect();
-    assert!(rows.len() > 90 && rows.len() + 1 == table.lines().count(), "from the start: {table}");
-    let now = lab.race().entrants()[0].lane.bodies()[0].stepper.q()[chosen];
-    let sheet = sheet_of(&lab, Detail::Samples).unwrap();
-    assert_eq!(sheet.plots[0].readouts(&sheet.roster, lab.race().t())[0].at[1], now);
-    // To go back repeats the run as it was recorded.
-    lab.apply(Command::Seek(40));
-    lab.apply(Command::Seek(90));
-    assert_eq!(csv(&lab).unwrap(), table);
-    lab.apply(Command::Restart);
-    assert_eq!(named(&lab), "x7", "the choice stays with the scene");
-    lab.apply(Command::Instrument(Instrument::Phase));
-    assert_legible(&lab, "the phase portrait of a node");
-    assert!(svg(&lab).unwrap().contains(">vx7, m/s<"));
 }
 
 #[test]
@@ -331,6 +293,10 @@ fn after_a_placement_the_axis_fits_the_new_swing_and_the_exact_line_is_broken() 
     let pieces = plot.drawing(&lab, &sheet.roster, &plot.fit, 400.0).truth;
     let starts: Vec<[f64; 2]> = pieces.iter().map(|curve| curve.points[0]).collect();
     assert_eq!(starts, [[0.0, 1.0], [2.0, 8.0], [7.0, 0.5]]);
+    // Where the exact line is out of view, arrows say so.
+    let white = sheet.roster.exact_colour;
+    let arrows = plot.drawing(&lab, &sheet.roster, &plot.fit, 400.0).arrows;
+    assert!(arrows.iter().any(|arrow| arrow.colour == white && arrow.from[0] < 7.0));
     // A parameter that is changed begins a new swing too, without a jump.
     lab.apply(Command::Act(Action::Set { body: 0, parameter: 1, value: 4.0 }));
     let before = lab.past().changed_s();

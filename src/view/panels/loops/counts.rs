@@ -59,9 +59,21 @@ fn percent(share: f64) -> String {
     }
 }
 
+/// The shares, for who hears them.
+fn in_words(series: &[Series]) -> String {
+    let of_one = |series: &Series| {
+        let shares = NAMES.iter().zip(series.shares_percent);
+        let shares = shares.map(|(name, share)| format!("{name}: {} %", percent(share)));
+        shares.collect::<Vec<_>>().join(", ")
+    };
+    format!("Ticks per frame: {}", series.iter().map(of_one).collect::<Vec<_>>().join("; "))
+}
+
 /// Shows the shares, a bar for each loop.
 pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
     let ink = ink(ui);
+    let bars = ui.interact(room, ui.scope_id().with("ticks per frame"), egui::Sense::hover());
+    bars.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, in_words(series)));
     let painter = ui.painter_at(room);
     painter.text(room.left_top(), Align2::LEFT_TOP, "Ticks per frame", strong_font(13.0), ink.text);
     let rect = Rect::from_min_max(room.min + vec2(LEFT, TITLE), room.max - vec2(2.0, BELOW + NAME));
@@ -116,6 +128,13 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bars_are_told_in_words() {
+        let series = [Series::new(Color32::WHITE, [0, 1, 1, 2].into_iter())];
+        let told = "Ticks per frame: 0: 25 %, 1: 50 %, 2: 25 %, 3+: 0 %";
+        assert_eq!(in_words(&series), told);
+    }
 
     #[test]
     fn a_share_is_short() {

@@ -44,6 +44,10 @@ pub(super) fn show(ui: &Ui, room: Rect, loops: &LoopLab, lanes: &[ShownLane<'_>]
         })
         .collect();
     let largest = errors.iter().flatten().fold(0.0_f64, |most, error| most.max(error.abs()));
+    let bars = ui.interact(room, ui.scope_id().with("animation error"), egui::Sense::hover());
+    let told =
+        format!("Animation error of the last {FRAMES} frames: {} ms at most", round(largest, 3));
+    bars.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &told));
     let reach = round_up((1.1 * largest).max(LEAST_MS));
     let area = PlotArea { rect, bounds: [[-(FRAMES as f64), 0.0], [-reach, reach]] };
     painter.rect_filled(rect, 0.0, ink.plot);
