@@ -238,6 +238,37 @@ pub trait System {
     fn skipped(&self, _h: f64) {}
 }
 
+/// A system behind a pointer: what methods do with it is compiled once for each type of vector.
+impl<V: Vector> System for Box<dyn System<Vector = V>> {
+    type Vector = V;
+
+    fn acceleration(&self, t: f64, q: &V, v: &V, a: &mut V) {
+        (**self).acceleration(t, q, v, a);
+    }
+
+    fn acceleration_slope(
+        &self,
+        t: f64,
+        state: &State<V>,
+        along: &State<V>,
+        slope: &mut V,
+    ) -> bool {
+        (**self).acceleration_slope(t, state, along, slope)
+    }
+
+    fn pursuit(&self, t: f64) -> Option<Pursuit<V>> {
+        (**self).pursuit(t)
+    }
+
+    fn engine_settings(&self, t: f64, state: &State<V>, force: &mut V) -> Option<EngineSettings> {
+        (**self).engine_settings(t, state, force)
+    }
+
+    fn skipped(&self, h: f64) {
+        (**self).skipped(h);
+    }
+}
+
 /// What a body follows at one moment, and how fast.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pursuit<V> {

@@ -1,7 +1,7 @@
 //! How far the coordinates of a body go, found by a short run.
 
 use crate::sim::body::Body;
-use crate::sim::integrators::{integrator, method};
+use crate::sim::integrators::{DormandPrince54, Integrator};
 use crate::sim::system::Counted;
 
 /// How long the motion is followed, in ticks and seconds: as long as people look before they judge.
@@ -15,12 +15,11 @@ const MOST_EVALUATIONS: u64 = 30_000;
 const RUNAWAY: f64 = 1e4;
 
 /// The least and the largest value of each coordinate in the first seconds.
-pub(super) fn ranges(body: &impl Body<Vector = Vec<f64>>) -> Vec<(f64, f64)> {
+pub(super) fn ranges<B: Body<Vector = Vec<f64>>>(body: &B) -> Vec<(f64, f64)> {
     let mut state = body.start();
     let mut ranges: Vec<(f64, f64)> = state.q.iter().map(|&q| (q, q)).collect();
     let body = Counted::new(body.clone());
-    let method = method("dormand-prince-54").expect("a method of the table");
-    let mut solver = integrator(method, &state.q);
+    let mut solver = <DormandPrince54<Vec<f64>> as Integrator<Counted<B>>>::new(&state.q);
     let mut first_second: Vec<f64> = vec![f64::INFINITY; state.q.len()];
     for tick in 0..TICKS {
         let stepped = solver.step(&body, f64::from(tick) * TICK_S, TICK_S, &mut state);

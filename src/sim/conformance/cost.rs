@@ -4,21 +4,20 @@ use std::collections::BTreeSet;
 
 use glam::DVec2;
 
-use super::problems::{Kepler, fresh, kepler_orbit, spring};
+use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::integrators::{Method, StepFailure, integrator};
-use crate::sim::system::{Counted, State, System};
+use crate::sim::system::{State, System, Vector};
 
 /// The evaluations of the first step, and of each of `steps` steps after it.
-fn costs<S: System + 'static>(
+fn costs<V: Vector>(
     method: &Method,
-    system: S,
-    mut state: State<S::Vector>,
+    counted: Problem<V>,
+    mut state: State<V>,
     h: f64,
     steps: u32,
 ) -> Result<(u64, BTreeSet<u64>), StepFailure> {
-    let counted = Counted::new(system);
-    let mut integrator = integrator::<Counted<S>>(method, &state.q);
+    let mut integrator = integrator(method, &state.q);
     integrator.step(&counted, 0.0, h, &mut state)?;
     let (first, mut before, mut others) =
         (counted.evaluations(), counted.evaluations(), BTreeSet::new());
@@ -33,8 +32,8 @@ fn costs<S: System + 'static>(
 /// Evaluations per step: equal to the card's count at every step, or varying if the card gives none.
 pub(super) fn evaluations(method: &Method) -> Claim {
     const STEPS: u32 = 100;
-    let damped = costs(method, spring(5.0, 0.1), State { q: 1.0, v: 0.0 }, 0.25, STEPS);
-    let orbit = costs(method, Kepler, kepler_orbit(0.3, 0.0), 0.05, 30);
+    let damped = costs(method, problem(spring(5.0, 0.1)), State { q: 1.0, v: 0.0 }, 0.25, STEPS);
+    let orbit = costs(method, problem(Kepler), kepler_orbit(0.3, 0.0), 0.05, 30);
     let claimed = method.evaluations.map_or("it decides".to_owned(), |count| count.to_string());
     let (measured, holds) = match (damped, orbit) {
         (Err(failure), _) | (_, Err(failure)) => (failure.to_string(), false),
@@ -69,8 +68,8 @@ impl System for ClockAndDrag {
 pub(super) fn keeps_time(method: &Method) -> Claim {
     let measure = || {
         let mut state = State { q: DVec2::new(0.0, 1.0), v: DVec2::new(1.0, 0.0) };
-        let system = Counted::new(ClockAndDrag);
-        let mut integrator = integrator::<Counted<ClockAndDrag>>(method, &state.q);
+        let system = problem(ClockAndDrag);
+        let mut integrator = integrator(method, &state.q);
         for tick in 0..30 {
             integrator.reset();
             let stepped = integrator.step(&system, 0.1 * f64::from(tick), 0.1, &mut state);
@@ -97,7 +96,7 @@ pub(super) fn keeps_time(method: &Method) -> Claim {
 /// Whether the parts of a tick add up to it.
 fn substeps_add_up(method: &Method) -> bool {
     [1, 2, 7, 16].into_iter().all(|n| {
-        let still = spring(0.0, 0.0);
+        let still = problem(spring(0.0, 0.0));
         let mut state = State { q: 0.0, v: 1.0 };
         let stepped = fresh(method).steps(&still, 5.0, 0.3, n, &mut state);
         stepped.is_ok() && (state.q - 0.3).abs() < 1e-14

@@ -1,9 +1,9 @@
 //! Phase-space area, and reversibility.
 
-use super::problems::{Pendulum, spring, unbound};
+use super::problems::{Pendulum, Problem, problem, spring, unbound};
 use super::{Claim, yes_or_no};
 use crate::sim::integrators::{Method, StepFailure};
-use crate::sim::system::{State, System};
+use crate::sim::system::State;
 
 /// Large enough that a violation is far above round-off.
 const STEP: f64 = 0.8;
@@ -16,23 +16,20 @@ const KEPT: f64 = 1e-12;
 const LOST: f64 = 1e-5;
 
 /// One step of a fresh method.
-fn map<S: System<Vector = f64> + 'static>(
+fn map(
     method: &Method,
-    system: &S,
+    system: &Problem<f64>,
     mut state: State<f64>,
 ) -> Result<State<f64>, StepFailure> {
-    unbound::<S>(method, &0.0).step(system, 0.0, STEP, &mut state)?;
+    unbound(method, &0.0).step(system, 0.0, STEP, &mut state)?;
     Ok(state)
 }
 
 /// The determinant of the one-step map's Jacobian, by central differences of fourth order.
-fn area<S: System<Vector = f64> + 'static>(
-    method: &Method,
-    system: &S,
-) -> Result<f64, StepFailure> {
+fn area(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
     let d = 1e-3;
     let column = |dq: f64, dv: f64| {
-        let at = |n: f64| map(method, system, State { q: FROM.q + n * dq, v: FROM.v + n * dv });
+        let at = |n: f64| map(method, &system, State { q: FROM.q + n * dq, v: FROM.v + n * dv });
         let [far_behind, behind, ahead, far_ahead] = [at(-2.0)?, at(-1.0)?, at(1.0)?, at(2.0)?];
         let slope = |part: fn(&State<f64>) -> f64| {
             let near = 8.0 * (part(&ahead) - part(&behind));
@@ -57,25 +54,23 @@ fn both_kept(off: [Result<f64, StepFailure>; 2], what: &str) -> Result<(bool, St
 
 /// Whether a step conserves phase-space area, on a linear and on a nonlinear system.
 pub(super) fn symplectic(method: &Method) -> Claim {
-    let off = [area(method, &spring(1.0, 0.0)), area(method, &Pendulum)];
+    let off = [area(method, problem(spring(1.0, 0.0))), area(method, problem(Pendulum))];
     let off = off.map(|area| area.map(|area| (area - 1.0).abs()));
     yes_or_no("symplectic", method.symplectic, both_kept(off, "area changes by"))
 }
 
 /// How far from its start a step of `h` and a step of `-h` leave the state.
-fn there_and_back<S: System<Vector = f64> + 'static>(
-    method: &Method,
-    system: &S,
-) -> Result<f64, StepFailure> {
-    let mut integrator = unbound::<S>(method, &0.0);
+fn there_and_back(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
+    let mut integrator = unbound(method, &0.0);
     let mut state = FROM;
-    integrator.step(system, 0.0, STEP, &mut state)?;
-    integrator.step(system, STEP, -STEP, &mut state)?;
+    integrator.step(&system, 0.0, STEP, &mut state)?;
+    integrator.step(&system, STEP, -STEP, &mut state)?;
     Ok((state.q - FROM.q).abs().max((state.v - FROM.v).abs()))
 }
 
 /// Whether a step back undoes a step, on a linear and on a nonlinear system.
 pub(super) fn reversible(method: &Method) -> Claim {
-    let off = [there_and_back(method, &spring(1.0, 0.0)), there_and_back(method, &Pendulum)];
+    let on = [problem(spring(1.0, 0.0)), problem(Pendulum)];
+    let off = on.map(|system| there_and_back(method, system));
     yes_or_no("reversible", method.reversible, both_kept(off, "there and back it is off by"))
 }

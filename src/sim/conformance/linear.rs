@@ -1,6 +1,6 @@
 //! Whether a method is exact on linear systems.
 
-use super::problems::{SHIP, fresh, spring};
+use super::problems::{SHIP, fresh, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::body::Body;
 use crate::sim::integrators::{Method, StepFailure};
@@ -20,11 +20,11 @@ fn error<B: Body<Vector = f64> + 'static>(
     body: &B,
     h: f64,
 ) -> Result<f64, StepFailure> {
-    let start = body.start();
-    let (mut integrator, mut state) = (fresh::<B>(method), start.clone());
+    let (start, system) = (body.start(), problem(body.clone()));
+    let (mut integrator, mut state) = (fresh(method), start.clone());
     let (mut worst, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
     for step in 0..STEPS {
-        integrator.step(body, h * f64::from(step), h, &mut state)?;
+        integrator.step(&system, h * f64::from(step), h, &mut state)?;
         let truth = body.exact(h * f64::from(step + 1), &start).expect("a closed form");
         for (part, (found, truth)) in
             [(state.q, truth.q), (state.v, truth.v)].into_iter().enumerate()

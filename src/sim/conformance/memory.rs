@@ -1,17 +1,16 @@
 //! Whether a method carries something from step to step.
 
-use super::problems::{fresh, spring};
+use super::problems::{Problem, fresh, problem, spring};
 use super::{Claim, yes_or_no};
-use crate::sim::bodies::Spring;
 use crate::sim::integrators::{Integrator, Method, StepFailure};
 use crate::sim::system::State;
 
 /// One step of a lively damped spring.
 fn step(
-    integrator: &mut dyn Integrator<Spring>,
+    integrator: &mut dyn Integrator<Problem<f64>>,
     state: &mut State<f64>,
 ) -> Result<(), StepFailure> {
-    integrator.step(&spring(20.0, 0.1), 0.0, 0.03, state)
+    integrator.step(&problem(spring(20.0, 0.1)), 0.0, 0.03, state)
 }
 
 /// Whether a method that is reset before every step goes another way than one that is not.

@@ -1,10 +1,12 @@
 //! Global order, from the error's fall as the step is halved.
 
 use super::Claim;
-use super::problems::{Air, Kepler, SHIP, course_in_air, kepler_orbit, spring, unbound};
+use super::problems::{
+    Air, Kepler, Problem, SHIP, course_in_air, kepler_orbit, problem, spring, unbound,
+};
 use crate::sim::body::Body;
 use crate::sim::integrators::Method;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::system::{State, Vector};
 
 /// Halvings that have to agree.
 const HALVINGS: usize = 4;
@@ -34,12 +36,12 @@ const SWING: f64 = 7.7;
 const MARGIN: f64 = 0.1;
 
 /// A system, and what is known of it.
-struct Course<S: System> {
+struct Course<V> {
     name: &'static str,
-    system: S,
+    system: Problem<V>,
     span: f64,
     /// The exact states at the start and at each moment of the span.
-    truths: Vec<State<S::Vector>>,
+    truths: Vec<State<V>>,
     /// What round-off makes of a value of 1, times the root of the steps.
     round_off: f64,
     /// How often the steps are halved: until the leading term shows, and round-off does not.
@@ -47,24 +49,25 @@ struct Course<S: System> {
     halvings: usize,
 }
 
-impl<B: Body> Course<B> {
-    fn of_body(name: &'static str, body: B, span: f64, halvings: usize) -> Self {
+impl<V: Vector> Course<V> {
+    fn of_body<B: Body<Vector = V>>(
+        name: &'static str,
+        body: B,
+        span: f64,
+        halvings: usize,
+    ) -> Self {
         let at = |moment| body.exact(span * f64::from(moment) / f64::from(MOMENTS), &body.start());
         let truths = (0..=MOMENTS).map(|moment| at(moment).expect("a closed form")).collect();
-        Self { name, system: body, span, truths, round_off: 5e-16, times: 10, halvings }
+        Self { name, system: problem(body), span, truths, round_off: 5e-16, times: 10, halvings }
     }
 }
 
 /// The largest error of position and of velocity in so many steps, as parts of the largest position and
 /// velocity, in units of round-off.
-fn errors<S: System + 'static>(
-    method: &Method,
-    course: &Course<S>,
-    steps: u32,
-) -> Result<[f64; 2], String> {
+fn errors<V: Vector>(method: &Method, course: &Course<V>, steps: u32) -> Result<[f64; 2], String> {
     let Course { name, system, span, truths, round_off, .. } = course;
     let mut state = truths[0].clone();
-    let mut integrator = unbound::<S>(method, &state.q);
+    let mut integrator = unbound(method, &state.q);
     let (mut worst, mut largest) = ([0.0, 0.0], [0.0, 0.0]);
     let stretch = span / f64::from(MOMENTS);
     for (moment, truth) in (0..MOMENTS).zip(&truths[1..]) {
@@ -100,9 +103,9 @@ fn orders(errors: impl Iterator<Item = f64>, halvings: usize) -> Vec<f64> {
 }
 
 /// The measured orders of position and velocity in words, and whether they are the expected one.
-fn measure<S: System + 'static>(
+fn measure<V: Vector>(
     method: &Method,
-    course: &Course<S>,
+    course: &Course<V>,
     expected: u32,
 ) -> Result<(bool, String), String> {
     let mut table = Vec::new();
@@ -155,7 +158,7 @@ pub(super) fn without_drag(method: &Method) -> Claim {
     let at = |moment| span * f64::from(moment) / f64::from(MOMENTS) + half_a_revolution;
     let orbit = Course {
         name: "orbit",
-        system: Kepler,
+        system: problem(Kepler),
         span,
         truths: (0..=MOMENTS).map(|moment| kepler_orbit(0.3, at(moment))).collect(),
         round_off,
@@ -178,7 +181,15 @@ pub(super) fn with_drag(method: &Method) -> Claim {
         let at = |moment| course_in_air(span * f64::from(moment) / f64::from(MOMENTS));
         let truths = (0..=MOMENTS).map(at).collect();
         let (name, halvings) = ("body in air", halvings(expected));
-        let air = Course { name, system: Air, span, truths, round_off: 5e-16, times: 10, halvings };
+        let air = Course {
+            name,
+            system: problem(Air),
+            span,
+            truths,
+            round_off: 5e-16,
+            times: 10,
+            halvings,
+        };
         vec![measure(method, &air, expected)]
     } else {
         let spring = Course::of_body("damped spring", spring(1.0, 0.2), SWING, HALVINGS);

@@ -4,15 +4,24 @@ use glam::DVec2;
 
 use crate::sim::bodies::{Ship, Spring};
 use crate::sim::integrators::{Integrator, Method, Tolerance, integrator};
-use crate::sim::system::{State, System};
+use crate::sim::system::{Counted, State, System, Vector};
+
+/// A system to put methods on, which counts evaluations. Its type is behind a pointer, so that the methods are not
+/// compiled again for each problem.
+pub type Problem<V> = Counted<Box<dyn System<Vector = V>>>;
+
+/// This system as a problem, with nothing counted.
+pub fn problem<S: System + 'static>(system: S) -> Problem<S::Vector> {
+    Counted::new(Box::new(system))
+}
 
 /// A fresh integrator for systems of one coordinate.
-pub fn fresh<S: System<Vector = f64> + 'static>(method: &Method) -> Box<dyn Integrator<S>> {
+pub fn fresh(method: &Method) -> Box<dyn Integrator<Problem<f64>>> {
     integrator(method, &0.0)
 }
 
 /// A fresh integrator that takes the steps it is given: an adaptive one gets a tolerance that does not bind.
-pub fn unbound<S: System + 'static>(method: &Method, like: &S::Vector) -> Box<dyn Integrator<S>> {
+pub fn unbound<V: Vector>(method: &Method, like: &V) -> Box<dyn Integrator<Problem<V>>> {
     let mut integrator = integrator(method, like);
     integrator.set_tolerance(Tolerance::uniform(1e100));
     integrator

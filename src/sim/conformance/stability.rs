@@ -1,7 +1,7 @@
 //! The step at which the undamped oscillator stops being bounded.
 
 use super::Claim;
-use super::problems::{fresh, spring};
+use super::problems::{fresh, problem, spring};
 use crate::sim::integrators::{Method, StepFailure};
 use crate::sim::system::State;
 
@@ -21,7 +21,7 @@ fn largest_amplitude(
     steps: u32,
     enough: f64,
 ) -> Result<f64, StepFailure> {
-    let body = spring(omega, 0.0);
+    let body = problem(spring(omega, 0.0));
     let mut integrator = fresh(method);
     let mut state = State { q: 0.6, v: 0.8 * omega };
     let mut largest = 1.0;

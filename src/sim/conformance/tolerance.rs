@@ -1,28 +1,28 @@
 //! Whether a method that chooses its steps meets its tolerance, and not by far.
 
-use super::problems::{Kepler, fresh, kepler_orbit, spring};
+use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::body::Body;
 use crate::sim::integrators::{Method, StepFailure, Tolerance, integrator};
-use crate::sim::system::{State, System, Vector};
+use crate::sim::system::{State, Vector};
 
 /// What the error may be, in units of the tolerance: less is wasted work.
 const MET: std::ops::Range<f64> = 0.1..3.0;
 
 /// The error after an arc of one time unit begun on the true course, averaged over where it begins, in
 /// units of what is allowed.
-fn error_an_arc<S: System + 'static>(
+fn error_an_arc<V: Vector>(
     method: &Method,
-    system: &S,
+    system: &Problem<V>,
     tolerance: f64,
-    truth: &dyn Fn(f64) -> State<S::Vector>,
+    truth: &dyn Fn(f64) -> State<V>,
 ) -> Result<f64, StepFailure> {
     const ARCS: u32 = 32;
     let mut sum = 0.0;
     for arc in 0..ARCS {
         let t = f64::from(arc) * std::f64::consts::TAU / f64::from(ARCS);
         let mut state = truth(t);
-        let mut integrator = integrator::<S>(method, &state.q);
+        let mut integrator = integrator(method, &state.q);
         integrator.set_tolerance(Tolerance::uniform(tolerance));
         integrator.step(system, t, 1.0, &mut state)?;
         let end = truth(t + 1.0);
@@ -43,7 +43,7 @@ fn heeds(method: &Method) -> Result<bool, StepFailure> {
         let mut state = State { q: 1.0, v: 0.0 };
         let mut integrator = fresh(method);
         integrator.set_tolerance(Tolerance::uniform(tolerance));
-        integrator.step(&spring(20.0, 0.1), 0.0, 0.1, &mut state)?;
+        integrator.step(&problem(spring(20.0, 0.1)), 0.0, 0.1, &mut state)?;
         Ok(state)
     };
     Ok(run(1e-3)? != run(1e-7)?)
@@ -55,8 +55,9 @@ fn arcs(method: &Method) -> Result<(bool, String), StepFailure> {
     let swing = |t| spring.exact(t, &spring.start()).expect("a closed form");
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for tolerance in [1e-5, 1e-6, 1e-7, 1e-8] {
-        let on_spring = error_an_arc(method, &spring, tolerance, &swing)?;
-        let on_orbit = error_an_arc(method, &Kepler, tolerance, &|t| kepler_orbit(0.3, t))?;
+        let on_spring = error_an_arc(method, &problem(spring.clone()), tolerance, &swing)?;
+        let on_orbit =
+            error_an_arc(method, &problem(Kepler), tolerance, &|t| kepler_orbit(0.3, t))?;
         least = least.min(on_spring).min(on_orbit);
         most = most.max(on_spring).max(on_orbit);
     }

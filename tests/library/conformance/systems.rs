@@ -3,11 +3,25 @@
 use std::cell::RefCell;
 
 use glam::DVec2;
+use regatta::sim::integrators::{Integrator, Method, Tolerance, integrator};
 use regatta::sim::{State, System, Vector};
 
-pub(crate) use regatta::conformance::problems::{
-    Kepler, Pendulum, fresh, kepler_orbit, spring, unbound,
-};
+pub(crate) use regatta::conformance::problems::{Kepler, Pendulum, kepler_orbit, spring};
+
+/// A fresh integrator for systems of one coordinate, compiled for `S`.
+pub(crate) fn fresh<S: System<Vector = f64> + 'static>(method: &Method) -> Box<dyn Integrator<S>> {
+    integrator(method, &0.0)
+}
+
+/// A fresh integrator that takes the steps it is given: an adaptive one gets a tolerance that does not bind.
+pub(crate) fn unbound<S: System + 'static>(
+    method: &Method,
+    like: &S::Vector,
+) -> Box<dyn Integrator<S>> {
+    let mut integrator = integrator(method, like);
+    integrator.set_tolerance(Tolerance::uniform(1e100));
+    integrator
+}
 
 /// As many independent damped springs as the vector has components.
 pub(crate) struct Springs<V>(pub(crate) std::marker::PhantomData<V>);
