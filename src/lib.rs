@@ -53,35 +53,35 @@
 //!   is counted in whole ticks. Frame rate, drawing, platform and build profile change nothing, and
 //!   `tests/determinism.rs` compares [`Race::lane_hashes`](lab::Race::lane_hashes) with committed values.
 //! - **Claims are measured.** Every field of a [`Method`](sim::integrators::Method) card is tested
-//!   both ways by `tests/conformance`, with drag and without.
+//!   both ways by `tests/library/conformance`, with drag and without.
 //! - **A run can be gone back in.** Copied, recorded, written, read and run again, or gone to from anywhere, a tick
-//!   is to the bit what it was, with its plots (`tests/sessions.rs`, `tests/recordings.rs`).
-//! - **The step allocates nothing**, takes no lock and touches no file (`tests/allocation.rs`).
+//!   is to the bit what it was, with its plots (`tests/library/sessions.rs`, `tests/library/recordings.rs`).
+//! - **The step allocates nothing**, takes no lock and touches no file (`tests/library/allocation.rs`).
 //! - **A body that blows up is data.** It halts, keeps its last good state and says why; other bodies
 //!   and lanes go on, unchanged to the bit. Under another method it resumes from the truth.
 //! - **One table each** for [methods](sim::integrators::METHODS), [bodies](sim::bodies::BODIES),
 //!   [metrics](lab::METRICS), [scenes](lab::SCENES), [keys](lab::KEYS), the [stops](lab::STOPS) of the guide,
 //!   [game loops](lab::pacing::POLICIES) with their [metrics](lab::pacing::PACING_METRICS), and [traces](lab::pacing::TRACES):
 //!   menus, help, command line and tests loop over them.
-//! - Who may import whom is enforced by `tests/tidy`.
+//! - Who may import whom is enforced by `tests/library/tidy`.
 //!
 //! # Adding a thing
 //!
 //! - **A method**: copy `sim/integrators/improved_euler.rs`, declare the file, add its line to
-//!   `methods!`. If its card claims too much or too little, `tests/conformance` fails. One that is for some bodies
+//!   `methods!`. If its card claims too much or too little, `tests/library/conformance` fails. One that is for some bodies
 //!   [only](sim::integrators::Only) comes after all others, and is refused elsewhere with the reason on its card. A physics engine is a
 //!   [family](sim::integrators::Family::Engine) of such methods: a rule in `sim/integrators/engine`, which reads what it is
 //!   [told](sim::System::engine_settings) of a body.
 //!   Its [source code](lab::METHOD_SOURCES) for other games is a file in `assets/methods`, and its line in that table.
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
 //!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a person can grab it, in a file beside
-//!   `lab/picture/look/spring.rs`, and add that to `LOOKS`. `tests/exact_flows.rs` and `tests/bodies` hold its exact flow, or what stands in for one,
+//!   `lab/picture/look/spring.rs`, and add that to `LOOKS`. `tests/library/exact_flows.rs` and `tests/library/bodies` hold its exact flow, or what stands in for one,
 //!   against its equation.
 //!   What a scene lays out itself, a [law](sim::bodies::law_kind) or a [net](sim::bodies::net_kind), has a kind of its own
 //!   that is made when the scene is read.
 //! - **A scene**: add a file to `assets/scenes` and its line to [`SCENES`](lab::SCENES).
 //! - **A game loop**: a file beside `lab/pacing/policies/whole_refresh.rs` if it has a memory, a card in
-//!   [`POLICIES`](lab::pacing::POLICIES), and its source in `assets/loops`. `tests/pacing_policies.rs` runs it for a day.
+//!   [`POLICIES`](lab::pacing::POLICIES), and its source in `assets/loops`. `tests/library/pacing_policies.rs` runs it for a day.
 //! - **A metric**: one entry of [`METRICS`](lab::METRICS). **A key**: one entry of [`KEYS`](lab::KEYS).
 //!
 //! # In your own game loop

@@ -17,8 +17,8 @@ One row for each tick, lane, body and coordinate:
   tick,t,lane,method,body,coordinate,q,v
 Lane 0 is the truth: `exact`, or `reference`, whose aim is stated, for a body without a closed
 form and for a law with `exact` from its first input, edit or placing on. q is in metres or
-radians, v in the same unit per second, t in seconds. With --metrics a row for each metric follows, its id
-as coordinate, its value as q, and v empty.
+radians, v in the same unit per second, t in seconds. With --metrics a row for each metric follows,
+its id as coordinate, its value as q, and v empty.
 
 The scene's script is played. A method that it switches to is flown where one lane sails alone; in
 a race each lane keeps its own.

@@ -1,7 +1,7 @@
 //! The guide: the chapter in stops. Each stop opens a scene, asks for a prediction and for a key, and answers when the
 //! person has done it. And the hints under the stage, which lead on after the scene's own.
 //!
-//! What the stops claim is measured by `tests/guide.rs`.
+//! What the stops claim is measured by `tests/library/guide.rs`.
 
 use super::display::Display;
 use super::instrument::Instrument;

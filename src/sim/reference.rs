@@ -17,14 +17,14 @@ mod extrapolation;
 mod trajectory;
 
 /// The accuracy that a reference solution aims at: its error over the duration of a built-in scene,
-/// relative to the largest coordinate and to the largest velocity. `tests/bodies/reference.rs` compares
+/// relative to the largest coordinate and to the largest velocity. `tests/library/bodies/reference.rs` compares
 /// it with a closed form and with Runge-Kutta at a fine step, to a tighter bound.
 /// [`Stepper::truth_error`](super::Stepper::truth_error) estimates the error of each run. A motion that
 /// amplifies its initial deviations, such as a pendulum started upright, amplifies this error too.
 pub const REFERENCE_ACCURACY: f64 = 1e-10;
 
 /// The ratio of the error estimate to the difference of the two solutions, which is only one sample of
-/// their errors. `tests/bodies/fifty_digits.rs` measures the estimate.
+/// their errors. `tests/library/bodies/fifty_digits.rs` measures the estimate.
 const MARGIN: f64 = 8.0;
 
 /// The evaluations granted per call, in addition to those saved: about the work of 30 calls of a

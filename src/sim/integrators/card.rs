@@ -105,7 +105,7 @@ pub struct Engine {
     pub free_spin: Option<FreeSpin>,
 }
 
-/// The card of a method: its claims. `tests/conformance` measures every field.
+/// The card of a method: its claims. `tests/library/conformance` measures every field.
 #[derive(Debug)]
 pub struct Method {
     /// Kebab-case name in scenes, on the command line and in output.

@@ -2,7 +2,7 @@
 //!
 //! With `I` the principal moments of inertia, `ω` the angular velocity in the frame of their axes and `L = I ω` the
 //! angular momentum, `dL/dt = -ω × L`: without torque the axis of a body changes unless it is a principal one. None of
-//! the maps is exact. Each is held against logs of engines (`tests/engines/tumble.rs`), except [`SpinMap::Constant`].
+//! the maps is exact. Each is held against logs of engines (`tests/library/engines/tumble.rs`), except [`SpinMap::Constant`].
 
 use glam::{DMat3, DVec3};
 

@@ -2,7 +2,7 @@
 //! quantities, and the accuracy of the reference.
 //!
 //! Other suites rely on the truth of a body. If this one fails, trust none of them; bodies of one
-//! coordinate with a closed form are in `tests/exact_flows.rs`.
+//! coordinate with a closed form are in `tests/library/exact_flows.rs`.
 
 mod chain;
 mod edits;

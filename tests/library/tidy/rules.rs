@@ -158,7 +158,7 @@ fn files_are_short_and_named_for_what_they_hold() {
     let folders = ["src", "tests", "benches", "shaders"];
     let sources: Vec<Source> =
         folders.iter().flat_map(|folder| sources(folder, &["rs", "wgsl"])).collect();
-    assert!(sources.iter().any(|source| source.path == "tests/tidy/rules.rs"));
+    assert!(sources.iter().any(|source| source.path == "tests/library/tidy/rules.rs"));
     none(sources.iter().flat_map(shapes).collect());
 }
 

@@ -1,7 +1,7 @@
 //! What a tick of a physics engine does to one body.
 //!
 //! Each file has the formula of one engine, read from its source and held against logs of the engine
-//! itself (`tests/engines`). They share this: an engine is told the spring's stiffness and damping as
+//! itself (`tests/library/engines`). They share this: an engine is told the spring's stiffness and damping as
 //! settings of a joint and the drag as a setting of the body, and any other force once a tick, which it
 //! holds for all its substeps; see [`System::engine_settings`].
 //!
