@@ -142,12 +142,8 @@ fn plain(scene: &Scene, spec: LaneSpec, tick_hz: u32, amplitudes: &[f64], scenes
     let hz = f64::from(tick_hz);
     let horizon = (scene.seconds * hz + 1e-6).floor() as u64;
     let n = lane.q().len();
-    let mut middles = vec![0.0; n];
+    let farthest = farthest_of_orbit(scene, &*lane);
     let mut plain = Plain { error: 0.0, failed_at: None, q: vec![], reach: vec![], energy: vec![] };
-    let start = components(&*lane);
-    if scene.bodies[0].kind.id == "orbit" {
-        middles.copy_from_slice(&centre_of_orbit(&start, scene.bodies[0].values[0]));
-    }
     let end = ((scene.seconds * scenes * hz) as u64).max(horizon);
     for tick in 0..end {
         let t = tick as f64 / hz;
@@ -167,19 +163,23 @@ fn plain(scene: &Scene, spec: LaneSpec, tick_hz: u32, amplitudes: &[f64], scenes
                 plain.error = plain.error.max((x - exact).abs() / amplitude);
             }
         }
-        plain.q.push(here[0] - middles[0]);
-        let parts = here[..n].iter().zip(&middles).zip(amplitudes);
-        plain.reach.push(parts.map(|((x, m), a)| (x - m).abs() / a).fold(0.0, f64::max));
+        plain.q.push(here[0]);
+        let parts = here[..n].iter().zip(amplitudes).map(|(x, amplitude)| x.abs() / amplitude);
+        plain.reach.push(match farthest {
+            Some(farthest) => here[0].hypot(here[1]) / farthest,
+            None => parts.fold(0.0, f64::max),
+        });
         plain.energy.extend(lane.energy());
     }
     plain
 }
 
-/// The middle of the ellipse through a state of the form (x0, 0, 0, vy0).
-fn centre_of_orbit(start: &[f64], mu: f64) -> [f64; 2] {
-    let (r, v) = (start[0], start[3]);
-    let a = 1.0 / (2.0 / r - v * v / mu);
-    [r - a, 0.0]
+/// The farthest distance of an orbit that starts across the way to its centre; `None` of another body.
+fn farthest_of_orbit(scene: &Scene, start: &dyn Stepper) -> Option<f64> {
+    let body = scene.bodies.first().filter(|body| body.kind.id == "orbit")?;
+    let (r, v) = (start.q()[0], start.v()[1]);
+    let semi_major = 1.0 / (2.0 / r - v * v / body.values[0]);
+    Some(r.max(2.0 * semi_major - r))
 }
 
 /// Crossings of zero upwards, in ticks.
@@ -224,10 +224,12 @@ fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<S
         let tenth = plain.reach.len() / 10;
         let most = |part: &[f64]| part.iter().fold(0.0_f64, |most, x| most.max(*x));
         let (early, late) = (most(&plain.reach[..tenth]), most(&plain.reach[tenth..]));
-        // An orbit that turns about its centre reaches further without growing.
         let most = if matches!(kind.id, "spring" | "chain") { 1.3 } else { 2.0 };
         let swings = verdict.swings;
         check(!swings || late <= most * early.max(1.0), format!("bounded: {early} then {late}"));
+    }
+    if verdict.is_bounded == Some(false) {
+        check(grows(scene, spec, tick_hz, verdict), "not bounded, and nothing grows".into());
     }
     let undamped_spring = kind.id == "spring" && scene.bodies[0].values[2] == 0.0;
     if let Some(doubles) = verdict.doubles_in_s
@@ -299,6 +301,108 @@ fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<S
         }
     }
     lies
+}
+
+/// Whether something grows within twenty scenes, or on a linear body within a year: a body that follows a curve about a
+/// centre by its distance, speed or energy, any other by its coordinates, velocities or energy.
+fn grows(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> bool {
+    let (seconds, hz) = (20.0 * scene.seconds, f64::from(tick_hz));
+    let method = spec.method;
+    let is_linear = matches!(scene.bodies[0].kind.id, "spring" | "chain" | "ship");
+    if is_linear && method.tolerance.is_none() {
+        return grows_within_a_year(scene, spec, tick_hz)
+            || method.restart.is_some()
+                && verdict.doubles_in_s.is_none_or(|doubles| doubles > seconds);
+    }
+    let about_origin = scene.bodies[0].kind.id == "orbit";
+    let sizes = |x: &[f64]| -> Vec<f64> {
+        let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let n = x.len() / 2;
+        let each = || x.iter().map(|x| x.abs()).collect();
+        if about_origin { vec![length(&x[..n]), length(&x[n..])] } else { each() }
+    };
+    let widest = |solver: Solver, steps: u64, h: f64| {
+        let mut body = stepper(scene, solver);
+        let substeps = if solver == Solver::Truth { 1 } else { spec.substeps };
+        let mut most = sizes(&components(&*body));
+        let (mut quarters, mut kinetic) = ([(0.0, 0_u64); 4], 0.0_f64);
+        for step in 0..steps {
+            body.advance(h * step as f64, h, substeps).ok()?;
+            for (most, size) in most.iter_mut().zip(sizes(&components(&*body))) {
+                *most = most.max(size);
+            }
+            kinetic = kinetic.max(body.kinetic_energy().unwrap_or(0.0));
+            let quarter = &mut quarters[(4 * step / steps) as usize];
+            *quarter = (quarter.0 + body.energy().unwrap_or(0.0), quarter.1 + 1);
+        }
+        Some((most, kinetic, quarters.map(|(sum, count)| sum / count as f64)))
+    };
+    let (truth, kinetic, _) = widest(Solver::Truth, 40_000, seconds / 40_000.0).unwrap();
+    let Some((lane, _, [_, early, _, late])) =
+        widest(spec.solver(), (seconds * hz) as u64, 1.0 / hz)
+    else {
+        return true;
+    };
+    let is_wider = lane.iter().zip(&truth).any(|(lane, truth)| *lane >= 1.8 * truth);
+    is_wider || late > early + 3e-3 * kinetic
+}
+
+/// Whether a deviation doubles within a year, by the map of a tick multiplied with itself.
+fn grows_within_a_year(scene: &Scene, spec: LaneSpec, tick_hz: u32) -> bool {
+    let n = stepper(scene, Solver::Truth).q().len();
+    let after = |state: &[f64]| {
+        let mut body = stepper(scene, spec.solver());
+        body.set(0.0, &state[..n], &state[n..]);
+        body.advance(0.0, 1.0 / f64::from(tick_hz), spec.substeps).unwrap();
+        components(&*body)
+    };
+    let rest = after(&vec![0.0; 2 * n]);
+    let unit = |i: usize| (0..2 * n).map(|j| if i == j { 1.0 } else { 0.0 }).collect::<Vec<_>>();
+    let columns = (0..2 * n).flat_map(|i| {
+        let reached = after(&unit(i)).into_iter().zip(&rest);
+        reached.map(|(x, rest)| x - rest).collect::<Vec<_>>()
+    });
+    let mut map = nalgebra::DMatrix::from_vec(2 * n, 2 * n, columns.collect());
+    let (mut ticks, mut early) = (1.0, 0.0);
+    while ticks < 365.0 * 86_400.0 * f64::from(tick_hz) {
+        map = &map * &map;
+        ticks *= 2.0;
+        if ticks == 1024.0 {
+            early = map.norm();
+        }
+        if !map.norm().is_finite() {
+            return true;
+        }
+    }
+    map.norm() > 1.5 * early
+}
+
+#[test]
+fn an_ellipse_that_turns_does_not_grow() {
+    let orbit = |mu: f64, x0: f64, vy0: f64, seconds: f64| {
+        let text = format!(
+            "title = \"t\"\ntick_hz = 60\nseconds = {seconds}\n[[orbit]]\nmu_m3_per_s2 = {mu}\nx0_m = {x0}\n\
+             vy0_m_per_s = {vy0}\n"
+        );
+        Scene::parse("t", &text).unwrap()
+    };
+    let own = Scene::built_in("orbit").unwrap();
+    let fast = orbit(31268.8668, 1.4164, 205.1468, 20.0);
+    for (scene, id, tick_hz) in [
+        (&own, "velocity-verlet", 12),
+        (&own, "velocity-verlet", 16),
+        (&own, "velocity-verlet", 17),
+        (&own, "semi-implicit-euler", 15),
+        (&own, "semi-implicit-euler", 16),
+        (&fast, "implicit-midpoint", 40),
+        (&own, "explicit-euler", 60),
+        (&own, "rk4", 6),
+    ] {
+        let spec = LaneSpec::plain(regatta::sim::integrators::method(id).unwrap());
+        let found = Judge::new(scene, 1.0).verdict(spec, tick_hz);
+        let wanted = !grows(scene, spec, tick_hz, &found);
+        assert_eq!(found.is_bounded, Some(wanted), "{id} at {tick_hz} Hz: {found}");
+    }
 }
 
 #[test]

@@ -265,20 +265,15 @@ impl Run {
         drift: Option<f64>,
         t: f64,
     ) {
-        let n = stepper.q().len();
-        let far = |values: &[f64], from: usize| {
-            let parts = values.iter().zip(&truth.reach[from..]);
-            parts.map(|(x, (middle, half))| (x - middle).abs() / half).fold(0.0, f64::max)
-        };
         // The energy gives an oscillator's amplitude at every moment, its coordinates only at their peaks.
         let swing = match drift {
             Some(drift) if truth.is_oscillator() => (1.0 + drift).max(0.0).sqrt(),
-            _ => far(stepper.q(), 0),
+            _ => truth.reach.of_coordinates(stepper.q()),
         };
         if swing >= TWICE && self.doubled_at.is_none() {
             self.doubled_at = Some(t);
         }
-        if self.rushed_at.is_none() && far(stepper.v(), n) >= TWICE {
+        if self.rushed_at.is_none() && truth.reach.of_velocities(stepper.v()) >= TWICE {
             self.rushed_at = Some(t);
         }
         if swing * TWICE > 1.0 {
@@ -297,10 +292,9 @@ impl Run {
 
     /// Whether coordinates and velocities are all near their values at rest.
     fn rests(&mut self, stepper: &dyn Stepper, truth: &BodyTruth) -> bool {
-        let values = stepper.q().iter().chain(stepper.v());
-        let mut parts =
-            values.zip(&truth.reach).map(|(x, (middle, half))| (x - middle).abs() / half);
-        self.has_come_to_rest = parts.all(|part| part <= AT_REST);
+        let parts =
+            [truth.reach.of_coordinates(stepper.q()), truth.reach.of_velocities(stepper.v())];
+        self.has_come_to_rest = parts.iter().all(|&part| part <= AT_REST);
         self.has_come_to_rest
     }
 }

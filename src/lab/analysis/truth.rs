@@ -9,9 +9,12 @@ use crate::sim::stability::{NormalMode, normal_modes};
 use crate::sim::{Solver, Stepper};
 
 mod amplitudes;
+mod reach;
 mod series;
 
 use amplitudes::{amplitudes, largest_alike};
+pub(super) use reach::Reach;
+use reach::ReachSoFar;
 use series::TruthSeriesByRate;
 pub(super) use series::{TruthSeries, ticks};
 
@@ -43,8 +46,8 @@ pub(super) struct BodyTruth {
     pub(super) amplitudes: Vec<f64>,
     /// The centre of each coordinate's swing: the middle of its range, or the place of rest if it loses energy.
     pub(super) centres: Vec<f64>,
-    /// The middle and half the range of each component over the long run, or until the truth fails.
-    pub(super) reach: Vec<(f64, f64)>,
+    /// How far it reaches over the long run, or until the truth fails.
+    pub(super) reach: Reach,
     /// The normal modes of a linear body with its last parameters, each with its share of the energy of the motion after
     /// the last input.
     pub(super) modes: Option<Vec<(NormalMode, f64)>>,
@@ -90,7 +93,7 @@ impl BodyTruth {
             horizon_s,
             amplitudes: Vec::new(),
             centres: Vec::new(),
-            reach: Vec::new(),
+            reach: Reach::Each(Vec::new()),
             modes: None,
             energy_scale: None,
             exchanged_j: None,
@@ -153,7 +156,7 @@ impl BodyTruth {
         let after_inputs = self.after_inputs();
         self.modes = normal_modes(&*after_inputs).map(|modes| shares(&*after_inputs, modes));
         let mut there = self.start(Solver::Truth);
-        let mut ranges = Ranges::at(&*body);
+        let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
         let mut kinetic: f64 = body.kinetic_energy().unwrap_or(0.0);
         let mut extent = Extent::default();
         extent.cover(0.0, body.kinetic_energy());
@@ -161,7 +164,7 @@ impl BodyTruth {
         let mut has_moved = false;
         let walked = follow_truth(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
             has_moved = true;
-            ranges.take_in(from, to);
+            reach.take_in(from, to);
             for moment in fastest(from, to).into_iter().filter(|_| conserves) {
                 there.set(0.0, &moment.x[..n], &moment.x[n..]);
                 let now = there.kinetic_energy();
@@ -172,11 +175,11 @@ impl BodyTruth {
         self.exchanged_j = extent.exchanged_j(&*self.start(Solver::Truth));
         self.failure = walked.err();
         self.fails_at_start = self.failure.is_some() && !has_moved;
-        self.amplitudes = amplitudes(&ranges.0, self.coordinates());
+        self.amplitudes = amplitudes(&reach.ranges.0, self.coordinates());
         self.energy_scale =
             Some(kinetic).filter(|&scale| conserves && scale > 0.0 && scale.is_finite());
         let middle = |range: &(f64, f64)| range.0 + (range.1 - range.0) / 2.0;
-        self.centres = ranges.0[..n].iter().map(middle).collect();
+        self.centres = reach.ranges.0[..n].iter().map(middle).collect();
         if self.failure.is_none() && self.energy_scale.is_some() {
             self.swing = self.watch(&self.centres, most);
         }
@@ -184,12 +187,12 @@ impl BodyTruth {
         if !self.is_oscillator() && !returns && !self.fails_at_start {
             // Other motions are followed beyond the horizon, as far as the truth goes.
             let mut body = self.start(Solver::Truth);
-            ranges = Ranges::at(&*body);
+            reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
             let mut sums = vec![0.0; n];
             let mut seconds = 0.0;
             let long_run_s = LONG_RUN * self.horizon_s;
             let _ = follow_truth(&mut *body, &self.inputs, long_run_s, most, |from, to| {
-                ranges.take_in(from, to);
+                reach.take_in(from, to);
                 seconds += to.t - from.t;
                 for (i, sum) in sums.iter_mut().enumerate() {
                     *sum += (to.t - from.t) * (from.x[i] + to.x[i]) / 2.0;
@@ -205,15 +208,7 @@ impl BodyTruth {
         if self.failure.is_none() && self.energy_scale.is_none() && !is_chase {
             self.swing = self.watch(&self.centres, most);
         }
-        let reach = |i: usize| {
-            let (low, high) = ranges.0[i];
-            let centre = self.centres.get(i).copied().unwrap_or_else(|| middle(&ranges.0[i]));
-            (centre, (high - centre).max(centre - low).max(self.amplitudes[i]))
-        };
-        self.reach = (0..2 * n).map(reach).collect();
-        let halves: Vec<f64> = self.reach.iter().map(|(_, half)| *half).collect();
-        let largest = largest_alike(self.coordinates(), &halves);
-        self.reach.iter_mut().zip(largest).for_each(|(reach, largest)| reach.1 = largest);
+        self.reach = reach.reach(&self.body, &self.centres, &self.amplitudes);
     }
 
     /// Whether a reference solution would take too much work, so that there is none.
