@@ -97,6 +97,8 @@ pub struct Palette {
     pub chart: Rgba,
     /// The quay, and its edge.
     pub quay: [Rgba; 2],
+    /// The wire of a coil spring: its edge, and the metal in the shade, in the light, and where it gleams.
+    pub wire: [Rgba; 4],
     /// The exact solution.
     pub exact: Rgba,
     /// What went wrong.
@@ -133,6 +135,7 @@ static DARK: Palette = Palette {
     sea: [rgb(0x0F2536), rgb(0x0A1825)],
     chart: rgb(0x8FB2CC),
     quay: [rgb(0x1B2530), rgb(0x4A5B6B)],
+    wire: [rgb(0x0A1119), rgb(0x6F8496), rgb(0xB9C7D3), rgb(0xF0F6FA)],
     exact: rgb(0xFFFFFF),
     bad: rgb(0xFF7A70),
     warn: rgb(0xF0C050),
@@ -162,6 +165,7 @@ static LIGHT: Palette = Palette {
     sea: [rgb(0xE3EFF2), rgb(0xCFE2E9)],
     chart: rgb(0x3F6C86),
     quay: [rgb(0xD9D0BB), rgb(0x8C8270)],
+    wire: [rgb(0x24323F), rgb(0x4A5D6D), rgb(0x7F93A3), rgb(0xDCE6EC)],
     exact: rgb(0x0B1016),
     bad: rgb(0xA8221B),
     warn: rgb(0x7A5200),
@@ -170,9 +174,9 @@ static LIGHT: Palette = Palette {
         rgb(0x9A3C06),
         rgb(0x085A93),
         rgb(0x923570),
-        rgb(0x645800),
+        rgb(0x5B6000),
         rgb(0x00694A),
-        rgb(0x7A4F00),
+        rgb(0x4A2000),
         rgb(0x4A3FA8),
     ],
 };

@@ -19,6 +19,7 @@ mod diagnosis;
 mod expression;
 mod form;
 mod jet;
+mod layout;
 mod op;
 mod refusal;
 mod switch;
@@ -27,6 +28,7 @@ mod tape;
 mod token;
 
 pub use expression::{MOST_BYTES, MOST_DEPTH};
+pub use layout::Layout;
 pub use refusal::{Part, Refusal, Remedy};
 pub use tape::MOST_OPERATIONS;
 
@@ -71,6 +73,8 @@ pub struct LawText {
     pub energy: Option<String>,
     /// The places of the coordinates that are drawn as x and y of one point.
     pub plane: Option<[usize; 2]>,
+    /// How the first coordinates lie in space.
+    pub layout: Layout,
 }
 
 /// The text of one coordinate.

@@ -90,12 +90,28 @@ fn methods_differ_in_colour_or_dash_and_neighbours_in_colour() {
             let [a, b] = [number, number + 1].map(|number| theme.loop_style(number).0);
             assert!(distance(a, b) > 60 * 60, "{number}: {a:?} {b:?}");
         }
-        for lanes in
-            [["explicit-euler", "semi-implicit-euler"], ["semi-implicit-euler", "implicit-euler"]]
-        {
+        for lanes in [
+            ["explicit-euler", "semi-implicit-euler"],
+            ["semi-implicit-euler", "implicit-euler"],
+            // The third and the fifth lane of the harbour.
+            ["improved-euler", "adaptive-euler"],
+        ] {
             let [a, b] =
                 lanes.map(|id| theme.style(crate::sim::integrators::method(id).unwrap()).0);
             assert!(distance(a, b) > 60 * 60, "{lanes:?}");
         }
+    }
+}
+
+#[test]
+fn the_wire_of_a_spring_stands_out_from_the_sea_in_both_themes() {
+    for theme in [Theme::Dark, Theme::Light] {
+        let palette = theme.palette();
+        let [edge, _, light, _] = palette.wire;
+        for sea in palette.sea {
+            let most = contrast(edge, sea).max(contrast(light, sea));
+            assert!(most >= 4.5, "{theme:?}: {most:.2}");
+        }
+        assert!(contrast(edge, light) >= 3.0, "{theme:?}: the turns are told apart");
     }
 }

@@ -1,6 +1,6 @@
 //! A body in front, behind, or exact: how each part of its outline is drawn.
 
-use super::coil::{Span, coil, silhouette};
+use super::coil::{Span, coil, silhouette, strut};
 use super::hull::{self, Berth};
 use super::mass::{self, Coat};
 use super::outline::Thread;
@@ -34,14 +34,22 @@ impl Seen<'_> {
         }
     }
 
+    /// The corners of a block.
+    fn box_of(&self, centre: glam::DVec2, half: glam::DVec2) -> [[f32; 2]; 2] {
+        let [x, y] = self.camera.points(centre);
+        let [w, h] = [self.camera.length(half.x), self.camera.length(half.y)];
+        [[x - w, y - h], [x + w, y + h]]
+    }
+
     /// What does not move, of a body that is not seen.
     pub(super) fn still(&self, picture: &mut Picture) {
         let is_still = |mark: &&Mark| {
-            use Mark::{Anchor, Name, Rail, Wall};
-            matches!(mark, Wall { .. } | Anchor { .. } | Rail { .. } | Name { .. })
+            use Mark::{Anchor, Name, Planet, Rail, Wall};
+            matches!(mark, Wall { .. } | Anchor { .. } | Planet { .. } | Rail { .. } | Name { .. })
         };
         let marks = self.outline.marks.iter().filter(is_still).copied().collect();
-        let outline = Outline { marks, threads: Vec::new(), ..*self.outline };
+        let Outline { t, at, .. } = *self.outline;
+        let outline = Outline { marks, t, at, ..Outline::default() };
         let nothing = Coat { colour: self.palette.chart, dash: SOLID, fill: 0.0 };
         Seen { outline: &outline, ..*self }.carried(picture, nothing);
     }
@@ -51,6 +59,7 @@ impl Seen<'_> {
         let mut sizes = self.outline.marks.iter().filter_map(|mark| match *mark {
             Mark::Sprung => Some(0.42 * self.camera.block),
             Mark::Disc { radius, .. } => Some(1.1 * self.camera.size(radius)),
+            Mark::Block { half, .. } => Some(1.1 * self.camera.size(half.y)),
             _ => None,
         });
         let (Some(size), None) = (sizes.next().filter(|size| *size >= 9.0), sizes.next()) else {
@@ -108,7 +117,14 @@ impl Seen<'_> {
                 Mark::Anchor { centre, radius } => {
                     mass::ball(shapes, camera.points(centre), camera.size(radius), still, clip);
                 }
-                Mark::Disc { .. } | Mark::Hull { .. } | Mark::Name { .. } => {}
+                Mark::Planet { centre, radius } => {
+                    mass::planet(shapes, camera.points(centre), camera.size(radius), clip);
+                }
+                Mark::Coil { from, to, radius } => {
+                    let ends = [from, to].map(|end| camera.points(end));
+                    strut(shapes, ends, camera.size(radius), self.palette, clip);
+                }
+                Mark::Disc { .. } | Mark::Block { .. } | Mark::Hull { .. } | Mark::Name { .. } => {}
             }
         }
         self.names(picture);
@@ -148,11 +164,16 @@ impl Seen<'_> {
                 Mark::Sprung => {
                     mass::block(shapes, self.span().block, camera.block, coat.colour, clip);
                 }
+                Mark::Block { centre, half } => {
+                    mass::slab(shapes, self.box_of(centre, half), coat.colour, clip);
+                }
                 Mark::Hull { bow, length } => {
                     hull::ship(shapes, self.berth(bow, length), coat.colour, self.palette, clip);
                 }
                 Mark::Wall { .. }
                 | Mark::Anchor { .. }
+                | Mark::Planet { .. }
+                | Mark::Coil { .. }
                 | Mark::Rod { .. }
                 | Mark::Rail { .. }
                 | Mark::Name { .. } => {}
@@ -180,11 +201,18 @@ impl Seen<'_> {
                 Mark::Sprung => {
                     mass::hollow_block(shapes, self.span().block, camera.block, coat, clip);
                 }
+                Mark::Block { centre, half } => {
+                    mass::hollow_slab(shapes, self.box_of(centre, half), coat, clip);
+                }
                 Mark::Hull { bow, length } => {
                     hull::hollow(shapes, self.berth(bow, length), coat, clip);
                 }
-                Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rail { .. } | Mark::Name { .. } => {
-                }
+                Mark::Wall { .. }
+                | Mark::Anchor { .. }
+                | Mark::Planet { .. }
+                | Mark::Coil { .. }
+                | Mark::Rail { .. }
+                | Mark::Name { .. } => {}
             }
         }
     }
@@ -192,6 +220,10 @@ impl Seen<'_> {
     /// The exact solution: one line round it.
     pub(super) fn ghost(&self, shapes: &mut Vec<Shape>) {
         let (camera, clip, palette) = (self.camera, self.camera.rect, self.palette);
+        if !self.outline.course.is_empty() {
+            let course = self.outline.course.iter().map(|at| camera.points(*at));
+            shapes.push(path(course, 1.3, faded(palette.exact, 0.6), [2.5, 4.0], clip));
+        }
         for Thread { points, .. } in self.outline.threads.iter().filter(|it| it.is_border) {
             let points = points.iter().map(|point| camera.points(*point));
             shapes.push(path(points.clone(), 3.6, faded(palette.sea[1], 0.6), SOLID, clip));
@@ -209,11 +241,18 @@ impl Seen<'_> {
                     mass::ghost_disc(shapes, camera.points(centre), radius, palette, clip);
                 }
                 Mark::Sprung => silhouette(shapes, self.span(), palette, clip),
+                Mark::Block { centre, half } => {
+                    mass::ghost_slab(shapes, self.box_of(centre, half), palette, clip);
+                }
                 Mark::Hull { bow, length } => {
                     hull::ghost(shapes, self.berth(bow, length), palette, clip);
                 }
-                Mark::Wall { .. } | Mark::Anchor { .. } | Mark::Rail { .. } | Mark::Name { .. } => {
-                }
+                Mark::Wall { .. }
+                | Mark::Anchor { .. }
+                | Mark::Planet { .. }
+                | Mark::Coil { .. }
+                | Mark::Rail { .. }
+                | Mark::Name { .. } => {}
             }
         }
     }

@@ -13,8 +13,6 @@ const RADIUS: f32 = 0.35;
 const LEAD: f32 = 0.09;
 /// Points of half a turn.
 const PIECES: u16 = 7;
-/// Metal in the shade, in the light, and where it gleams.
-const METAL: [Rgba; 3] = [[111, 132, 150, 255], [185, 199, 211, 255], [240, 246, 250, 255]];
 /// Below this length a spring is not drawn, in points: its block is at the quay or beyond.
 const LEAST: f32 = 6.0;
 
@@ -49,10 +47,11 @@ impl Span {
 pub(super) fn coil(shapes: &mut Vec<Shape>, span: Span, palette: &Palette, clip: Rect) {
     let Some(ends) = span.ends() else { return };
     let thick = (span.size / 60.0).clamp(0.25, 1.0);
-    let dark = faded(palette.background, 0.75);
+    let [edge, shade, light, gleam] = palette.wire;
+    let dark = faded(edge, 0.75);
     let y = span.block[1];
     for (from, to) in [(span.quay, ends.0), (ends.1, span.block[0])] {
-        shapes.push(path([[from, y], [to, y]], 5.0 * thick, METAL[0], SOLID, clip));
+        shapes.push(path([[from, y], [to, y]], 5.0 * thick, shade, SOLID, clip));
     }
     let half = |turn: u16, back: bool| {
         let first = f32::from(turn) * TAU + if back { PI } else { 0.0 };
@@ -64,10 +63,38 @@ pub(super) fn coil(shapes: &mut Vec<Shape>, span: Span, palette: &Palette, clip:
         }
     };
     layer(true, 6.0, dark);
-    layer(true, 3.8, METAL[0]);
+    layer(true, 3.8, shade);
     layer(false, 6.8, dark);
-    layer(false, 4.2, METAL[1]);
-    layer(false, 1.5, METAL[2]);
+    layer(false, 4.2, light);
+    layer(false, 1.5, gleam);
+}
+
+/// A spring between two points, seen from the side, with turns of this radius.
+pub(super) fn strut(
+    shapes: &mut Vec<Shape>,
+    [from, to]: [[f32; 2]; 2],
+    radius: f32,
+    palette: &Palette,
+    clip: Rect,
+) {
+    const BENDS: u8 = 12;
+    let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    let length = libm::hypotf(dx, dy).max(1.0);
+    let across = [-dy / length * radius, dx / length * radius];
+    let bend = |i: u8| {
+        let part = f32::from(i) / f32::from(BENDS);
+        let side = match i {
+            0 | BENDS => 0.0,
+            _ if i % 2 == 0 => 1.0,
+            _ => -1.0,
+        };
+        [from[0] + part * dx + side * across[0], from[1] + part * dy + side * across[1]]
+    };
+    let thick = (radius / 12.0).clamp(0.3, 1.0);
+    let [edge, _, light, _] = palette.wire;
+    for (width, colour) in [(6.0, faded(edge, 0.75)), (3.4, light)] {
+        shapes.push(path((0..=BENDS).map(bend), width * thick, colour, SOLID, clip));
+    }
 }
 
 /// The silhouette of a spring and its block, in one line round both.

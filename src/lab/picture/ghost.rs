@@ -26,9 +26,10 @@ impl Ghost {
         let body = &race.truth().bodies()[index];
         let remembered = moment.lab.past();
         let curve = &remembered.truth_curves()[index];
-        let (q, _) = moment.lab.shown_truth(index);
+        let (q, v) = moment.lab.shown_truth(index);
         let look = Look::of(body.kind);
-        let outline = look.outline(&*body.stepper, moment.t, &q);
+        let course = look.course(&*body.stepper, &q, &v);
+        let outline = Outline { course, ..look.outline(&*body.stepper, moment.t, &q) };
         let framing = look.framing(&*body.stepper);
         let centre_m = match framing {
             Framing::Follow { .. } | Framing::Recorder { .. } => DVec2::ZERO,

@@ -86,6 +86,11 @@ trait Drawn: Body {
     /// What part of its world the stage shows.
     fn framing(&self) -> Framing;
 
+    /// The closed course that a body in this state goes along, if it does.
+    fn course(&self, _state: &State<Self::Vector>) -> Vec<DVec2> {
+        Vec::new()
+    }
+
     /// Where a hand can take hold of a body with these coordinates.
     fn handles(&self, q: &Self::Vector) -> Vec<Handle>;
 
@@ -101,6 +106,7 @@ pub struct Look {
     kind: &'static str,
     outline: fn(&dyn Any, f64, &[f64]) -> Outline,
     framing: fn(&dyn Any) -> Framing,
+    course: fn(&dyn Any, &[f64], &[f64]) -> Vec<DVec2>,
     handles: fn(&dyn Any, &[f64]) -> Vec<Handle>,
     pull: fn(&dyn Any, &mut [f64], &mut [f64], Pull),
 }
@@ -128,8 +134,7 @@ impl Look {
         let outline = |body: &dyn Any, t: f64, q: &[f64]| {
             let body = typed::<B>(body);
             let shown = vector::<B>(body, q);
-            let mut outline =
-                Outline { t, at: body.place(&shown), marks: Vec::new(), threads: Vec::new() };
+            let mut outline = Outline { t, at: body.place(&shown), ..Outline::default() };
             body.draw(&shown, &mut outline);
             outline
         };
@@ -144,7 +149,12 @@ impl Look {
             q.copy_from_slice(state.q.components());
             v.copy_from_slice(state.v.components());
         };
-        Self { kind, outline, framing: |body| typed::<B>(body).framing(), handles, pull }
+        let course = |body: &dyn Any, q: &[f64], v: &[f64]| {
+            let body = typed::<B>(body);
+            body.course(&State { q: vector::<B>(body, q), v: vector::<B>(body, v) })
+        };
+        let framing = |body: &dyn Any| typed::<B>(body).framing();
+        Self { kind, outline, framing, course, handles, pull }
     }
 
     /// The look of bodies of this kind.
@@ -170,6 +180,11 @@ impl Look {
     /// What part of the world of `body`, which is of this kind, the stage shows.
     pub fn framing(&self, body: &dyn Stepper) -> Framing {
         (self.framing)(body.body())
+    }
+
+    /// The closed course that `body`, which is of this kind, goes along in this state, if it does.
+    pub fn course(&self, body: &dyn Stepper, q: &[f64], v: &[f64]) -> Vec<DVec2> {
+        (self.course)(body.body(), q, v)
     }
 
     /// Where a hand can take hold of `body`, which is of this kind, at the coordinates `q`.

@@ -16,6 +16,10 @@ pub(super) struct Coat {
 
 const WHITE: Rgba = [255, 255, 255, 255];
 const BLACK: Rgba = [0, 0, 0, 255];
+/// A planet: its air, its water by day and by night, its land.
+const AIR: Rgba = [150, 200, 240, 255];
+const OCEAN: [Rgba; 2] = [[84, 156, 214, 255], [12, 34, 66, 255]];
+const LAND: Rgba = [112, 158, 104, 255];
 
 fn square([x, y]: [f32; 2], side: f32, radius: f32) -> Vec<[f32; 2]> {
     let half = side / 2.0;
@@ -79,6 +83,63 @@ pub(super) fn hollow_block(
     shapes.push(ring(&face, 2.2, coat.colour, short(coat.dash), clip));
 }
 
+/// The corners of a box between its upper left and its lower right, grown by this many points.
+fn box_round([min, max]: [[f32; 2]; 2], by: f32) -> Vec<[f32; 2]> {
+    let radius = 0.3 * (max[1] - min[1]);
+    rounded([min[0] - by, min[1] - by], [max[0] + by, max[1] + by], radius + by)
+}
+
+/// A block that is wider than high, with the light from above.
+pub(super) fn slab(shapes: &mut Vec<Shape>, at: [[f32; 2]; 2], colour: Rgba, clip: Rect) {
+    let [min, max] = at;
+    let face = box_round(at, 0.0);
+    let shadow: Vec<[f32; 2]> =
+        box_round(at, 1.5).iter().map(|[x, y]| [x + 2.0, y + 3.0]).collect();
+    shapes.push(fill(&shadow, faded(BLACK, 0.3), clip));
+    let lit = |[_, y]: [f32; 2]| {
+        let low = (y - min[1]) / (max[1] - min[1]).max(1.0);
+        mixed(mixed(colour, WHITE, 0.3), mixed(colour, BLACK, 0.3), low)
+    };
+    shapes.push(shaded(&face, lit, clip));
+    shapes.push(ring(&face, 1.5, mixed(colour, BLACK, 0.55), SOLID, clip));
+}
+
+/// A block of a lane behind that is wider than high.
+pub(super) fn hollow_slab(shapes: &mut Vec<Shape>, at: [[f32; 2]; 2], coat: Coat, clip: Rect) {
+    let face = box_round(at, 0.0);
+    shapes.push(fill(&face, faded(coat.colour, coat.fill), clip));
+    shapes.push(ring(&face, 2.0, coat.colour, short(coat.dash), clip));
+}
+
+/// The rim of a block of the exact solution that is wider than high.
+pub(super) fn ghost_slab(
+    shapes: &mut Vec<Shape>,
+    at: [[f32; 2]; 2],
+    palette: &Palette,
+    clip: Rect,
+) {
+    ghost_rim(shapes, &box_round(at, 1.5), palette, clip);
+}
+
+/// A planet with its air, the light from the upper left.
+pub(super) fn planet(shapes: &mut Vec<Shape>, at: [f32; 2], radius: f32, clip: Rect) {
+    for (size, part) in [(1.3, 0.06), (1.18, 0.1), (1.08, 0.16)] {
+        shapes.push(disc(at, size * radius, faded(AIR, part), clip));
+    }
+    let lit = |[x, y]: [f32; 2]| {
+        let light = (x - at[0] + y - at[1]) / (2.8 * radius.max(1.0)) + 0.5;
+        mixed(OCEAN[0], OCEAN[1], light)
+    };
+    let face = round(at, radius);
+    shapes.push(shaded(&face, lit, clip));
+    for ([x, y], size) in [([-0.35, -0.3], 0.3), ([-0.05, -0.45], 0.2), ([0.3, 0.25], 0.34)] {
+        let land = [at[0] + x * radius, at[1] + y * radius];
+        let night = (x + y + 1.0) / 2.0;
+        shapes.push(disc(land, size * radius, mixed(LAND, BLACK, 0.55 * night), clip));
+    }
+    shapes.push(ring(&face, (0.04 * radius).max(0.8), faded(AIR, 0.8), SOLID, clip));
+}
+
 /// The corners of a disc, as many as show it round.
 pub(super) fn round([x, y]: [f32; 2], radius: f32) -> Vec<[f32; 2]> {
     const CORNERS: u8 = 28;
@@ -109,10 +170,13 @@ pub(super) fn ghost_disc(
     palette: &Palette,
     clip: Rect,
 ) {
-    let rim = round(at, radius + 1.5);
-    shapes.push(fill(&rim, faded(palette.exact, 0.12), clip));
-    shapes.push(ring(&rim, 4.0, faded(palette.sea[1], 0.6), SOLID, clip));
-    shapes.push(ring(&rim, 1.8, faded(palette.exact, 0.95), SOLID, clip));
+    ghost_rim(shapes, &round(at, radius + 1.5), palette, clip);
+}
+
+fn ghost_rim(shapes: &mut Vec<Shape>, rim: &[[f32; 2]], palette: &Palette, clip: Rect) {
+    shapes.push(fill(rim, faded(palette.exact, 0.12), clip));
+    shapes.push(ring(rim, 4.0, faded(palette.sea[1], 0.6), SOLID, clip));
+    shapes.push(ring(rim, 1.8, faded(palette.exact, 0.95), SOLID, clip));
 }
 
 /// The dashes of something small: a lane's own pattern at half its length.

@@ -19,6 +19,29 @@ pub enum Mark {
         /// Its radius.
         radius: f64,
     },
+    /// A planet, which does not move.
+    Planet {
+        /// Its centre.
+        centre: DVec2,
+        /// Its radius.
+        radius: f64,
+    },
+    /// A coil spring.
+    Coil {
+        /// One end.
+        from: DVec2,
+        /// The other end.
+        to: DVec2,
+        /// The radius of its turns.
+        radius: f64,
+    },
+    /// A block.
+    Block {
+        /// Its centre.
+        centre: DVec2,
+        /// Half its width and half its height.
+        half: DVec2,
+    },
     /// A rod or a thread.
     Rod {
         /// One end.
@@ -75,6 +98,8 @@ pub struct Outline {
     pub marks: Vec<Mark>,
     /// The threads of a net, below the marks.
     pub threads: Vec<Thread>,
+    /// Where the exact body will go if nothing intervenes: a closed course.
+    pub course: Vec<DVec2>,
     /// The moment shown, in seconds.
     pub t: f64,
     /// Where the body is, as its [`place`](crate::sim::bodies::Body::place) says.

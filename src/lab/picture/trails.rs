@@ -5,15 +5,22 @@ use std::iter;
 use glam::{DVec2, Vec2};
 
 use super::moment::Moment;
-use super::sketch::{Camera, SOLID, demote, disc};
+use super::sketch::{Camera, SOLID, demote, disc, taper};
 use super::{Framing, Path, PathPoint, Picture, Rect, Rgba, Shape};
 use crate::lab::palette::{faded, mixed};
 use crate::lab::{History, Motion, Sample};
 
 /// The most points in a lane's trail: more would not show.
 const TRAIL_POINTS: usize = 720;
-/// Half the width of an arm of a bow wave, in points.
-const ARM_RADIUS: f32 = 0.8;
+/// How fast the arms of a bow wave leave the course, in lengths along it, and the distance of two strokes of an arm, in
+/// sixtieths of the width shown.
+const BOW_SLOPE: f64 = 0.16;
+const FEATHER: f64 = 1.1;
+/// The most strokes of an arm: as many as fit on a stage.
+const MAX_FEATHERS: usize = 60;
+/// The time between the eddies of a wake, in seconds, and how many there are at a time.
+const EDDY_S: f64 = 0.2;
+const EDDIES: u8 = 3;
 /// From the middle of a block to the point of the pen under it, in blocks.
 const PEN: f32 = 0.66;
 /// From this distance on, in points, samples of a trail can be told apart, and have dots of this radius.
@@ -139,8 +146,8 @@ impl Moment<'_> {
         }
     }
 
-    /// Foam behind the hull, wider and fainter with age, and the two arms of the bow wave. The wake is
-    /// as wide as the hull, which is as long as the view makes it.
+    /// Foam behind the hull, wider and fainter with age, the eddies in it, and the two feathered arms of the bow wave. The
+    /// wake is as wide as the hull, which is as long as the view makes it.
     pub(super) fn wake(
         &self,
         picture: &mut Picture,
@@ -149,39 +156,89 @@ impl Moment<'_> {
         history: &History,
         (width_m, wake_s): (f64, f64),
     ) {
-        /// Half the opening of a ship's wake on deep water, as Kelvin found it: sin = 1/3.
-        const KELVIN_SLOPE: f64 = 0.353_553_390_593_273_8;
         let unit = width_m / 60.0;
         let foam = self.palette.chart;
         let legs = self.legs(from, history, wake_s);
+        let half_width = |age: f64| unit * (0.8 + 0.9 * age / wake_s);
         for leg in &legs {
-            for (spread, part) in [(1.0, 0.30), (0.45, 0.35)] {
+            for (spread, part) in [(1.0, 0.24), (0.7, 0.16), (0.4, 0.22)] {
                 picture.shapes.push(trail(leg, camera.rect, |place| {
                     let colour = mixed(foam, place.colour, 0.35);
                     PathPoint {
                         at: camera.points(place.at),
-                        radius: camera.size(spread * unit * (0.8 + 0.9 * place.age / wake_s)),
+                        radius: camera.size(spread * half_width(place.age)),
                         colour: faded(colour, part * self.fade(place.age, wake_s)),
                     }
                 }));
             }
         }
         let course: Vec<Place> = legs.into_iter().flatten().collect();
-        let Some([newest, next]) = course.first_chunk() else { return };
+        for ends in course.windows(2) {
+            let [newer, older] = [ends[0], ends[1]];
+            let Some(ahead) = (newer.at - older.at).try_normalize() else { continue };
+            // By the moment at which the hull was there: eddies stay where they are in the water.
+            let moment = |place: Place| libm::floor((self.lanes_t - place.age) / EDDY_S);
+            if moment(newer) == moment(older) {
+                continue;
+            }
+            for i in 0..EDDIES {
+                let dice = |salt: f64| {
+                    let x = 43_758.545 * libm::sin(moment(newer) * 12.9898 + f64::from(i) * salt);
+                    x - libm::floor(x)
+                };
+                let aside = 0.9 * (2.0 * dice(78.233) - 1.0) * half_width(older.age);
+                let at = older.at + aside * ahead.perp() + unit * dice(37.719) * ahead;
+                let ends = [at, at - unit * (0.5 + dice(11.137)) * ahead];
+                let colour = faded(self.palette.text, 0.42 * self.fade(older.age, wake_s));
+                let [tip, tail] = ends.map(|end| camera.points(end));
+                picture.shapes.push(taper(tip, tail, [1.1, 0.3], colour, camera.rect));
+            }
+        }
         for side in [-1.0, 1.0] {
-            let (mut last, mut run) = (newest.at, 0.0);
-            let mut ahead = (newest.at - next.at).try_normalize().unwrap_or(DVec2::X);
-            picture.shapes.push(trail(&course, camera.rect, |place| {
-                let sailed = last - place.at;
-                ahead = sailed.try_normalize().unwrap_or(ahead);
-                (last, run) = (place.at, run + sailed.length());
-                let spread = side * (1.2 * unit + KELVIN_SLOPE * run);
-                PathPoint {
-                    at: camera.points(place.at + 3.0 * unit * ahead + spread * ahead.perp()),
-                    radius: ARM_RADIUS,
-                    colour: faded(foam, 0.6 * self.fade(place.age, wake_s)),
-                }
-            }));
+            self.bow_wave(picture, camera, &course, side * unit, wake_s);
+        }
+    }
+
+    /// The crest that the bow throws to one side, by the sign of `unit`, in strokes that lean outwards.
+    fn bow_wave(
+        &self,
+        picture: &mut Picture,
+        camera: &Camera,
+        course: &[Place],
+        unit: f64,
+        wake_s: f64,
+    ) {
+        let Some([newest, next]) = course.first_chunk() else { return };
+        let (mut last, mut run) = (newest.at, 0.0);
+        let mut ahead = (newest.at - next.at).try_normalize().unwrap_or(DVec2::X);
+        let mut crest = Vec::new();
+        for place in course {
+            let sailed = last - place.at;
+            ahead = sailed.try_normalize().unwrap_or(ahead);
+            (last, run) = (place.at, run + sailed.length());
+            let spread = unit * (1.2 + BOW_SLOPE * run / unit.abs());
+            crest.push((run, place.at + 3.0 * unit.abs() * ahead + spread * ahead.perp(), ahead));
+        }
+        let (mut due, mut left) = (0.0, 0..MAX_FEATHERS);
+        for (ends, place) in crest.windows(2).zip(course) {
+            let [(from, near, _), (to, far, ahead)] = [ends[0], ends[1]];
+            while due < to && left.next().is_some() {
+                let at = near.lerp(far, ((due - from) / (to - from)).clamp(0.0, 1.0));
+                let out = unit * ahead.perp();
+                let fade = self.fade(place.age, wake_s);
+                let foot = at + 0.9 * unit.abs() * ahead - 0.25 * out;
+                let bend = at + 0.1 * out;
+                let tip = at - 0.8 * unit.abs() * ahead + 0.6 * out;
+                let strokes =
+                    [(foot, 0.4), (bend, 1.2), (tip, 0.2)].map(|(at, radius)| PathPoint {
+                        at: camera.points(at),
+                        radius,
+                        colour: faded(self.palette.chart, 0.85 * fade),
+                    });
+                let (points, clip) = (strokes.to_vec(), camera.rect);
+                picture.shapes.push(Shape::Path(Path { points, dash: SOLID, clip }));
+                due += FEATHER * unit.abs();
+            }
         }
     }
 }

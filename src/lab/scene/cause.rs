@@ -9,6 +9,7 @@ use super::refusal::Refusal;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{self, BODIES, Fault, Pin};
 use crate::sim::integrators::METHODS;
+use crate::sim::law::Layout;
 
 /// A fault of a scene file. Its display says what is wrong, and [`Cause::remedy`] what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -149,6 +150,8 @@ pub(super) enum Wanted {
     Expression,
     /// The names of two coordinates.
     Plane,
+    /// The name of a [`Layout`].
+    Layout,
     /// The places of nodes.
     Places,
     /// The numbers of nodes.
@@ -284,9 +287,12 @@ impl Wanted {
 
     fn noun(&self) -> &'static str {
         match self {
-            Wanted::Text(_) | Wanted::Method | Wanted::Hash | Wanted::Expression | Wanted::Pin => {
-                "a string"
-            }
+            Wanted::Text(_)
+            | Wanted::Method
+            | Wanted::Hash
+            | Wanted::Expression
+            | Wanted::Pin
+            | Wanted::Layout => "a string",
             Wanted::Number(_) => "a number",
             Wanted::Whole(_) => "an integer",
             Wanted::Methods | Wanted::Curve(_) | Wanted::Plane => "a list",
@@ -340,6 +346,9 @@ impl fmt::Display for Wanted {
             Wanted::Ends => write!(f, "the numbers of two nodes, such as [0, 1]"),
             Wanted::Springs => write!(f, "a list such as [{{ between = [0, 1] }}]"),
             Wanted::Spring => write!(f, "a spring in braces, such as {{ between = [0, 1] }}"),
+            Wanted::Layout => {
+                write!(f, "{}", list(&Layout::ALL.map(|(id, _)| id), '"', " or "))
+            }
             Wanted::Pin => write!(f, "{}", list(&Pin::ALL.map(Pin::id), '"', " or ")),
             Wanted::Tables(name) => write!(f, "`[[{name}]]` in double brackets and its keys below"),
         }

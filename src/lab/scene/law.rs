@@ -8,7 +8,7 @@ use super::nearest::nearest;
 use super::table::{Field, Named, Table, Written};
 use crate::sim::bodies::{Kind, Range, check_law, law_kind};
 use crate::sim::law::{
-    CoordinateText, LawText, MOST_CONSTANTS, MOST_COORDINATES, Part, Refusal, Remedy, UNITS,
+    CoordinateText, LawText, Layout, MOST_CONSTANTS, MOST_COORDINATES, Part, Refusal, Remedy, UNITS,
 };
 
 /// The name of the table array.
@@ -18,6 +18,7 @@ const CONSTANTS: Field = optional("constants");
 const COORDINATES: Field = required("coordinates", "what moves");
 const ENERGY: Field = optional("energy");
 const PLANE: Field = optional("plane");
+const DRAW: Field = optional("draw");
 const UNIT: Field = optional("unit");
 const START: Field = optional("start");
 const START_VELOCITY: Field = optional("start_velocity");
@@ -25,8 +26,8 @@ const ACCELERATION: Field = required("acceleration", "its second derivative by t
 const EXACT: Field = optional("exact");
 const KICK: Field = optional("kick");
 
-/// The most characters of the name of a unit.
-const MOST_UNIT_CHARS: usize = 16;
+/// The most characters of the name of a unit or of a layout.
+const MOST_WORD_CHARS: usize = 16;
 
 /// A name and its bytes in the file.
 type WrittenName = (String, Span<usize>);
@@ -37,6 +38,7 @@ struct WrittenLaw {
     coordinates: Vec<WrittenCoordinate>,
     energy: Option<Written>,
     plane: Option<[usize; 2]>,
+    layout: Layout,
 }
 
 struct WrittenCoordinate {
@@ -56,8 +58,9 @@ pub(super) fn read_law(row: &mut Table<'_>) -> (Option<&'static Kind>, Option<Ve
     let coordinates = read_coordinates(row);
     let energy = row.expression(ENERGY);
     let plane = coordinates.as_ref().and_then(|coordinates| read_plane(row, coordinates));
+    let layout = read_layout(row, coordinates.as_deref().unwrap_or_default());
     let Some(coordinates) = coordinates else { return (None, None) };
-    let law = WrittenLaw { constants, coordinates, energy, plane };
+    let law = WrittenLaw { constants, coordinates, energy, plane, layout };
     let Some(text) = law.text() else { return (None, None) };
     let kind = match law_kind(text) {
         Ok(kind) => kind,
@@ -135,7 +138,7 @@ fn read_coordinates(row: &mut Table<'_>) -> Option<Vec<WrittenCoordinate>> {
 }
 
 fn read_unit(table: &mut Table<'_>) -> &'static str {
-    let Some(written) = table.text(UNIT, MOST_UNIT_CHARS) else { return UNITS[0] };
+    let Some(written) = table.text(UNIT, MOST_WORD_CHARS) else { return UNITS[0] };
     if let Some(unit) = UNITS.iter().find(|unit| **unit == written) {
         return unit;
     }
@@ -171,6 +174,29 @@ fn read_plane(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Option<
     }
 }
 
+fn read_layout(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Layout {
+    let Some(written) = row.text_for(DRAW, MOST_WORD_CHARS, Wanted::Layout) else {
+        return Layout::default();
+    };
+    let known = Layout::ALL.map(|(id, _)| id);
+    let found = Layout::ALL.iter().find(|(id, _)| *id == written);
+    let is_pair = matches!(coordinates, [body, wheel, ..] if body.unit == wheel.unit);
+    let (what, remedy) = match found {
+        None => (format!("unknown picture {written:?}"), offer(&written, &known)),
+        Some(_) if row.has(PLANE.key) => {
+            ("the law has a `plane` and a `draw`".into(), "leave one of them out".into())
+        }
+        Some((_, Layout::Carriage)) if !is_pair => (
+            "a carriage needs two coordinates of one unit: its own height, and then its wheel's"
+                .into(),
+            "write another `draw`, or put these two first".into(),
+        ),
+        Some((_, layout)) => return *layout,
+    };
+    row.complain(row.span(DRAW.key), Cause::Law { what, remedy });
+    Layout::default()
+}
+
 fn offer(written: &str, known: &[&str]) -> String {
     match nearest(written, known.iter().map(|name| (*name, *name))) {
         Some(name) => format!("did you mean `{name}`?"),
@@ -198,6 +224,7 @@ impl WrittenLaw {
             coordinates: self.coordinates.iter().map(coordinate).collect::<Option<_>>()?,
             energy: self.energy.as_ref().map(text),
             plane: self.plane,
+            layout: self.layout,
         })
     }
 

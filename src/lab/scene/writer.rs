@@ -8,7 +8,7 @@ use super::{Check, Scene, SceneBody, Scripted};
 use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{Form, Grid, Lists, NetPlan, PlannedSpring, Range};
-use crate::sim::law::LawText;
+use crate::sim::law::{LawText, Layout};
 
 impl Scene {
     /// Replaces the hashes in the checks of a scene file's `text`, in the order of the file. The rest of the text stays
@@ -141,6 +141,9 @@ fn write_law(text: &mut String, SceneBody { name, values, .. }: &SceneBody, law:
     if let Some(plane) = law.plane {
         let names = plane.iter().map(|&place| quoted(&law.coordinates[place].name));
         *text += &format!("plane = {}\n", list(names));
+    }
+    if law.layout != Layout::default() {
+        *text += &format!("draw = {}\n", quoted(law.layout.id()));
     }
     if let Some(energy) = &law.energy {
         *text += &format!("energy = {}\n", quoted(energy));

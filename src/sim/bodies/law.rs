@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::false_claims::FalseClaims;
 use super::survey::ranges;
 use crate::sim::body::{Body, Input};
-use crate::sim::law::{At, Equations, Registers};
+use crate::sim::law::{At, Equations, Layout, Registers};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
 use crate::sim::system::{State, System};
 
@@ -218,11 +218,13 @@ impl Body for Law {
         true
     }
 
-    /// The coordinates of the plane, or the first coordinate to the right.
+    /// The coordinates of the plane, or the first coordinate to the right or up.
     fn place(&self, q: &Vec<f64>) -> DVec2 {
-        match self.equations.text().plane {
-            Some([x, y]) => DVec2::new(q[x], q[y]),
-            None => DVec2::new(q[0], 0.0),
+        let text = self.equations.text();
+        match (text.plane, text.layout) {
+            (Some([x, y]), _) => DVec2::new(q[x], q[y]),
+            (None, Layout::Beads | Layout::Follower) => DVec2::new(q[0], 0.0),
+            (None, Layout::Vertical | Layout::Carriage) => DVec2::new(0.0, q[0]),
         }
     }
 }

@@ -5,6 +5,7 @@ use regatta::sim::bodies::kind;
 use regatta::sim::integrators::METHODS;
 use regatta::sim::{Solver, Stepper};
 
+mod drawn;
 mod language;
 mod random;
 mod truth;

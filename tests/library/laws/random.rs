@@ -2,7 +2,7 @@
 
 use regatta::lab::SceneBody;
 use regatta::sim::Solver;
-use regatta::sim::law::{CoordinateText, Equations, LawText, Part};
+use regatta::sim::law::{CoordinateText, Equations, LawText, Layout, Part};
 
 use super::{body, stepper};
 use crate::dice::Dice;
@@ -180,6 +180,7 @@ fn three_hundred_thousand_mutated_expressions_are_read_or_refused_in_place() {
             coordinates: vec![coordinate],
             energy: None,
             plane: None,
+            layout: Layout::Beads,
         };
         match Equations::new(law) {
             Ok(_) => good += 1,

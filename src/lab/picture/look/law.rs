@@ -1,30 +1,86 @@
-//! A law: beads on rails, or in a plane.
+//! A law, drawn as its scene says: beads on rails or in a plane, heights, a carriage, or a follower.
 
 use super::beads::Beads;
 use super::{Drawn, Framing, Handle, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::Law;
+use crate::sim::law::Layout;
 
-fn beads(law: &Law) -> Beads<'_> {
+use carriage::Carriage;
+use follower::Follower;
+use vertical::Vertical;
+
+mod carriage;
+mod follower;
+mod vertical;
+
+/// A picture of a law: as [`Drawn`], of coordinates of any number.
+trait Arrangement {
+    fn draw(&self, q: &[f64], outline: &mut Outline);
+    fn framing(&self) -> Framing;
+    fn handles(&self, q: &[f64]) -> Vec<Handle>;
+    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull);
+}
+
+impl Arrangement for Beads<'_> {
+    fn draw(&self, q: &[f64], outline: &mut Outline) {
+        self.draw(q, outline);
+    }
+    fn framing(&self) -> Framing {
+        self.framing()
+    }
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        self.handles(q)
+    }
+    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
+        self.pull(state, pull);
+    }
+}
+
+fn arrangement(law: &Law) -> Box<dyn Arrangement + '_> {
     let text = law.equations().text();
-    let coordinates = text.coordinates.iter().map(|of| [&*of.name, of.unit]).collect();
-    Beads { coordinates, ranges: law.ranges(), plane: text.plane }
+    let unit = text.coordinates[0].unit;
+    let alike = text.coordinates.iter().take_while(|of| of.unit == unit).count();
+    // Those of other units are no places.
+    let ranges = &law.ranges()[..alike];
+    match text.layout {
+        Layout::Beads => {
+            let coordinates = text.coordinates.iter().map(|of| [&*of.name, of.unit]).collect();
+            Box::new(Beads { coordinates, ranges: law.ranges(), plane: text.plane })
+        }
+        Layout::Vertical => Box::new(Vertical { ranges }),
+        Layout::Carriage => Box::new(Carriage::new(ranges)),
+        Layout::Follower => Box::new(Follower { ranges }),
+    }
 }
 
 impl Drawn for Law {
     fn draw(&self, q: &Vec<f64>, outline: &mut Outline) {
-        beads(self).draw(q, outline);
+        arrangement(self).draw(q, outline);
     }
 
     fn framing(&self) -> Framing {
-        beads(self).framing()
+        arrangement(self).framing()
     }
 
     fn handles(&self, q: &Vec<f64>) -> Vec<Handle> {
-        beads(self).handles(q)
+        arrangement(self).handles(q)
     }
 
     fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        beads(self).pull(state, pull);
+        arrangement(self).pull(state, pull);
     }
+}
+
+/// The least and the greatest of some ranges and of 0; of nothing but 0, a unit to either side.
+fn reach(ranges: &[(f64, f64)]) -> [f64; 2] {
+    let (low, high) =
+        ranges.iter().fold((0.0_f64, 0.0_f64), |all, next| (all.0.min(next.0), all.1.max(next.1)));
+    if low < high { [low, high] } else { [-1.0, 1.0] }
+}
+
+/// Brings the height of a coordinate to a hand.
+fn lift(state: &mut State<Vec<f64>>, coordinate: usize, height: f64, velocity: f64) {
+    state.q[coordinate] = height;
+    state.v[coordinate] = velocity;
 }

@@ -1,13 +1,19 @@
 //! A satellite and the centre that it goes round, framed by the whole path.
 
+use std::f64::consts::TAU;
+
 use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::{Ellipse, Orbit};
 
-/// The radius of the satellite, in units.
-const SATELLITE: f64 = 0.045;
+/// The radii of the satellite and of the planet, in units.
+const SATELLITE: f64 = 0.035;
+const PLANET: f64 = 0.12;
+
+/// The corners of a course.
+const CORNERS: u16 = 180;
 
 /// Half the longer side of the rectangle round the orbit, in metres; of one that is not closed, its first distance.
 fn unit(orbit: &Orbit) -> f64 {
@@ -18,7 +24,7 @@ impl Drawn for Orbit {
     fn draw(&self, _q: &DVec2, outline: &mut Outline) {
         let unit = unit(self);
         let (centre, at) = (DVec2::ZERO, outline.at);
-        outline.marks.push(Mark::Anchor { centre, radius: 0.075 * unit });
+        outline.marks.push(Mark::Planet { centre, radius: PLANET * unit });
         outline.marks.push(Mark::Disc { centre: at, radius: SATELLITE * unit });
     }
 
@@ -33,6 +39,23 @@ impl Drawn for Orbit {
                 Framing::Fixed { centre_m: DVec2::ZERO, half_m, trail_s }
             }
         }
+    }
+
+    /// The ellipse through the state, by its polar equation about the focus.
+    fn course(&self, state: &State<DVec2>) -> Vec<DVec2> {
+        let now = Orbit { q0: state.q, v0: state.v, ..self.clone() };
+        if now.ellipse().is_none() {
+            return Vec::new();
+        }
+        let momentum = state.q.perp_dot(state.v);
+        let eccentricity = -state.v.perp() * momentum / self.mu - state.q.normalize_or_zero();
+        let parameter = momentum * momentum / self.mu;
+        let corner = |i| {
+            let angle = TAU * f64::from(i) / f64::from(CORNERS);
+            let to = DVec2::new(libm::cos(angle), libm::sin(angle));
+            to * (parameter / (1.0 + eccentricity.dot(to)))
+        };
+        (0..=CORNERS).map(corner).collect()
     }
 
     fn handles(&self, q: &DVec2) -> Vec<Handle> {
