@@ -177,7 +177,7 @@ impl Moment<'_> {
             let [newer, older] = [ends[0], ends[1]];
             let Some(ahead) = (newer.at - older.at).try_normalize() else { continue };
             // By the moment at which the hull was there: eddies stay where they are in the water.
-            let moment = |place: Place| libm::floor((self.lanes_t - place.age) / EDDY_S);
+            let moment = |place: Place| libm::floor((self.t - place.age) / EDDY_S);
             if moment(newer) == moment(older) {
                 continue;
             }
