@@ -177,6 +177,7 @@ impl Experiment {
             lab.apply(Command::Restart);
         }
         lab.begin_hints();
+        lab.forget_changes();
         if let Some(card) = self.loop_trace {
             lab.open_loop_lab_on(card.id);
         }

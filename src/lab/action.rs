@@ -76,6 +76,22 @@ impl Action {
         }
     }
 
+    /// What it is, for people.
+    pub(super) fn noun(&self) -> &'static str {
+        match self {
+            Action::Method(_) | Action::Lane { .. } => "the switch",
+            Action::Substeps { .. } => "the substeps",
+            Action::Tolerance { .. } => "the tolerance",
+            Action::TickHz(_) => "the tick rate",
+            Action::Throttle(_) => "the throttle",
+            Action::Rudder(_) => "the rudder",
+            Action::Kick(_) => "the kick",
+            Action::Set { .. } => "the parameter",
+            Action::Place { .. } => "the placement",
+            Action::Solo { .. } => "the end of the race",
+        }
+    }
+
     /// The control that it sets; `None` if it does not set one.
     pub(super) fn control(&self) -> Option<Control> {
         match *self {

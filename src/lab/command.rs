@@ -46,8 +46,12 @@ pub enum Command {
     Seek(u64),
     /// Goes back to before the selected lane blew up, and runs on.
     WatchAgain,
-    /// Restores the future that was discarded last.
+    /// Takes back the last change to the run or to its next start.
     Undo,
+    /// Makes the change again that was undone last.
+    Redo,
+    /// The pointer's button goes down or up. All changes while it is down are undone as one.
+    PointerDown(bool),
     /// Back to tick 0, the bodies at their start and the script from its top. The method and the tick
     /// rate that a person chose stay; a script's do not.
     Restart,

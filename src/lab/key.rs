@@ -15,6 +15,8 @@ pub enum Key {
     ShiftSign(char),
     /// A letter or a sign with Control held, or with Command on a Mac.
     ControlSign(char),
+    /// A letter with Control and Shift held.
+    ControlShiftSign(char),
     /// The space bar.
     Space,
     /// The up arrow.
@@ -114,9 +116,12 @@ pub static KEYS: &[Binding] = &[
         repeats: false,
     },
     Binding {
-        shown: "Ctrl Z",
-        about: "undo the last change to the past, or the last restart",
-        keys: &[(Key::ControlSign('z'), Command::Undo)],
+        shown: "Ctrl Z, Ctrl Shift Z",
+        about: "undo the last change, do it again",
+        keys: &[
+            (Key::ControlSign('z'), Command::Undo),
+            (Key::ControlShiftSign('z'), Command::Redo),
+        ],
         repeats: false,
     },
     Binding {

@@ -10,8 +10,7 @@ use super::past::{History, Past};
 use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
 use super::scene_list::SceneList;
-use super::session::{RecordingError, Session, Timeline};
-use super::start::StartSettings;
+use super::session::{RecordingError, Session, StartSettings, Timeline};
 use super::viewer::Viewer;
 use crate::sim::Clock;
 
@@ -26,8 +25,6 @@ mod restarting;
 mod resting;
 mod showing;
 
-use restarting::RunBefore;
-
 /// A scene being run and looked at.
 pub struct Lab {
     pub(super) scene_list: SceneList,
@@ -39,16 +36,6 @@ pub struct Lab {
     pub(super) viewer: Viewer,
     /// The open loop lab.
     pub(super) loop_lab: Option<LoopLab>,
-    /// The settings that an undo restores.
-    before_discard: Option<BeforeDiscard>,
-    /// The run before the last restart of the scene.
-    run_before: Option<Box<RunBefore>>,
-}
-
-/// The settings before a future was discarded.
-struct BeforeDiscard {
-    start: StartSettings,
-    before_equal_cost: Option<Vec<LaneSpec>>,
 }
 
 impl Lab {
@@ -67,8 +54,6 @@ impl Lab {
             viewer: Viewer::new(timeline.session().race().entrants()[0].lane_number),
             timeline,
             loop_lab: None,
-            before_discard: None,
-            run_before: None,
             start,
         }
     }

@@ -45,7 +45,6 @@ mod scene;
 mod scene_list;
 mod session;
 mod source_code;
-mod start;
 mod viewer;
 mod zoom_pan;
 

@@ -8,12 +8,18 @@ use super::race::{ActionResult, Mode, Observer, Race};
 use super::scene::Scene;
 
 mod recording;
+mod run_with_past;
+mod start;
 mod time_scale;
 mod timeline;
+mod undo;
 
 pub use recording::RecordingError;
+pub use run_with_past::{Event, EventKind};
+pub(in crate::lab) use start::StartSettings;
 pub use time_scale::TimeScale;
-pub use timeline::{Event, EventKind, SNAPSHOT_BYTES, Timeline};
+pub use timeline::{SNAPSHOT_BYTES, Timeline};
+pub(in crate::lab) use undo::Exchanged;
 
 /// A running scene, without a clock, a picture or a viewer.
 #[derive(Clone)]

@@ -56,8 +56,7 @@ pub struct Viewer {
     /// The last frames of the lab's own loop.
     pub live: LiveLoop,
     pub(super) findings: Option<Findings>,
-    /// The lanes before equal cost was switched on; `None` while it is off.
-    pub(super) before_equal_cost: Option<Vec<LaneSpec>>,
+    pub(super) pointer_is_down: bool,
     /// The body that the person holds.
     pub(super) held: Option<HeldBody>,
     pub(super) dialog: Option<Dialog>,
@@ -104,7 +103,7 @@ impl Viewer {
             notice: None,
             live: LiveLoop::default(),
             findings: None,
-            before_equal_cost: None,
+            pointer_is_down: false,
             held: None,
             dialog: None,
             typed_path: String::new(),
@@ -118,6 +117,11 @@ impl Viewer {
     /// The place in the list of the lane that the pointer or the keyboard's focus is on, if it is on one.
     pub fn pointed_lane(&self) -> Option<usize> {
         self.pointed
+    }
+
+    /// Whether the pointer's button is down, as [`Command::PointerDown`](super::Command::PointerDown) told last.
+    pub fn pointer_is_down(&self) -> bool {
+        self.pointer_is_down
     }
 
     /// The language in which the next method is copied: that of the last, and Rust at first.

@@ -105,6 +105,11 @@ impl FrameRenderer {
         let shown = self.shown;
         let mut touch = std::mem::take(&mut self.touch);
         let layout = self.lay_out_with(gpu, size_px, scale, input, |ui| {
+            let (is_down, was_down) =
+                (ui.input(|input| input.pointer.any_down()), lab.viewer().pointer_is_down());
+            if is_down && !was_down {
+                commands.push(Command::PointerDown(true));
+            }
             let rect = match shown {
                 Panels::Shown => {
                     let (asked, rect) = panels::show(ui, lab);
@@ -120,6 +125,9 @@ impl FrameRenderer {
             let size = rect.size().max(egui::Vec2::ZERO);
             let picture = picture::compose(lab, size.into());
             touch.show(ui, rect, &picture, lab, &mut commands);
+            if was_down && !is_down {
+                commands.push(Command::PointerDown(false));
+            }
             Some(Stage { rect, picture })
         });
         self.touch = touch;

@@ -139,7 +139,10 @@ fn from_parts(physical: PhysicalKey, logical: &Logical, held: Modifiers) -> Opti
         let Logical::Character(text) = logical else { return None };
         let sign = text.chars().next().filter(|sign| !sign.is_control());
         let sign = sign.and_then(|sign| sign.to_lowercase().next());
-        return sign.map(Key::ControlSign);
+        return sign.map(|sign| match held.shift && sign.is_alphabetic() {
+            true => Key::ControlShiftSign(sign),
+            false => Key::ControlSign(sign),
+        });
     }
     let shift = held.shift;
     if let PhysicalKey::Code(code @ (KeyCode::Comma | KeyCode::Period)) = physical
@@ -240,6 +243,9 @@ mod tests {
         let control = Modifiers { control: true, ..Modifiers::default() };
         assert_eq!(held(KeyCode::KeyZ, "z", control), Some(Key::ControlSign('z')));
         assert_eq!(held(KeyCode::KeyY, "z", control), Some(Key::ControlSign('z')));
+        let both = Modifiers { shift: true, ..control };
+        assert_eq!(held(KeyCode::KeyZ, "Z", both), Some(Key::ControlShiftSign('z')));
+        assert_eq!(held(KeyCode::Equal, "+", both), Some(Key::ControlSign('+')));
         let alt = Modifiers { other: true, ..Modifiers::default() };
         assert_eq!(held(KeyCode::KeyN, "n", alt), None);
     }

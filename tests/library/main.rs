@@ -41,5 +41,6 @@ mod step_doubling;
 mod steppers;
 mod switching;
 mod tidy;
+mod undo;
 mod verdicts;
 mod words;

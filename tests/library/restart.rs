@@ -83,11 +83,12 @@ fn a_run_with_actions_by_hand_comes_back_after_a_restart_and_goes_again() {
     lab.apply(Command::Undo);
     assert_eq!((lab.race().tick(), lab.race().state_hash()), (80, hash));
     assert_eq!(lab.race().journal(), &journal);
-    assert!(lab.viewer().notice.as_deref().unwrap().starts_with("the run before the restart"));
+    let notice = lab.viewer().notice.as_deref().unwrap();
+    assert!(notice.starts_with("undid the restart"), "{notice}");
     lab.apply(Command::Seek(40));
     lab.apply(Command::Seek(80));
     assert_eq!(lab.race().state_hash(), hash, "with its past");
-    lab.apply(Command::Undo);
+    lab.apply(Command::Redo);
     assert_eq!((lab.race().tick(), lab.race().journal().rows().len()), (5, 0));
 }
 

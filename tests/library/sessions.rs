@@ -272,7 +272,10 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         // What changes nothing leaves the future as it is.
         let throttle = lab.race().throttle();
         lab.apply(Command::Throttle(throttle));
-        assert_eq!((lab.timeline().end(), lab.timeline().can_undo()), (1000, false));
+        assert_eq!(
+            (lab.timeline().end(), lab.timeline().undoes()),
+            (1000, Some("the kick at tick 700"))
+        );
 
         let rows = lab.timeline().session().journal().rows().len();
         lab.apply(Command::Act(Action::Kick(-0.4)));
@@ -288,9 +291,16 @@ fn an_action_in_the_past_begins_a_new_future_and_undo_restores_the_old_one() {
         lab.apply(Command::Seek(1000));
         let found = shown(lab.timeline());
         assert!(found == end, "scene {n}: {}", difference(&found, &end));
-        assert!(!lab.timeline().can_undo());
         lab.apply(Command::Undo);
-        assert_eq!(lab.timeline().end(), 1000, "there is no more to undo");
+        assert_eq!((lab.race().tick(), lab.timeline().end()), (700, 700), "before the first kick");
+        assert_eq!(lab.timeline().undoes(), None);
+        lab.apply(Command::Undo);
+        assert_eq!(lab.timeline().end(), 700, "there is no more to undo");
+        lab.apply(Command::Redo);
+        lab.apply(Command::Seek(1000));
+        let found = shown(lab.timeline());
+        assert!(found == end, "scene {n}: {}", difference(&found, &end));
+        assert_eq!(lab.timeline().redoes(), Some("the kick at tick 400"));
     }
 }
 
@@ -393,8 +403,12 @@ fn a_parameter_that_acts_at_the_start_does_not_change_the_run_or_its_future() {
     (0..200).for_each(|_| lab.tick());
     lab.apply(Command::Seek(100));
     lab.apply(Command::Act(Action::Set { body: 0, parameter: 3, value: 0.25 }));
-    assert_eq!((lab.timeline().end(), lab.timeline().can_undo()), (200, false));
+    assert_eq!((lab.timeline().end(), lab.timeline().undoes()), (200, Some("the start value")));
     assert!(lab.timeline().session().journal().rows().is_empty());
     lab.apply(Command::Restart);
     assert_eq!(lab.race().truth().bodies()[0].stepper.q(), [0.25]);
+    lab.apply(Command::Undo);
+    assert_eq!((lab.race().tick(), lab.timeline().end()), (100, 200));
+    lab.apply(Command::Undo);
+    assert_ne!(lab.scene().bodies[0].values[3], 0.25);
 }

@@ -39,6 +39,7 @@ fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Lab)) -> Lab {
     } else {
         lab.apply(Command::Pick(1));
     }
+    lab.forget_changes();
     for frame in 0..FRAMES {
         if frame == FRAMES / 2 && !race {
             lab.apply(Command::Kick(1.0));

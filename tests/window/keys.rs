@@ -28,6 +28,7 @@ fn x_name(key: Key) -> String {
         Key::ControlSign('-') => "ctrl+minus".into(),
         Key::ControlSign('=') => "ctrl+equal".into(),
         Key::ControlSign(letter) => format!("ctrl+{letter}"),
+        Key::ControlShiftSign(letter) => format!("ctrl+shift+{letter}"),
         Key::ShiftSign(letter) => format!("shift+{letter}"),
         Key::Space => "space".into(),
         Key::Up => "Up".into(),

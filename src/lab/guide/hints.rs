@@ -139,6 +139,9 @@ fn is_named(key: Key, name: &str) -> bool {
         Key::ControlSign(letter) => {
             name.strip_prefix("Ctrl ").is_some_and(|n| n.chars().eq(letter.to_uppercase()))
         }
+        Key::ControlShiftSign(letter) => {
+            name.strip_prefix("Ctrl Shift ").is_some_and(|n| n.chars().eq(letter.to_uppercase()))
+        }
         Key::Function(number) => name == format!("F{number}"),
         Key::Space => name == "Space",
         Key::Up => name == "↑",

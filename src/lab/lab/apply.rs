@@ -1,6 +1,6 @@
 //! The effects of commands: each becomes an [action](Action) on the run, or changes the display.
 
-use super::{BeforeDiscard, Lab};
+use super::Lab;
 use crate::lab::action::Action;
 use crate::lab::command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 use crate::lab::display::DriverRequest;
@@ -9,6 +9,7 @@ use crate::lab::lane_spec::LaneSpec;
 use crate::lab::loop_lab::LoopCommand;
 use crate::lab::metrics::METRICS;
 use crate::lab::race::{ActionResult, Mode};
+use crate::lab::session::StartSettings;
 use crate::lab::viewer::Dialog;
 use crate::sim::bodies::Acts;
 
@@ -16,6 +17,9 @@ impl Lab {
     /// Carries out a command. Returns what the driver has to do for it, if anything.
     pub fn apply(&mut self, command: Command) -> Option<DriverRequest> {
         self.viewer.hints.see(&command, self.start.scene.hint.as_deref());
+        if !self.viewer.pointer_is_down {
+            self.timeline.close_change();
+        }
         let ran = self.time_runs();
         let request = self.carry_out(command);
         if !ran && self.time_runs() {
@@ -69,14 +73,14 @@ impl Lab {
             Command::Kick(times) => self.act(Action::Kick(times)),
             Command::ToggleRace => match race.mode() {
                 Mode::Solo => {
-                    self.keep_run();
+                    self.keep_run("the race");
                     self.start.mode = Mode::Race;
                     self.restart();
                 }
                 Mode::Race => {
                     let lane = self.selected().lane_number;
-                    self.start.mode = Mode::Solo;
                     self.act(Action::Solo { lane });
+                    self.start.mode = Mode::Solo;
                     // It may be about a lane that has left the race.
                     self.viewer.notice = None;
                 }
@@ -95,6 +99,8 @@ impl Lab {
             }
             Command::WatchAgain => self.watch_again(),
             Command::Undo => self.undo(),
+            Command::Redo => self.redo(),
+            Command::PointerDown(is_down) => self.viewer.pointer_is_down = is_down,
             Command::Restart => {
                 // A hint leads on; the old run is a click away on the timeline.
                 if self.restart_keeping_run() && self.hint().is_none() {
@@ -159,7 +165,9 @@ impl Lab {
             Command::ToggleInspector => {
                 self.viewer.display.inspector = !self.viewer.display.inspector;
             }
-            Command::Seconds(seconds) => self.start.set_seconds(seconds),
+            Command::Seconds(seconds) => {
+                self.set_start("the length", |start| start.set_seconds(seconds));
+            }
             Command::Hold(held) => self.viewer.held = Some(held),
             Command::LetGo => self.viewer.held = None,
             Command::ZoomPan { body, zoom_pan } => self.viewer.display.set_zoom_pan(body, zoom_pan),
@@ -198,17 +206,14 @@ impl Lab {
             && let Some(of) = self.scene().bodies.get(body)
             && of.kind.parameters.get(parameter).is_some_and(|it| it.acts == Acts::AtStart)
         {
-            return self.start.set(body, parameter, value);
+            let set = |start: &mut StartSettings| start.set(body, parameter, value);
+            return self.set_start("the start value", set);
         }
         let was_past = self.timeline.is_in_past();
-        let before = was_past.then(|| BeforeDiscard {
-            start: self.start.clone(),
-            before_equal_cost: self.viewer.before_equal_cost.clone(),
-        });
+        let before = self.start.clone();
         let (acted, told) =
-            self.watched(|timeline, notices| timeline.act_seen(action.clone(), notices));
+            self.watched(|timeline, notices| timeline.act_seen(action.clone(), &before, notices));
         let ActionResult::Done { released } = acted else { return self.tell(told) };
-        self.before_discard = before.or(self.before_discard.take());
         self.start.keep(&action, self.timeline.session().race());
         if let Action::Lane { .. } = action {
             self.start.entry = self.active();
@@ -222,6 +227,14 @@ impl Lab {
         });
         let told: Vec<String> = told.into_iter().chain(released).chain(discarded).collect();
         self.tell((!told.is_empty()).then(|| told.join("; ")));
+    }
+
+    /// Changes a setting of the next start by hand. `set` returns whether it changed anything.
+    fn set_start(&mut self, what: &str, set: impl FnOnce(&mut StartSettings) -> bool) {
+        let before = self.start.clone();
+        if set(&mut self.start) {
+            self.timeline.keep_settings(what, before);
+        }
     }
 
     /// The number of the lane that a pick of this place of the list selects: in solo mode that of the only lane.
@@ -238,11 +251,11 @@ impl Lab {
         let Some(lane) = self.picked(entry) else { return };
         self.viewer.selected = lane;
         self.viewer.is_selected = true;
-        self.start.entry = entry;
         if self.mode() == Mode::Solo {
             let spec = self.entries()[entry];
             self.act(Action::Lane { lane, spec });
         }
+        self.start.entry = entry;
     }
 
     /// Gives a method of the list new substeps and a new tolerance, switches its lane in a race to them, and picks it. A race
@@ -253,7 +266,7 @@ impl Lab {
         let flown = self.race().entrants().iter().find(|entrant| entrant.entry == entry);
         match (self.mode(), flown) {
             (Mode::Race, None) => {
-                self.keep_run();
+                self.keep_run("the new race");
                 self.start.list[entry] = spec;
                 self.start.entry = entry;
                 self.restart();
@@ -292,7 +305,7 @@ impl Lab {
             .map(|entrant| (entrant.lane_number, self.entries()[entrant.entry]))
             .collect();
         let specs: Vec<LaneSpec> = lanes.iter().map(|(_, spec)| *spec).collect();
-        let (wanted, before, notice) = match &self.viewer.before_equal_cost {
+        let (wanted, before, notice) = match &self.start.before_equal_cost {
             Some(before) => {
                 let of = |spec: &LaneSpec| {
                     let before = before.iter().find(|known| known.method == spec.method);
@@ -317,7 +330,7 @@ impl Lab {
         for ((lane, _), spec) in lanes.into_iter().zip(wanted) {
             self.act(Action::Lane { lane, spec });
         }
-        self.viewer.before_equal_cost = before;
+        self.start.before_equal_cost = before;
         self.set_notice(notice);
     }
 
@@ -336,20 +349,6 @@ impl Lab {
         self.timeline.seek(tick);
         self.timeline.show_present();
         self.clock.set_tick_hz(self.race().tick_hz());
-    }
-
-    fn undo(&mut self) {
-        if self.timeline.undo() {
-            if let Some(BeforeDiscard { start, before_equal_cost }) = self.before_discard.take() {
-                self.start = start;
-                self.viewer.before_equal_cost = before_equal_cost;
-            }
-            self.timeline.show_present();
-            self.clock.set_tick_hz(self.race().tick_hz());
-            self.set_notice("the old future is back");
-        } else {
-            self.bring_back_run();
-        }
     }
 }
 

@@ -160,6 +160,7 @@ impl Lab {
             | Command::Kick(_)
             | Command::Undo
             | Command::WatchAgain
+            | Command::Redo
             | Command::Hold(_)
             | Command::ToggleEqualCost
             | Command::NextInterpolation

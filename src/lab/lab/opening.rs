@@ -127,7 +127,7 @@ impl Lab {
     /// person has chosen, and without actions by hand.
     fn run_again(&mut self, place: usize, tick: u64) {
         let scene = self.scene_list.scene(place);
-        self.keep_run();
+        self.keep_run("the change of the file");
         // Without a choice the scene's rate applies.
         if self.start.tick_hz == self.start.scene.tick_hz {
             self.start.tick_hz = scene.tick_hz;

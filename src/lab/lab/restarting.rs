@@ -1,27 +1,17 @@
-//! Restarts, and the run before the last one, which an undo brings back.
+//! Restarts, and taking back what a person did.
 
-use super::{BeforeDiscard, Lab};
+use std::sync::Arc;
+
+use super::Lab;
 use crate::lab::journal::Source;
-use crate::lab::lane_spec::LaneSpec;
-use crate::lab::session::Timeline;
-use crate::lab::start::StartSettings;
-
-/// A run that a restart has put aside, with its settings.
-pub(super) struct RunBefore {
-    start: StartSettings,
-    timeline: Timeline,
-    before_discard: Option<BeforeDiscard>,
-    before_equal_cost: Option<Vec<LaneSpec>>,
-    /// The number of the selected lane.
-    selected: usize,
-}
+use crate::lab::race::Mode;
+use crate::lab::session::{Exchanged, Timeline};
 
 impl Lab {
     /// Begins the run again with the present settings. The run so far is lost unless it was [kept](Self::keep_run).
     pub(super) fn restart(&mut self) {
-        self.timeline = Timeline::with_limit(self.start.session(), self.timeline.limit());
+        self.timeline.restart(self.start.session());
         self.record_chosen_coordinates();
-        self.before_discard = None;
         self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
         self.viewer.notice = None;
         self.viewer.live.jump();
@@ -31,56 +21,71 @@ impl Lab {
         self.dropped = 0;
     }
 
-    /// Restarts and keeps the run for an undo. Returns whether a person had done anything in it.
+    /// Restarts. A run in which a person has done something, or that began with other settings, is kept for an undo; any
+    /// other would only repeat itself. Returns whether it was kept.
     pub(super) fn restart_keeping_run(&mut self) -> bool {
-        let is_by_hand = is_by_hand(&self.timeline);
-        self.keep_run();
+        let is_edited = !Arc::ptr_eq(self.timeline.session().scene(), &self.start.scene);
+        let keeps = is_by_hand(&self.timeline) || is_edited;
+        if keeps {
+            self.keep_run("the restart");
+        }
         self.restart();
-        is_by_hand
+        keeps
     }
 
-    /// Keeps a copy of the settings and the run itself for an undo of the restart that has to follow. A run in which a
-    /// person has done nothing does not replace one in which something was done.
-    pub(super) fn keep_run(&mut self) {
-        let kept = self.run_before.as_deref().is_some_and(|run| is_by_hand(&run.timeline));
-        if self.timeline.end() == 0 && !is_by_hand(&self.timeline)
-            || kept && !is_by_hand(&self.timeline)
-        {
-            return;
+    /// Keeps a copy of the settings and the run itself for an undo of the restart that has to follow.
+    pub(super) fn keep_run(&mut self, what: &str) {
+        self.timeline.keep_run(what, self.start.clone());
+    }
+
+    /// Makes what was done so far part of the start, so that none of it can be undone: for a driver that has set up the lab
+    /// by commands.
+    pub fn forget_changes(&mut self) {
+        self.timeline.forget_changes();
+    }
+
+    /// Takes back the last change.
+    pub(super) fn undo(&mut self) {
+        match self.timeline.undo_with(self.start.clone()) {
+            Some(undone) => {
+                let notice = format!("undid {}: Ctrl Shift Z does it again", undone.what);
+                self.after_exchange(undone, notice);
+            }
+            None => self.set_notice("there is nothing to undo"),
         }
-        let timeline = Timeline::with_limit(self.start.session(), self.timeline.limit());
-        self.run_before = Some(Box::new(RunBefore {
-            start: self.start.clone(),
-            timeline: std::mem::replace(&mut self.timeline, timeline),
-            before_discard: self.before_discard.take(),
-            before_equal_cost: self.viewer.before_equal_cost.clone(),
-            selected: self.viewer.selected,
-        }));
     }
 
-    /// What an undo brings back now, for people; `None` if there is nothing.
-    pub fn undoes(&self) -> Option<&'static str> {
-        if self.timeline.can_undo() {
-            return Some("bring back the future that an action in the past discarded");
+    /// Makes the change again that was undone last.
+    pub(super) fn redo(&mut self) {
+        match self.timeline.redo_with(self.start.clone()) {
+            Some(redone) => {
+                let notice = format!("did {} again: Ctrl Z takes it back", redone.what);
+                self.after_exchange(redone, notice);
+            }
+            None => self.set_notice("there is nothing to do again"),
         }
-        self.run_before.is_some().then_some("bring back the run before a restart")
     }
 
-    /// Exchanges the run with the one before the restart, if there is one: another undo exchanges them again.
-    pub(super) fn bring_back_run(&mut self) {
-        let Some(mut run) = self.run_before.take() else { return };
-        std::mem::swap(&mut self.start, &mut run.start);
-        std::mem::swap(&mut self.timeline, &mut run.timeline);
-        std::mem::swap(&mut self.before_discard, &mut run.before_discard);
-        std::mem::swap(&mut self.viewer.before_equal_cost, &mut run.before_equal_cost);
-        std::mem::swap(&mut self.viewer.selected, &mut run.selected);
-        self.run_before = Some(run);
+    fn after_exchange(&mut self, exchanged: Exchanged, notice: String) {
+        let Exchanged { settings, is_restart, .. } = exchanged;
+        let entry = self.start.entry;
+        self.start = settings;
+        // Selecting a lane is not a change: the one that is selected stays so.
+        let is_there = |lane: usize| self.race().entrants().iter().any(|e| e.lane_number == lane);
+        if self.mode() == Mode::Race && is_there(self.viewer.selected) {
+            self.start.entry = entry;
+        } else {
+            self.viewer.selected = self.picked(self.start.entry).unwrap_or_default();
+        }
+        if is_restart {
+            self.viewer.findings = None;
+        }
         self.viewer.held = None;
-        self.viewer.findings = None;
+        self.viewer.live.jump();
         self.record_chosen_coordinates();
         self.timeline.show_present();
         self.clock.set_tick_hz(self.race().tick_hz());
-        self.set_notice("the run before the restart is back: Ctrl Z goes to the new one again");
+        self.set_notice(notice);
     }
 }
 

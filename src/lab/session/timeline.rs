@@ -1,9 +1,13 @@
-//! A session with its past and its future: it can go to any tick that it has reached, with identical bits.
+//! A session with its past and its future: it can go to any tick that it has reached, with identical bits, and takes back
+//! what a person did.
 
+use super::run_with_past::{Event, EventKind, RunWithPast, Snapshot};
+use super::start::StartSettings;
+use super::undo::{Change, Exchanged, Future, Other, UndoStack};
 use super::{Session, TimeScale};
 use crate::lab::action::Action;
-use crate::lab::journal::{Journal, Source};
-use crate::lab::past::{Past, PastMark};
+use crate::lab::journal::Journal;
+use crate::lab::past::Past;
 use crate::lab::race::{ActionResult, Observer, Race};
 
 /// The memory that snapshots may take, in bytes.
@@ -22,61 +26,13 @@ const WORK_OF_AN_EVALUATION: u64 = 4;
 /// A session that can go back and forth in time.
 ///
 /// It keeps snapshots of the session at regular ticks, and reaches any tick from the nearest snapshot before it by
-/// repeating the journal's actions. When the snapshots reach their memory limit, their spacing doubles.
+/// repeating the journal's actions. When the snapshots reach their memory limit, their spacing doubles. What a person does
+/// can be undone, and done again.
 pub struct Timeline {
-    session: Session,
-    past: Past,
-    /// By tick; the first is the start.
-    snapshots: Vec<Snapshot>,
+    run: RunWithPast,
     spacing: u64,
     limit: usize,
-    /// The last tick reached.
-    end: u64,
-    halts: Vec<Event>,
-    undone: Option<Undone>,
-}
-
-/// A session at a tick.
-struct Snapshot {
-    /// Without a journal, which the timeline has.
-    race: Race,
-    mark: PastMark,
-    bytes: usize,
-}
-
-/// A future that was discarded.
-struct Undone {
-    /// The tick at which another future began.
-    tick: u64,
-    journal: Journal,
-    end: u64,
-    snapshots: Vec<Snapshot>,
-    halts: Vec<Event>,
-}
-
-/// Something that happened in a run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Event {
-    /// When.
-    pub tick: u64,
-    /// What.
-    pub kind: EventKind,
-}
-
-/// What happened in a run.
-#[derive(Clone, Debug, PartialEq)]
-pub enum EventKind {
-    /// An action was performed.
-    Done(Action, Source),
-    /// A body of this lane halted; 0 is the truth.
-    Halted {
-        /// The lane's number, from 1; 0 is the truth.
-        lane: usize,
-        /// The body's place in the scene.
-        body: usize,
-        /// Whether a value left its range, rather than the solver failing.
-        is_blow_up: bool,
-    },
+    changes: UndoStack,
 }
 
 impl Timeline {
@@ -87,49 +43,38 @@ impl Timeline {
 
     /// Like [`Timeline::new`], with at most `limit` bytes for snapshots.
     pub fn with_limit(session: Session, limit: usize) -> Self {
-        let past = Past::new(session.race(), session.scene().seconds);
-        let mut timeline = Self {
-            session,
-            past,
-            snapshots: Vec::new(),
-            spacing: SPACING,
-            limit,
-            end: 0,
-            halts: Vec::new(),
-            undone: None,
-        };
-        timeline.snapshots.push(timeline.snapshot());
-        timeline
+        let run = RunWithPast::new(session);
+        Self { run, spacing: SPACING, limit, changes: UndoStack::default() }
     }
 
     /// The session at the present tick.
     pub fn session(&self) -> &Session {
-        &self.session
+        &self.run.session
     }
     /// The race at tick 0, before any action; without its journal.
     pub fn start(&self) -> &Race {
-        self.session.start()
+        self.run.session.start()
     }
     /// The time of every tick, by the performed and the pending changes of the tick rate.
     pub fn times(&self) -> TimeScale {
-        TimeScale::new(self.start().tick_hz(), self.session.journal().rows())
+        TimeScale::new(self.start().tick_hz(), self.run.session.journal().rows())
     }
     /// The recorded past that is drawn.
     pub fn past(&self) -> &Past {
-        &self.past
+        &self.run.past
     }
     /// The last tick reached.
     pub fn end(&self) -> u64 {
-        self.end
+        self.run.end
     }
     /// Whether the present tick is before the last tick reached.
     pub fn is_in_past(&self) -> bool {
-        self.session.race.tick() < self.end
+        self.run.session.race.tick() < self.run.end
     }
     /// The memory that snapshots take, in bytes.
     pub fn bytes(&self) -> usize {
-        let undone = self.undone.iter().flat_map(|undone| &undone.snapshots);
-        self.snapshots.iter().chain(undone).map(|snapshot| snapshot.bytes).sum()
+        let all = self.run.snapshots.iter().chain(self.changes.snapshots());
+        all.map(|snapshot| snapshot.bytes).sum()
     }
     /// The memory that snapshots may take, in bytes.
     pub fn limit(&self) -> usize {
@@ -139,31 +84,35 @@ impl Timeline {
     pub fn set_limit(&mut self, limit: usize) {
         self.limit = limit;
     }
-    /// Whether there is a discarded future to bring back.
-    pub fn can_undo(&self) -> bool {
-        self.undone.is_some()
+    /// What [`Timeline::undo`] would take back, for people; `None` if there is nothing.
+    pub fn undoes(&self) -> Option<&str> {
+        self.changes.done.last().map(|change| &change.what[..])
+    }
+    /// What [`Timeline::redo`] would do again, for people; `None` if there is nothing.
+    pub fn redoes(&self) -> Option<&str> {
+        self.changes.undone.last().map(|change| &change.what[..])
     }
 
     /// The events up to the last tick reached, by tick.
     pub fn events(&self) -> Vec<Event> {
-        let rows = self.session.journal().rows().iter();
-        let done = rows.take_while(|row| row.tick <= self.end).map(|row| Event {
+        let rows = self.run.session.journal().rows().iter();
+        let done = rows.take_while(|row| row.tick <= self.run.end).map(|row| Event {
             tick: row.tick,
             kind: EventKind::Done(row.action.clone(), row.source),
         });
-        let mut events: Vec<Event> = done.chain(self.halts.iter().cloned()).collect();
+        let mut events: Vec<Event> = done.chain(self.run.halts.iter().cloned()).collect();
         events.sort_by_key(|event| event.tick);
         events
     }
 
     /// Adds the present to what is drawn, even if no sample is due.
     pub fn show_present(&mut self) {
-        self.past.show_present(self.session.race());
+        self.run.past.show_present(self.run.session.race());
     }
 
     /// Performs the journal's pending actions at the present tick.
     pub(in crate::lab) fn catch_up<O: Observer>(&mut self, observer: &mut O) {
-        self.session.race.catch_up(&mut (&mut self.past, observer));
+        self.run.session.race.catch_up(&mut (&mut self.run.past, observer));
     }
 
     /// Makes a tick; in the past it repeats the tick that was made.
@@ -173,10 +122,10 @@ impl Timeline {
 
     /// Like [`Timeline::tick`], with an observer.
     pub fn tick_seen<O: Observer>(&mut self, observer: &mut O) {
-        self.session.tick_seen(&mut (&mut self.past, observer));
-        let tick = self.session.race.tick();
-        if tick > self.end {
-            self.end = tick;
+        self.run.session.tick_seen(&mut (&mut self.run.past, observer));
+        let tick = self.run.session.race.tick();
+        if tick > self.run.end {
+            self.run.end = tick;
             self.note_halts();
         }
         if tick.is_multiple_of(self.spacing) {
@@ -185,66 +134,151 @@ impl Timeline {
     }
 
     fn note_halts(&mut self) {
-        let race = self.session.race();
+        let race = self.run.session.race();
         let halts = race.just_halted().filter(|(_, halt)| !halt.failure.is_foreseen());
-        self.halts.extend(halts.map(|(place, halt)| {
+        self.run.halts.extend(halts.map(|(place, halt)| {
             let lane = place.map_or(0, |place| race.entrants()[place].lane_number);
             let is_blow_up = halt.is_blow_up();
             Event { tick: halt.tick, kind: EventKind::Halted { lane, body: halt.body, is_blow_up } }
         }));
     }
 
-    /// Performs an action at the present tick, like [`Session::act`]. In the past, another future begins with it, and the
-    /// old future is kept for [`Timeline::undo`].
+    /// Performs an action at the present tick, like [`Session::act`], as a change that [`Timeline::undo`] takes back. In the
+    /// past, another future begins with it.
     pub fn act(&mut self, action: Action) -> bool {
-        self.act_seen(action, &mut ()) != ActionResult::Nothing
+        self.close_change();
+        let settings = StartSettings::of_session(&self.run.session);
+        self.act_seen(action, &settings, &mut ()) != ActionResult::Nothing
     }
 
+    /// Performs an action. `settings` are those before the change that it belongs to, if it begins one.
     pub(in crate::lab) fn act_seen(
         &mut self,
         action: Action,
+        settings: &StartSettings,
         observer: &mut impl Observer,
     ) -> ActionResult {
-        let before = self.is_in_past().then(|| self.session.journal().clone());
-        let acted = self.session.act_seen(action, &mut (&mut self.past, observer));
+        let was_past = self.is_in_past();
+        let (journal, end) = (self.run.session.journal().clone(), self.run.end);
+        let tick = self.run.session.race.tick();
+        let what = format!("{} at tick {tick}", action.noun());
+        let acted = self.run.session.act_seen(action, &mut (&mut self.run.past, observer));
         if acted == ActionResult::Nothing {
             return acted;
         }
-        let tick = self.session.race.tick();
-        self.past.forget_future();
-        // A snapshot holds the session as it reached a tick, before the actions there.
-        let later = self.snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick);
-        let snapshots = self.snapshots.split_off(later);
-        let later = self.halts.partition_point(|event| event.tick < tick);
-        let halts = self.halts.split_off(later);
-        if let Some(journal) = before {
-            self.undone = Some(Undone { tick, journal, end: self.end, snapshots, halts });
-            self.end = tick;
+        self.run.past.forget_future();
+        let before = self.split_off(tick, journal, end);
+        self.run.end = tick;
+        // A change that was made in the past has a future of its own to bring back.
+        if was_past || !self.changes.has_future() {
+            let other = Other::Future(before);
+            self.changes.push(Change { what, settings: settings.clone(), other });
         }
         acted
     }
 
-    /// Restores the future that was discarded last, and goes to the tick at which that happened. Returns whether there was
-    /// one.
+    /// Splits off the future from `tick` on, which has this journal and reached `end`.
+    fn split_off(&mut self, tick: u64, journal: Journal, end: u64) -> Future {
+        let RunWithPast { snapshots, halts, .. } = &mut self.run;
+        // A snapshot holds the session as it reached a tick, before the actions there.
+        let later = snapshots.partition_point(|snapshot| snapshot.race.tick() <= tick);
+        let snapshots = snapshots.split_off(later);
+        let later = halts.partition_point(|event| event.tick < tick);
+        Future { tick, journal, end, snapshots, halts: halts.split_off(later) }
+    }
+
+    /// Keeps a change of the next start for [`Timeline::undo`]; `settings` are those before it.
+    pub(in crate::lab) fn keep_settings(&mut self, what: &str, settings: StartSettings) {
+        if !self.changes.is_open() {
+            let what = what.to_owned();
+            self.changes.push(Change { what, settings, other: Other::Settings });
+        }
+    }
+
+    /// Keeps the run and its settings for [`Timeline::undo`] of a change for which another run takes its place.
+    pub(in crate::lab) fn keep_run(&mut self, what: &str, settings: StartSettings) {
+        let next = RunWithPast::new(settings.session());
+        let run = std::mem::replace(&mut self.run, next);
+        let other = Other::Run(Box::new(run));
+        self.changes.push(Change { what: what.to_owned(), settings, other });
+        self.fit();
+    }
+
+    /// Puts another run in the place of the present one, which is lost unless it was [kept](Self::keep_run).
+    pub(in crate::lab) fn restart(&mut self, session: Session) {
+        self.run = RunWithPast::new(session);
+        self.spacing = SPACING;
+        self.changes.undone.clear();
+    }
+
+    /// Ends the present change: what a person does next is undone by itself.
+    pub(in crate::lab) fn close_change(&mut self) {
+        self.changes.close();
+    }
+
+    /// Makes all that was done part of the start: nothing of it can be undone.
+    pub(in crate::lab) fn forget_changes(&mut self) {
+        self.changes = UndoStack::default();
+    }
+
+    /// Takes back the newest change, and goes to the tick at which it was made; the run before a restart comes back where
+    /// it was. Returns whether there was a change.
     pub fn undo(&mut self) -> bool {
-        let Some(undone) = self.undone.take() else { return false };
-        let Undone { tick, journal, end, snapshots, halts } = undone;
-        self.snapshots.truncate(self.snapshots.partition_point(|s| s.race.tick() <= tick));
-        self.snapshots.extend(snapshots);
-        self.halts.truncate(self.halts.partition_point(|event| event.tick < tick));
-        self.halts.extend(halts);
-        self.session.race.set_journal(journal);
-        self.end = end;
-        self.restore(tick);
-        // The recorded future is the one that has just been undone.
-        self.past.forget_future();
-        true
+        self.undo_with(StartSettings::of_session(&self.run.session)).is_some()
+    }
+
+    /// Makes the change again that was undone last, and goes to its tick. Returns whether there was one.
+    pub fn redo(&mut self) -> bool {
+        self.redo_with(StartSettings::of_session(&self.run.session)).is_some()
+    }
+
+    /// Like [`Timeline::undo`]; `settings` are the present ones.
+    pub(in crate::lab) fn undo_with(&mut self, settings: StartSettings) -> Option<Exchanged> {
+        let change = self.changes.done.pop()?;
+        let (exchanged, change) = self.exchange(change, settings);
+        self.changes.undone.push(change);
+        Some(exchanged)
+    }
+
+    /// Like [`Timeline::redo`]; `settings` are the present ones.
+    pub(in crate::lab) fn redo_with(&mut self, settings: StartSettings) -> Option<Exchanged> {
+        let change = self.changes.undone.pop()?;
+        let (exchanged, change) = self.exchange(change, settings);
+        self.changes.done.push(change);
+        Some(exchanged)
+    }
+
+    /// Goes to the other side of a change. Returns it, and the way back.
+    fn exchange(&mut self, change: Change, present: StartSettings) -> (Exchanged, Change) {
+        self.changes.close();
+        let Change { what, settings, mut other } = change;
+        match &mut other {
+            Other::Settings => {}
+            Other::Run(run) => std::mem::swap(&mut self.run, run),
+            Other::Future(future) => {
+                let journal = self.run.session.journal().clone();
+                let left = self.split_off(future.tick, journal, self.run.end);
+                let Future { tick, journal, end, snapshots, halts } =
+                    std::mem::replace(future, left);
+                self.run.snapshots.extend(snapshots);
+                self.run.halts.extend(halts);
+                self.run.session.race.set_journal(journal);
+                self.run.end = end;
+                self.restore(tick);
+                // The recorded future is the one that has just been left.
+                self.run.past.forget_future();
+                self.catch_up(&mut ());
+            }
+        }
+        let is_restart = matches!(other, Other::Run(_));
+        let way_back = Change { what: what.clone(), settings: present, other };
+        (Exchanged { what, settings, is_restart }, way_back)
     }
 
     /// Goes to a tick, at most the last reached, in the state before the actions at that tick.
     pub fn seek(&mut self, tick: u64) {
-        let tick = tick.min(self.end);
-        if tick != self.session.race.tick() {
+        let tick = tick.min(self.run.end);
+        if tick != self.run.session.race.tick() {
             self.restore(tick);
         }
     }
@@ -252,96 +286,96 @@ impl Timeline {
     /// Records of each body the coordinate with this index from now on, and from the start of the run by running it
     /// again to the present tick. Returns whether it does: a run that takes more than a second or so keeps its record.
     pub fn record_coordinates(&mut self, coordinates: &[usize]) -> bool {
-        if self.past.coordinates().eq(coordinates.iter().copied()) {
+        if self.run.past.coordinates().eq(coordinates.iter().copied()) {
             return true;
         }
-        let bodies = self.session.race.entrants().iter().flat_map(|entrant| entrant.lane.bodies());
+        let bodies =
+            self.run.session.race.entrants().iter().flat_map(|entrant| entrant.lane.bodies());
         let work = bodies.map(|body| {
             body.stepper.evaluations() * (body.coordinates.len() as u64 + WORK_OF_AN_EVALUATION)
         });
         if work.sum::<u64>() > MOST_REPEATED_WORK {
             return false;
         }
-        let (tick, journal) = (self.session.race.tick(), self.session.journal().clone());
-        let done = self.session.race.done();
+        let (tick, journal) = (self.run.session.race.tick(), self.run.session.journal().clone());
+        let done = self.run.session.race.done();
         // The other snapshots are marks of a past that was recorded otherwise.
-        self.snapshots.truncate(1);
-        self.undone.iter_mut().for_each(|undone| undone.snapshots.clear());
-        self.session.race = self.snapshots[0].race.clone();
+        self.run.snapshots.truncate(1);
+        self.changes.clear_futures();
+        self.run.session.race = self.run.snapshots[0].race.clone();
         self.begin_past(coordinates.to_vec());
-        self.snapshots[0].mark = self.past.mark();
-        self.session.race.set_journal(journal);
+        self.run.snapshots[0].mark = self.run.past.mark();
+        self.run.session.race.set_journal(journal);
         self.repeat_to(tick);
-        if self.session.race.done() < done {
-            self.session.race.catch_up(&mut self.past);
+        if self.run.session.race.done() < done {
+            self.run.session.race.catch_up(&mut self.run.past);
         }
         true
     }
 
     /// Forgets the recorded past, and begins another at the present.
     fn begin_past(&mut self, coordinates: Vec<usize>) {
-        let (race, span_s) = (&self.session.race, self.session.scene().seconds);
-        self.past = Past::of_coordinates(race, span_s, coordinates.into_iter());
+        let (race, span_s) = (&self.run.session.race, self.run.session.scene().seconds);
+        self.run.past = Past::of_coordinates(race, span_s, coordinates.into_iter());
     }
 
     /// Goes to `tick` from a snapshot.
     fn restore(&mut self, tick: u64) {
-        let nearest = self.snapshots.partition_point(|s| s.race.tick() <= tick) - 1;
-        let present = self.session.race.tick();
-        let is_ahead = (self.snapshots[nearest].race.tick()..tick).contains(&present);
+        let nearest = self.run.snapshots.partition_point(|s| s.race.tick() <= tick) - 1;
+        let present = self.run.session.race.tick();
+        let is_ahead = (self.run.snapshots[nearest].race.tick()..tick).contains(&present);
         if !is_ahead {
             // Starts so far back that the drawn past is complete again.
-            let wanted = &self.snapshots[nearest].mark;
-            let fills = |snapshot: &Snapshot| self.past.fills(&snapshot.mark, wanted);
-            let from = self.snapshots[..=nearest].iter().rfind(|snapshot| fills(snapshot));
-            let journal = self.session.journal().clone();
+            let wanted = &self.run.snapshots[nearest].mark;
+            let fills = |snapshot: &Snapshot| self.run.past.fills(&snapshot.mark, wanted);
+            let from = self.run.snapshots[..=nearest].iter().rfind(|snapshot| fills(snapshot));
+            let journal = self.run.session.journal().clone();
             match from {
                 Some(Snapshot { race, mark, .. }) => {
-                    self.session.race = race.clone();
-                    self.past.rewind(mark, &self.session.race);
+                    self.run.session.race = race.clone();
+                    self.run.past.rewind(mark, &self.run.session.race);
                 }
                 None => {
-                    self.session.race = self.snapshots[0].race.clone();
-                    self.begin_past(self.past.coordinates().collect());
+                    self.run.session.race = self.run.snapshots[0].race.clone();
+                    self.begin_past(self.run.past.coordinates().collect());
                 }
             }
-            self.session.race.set_journal(journal);
+            self.run.session.race.set_journal(journal);
         }
         self.repeat_to(tick);
     }
 
     /// Makes the ticks up to `tick` again.
     fn repeat_to(&mut self, tick: u64) {
-        while self.session.race.tick() < tick {
-            self.session.tick_seen(&mut self.past);
-            if self.session.race.tick().is_multiple_of(self.spacing) {
+        while self.run.session.race.tick() < tick {
+            self.run.session.tick_seen(&mut self.run.past);
+            if self.run.session.race.tick().is_multiple_of(self.spacing) {
                 self.take_snapshot();
             }
         }
     }
 
-    fn snapshot(&self) -> Snapshot {
-        let mut race = self.session.race.clone();
-        race.set_journal(Journal::default());
-        let mark = self.past.mark();
-        let bytes = race.bytes() + mark.heap_bytes() + size_of::<PastMark>();
-        Snapshot { race, mark, bytes }
-    }
-
     /// Adds a snapshot of the present if there is none, and thins the snapshots to their memory limit.
     fn take_snapshot(&mut self) {
-        let tick = self.session.race.tick();
-        let place = self.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
-        if self.snapshots.get(place).is_some_and(|snapshot| snapshot.race.tick() == tick) {
+        let tick = self.run.session.race.tick();
+        let place = self.run.snapshots.partition_point(|snapshot| snapshot.race.tick() < tick);
+        if self.run.snapshots.get(place).is_some_and(|snapshot| snapshot.race.tick() == tick) {
             return;
         }
-        self.snapshots.insert(place, self.snapshot());
-        while self.bytes() > self.limit && self.spacing <= self.end {
-            self.spacing *= 2;
-            let stays = |snapshot: &Snapshot| snapshot.race.tick().is_multiple_of(self.spacing);
-            self.snapshots.retain(stays);
-            if let Some(undone) = &mut self.undone {
-                undone.snapshots.retain(stays);
+        self.run.snapshots.insert(place, self.run.snapshot());
+        self.fit();
+    }
+
+    /// Thins the snapshots to their memory limit, and then forgets changes.
+    fn fit(&mut self) {
+        while self.bytes() > self.limit {
+            if self.spacing <= self.run.end.max(self.changes.end()) {
+                self.spacing *= 2;
+                let stays = |snapshot: &Snapshot| snapshot.race.tick().is_multiple_of(self.spacing);
+                self.run.snapshots.retain(stays);
+                self.changes.retain(stays);
+            } else if !self.changes.drop_last() {
+                return;
             }
         }
     }

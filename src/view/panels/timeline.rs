@@ -98,7 +98,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 fn margins(lab: &Lab, width: f32) -> [f32; 2] {
     match width >= ROOM_FOR_WORDS {
         true => [NAME, MEMORY + MARGIN],
-        false if lab.undoes().is_some() => [MARGIN, UNDO + MARGIN],
+        false if lab.timeline().undoes().is_some() => [MARGIN, UNDO + MARGIN],
         false => [MARGIN; 2],
     }
 }
@@ -302,12 +302,12 @@ fn beside(ui: &mut Ui, lab: &Lab, room: Rect, commands: &mut Vec<Command>) {
         let at = room.right_bottom();
         ui.painter().text(at, Align2::RIGHT_BOTTOM, text, FontId::proportional(10.5), ink(ui).dim);
     }
-    if let Some(brings_back) = lab.undoes() {
+    if let Some(what) = lab.timeline().undoes() {
         let size = vec2(UNDO - 6.0, 18.0).min(room.size());
         let rect = Rect::from_min_size(pos2(room.right() - size.x, room.top() + 1.0), size);
         let button =
             ui.put(rect, egui::Button::new(egui::RichText::new("Undo").size(11.0)).small());
-        let about = format!("{brings_back} (Ctrl Z)");
+        let about = format!("undo {what} (Ctrl Z)");
         button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
         if button.on_hover_text(about).clicked() {
             commands.push(Command::Undo);

@@ -2,33 +2,35 @@
 
 use std::sync::Arc;
 
-use super::action::Action;
-use super::equal_cost;
-use super::lane_spec::LaneSpec;
-use super::race::{Mode, Race};
-use super::scene::{LEAST_SECONDS, MOST_SECONDS, Scene, SceneBody, edited_values};
-use super::session::Session;
+use super::Session;
+use crate::lab::action::Action;
+use crate::lab::equal_cost;
+use crate::lab::lane_spec::LaneSpec;
+use crate::lab::race::{Mode, Race};
+use crate::lab::scene::{LEAST_SECONDS, MOST_SECONDS, Scene, SceneBody, edited_values};
 
 /// The settings of the next restart. They include a person's choices, and no effects of a script.
 #[derive(Clone, Debug)]
-pub(super) struct StartSettings {
+pub(in crate::lab) struct StartSettings {
     /// The scene as it was opened.
-    pub(super) opened: Arc<Scene>,
+    pub(in crate::lab) opened: Arc<Scene>,
     /// The scene with the parameters and the length that the person has set.
-    pub(super) scene: Arc<Scene>,
+    pub(in crate::lab) scene: Arc<Scene>,
     /// The methods with the substeps and tolerances that the person has set.
-    pub(super) list: Vec<LaneSpec>,
-    pub(super) mode: Mode,
+    pub(in crate::lab) list: Vec<LaneSpec>,
+    pub(in crate::lab) mode: Mode,
     /// The methods of the lanes of a race, by their places on the list.
     lanes: Vec<usize>,
     /// The method in solo mode, which is in a race too, by its place on the list.
-    pub(super) entry: usize,
-    pub(super) tick_hz: u32,
+    pub(in crate::lab) entry: usize,
+    pub(in crate::lab) tick_hz: u32,
+    /// The lanes before equal cost was switched on; `None` while it is off.
+    pub(in crate::lab) before_equal_cost: Option<Vec<LaneSpec>>,
 }
 
 impl StartSettings {
     /// The settings of an unedited scene: solo, under its opening method.
-    pub(super) fn of(scene: Scene) -> Self {
+    pub(in crate::lab) fn of(scene: Scene) -> Self {
         let scene =
             Scene { lanes: equal_cost::lanes_that_race(&scene), equal_cost: false, ..scene };
         let opens_with = |spec: &LaneSpec| Some(spec.method) == scene.opening_method;
@@ -41,12 +43,13 @@ impl StartSettings {
             mode: Mode::Solo,
             entry,
             tick_hz: scene.tick_hz,
+            before_equal_cost: None,
             scene,
         }
     }
 
     /// The settings with which this run began.
-    pub(super) fn of_session(session: &Session) -> Self {
+    pub(in crate::lab) fn of_session(session: &Session) -> Self {
         let entrants = session.race().entrants();
         Self {
             mode: session.mode(),
@@ -59,7 +62,7 @@ impl StartSettings {
     }
 
     /// A run at its start.
-    pub(super) fn session(&self) -> Session {
+    pub(in crate::lab) fn session(&self) -> Session {
         let race = match self.mode {
             Mode::Solo => Race::solo(&self.scene, self.list.clone(), self.entry),
             Mode::Race => {
@@ -71,25 +74,30 @@ impl StartSettings {
         Session::new(Arc::clone(&self.scene), race.at_rate(self.tick_hz))
     }
 
-    /// Sets the scene's length in seconds, if it is in the allowed range.
-    pub(super) fn set_seconds(&mut self, seconds: f64) {
-        if (LEAST_SECONDS..=MOST_SECONDS).contains(&seconds) && seconds != self.scene.seconds {
+    /// Sets the scene's length in seconds, if it is in the allowed range. Returns whether that changes it.
+    pub(in crate::lab) fn set_seconds(&mut self, seconds: f64) -> bool {
+        let changes =
+            (LEAST_SECONDS..=MOST_SECONDS).contains(&seconds) && seconds != self.scene.seconds;
+        if changes {
             Arc::make_mut(&mut self.scene).seconds = seconds;
         }
+        changes
     }
 
-    /// Sets a parameter that acts at the start, if it is in its range and fits the others.
-    pub(super) fn set(&mut self, body: usize, parameter: usize, value: f64) {
+    /// Sets a parameter that acts at the start, if it is in its range and fits the others. Returns whether that changes it.
+    pub(in crate::lab) fn set(&mut self, body: usize, parameter: usize, value: f64) -> bool {
         let SceneBody { kind, values, .. } = &self.scene.bodies[body];
         if values[parameter] != value
             && let Ok(values) = edited_values(kind, values, parameter, value)
         {
             Arc::make_mut(&mut self.scene).bodies[body].values = values;
+            return true;
         }
+        false
     }
 
     /// Keeps the choice of a person's action in `race` for the next restart.
-    pub(super) fn keep(&mut self, action: &Action, race: &Race) {
+    pub(in crate::lab) fn keep(&mut self, action: &Action, race: &Race) {
         match *action {
             Action::TickHz(_) => self.tick_hz = race.tick_hz(),
             Action::Set { body, parameter, value } => {

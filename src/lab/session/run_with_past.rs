@@ -1,0 +1,68 @@
+//! A run as far as it was reached: its present, its drawn past, its snapshots and what happened in it.
+
+use super::Session;
+use crate::lab::action::Action;
+use crate::lab::journal::{Journal, Source};
+use crate::lab::past::{Past, PastMark};
+use crate::lab::race::Race;
+
+/// A run as far as it was reached, wherever it is now.
+pub(super) struct RunWithPast {
+    pub(super) session: Session,
+    pub(super) past: Past,
+    /// By tick; the first is the start.
+    pub(super) snapshots: Vec<Snapshot>,
+    /// The last tick reached.
+    pub(super) end: u64,
+    pub(super) halts: Vec<Event>,
+}
+
+impl RunWithPast {
+    pub(super) fn new(session: Session) -> Self {
+        let past = Past::new(session.race(), session.scene().seconds);
+        let mut run = Self { session, past, snapshots: Vec::new(), end: 0, halts: Vec::new() };
+        run.snapshots.push(run.snapshot());
+        run
+    }
+
+    pub(super) fn snapshot(&self) -> Snapshot {
+        let mut race = self.session.race.clone();
+        race.set_journal(Journal::default());
+        let mark = self.past.mark();
+        let bytes = race.bytes() + mark.heap_bytes() + size_of::<PastMark>();
+        Snapshot { race, mark, bytes }
+    }
+}
+
+/// A session at a tick.
+pub(super) struct Snapshot {
+    /// Without a journal, which the timeline has.
+    pub(super) race: Race,
+    pub(super) mark: PastMark,
+    pub(super) bytes: usize,
+}
+
+/// Something that happened in a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// When.
+    pub tick: u64,
+    /// What.
+    pub kind: EventKind,
+}
+
+/// What happened in a run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EventKind {
+    /// An action was performed.
+    Done(Action, Source),
+    /// A body of this lane halted; 0 is the truth.
+    Halted {
+        /// The lane's number, from 1; 0 is the truth.
+        lane: usize,
+        /// The body's place in the scene.
+        body: usize,
+        /// Whether a value left its range, rather than the solver failing.
+        is_blow_up: bool,
+    },
+}
