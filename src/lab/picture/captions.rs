@@ -75,9 +75,11 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, entra
         let bar = line([x, top], [x, bottom.max(top)], 3.0, colour, rect);
         picture.shapes.push(bar);
     }
+    // Of many lanes a row is lower than a line of the usual size.
+    let size = (0.78 * (rect.max[1] - rect.min[1])).min(12.0);
     let mut write = |y, colour, words: String| {
         let at = [left, y];
-        picture.labels.push(text(moment.palette, at, Align::Left, 12.0, colour, words));
+        picture.labels.push(text(moment.palette, at, Align::Left, size, colour, words));
     };
     let mut name = lane_name(lab, entrant);
     if right - left < ROOM_FOR_CAPTION[0] {
@@ -326,8 +328,14 @@ pub(super) fn exact(
     }
     let is_left = x + beside + ROOM_FOR_EXACT > max[0];
     let way = if is_left { -1.0 } else { 1.0 };
-    let at = [x + way * (beside + 8.0), (y + beside + 6.0).min(max[1] - 8.0)];
-    let from = [x + 0.7 * way * beside, y + 0.7 * beside];
+    let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - beside - 6.0];
+    let left = x + way * (beside + 8.0);
+    let is_taken = |label: &Label| {
+        (label.at[1] - below).abs() < CHIP && (label.at[0] - left).abs() < ROOM_FOR_EXACT
+    };
+    let is_above = above > min[1] + CHIP && picture.labels.iter().any(is_taken);
+    let at = [left, if is_above { above } else { below }];
+    let from = [x + 0.7 * way * beside, if is_above { y - 0.7 * beside } else { y + 0.7 * beside }];
     picture.shapes.push(line(from, [at[0] - 3.0 * way, at[1]], 1.0, palette.exact, camera.rect));
     let align = if is_left { Align::Right } else { Align::Left };
     let label = text(palette, at, align, 12.0, palette.exact, "exact".into());

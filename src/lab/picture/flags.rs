@@ -97,8 +97,12 @@ fn push_apart(
     let apart = (widths[first] + widths[second]) / 2.0 + GAP;
     let lack = apart - (a[0] - b[0]).abs();
     if lack > 0.0 && (a[1] - b[1]).abs() < FLAG + GAP {
-        places[low][0] = (places[low][0] - lack / 2.0).max(left);
-        places[high][0] = (places[high][0] + lack / 2.0).min(right);
+        // What one cannot move at the edge, the other moves more.
+        let moved = (places[high][0] + lack / 2.0).min(right) - places[high][0];
+        let back = (places[low][0] - (lack - moved)).max(left);
+        let rest = lack - moved - (places[low][0] - back);
+        places[low][0] = back;
+        places[high][0] = (places[high][0] + moved + rest).min(right);
     }
 }
 

@@ -144,7 +144,8 @@ fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
     let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && lines.len() <= MOST_IN_LEGEND;
     let is_below = lines.len() > BESIDE_TITLE
         || lab.display().instrument != Instrument::Motion
-        || ui.available_width() < WIDTH_BESIDE_TITLE;
+        || ui.available_width() < WIDTH_BESIDE_TITLE
+        || shown_coordinates(lab).len() > 1;
     ui.horizontal(|ui| {
         let is_error = lab.display().instrument == Instrument::Error;
         // The metric is said by its menu.
@@ -202,10 +203,15 @@ fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     }
 }
 
+/// The coordinates of the displayed body.
+fn shown_coordinates(lab: &Lab) -> &'static [Coordinate] {
+    lab.race().truth().bodies()[lab.display().body].coordinates
+}
+
 /// Offers the coordinates of the displayed body, if it has several.
 fn coordinate_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let body = lab.display().body;
-    let coordinates = lab.race().truth().bodies()[body].coordinates;
+    let coordinates = shown_coordinates(lab);
     if coordinates.len() > 1 {
         let named = |(index, coordinate): (usize, &'static Coordinate)| {
             (Command::Coordinate { body, coordinate: index }, coordinate.name)

@@ -199,10 +199,22 @@ pub(super) fn menu(ui: &mut Ui, lab: &Lab, entry: usize, commands: &mut Vec<Comm
     }
 }
 
+/// The smallest type of a cell, in points.
+const LEAST_TYPE: f32 = 9.0;
+
 fn cell(ui: &Ui, row: &Row<'_>, column: &Column, from: Pos2, width: f32, said: &verdict::Said) {
     let text = if row.flown.is_some() { ink(ui).text } else { ink(ui).dim };
     let write = |words: &str, font: FontId| {
-        let (galley, _) = short(ui, words, font, width, text);
+        // The longest names are written smaller rather than cut.
+        let mut size = TYPE;
+        let galley = loop {
+            let font = FontId::new(size, font.family.clone());
+            let (galley, is_whole) = short(ui, words, font, width, text);
+            if is_whole || size <= LEAST_TYPE {
+                break galley;
+            }
+            size -= 0.5;
+        };
         ui.painter().galley(from - vec2(0.0, galley.size().y / 2.0), galley, text);
     };
     match column.cell {
