@@ -102,7 +102,7 @@ fn the_guide_and_the_timeline_are_worked_by_the_mouse() {
     assert!((1..119).contains(&tick), "{tick}");
     desk.at_tick(tick);
     twin.click(&desk, "2 Semi-implicit Euler");
-    twin.click(&desk, "bring back the future");
+    twin.click(&desk, "undo ");
     assert_eq!((twin.lab.timeline().end(), twin.lab.active()), (120, 0));
     same(&desk, &mut twin);
     twin.click(&desk, "guide (F2)");

@@ -72,6 +72,7 @@ pub(super) fn flags(
             }
         }
     }
+    space_out(&mut places, &widths, right);
     for ((flags, [x, y]), width) in shared.iter().zip(places).zip(widths) {
         let colour = if flags.len() == 1 { flags[0].colour } else { palette.dim };
         let foot = [flags[0].at[0], flags[0].at[1] - lift + 6.0];
@@ -103,6 +104,30 @@ fn push_apart(
         let rest = lack - moved - (places[low][0] - back);
         places[low][0] = back;
         places[high][0] = (places[high][0] + moved + rest).min(right);
+    }
+}
+
+/// Ends what pushing has left over: from left to right none begins before the last one of its row has ended, then from
+/// right to left none lies beyond the edge.
+fn space_out(places: &mut [[f32; 2]], widths: &[f32], right: f32) {
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    order.sort_by(|a, b| places[*a][0].total_cmp(&places[*b][0]));
+    let apart = |a: usize, b: usize| (widths[a] + widths[b]) / 2.0 + GAP;
+    let in_a_row = |a: [f32; 2], b: [f32; 2]| (a[1] - b[1]).abs() < FLAG + GAP;
+    for (i, &flag) in order.iter().enumerate() {
+        for &before in &order[..i] {
+            if in_a_row(places[before], places[flag]) {
+                places[flag][0] = places[flag][0].max(places[before][0] + apart(before, flag));
+            }
+        }
+    }
+    for (i, &flag) in order.iter().enumerate().rev() {
+        places[flag][0] = places[flag][0].min(right);
+        for &after in &order[i + 1..] {
+            if in_a_row(places[after], places[flag]) {
+                places[flag][0] = places[flag][0].min(places[after][0] - apart(flag, after));
+            }
+        }
     }
 }
 

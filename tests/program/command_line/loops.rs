@@ -143,7 +143,7 @@ fn advice_names_a_policy_within_the_latency_with_its_constants() {
     let lockstep = told("--trace edge --policy lockstep --seconds 5");
     assert!(lockstep.contains("no policy here keeps the game's speed"), "{lockstep}");
     let variable = told("--trace steady-144 --policy variable --policy fixed --seconds 5");
-    assert!(variable.contains("amplitudes: variable by"), "{variable}");
+    assert!(variable.contains("(amplitudes): variable by"), "{variable}");
     assert!(variable.contains("take variable") && !variable.contains("fixed by"), "{variable}");
     // Whole periods of the spring later it is where it was, but not on the way there.
     let periods = told("--trace steady-60 --policy lockstep --seconds 20");
