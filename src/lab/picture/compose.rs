@@ -16,6 +16,9 @@ use crate::lab::palette::faded;
 use crate::lab::race::Entrant;
 use crate::lab::{Arrangement, Lab, Mode, ZoomPan};
 
+/// The most lanes of which each body has its number on it.
+const MAX_NUMBERED: usize = 9;
+
 /// The head of a cell in which its lane is named, and may have halted, in points.
 const CAPTION: f32 = 32.0;
 /// From this height of the stage on, in points, a ruler fits above it.
@@ -238,7 +241,8 @@ impl Band<'_> {
                 let [handle, hand] = [held.handle, held.hand].map(|at| camera.points(at));
                 picture.shapes.push(line(handle, hand, 1.0, palette.text, camera.rect));
             }
-            if self.lanes.len() > 1 {
+            // Flags of many lanes reach over the bodies.
+            if (2..=MAX_NUMBERED).contains(&self.lanes.len()) {
                 shown.number(picture, lane.entry + 1, colour);
             }
         }

@@ -85,8 +85,8 @@ fn one_bit_of_one_frame_is_a_change_of_pixels_and_not_of_physics() {
     assert_eq!(code, Some(1), "{stdout}{stderr}");
     let lines: Vec<_> = stdout.lines().collect();
     assert_eq!(lines[0], "physics: same to the bit: 5 lanes to tick 12");
-    let expected = "pixels: frame-000003.png: 1 pixels off, the worst by 4; the file was altered \
-                    after the capture, its hash says; see off/here/frame-000003.png";
+    let expected = "pixels: frame-000003.png: 1 pixels off, the worst by 4; the file no longer \
+                    matches its hash in the manifest; see off/here/frame-000003.png";
     assert_eq!(lines[1..], [expected, "pixels: 1 of 7 frames differ"]);
     assert!(stderr.contains("pixels differ from clip/manifest.json"), "{stderr}");
     let difference = folder.path().join("off/here/frame-000003.png");
