@@ -382,11 +382,17 @@ pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palett
     let length_m = camera.round_length_m(40.0);
     let (right, y, colour) = (max[0] - 10.0, max[1] - 8.0, palette.dim);
     let left = right - camera.length(length_m);
+    let at = [(left + right) / 2.0, y - 10.0];
+    // In a low cell a badge of a body beyond the edge needs the room.
+    let is_taken =
+        |label: &Label| (label.at[1] - at[1]).abs() < 16.0 && (label.at[0] - at[0]).abs() < 60.0;
+    if picture.labels.iter().any(is_taken) {
+        return;
+    }
     picture.shapes.push(line([left, y], [right, y], 1.5, colour, camera.rect));
     for x in [left, right] {
         picture.shapes.push(line([x, y - 3.0], [x, y + 3.0], 1.5, colour, camera.rect));
     }
-    let at = [(left + right) / 2.0, y - 10.0];
     let words = format!("{} {}", round(length_m, 4), camera.unit);
     picture.labels.push(text(palette, at, Align::Centre, 11.0, colour, words));
 }
