@@ -85,7 +85,7 @@ pub(super) fn strut(
         let part = f32::from(i) / f32::from(BENDS);
         let side = match i {
             0 | BENDS => 0.0,
-            _ if i % 2 == 0 => 1.0,
+            _ if i.is_multiple_of(2) => 1.0,
             _ => -1.0,
         };
         [from[0] + part * dx + side * across[0], from[1] + part * dy + side * across[1]]
