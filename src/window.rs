@@ -29,6 +29,7 @@ mod recording;
 pub(crate) mod regular_file;
 mod run_of_session;
 mod schedule;
+#[cfg(feature = "accessibility")]
 mod screen_reader;
 mod screenshot;
 mod settings;
@@ -303,6 +304,7 @@ impl ApplicationHandler<Event> for App {
 
     fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Event) {
         match event {
+            #[cfg(feature = "accessibility")]
             Event::ScreenReader(request) => {
                 if let Some(canvas) = &mut self.canvas {
                     screen_reader::answer(&mut canvas.egui, request);

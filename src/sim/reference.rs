@@ -19,7 +19,7 @@ mod trajectory;
 /// The accuracy that a reference solution aims at: its error over the duration of a built-in scene,
 /// relative to the largest coordinate and to the largest velocity. `tests/library/bodies/reference.rs` compares
 /// it with a closed form and with Runge-Kutta at a fine step, to a tighter bound.
-/// [`Stepper::truth_error`](super::Stepper::truth_error) estimates the error of each run. A motion that
+/// `truth_error` of a [`Stepper`](super::Stepper) estimates the error of each run. A motion that
 /// amplifies its initial deviations, such as a pendulum started upright, amplifies this error too.
 pub const REFERENCE_ACCURACY: f64 = 1e-10;
 

@@ -1,5 +1,6 @@
 //! A window's surface and the renderer that draws on it. Both are created again when the driver loses them.
 
+use std::mem;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -7,7 +8,7 @@ use winit::event_loop::{ActiveEventLoop, EventLoopProxy};
 use winit::window::Window;
 
 use super::clipboard::Clipboard;
-use super::{Event, WindowError, screen_reader};
+use super::{Event, WindowError};
 use crate::lab::{Command, Lab};
 use crate::view::{FrameRenderer, Gpu, Screen};
 
@@ -48,8 +49,7 @@ impl Canvas {
         let gpu = screen.gpu()?;
         log::info!("drawing with {} ({})", gpu.info.name, gpu.info.backend);
         let renderer = FrameRenderer::new(&gpu, screen.format(&gpu));
-        let mut egui = translator(&renderer, &window, &gpu);
-        screen_reader::attach(&mut egui, event_loop, &window, proxy);
+        let egui = translator(&renderer, &window, &gpu);
         let mut canvas = Self {
             window,
             egui,
@@ -60,6 +60,11 @@ impl Canvas {
             surface_is_lost: false,
             size_px: [0, 0],
         };
+        // Screen readers find the window only if this comes before it is visible.
+        #[cfg(feature = "accessibility")]
+        canvas.egui.init_accesskit(event_loop, &canvas.window, proxy);
+        #[cfg(not(feature = "accessibility"))]
+        drop(proxy);
         canvas.resize();
         Ok(canvas)
     }
@@ -113,7 +118,7 @@ impl Canvas {
 
     /// Removes and returns the events that the panels have not handled yet.
     pub(super) fn take_events(&mut self) -> Vec<egui::Event> {
-        std::mem::take(&mut self.egui.egui_input_mut().events)
+        mem::take(&mut self.egui.egui_input_mut().events)
     }
 
     /// Gives these events to the panels before any others.
@@ -149,9 +154,14 @@ impl Canvas {
                 self.gpu = screen.gpu()?;
                 // With a new context: the old one assumes that its fonts are on the device.
                 self.renderer = FrameRenderer::new(&self.gpu, screen.format(&self.gpu));
-                let mut egui = translator(&self.renderer, &self.window, &self.gpu);
-                screen_reader::carry_over(&mut self.egui, &mut egui);
-                self.egui = egui;
+                let egui = translator(&self.renderer, &self.window, &self.gpu);
+                let lost = mem::replace(&mut self.egui, egui);
+                #[cfg(feature = "accessibility")]
+                {
+                    self.egui.accesskit = lost.accesskit;
+                }
+                #[cfg(not(feature = "accessibility"))]
+                drop(lost);
             }
             self.screen = Some(screen);
         }

@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 
+#[cfg(feature = "accessibility")]
 use super::screen_reader::Request;
 use crate::lab::{Findings, LaneSpec, Scene};
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
-    /// A screen reader asks for something. Never without the feature `accessibility`.
+    /// A screen reader asks for something.
+    #[cfg(feature = "accessibility")]
     ScreenReader(Request),
     /// The analysis has found more.
     Analysed(Findings),

@@ -129,7 +129,7 @@ pub fn unforced(body: &dyn Stepper) -> Box<dyn Stepper> {
     free
 }
 
-/// The normal modes of `body`; `None` if it is not [linear](Stepper::is_linear), if damping couples the modes,
+/// The normal modes of `body`; `None` if it is not [linear](crate::sim::PlacedBody::is_linear), if damping couples the modes,
 /// or if a mode grows.
 pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
     if !body.is_linear() {
