@@ -183,9 +183,10 @@ impl<T> ReorderingWindow<T> {
     }
 }
 
-/// Completes the analysis that the panels show, such as verdicts. A window shows results as they are found; a
+/// Completes the loops on the stage, and the analysis that the panels show, such as verdicts. A window shows results as they are found; a
 /// recording waits for all of them before each frame, so that its frames are reproducible.
 pub(super) fn complete_analysis(lab: &mut Lab, renderer: &OffscreenRenderer) {
+    lab.run_loops();
     if renderer.panels() == Panels::Shown {
         lab.analyse();
     }
