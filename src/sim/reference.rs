@@ -7,8 +7,9 @@
 use super::body::Body;
 use super::integrators::StepFailure;
 use super::propagator::Propagator;
+use super::state::{State, Vector};
 use super::stepper::Change;
-use super::system::{Counted, State, Vector};
+use super::system::Counted;
 
 use extrapolation::Extrapolation;
 use trajectory::{Ended, StepControl, Trajectory};

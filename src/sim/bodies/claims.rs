@@ -7,7 +7,7 @@
 use crate::sim::body::Body;
 use crate::sim::dice::Dice;
 use crate::sim::reference::Reference;
-use crate::sim::system::State;
+use crate::sim::state::State;
 
 /// When claims are held against the equation, in seconds: at the start and on a wide range of scales after it.
 pub(super) const TIMES: [f64; 12] =

@@ -10,7 +10,8 @@ use super::survey::ranges;
 use crate::sim::body::{Body, Input};
 use crate::sim::law::{At, Equations, Layout, Registers};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 mod claims;
 mod kind;

@@ -11,7 +11,8 @@ use super::own_sheet::OwnSheet;
 use super::survey::ranges;
 use crate::sim::body::{Body, Input};
 use crate::sim::engine_settings::EngineSettings;
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 mod claims;
 mod extras;

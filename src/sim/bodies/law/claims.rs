@@ -9,7 +9,8 @@ use crate::sim::bodies::claims::{
 };
 use crate::sim::body::Body;
 use crate::sim::law::{CoordinateText, Equations, Part, Refusal, Remedy};
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 impl Claimant for Law {
     // Rounding, with room for terms that cancel.

@@ -10,7 +10,8 @@ use crate::sim::bodies::claims::{
 };
 use crate::sim::body::Body;
 use crate::sim::dice::Dice;
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 /// A claim about a custom body that does not hold. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]

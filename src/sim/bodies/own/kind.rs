@@ -12,7 +12,8 @@ use crate::sim::bodies::own_sheet::OwnSheet;
 use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range};
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The key of the parameter that bodies without parameters of their own have.
 const FORCE: &str = "force";
