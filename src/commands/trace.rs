@@ -66,13 +66,15 @@ pub(super) fn run(args: &TraceArgs) -> Result<(), Error> {
     trace.begin()?;
     trace.tick(&lab)?;
     let last = lab.nearest_tick(seconds);
+    let mut reached = vec![Reached::default(); experiment.scene.bodies.len()];
     while lab.race().tick() < last {
         lab.tick();
+        reached.iter_mut().zip(lab.race().truth().bodies()).for_each(|(it, truth)| it.note(truth));
         trace.tick(&lab)?;
         halts.note(&lab);
     }
     trace.finish()?;
-    tell_accuracy(&experiment.scene.bodies, &at_start, lab.race().truth());
+    tell_accuracy(&experiment.scene.bodies, &at_start, &reached, lab.race().truth());
     halts.lines.iter().for_each(|line| tell(line));
     Ok(())
 }
@@ -199,10 +201,36 @@ fn method_id(solver: Solver, body: &LaneBody) -> &'static str {
     solver.method().map_or(body.truth().id(), |method| method.id)
 }
 
+/// The accuracy that the truth of a body reached on a run: the largest coordinate and velocity, and their errors.
+#[derive(Clone, Copy, Default)]
+struct Reached {
+    largest: [f64; 2],
+    error: [f64; 2],
+}
+
+impl Reached {
+    fn note(&mut self, truth: &LaneBody) {
+        let most = |so_far: f64, values: &[f64]| {
+            values.iter().fold(so_far, |so_far, x| so_far.max(x.abs()))
+        };
+        self.largest[0] = most(self.largest[0], truth.stepper.q());
+        self.largest[1] = most(self.largest[1], truth.stepper.v());
+        let error = truth.stepper.truth_error().unwrap_or([f64::INFINITY; 2]);
+        self.error = [0, 1].map(|i: usize| self.error[i].max(error[i]));
+    }
+
+    /// The larger of the relative errors; 0 of what does not move.
+    fn relative(&self) -> f64 {
+        let part =
+            |i: usize| if self.error[i] == 0.0 { 0.0 } else { self.error[i] / self.largest[i] };
+        part(0).max(part(1))
+    }
+}
+
 /// What is known of the bodies whose truth is a reference solution at the end; `at_start` is what it was at the start.
-fn tell_accuracy(bodies: &[SceneBody], at_start: &[Truth], truth: &Lane) {
-    for ((SceneBody { name, .. }, at_start), truth) in
-        bodies.iter().zip(at_start).zip(truth.bodies())
+fn tell_accuracy(bodies: &[SceneBody], at_start: &[Truth], reached: &[Reached], truth: &Lane) {
+    for (((SceneBody { name, .. }, at_start), reached), truth) in
+        bodies.iter().zip(at_start).zip(reached).zip(truth.bodies())
     {
         // What a halt says needs no aim.
         let aim = truth.truth().aimed_accuracy().filter(|_| !truth.stepper.is_beyond_reference());
@@ -212,7 +240,13 @@ fn tell_accuracy(bodies: &[SceneBody], at_start: &[Truth], truth: &Lane) {
             Truth::Reference => "has no closed form",
         };
         let id = truth.truth().id();
-        tell(&format!("lane 0, {name}: {why}; its {id} aims at {accuracy:e}, relative"));
+        let came = match reached.relative() {
+            error if error.is_finite() => format!("came to {error:.1e} on this run"),
+            _ => "came to an accuracy that is not known".into(),
+        };
+        tell(&format!(
+            "lane 0, {name}: {why}; its {id} aims at {accuracy:e}, relative, and {came}"
+        ));
     }
 }
 

@@ -73,8 +73,14 @@ fn a_body_without_a_closed_form_has_a_reference_for_truth_and_its_accuracy_is_to
     let expected = ["x", "y", "psi"].map(|q| format!("0,0.0,0,reference,helm,{q}"));
     assert_eq!(heads[..3], expected);
     assert_eq!(heads.len(), 2 * 2 * 3);
-    let said = "lane 0, helm: has no closed form; its reference aims at 1e-10, relative\n";
-    assert_eq!(stderr(&output), said);
+    let said =
+        "lane 0, helm: has no closed form; its reference aims at 1e-10, relative, and came to ";
+    let came: f64 = stderr(&output)
+        .strip_prefix(said)
+        .and_then(|rest| rest.strip_suffix(" on this run\n"))
+        .and_then(|number| number.parse().ok())
+        .unwrap_or_else(|| panic!("{}", stderr(&output)));
+    assert!(came > 0.0 && came < 1e-10, "{came}");
 }
 
 #[test]
@@ -83,7 +89,7 @@ fn a_law_that_gives_its_solution_has_an_exact_truth_up_to_its_first_input() {
     let law = "title = 'x'\ntick_hz = 10\nseconds = 0.3\n[[law]]\nname = 'swing'\n[law.coordinates.x]\n\
                start = 1\nacceleration = '-x'\nexact = 'cos(t)'\n";
     let kick = "[[command]]\ntick = 1\nkick = 1.0\n";
-    let aim = "lane 0, swing: is exact only up to its first input, edit or placing; its reference aims at 1e-10, relative\n";
+    let aim = "lane 0, swing: is exact only up to its first input, edit or placing; its reference aims at 1e-10, relative, and came to ";
     for (text, methods, said) in [
         (law.to_owned(), ["exact"; 4], ""),
         (format!("{law}{kick}"), ["exact", "exact", "reference", "reference"], aim),
@@ -93,7 +99,9 @@ fn a_law_that_gives_its_solution_has_an_exact_truth_up_to_its_first_input() {
         let csv = String::from_utf8(output.stdout.clone()).unwrap();
         let truth: Vec<&str> =
             rows(&csv).into_iter().filter(|row| row[2] == "0").map(|row| row[3]).collect();
-        assert_eq!((truth, stderr(&output).as_str()), (methods.to_vec(), said));
+        let told = stderr(&output);
+        assert_eq!((truth, told.is_empty()), (methods.to_vec(), said.is_empty()));
+        assert!(told.starts_with(said), "{told}");
     }
 }
 
