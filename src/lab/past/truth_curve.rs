@@ -18,6 +18,13 @@ use crate::sim::{Solver, Stepper};
 /// Grid points in the duration shown: several for each pixel of a plot.
 const GRID: usize = 4096;
 
+/// The most products of the exact flow for the points of one tick, some milliseconds of work: n² a point for a body of n
+/// coordinates. With few points the curve is a cubic between them.
+const MOST_PRODUCTS: usize = 2_000_000;
+
+/// The fewest points that a tick may have, whatever they cost.
+const FEWEST_POINTS: usize = 16;
+
 /// The capacity for samples off the grid, which are made at inputs.
 const OFF_GRID: usize = 512;
 
@@ -203,8 +210,10 @@ impl TruthCurve {
         for input in self.pending.drain(..) {
             self.between.input(from_s, input);
         }
-        // A tick longer than the curve has as many points as the curve.
-        let spacing_s = self.spacing_s.max((to_s - from_s) / GRID as f64);
+        // A tick longer than the curve has as many points as the curve, or as many as are affordable.
+        let coordinates = truth.coordinates.len();
+        let most = (MOST_PRODUCTS / (coordinates * coordinates)).clamp(FEWEST_POINTS, GRID);
+        let spacing_s = self.spacing_s.max((to_s - from_s) / most as f64);
         let first = libm::floor(from_s / spacing_s);
         let count = (libm::floor(to_s / spacing_s) - first) as u64;
         if count == 0 {
@@ -340,5 +349,23 @@ mod tests {
         let [q, v] = cubic(&samples[0], &samples[1], 0.5);
         assert!((q - libm::cos(tau * 0.05)).abs() < 1e-3, "{q}");
         assert!((v + tau * libm::sin(tau * 0.05)).abs() < 1e-2, "{v}");
+    }
+
+    #[test]
+    fn a_tick_of_many_masses_has_as_many_points_as_are_affordable() {
+        let points = |masses: u32| {
+            let text = format!(
+                "title = 't'\ntick_hz = 60\nseconds = 1\n[[chain]]\nmasses = {masses}\nmass_kg = 1\n\
+                 stiffness_n_per_m = 800\n"
+            );
+            let mut race = Race::of_scene(&Scene::parse("t", &text).unwrap());
+            let mut curve = TruthCurve::new(&race.truth().bodies()[0], 0, 0.01);
+            race.step();
+            let tick = LastTick { from_s: 0.0, to_s: 1.0 / 60.0 };
+            curve.extend(&race.truth().bodies()[0], tick);
+            curve.samples().count()
+        };
+        assert!((4000..=4097).contains(&points(8)), "{}", points(8));
+        assert!((28..=32).contains(&points(256)), "{}", points(256));
     }
 }
