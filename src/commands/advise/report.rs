@@ -67,18 +67,7 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
                 let (method, with) = (row.advised.spec.method.id, met.clone());
                 Recommendation { method, with }.to_string()
             }
-            None if rows.iter().all(|row| row.advised.met[i] == CriterionResult::No) => format!(
-                "none of these with up to {MOST_ADVISED_SUBSTEPS} substeps; raise the tick rate, soften the \
-                 stiffest of {}, or damp it",
-                match &scene.bodies[..] {
-                    [body] => body.name.clone(),
-                    bodies => format!("the {} bodies", bodies.len()),
-                }
-            ),
-            None => {
-                "not known of any of these that might: there is no truth, or it takes too much work"
-                    .into()
-            }
+            None => why_none(scene, rows, i),
         };
         text.push('\n');
     }
@@ -96,17 +85,33 @@ fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
     Some(format!("Call this {times} a tick with h = 1/{hz} s:\n\n{code}"))
 }
 
+/// Why no method is recommended for a criterion.
+fn why_none(scene: &Scene, rows: &[Row], criterion: usize) -> String {
+    if rows.iter().any(|row| row.advised.met[criterion] != CriterionResult::No) {
+        return "not known of any of these that might: there is no truth, or it takes too much work".into();
+    }
+    let bodies = match &scene.bodies[..] {
+        [body] => body.name.clone(),
+        bodies => format!("the {} bodies", bodies.len()),
+    };
+    format!(
+        "none of these with up to {MOST_ADVISED_SUBSTEPS} substeps; raise the tick rate, soften the stiffest of \
+         {bodies}, or damp it"
+    )
+}
+
 /// The answer as JSON.
 pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> Value {
     let recommended = CRITERIA.iter().enumerate().map(|(i, criterion)| {
-        let take = best(rows, i).map(|(row, met)| {
-            json!({
+        let take = match best(rows, i) {
+            Some((row, met)) => json!({
                 "method": row.advised.spec.method.id,
                 "substeps": met.substeps,
                 "tick_hz": adviser.tick_hz(),
-            })
-        });
-        (criterion.id().to_owned(), json!(take))
+            }),
+            None => json!({ "none": why_none(scene, rows, i) }),
+        };
+        (criterion.id().to_owned(), take)
     });
     json!({
         "scene": scene.name,
@@ -123,17 +128,20 @@ fn method(scene: &Scene, row: &Row) -> Value {
     let Verdict { outcome, body, error, doubles_in_s, halves_in_s, frequency_error, .. } =
         &row.advised.verdict;
     let criteria = CRITERIA.iter().enumerate().map(|(i, criterion)| {
-        let met = row.advised.met[i].met().map(|met| {
-            json!({
+        let found = match &row.advised.met[i] {
+            CriterionResult::With(met) => json!({
+                "met": true,
                 "substeps": met.substeps,
                 "evaluations_per_s": met.evaluations_per_s,
                 "ns_per_s": row.ns_per_s(i).map(f64::round),
                 "slowest_hz": met.slowest_hz,
                 "stiffness_factor": met.stiffness_factor,
                 "limited_by": met.limited_by,
-            })
-        });
-        (criterion.id().to_owned(), json!(met))
+            }),
+            CriterionResult::No => json!({ "met": false }),
+            CriterionResult::Unknown => Value::Null,
+        };
+        (criterion.id().to_owned(), found)
     });
     let mut object = json!({
         "method": row.advised.spec.method.id,
