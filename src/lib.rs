@@ -117,10 +117,6 @@
 #![doc = include_str!("../examples/ci_hash.rs")]
 //! ```
 //!
-//! # The manual
-//!
-//! What the program does, in [chapters](manual): from the [keys](mod@manual::keys) to what is [stable](mod@manual::stable).
-//!
 //! # Out of scope
 //!
 //! Collisions and contacts, which would hide the integrator behind the solver; generic scalars,
@@ -132,7 +128,6 @@
 pub mod commands;
 #[cfg(feature = "lab")]
 pub mod lab;
-pub mod manual;
 pub mod prelude;
 pub mod sim;
 #[cfg(feature = "desktop")]

@@ -25,19 +25,27 @@ solution, at the scene's tick rate or at --tick-hz. For each criterion the fewes
 tick, 1 to 64, are sought:
 
   bounded      nothing grows that should not, over the scene and in the long run: no mode of a
-               linear body doubles within a year; any other body is followed for 20 times the
-               scene's length
-  looks-right  over the scene the amplitude is within 5 % of the truth's and the frequency within
-               1 %; a body that does not swing stays within 5 % of its range
+               linear body doubles within a year, nor does its swing under a method that chooses
+               its own steps; any other body is followed for 20 times the scene's length, and one
+               that loses its swing for up to 2000 times, until it rests
+  looks-right  over the scene each swing is as wide as the truth's, within 5 % of the widest, and
+               the frequency within 1 %; of several modes, by the energy of all and the frequency
+               of the one with the most; what does not swing stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
-A scene longer than a minute is judged over its first minute. Costs are those of all bodies per
-simulated second: evaluations of the acceleration, and time measured on this machine, the best of
-several runs. HOLDS FROM is the slowest whole tick rate, at or below the one judged, at which the
-criterion still holds with the same substeps; STIFFER BY is the largest factor, at most 10000, by
-which the named parameter may grow. Either is not known, and null in JSON, where the next run has
-no truth or takes too much work. The recommended method is the cheapest; between times within a
-fifth of each other, evaluations decide.
+What fails with 4 substeps and with 64 is not searched in between. A scene longer than a minute is
+judged over its first minute. Costs are those of all bodies per simulated second: evaluations of
+the acceleration, and time measured on this machine, the best of several runs. The recommended
+method is the cheapest; between times within a fifth of each other, evaluations decide.
+
+HOLDS FROM is the slowest whole tick rate, at or below the one judged, at which the criterion still
+holds with the same substeps: rates are tried downwards, each lower by a sixtieth, for a net by a
+sixth, until one fails. STIFFER BY is the factor by which the named parameter may grow: factors are
+tried upwards, each higher by a tenth, until one fails, 10 at most. Neither is known where the next
+run has no truth or takes too much work.
+
+In JSON a criterion that is not met has met false and nothing else, and one of which that is not
+known is null. Where nothing is recommended, none says why.
 
 The recommendations come first. For a spring of one's own (--k or --frequency), or with --as, the
 method recommended for looks-right, or else for bounded, follows as a function.

@@ -9,7 +9,7 @@ use rayon::ThreadPool;
 use rayon::prelude::*;
 
 /// The longest time until an interrupt is noticed.
-const PATIENCE: Duration = Duration::from_millis(50);
+pub(super) const PATIENCE: Duration = Duration::from_millis(50);
 
 /// The results of `work` for the jobs 0 to `number` - 1, in order; `None` for a job that was not done when
 /// `interrupted` was set. After an interrupt the threads are not waited for: some jobs take minutes, and the

@@ -8,14 +8,15 @@ use std::collections::{BTreeMap, VecDeque};
 use std::num::NonZero;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
 
 use rayon::ThreadPoolBuilder;
 
+use super::jobs::PATIENCE;
 use super::schedule::Schedule;
 use super::state_log::StateLog;
-use crate::lab::Lab;
+use crate::lab::{AnalysisWorker, Lab};
 use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
 /// Frames that the device draws at a time. More gain nothing on a software adapter, and cost memory.
@@ -123,10 +124,11 @@ impl Run<'_> {
             let more = next < schedule.frames && !interrupted.load(Ordering::Relaxed);
             if more {
                 schedule.advance(lab, next, state_log);
-                complete_analysis(lab, renderer);
-                renderer.submit(lab)?;
-                moments.push_back((lab.race().tick(), lab.clock().alpha_fraction()));
-                next += 1;
+                if complete_analysis(lab, renderer, interrupted) {
+                    renderer.submit(lab)?;
+                    moments.push_back((lab.race().tick(), lab.clock().alpha_fraction()));
+                    next += 1;
+                }
             }
             if moments.len() == MOST_IN_FLIGHT || !more {
                 let Some((tick, alpha)) = moments.pop_front() else { return Ok(drawn) };
@@ -183,13 +185,29 @@ impl<T> ReorderingWindow<T> {
     }
 }
 
-/// Completes the loops on the stage, and the analysis that the panels show, such as verdicts. A window shows results as they are found; a
-/// recording waits for all of them before each frame, so that its frames are reproducible.
-pub(super) fn complete_analysis(lab: &mut Lab, renderer: &OffscreenRenderer) {
-    lab.run_loops();
-    if renderer.panels() == Panels::Shown {
-        lab.analyse();
+/// Completes the analysis that the panels show, such as verdicts. A window shows results as they are found; a
+/// recording waits for a stated amount of work on them before each frame, so that its frames are reproducible. Returns
+/// `false` after an interrupt, when the work is not waited for: the process is about to end.
+pub(super) fn complete_analysis(
+    lab: &mut Lab,
+    renderer: &OffscreenRenderer,
+    interrupted: &AtomicBool,
+) -> bool {
+    let request = lab.unanswered_request().filter(|_| renderer.panels() == Panels::Shown);
+    let Some(request) = request else { return !interrupted.load(Ordering::Relaxed) };
+    let (sender, found) = mpsc::channel();
+    thread::spawn(move || _ = sender.send(AnalysisWorker::new(request).bounded().finish()));
+    while !interrupted.load(Ordering::Relaxed) {
+        match found.recv_timeout(PATIENCE) {
+            Ok(findings) => {
+                lab.accept_findings(findings);
+                return true;
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => panic!("the analysis has panicked"),
+        }
     }
+    false
 }
 
 #[cfg(test)]

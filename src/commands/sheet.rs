@@ -1,7 +1,6 @@
 //! A contact sheet: one picture of a race, with a column for each moment and a row for each lane.
 
 use std::io::Write;
-use std::sync::atomic::Ordering;
 
 use super::experiment::{Experiment, Lineup};
 use super::interrupt::watch_for_interrupt;
@@ -59,13 +58,12 @@ pub(super) fn draw(
         };
         let mut lab = recording.lab(&alone);
         for column in 0..columns {
-            if interrupted.load(Ordering::Relaxed) {
+            recording.schedule.advance(&mut lab, column, &mut ());
+            if !complete_analysis(&mut lab, &renderer, &interrupted) {
                 progress.finish_and_clear();
                 let done = row as u32 * columns + column;
                 return Err(RecordingError::interrupted(done, cells, "none, a sheet is one"));
             }
-            recording.schedule.advance(&mut lab, column, &mut ());
-            complete_analysis(&mut lab, &renderer);
             renderer.draw(&lab, &mut cell)?;
             let top = row * height as usize;
             for (y, line) in cell.chunks_exact(row_bytes).enumerate() {

@@ -4,8 +4,7 @@ use glam::DVec2;
 
 use super::parameter::{self, ParameterOf};
 use super::piece::{Distances, NO_BOUNDARIES, Piece};
-use super::state::{State, Vector};
-use super::system::System;
+use super::system::{State, System, Vector};
 
 /// Something that moves by an equation of motion.
 pub trait Body: System + Clone + Send + 'static {

@@ -18,9 +18,8 @@
 
 use super::body::Body;
 use super::integrators::{Integrator, StepFailure};
-use super::state::State;
 use super::stepper::Change;
-use super::system::Counted;
+use super::system::{Counted, State};
 
 /// A method or a truth that advances bodies of type `B`.
 pub(super) trait Propagator<B: Body>: Send + 'static {

@@ -8,8 +8,7 @@ use glam::DVec2;
 use super::body::{Body, Input};
 use super::integrators::{Method, StepFailure};
 use super::solver::Solver;
-use super::state::{State, Vector};
-use super::system::{Counts, Evaluation, Pursuit};
+use super::system::{Counts, Evaluation, Pursuit, State, Vector};
 
 /// A tick that was taken on a copy of a body.
 #[derive(Clone, Debug, PartialEq)]

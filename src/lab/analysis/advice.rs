@@ -5,9 +5,8 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
 
 pub use super::criterion_met::CriterionMet;
-use super::criterion_met::MOST_STIFFER;
 use super::judge::{CriterionFinding, Judge};
-use super::searches::{furthest, slowest_down, tried_substeps};
+use super::searches::{FACTORS, slowest_down, tried_substeps};
 use super::verdict::Verdict;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::{Scene, edited_values};
@@ -51,11 +50,13 @@ impl Criterion {
     pub fn about(self) -> &'static str {
         match self {
             Criterion::Bounded => {
-                "nothing grows that should not: no mode of a linear body doubles within a year; no other body, followed \
-                 for 20 times the scene, doubles its swing or goes on gaining"
+                "nothing grows that should not: no mode of a linear body doubles within a year; any other body, followed \
+                 for 20 times the scene, neither doubles its swing nor goes on gaining, and one that loses, followed \
+                 for up to 2000 times, comes to rest"
             }
             Criterion::LooksRight => {
-                "amplitude within 5 % of the truth's and frequency within 1 %; without a swing, within 5 % of the range"
+                "each swing as wide as the truth's, within 5 % of the widest, and the frequency within 1 %, of several \
+                 modes that of the one with the most energy; without a swing, within 5 % of the range"
             }
             Criterion::Accurate => {
                 "no coordinate or velocity off by more than 1 % of its amplitude"
@@ -67,8 +68,11 @@ impl Criterion {
 /// The most substeps per tick that are tried.
 pub const MOST_ADVISED_SUBSTEPS: u32 = 64;
 
+/// The number of substeps up to which each is tried before the most.
+const FEW_SUBSTEPS: u32 = 4;
+
 /// The most work for one run of a stiffer scene, in the unit of [`MOST_WORK`](super::MOST_WORK). There are many such runs.
-const WORK_WHEN_STIFFER: u64 = 5_000_000;
+const WORK_WHEN_STIFFER: u64 = 10_000_000;
 
 /// The advice on one method on a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,7 +90,7 @@ pub struct MethodAdvice {
 pub enum CriterionResult {
     /// It does, in this way.
     With(CriterionMet),
-    /// It does not with [`MOST_ADVISED_SUBSTEPS`] or fewer.
+    /// It does not with 1 to 4 substeps, nor with [`MOST_ADVISED_SUBSTEPS`]: or with none that was tried in between.
     No,
     /// Not known: it takes too much work, or there is no truth.
     Unknown,
@@ -110,18 +114,6 @@ pub struct Adviser {
     tick_hz: u32,
     /// Judges of the scene made stiffer, by the place of their factor; `None` if no scene can be so stiff.
     stiffer: Mutex<HashMap<usize, Option<Arc<Judge>>>>,
-}
-
-/// The factors by which bodies are made stiffer, 24 per decade, to two digits.
-const DECADE: [f64; 24] = [
-    1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.8, 2.0, 2.2, 2.4, 2.7, 3.0, 3.3, 3.6, 3.9, 4.3, 4.7, 5.1,
-    5.6, 6.2, 6.8, 7.5, 8.2,
-];
-const DECADES: usize = 4;
-
-/// The factor at this place among all that are tried, 1 to 10 000.
-fn factor(place: usize) -> f64 {
-    DECADE[place % DECADE.len()] * [1.0, 10.0, 100.0, 1000.0, MOST_STIFFER][place / DECADE.len()]
 }
 
 impl Adviser {
@@ -151,9 +143,17 @@ impl Adviser {
     pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let with = |substeps: u32| LaneSpec { substeps, ..spec };
         let tried = |substeps| find(&self.judge, criterion, with(substeps), self.tick_hz);
-        let (mut fails, mut holds) = (0, None);
+        let (mut fails, mut holds, mut with_most) = (0, None, None);
         for substeps in (0..).map(tried_substeps).take_while(|&n| n <= MOST_ADVISED_SUBSTEPS) {
-            match tried(substeps) {
+            // What fails with the most substeps is not searched.
+            if substeps > FEW_SUBSTEPS && with_most.is_none() {
+                with_most = Some(tried(MOST_ADVISED_SUBSTEPS));
+                if matches!(with_most, Some(CriterionFinding::Fails { .. })) {
+                    return CriterionResult::No;
+                }
+            }
+            let finding = with_most.filter(|_| substeps == MOST_ADVISED_SUBSTEPS);
+            match finding.unwrap_or_else(|| tried(substeps)) {
                 CriterionFinding::Holds { evaluations_per_s } => {
                     holds = Some((substeps, evaluations_per_s));
                     break;
@@ -193,41 +193,38 @@ impl Adviser {
     /// The lowest rate, going down from the requested one, at which the lane still meets the criterion: one hertz lower
     /// it does not, or no tick fits into the horizon. `None` if that is not known.
     fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
-        // The rates of a linear body have few gaps, all of them wide; of other bodies nearly every rate is tried, but of a
-        // net, whose runs are dear.
-        let has_net = self.scene.bodies.iter().any(|body| body.kind.net.is_some());
-        let strides = if self.judge.is_linear() || has_net { 6 } else { 60 };
+        // The runs of a net are dear, and so are the modes of a method with memory.
+        let is_dear = spec.method.restart.is_some()
+            || self.scene.bodies.iter().any(|body| body.kind.net.is_some());
+        let strides = if is_dear { 6 } else { 60 };
         // The last miss of the search is that next to its result.
         let mut is_known = true;
         let slowest = slowest_down(self.tick_hz, strides, |hz| {
-            let finding = find(&self.judge, criterion, spec, hz);
-            if !holds(finding) {
-                is_known = finding != CriterionFinding::Unknown || !self.judge.has_ticks(hz);
+            let miss = miss(&self.judge, criterion, spec, hz);
+            if miss.is_some() {
+                is_known = miss != Some(CriterionFinding::Unknown) || !self.judge.has_ticks(hz);
             }
-            holds(finding)
+            miss.is_none()
         });
         is_known.then_some(slowest)
     }
 
-    /// The largest factor tried by which every body may be stiffer, and the parameter that limits it; `None` if it is not
-    /// known whether the criterion holds with the next.
+    /// The largest of [`FACTORS`] by which every body may be stiffer, as it may by each below, and the parameter that
+    /// limits it; `None` if it is not known whether the criterion holds with the next.
     fn stiffest(&self, spec: LaneSpec, criterion: Criterion) -> Option<(f64, String)> {
-        let mut culprit = None;
-        let mut is_known = true;
-        let place = furthest(DECADE.len() * DECADES, |place| {
-            let finding =
-                self.stiffer(place).map(|judge| find(&judge, criterion, spec, self.tick_hz));
-            match finding {
-                Some(CriterionFinding::Holds { .. }) => return true,
-                Some(CriterionFinding::Fails { body }) => culprit = Some(body),
-                Some(CriterionFinding::Unknown) | None => {}
-            }
-            is_known = finding != Some(CriterionFinding::Unknown);
-            false
-        });
-        let body =
-            culprit.or_else(|| self.stiff_bodies().next().map(|(body, _)| body)).unwrap_or(0);
-        is_known.then(|| (factor(place), self.stiffness_name(body)))
+        let mut last_miss = None;
+        let holds = |place: &usize| {
+            let Some(judge) = self.stiffer(*place) else { return false };
+            last_miss = miss(&judge, criterion, spec, self.tick_hz);
+            last_miss.is_none()
+        };
+        let held = (1..FACTORS.len()).take_while(holds).count();
+        let culprit = match last_miss {
+            Some(CriterionFinding::Unknown) => return None,
+            Some(CriterionFinding::Fails { body }) => Some(body),
+            _ => self.stiff_bodies().next().map(|(body, _)| body),
+        };
+        Some((FACTORS[held], self.stiffness_name(culprit.unwrap_or(0))))
     }
 
     /// Each body with the place of its leading parameter.
@@ -255,7 +252,7 @@ impl Adviser {
         if let Some(known) = self.stiffer.lock().expect("no thread panics with it").get(&place) {
             return known.clone();
         }
-        let made = self.stiffen(factor(place)).map(|scene| {
+        let made = self.stiffen(FACTORS[place]).map(|scene| {
             let judge = Judge::over(&scene, self.judge.throttle(), self.judge.horizon_s());
             Arc::new(judge.within(WORK_WHEN_STIFFER))
         });
@@ -280,6 +277,22 @@ fn find(judge: &Judge, criterion: Criterion, spec: LaneSpec, tick_hz: u32) -> Cr
         Criterion::LooksRight => judge.looks_right(spec, tick_hz),
         Criterion::Accurate => judge.is_accurate(spec, tick_hz),
     }
+}
+
+/// How a lane misses a criterion; `None` if it meets it. Where the modes tell that, nothing is run.
+fn miss(
+    judge: &Judge,
+    criterion: Criterion,
+    spec: LaneSpec,
+    tick_hz: u32,
+) -> Option<CriterionFinding> {
+    let is_met_by_modes = match criterion {
+        Criterion::Bounded => judge.is_bounded_by_modes(spec, tick_hz),
+        Criterion::LooksRight => judge.looks_right_by_modes(spec, tick_hz),
+        Criterion::Accurate => false,
+    };
+    let finding = || find(judge, criterion, spec, tick_hz);
+    if is_met_by_modes { None } else { Some(finding()).filter(|&finding| !holds(finding)) }
 }
 
 fn holds(finding: CriterionFinding) -> bool {
@@ -371,13 +384,5 @@ mod tests {
         let adviser = Adviser::new(&spring(most / 2.0).unwrap(), 1.0, 60);
         assert!(adviser.stiffen(1.9).is_some());
         assert!(adviser.stiffen(2.1).is_none());
-    }
-
-    #[test]
-    fn factors_rise_from_one_to_ten_thousand() {
-        let factors: Vec<f64> = (0..=DECADE.len() * DECADES).map(factor).collect();
-        assert!(factors.is_sorted_by(|a, b| a < b));
-        assert_eq!((factors[0], factors[factors.len() - 1]), (1.0, MOST_STIFFER));
-        assert!(factors.windows(2).all(|pair| pair[1] / pair[0] < 1.22), "{factors:?}");
     }
 }

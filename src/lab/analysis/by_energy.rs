@@ -14,7 +14,7 @@ use crate::sim::Stepper;
 use crate::sim::stability::{Tick, spectral_radius};
 
 /// The part of the work of a run that the spectral radius may take too.
-const WORK_OF_RADIUS: u64 = 6;
+const WORK_OF_RADIUS: u64 = 12;
 
 /// A run without a truth.
 pub(super) struct EnergyRun {
@@ -72,6 +72,7 @@ pub(super) fn follow_energy(
     let mut means = Means::over(horizon);
     // The largest kinetic energy, the most energy that was lost, and the most that was gained.
     let (mut fastest, mut lost, mut gained) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let mut made = 0;
     for tick in 1..=horizon {
         let before = sum(energy(&*stepper));
         truth.apply_inputs(&mut *stepper, tick - 1, tick_hz);
@@ -81,16 +82,18 @@ pub(super) fn follow_energy(
             run.failure = Some(RunFailure { t: (tick - 1) as f64 / hz, cause });
             break;
         }
+        made = tick;
         (run.seconds, run.evaluations) = (tick as f64 / hz, stepper.evaluations());
         let now = energy(&*stepper);
         let gain = sum(now) - start;
         (fastest, lost, gained) = (fastest.max(now[0]), lost.max(-gain), gained.max(gain));
         means.take_in(tick, gain);
-        if work(&*stepper, spec) > most_work {
+        if work(&*stepper, spec, tick) > most_work {
             run.is_too_much = tick < horizon;
             break;
         }
     }
+    truth.count_work(work(&*stepper, spec, made));
     let scale = fastest.max(lost);
     if scale > 0.0 && scale.is_finite() {
         let [first, .., last] = means.means().map(|mean| mean / scale);

@@ -5,9 +5,13 @@ use super::limits::VISIBLE;
 use super::run::Run;
 use super::truth::{BodyTruth, Swing};
 use super::verdict::Verdict;
+use crate::sim::stability::FOREVER_S;
 
 /// The relative growth of the swing over the second half of the long run above which it counts as growth.
 const GROWTH_SEEN: f64 = 2e-3;
+
+/// How alike the gains of energy from quarter to quarter of the long run are where they are steady, smallest to largest.
+const STEADY: f64 = 0.5;
 
 /// A change of the amplitude by this factor counts even if it happens at once and then stops.
 const LEAP: f64 = 1.5;
@@ -50,7 +54,7 @@ pub(super) fn fill_from_run(
     horizon_s: f64,
 ) -> Change {
     verdict.is_bounded = bounded(truth, run);
-    verdict.doubles_in_s = run.doubled_at;
+    verdict.doubles_in_s = run.doubled_at.or_else(|| steadily_doubles_in_s(truth, run));
     let period = truth.swing.as_ref().map_or(horizon_s, Swing::period);
     let end = run.followed_s;
     // The swing stays small for some turns, after so many turns that the time of halving is sharp.
@@ -85,7 +89,23 @@ pub(super) fn bounded(truth: &BodyTruth, run: &Run) -> Option<bool> {
     }
     let [_, early, _, late] = run.long_quarters.map(amplitude);
     let grows = truth.energy_scale.is_some() && late / early > 1.0 + GROWTH_SEEN;
-    Some(!grows)
+    Some(!grows && steadily_doubles_in_s(truth, run).is_none())
+}
+
+/// When the amplitude of a linear oscillator doubles that gains as much energy in each quarter of the long run as in the
+/// one before, up to [`FOREVER_S`]: its swing grows at a constant rate. `None` of any other body or run.
+fn steadily_doubles_in_s(truth: &BodyTruth, run: &Run) -> Option<f64> {
+    let [first, early, middle, late] = run.long_quarters;
+    let gains = [early - first, middle - early, late - middle];
+    let least = gains.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = gains.iter().copied().fold(0.0, f64::max);
+    let is_steady = least > 0.0 && least >= STEADY * most;
+    let is_followed = !run.is_too_much && run.failure.is_none() && run.later.is_none();
+    if !(is_steady && is_followed && truth.is_oscillator() && truth.energy_scale.is_some()) {
+        return None;
+    }
+    let per_s = libm::log(amplitude(late) / amplitude(early)) / (run.followed_s / 2.0);
+    Some(std::f64::consts::LN_2 / per_s).filter(|&doubles_in_s| doubles_in_s <= FOREVER_S)
 }
 
 #[cfg(test)]

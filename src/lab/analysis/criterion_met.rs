@@ -3,7 +3,7 @@
 use crate::lab::number::round;
 
 /// The largest factor by which bodies are made stiffer.
-pub(super) const MOST_STIFFER: f64 = 10_000.0;
+pub(super) const MOST_STIFFER: f64 = 10.0;
 
 /// The fewest substeps with which a method meets a criterion, and its margins.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,10 +14,12 @@ pub struct CriterionMet {
     /// Evaluations of all bodies' accelerations per simulated second.
     pub evaluations_per_s: f64,
     /// The lowest tick rate in Hz, going down from the requested one, at which the criterion still holds with as many
-    /// substeps; `None` if one hertz lower it is not known, for want of a truth or for too much work.
+    /// substeps, as it does at all rates between that were tried; `None` if one hertz lower it is not known, for want of
+    /// a truth or for too much work.
     pub slowest_hz: Option<u32>,
-    /// The largest factor by which the bodies may be stiffer, 1 to 10 000, to two digits; `None` if it is not known
-    /// whether the criterion holds with the next.
+    /// The largest factor by which the bodies may be stiffer, 1 to 10, to two digits: the criterion holds with every
+    /// factor up to it that is tried, each at most a tenth above the one before. `None` if it is not known whether it
+    /// holds with the next.
     pub stiffness_factor: Option<f64>,
     /// The parameter that the factor multiplies, of the body that fails first beyond it; `None` if the factor is.
     pub limited_by: Option<String>,

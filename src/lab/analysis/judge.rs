@@ -6,11 +6,10 @@
 //! beyond that.
 
 use super::by_energy::follow_energy;
-use super::change::{Change, bounded, fill_from_run};
+use super::change::{Change, fill_from_run};
 use super::chase_finding::ChaseFinding;
-use super::frequency::frequency_error;
-use super::limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
-use super::modes::{Modes, TooMuch};
+use super::limits::TOLERANCE;
+use super::modes::Modes;
 use super::outcome::Outcome;
 use super::run::{MOST_WORK, Run, Until, follow};
 use super::survey::{BodyInput, TimedInput};
@@ -20,8 +19,9 @@ use crate::lab::action::Action;
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::Scene;
 
-/// The fewest ticks per turn at which every turn shows its peak.
-const FEW_TICKS: f64 = 8.0;
+mod criteria;
+
+pub(super) use criteria::CriterionFinding;
 
 /// The longest horizon in simulated seconds. A shorter scene is judged over its whole length.
 pub const LONGEST_HORIZON_S: f64 = 60.0;
@@ -52,32 +52,6 @@ fn inputs_of(scene: &Scene, body: usize) -> Vec<TimedInput> {
     inputs
 }
 
-/// Whether a lane meets a [`Criterion`](super::advice::Criterion).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum CriterionFinding {
-    /// It does, at this cost.
-    Holds { evaluations_per_s: f64 },
-    /// The body at this place of the scene does not.
-    Fails { body: usize },
-    /// Not known: it would take too much work, or there is no truth or no tick.
-    Unknown,
-}
-
-/// Why a body is not known to meet a criterion.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum CriterionMiss {
-    /// It does not meet it.
-    Fails,
-    /// Not known: it would take too much work, or there is no truth.
-    Unknown,
-}
-
-impl From<TooMuch> for CriterionMiss {
-    fn from(_: TooMuch) -> Self {
-        CriterionMiss::Unknown
-    }
-}
-
 impl Judge {
     /// A judge of `scene` under this throttle, -1 to 1, over its length but at most [`LONGEST_HORIZON_S`].
     pub fn new(scene: &Scene, throttle: f64) -> Self {
@@ -99,11 +73,6 @@ impl Judge {
         self
     }
 
-    /// Whether all bodies are linear.
-    pub(super) fn is_linear(&self) -> bool {
-        self.truths.iter().all(|truth| truth.modes.is_some())
-    }
-
     /// Whether a tick at this rate fits into the horizon.
     pub(super) fn has_ticks(&self, tick_hz: u32) -> bool {
         ticks(self.horizon_s, tick_hz) > 0
@@ -121,8 +90,18 @@ impl Judge {
 
     /// The verdict on a lane at this tick rate: that of its worst body.
     pub fn verdict(&self, spec: LaneSpec, tick_hz: u32) -> Verdict {
-        let verdicts: Vec<Verdict> =
-            (0..self.truths.len()).map(|body| self.of_body(body, spec, tick_hz)).collect();
+        self.verdict_within(self.most_work, spec, tick_hz)
+    }
+
+    /// The work done so far, that on the truth included, in the unit of [`MOST_WORK`].
+    pub(super) fn work_done(&self) -> u64 {
+        self.truths.iter().map(BodyTruth::work_done).sum()
+    }
+
+    /// The verdict on a lane, whose run on each body takes at most this work, or is not judged.
+    pub(super) fn verdict_within(&self, most_work: u64, spec: LaneSpec, tick_hz: u32) -> Verdict {
+        let of_body = |body| self.of_body(body, spec, tick_hz, most_work);
+        let verdicts: Vec<Verdict> = (0..self.truths.len()).map(of_body).collect();
         let evaluations = verdicts.iter().map(|verdict| verdict.evaluations).sum();
         let bounded = verdicts.iter().map(|verdict| verdict.is_bounded);
         let is_bounded = bounded.reduce(|a, b| match (a, b) {
@@ -135,13 +114,13 @@ impl Judge {
         Verdict { evaluations, is_bounded: is_bounded.flatten(), of_bodies: verdicts, ..worst }
     }
 
-    fn of_body(&self, body: usize, spec: LaneSpec, tick_hz: u32) -> Verdict {
+    fn of_body(&self, body: usize, spec: LaneSpec, tick_hz: u32, most_work: u64) -> Verdict {
         let truth = &self.truths[body];
         if truth.is_too_dear() {
-            return self.by_energy(body, spec, tick_hz);
+            return self.by_energy(body, spec, tick_hz, most_work);
         }
         let found = Modes::of(truth, spec, tick_hz);
-        let most_work = if found.is_ok() { self.most_work } else { 0 };
+        let most_work = if found.is_ok() { most_work } else { 0 };
         let modes = found.ok().flatten();
         let until = if modes.is_some() { Until::Horizon } else { Until::LongRun };
         let run = follow(truth, spec, tick_hz, until, most_work);
@@ -201,9 +180,9 @@ impl Judge {
     }
 
     /// The verdict on a body that has no reference solution.
-    fn by_energy(&self, body: usize, spec: LaneSpec, tick_hz: u32) -> Verdict {
+    fn by_energy(&self, body: usize, spec: LaneSpec, tick_hz: u32, most_work: u64) -> Verdict {
         let truth = &self.truths[body];
-        let run = follow_energy(truth, spec, tick_hz, self.most_work);
+        let run = follow_energy(truth, spec, tick_hz, most_work);
         let not_judged = match ticks(self.horizon_s, tick_hz) {
             0 => Some(NotJudged::ShorterThanATick),
             _ => run.is_too_much.then_some(NotJudged::TooMuchWork),
@@ -249,96 +228,6 @@ impl Judge {
             of_bodies: Vec::new(),
         }
     }
-
-    /// Whether nothing grows that does not grow in truth, over the horizon and in the long run.
-    pub(super) fn is_bounded(&self, spec: LaneSpec, tick_hz: u32) -> CriterionFinding {
-        self.each(tick_hz, |truth| {
-            if truth.is_too_dear() {
-                let run = follow_energy(truth, spec, tick_hz, self.most_work);
-                return match run.is_bounded() {
-                    _ if run.is_too_much => Err(CriterionMiss::Unknown),
-                    true => Ok(run.evaluations as f64 / run.seconds),
-                    false => Err(CriterionMiss::Fails),
-                };
-            }
-            if let Some(modes) = Modes::of(truth, spec, tick_hz)? {
-                if !modes.are_bounded() {
-                    return Err(CriterionMiss::Fails);
-                }
-                let run = follow(truth, spec, tick_hz, Until::Horizon, self.most_work);
-                return cost_if(run.failure.is_none(), &run);
-            }
-            let run = follow(truth, spec, tick_hz, Until::Grown, self.most_work);
-            match bounded(truth, &run) {
-                Some(is_bounded) => cost_if(is_bounded, &run),
-                None => Err(CriterionMiss::Unknown),
-            }
-        })
-    }
-
-    /// Whether every body stays within [`TOLERANCE`] of its truth.
-    pub(super) fn is_accurate(&self, spec: LaneSpec, tick_hz: u32) -> CriterionFinding {
-        self.each(tick_hz, |truth| {
-            let run = follow(truth, spec, tick_hz, Until::Error(TOLERANCE), self.most_work);
-            require_truth(truth, &run, tick_hz)?;
-            cost_if(run.error <= TOLERANCE, &run)
-        })
-    }
-
-    /// Whether every body has the true amplitude within [`VISIBLE`] and the true frequency within
-    /// [`FREQUENCY_TOLERANCE`]. A body that makes too few turns has to stay within [`VISIBLE`] of its range. What is
-    /// accurate looks right.
-    pub(super) fn looks_right(&self, spec: LaneSpec, tick_hz: u32) -> CriterionFinding {
-        self.each(tick_hz, |truth| {
-            let run = follow(truth, spec, tick_hz, Until::Horizon, self.most_work);
-            require_truth(truth, &run, tick_hz)?;
-            if run.failure.is_some() || run.error <= TOLERANCE {
-                return cost_if(run.failure.is_none(), &run);
-            }
-            // The range is twice the amplitude.
-            let is_near = run.error <= 2.0 * VISIBLE;
-            let Some(swing) = &truth.swing else { return cost_if(is_near, &run) };
-            let modes = Modes::of(truth, spec, tick_hz)?;
-            let error = match &modes {
-                Some(modes) => modes.frequency_error(),
-                None => frequency_error(truth, &run).map(|measured| measured.error),
-            };
-            let Some(error) = error else { return cost_if(is_near, &run) };
-            // With few ticks per turn, not every turn shows its peak.
-            let ticks_per_turn = swing.period() * f64::from(tick_hz);
-            let together = if ticks_per_turn < FEW_TICKS { 4 } else { 1 };
-            let widest = |windows: &[f64]| windows.iter().copied().fold(0.0, f64::max);
-            let mut pairs = run.windows.chunks(together).zip(swing.windows.chunks(together));
-            let is_as_wide =
-                pairs.all(|(lane, truth)| (widest(lane) - widest(truth)).abs() <= VISIBLE);
-            cost_if(is_as_wide && error.abs() <= FREQUENCY_TOLERANCE, &run)
-        })
-    }
-
-    /// Applies `of` to every body, which returns the evaluations per second of a body that meets the criterion.
-    fn each(
-        &self,
-        tick_hz: u32,
-        of: impl Fn(&BodyTruth) -> Result<f64, CriterionMiss>,
-    ) -> CriterionFinding {
-        if !self.has_ticks(tick_hz) {
-            return CriterionFinding::Unknown;
-        }
-        let mut evaluations_per_s = 0.0;
-        let mut is_unknown = false;
-        for (body, truth) in self.truths.iter().enumerate() {
-            match of(truth) {
-                Ok(evaluations) => evaluations_per_s += evaluations,
-                Err(CriterionMiss::Fails) => return CriterionFinding::Fails { body },
-                Err(CriterionMiss::Unknown) => is_unknown = true,
-            }
-        }
-        if is_unknown {
-            CriterionFinding::Unknown
-        } else {
-            CriterionFinding::Holds { evaluations_per_s }
-        }
-    }
 }
 
 /// The outcome of a run; `change` is that of its amplitude, `gap` the largest error of the truth.
@@ -361,15 +250,6 @@ fn outcome_of(verdict: &Verdict, run: &Run, change: Change, gap: f64) -> Outcome
     }
 }
 
-/// The evaluations per simulated second of a run, if it meets a criterion.
-fn cost_if(holds: bool, run: &Run) -> Result<f64, CriterionMiss> {
-    match holds {
-        _ if run.is_too_much => Err(CriterionMiss::Unknown),
-        true => Ok(run.evaluations as f64 / run.seconds),
-        false => Err(CriterionMiss::Fails),
-    }
-}
-
 /// Why the truth cannot be used; `None` if it can. `gap` is its largest error in amplitudes.
 fn without_truth(truth: &BodyTruth, run: &Run, gap: f64) -> Option<NoTruth> {
     if let Some(failure) = run.no_truth.as_ref().or(truth.failure.as_ref()) {
@@ -377,10 +257,4 @@ fn without_truth(truth: &BodyTruth, run: &Run, gap: f64) -> Option<NoTruth> {
     }
     let is_vague = gap.is_nan() || gap > TOLERANCE / 2.0;
     (is_vague && !run.is_cut_short()).then_some(NoTruth::Vague(gap))
-}
-
-/// Fails if the truth cannot be used for this run.
-fn require_truth(truth: &BodyTruth, run: &Run, tick_hz: u32) -> Result<(), CriterionMiss> {
-    let gap = truth.gap(run.seconds, tick_hz);
-    without_truth(truth, run, gap).map_or(Ok(()), |_| Err(CriterionMiss::Unknown))
 }

@@ -1,6 +1,7 @@
 //! The long-term motion of a linear body under a method of equal steps, from its normal modes.
 
 use super::change::Change;
+use super::limits::VISIBLE;
 use super::run::{MOST_WORK, work_of};
 use super::truth::BodyTruth;
 use super::verdict::Verdict;
@@ -10,6 +11,9 @@ use crate::sim::stability::{FOREVER_S, NormalMode, Stability, Tick, unforced};
 
 /// Finding the modes would take more work than a run may.
 pub(super) struct TooMuch;
+
+/// The moments at which the amplitude is compared with the true one.
+const ENVELOPE_MOMENTS: u32 = 256;
 
 /// The steps from which a mode's map is computed: three from each of two states.
 const STEPS_PER_MODE: u64 = 6;
@@ -59,6 +63,25 @@ impl<'a> Modes<'a> {
     pub(super) fn frequency_error(&self) -> Option<f64> {
         let swinging = self.modes.iter().filter(|(mode, ..)| mode.swing().is_some());
         swinging.max_by(|a, b| a.1.total_cmp(&b.1))?.2.frequency_error
+    }
+
+    /// Whether the amplitude stays within [`VISIBLE`] of the true one for `seconds`, as the root of the energies of all modes
+    /// tells, each with its own rate of growth or decay. `None` if no mode moves.
+    pub(super) fn are_as_wide(&self, seconds: f64) -> Option<bool> {
+        let moving = || self.modes.iter().filter(|(_, share, _)| *share > 0.0);
+        moving().next()?;
+        let wide = |t: f64, rate: fn(&NormalMode, &Stability) -> f64| {
+            let energy = |(mode, share, stability): &(&NormalMode, f64, Stability)| {
+                share * libm::exp(2.0 * rate(mode, stability) * t)
+            };
+            moving().map(energy).sum::<f64>().sqrt()
+        };
+        let moments =
+            (1..=ENVELOPE_MOMENTS).map(|i| seconds * f64::from(i) / f64::from(ENVELOPE_MOMENTS));
+        let off = |t: f64| {
+            (wide(t, |_, found| found.growth_per_s) - wide(t, |mode, _| -mode.decay_per_s())).abs()
+        };
+        Some(moments.map(off).all(|off| off <= VISIBLE))
     }
 
     fn are_conserved(&self) -> bool {

@@ -10,8 +10,11 @@ use crate::lab::lane_spec::LaneSpec;
 use crate::sim::Stepper;
 use crate::sim::integrators::{Family, StepFailure};
 
-/// The most work of a run, in evaluations of one coordinate: less than a second.
-pub const MOST_WORK: u64 = 50_000_000;
+/// The most work of a run, in evaluations of one coordinate: a second or two.
+pub const MOST_WORK: u64 = 100_000_000;
+
+/// The work of a tick beside its evaluations, for each coordinate: comparing it with the truth, and its energy.
+const WORK_OF_TICK: u64 = 4;
 
 /// The number of coordinates above which an implicit method spends more work on its matrix than on evaluations.
 const SMALL_MATRIX: u64 = 20;
@@ -84,17 +87,19 @@ pub(super) struct Run {
     pub(super) chase: Option<Chase>,
     /// The swinging coordinate after each tick of the horizon.
     pub(super) series: Vec<f64>,
-    /// The largest swing in each window of the horizon, in amplitudes.
-    pub(super) windows: Vec<f64>,
+    /// The largest swing in each half turn within the horizon, in amplitudes; empty if the body does not swing.
+    pub(super) half_turns: Vec<f64>,
 }
 
-/// The work done so far.
-pub(super) fn work(stepper: &dyn Stepper, spec: LaneSpec) -> u64 {
-    let n = stepper.q().len() as u64;
-    if stepper.is_sparse() {
-        return stepper.evaluations().saturating_mul(n);
-    }
-    work_of(stepper.evaluations(), n, spec)
+/// The work done in this many ticks.
+pub(super) fn work(stepper: &dyn Stepper, spec: LaneSpec, ticks: u64) -> u64 {
+    let (n, evaluations) = (stepper.q().len() as u64, stepper.evaluations());
+    let steps = if stepper.is_sparse() {
+        evaluations.saturating_mul(n)
+    } else {
+        work_of(evaluations, n, spec)
+    };
+    steps.saturating_add(WORK_OF_TICK * n * ticks)
 }
 
 /// The work of `evaluations` evaluations of a body of `n` coordinates.
@@ -120,7 +125,7 @@ pub(super) fn follow(
         Until::Grown | Until::LongRun => ticks(LONG_RUN * truth.horizon_s, tick_hz).max(horizon),
     };
     let mut stepper = truth.start(spec.solver());
-    let mut run = Run::new(truth, horizon as f64 / hz);
+    let mut run = Run::new(horizon as f64 / hz);
     run.chase = Chase::new(&*stepper, 0.0);
     let chased_s = truth.inputs.first().map_or(truth.horizon_s, |input| input.t);
     // A run that is judged without its error needs no truth.
@@ -132,7 +137,6 @@ pub(super) fn follow(
     let mut energy = Energy::of(&*stepper, truth, horizon, end);
     let ticks_per_look = (TICKS_PER_LOOK / coordinates.len() as u64).max(1);
     let mut peaks = Peaks::new(truth, &*stepper);
-    peaks.start(truth, &mut run.windows);
     let mut tick = 0;
     while tick < end {
         tick += 1;
@@ -158,8 +162,8 @@ pub(super) fn follow(
                 run.compare(&*stepper, series, truth, tick, horizon, t);
                 if let Some(swing) = &truth.swing {
                     run.series.push(stepper.q()[swing.coordinate]);
-                    peaks.take_in(&*stepper, truth, t, &mut run.windows);
                 }
+                peaks.iter_mut().for_each(|peaks| peaks.take_in(&*stepper, truth));
                 if let Until::Error(enough) = until
                     && (run.error > enough || run.no_truth.is_some())
                 {
@@ -190,11 +194,13 @@ pub(super) fn follow(
         if until == Until::Grown && (run.doubled_at.is_some() || run.rushed_at.is_some()) {
             break;
         }
-        if tick.is_multiple_of(ticks_per_look) && work(&*stepper, spec) > most_work {
+        if tick.is_multiple_of(ticks_per_look) && work(&*stepper, spec, tick) > most_work {
             run.is_too_much = tick < end;
             break;
         }
     }
+    truth.count_work(work(&*stepper, spec, tick));
+    run.half_turns = peaks.map_or(Vec::new(), |peaks| peaks.half_turns);
     (run.quarters, run.long_quarters) = (energy.horizon.means(), energy.long.means());
     if run.failure.is_some() {
         run.error = f64::INFINITY;
@@ -204,8 +210,7 @@ pub(super) fn follow(
 }
 
 impl Run {
-    fn new(truth: &BodyTruth, horizon_s: f64) -> Self {
-        let windows = truth.swing.as_ref().map_or(0, |swing| swing.windows.len());
+    fn new(horizon_s: f64) -> Self {
         Self {
             error: 0.0,
             error_at_s: 0.0,
@@ -228,7 +233,7 @@ impl Run {
             long_quarters: [0.0; 4],
             chase: None,
             series: Vec::new(),
-            windows: vec![0.0; windows],
+            half_turns: Vec::new(),
         }
     }
 

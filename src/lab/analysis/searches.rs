@@ -1,4 +1,6 @@
-//! Searches for the limit of a property: in strides until it fails, then by bisection.
+//! Searches for the limit of a property.
+
+use super::criterion_met::MOST_STIFFER;
 
 /// The number of substeps tried at this place of the sequence 1, 2, 3, 4, 6, 8, 12 … 64.
 pub(super) fn tried_substeps(place: u32) -> u32 {
@@ -9,39 +11,54 @@ pub(super) fn tried_substeps(place: u32) -> u32 {
     }
 }
 
+/// The factors that are tried by which bodies are made stiffer: each at most a tenth above the one before, to two digits.
+pub(super) const FACTORS: [f64; 30] = [
+    1.0,
+    1.1,
+    1.2,
+    1.3,
+    1.4,
+    1.5,
+    1.6,
+    1.7,
+    1.8,
+    1.9,
+    2.0,
+    2.2,
+    2.4,
+    2.6,
+    2.8,
+    3.0,
+    3.3,
+    3.6,
+    3.9,
+    4.2,
+    4.6,
+    5.0,
+    5.5,
+    6.0,
+    6.6,
+    7.2,
+    7.9,
+    8.6,
+    9.4,
+    MOST_STIFFER,
+];
+
 /// The lowest rate in Hz, going down from `hz`, at which `holds` is still true; it is true at `hz`. Each stride is the
-/// rate divided by `strides`; after the first failure the gap is bisected.
+/// rate divided by `strides`, and the last of them is gone hertz by hertz: no rate that was tried above the one returned
+/// has failed.
 pub(super) fn slowest_down(hz: u32, strides: u32, mut holds: impl FnMut(u32) -> bool) -> u32 {
-    let (mut held, mut failed) = (hz, 0);
+    let mut held = hz;
     while held > 1 {
         let next = held - (held / strides).max(1);
         if !holds(next) {
-            failed = next;
+            while held - 1 > next && holds(held - 1) {
+                held -= 1;
+            }
             break;
         }
         held = next;
-    }
-    while held - failed > 1 {
-        let middle = failed.midpoint(held);
-        if holds(middle) { held = middle } else { failed = middle }
-    }
-    held
-}
-
-/// The furthest of the places 1 to `last` at which `holds` is still true; it is true at 0. Strides double, so that little
-/// is tried far beyond the limit, and then the gap is bisected.
-pub(super) fn furthest(last: usize, mut holds: impl FnMut(usize) -> bool) -> usize {
-    let (mut held, mut failed) = (0, last + 1);
-    let mut stride = 1;
-    while failed - held > 1 {
-        let is_climbing = failed == last + 1;
-        let place = if is_climbing { (held + stride).min(last) } else { held.midpoint(failed) };
-        if holds(place) {
-            held = place
-        } else {
-            failed = place
-        }
-        stride *= 2;
     }
     held
 }
@@ -68,28 +85,23 @@ mod tests {
                         hz >= limit
                     });
                     assert_eq!(found, limit, "down from {from} Hz");
-                    assert!(tried < 8 * strides, "{tried} rates");
+                    assert!(tried < 8 * strides + from / strides, "{tried} rates");
                 }
             }
         }
         // A gap of 3 Hz is seen where the strides are as short.
         assert_eq!(slowest_down(60, 60, |hz| !(40..43).contains(&hz)), 43);
         assert_eq!(slowest_down(150, 60, |hz| !(110..113).contains(&hz)), 113);
+        // The last stride ends at a failure, and a gap within it is seen, too.
+        assert_eq!(slowest_down(60, 6, |hz| hz > 44 && hz != 47), 48);
     }
 
     #[test]
-    fn the_furthest_place_is_found_without_going_far_beyond() {
-        let last = 96;
-        for limit in 0..=last {
-            let mut tried = Vec::new();
-            let found = furthest(last, |place| {
-                tried.push(place);
-                place <= limit
-            });
-            assert_eq!(found, limit);
-            assert!(tried.len() < 16, "{tried:?}");
-            assert!(tried.iter().all(|&place| (1..=last).contains(&place)), "{tried:?}");
-            assert!(tried.iter().all(|&place| place <= 2 * limit + 1), "{limit}: {tried:?}");
-        }
+    fn factors_rise_from_one_by_a_tenth_and_print_as_they_are() {
+        assert_eq!((FACTORS[0], FACTORS[FACTORS.len() - 1]), (1.0, MOST_STIFFER));
+        let (small, large) = FACTORS.split_at(11);
+        assert!(small.windows(2).all(|pair| (pair[1] - pair[0] - 0.1).abs() < 1e-9));
+        assert!(large.windows(2).all(|pair| pair[1] > pair[0] && pair[1] / pair[0] < 1.101));
+        assert!(FACTORS.iter().all(|factor| factor.to_string().len() <= 3), "{FACTORS:?}");
     }
 }

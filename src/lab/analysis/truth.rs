@@ -1,5 +1,7 @@
 //! What is known of the true motion of one body before any method is compared with it.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use super::survey::{BodyInput, Moment, Ranges, TimedInput, follow_truth};
 use crate::lab::extent::Extent;
 use crate::lab::scene::SceneBody;
@@ -11,12 +13,14 @@ use crate::sim::{Solver, Stepper};
 mod amplitudes;
 mod reach;
 mod series;
+mod swing;
 
 use amplitudes::{amplitudes, largest_alike};
 pub(super) use reach::Reach;
 use reach::ReachSoFar;
 use series::TruthSeriesByRate;
 pub(super) use series::{TruthSeries, ticks};
+pub(super) use swing::Swing;
 
 /// The long run of a nonlinear body in horizons.
 pub const LONG_RUN: f64 = 20.0;
@@ -27,11 +31,11 @@ const MOST_REFERENCE_MOMENTS: usize = 20_000;
 const FEWEST_MOMENTS: usize = 512;
 const MOST_PRODUCTS: usize = 40_000_000;
 
-/// A crossing slower than this part of the largest speed does not count as a swing.
-const FAINT: f64 = 1e-3;
-
-/// The most windows in which the swing is compared.
-const MOST_WINDOWS: usize = 64;
+/// The work of one moment of an exact flow and of a reference solution, in evaluations of one coordinate, and the products
+/// of a flow's matrix that take as much as one.
+const WORK_OF_MOMENT: u64 = 64;
+const WORK_OF_REFERENCE_MOMENT: u64 = 256;
+const PRODUCTS_PER_EVALUATION: u64 = 4;
 
 /// The true motion of one body under one throttle.
 pub(super) struct BodyTruth {
@@ -62,16 +66,7 @@ pub(super) struct BodyTruth {
     /// Whether it fails before anything has moved: no other walk gets further, and each would pay for it again.
     fails_at_start: bool,
     series_by_rate: TruthSeriesByRate,
-}
-
-/// The true swing of a body.
-pub(super) struct Swing {
-    /// The coordinate whose crossings are counted.
-    pub(super) coordinate: usize,
-    /// When it crosses its centre upwards, in seconds.
-    pub(super) crossings: Vec<f64>,
-    /// The largest distance of any coordinate from its centre, in amplitudes, in each of equal windows of the horizon.
-    pub(super) windows: Vec<f64>,
+    work_done: AtomicU64,
 }
 
 impl BodyTruth {
@@ -101,6 +96,7 @@ impl BodyTruth {
             failure: None,
             fails_at_start: false,
             series_by_rate: TruthSeriesByRate::default(),
+            work_done: AtomicU64::new(0),
         };
         truth.survey();
         truth
@@ -145,6 +141,26 @@ impl BodyTruth {
         (self.body.kind.coordinates)(&self.body.values)
     }
 
+    /// The work done so far on this body, its truth included, in evaluations of one coordinate.
+    pub(super) fn work_done(&self) -> u64 {
+        self.work_done.load(Ordering::Relaxed)
+    }
+
+    /// Counts work that was done on it.
+    pub(super) fn count_work(&self, work: u64) {
+        self.work_done.fetch_add(work, Ordering::Relaxed);
+    }
+
+    /// Counts the work of this many moments of the true motion of `body`, which was followed through them.
+    fn count_moments(&self, moments: u64, body: &dyn Stepper) {
+        let n = body.q().len() as u64;
+        let each = match self.body.kind.truth {
+            Truth::Exact => WORK_OF_MOMENT + n * n / PRODUCTS_PER_EVALUATION,
+            Truth::Reference => WORK_OF_REFERENCE_MOMENT * n,
+        };
+        self.count_work(moments * each);
+    }
+
     fn survey(&mut self) {
         let mut body = self.start(Solver::Truth);
         let n = body.q().len();
@@ -161,9 +177,9 @@ impl BodyTruth {
         let mut extent = Extent::default();
         extent.cover(0.0, body.kinetic_energy());
         let conserves = body.energy().is_some() && self.inputs.is_empty();
-        let mut has_moved = false;
+        let mut moments: u64 = 0;
         let walked = follow_truth(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
-            has_moved = true;
+            moments += 1;
             reach.take_in(from, to);
             for moment in fastest(from, to).into_iter().filter(|_| conserves) {
                 there.set(0.0, &moment.x[..n], &moment.x[n..]);
@@ -172,9 +188,10 @@ impl BodyTruth {
                 extent.cover(0.0, now);
             }
         });
+        self.count_moments(moments, &*body);
         self.exchanged_j = extent.exchanged_j(&*self.start(Solver::Truth));
         self.failure = walked.err();
-        self.fails_at_start = self.failure.is_some() && !has_moved;
+        self.fails_at_start = self.failure.is_some() && moments == 0;
         self.amplitudes = amplitudes(&reach.ranges.0, self.coordinates());
         self.energy_scale =
             Some(kinetic).filter(|&scale| conserves && scale > 0.0 && scale.is_finite());
@@ -191,13 +208,16 @@ impl BodyTruth {
             let mut sums = vec![0.0; n];
             let mut seconds = 0.0;
             let long_run_s = LONG_RUN * self.horizon_s;
+            let mut moments = 0;
             let _ = follow_truth(&mut *body, &self.inputs, long_run_s, most, |from, to| {
+                moments += 1;
                 reach.take_in(from, to);
                 seconds += to.t - from.t;
                 for (i, sum) in sums.iter_mut().enumerate() {
                     *sum += (to.t - from.t) * (from.x[i] + to.x[i]) / 2.0;
                 }
             });
+            self.count_moments(moments, &*body);
             if self.energy_scale.is_none() && seconds > 0.0 {
                 // A motion that comes to rest swings about its place of rest.
                 self.centres = sums.iter().map(|sum| sum / seconds).collect();
@@ -222,57 +242,6 @@ impl BodyTruth {
             modes.iter().all(|(mode, _)| mode.is_conserved() && mode.omega_squared > 0.0)
         })
     }
-
-    /// The swing about `middles`, one per coordinate.
-    fn watch(&self, middles: &[f64], most: usize) -> Option<Swing> {
-        let n = middles.len();
-        let mut crossings = vec![Vec::new(); n];
-        let fast: Vec<f64> = self.amplitudes[n..].iter().map(|v| FAINT * v).collect();
-        let mut peaks: Vec<(f64, f64)> = Vec::new();
-        let mut body = self.start(Solver::Truth);
-        follow_truth(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
-            let mut peak: f64 = 0.0;
-            for i in 0..n {
-                let (a, b) = (from.x[i] - middles[i], to.x[i] - middles[i]);
-                peak = peak.max(a.abs().max(b.abs()) / self.amplitudes[i]);
-                if a < 0.0 && b >= 0.0 && to.t > from.t && to.x[n + i] > fast[i] {
-                    crossings[i].push(crossing(from, to, i, middles[i]));
-                }
-                if from.slope[i] * to.slope[i] < 0.0 {
-                    let within = (1..8).map(|s| from.between(to, i, f64::from(s) / 8.0));
-                    let most = within.map(|x| (x - middles[i]).abs()).fold(0.0, f64::max);
-                    peak = peak.max(most / self.amplitudes[i]);
-                }
-            }
-            peaks.push((to.t, peak));
-        })
-        .ok()?;
-        let coordinate = (0..n).find(|&i| crossings[i].len() >= 2)?;
-        let crossings = std::mem::take(&mut crossings[coordinate]);
-        let mut swing = Swing { coordinate, crossings, windows: Vec::new() };
-        let count = ((self.horizon_s / swing.period()) as usize).clamp(1, MOST_WINDOWS);
-        swing.windows = vec![0.0; count];
-        for (t, peak) in peaks {
-            let window = &mut swing.windows[window(t / self.horizon_s, count)];
-            *window = window.max(peak);
-        }
-        Some(swing)
-    }
-}
-
-/// The index of the window, of `count`, that contains this part of the horizon.
-pub(super) fn window(part: f64, count: usize) -> usize {
-    ((part * count as f64) as usize).min(count - 1)
-}
-
-/// The time in seconds at which coordinate `i` crosses `level` between two moments.
-fn crossing(from: &Moment, to: &Moment, i: usize, level: f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..50 {
-        let middle = (low + high) / 2.0;
-        if from.between(to, i, middle) < level { low = middle } else { high = middle }
-    }
-    from.t + low * (to.t - from.t)
 }
 
 /// The second of two moments, and 15 between them if a velocity has an extreme there.
@@ -380,6 +349,8 @@ mod tests {
             + 173.0 * 0.49_f64.powi(3) / 737_280.0;
         let expected = std::f64::consts::TAU * (0.4_f64 / 9.81).sqrt() * series;
         assert!((period / expected - 1.0).abs() < 1e-5, "{period}, not {expected}");
-        assert!(swing.windows.iter().all(|peak| (peak - 1.0).abs() < 1e-3));
+        let whole = &swing.half_turns[..swing.half_turns.len() - 1];
+        assert_eq!(whole.len(), 2 * swing.crossings.len() + 1, "from rest at the right: {whole:?}");
+        assert!(whole.iter().all(|peak| (peak - 1.0).abs() < 1e-3), "{whole:?}");
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::advice::{Adviser, CRITERIA, CriterionResult, MethodAdvice};
 use super::judge::Judge;
+use super::run::MOST_WORK;
 use super::stability_map::{MapRequest, MapWork, StabilityMap};
 use super::verdict::Verdict;
 use crate::lab::intervention::Interventions;
@@ -100,8 +101,13 @@ pub struct Advice {
     pub advised: Vec<MethodAdvice>,
 }
 
+/// The most work of a bounded worker on all verdicts together, the truth's included: a second or two.
+const MOST_WORK_OF_ALL: u64 = MOST_WORK;
+
 /// Works on one request at a time.
 pub struct AnalysisWorker {
+    /// The most work on all verdicts.
+    most_work: u64,
     request: AnalysisRequest,
     judge: Option<Judge>,
     verdicts: Vec<Option<Verdict>>,
@@ -145,14 +151,28 @@ impl AnalysisWorker {
     /// A worker on `request`.
     pub fn new(request: AnalysisRequest) -> Self {
         let verdicts = vec![None; request.entries.len()];
-        Self { request, judge: None, verdicts, judged: 0, advising: None, mapping: None }
+        Self {
+            most_work: u64::MAX,
+            request,
+            judge: None,
+            verdicts,
+            judged: 0,
+            advising: None,
+            mapping: None,
+        }
+    }
+
+    /// The same worker, which does a stated amount of work only: what is left then is not judged, and no advice is given.
+    pub fn bounded(self) -> Self {
+        Self { most_work: MOST_WORK_OF_ALL, ..self }
     }
 
     /// Replaces the request. Results that answer the new one too are kept.
     pub fn set_request(&mut self, request: AnalysisRequest) {
         self.set_map(&request);
         if !request.is_of(&self.request.scene) {
-            *self = Self { mapping: self.mapping.take(), ..Self::new(request) };
+            let mapping = self.mapping.take();
+            *self = Self { most_work: self.most_work, mapping, ..Self::new(request) };
             return;
         }
         let is_same_run = request.by_hand == self.request.by_hand;
@@ -195,7 +215,10 @@ impl AnalysisWorker {
         } else if let Some(&spec) = entries.get(self.judged) {
             let judge =
                 self.judge.get_or_insert_with(|| Judge::new(&by_hand.applied_to(scene), 1.0));
-            let verdict = judge.verdict(spec, *tick_hz);
+            // What earlier verdicts have left over is for the later ones.
+            let left = self.most_work.saturating_sub(judge.work_done());
+            let share = left / (entries.len() - self.judged) as u64;
+            let verdict = judge.verdict_within(share.min(MOST_WORK), spec, *tick_hz);
             self.verdicts[self.judged] = Some(verdict.starting_at(by_hand.starts_at_s()));
             self.judged += 1;
         } else if let Some(bodies) = *advice {
@@ -257,142 +280,4 @@ impl AnalysisWorker {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lab::{Action, Race};
-    use crate::sim::integrators::GENERAL_METHODS;
-
-    fn request(name: &str) -> AnalysisRequest {
-        let scene = Arc::new(Scene::built_in(name).unwrap());
-        let entries = scene.method_list();
-        AnalysisRequest {
-            scene,
-            entries,
-            tick_hz: 60,
-            by_hand: Interventions::default(),
-            advice: None,
-            map: None,
-        }
-    }
-
-    /// Works to the end. Returns the number of verdicts computed, and their texts.
-    fn answer(worker: &mut AnalysisWorker, request: &AnalysisRequest) -> (usize, Vec<String>) {
-        worker.set_request(request.clone());
-        let before = worker.judged;
-        while worker.work() {}
-        let findings = worker.findings();
-        assert!(findings.complete && findings.request == *request);
-        let verdicts = findings.verdicts.iter().map(|found| found.as_ref().unwrap().to_string());
-        (findings.verdicts.len() - before, verdicts.collect())
-    }
-
-    #[test]
-    fn each_verdict_is_found_once_until_the_rate_the_run_or_the_scene_changes() {
-        let first = request("harbour");
-        let mut worker = AnalysisWorker::new(first.clone());
-        let (count, fine) = answer(&mut worker, &first);
-        assert_eq!(count, GENERAL_METHODS.len());
-        assert_eq!(answer(&mut worker, &first), (0, fine.clone()));
-        let (count, coarse) =
-            answer(&mut worker, &AnalysisRequest { tick_hz: 20, ..first.clone() });
-        assert_eq!(count, GENERAL_METHODS.len());
-        assert!(coarse != fine);
-        let mut race = Race::of_scene(&first.scene);
-        race.act(Action::Throttle(0.5), &mut ());
-        let by_hand = Interventions::in_race(&race);
-        let slower = AnalysisRequest { tick_hz: 20, by_hand, ..first.clone() };
-        assert_eq!(answer(&mut worker, &slower).0, GENERAL_METHODS.len());
-        assert_eq!(answer(&mut worker, &first), (GENERAL_METHODS.len(), fine));
-        assert_eq!(answer(&mut worker, &request("spring")).0, GENERAL_METHODS.len());
-    }
-
-    #[test]
-    fn a_verdict_is_on_the_substeps_of_its_lane() {
-        let plain = request("stiff");
-        let mut worker = AnalysisWorker::new(plain.clone());
-        let (_, once) = answer(&mut worker, &plain);
-        let mut finer = plain.clone();
-        let lane = finer.entries.iter_mut().find(|spec| spec.method.id == "rk4").unwrap();
-        lane.substeps = 8;
-        let (count, finer) = answer(&mut worker, &finer);
-        assert_eq!(count, GENERAL_METHODS.len());
-        let changed: Vec<_> = (0..once.len()).filter(|&i| once[i] != finer[i]).collect();
-        let rk4 = plain.entries.iter().position(|spec| spec.method.id == "rk4").unwrap();
-        assert_eq!(changed, [rk4]);
-        assert!(finer[rk4].starts_with("accurate"), "{}", finer[rk4]);
-    }
-
-    #[test]
-    fn a_verdict_at_another_rate_stands_until_it_is_computed_again() {
-        let first = request("spring");
-        let mut worker = AnalysisWorker::new(first.clone());
-        answer(&mut worker, &first);
-        worker.set_request(AnalysisRequest { tick_hz: 20, ..first });
-        assert!(worker.findings().verdicts.iter().all(Option::is_some));
-        assert!(!worker.findings().complete);
-    }
-
-    #[test]
-    fn a_map_keeps_its_regions_while_its_cross_is_moved() {
-        use crate::lab::{Command, Instrument, Lab};
-        let mut lab = Lab::new(Scene::built_in("spring").unwrap());
-        lab.apply(Command::Instrument(Instrument::StabilityMap));
-        let mut worker = AnalysisWorker::new(lab.analysis_request());
-        while worker.work() {}
-        let found = worker.findings().map.expect("a map");
-        assert_eq!(found.regions.len(), found.request.specs.len());
-        let [damping, stiffness] = ["damping", "stiffness"].map(|name| {
-            let parameters = lab.scene().bodies[0].kind.parameters;
-            parameters.iter().position(|parameter| parameter.key.starts_with(name)).unwrap()
-        });
-        let mut moved = |parameter: usize, value: f64| {
-            lab.apply(Command::TickHz(24));
-            lab.apply(Command::Act(Action::Set { body: 0, parameter, value }));
-            worker.set_request(lab.analysis_request());
-            worker.findings().map.map(|map| (map.regions, map.here.len()))
-        };
-        assert_eq!(moved(stiffness, 580.0), Some((found.regions, 0)));
-        assert_eq!(moved(damping, 3.0), Some((Vec::new(), 0)), "another map");
-    }
-
-    #[test]
-    fn advice_is_computed_in_small_steps_and_only_on_request() {
-        let unasked = request("spring");
-        let mut worker = AnalysisWorker::new(unasked.clone());
-        answer(&mut worker, &unasked);
-        assert!(worker.findings().advice.is_none());
-        worker.set_request(AnalysisRequest { advice: Some(AdvisedBodies::All), ..unasked });
-        let bits = 1 + (0..).take_while(|_| worker.work()).count();
-        assert!((3..2000).contains(&bits), "{bits} times");
-        let advice = worker.findings().advice.unwrap();
-        assert_eq!([advice.advised.len(), advice.wanted], [GENERAL_METHODS.len(); 2]);
-        assert!(worker.findings().complete);
-    }
-
-    #[test]
-    fn a_body_can_be_asked_about_alone() {
-        let harbour = request("harbour");
-        let advised = |bodies: AdvisedBodies| {
-            let advice = Some(bodies);
-            let mut worker = AnalysisWorker::new(AnalysisRequest { advice, ..harbour.clone() });
-            while worker.findings().advice.is_none_or(|advice| advice.advised.len() < 2) {
-                worker.work();
-            }
-            let advice = worker.findings().advice.unwrap();
-            assert_eq!(advice.bodies, bodies);
-            assert_eq!(advice.advised[1].spec.method.id, "semi-implicit-euler");
-            let met = advice.advised[1].met[0].met().cloned().expect("it is bounded");
-            (worker, met)
-        };
-        let (mut worker, one) = advised(AdvisedBodies::One(1));
-        assert_eq!(one.evaluations_per_s, f64::from(60 * one.substeps), "one evaluation a step");
-        let (_, all) = advised(AdvisedBodies::All);
-        assert_eq!(all.evaluations_per_s, f64::from(3 * 60 * all.substeps), "of three bodies");
-        let bodies = Some(AdvisedBodies::One(1));
-        for (advice, is_kept) in [(None, true), (Some(AdvisedBodies::All), false)] {
-            worker.set_request(AnalysisRequest { advice, ..harbour.clone() });
-            worker.set_request(AnalysisRequest { advice: bodies, ..harbour.clone() });
-            assert_eq!(worker.findings().advice.is_some(), is_kept, "{advice:?}");
-        }
-    }
-}
+mod tests;

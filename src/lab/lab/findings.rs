@@ -115,11 +115,16 @@ impl Lab {
 
     /// Computes all requested verdicts and advice now.
     pub fn analyse(&mut self) {
-        let request = self.analysis_request();
-        let known = &self.viewer.findings;
-        if !known.as_ref().is_some_and(|known| known.answer(&request)) {
+        if let Some(request) = self.unanswered_request() {
             self.accept_findings(AnalysisWorker::new(request).finish());
         }
+    }
+
+    /// The verdicts and advice that are wanted, unless the findings answer them in full.
+    pub fn unanswered_request(&self) -> Option<AnalysisRequest> {
+        let request = self.analysis_request();
+        let known = &self.viewer.findings;
+        (!known.as_ref().is_some_and(|known| known.answer(&request))).then_some(request)
     }
 }
 

@@ -12,8 +12,7 @@ use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{self, ParameterOf, Range};
-use crate::sim::state::State;
-use crate::sim::system::{Pursuit, System};
+use crate::sim::system::{Pursuit, State, System};
 
 pub(super) const KIND: Kind = Kind {
     id: "follow",

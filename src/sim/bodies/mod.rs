@@ -5,7 +5,6 @@
 //! drawn. To add one, copy `spring.rs`, declare it, and name it in [`BODIES`].
 
 mod chain;
-mod claims;
 mod false_claims;
 mod follow;
 mod helm;
@@ -24,7 +23,6 @@ mod spring;
 mod survey;
 
 pub use chain::Chain;
-pub use claims::ClaimHorizon;
 pub use false_claims::FalseClaims;
 pub use follow::Follow;
 pub use helm::{Helm, ThrustCurve};

@@ -5,14 +5,12 @@ use std::cell::OnceCell;
 
 use glam::DVec2;
 
-use super::claims::{find_leak, find_unsolved};
 use super::false_claims::FalseClaims;
 use super::own_sheet::OwnSheet;
 use super::survey::ranges;
 use crate::sim::body::{Body, Input};
 use crate::sim::engine_settings::EngineSettings;
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{State, System};
 
 mod claims;
 mod extras;
@@ -35,9 +33,9 @@ pub struct Own {
     /// Whether the acceleration is linear.
     is_linear: bool,
     /// Whether the energy is conserved with the present parameters.
-    conserves: OnceCell<bool>,
+    conserves: bool,
     /// Whether the exact solution is one with the present parameters.
-    is_solved: OnceCell<bool>,
+    is_solved: bool,
     ranges: OnceCell<Vec<(f64, f64)>>,
 }
 
@@ -50,8 +48,8 @@ impl Clone for Own {
             start: start.clone(),
             kick: kick.clone(),
             is_linear: *is_linear,
-            conserves: conserves.clone(),
-            is_solved: is_solved.clone(),
+            conserves: *conserves,
+            is_solved: *is_solved,
             ranges: ranges.clone(),
         }
     }
@@ -76,17 +74,9 @@ impl Own {
         };
         let has_exact = || self.motion.exact(0.0, &mut self.start.clone());
         FalseClaims {
-            energy: !self.conserves() && has_energy(),
-            exact: !self.is_solved() && has_exact(),
+            energy: !self.conserves && has_energy(),
+            exact: !self.is_solved && has_exact(),
         }
-    }
-
-    fn conserves(&self) -> bool {
-        *self.conserves.get_or_init(|| find_leak(self).is_none())
-    }
-
-    fn is_solved(&self) -> bool {
-        *self.is_solved.get_or_init(|| find_unsolved(self).is_none())
     }
 
     /// The least and the largest value of each coordinate in the first seconds of the motion, for drawing.
@@ -118,9 +108,6 @@ impl Body for Own {
             self.motion.set(place, value);
         }
         self.prepare();
-        // Before the first tick, which must not allocate.
-        self.conserves();
-        self.is_solved();
         self
     }
 
@@ -134,8 +121,8 @@ impl Body for Own {
 
     fn prepare(&mut self) {
         self.ranges.take();
-        self.conserves.take();
-        self.is_solved.take();
+        self.conserves = claims::find_leak(self).is_none();
+        self.is_solved = claims::find_unsolved(self).is_none();
     }
 
     fn heap_bytes(&self) -> usize {
@@ -153,7 +140,7 @@ impl Body for Own {
     }
 
     fn exact_since_start(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
-        self.is_solved() && self.motion.exact(t, to)
+        self.is_solved && self.motion.exact(t, to)
     }
 
     fn is_linear(&self) -> bool {
@@ -165,7 +152,7 @@ impl Body for Own {
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
-        if self.conserves() { self.motion.energy(&state.q, Some(&state.v)) } else { None }
+        if self.conserves { self.motion.energy(&state.q, Some(&state.v)) } else { None }
     }
 
     fn kinetic_energy(&self, state: &State<Vec<f64>>) -> Option<f64> {

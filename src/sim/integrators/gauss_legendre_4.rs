@@ -4,8 +4,7 @@ use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::newton::{Newton, Stages};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "gauss-legendre-4",

@@ -3,8 +3,7 @@
 use super::card::{EXPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler",

@@ -2,8 +2,7 @@
 
 use super::failure::StepFailure;
 use super::tolerance::Tolerance;
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{State, System};
 
 /// A method that advances a system by steps.
 ///

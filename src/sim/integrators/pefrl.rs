@@ -4,8 +4,7 @@ use super::card::{Method, SYMPLECTIC};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::composition::compose;
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{State, System};
 
 pub(super) const CARD: Method = Method {
     id: "pefrl",

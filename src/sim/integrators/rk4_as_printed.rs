@@ -3,8 +3,7 @@
 use super::card::{AS_PRINTED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "rk4-as-printed",

@@ -4,8 +4,7 @@ use super::card::{LINEARISED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::linear_solve::LinearSolve;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "semi-implicit-euler-implicit-drag",

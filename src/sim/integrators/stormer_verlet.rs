@@ -4,8 +4,7 @@ use super::card::{Method, SYMPLECTIC};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) const CARD: Method = Method {
     id: "stormer-verlet",

@@ -2,8 +2,7 @@
 
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{State, System};
 
 /// A method that refuses every step.
 #[derive(Clone)]

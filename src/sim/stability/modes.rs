@@ -32,6 +32,11 @@ impl NormalMode {
         (squared > 0.0).then(|| squared.sqrt())
     }
 
+    /// The rate at which its amplitude decays in the end, per second.
+    pub fn decay_per_s(&self) -> f64 {
+        -self.true_modes()[0].growth_per_s
+    }
+
     /// Whether its energy is conserved.
     pub fn is_conserved(&self) -> bool {
         self.damping_per_s == 0.0

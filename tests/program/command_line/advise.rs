@@ -38,14 +38,16 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
     let expected = 2.0 * std::f64::consts::LN_2 / (1.0 + z * z).ln() / 60.0;
     assert!((doubles / expected - 1.0).abs() < 1e-6, "{doubles}, not {expected}");
     assert!(explicit["verdict"]["halves_in_s"].is_null());
-    assert!(explicit["criteria"].as_object().unwrap().values().all(Value::is_null));
+    let criteria = explicit["criteria"].as_object().unwrap();
+    assert!(criteria.values().all(|found| *found == serde_json::json!({ "met": false })));
     assert!(explicit["rates"]["bounded"].is_null() && explicit["rates"]["accurate"].is_null());
 
     let semi_implicit = row(&advice, "semi-implicit-euler");
     let bounded = &semi_implicit["criteria"]["bounded"];
     assert_eq!((&bounded["substeps"], &bounded["evaluations_per_s"]), (&1.into(), &60.0.into()));
-    // h ω < 2 from 3.15 Hz on, or up to (2 / 0.1047)² = 364.8 times the stiffness.
-    assert_eq!((&bounded["slowest_hz"], &bounded["stiffness_factor"]), (&4.into(), &360.0.into()));
+    // h ω < 2 from 3.15 Hz on, or up to (2 / 0.1047)² = 364.8 times the stiffness, of which ten are tried.
+    assert_eq!((&bounded["slowest_hz"], &bounded["stiffness_factor"]), (&4.into(), &10.0.into()));
+    assert_eq!(bounded["met"], true);
     assert_eq!(bounded["limited_by"], "stiffness");
     assert!(bounded["ns_per_s"].as_f64().unwrap() > 0.0);
     assert_eq!(semi_implicit["rates"]["bounded"], 4);
@@ -166,7 +168,7 @@ fn of_several_bodies_the_one_that_decides_is_named() {
     assert_eq!(row(&advice, "explicit-euler")["verdict"]["body"], "free spring");
     let text = row(&advice, "explicit-euler")["verdict"]["text"].as_str().unwrap();
     assert!(text.ends_with("(free spring)"), "{text}");
-    let limited = &row(&advice, "semi-implicit-euler")["criteria"]["bounded"]["limited_by"];
+    let limited = &row(&advice, "semi-implicit-euler")["criteria"]["looks-right"]["limited_by"];
     assert_eq!(limited, "stiffness (damped spring)");
 }
 
@@ -180,6 +182,11 @@ fn a_scene_that_nothing_holds_is_told_so() {
     assert_eq!(output.status.code(), Some(0));
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(text.contains("at 60 Hz: bounded: none of these with up to 64 substeps"), "{text}");
+    let output = run_in(folder.path(), "advise --scene hard.toml --method rk4 --format json");
+    let advice: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(row(&advice, "rk4")["criteria"]["bounded"], serde_json::json!({ "met": false }));
+    let why = advice["recommended"]["bounded"]["none"].as_str().unwrap();
+    assert!(why.starts_with("none of these with up to 64 substeps"), "{why}");
 }
 
 #[test]

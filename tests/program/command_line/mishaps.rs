@@ -103,6 +103,31 @@ fn killed_at_any_moment_it_leaves_whole_frames_in_order_and_can_be_drawn_again()
 
 #[cfg(unix)]
 #[test]
+fn interrupted_while_verdicts_are_found_it_ends_at_once() {
+    let test = "interrupted_while_verdicts_are_found_it_ends_at_once";
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let Some(_) = whole_or_skip(test, folder) else { return };
+    // Seconds of verdicts, whole or cut short.
+    let capture = "capture --scene orbit --race --tick-hz 10000 --frames 1 --size 96x54 --out clip";
+    for signal in ["-INT", "-TERM"] {
+        let mut child = start(folder, capture);
+        std::thread::sleep(Duration::from_millis(1500));
+        assert_eq!(child.try_wait().unwrap(), None, "verdicts take longer");
+        let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
+        assert!(sent.unwrap().success());
+        let begin = std::time::Instant::now();
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130), "{signal}: {}", stderr(&output));
+        // An idle machine needs a tenth of that.
+        assert!(begin.elapsed() < Duration::from_secs(1), "{signal}: {:?}", begin.elapsed());
+        assert!(!folder.join("clip/frame-000000.png").exists(), "{signal}");
+        let _ = fs::remove_dir_all(folder.join("clip"));
+    }
+}
+
+#[cfg(unix)]
+#[test]
 fn interrupted_at_any_moment_it_leaves_a_manifest_of_what_is_there() {
     let test = "interrupted_at_any_moment_it_leaves_a_manifest_of_what_is_there";
     let folder = tempfile::tempdir().unwrap();

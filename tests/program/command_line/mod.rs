@@ -10,7 +10,6 @@ mod capture;
 mod chapter;
 mod files;
 mod formats;
-mod help;
 mod identify;
 mod list;
 mod loops;

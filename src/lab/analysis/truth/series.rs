@@ -116,6 +116,7 @@ impl BodyTruth {
             }
             series.gaps.push(gap);
         }
+        self.count_moments(series.gaps.len() as u64, &*body);
         series
     }
 }

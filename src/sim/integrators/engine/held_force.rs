@@ -4,8 +4,7 @@ use super::{EngineMethod, Rule, Tick};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, Only};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{State, System, Vector};
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "held-force",

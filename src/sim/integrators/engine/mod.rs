@@ -13,8 +13,7 @@ use super::card::{Method, NOT_TOLD};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use crate::sim::engine_settings::EngineSettings;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{State, System, Vector};
 
 pub(super) mod avian;
 pub(super) mod avian_motor;

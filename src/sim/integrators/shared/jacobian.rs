@@ -4,8 +4,7 @@
 
 use super::newton::largest;
 use super::slopes::Slopes;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{State, System, Vector};
 
 /// Safety factor that turns max|J·(±1, …)| into a bound on ‖J‖∞.
 const SPARSE_NORM: f64 = 2.0;

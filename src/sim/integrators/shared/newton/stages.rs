@@ -1,7 +1,6 @@
 //! The stages of an implicit method, whose accelerations are the unknowns.
 
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{State, System, Vector};
 
 /// The times of the stages, and the weights α and β of the accelerations in their coordinates and
 /// velocities.

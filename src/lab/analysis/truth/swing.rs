@@ -1,0 +1,71 @@
+//! The true swing of a body: its crossings and the width of its half turns.
+
+use super::{BodyTruth, Moment};
+use crate::lab::analysis::survey::follow_truth;
+use crate::sim::Solver;
+
+/// A crossing slower than this part of the largest speed does not count as a swing.
+const FAINT: f64 = 1e-3;
+
+/// The true swing of a body.
+pub(in crate::lab::analysis) struct Swing {
+    /// The coordinate whose crossings are counted.
+    pub(in crate::lab::analysis) coordinate: usize,
+    /// When it crosses its centre upwards, in seconds.
+    pub(in crate::lab::analysis) crossings: Vec<f64>,
+    /// The largest distance of any coordinate from its centre, in amplitudes, in each of its half turns: before the
+    /// swinging coordinate first passes its centre, between one passage and the next, and after the last.
+    pub(in crate::lab::analysis) half_turns: Vec<f64>,
+}
+
+impl BodyTruth {
+    /// The swing about `middles`, one per coordinate.
+    pub(super) fn watch(&self, middles: &[f64], most: usize) -> Option<Swing> {
+        let n = middles.len();
+        let mut crossings = vec![Vec::new(); n];
+        let mut passages = vec![Vec::new(); n];
+        let fast: Vec<f64> = self.amplitudes[n..].iter().map(|v| FAINT * v).collect();
+        let mut peaks: Vec<(f64, f64)> = Vec::new();
+        let mut body = self.start(Solver::Truth);
+        let walked = follow_truth(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
+            let mut peak: f64 = 0.0;
+            for i in 0..n {
+                let (a, b) = (from.x[i] - middles[i], to.x[i] - middles[i]);
+                peak = peak.max(a.abs().max(b.abs()) / self.amplitudes[i]);
+                if (a < 0.0) != (b < 0.0) {
+                    passages[i].push(to.t);
+                }
+                if a < 0.0 && b >= 0.0 && to.t > from.t && to.x[n + i] > fast[i] {
+                    crossings[i].push(crossing(from, to, i, middles[i]));
+                }
+                if from.slope[i] * to.slope[i] < 0.0 {
+                    let within = (1..8).map(|s| from.between(to, i, f64::from(s) / 8.0));
+                    let most = within.map(|x| (x - middles[i]).abs()).fold(0.0, f64::max);
+                    peak = peak.max(most / self.amplitudes[i]);
+                }
+            }
+            peaks.push((to.t, peak));
+        });
+        self.count_moments(peaks.len() as u64, &*body);
+        walked.ok()?;
+        let coordinate = (0..n).find(|&i| crossings[i].len() >= 2)?;
+        let crossings = std::mem::take(&mut crossings[coordinate]);
+        let passages = &passages[coordinate];
+        let mut half_turns = vec![0.0_f64; passages.len() + 1];
+        for (t, peak) in peaks {
+            let half_turn = &mut half_turns[passages.partition_point(|&passed| passed <= t)];
+            *half_turn = half_turn.max(peak);
+        }
+        Some(Swing { coordinate, crossings, half_turns })
+    }
+}
+
+/// The time in seconds at which coordinate `i` crosses `level` between two moments.
+fn crossing(from: &Moment, to: &Moment, i: usize, level: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..50 {
+        let middle = (low + high) / 2.0;
+        if from.between(to, i, middle) < level { low = middle } else { high = middle }
+    }
+    from.t + low * (to.t - from.t)
+}
