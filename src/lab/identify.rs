@@ -90,7 +90,7 @@ const MOST_RECOMMENDED: usize = 3;
 /// Returns `None` if no method can be run on the body.
 pub fn identify(log: &Log, body: &LoggedBody, tick_hz: f64) -> Option<Identification> {
     let fits = search(log, body, tick_hz);
-    let Decision { word, same, unusual, rival } = decide(&fits, body)?;
+    let Decision { word, same, unusual, rival } = decide(&fits, body, log.is_double())?;
     let (best, best_fit) = same.first()?;
     let fitted = |(candidate, fit): &(Candidate, Fit)| Fitted {
         candidate: *candidate,

@@ -109,12 +109,38 @@ fn seen(effective: &Effective) -> String {
     [swing, ratio, lasting].into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
 
+/// The largest number of methods that the first line names.
+const MAX_MAKERS: usize = 3;
+
+/// The best candidate of an identified log, with the other methods whose map is the same on this body. A joint is named
+/// before a held force.
+fn makers(found: &Identification) -> String {
+    let mut all: Vec<&Candidate> = Vec::new();
+    for candidate in [&found.best.candidate].into_iter().chain(&found.also) {
+        let is_alike = |known: &&Candidate| {
+            known.method == candidate.method && known.is_held == candidate.is_held
+        };
+        if !all.iter().any(is_alike) {
+            all.push(candidate);
+        }
+    }
+    if found.best.candidate.is_held {
+        all.sort_by_key(|candidate| candidate.is_held);
+    }
+    let mut named: Vec<String> = all.iter().take(MAX_MAKERS).map(ToString::to_string).collect();
+    match (named.len(), all.len() - named.len()) {
+        (1, _) => named.remove(0),
+        (_, 0) => format!("{}: the same on this body", named.join(" or ")),
+        (_, more) => format!("{} or {more} more: the same on this body", named.join(" or ")),
+    }
+}
+
 pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
     let Identification { word, best, runner_up, effective, exact, recommended, .. } = found;
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
     let rival = runner_up.as_ref();
     let mut lines = vec![match (word, rival) {
-        (Word::Identified, _) => format!("made by {}, {}", best.candidate, residual(best)),
+        (Word::Identified, _) => format!("made by {}, {}", makers(found), residual(best)),
         (Word::CannotTell, Some(rival)) => format!(
             "cannot tell {} from {}: {} and {:.1e}; {}",
             best.candidate,

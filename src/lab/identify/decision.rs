@@ -7,10 +7,11 @@ use super::candidates::{Candidate, candidates};
 use super::fit::Fit;
 use super::logged_body::LoggedBody;
 
-/// The residual of rounding in a run, in units of the largest values: the least, in double precision, and the most, in
-/// single precision.
-const ROUNDING: [f64; 2] = [1e-9, 3e-5];
-/// Residuals below this multiple of the smallest count as rounding, up to `ROUNDING[1]`.
+/// The least residual of rounding in a run, in units of the largest values: in double precision.
+const MIN_ROUNDING: f64 = 1e-9;
+/// The largest residual of rounding in a log of single precision, and in one of double precision.
+const MAX_ROUNDING: [f64; 2] = [3e-5, 3e-6];
+/// Residuals below this multiple of the smallest count as rounding, up to `MAX_ROUNDING`.
 const TIMES_CLOSEST: f64 = 10.0;
 /// An equivalent candidate is not reported if its residual exceeds the smallest by this factor.
 const TIMES_NEAREST: f64 = 3.0;
@@ -28,9 +29,9 @@ const CLEAR: f64 = 3.0;
 /// A log that this part of all methods explain says nothing.
 const NEARLY_ALL: f64 = 0.8;
 
-/// What rounding may leave over where the closest candidate leaves over this.
-pub(super) fn rounding(closest: f64) -> f64 {
-    (TIMES_CLOSEST * closest).clamp(ROUNDING[0], ROUNDING[1])
+/// The residual that counts as rounding in a log of this precision if the smallest is `closest`.
+pub(super) fn rounding(closest: f64, is_double: bool) -> f64 {
+    (TIMES_CLOSEST * closest).clamp(MIN_ROUNDING, MAX_ROUNDING[usize::from(is_double)])
 }
 
 /// What the fits say.
@@ -44,10 +45,14 @@ pub(super) struct Decision<'a> {
     pub(super) rival: Option<&'a (Candidate, Fit)>,
 }
 
-/// Decides between the candidates for a body; `None` if there are none.
-pub(super) fn decide<'a>(fits: &'a [(Candidate, Fit)], body: &LoggedBody) -> Option<Decision<'a>> {
+/// Decides between the candidates for a body, fitted to a log of double precision or of single; `None` if there are none.
+pub(super) fn decide<'a>(
+    fits: &'a [(Candidate, Fit)],
+    body: &LoggedBody,
+    is_double: bool,
+) -> Option<Decision<'a>> {
     let least = fits.iter().map(|(_, fit)| fit.residual()).fold(f64::INFINITY, f64::min);
-    let rounding = rounding(least);
+    let rounding = rounding(least, is_double);
     let deviance = |(_, fit): &(Candidate, Fit)| fit.deviance(rounding);
     let with_rarity = |fitted: &(Candidate, Fit)| deviance(fitted) + fitted.0.rarity();
     let by_both =
@@ -67,7 +72,7 @@ pub(super) fn decide<'a>(fits: &'a [(Candidate, Fit)], body: &LoggedBody) -> Opt
         .partition(|fitted| fits_as_well(fitted) && fitted.1.distance(&closest.1) <= apart);
     let nearest = same.iter().map(|(_, fit)| fit.residual()).fold(f64::INFINITY, f64::min);
     same.sort_by_key(|(candidate, fit)| {
-        let is_nearest = fit.residual() <= TIMES_NEAREST * nearest + ROUNDING[0] / TIMES_CLOSEST;
+        let is_nearest = fit.residual() <= TIMES_NEAREST * nearest + MIN_ROUNDING / TIMES_CLOSEST;
         (!is_nearest, candidate.preference())
     });
     let best = *same.first()?;

@@ -12,9 +12,13 @@ use crate::sim::least_squares;
 const ITERATIONS: [usize; 3] = [1, 2, 12];
 /// A displacement for the derivatives, in units of the scale.
 const DISPLACEMENT: f64 = 1e-4;
-/// Left over up to this, rounding may be all that there is: in a log of single precision, and in one of double
-/// precision, whose engine may keep a mass in single precision.
-const PRECISE: [f64; 2] = [5e-5, 1e-5];
+/// Residuals up to this may be rounding in a log of single precision.
+const PRECISE_IN_SINGLE: f64 = 5e-5;
+/// Residuals up to this may be rounding in a log of double precision by an engine, which may keep a mass in single
+/// precision.
+const PRECISE_OF_ENGINE: f64 = 1e-5;
+/// Residuals up to this may be rounding in a log of double precision by any other method.
+const PRECISE_IN_DOUBLE: f64 = 1e-8;
 /// Left over up to this, rounding is all that there is.
 const EXACT: f64 = 1e-9;
 /// The displacement, in units of the scale, in a run that starts from nothing.
@@ -109,7 +113,11 @@ pub(super) fn fit(log: &Log, body: &LoggedBody, candidate: Candidate, tick_hz: f
     }
     let left = left_over(log, &now, scale);
     let is_finite = left.iter().flatten().all(|left| left.is_finite());
-    let precise = PRECISE[usize::from(log.is_double())];
+    let precise = match (log.is_double(), candidate.method.is_engine()) {
+        (false, _) => PRECISE_IN_SINGLE,
+        (true, true) => PRECISE_OF_ENGINE,
+        (true, false) => PRECISE_IN_DOUBLE,
+    };
     is_finite.then_some(Fit { body, run: now, precise, left })
 }
 

@@ -41,7 +41,7 @@ pub(super) fn search(log: &Log, body: &LoggedBody, tick_hz: f64) -> Vec<(Candida
 fn enough(squares: &[f64], log: &Log) -> f64 {
     let numbers = log.numbers() as f64;
     let nearest = squares.iter().copied().fold(f64::INFINITY, f64::min);
-    let rounding = rounding((nearest / numbers).sqrt());
+    let rounding = rounding((nearest / numbers).sqrt(), log.is_double());
     let near = APART * (nearest + numbers * rounding * rounding);
     let farther = squares.iter().copied().filter(|squares| *squares > near);
     near.max(farther.fold(f64::INFINITY, f64::min))

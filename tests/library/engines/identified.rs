@@ -129,6 +129,34 @@ fn a_motion_that_no_method_makes_is_unknown() {
 }
 
 #[test]
+fn a_log_in_double_precision_is_not_explained_by_a_method_that_is_off_by_more_than_its_rounding() {
+    // Velocity Verlet between two halves of an implicit drag: the exponential is off by parts in a million.
+    let motion = |c: f64, kept: f64| {
+        let (h, mut x, mut v) = (1.0 / 60.0, 1.0_f64, 0.0_f64);
+        let mut text = String::from("tick,x,v\n0,1,0\n");
+        for tick in 1..=240 {
+            v *= kept;
+            v -= h / 2.0 * 40.0 * x;
+            x += h * v;
+            v -= h / 2.0 * 40.0 * x;
+            v *= kept;
+            text += &format!("{tick},{x:e},{v:e}\n");
+        }
+        let text = Text::parse("log", &text, &Columns::default(), 60.0).unwrap();
+        let body = LoggedBody { spring: Some([40.0, c]), drag: 0.0, push: 0.0 };
+        identify(&text, &body, 60.0).unwrap()
+    };
+    for c in [0.5, 1.0, 2.0] {
+        let quarter = c / 60.0 / 4.0;
+        let implicit = motion(c, (1.0 - quarter) / (1.0 + quarter));
+        assert_eq!(implicit.word, Word::Unknown, "{c}: {}", implicit.best.candidate);
+        let exact = motion(c, libm::exp(-2.0 * quarter));
+        assert_eq!(exact.word, Word::Identified, "{c}: {}", exact.best.candidate);
+        assert_eq!(exact.best.candidate.method.id, "verlet-exact-drag", "{c}");
+    }
+}
+
+#[test]
 fn positions_alone_do_not_tell_a_kick_before_the_drift_from_one_after_it() {
     let logs = springs_and_coasting();
     let log = logs.iter().find(|log| log.file == "chipmunk__spring_1hz_z0_60hz.csv").unwrap();
