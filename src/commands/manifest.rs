@@ -40,6 +40,9 @@ mod any_number;
 /// The number of the description above. A manifest of another one cannot be judged.
 pub const SCHEMA: u32 = 1;
 
+/// The largest manifest that is read, in bytes: twice that of a capture of a million frames with its marks.
+pub(super) const MAX_BYTES: usize = 512 << 20;
+
 /// The manifest's file name.
 pub const FILE_NAME: &str = "manifest.json";
 

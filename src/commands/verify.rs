@@ -3,7 +3,6 @@
 //! The physics is judged first, bit by bit and without a GPU; then the pixels, which may move when the
 //! physics has not.
 
-use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -15,12 +14,13 @@ use super::experiment::Experiment;
 use super::frame_folder::blessing;
 use super::frame_folder::names::is_of_a_capture;
 use super::frame_folder::{Existing, FrameFolder};
-use super::manifest::{Adapter, FILE_NAME, Manifest, SCHEMA};
+use super::manifest::{self, Adapter, FILE_NAME, Manifest, SCHEMA};
 use super::output::{DirectoryLock, Older, OutputError, Place, write_text};
 use super::recording::{self, Recording, RecordingError};
 use super::settings;
 use super::terminal::tell;
 use crate::lab::SCENES;
+use crate::window::regular_file::{self, Unreadable};
 
 mod checks;
 mod errors;
@@ -234,9 +234,11 @@ fn judge_pixels(
 /// # Errors
 /// Why it cannot be used: it is missing, incomplete, altered or of another schema.
 fn read(path: &Path) -> Result<Manifest, String> {
-    let text = fs::read_to_string(path)
-        .map_err(|error| format!("{error}; `regatta capture` writes it"))?;
-    let value: serde_json::Value = serde_json::from_str(&text)
+    let bytes = regular_file::read(path, manifest::MAX_BYTES).map_err(|error| match error {
+        Unreadable::System(error) => format!("{error}; `regatta capture` writes it"),
+        error => error.to_string(),
+    })?;
+    let value: serde_json::Value = serde_json::from_slice(&bytes)
         .map_err(|error| format!("it is not JSON: {error}; capture again"))?;
     match value["schema"].as_u64() {
         Some(schema) if schema == u64::from(SCHEMA) => {}
@@ -247,7 +249,7 @@ fn read(path: &Path) -> Result<Manifest, String> {
         }
         None => return Err("it does not name its schema; capture again".into()),
     }
-    let manifest: Manifest = serde_json::from_str(&text)
+    let manifest: Manifest = serde_json::from_slice(&bytes)
         .map_err(|error| format!("it is not as schema {SCHEMA} has it: {error}; capture again"))?;
     settings::check(&manifest)?;
     Ok(manifest)

@@ -38,15 +38,21 @@ impl Unreadable {
 
 /// The bytes of a regular file of at most `max_bytes`.
 pub(crate) fn read(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable> {
+    let bytes = read_start(path, max_bytes.saturating_add(1))?;
+    if bytes.len() > max_bytes {
+        return Err(Unreadable::TooLarge { max_bytes });
+    }
+    Ok(bytes)
+}
+
+/// The first bytes of a regular file, at most `max_bytes`.
+pub(crate) fn read_start(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable> {
     // Before it is opened: opening a pipe waits for its other end.
     check(&path.metadata()?)?;
     let file = File::open(path)?;
     check(&file.metadata()?)?;
     let mut bytes = Vec::new();
-    file.take(max_bytes as u64 + 1).read_to_end(&mut bytes)?;
-    if bytes.len() > max_bytes {
-        return Err(Unreadable::TooLarge { max_bytes });
-    }
+    file.take(max_bytes as u64).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
@@ -68,6 +74,7 @@ mod tests {
         let path = folder.path().join("a");
         std::fs::write(&path, "four").unwrap();
         assert_eq!(read(&path, 4).unwrap(), b"four");
+        assert_eq!(read_start(&path, 3).unwrap(), b"fou");
         assert!(matches!(read(&path, 3), Err(Unreadable::TooLarge { max_bytes: 3 })));
         assert!(matches!(read(folder.path(), 4), Err(Unreadable::Directory)));
         assert!(read(&folder.path().join("b"), 4).unwrap_err().is_missing());

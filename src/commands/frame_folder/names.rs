@@ -1,14 +1,15 @@
 //! The names of frames, and how to tell the files that a capture made: by their content, not their names.
 
 use std::collections::BTreeSet;
-use std::fs::{self, File};
-use std::io::{self, Read};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
 use crate::commands::manifest;
 use crate::view::png;
+use crate::window::regular_file;
 
 /// The most frames in a folder: as many as six digits number.
 pub(crate) const MOST_FRAMES: u32 = 1_000_000;
@@ -27,15 +28,14 @@ pub(crate) fn frame_number(name: &str) -> Option<u32> {
 
 /// Whether the picture at `path` bears this program's mark.
 pub(crate) fn is_marked(path: &Path) -> bool {
-    let mut start = Vec::new();
-    let read = File::open(path)
-        .and_then(|file| file.take(png::NOTED_WITHIN as u64).read_to_end(&mut start));
-    read.is_ok() && png::is_encoded_here(&start)
+    let start = regular_file::read_start(path, png::NOTED_WITHIN);
+    start.is_ok_and(|start| png::is_encoded_here(&start))
 }
 
 /// The files listed in the manifest at `path`, of any schema; `None` if a capture did not write it.
 pub(crate) fn frames_claimed(path: &Path) -> Option<BTreeSet<String>> {
-    let manifest: Value = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
+    let bytes = regular_file::read(path, manifest::MAX_BYTES).ok()?;
+    let manifest: Value = serde_json::from_slice(&bytes).ok()?;
     let is_ours = manifest["schema"].is_u64()
         && manifest["regatta"].is_string()
         && manifest["settings_hash"].is_string();
@@ -57,8 +57,7 @@ pub(crate) fn is_of_a_capture(path: &Path, clip: &Path) -> bool {
     if is_in_clip && (name == manifest::FILE_NAME || frame_number(name).is_some()) {
         return true;
     }
-    // Reading from a pipe would block.
-    resolved.is_file() && (is_marked(&resolved) || frames_claimed(&resolved).is_some())
+    is_marked(&resolved) || frames_claimed(&resolved).is_some()
 }
 
 /// The path without links, as far as it exists.

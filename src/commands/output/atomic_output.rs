@@ -77,6 +77,9 @@ pub(crate) enum OutputError {
     /// The file could not be made or written.
     #[error(transparent)]
     File(#[from] FileError),
+    /// The file could not be written to its end, and nothing of it is left.
+    #[error("{0}; nothing is left of it, and the same command writes all of it")]
+    Unfinished(FileError),
     /// Standard output could not be written.
     #[error("cannot write to standard output: {0}")]
     Stdout(io::Error),
@@ -88,13 +91,13 @@ impl Cause for OutputError {
             OutputError::Taken { .. }
             | OutputError::Directory { .. }
             | OutputError::Terminal { .. } => 2,
-            OutputError::File(_) | OutputError::Stdout(_) => 1,
+            OutputError::File(_) | OutputError::Unfinished(_) | OutputError::Stdout(_) => 1,
         }
     }
 
     fn is_closed_pipe(&self) -> bool {
         let source = match self {
-            OutputError::File(error) => &error.source,
+            OutputError::File(error) | OutputError::Unfinished(error) => &error.source,
             OutputError::Stdout(error) => error,
             _ => return false,
         };
@@ -157,9 +160,10 @@ impl AtomicOutput {
     pub(crate) fn failed(&self, error: io::Error) -> OutputError {
         match self {
             AtomicOutput::Stdout(_) => OutputError::Stdout(error),
-            AtomicOutput::Device { path, option, .. } | AtomicOutput::File { path, option, .. } => {
+            AtomicOutput::Device { path, option, .. } => {
                 FileError::of("write", path, option)(error).into()
             }
+            AtomicOutput::File { path, option, .. } => unfinished(path, option)(error),
         }
     }
 
@@ -173,7 +177,7 @@ impl AtomicOutput {
             if older == Older::Keep && error.kind() == io::ErrorKind::AlreadyExists {
                 return OutputError::Taken { path: path.clone(), option };
             }
-            FileError::of("write", &path, option)(error).into()
+            unfinished(&path, option)(error)
         })
     }
 
@@ -186,7 +190,7 @@ impl AtomicOutput {
             AtomicOutput::File { part, path, option, older: Older::Keep } => {
                 let whole = part.into_inner().map_err(io::IntoInnerError::into_error);
                 let written = whole.and_then(AtomicFile::commit_beside);
-                let written = written.map_err(FileError::of("write", &path, option))?;
+                let written = written.map_err(unfinished(&path, option))?;
                 // A link's own name stays the one to tell, unless the file is another.
                 Ok(if written == end_of_links(&path).unwrap_or(path) {
                     name
@@ -225,6 +229,12 @@ pub(crate) fn finish(
         tell(&format!("wrote {what}: {name}"));
     }
     Ok(())
+}
+
+/// A conversion of the system's errors about a file that was begun at `path`, which `option` names.
+fn unfinished(path: &Path, option: &'static str) -> impl Fn(io::Error) -> OutputError + use<> {
+    let fail = FileError::of("write", path, option);
+    move |error| OutputError::Unfinished(fail(error))
 }
 
 /// Begins a file at `path`. If that is a link, the file it leads to is written and the link stays.

@@ -18,9 +18,16 @@ use super::super::terminal::progress;
 use super::errors::VerifyError;
 use super::report::{FrameChange, Report};
 use crate::view::{OffscreenRenderer, png};
+use crate::window::regular_file;
 
 /// The limits on another driver: a little more than the differences that were seen.
 const OTHER_DRIVER: (u8, f64) = (2, 0.01);
+
+/// The most bytes of a pixel in a picture that is read: four channels of 16 bits.
+const BYTES_PER_PIXEL: usize = 8;
+
+/// The most bytes of a picture beside its pixels.
+const MAX_NOTES_BYTES: usize = 1 << 20;
 
 /// How much a frame may differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,7 +150,9 @@ fn compare(
     folder: Folder<'_>,
 ) -> Result<Option<String>, VerifyError> {
     let path = folder.frames.join(&entry.file);
-    let then = match fs::read(&path) {
+    let [width, height] = size_px.map(|px| px as usize);
+    let max_bytes = BYTES_PER_PIXEL * width * height + MAX_NOTES_BYTES;
+    let then = match regular_file::read(&path, max_bytes) {
         Ok(file) => match image::load_from_memory(&file) {
             Ok(picture) => picture.into_rgba8(),
             Err(error) => return Ok(Some(format!("cannot be decoded: {error}"))),

@@ -180,19 +180,52 @@ fn a_directory_that_cannot_be_made_ends_the_capture() {
     assert_eq!(fs::read(folder.path().join("file")).unwrap(), b"mine");
 }
 
+/// Mounts a disk of this size at `disk`; `None`, with a word, where that cannot be done.
+#[cfg(target_os = "linux")]
+fn mounted_or_skip(test: &str, disk: &Path, size: &str) -> Option<()> {
+    fs::create_dir(disk).unwrap();
+    let mount = ["-t", "tmpfs", "-o", &format!("size={size}"), "tmpfs"];
+    let mounted = Command::new("mount").args(mount).arg(disk).stderr(Stdio::null()).status();
+    if !mounted.is_ok_and(|status| status.success()) {
+        let _ = writeln!(io::stderr(), "SKIPPED {test}: a small disk cannot be mounted here");
+        return None;
+    }
+    Some(())
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_nothing_of_a_single_file_and_the_way_on_is_told() {
+    let test = "a_full_disk_leaves_nothing_of_a_single_file_and_the_way_on_is_told";
+    let folder = tempfile::tempdir().unwrap();
+    let disk = folder.path().join("disk");
+    let Some(()) = mounted_or_skip(test, &disk, "64k") else { return };
+    let run = "capture --scene harbour --race --frames 30 --size 320x180 --out disk/run.";
+    let ended: Vec<_> = ["png --format apng", "gif", "y4m", "rgba", "png --format sheet"]
+        .into_iter()
+        .map_while(|format| drawn_or_skip(test, folder.path(), &format!("{run}{format}")))
+        .map(|output| (output, names(&disk)))
+        .collect();
+    let unmounted = Command::new("umount").arg(&disk).status();
+    assert!(unmounted.unwrap().success());
+    for (output, left) in ended {
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains("No space left on device"), "{said}");
+        let way_on = "free some space, or give another --out; nothing is left of it, and the same \
+                      command writes all of it";
+        assert!(said.contains(way_on), "{said}");
+        assert!(left.is_empty(), "{left:?}");
+    }
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_ends_the_capture_with_whole_frames_only() {
     let test = "a_full_disk_ends_the_capture_with_whole_frames_only";
     let folder = tempfile::tempdir().unwrap();
     let disk = folder.path().join("clip");
-    fs::create_dir(&disk).unwrap();
-    let mount = ["-t", "tmpfs", "-o", "size=2m", "tmpfs"];
-    let mounted = Command::new("mount").args(mount).arg(&disk).stderr(Stdio::null()).status();
-    if !mounted.is_ok_and(|status| status.success()) {
-        let _ = writeln!(io::stderr(), "SKIPPED {test}: a small disk cannot be mounted here");
-        return;
-    }
+    let Some(()) = mounted_or_skip(test, &disk, "2m") else { return };
     let capture = "capture --scene harbour --race --frames 400 --size 640x360 --out clip";
     let output = drawn_or_skip(test, folder.path(), capture);
     let left = names(&disk);

@@ -6,6 +6,7 @@ use clap::CommandFactory;
 use regatta::commands::Cli;
 use regatta::lab::Scene;
 
+use super::capture::drawn_or_skip;
 use super::{refusal, regatta, run, run_in, stderr, stdout_of};
 
 #[test]
@@ -144,6 +145,44 @@ fn a_pipe_without_a_writer_is_refused_and_not_waited_for() {
         assert_eq!(output.status.code(), Some(2), "{command}");
         let said = stderr(&output);
         assert!(said.contains("no regular file but a pipe or a device"), "{command}: {said}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_the_place_of_a_manifest_or_of_a_frame_is_refused_and_not_waited_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let make = |path: &str| {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+    };
+    make("manifest/manifest.json");
+    make("frame/frame-000000.png");
+    make("swap/.regatta-blessed/manifest.json");
+    let pipe = "no regular file but a pipe or a device";
+    let capture = "capture --scene ship --frames 1 --size 64x36 --out";
+    for (command, told) in [
+        ("verify manifest", pipe),
+        ("verify manifest --physics-only", pipe),
+        ("verify manifest --bless", "manifest.json was not made by regatta"),
+        (&*format!("{capture} manifest --force"), "manifest.json was not made by regatta"),
+        (&*format!("{capture} frame --force"), "frame-000000.png was not made by regatta"),
+        ("verify swap", "manifest.json"),
+    ] {
+        let output = run_in(folder.path(), command);
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        let said = stderr(&output);
+        assert!(said.contains(told), "{command}: {said}");
+    }
+    let test = "a_pipe_in_the_place_of_a_manifest_or_of_a_frame_is_refused_and_not_waited_for";
+    if drawn_or_skip(test, folder.path(), &format!("{capture} clip")).is_some() {
+        fs::remove_file(folder.path().join("clip/frame-000000.png")).unwrap();
+        make("clip/frame-000000.png");
+        let output = run_in(folder.path(), "verify clip");
+        let said = [stderr(&output), String::from_utf8(output.stdout).unwrap()].concat();
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains(&format!("cannot be read: it is {pipe}")), "{said}");
     }
 }
 
