@@ -117,6 +117,10 @@
 #![doc = include_str!("../examples/ci_hash.rs")]
 //! ```
 //!
+//! # The manual
+//!
+//! What the program does, in [chapters](manual): from the [keys](mod@manual::keys) to what is [stable](mod@manual::stable).
+//!
 //! # Out of scope
 //!
 //! Collisions and contacts, which would hide the integrator behind the solver; generic scalars,
@@ -128,6 +132,7 @@
 pub mod commands;
 #[cfg(feature = "lab")]
 pub mod lab;
+pub mod manual;
 pub mod prelude;
 pub mod sim;
 #[cfg(feature = "desktop")]

@@ -12,9 +12,8 @@ use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Fullscreen, WindowId};
 
-use crate::lab::{Command, DriverRequest, Lab};
+use crate::lab::{AnalysisWorker, Command, DriverRequest, Lab, LoopWorker};
 
-mod analysis_thread;
 mod canvas;
 mod clipboard;
 mod error;
@@ -35,13 +34,13 @@ mod screenshot;
 mod settings;
 mod tick_timer;
 mod watch;
+mod work_thread;
 
 pub use error::WindowError;
 pub use opening::{ReadScene, SceneFiles};
 pub use run_of_session::Window;
 pub use settings::{Closed, WindowSettings};
 
-use analysis_thread::AnalysisThread;
 use canvas::{Canvas, Drawn};
 use clipboard::Clipboard;
 use error::reason;
@@ -50,6 +49,7 @@ use keys::Modifiers;
 use pace::Meter;
 use tick_timer::TickTimer;
 use watch::FileWatch;
+use work_thread::WorkThread;
 
 /// The longest time between two simulation steps without a frame. It is well below the clock's longest frame, so that
 /// a window that is hidden, or not asked for frames by the window system, drops no ticks.
@@ -83,8 +83,11 @@ pub fn run(
         lab.list_as_file(path);
     }
     watch.watch(opened);
+    let analysed = lab.analysis_request();
+    let analysis = AnalysisWorker::new(analysed.clone());
     let mut app = App {
-        analysis: AnalysisThread::new(lab.analysis_request(), proxy.clone()),
+        analysis: WorkThread::new(analysis, analysed, proxy.clone()),
+        loops: WorkThread::new(LoopWorker::default(), None, proxy.clone()),
         tick_timer: TickTimer::new(proxy.clone()),
         lab,
         read,
@@ -115,7 +118,8 @@ pub fn run(
 
 struct App {
     lab: Lab,
-    analysis: AnalysisThread,
+    analysis: WorkThread<AnalysisWorker>,
+    loops: WorkThread<LoopWorker>,
     tick_timer: TickTimer,
     read: ReadScene,
     watch: FileWatch,
@@ -225,6 +229,7 @@ impl App {
             }
         }
         self.analysis.ask(self.lab.analysis_request());
+        self.loops.ask(self.lab.loop_request());
         self.tick_timer.ask(&self.lab, now);
         let frame = self.last_frame.map_or(FIRST_FRAME, |last| now.duration_since(last));
         self.last_frame = self.lab.running().then_some(now);
@@ -317,6 +322,12 @@ impl ApplicationHandler<Event> for App {
             }
             Event::Analysed(findings) => {
                 self.lab.accept_findings(findings);
+                if !self.lab.running() {
+                    self.request_redraw();
+                }
+            }
+            Event::LoopRun(found) => {
+                self.lab.accept_loop(found);
                 if !self.lab.running() {
                     self.request_redraw();
                 }

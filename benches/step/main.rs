@@ -7,7 +7,7 @@
 //! one shown, whose state is in memory after each tick, where it has to be for anyone to draw it.
 //!
 //! Words after `--` narrow it: `-- spring rk4` benches Runge-Kutta on the spring. `-- --readme` prints the
-//! README's table instead.
+//! manual's table instead.
 //!
 //! The four take turns in one process, so that the ratios, medians over the rounds, hold on a busy
 //! machine; the nanoseconds are those of the quietest round.
@@ -215,7 +215,7 @@ fn main() {
     }
 }
 
-/// The README's table: one step a tick, and beside it the loop by hand as the book prints it.
+/// The manual's table: one step a tick, and beside it the loop by hand as the book prints it.
 fn readme() {
     let heads = COURSES.each_ref().map(|course| format!("{}, ns | by hand |", course.name()));
     println!("| method | {}\n|---|{}", heads.join(" "), "---:|---:|".repeat(COURSES.len()));

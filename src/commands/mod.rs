@@ -15,6 +15,7 @@ mod capture;
 mod chapter;
 mod completions;
 mod game_loop;
+mod help;
 mod identify;
 mod list;
 mod play;
@@ -56,6 +57,7 @@ use chapter::ChapterArgs;
 use completions::CompletionsArgs;
 pub use error::{Cause, Error};
 use game_loop::LoopArgs;
+use help::HelpArgs;
 use identify::IdentifyArgs;
 use list::ListArgs;
 use play::PlayArgs;
@@ -81,11 +83,13 @@ Examples:
   regatta verify clip
   regatta list methods
 
-In the window, H shows the keys. `regatta help COMMAND` explains a command.";
+In the window, H shows the keys. `regatta help COMMAND` explains a command;
+`regatta help help` lists the chapters of the manual.";
 
 /// Race numerical integrators on ships, springs, chains, pendulums and orbits against the exact solution
 #[derive(Debug, Parser)]
 #[command(name = "regatta", version, args_conflicts_with_subcommands = true)]
+#[command(disable_help_subcommand = true)]
 #[command(after_help = EXAMPLES, subcommand_help_heading = "Commands", max_term_width = 100)]
 pub struct Cli {
     #[command(subcommand)]
@@ -108,6 +112,7 @@ enum Command {
     Chapter(ChapterArgs),
     List(ListArgs),
     Completions(CompletionsArgs),
+    Help(HelpArgs),
 }
 
 /// Runs the command that the command line names.
@@ -127,6 +132,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Show(args) => show::run(&args),
         Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),
+        Command::Help(args) => help::run(&args, Cli::command()),
         Command::Completions(args) => completions::run(&args, &mut Cli::command()),
     };
     match done {

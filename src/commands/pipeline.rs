@@ -185,14 +185,15 @@ impl<T> ReorderingWindow<T> {
     }
 }
 
-/// Completes the analysis that the panels show, such as verdicts. A window shows results as they are found; a
-/// recording waits for a stated amount of work on them before each frame, so that its frames are reproducible. Returns
-/// `false` after an interrupt, when the work is not waited for: the process is about to end.
+/// Completes the loops on the stage, and the analysis that the panels show, such as verdicts. A window shows results as
+/// they are found; a recording waits for a stated amount of work on verdicts before each frame, so that its frames are
+/// reproducible. Returns `false` after an interrupt, when the work is not waited for: the process is about to end.
 pub(super) fn complete_analysis(
     lab: &mut Lab,
     renderer: &OffscreenRenderer,
     interrupted: &AtomicBool,
 ) -> bool {
+    lab.run_loops();
     let request = lab.unanswered_request().filter(|_| renderer.panels() == Panels::Shown);
     let Some(request) = request else { return !interrupted.load(Ordering::Relaxed) };
     let (sender, found) = mpsc::channel();

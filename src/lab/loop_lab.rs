@@ -1,10 +1,10 @@
 //! The loop lab: one body under one method in every game loop, over the same frames, in slow motion.
 //!
-//! Frames are few, so that all of them are made when something is chosen: going back and forth is looking them up.
+//! Frames are few, so that all of them are kept: going back and forth is looking them up. They are made when something is
+//! chosen, by a [`LoopWorker`] beside the lab, and a loop is shown as soon as it was run.
 
 use std::sync::Arc;
 
-use super::action::Action;
 use super::lane::LaneBody;
 use super::pacing::{FrameTrace, POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use super::scene::Scene;
@@ -13,10 +13,12 @@ use crate::sim::integrators::Method;
 
 mod frame_metrics;
 mod lane;
+mod running;
 mod words;
 
 pub use frame_metrics::{FRAME_METRICS, FrameMetric};
 pub use lane::{LoopFrame, LoopLane, LoopState};
+pub use running::{FoundLoop, LoopRequest, LoopWorker};
 pub use words::LoopVerdict;
 
 /// The traces that come first, with the policies on the stage: noise that makes raw ticks flip between none and two, under
@@ -63,6 +65,8 @@ pub struct LoopLab {
     body: LaneBody,
     traces: Vec<FrameTrace>,
     trace: usize,
+    /// The loops that are wanted.
+    request: Arc<LoopRequest>,
     lanes: Vec<LoopLane>,
     /// The range of the exact first coordinate.
     range: [f64; 2],
@@ -83,21 +87,23 @@ pub struct LoopLab {
 }
 
 impl LoopLab {
-    /// The body at this place of a scene under a method, in all loops, at the start.
+    /// The body at this place of a scene under a method, at the start. No loop was [run](Self::request) yet.
     pub fn new(scene: &Scene, body: usize, method: &'static Method) -> Self {
-        let scene = alone(scene, body);
         let mut cards: Vec<&TraceCard> = TRACES.iter().collect();
         cards.sort_by_key(|card| {
             let first = OPENING.iter().position(|(id, _)| *id == card.id);
             first.unwrap_or(OPENING.len())
         });
-        let scene = Arc::new(scene);
+        let scene = Arc::new(scene.clone().of_one_body(body));
+        let traces: Vec<_> = cards.into_iter().map(|card| card.trace(DISPLAY)).collect();
+        let trace = traces[0].clone();
         let mut lab = Self {
             body: at_start(&scene),
             original: scene.clone(),
+            request: Arc::new(LoopRequest { scene: scene.clone(), method, trace, first: vec![] }),
             scene,
             method,
-            traces: cards.into_iter().map(|card| card.trace(DISPLAY)).collect(),
+            traces,
             trace: 0,
             lanes: Vec::new(),
             range: [0.0; 2],
@@ -128,7 +134,7 @@ impl LoopLab {
 
     /// Shows the body at this place of another scene, from its start.
     pub(super) fn show(&mut self, scene: &Scene, body: usize) {
-        self.original = Arc::new(alone(scene, body));
+        self.original = Arc::new(scene.clone().of_one_body(body));
         self.scene = self.original.clone();
         if self.scene.refusal(self.method).is_some() {
             let mut fitting = self.scene.fitting_methods();
@@ -136,21 +142,51 @@ impl LoopLab {
         }
         self.body = at_start(&self.scene);
         self.now_ns = 0;
-        self.make();
+        self.ask();
     }
 
-    /// Makes all frames again.
-    fn make(&mut self) {
-        let trace = &self.traces[self.trace];
-        let lane = |card| LoopLane::new(&self.scene, self.method, card, trace);
-        self.lanes = POLICIES.iter().map(lane).collect();
-        let ends = self.lanes.iter().filter_map(|lane| Some(lane.frames().last()?.displayed_ns));
-        self.end_ns = ends.max().unwrap_or_default();
-        self.now_ns = self.now_ns.min(self.end_ns);
-        let exact = self.lanes.iter().flat_map(LoopLane::frames).map(|frame| frame.exact[0]);
-        self.range = exact.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], q| {
-            [least.min(q), most.max(q)]
+    /// Asks for all loops again: those that are shown are of another choice.
+    fn ask(&mut self) {
+        self.request = Arc::new(LoopRequest {
+            scene: self.scene.clone(),
+            method: self.method,
+            trace: self.traces[self.trace].clone(),
+            first: self.on_stage.clone(),
         });
+        self.lanes = POLICIES.iter().map(LoopLane::awaited).collect();
+        self.end_ns = 0;
+        self.range = [f64::INFINITY, f64::NEG_INFINITY];
+    }
+
+    /// The loops that are wanted, for a [`LoopWorker`]. It is another value after each choice.
+    pub fn request(&self) -> &Arc<LoopRequest> {
+        &self.request
+    }
+
+    /// Shows a loop that was run, unless it was asked for before the last choice.
+    pub(super) fn accept(&mut self, found: FoundLoop) {
+        let FoundLoop { request, place, lane } = found;
+        if !Arc::ptr_eq(&request, &self.request) {
+            return;
+        }
+        let end_ns = lane.frames().last().map(|frame| frame.displayed_ns);
+        self.end_ns = self.end_ns.max(end_ns.unwrap_or_default());
+        let exact = lane.frames().iter().map(|frame| frame.exact[0]);
+        self.range = exact.fold(self.range, |[least, most], q| [least.min(q), most.max(q)]);
+        self.lanes[place] = lane;
+        if self.is_complete() {
+            self.now_ns = self.now_ns.min(self.end_ns);
+        }
+    }
+
+    /// Whether every loop was run.
+    pub fn is_complete(&self) -> bool {
+        self.lanes.iter().all(LoopLane::was_run)
+    }
+
+    /// Whether every loop on the stage was run.
+    pub fn is_stage_complete(&self) -> bool {
+        self.on_stage.iter().all(|&place| self.lanes[place].was_run())
     }
 
     /// The scene, with the one body.
@@ -165,9 +201,9 @@ impl LoopLab {
     pub fn body(&self) -> &LaneBody {
         &self.body
     }
-    /// The least and the greatest value of the exact first coordinate.
+    /// The least and the greatest value of the exact first coordinate in the loops that were run; zeros if none was.
     pub fn range(&self) -> [f64; 2] {
-        self.range
+        if self.range[0] > self.range[1] { [0.0; 2] } else { self.range }
     }
     /// The traces that can be chosen: the built-in ones, then those that were opened.
     pub fn traces(&self) -> &[FrameTrace] {
@@ -204,7 +240,7 @@ impl LoopLab {
         let refresh_ms = 1000.0 / self.traces[self.trace].refresh().hz();
         frame.latency_ms() + if held_ms > 2.0 * refresh_ms { held_ms } else { 0.0 }
     }
-    /// The last moment, in nanoseconds.
+    /// The last moment of the loops that were run, in nanoseconds; 0 if none was.
     pub fn end_ns(&self) -> i64 {
         self.end_ns
     }
@@ -234,7 +270,7 @@ impl LoopLab {
             self.on_stage = ids.iter().filter_map(place).collect();
             self.selected = self.on_stage[0];
         }
-        self.make();
+        self.ask();
     }
 
     /// Adds a trace to choose from, if there is one.
@@ -258,13 +294,13 @@ impl LoopLab {
             row.tick = u64::try_from(tick).unwrap_or(u64::MAX);
         }
         self.scene = Arc::new(scene);
-        self.make();
+        self.ask();
     }
 
     /// Chooses the method.
     pub fn set_method(&mut self, method: &'static Method) {
         self.method = method;
-        self.make();
+        self.ask();
     }
 
     /// Sets how many times slower than real time it is played.
@@ -307,14 +343,18 @@ impl LoopLab {
     }
 
     /// Goes on by `real_ns` nanoseconds of real time; at the end it begins again. The opening goes on to its next trace.
+    /// Time stands still while a loop on the stage was not run.
     pub fn advance(&mut self, real_ns: i64) {
+        if !self.is_stage_complete() {
+            return;
+        }
         self.now_ns += real_ns.max(0) / i64::from(self.slowness);
         if self.plays_opening && self.now_ns > OPENING_NS {
             self.plays_opening = self.trace + 2 < OPENING.len();
             self.now_ns = 0;
             self.choose_trace(self.trace + 1);
         }
-        if self.now_ns > self.end_ns {
+        if self.now_ns > self.end_ns && self.is_complete() {
             self.now_ns = 0;
         }
     }
@@ -338,16 +378,6 @@ impl LoopLab {
     pub fn selected_card(&self) -> &'static PolicyCard {
         self.lanes[self.selected].card()
     }
-}
-
-/// A scene with the body at this place alone, and what of the script acts on it.
-fn alone(scene: &Scene, body: usize) -> Scene {
-    let mut alone = Scene { bodies: vec![scene.bodies[body].clone()], ..scene.clone() };
-    alone.script.retain_mut(|row| match &mut row.action {
-        Action::Set { body: of, .. } | Action::Place { body: of, .. } => std::mem::take(of) == body,
-        _ => true,
-    });
-    alone
 }
 
 /// The one body of a scene at its start.

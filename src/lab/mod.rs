@@ -79,8 +79,8 @@ pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use lane_spec::LaneSpec;
 pub use live_loop::{LiveFrame, LiveLoop};
 pub use loop_lab::{
-    FRAME_METRICS, FrameMetric, LoopCommand, LoopFrame, LoopLab, LoopLane, LoopState, LoopVerdict,
-    MOST_ON_STAGE, SLOWNESS,
+    FRAME_METRICS, FoundLoop, FrameMetric, LoopCommand, LoopFrame, LoopLab, LoopLane, LoopRequest,
+    LoopState, LoopVerdict, LoopWorker, MOST_ON_STAGE, SLOWNESS,
 };
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use my_spring::MySpring;

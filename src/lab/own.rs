@@ -9,6 +9,7 @@ use super::picture::{Drawing, Mark};
 use super::race::Race;
 use super::scene::{
     LEAST_SECONDS, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS, MOST_TICK_HZ, Scene, SceneBody,
+    claim_horizon,
 };
 use crate::sim::bodies::{Extras, OwnFault, own_kind, refusal};
 use crate::sim::integrators::{METHODS, Method};
@@ -107,7 +108,7 @@ impl Scene {
             return Err(error("seconds", seconds.to_string(), remedy));
         }
         let drawing = draw.map(|draw| drawing::<S>(draw, start.q.clone()));
-        let kind = own_kind(system, &start, &extras, drawing)?;
+        let kind = own_kind(system, &start, &extras, drawing, claim_horizon(seconds, tick_hz))?;
         let values: Vec<f64> =
             kind.parameters.iter().map(|parameter| parameter.default.unwrap_or(1.0)).collect();
         let steps = |method: &&'static Method| refusal(method, kind, &values).is_none();

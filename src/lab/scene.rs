@@ -8,7 +8,7 @@ use std::path::Path;
 
 use super::action::Action;
 use super::lane_spec::LaneSpec;
-use crate::sim::bodies::Kind;
+use crate::sim::bodies::{ClaimHorizon, Kind};
 use crate::sim::integrators::Method;
 
 mod cause;
@@ -39,6 +39,11 @@ pub const LARGEST_FILE: usize = 1 << 20;
 
 /// The highest tick rate in Hz: ten times the finest rate of physics in games.
 pub const MOST_TICK_HZ: u32 = 10_000;
+
+/// The ticks of a scene of this length (s) and rate, at which the claims of its bodies are held against their motion.
+pub(in crate::lab) fn claim_horizon(seconds: f64, tick_hz: u32) -> ClaimHorizon {
+    ClaimHorizon { tick_hz, ticks: (seconds * f64::from(tick_hz)).round() as u64 }
+}
 
 /// The longest a scene may run, in seconds: a year. At [`MOST_TICK_HZ`] its last tick is far below
 /// 2⁵³, so that `tick / rate` is exact to the last bit of an f64.

@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use super::parameter::{self, ParameterOf};
 use super::piece::{Distances, NO_BOUNDARIES, Piece};
-use super::system::{State, System, Vector};
+use super::state::{State, Vector};
+use super::system::System;
 
 /// Something that moves by an equation of motion.
 pub trait Body: System + Clone + Send + 'static {

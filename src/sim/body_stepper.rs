@@ -11,8 +11,9 @@ use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, 
 use super::propagator::{MethodPropagator, Propagator};
 use super::reference::{MOST_REFERENCE_WORK, Reference};
 use super::solver::Solver;
+use super::state::{State, Vector};
 use super::stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
-use super::system::{Counted, Counts, Pursuit, Recorded, State, Vector};
+use super::system::{Counted, Counts, Pursuit, Recorded};
 
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {

@@ -3,8 +3,9 @@
 use super::body::Body;
 use super::integrators::StepFailure;
 use super::propagator::Propagator;
+use super::state::{State, Vector};
 use super::stepper::Change;
-use super::system::{Counted, State, Vector};
+use super::system::Counted;
 
 /// The exact flow. Each state is computed in one stride from the anchor, so that no error accumulates.
 #[derive(Clone)]

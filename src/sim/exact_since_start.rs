@@ -5,8 +5,9 @@ use super::body::Body;
 use super::integrators::StepFailure;
 use super::propagator::Propagator;
 use super::reference::Reference;
+use super::state::{State, Vector};
 use super::stepper::Change;
-use super::system::{Counted, State, Vector};
+use super::system::Counted;
 
 /// The rounding of a closed form whose operations are not known, relative to its value.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;

@@ -1,11 +1,10 @@
 //! Equations of motion as text: `z = "-k*z/m"`, compiled to a flat tape.
 //!
-//! The parser and the evaluator are our own. The crates that read expressions evaluate them with std's
-//! mathematics, which differs from platform to platform; here every function is `libm`'s. The order of
-//! the operations is that of the text: `a + b + c` is `(a + b) + c`. A whole exponent up to 16 is
-//! written out, so that `x^2` has the bits of `x*x` and `x^3` those of `x*x*x`, and `x^-2` those of
-//! `1/(x*x)`; any other exponent is `libm::pow`'s. The parser calls itself for brackets, signs and
-//! functions, at most [`MOST_DEPTH`] within each other.
+//! The parser and the evaluator are our own. The crates that read expressions evaluate them with std's mathematics,
+//! which differs from platform to platform; here every function is `libm`'s. The order of the operations is that of
+//! the text: `a + b + c` is `(a + b) + c`. A whole exponent up to 16 is written out, so that `x^2` has the bits of
+//! `x*x` and `x^3` those of `x*x*x`, and `x^-2` those of `1/(x*x)`; any other exponent is `libm::pow`'s. The parser
+//! calls itself for brackets, signs and functions, at most [`MOST_DEPTH`] within each other.
 
 use crate::sim::piece::Distances;
 

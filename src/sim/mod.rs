@@ -29,6 +29,7 @@ mod reference;
 mod solver;
 #[cfg(feature = "lab")]
 pub mod stability;
+mod state;
 mod stepper;
 mod system;
 
@@ -43,5 +44,6 @@ pub use least_squares::least_squares;
 pub use points::Points;
 pub use reference::{MOST_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
+pub use state::{State, Vector};
 pub use stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
-pub use system::{Counted, Counts, Evaluation, Pursuit, Recorded, State, System, Vector};
+pub use system::{Counted, Counts, Evaluation, Pursuit, Recorded, System};

@@ -1,6 +1,6 @@
 //! The coordinates of many points, each of which feels few others.
 
-use super::system::Vector;
+use super::state::Vector;
 
 /// Coordinates of many points in a plane, `x0, y0, x1, y1 …`, for forces between neighbours.
 ///

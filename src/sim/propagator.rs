@@ -18,8 +18,9 @@
 
 use super::body::Body;
 use super::integrators::{Integrator, StepFailure};
+use super::state::State;
 use super::stepper::Change;
-use super::system::{Counted, State};
+use super::system::Counted;
 
 /// A method or a truth that advances bodies of type `B`.
 pub(super) trait Propagator<B: Body>: Send + 'static {

@@ -7,8 +7,9 @@
 use super::body::Body;
 use super::integrators::StepFailure;
 use super::propagator::Propagator;
+use super::state::{State, Vector};
 use super::stepper::Change;
-use super::system::{Counted, State, Vector};
+use super::system::Counted;
 
 use extrapolation::Extrapolation;
 use trajectory::{Ended, StepControl, Trajectory};
@@ -40,6 +41,23 @@ const MOST_SAVED_EVALUATIONS: u64 = 4_000_000;
 /// about as long as the second itself in an unoptimised build, and a tenth of that in an optimised one.
 pub const MOST_REFERENCE_WORK: f64 = 1e6;
 
+/// The evaluations that a reference solution may use.
+#[derive(Clone, Copy, Debug)]
+struct Allowance {
+    /// Left to spend.
+    saved: u64,
+    /// Granted per call.
+    per_call: u64,
+    /// The most that are saved, and those at the start.
+    most: u64,
+}
+
+impl Allowance {
+    fn new(per_call: u64, most: u64) -> Self {
+        Self { saved: most, per_call, most }
+    }
+}
+
 /// A reference solution.
 #[derive(Clone, Debug)]
 pub(super) struct Reference<V> {
@@ -50,8 +68,7 @@ pub(super) struct Reference<V> {
     difference: State<V>,
     /// Whether both solutions have started from the state of the body.
     has_begun: bool,
-    /// Evaluations left to spend.
-    saved: u64,
+    allowance: Allowance,
     failed: Option<StepFailure>,
     /// Simulated seconds since the body was placed.
     elapsed: f64,
@@ -63,13 +80,27 @@ pub(super) struct Reference<V> {
 
 impl<V: Vector> Reference<V> {
     pub(super) fn new(like: &State<V>) -> Self {
+        Self::with_allowance(like, Allowance::new(EVALUATIONS_PER_CALL, MOST_SAVED_EVALUATIONS))
+    }
+
+    /// A reference that fails after about this many evaluations in all.
+    pub(super) fn within(like: &State<V>, evaluations: u64) -> Self {
+        Self::with_allowance(like, Allowance::new(0, evaluations))
+    }
+
+    /// The evaluations that it may still use.
+    pub(super) fn saved_evaluations(&self) -> u64 {
+        self.allowance.saved
+    }
+
+    fn with_allowance(like: &State<V>, allowance: Allowance) -> Self {
         Self {
             solution: Trajectory::new(like, StepControl::Long),
             check: Trajectory::new(like, StepControl::Uneven),
             work: Extrapolation::new(like),
             difference: like.clone(),
             has_begun: false,
-            saved: MOST_SAVED_EVALUATIONS,
+            allowance,
             failed: None,
             elapsed: 0.0,
             largest_difference: [0.0; 2],
@@ -80,7 +111,7 @@ impl<V: Vector> Reference<V> {
     /// Restarts, because the body was placed into a state.
     fn place(&mut self) {
         self.has_begun = false;
-        self.saved = MOST_SAVED_EVALUATIONS;
+        self.allowance.saved = self.allowance.most;
         self.failed = None;
         self.elapsed = 0.0;
         (self.largest_difference, self.fastest) = ([0.0; 2], [0.0; 2]);
@@ -100,7 +131,7 @@ impl<V: Vector> Reference<V> {
     /// Advances `y` from `t` to exactly `t + h` (s).
     ///
     /// After a failure every call fails at once, until the body is placed or pushed.
-    fn solve<B: Body<Vector = V>>(
+    pub(super) fn solve<B: Body<Vector = V>>(
         &mut self,
         body: &B,
         t: f64,
@@ -116,19 +147,19 @@ impl<V: Vector> Reference<V> {
             self.failed = Some(failure.clone());
             return Err(failure);
         }
-        let Self { solution, check, work, .. } = self;
+        let Self { solution, check, work, allowance, .. } = self;
         if !self.has_begun {
             solution.begin(body, t, y);
             check.begin(body, t, y);
             self.has_begun = true;
         }
-        self.saved = (self.saved + EVALUATIONS_PER_CALL).min(MOST_SAVED_EVALUATIONS);
+        allowance.saved = (allowance.saved + allowance.per_call).min(allowance.most);
         work.evaluations = 0;
-        let solved = solution.advance(body, t, h, work, self.saved);
+        let solved = solution.advance(body, t, h, work, allowance.saved);
         self.fastest =
             [self.fastest[0].max(largest(&y.v)), self.fastest[1].max(largest(&work.begin.v))];
-        let solved = solved.and_then(|()| check.advance(body, t, h, work, self.saved));
-        self.saved = self.saved.saturating_sub(work.evaluations);
+        let solved = solved.and_then(|()| check.advance(body, t, h, work, allowance.saved));
+        allowance.saved = allowance.saved.saturating_sub(work.evaluations);
         if let Err(ended) = solved {
             let failure = match ended {
                 Ended::Budget => StepFailure::ReferenceFailed { evaluations: work.evaluations },

@@ -8,7 +8,8 @@ use glam::DVec2;
 use super::body::{Body, Input};
 use super::integrators::{Method, StepFailure};
 use super::solver::Solver;
-use super::system::{Counts, Evaluation, Pursuit, State, Vector};
+use super::state::{State, Vector};
+use super::system::{Counts, Evaluation, Pursuit};
 
 /// A tick that was taken on a copy of a body.
 #[derive(Clone, Debug, PartialEq)]

@@ -180,6 +180,7 @@ fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
             let mut lab = run(name, false);
             lab.choose_theme(theme);
             lab.apply(Command::Loop(LoopCommand::ToggleLab));
+            lab.run_loops();
             lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
             assert_legible(&lab, &format!("loop lab on {name}, {theme:?}"));
             lab.apply(Command::ToggleArrangement);
@@ -192,10 +193,12 @@ fn every_text_of_the_loop_lab_can_be_read_on_any_stage_display_and_theme() {
 fn every_text_of_the_loop_lab_can_be_read_with_every_loop_and_on_every_display() {
     let mut lab = run("spring", false);
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    lab.run_loops();
     let loops = lab.loop_lab().expect("it is open");
     let (traces, places) = (loops.traces().len(), loops.lanes().len());
     for trace in 0..traces {
         lab.apply(Command::Loop(LoopCommand::Trace(trace)));
+        lab.run_loops();
         lab.apply(Command::Loop(LoopCommand::Seek(5_000_000_000)));
         assert_legible(&lab, &format!("trace {trace}"));
     }
@@ -210,6 +213,7 @@ fn every_text_of_every_instrument_of_the_loop_lab_can_be_read() {
     for name in ["spring", "harbour"] {
         let mut lab = run(name, false);
         lab.apply(Command::Loop(LoopCommand::ToggleLab));
+        lab.run_loops();
         lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
         for instrument in Instrument::all().filter(|one| one.is_in_loop_lab()) {
             lab.apply(Command::Instrument(instrument));

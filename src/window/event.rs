@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 #[cfg(feature = "accessibility")]
 use super::screen_reader::Request;
-use crate::lab::{Findings, LaneSpec, Scene};
+use crate::lab::{Findings, FoundLoop, LaneSpec, Scene};
 
 /// An event from the program's own threads or from a screen reader.
 pub(super) enum Event {
@@ -13,6 +13,8 @@ pub(super) enum Event {
     ScreenReader(Request),
     /// The analysis has found more.
     Analysed(Findings),
+    /// A loop of the loop lab was run.
+    LoopRun(FoundLoop),
     /// The ticks of these lanes were timed: nanoseconds per tick, `None` of a lane that halted.
     TicksTimed(Vec<(LaneSpec, Option<f64>)>),
     /// Ctrl-C was pressed in the terminal.

@@ -1,4 +1,4 @@
-//! The README's test for continuous integration, in a stranger's crate: it passes as it is printed, and fails
+//! The manual's test for continuous integration, in a stranger's crate: it passes as it is printed, and fails
 //! as soon as any lane's method is another.
 
 use std::path::{Path, PathBuf};
@@ -7,36 +7,40 @@ use std::{env, fs};
 
 use regatta::lab::{Race, Scene};
 
-const README: &str = include_str!("../../README.md");
+use regatta::manual::{CHAPTERS, chapter};
 const SCENE: &str = include_str!("../../assets/scenes/stiff.toml");
 /// No lane of the scene.
 const OTHER: &str = "midpoint";
 
-/// What the README prints in Rust.
-fn blocks() -> impl Iterator<Item = &'static str> {
-    README.split("```rust\n").skip(1).map(|rest| rest.split("```").next().unwrap())
+/// What the manual prints in a language.
+fn blocks(language: &str) -> impl Iterator<Item = &'static str> {
+    let fence = format!("```{language}\n");
+    let blocks = |text: &'static str| {
+        let texts: Vec<_> = text.split(&*fence).skip(1).collect();
+        texts.into_iter().map(|rest| rest.split("```").next().unwrap())
+    };
+    CHAPTERS.iter().flat_map(|chapter| blocks(chapter.text)).collect::<Vec<_>>().into_iter()
 }
 
-/// The test as the README prints it.
+/// The test as the manual prints it.
 fn recipe() -> &'static str {
-    let mut tests = blocks().filter(|block| block.contains("#[test]"));
-    tests.next().expect("the README prints a test")
+    let mut tests = blocks("rust").filter(|block| block.contains("#[test]"));
+    tests.next().expect("the manual prints a test")
 }
 
-/// The body of one's own as the README prints it, as a program.
+/// The body of one's own as the manual prints it, as a program.
 fn own_body() -> String {
-    let mut bodies = blocks().filter(|block| block.contains("impl System for"));
-    format!("fn main() {{\n{}}}\n", bodies.next().expect("the README prints a body"))
+    let mut bodies = blocks("rust").filter(|block| block.contains("impl System for"));
+    format!("fn main() {{\n{}}}\n", bodies.next().expect("the manual prints a body"))
 }
 
-/// The dependencies as the README prints them, on this source tree.
+/// The dependencies as the manual prints them, on this source tree.
 fn manifest() -> String {
-    let tables = README.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
-    let mut tables = tables.filter(|table| table.contains("[dependencies]\nregatta = "));
-    let printed = tables.next().expect("the README prints the dependencies");
+    let mut tables = blocks("toml").filter(|table| table.contains("[dependencies]\nregatta = "));
+    let printed = tables.next().expect("the manual prints the dependencies");
     let here = format!("path = {:?}", env!("CARGO_MANIFEST_DIR"));
     let dependencies = printed.replace("version = \"0.1\"", &here);
-    assert_ne!(dependencies, printed, "the README prints another version");
+    assert_ne!(dependencies, printed, "the manual prints another version");
     format!(
         "[package]\nname = \"stranger\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n\
          {dependencies}\n[workspace]\n"
@@ -105,7 +109,7 @@ fn said(output: &Output) -> String {
 }
 
 #[test]
-fn the_readmes_test_passes_and_fails_for_every_lane_whose_method_is_another() {
+fn the_manuals_test_passes_and_fails_for_every_lane_whose_method_is_another() {
     let stranger = Stranger::new("stranger-with-a-test");
     let output = stranger.test(SCENE);
     assert!(output.status.success(), "{}", said(&output));
@@ -126,7 +130,8 @@ fn the_examples_run_in_a_package_of_their_own() {
     let examples = examples();
     assert!(examples.len() > 1);
     for (name, _) in examples {
-        assert!(README.contains(&format!("examples/{name}.rs")), "the README leaves out {name}");
+        let file = format!("`examples/{name}.rs`");
+        assert!(chapter("library").unwrap().text.contains(&file), "the manual leaves out {name}");
         let output = stranger.cargo(&["run", "--quiet", "--offline", "--example", &name]);
         assert!(output.status.success() && !output.stdout.is_empty(), "{}", said(&output));
     }

@@ -315,6 +315,7 @@ fn the_stage_says_which_body_halted_and_where_there_is_no_truth() {
 fn loops_over_each_other_are_named_below_and_numbered_above_their_bodies() {
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    lab.run_loops();
     lab.apply(Command::Loop(LoopCommand::Seek(2_264_000_000)));
     let below = compose(&lab, [780.0, 500.0]);
     lab.apply(Command::ToggleArrangement);

@@ -1,6 +1,7 @@
 //! What verdicts say, word by word.
 
 use regatta::lab::{KEYS, NoTruth, NotJudged, Outcome, RunFailure, Severity, TOLERANCE, Verdict};
+use regatta::manual::chapter;
 use regatta::sim::integrators::StepFailure;
 
 /// A verdict with nothing in it but this word.
@@ -122,8 +123,8 @@ fn only_the_two_best_words_are_accurate_and_four_are_bad() {
 }
 
 #[test]
-fn the_readme_says_of_escape_what_the_list_of_keys_says() {
+fn the_manual_says_of_escape_what_the_list_of_keys_says() {
     let escape = KEYS.iter().find(|binding| binding.shown == "Esc").unwrap();
     let row = format!("| `Esc` | {} |", escape.about);
-    assert!(include_str!("../../README.md").contains(&row), "{row}");
+    assert!(chapter("keys").unwrap().text.contains(&row), "{row}");
 }

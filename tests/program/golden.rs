@@ -150,6 +150,7 @@ fn the_loop_lab_looks_as_it_did() {
     let Some(gpu) = gpu_or_skip("the_loop_lab_looks_as_it_did") else { return };
     let mut lab = Lab::new(Scene::built_in("spring").unwrap());
     lab.open_loop_lab_on("steady-144");
+    lab.run_loops();
     (0..FRAMES).for_each(|_| _ = lab.advance(16_666_667));
     let drawn = drawn(&mut OffscreenRenderer::new(gpu, SIZE_PX, SCALE).unwrap(), SIZE_PX, &lab);
     assert_eq!(wrong("spring-loops.png", &drawn), None);

@@ -204,3 +204,28 @@ fn the_guide_opens_its_first_stop_and_escape_closes_it() {
     desk.titled("Regatta - ship - Runge-Kutta 4 - 10 Hz (paused)");
     desk.quit();
 }
+
+#[test]
+fn loops_that_take_long_to_run_do_not_hold_up_the_window() {
+    /// Long for a title, and far shorter than these loops take: millions of steps of a chain.
+    const SOON: Duration = Duration::from_secs(3);
+    let test = "loops_that_take_long_to_run_do_not_hold_up_the_window";
+    let folder = tempfile::TempDir::new().unwrap();
+    let scene = folder.path().join("long.toml");
+    let chain = std::fs::read_to_string("assets/scenes/chain.toml").unwrap();
+    let text = chain
+        .replace("tick_hz = 60", "tick_hz = 10000")
+        .replace("masses = 16", "masses = 256")
+        .replace("stiffness_n_per_m = 800", "stiffness_n_per_m = 2000");
+    std::fs::write(&scene, text).unwrap();
+    let Some(desk) = Desk::open(test, &format!("--scene {}", scene.display())) else { return };
+    desk.press("space");
+    let loops = |hz: u32| format!("Regatta - long.toml - loop lab: Fixed - edge - {hz} Hz");
+    for (key, title) in [("l", loops(10_000)), ("bracketleft", loops(1000))] {
+        let start = Instant::now();
+        desk.press(key);
+        desk.titled(&title);
+        assert!(start.elapsed() < SOON, "{key}: {:?}", start.elapsed());
+    }
+    desk.quit();
+}

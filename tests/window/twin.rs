@@ -57,6 +57,7 @@ impl Twin {
 
     /// Shows frames until nothing changes any more.
     fn settle(&mut self) {
+        self.lab.run_loops();
         self.lab.analyse();
         (0..3).for_each(|_| drop(self.frame(None)));
     }

@@ -1,10 +1,12 @@
 //! The loop lab as a mode of the lab: opening and leaving it, and what commands do in it.
 
+use std::sync::Arc;
+
 use super::Lab;
 use crate::lab::command::{Command, TICK_LADDER};
 use crate::lab::guide::Goal;
 use crate::lab::instrument::Instrument;
-use crate::lab::loop_lab::{LoopCommand, LoopLab, SLOWNESS};
+use crate::lab::loop_lab::{FoundLoop, LoopCommand, LoopLab, LoopRequest, LoopWorker, SLOWNESS};
 use crate::lab::pacing::FrameTrace;
 use crate::lab::scene::SceneBody;
 use crate::sim::integrators::{Method, method};
@@ -74,6 +76,28 @@ impl Lab {
         {
             loops.add_traces(traces);
             loops.end_opening();
+        }
+    }
+
+    /// The loops that the open loop lab wants at present, for a [`LoopWorker`]; `None` if it has all, or is closed.
+    pub fn loop_request(&self) -> Option<Arc<LoopRequest>> {
+        let loops = self.loop_lab.as_ref().filter(|loops| !loops.is_complete());
+        loops.map(|loops| Arc::clone(loops.request()))
+    }
+
+    /// Shows a loop that was run, if it is still wanted.
+    pub fn accept_loop(&mut self, found: FoundLoop) {
+        if let Some(loops) = &mut self.loop_lab {
+            loops.accept(found);
+        }
+    }
+
+    /// Runs all loops that the open loop lab wants, now.
+    pub fn run_loops(&mut self) {
+        let mut worker = LoopWorker::default();
+        worker.set_request(self.loop_request());
+        while let Some(found) = worker.work(&|| false) {
+            self.accept_loop(found);
         }
     }
 

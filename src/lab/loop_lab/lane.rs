@@ -10,11 +10,11 @@ use crate::sim::integrators::Method;
 /// The longest run, in seconds of the display.
 const LONGEST_S: f64 = 20.0;
 
-/// The body in one loop: all its frames.
+/// The body in one loop: all its frames, once it was run.
 pub struct LoopLane {
     card: &'static PolicyCard,
     frames: Vec<LoopFrame>,
-    report: PacingReport,
+    report: Option<PacingReport>,
 }
 
 /// A displayed frame.
@@ -64,17 +64,24 @@ impl LoopFrame {
 }
 
 impl LoopLane {
-    pub(super) fn new(
+    /// A loop that was not run yet: no frames.
+    pub(super) fn awaited(card: &'static PolicyCard) -> Self {
+        Self { card, frames: Vec::new(), report: None }
+    }
+
+    /// Runs a loop, or the part of it before `stop` says so.
+    pub(super) fn run(
         scene: &Scene,
         method: &'static Method,
         card: &'static PolicyCard,
         trace: &FrameTrace,
+        stop: &dyn Fn() -> bool,
     ) -> Self {
         let mut frames: Vec<LoopFrame> = Vec::new();
         let mut ticks = 0;
         let until_ns = (scene.seconds.clamp(LEAST_RUN_S, LONGEST_S) * 1e9) as i64;
         let run = LoopRun::new(scene, LaneSpec::plain(method), card, trace);
-        let report = run.measure(until_ns, &|| false, |run, record| {
+        let report = run.measure(until_ns, stop, |run, record| {
             ticks += record.steps.count;
             let Some(displayed_ns) = record.frame.displayed_ns else { return };
             frames.push(LoopFrame {
@@ -88,7 +95,7 @@ impl LoopLane {
                 exact_state: LoopState::of(run.exact_body(0)),
             });
         });
-        Self { card, frames, report }
+        Self { card, frames, report: Some(report) }
     }
 
     /// Its policy.
@@ -99,9 +106,13 @@ impl LoopLane {
     pub fn frames(&self) -> &[LoopFrame] {
         &self.frames
     }
-    /// What is seen over all frames.
-    pub fn report(&self) -> &PacingReport {
-        &self.report
+    /// Whether it was run.
+    pub fn was_run(&self) -> bool {
+        self.report.is_some()
+    }
+    /// What is seen over all frames, once it was run.
+    pub fn report(&self) -> Option<&PacingReport> {
+        self.report.as_ref()
     }
     /// The place of the frame that the display holds at `now_ns`.
     pub fn frame_at(&self, now_ns: i64) -> Option<usize> {

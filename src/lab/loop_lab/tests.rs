@@ -4,7 +4,22 @@ use crate::lab::{Command, Lab};
 use crate::sim::integrators::method;
 
 fn lab() -> LoopLab {
-    LoopLab::new(&Scene::built_in("spring").unwrap(), 0, method("rk4").unwrap())
+    lab_of(&Scene::built_in("spring").unwrap())
+}
+
+fn lab_of(scene: &Scene) -> LoopLab {
+    let mut lab = LoopLab::new(scene, 0, method("rk4").unwrap());
+    run(&mut lab);
+    lab
+}
+
+/// Runs the loops that it wants.
+fn run(lab: &mut LoopLab) {
+    let mut worker = LoopWorker::default();
+    worker.set_request(Some(lab.request().clone()));
+    while let Some(found) = worker.work(&|| false) {
+        lab.accept(found);
+    }
 }
 
 #[test]
@@ -13,7 +28,7 @@ fn it_opens_where_raw_ticks_judder_and_whole_refreshes_do_not() {
     assert_eq!(lab.traces()[lab.trace()].name(), "edge");
     let error = |id: &str| {
         let lane = lab.lanes().iter().find(|lane| lane.card().id == id).unwrap();
-        lane.report().animation_error_rms_ms.unwrap()
+        lane.report().unwrap().animation_error_rms_ms.unwrap()
     };
     assert!((11.0..12.6).contains(&error("fixed")), "{}", error("fixed"));
     assert!(error("whole-refresh") < 1e-6, "{}", error("whole-refresh"));
@@ -37,6 +52,7 @@ fn the_opening_goes_on_to_a_fast_display_unless_a_person_does_something() {
     assert_eq!(lab.traces()[lab.trace()].name(), "steady-144");
     assert_eq!(on_stage(&lab), ["fixed", "fixed-linear"]);
     assert_eq!(lab.now_ns(), 0);
+    run(&mut lab);
     lab.advance(past_the_first);
     assert_eq!(lab.traces()[lab.trace()].name(), "steady-144", "it stays there");
     lab.select(0);
@@ -48,12 +64,13 @@ fn the_opening_goes_on_to_a_fast_display_unless_a_person_does_something() {
 fn a_script_acts_on_the_body_at_its_times_under_any_tick_rate() {
     let scene = Scene::built_in("helm").unwrap();
     assert!(!scene.script.is_empty());
-    let mut lab = LoopLab::new(&scene, 0, method("rk4").unwrap());
+    let mut lab = lab_of(&scene);
     let ends = |lab: &LoopLab| lab.lanes()[0].frames().last().unwrap().exact[0];
     let at_own_rate = ends(&lab);
     let bare = Scene { script: Vec::new(), ..scene.clone() };
-    assert_ne!(at_own_rate, ends(&LoopLab::new(&bare, 0, method("rk4").unwrap())));
+    assert_ne!(at_own_rate, ends(&lab_of(&bare)));
     lab.set_tick_hz(3 * scene.tick_hz);
+    run(&mut lab);
     let relative = (ends(&lab) / at_own_rate - 1.0).abs();
     assert!(relative < 1e-12, "{relative}");
 }
@@ -76,6 +93,7 @@ fn a_frame_that_stands_still_is_further_and_further_behind() {
     let mut lab = lab();
     let place = lab.traces().iter().position(|trace| trace.name() == "alt-tab-5s").unwrap();
     lab.choose_trace(place);
+    run(&mut lab);
     let frames = lab.lanes()[lab.selected()].frames();
     let longest = frames.windows(2).max_by_key(|pair| pair[1].displayed_ns - pair[0].displayed_ns);
     let held = longest.unwrap()[0].clone();
@@ -131,4 +149,37 @@ fn a_net_that_is_opened_in_it_leaves_it_with_the_reason() {
     assert_eq!(lab.scene_name(), "rope");
     let notice = lab.viewer().notice.as_deref().unwrap_or_default();
     assert!(notice.contains("is a net, which the loop lab does not take"), "{notice}");
+}
+
+#[test]
+fn opening_it_and_choosing_run_nothing_and_loops_are_shown_as_they_come() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.apply(Command::Loop(LoopCommand::ToggleLab));
+    let shown = |lab: &Lab| lab.loop_lab().unwrap().lanes().iter().filter(|l| l.was_run()).count();
+    assert_eq!(shown(&lab), 0);
+    let request = lab.loop_request();
+    let mut worker = LoopWorker::default();
+    worker.set_request(request.clone());
+    lab.advance(1_000_000_000);
+    lab.accept_loop(worker.work(&|| false).unwrap());
+    let loops = lab.loop_lab().unwrap();
+    assert!(loops.lanes()[loops.on_stage()[0]].was_run(), "what is on the stage comes first");
+    assert_eq!((loops.now_ns(), loops.is_stage_complete()), (0, false), "time waits for the stage");
+    let late = worker.work(&|| false).unwrap();
+    lab.apply(Command::TickRateUp);
+    assert_eq!(shown(&lab), 0, "all of them are of the old rate");
+    lab.accept_loop(late);
+    assert_eq!(shown(&lab), 0, "and so is one that comes late");
+    lab.run_loops();
+    assert!(lab.loop_request().is_none(), "it has all");
+}
+
+#[test]
+fn a_loop_that_is_stopped_is_run_again() {
+    let lab = lab();
+    let mut worker = LoopWorker::default();
+    worker.set_request(Some(lab.request().clone()));
+    assert!(worker.work(&|| true).is_none() && !worker.is_done());
+    let place = worker.work(&|| false).map(|found| found.place);
+    assert_eq!(place, Some(lab.on_stage()[0]));
 }

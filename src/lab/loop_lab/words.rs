@@ -1,5 +1,6 @@
 //! What is said of a loop in a line.
 
+use super::LoopLab;
 use super::lane::LoopLane;
 use crate::lab::analysis::Severity;
 use crate::lab::number::round;
@@ -22,11 +23,20 @@ pub struct LoopVerdict {
     pub text: String,
 }
 
+impl LoopLab {
+    /// What is said in the place of plots until every loop on the stage was run.
+    pub fn waiting(&self) -> Option<&'static str> {
+        (!self.is_stage_complete()).then_some("Running the loops on the stage…")
+    }
+}
+
 impl LoopLane {
     /// What is said of it, at this tick rate in Hz.
     pub fn verdict(&self, tick_hz: u32) -> LoopVerdict {
-        let report = self.report();
         let said = |severity, text: String| LoopVerdict { severity, text };
+        let Some(report) = self.report() else {
+            return said(Severity::Unknown, "running…".into());
+        };
         let (Some(error), Some(latency)) = (report.animation_error_rms_ms, report.latency_mean_ms)
         else {
             return said(Severity::Unknown, "nothing displayed".into());

@@ -23,7 +23,7 @@ enum Source {
 }
 
 /// A pattern of frames without end.
-pub(super) trait Pattern: Send {
+pub(super) trait Pattern: Send + Sync {
     /// The next frame. `steps` is the number of steps that the game made in the one before.
     fn next(&mut self, steps: u32) -> Frame;
 

@@ -230,8 +230,10 @@ impl<'a> Band<'a> {
 
     /// Draws the band. Returns its camera, if that stays where it is.
     fn draw(&self, picture: &mut Picture, shows_ghost: bool) -> Option<Camera> {
-        let frames = self.frames()?;
-        let frame = frames.last()?;
+        let Some((frame, frames)) = self.frames().and_then(|all| Some((all.last()?, all))) else {
+            self.title(picture);
+            return None;
+        };
         let exact = self.exact(frame);
         let camera = self.camera(exact.at);
         self.before(picture, &camera, frames);
@@ -326,17 +328,22 @@ impl<'a> Band<'a> {
         picture.labels.push(Label { colour, ..verdict });
     }
 
-    fn words(&self, picture: &mut Picture, camera: &Camera, frame: &LoopFrame, at: [DVec2; 2]) {
-        let [width, height] = self.size();
+    /// The loop's name with its method, and a mark if it is selected.
+    fn title(&self, picture: &mut Picture) {
         if self.loops.selected() == self.place {
             let [top, bottom] = [self.rect.min[1] + 4.0, self.rect.max[1] - 4.0];
             picture.shapes.push(line([2.5, top], [2.5, bottom], 3.0, self.colour, self.rect));
         }
-        let name = match width >= ROOM_FOR_METHOD {
+        let name = match self.size()[0] >= ROOM_FOR_METHOD {
             true => format!("{} · {}", self.lane.card().name, self.loops.method().name),
             false => self.lane.card().name.to_owned(),
         };
         self.name(picture, self.rect.max[1] - 0.5 * FOOT, &name);
+    }
+
+    fn words(&self, picture: &mut Picture, camera: &Camera, frame: &LoopFrame, at: [DVec2; 2]) {
+        let [width, height] = self.size();
+        self.title(picture);
         let [drawn, exact] = at.map(|at| camera.points(at));
         let above = drawn[1] - 0.5 * camera.block - 9.0;
         let has_room = width >= ROOM_FOR_WORDS && height >= LEAST_FOR_WORDS;

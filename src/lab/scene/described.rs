@@ -9,7 +9,7 @@ use super::law::{LAW, read_law};
 use super::net::{NET, read_net};
 use super::table::{Field, Table};
 use super::{MOST_BODIES, MOST_NAME_CHARS, SceneBody};
-use crate::sim::bodies::{BODIES, Kind, Net, Parameter, Range, kind};
+use crate::sim::bodies::{BODIES, ClaimHorizon, Kind, Net, Parameter, Range, kind};
 
 const NAME: Field = optional("name");
 
@@ -25,8 +25,8 @@ pub(super) struct Described {
     pub(super) values: Option<Vec<f64>>,
 }
 
-/// The bodies in the order of the file.
-pub(super) fn read_bodies(top: &mut Table<'_>) -> Vec<Described> {
+/// The bodies in the order of the file. The claims of laws are held against their motion at the ticks of `horizon`.
+pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Described> {
     let mut rows: Vec<(&'static str, Table<'_>)> = Vec::new();
     for id in BODIES.iter().map(|kind| kind.id).chain([LAW, NET]) {
         rows.extend(top.rows(id).into_iter().map(|row| (id, row)));
@@ -46,7 +46,7 @@ pub(super) fn read_bodies(top: &mut Table<'_>) -> Vec<Described> {
                 let values = read_values(Net::DESCRIPTIONS, &mut row);
                 (read_net(&mut row), values)
             }
-            None => read_law(&mut row),
+            None => read_law(&mut row, horizon),
         };
         if let (Some(kind), Some(values)) = (kind, &values)
             && let Err(fault) = (kind.check)(values)

@@ -15,6 +15,7 @@ use super::syntax;
 use super::table::{Field, Table};
 use super::{
     LEAST_SECONDS, MOST_LANES, MOST_SECONDS, MOST_SUBSTEPS, MOST_TICK_HZ, Scene, USUAL_SECONDS,
+    claim_horizon,
 };
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
@@ -55,7 +56,9 @@ pub(super) fn read(name: &str, text: &str) -> Result<Scene, Vec<SceneError>> {
     let tick_hz = top.whole(TICK_HZ, 1..=MOST_TICK_HZ);
     let seconds = top.number(SECONDS, Range::Between(LEAST_SECONDS, MOST_SECONDS));
     let seconds = seconds.unwrap_or(USUAL_SECONDS);
-    let mut bodies = read_bodies(&mut top);
+    // A scene without a tick rate is refused, whatever its laws claim.
+    let horizon = claim_horizon(seconds, tick_hz.unwrap_or(1));
+    let mut bodies = read_bodies(&mut top, horizon);
     check_names(text, &bodies, &mut top);
     name_the_nameless(&mut bodies);
     let lanes = read_lanes(text, &bodies, &mut top);

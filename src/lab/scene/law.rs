@@ -6,7 +6,7 @@ use super::cause::{Cause, Wanted};
 use super::fields::{TOP, optional, required};
 use super::nearest::nearest;
 use super::table::{Field, Named, Table, Written};
-use crate::sim::bodies::{Kind, Range, check_law, law_kind};
+use crate::sim::bodies::{ClaimHorizon, Kind, Range, check_law, law_kind};
 use crate::sim::law::{
     CoordinateText, LawText, Layout, MOST_CONSTANTS, MOST_COORDINATES, Part, Refusal, Remedy, UNITS,
 };
@@ -52,8 +52,12 @@ struct WrittenCoordinate {
     kick: Option<f64>,
 }
 
-/// The kind of a law and the values of its parameters; each is `None` where there is a fault.
-pub(super) fn read_law(row: &mut Table<'_>) -> (Option<&'static Kind>, Option<Vec<f64>>) {
+/// The kind of a law and the values of its parameters; each is `None` where there is a fault. Its claims are held against
+/// the motion at the ticks of `horizon`.
+pub(super) fn read_law(
+    row: &mut Table<'_>,
+    horizon: ClaimHorizon,
+) -> (Option<&'static Kind>, Option<Vec<f64>>) {
     let (constants, numbers) = read_constants(row);
     let coordinates = read_coordinates(row);
     let energy = row.expression(ENERGY);
@@ -72,7 +76,7 @@ pub(super) fn read_law(row: &mut Table<'_>) -> (Option<&'static Kind>, Option<Ve
     let values = law.values(numbers);
     if let (Some(values), Some(equations)) = (&values, kind.law)
         && row.is_faultless()
-        && let Err(refusal) = check_law(equations, values)
+        && let Err(refusal) = check_law(equations, values, horizon)
     {
         law.complain(row, refusal);
     }

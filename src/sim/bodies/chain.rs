@@ -17,7 +17,8 @@ use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{self, Fault, ParameterOf, Range};
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 /// The largest number of masses: as many as can be told apart on a wide stage. The closed form needs of
 /// the order of its square multiplications per tick.

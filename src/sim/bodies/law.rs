@@ -4,12 +4,14 @@ use std::cell::{OnceCell, RefCell};
 
 use glam::DVec2;
 
+use super::claims::{Claimant, find_leak, find_unsolved};
 use super::false_claims::FalseClaims;
 use super::survey::ranges;
 use crate::sim::body::{Body, Input};
 use crate::sim::law::{At, Equations, Layout, Registers};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 mod claims;
 mod kind;
@@ -26,10 +28,10 @@ pub struct Law {
     /// Throttle and rudder: from -1 to 1.
     steering: [f64; 2],
     registers: RefCell<Registers>,
-    /// Whether the law's energy is conserved with these values.
-    conserves: bool,
-    /// Whether the law's exact solution is one with these values.
-    is_solved: bool,
+    /// Whether the law's energy is conserved with these values; looked at when somebody asks.
+    conserves: OnceCell<bool>,
+    /// Whether the law's exact solution is one with these values; looked at when somebody asks.
+    is_solved: OnceCell<bool>,
     ranges: OnceCell<Vec<(f64, f64)>>,
 }
 
@@ -46,11 +48,14 @@ impl Law {
             values: values.into(),
             steering: [1.0, 0.0],
             registers: RefCell::new(Registers::new(equations, known(equations, values))),
-            conserves: false,
-            is_solved: false,
+            conserves: OnceCell::new(),
+            is_solved: OnceCell::new(),
             ranges: OnceCell::new(),
         };
         law.prepare();
+        // Before the first tick, which must not allocate.
+        law.conserves();
+        law.is_solved();
         law
     }
 
@@ -67,9 +72,19 @@ impl Law {
     /// The claims of the text that do not hold with the present constants.
     pub fn false_claims(&self) -> FalseClaims {
         FalseClaims {
-            energy: self.equations.has_energy() && !self.conserves,
-            exact: self.equations.has_exact() && !self.is_solved,
+            energy: self.equations.has_energy() && !self.conserves(),
+            exact: self.equations.has_exact() && !self.is_solved(),
         }
+    }
+
+    fn conserves(&self) -> bool {
+        let finds = || self.equations.has_energy() && find_leak(self).is_none();
+        *self.conserves.get_or_init(finds)
+    }
+
+    fn is_solved(&self) -> bool {
+        let finds = || self.equations.has_exact() && find_unsolved(self).is_none();
+        *self.is_solved.get_or_init(finds)
     }
 
     fn coordinates(&self) -> usize {
@@ -124,8 +139,8 @@ impl Body for Law {
         let values = known(self.equations, &self.values);
         self.registers.get_mut().set(self.equations, values);
         self.ranges.take();
-        self.conserves = claims::conserves(self);
-        self.is_solved = claims::is_solved(self);
+        self.conserves.take();
+        self.is_solved.take();
     }
 
     fn heap_bytes(&self) -> usize {
@@ -143,12 +158,7 @@ impl Body for Law {
     }
 
     fn exact_since_start(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
-        if !self.is_solved {
-            return false;
-        }
-        self.equations.solve(&mut self.registers.borrow_mut(), t, |i, [q, v, _]| {
-            (to.q[i], to.v[i]) = (q, v);
-        })
+        self.is_solved() && self.claimed(t, to)
     }
 
     fn is_linear(&self) -> bool {
@@ -191,11 +201,7 @@ impl Body for Law {
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
-        let energy = || {
-            let mut registers = self.registers.borrow_mut();
-            self.equations.energy(&mut registers, &state.q, Some(&state.v))
-        };
-        self.conserves.then(energy)?
+        if self.conserves() { self.claimed_energy(state) } else { None }
     }
 
     fn kinetic_energy(&self, state: &State<Vec<f64>>) -> Option<f64> {

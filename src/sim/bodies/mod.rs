@@ -5,6 +5,7 @@
 //! drawn. To add one, copy `spring.rs`, declare it, and name it in [`BODIES`].
 
 mod chain;
+mod claims;
 mod false_claims;
 mod follow;
 mod helm;
@@ -23,6 +24,7 @@ mod spring;
 mod survey;
 
 pub use chain::Chain;
+pub use claims::ClaimHorizon;
 pub use false_claims::FalseClaims;
 pub use follow::Follow;
 pub use helm::{Helm, ThrustCurve};

@@ -12,7 +12,8 @@ use crate::sim::Points;
 use crate::sim::body::{Body, Input};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{ParameterOf, Range};
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 use frame::{FIXED, Frame};
 use survey::Survey;
 

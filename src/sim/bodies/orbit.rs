@@ -7,7 +7,8 @@ use super::kind::{Coordinate, Kind, Truth};
 use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{self, Fault, ParameterOf, Range};
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 pub(super) const KIND: Kind = Kind {
     id: "orbit",

@@ -5,12 +5,14 @@ use std::cell::OnceCell;
 
 use glam::DVec2;
 
+use super::claims::{find_leak, find_unsolved};
 use super::false_claims::FalseClaims;
 use super::own_sheet::OwnSheet;
 use super::survey::ranges;
 use crate::sim::body::{Body, Input};
 use crate::sim::engine_settings::EngineSettings;
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 mod claims;
 mod extras;
@@ -33,9 +35,9 @@ pub struct Own {
     /// Whether the acceleration is linear.
     is_linear: bool,
     /// Whether the energy is conserved with the present parameters.
-    conserves: bool,
+    conserves: OnceCell<bool>,
     /// Whether the exact solution is one with the present parameters.
-    is_solved: bool,
+    is_solved: OnceCell<bool>,
     ranges: OnceCell<Vec<(f64, f64)>>,
 }
 
@@ -48,8 +50,8 @@ impl Clone for Own {
             start: start.clone(),
             kick: kick.clone(),
             is_linear: *is_linear,
-            conserves: *conserves,
-            is_solved: *is_solved,
+            conserves: conserves.clone(),
+            is_solved: is_solved.clone(),
             ranges: ranges.clone(),
         }
     }
@@ -74,9 +76,17 @@ impl Own {
         };
         let has_exact = || self.motion.exact(0.0, &mut self.start.clone());
         FalseClaims {
-            energy: !self.conserves && has_energy(),
-            exact: !self.is_solved && has_exact(),
+            energy: !self.conserves() && has_energy(),
+            exact: !self.is_solved() && has_exact(),
         }
+    }
+
+    fn conserves(&self) -> bool {
+        *self.conserves.get_or_init(|| find_leak(self).is_none())
+    }
+
+    fn is_solved(&self) -> bool {
+        *self.is_solved.get_or_init(|| find_unsolved(self).is_none())
     }
 
     /// The least and the largest value of each coordinate in the first seconds of the motion, for drawing.
@@ -108,6 +118,9 @@ impl Body for Own {
             self.motion.set(place, value);
         }
         self.prepare();
+        // Before the first tick, which must not allocate.
+        self.conserves();
+        self.is_solved();
         self
     }
 
@@ -121,8 +134,8 @@ impl Body for Own {
 
     fn prepare(&mut self) {
         self.ranges.take();
-        self.conserves = claims::find_leak(self).is_none();
-        self.is_solved = claims::find_unsolved(self).is_none();
+        self.conserves.take();
+        self.is_solved.take();
     }
 
     fn heap_bytes(&self) -> usize {
@@ -140,7 +153,7 @@ impl Body for Own {
     }
 
     fn exact_since_start(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
-        self.is_solved && self.motion.exact(t, to)
+        self.is_solved() && self.motion.exact(t, to)
     }
 
     fn is_linear(&self) -> bool {
@@ -152,7 +165,7 @@ impl Body for Own {
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
-        if self.conserves { self.motion.energy(&state.q, Some(&state.v)) } else { None }
+        if self.conserves() { self.motion.energy(&state.q, Some(&state.v)) } else { None }
     }
 
     fn kinetic_energy(&self, state: &State<Vec<f64>>) -> Option<f64> {

@@ -7,7 +7,8 @@ use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{self, ParameterOf, Range};
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 pub(super) const KIND: Kind = Kind {
     id: "pendulum",

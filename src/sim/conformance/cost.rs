@@ -7,7 +7,8 @@ use glam::DVec2;
 use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::integrators::{Method, StepFailure, integrator};
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The evaluations of the first step, and of each of `steps` steps after it.
 fn costs<V: Vector>(

@@ -3,7 +3,7 @@
 use super::problems::{Pendulum, Problem, problem, spring, unbound};
 use super::{Claim, yes_or_no};
 use crate::sim::integrators::{Method, StepFailure};
-use crate::sim::system::State;
+use crate::sim::state::State;
 
 /// Large enough that a violation is far above round-off.
 const STEP: f64 = 0.8;

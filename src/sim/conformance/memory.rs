@@ -3,7 +3,7 @@
 use super::problems::{Problem, fresh, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::integrators::{Integrator, Method, StepFailure};
-use crate::sim::system::State;
+use crate::sim::state::State;
 
 /// One step of a lively damped spring.
 fn step(

@@ -6,7 +6,7 @@ use super::problems::{
 };
 use crate::sim::body::Body;
 use crate::sim::integrators::Method;
-use crate::sim::system::{State, Vector};
+use crate::sim::state::{State, Vector};
 
 /// Halvings that have to agree.
 const HALVINGS: usize = 4;

@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use crate::sim::bodies::{Ship, Spring};
 use crate::sim::integrators::{Integrator, Method, Tolerance, integrator};
-use crate::sim::system::{Counted, State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::{Counted, System};
 
 /// A system to put methods on, which counts evaluations. Its type is behind a pointer, so that the methods are not
 /// compiled again for each problem.

@@ -3,7 +3,7 @@
 use super::Claim;
 use super::problems::{fresh, problem, spring};
 use crate::sim::integrators::{Method, StepFailure};
-use crate::sim::system::State;
+use crate::sim::state::State;
 
 /// The most that an amplitude of 1 may be below the limit: at 0.99 of the limit of a symplectic map the ellipse
 /// is 7 to 14 times as long as wide.

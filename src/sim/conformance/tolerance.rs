@@ -4,7 +4,7 @@ use super::problems::{Kepler, Problem, fresh, kepler_orbit, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::body::Body;
 use crate::sim::integrators::{Method, StepFailure, Tolerance, integrator};
-use crate::sim::system::{State, Vector};
+use crate::sim::state::{State, Vector};
 
 /// What the error may be, in units of the tolerance: less is wasted work.
 const MET: std::ops::Range<f64> = 0.1..3.0;

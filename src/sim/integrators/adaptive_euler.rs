@@ -6,7 +6,8 @@ use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::step_size::{StepSize, factor};
 use super::tolerance::Tolerance;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler",

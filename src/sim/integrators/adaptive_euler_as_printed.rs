@@ -4,7 +4,8 @@ use super::card::{AS_PRINTED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler-as-printed",

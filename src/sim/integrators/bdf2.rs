@@ -5,7 +5,8 @@ use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
 use super::shared::newton::Newton;
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
     id: "bdf2",

@@ -6,7 +6,8 @@ use super::card::{Method, SECOND_ORDER_FOLLOWER};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::chase::{each, pursuit};
-use crate::sim::system::{Pursuit, State, System};
+use crate::sim::state::State;
+use crate::sim::system::{Pursuit, System};
 
 pub(super) const CARD: Method = Method {
     id: "critically-damped-spring",

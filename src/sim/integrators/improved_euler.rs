@@ -3,7 +3,8 @@
 use super::card::{EXPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler",

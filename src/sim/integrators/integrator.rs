@@ -2,7 +2,8 @@
 
 use super::failure::StepFailure;
 use super::tolerance::Tolerance;
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 /// A method that advances a system by steps.
 ///

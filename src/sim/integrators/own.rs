@@ -6,7 +6,8 @@ use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
 use crate::sim::engine_settings::EngineSettings;
-use crate::sim::system::{Pursuit, State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::{Pursuit, System};
 
 /// A system of any type with its coordinates in a `Vec`: what a method of one's own steps.
 #[derive(Clone, Copy)]

@@ -3,7 +3,8 @@
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// A method that is [reset](Integrator::reset) if it is given a state other than it returned.
 pub(super) struct ResetOnChange<I, V> {

@@ -3,7 +3,8 @@
 use super::card::{AS_PRINTED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
     id: "rk4-as-printed",

@@ -4,7 +4,8 @@ use super::card::{LINEARISED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::linear_solve::LinearSolve;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
     id: "semi-implicit-euler-implicit-drag",

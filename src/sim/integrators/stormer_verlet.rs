@@ -4,7 +4,8 @@ use super::card::{Method, SYMPLECTIC};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
     id: "stormer-verlet",

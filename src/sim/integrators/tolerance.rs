@@ -1,6 +1,6 @@
 //! The tolerance of an adaptive method.
 
-use crate::sim::system::{State, Vector};
+use crate::sim::state::{State, Vector};
 
 /// The allowed error of a substep: `absolute + relative |y|` in every component.
 ///

@@ -4,7 +4,8 @@ use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::newton::Newton;
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
     id: "tr-bdf2",

@@ -5,7 +5,8 @@ use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::jacobian::Jacobian;
 use super::shared::linear_flow::LinearFlow;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
     id: "verlet-exact-drag",

@@ -5,7 +5,8 @@ use super::card::{Method, SYMPLECTIC};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::composition::compose;
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
     id: "yoshida4",

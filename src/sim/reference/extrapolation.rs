@@ -5,7 +5,8 @@
 
 use crate::sim::body::Body;
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The number of columns of the extrapolation table; the last has order 16. More gain nothing in `f64`.
 const COLUMNS: usize = 8;

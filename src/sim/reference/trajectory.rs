@@ -4,7 +4,7 @@ use super::extrapolation::Extrapolation;
 use crate::sim::body::Body;
 use crate::sim::double_double::{DoubleDouble, TWO_PI};
 use crate::sim::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
-use crate::sim::system::{State, Vector};
+use crate::sim::state::{State, Vector};
 
 /// A step accepted with at most this many columns was too short: the next is twice as long.
 const FEW_COLUMNS: usize = 6;

@@ -52,6 +52,10 @@ fn show_lab(ui: &mut Ui, loops: &LoopLab, room: Vec2, commands: &mut Vec<Command
         }
     });
     legend(ui, loops, &lanes);
+    if let Some(waiting) = loops.waiting() {
+        ui.label(RichText::new(waiting).color(ink(ui).dim));
+        return;
+    }
     let height = (top + room.y - ui.cursor().top()).max(60.0);
     let has_two = height >= ROOM_FOR_TWO;
     let upper = if has_two { height * (1.0 - TWO) } else { height };

@@ -1,6 +1,6 @@
 //! What a law claims of its motion, and the truth that methods are compared with.
 
-use regatta::lab::{Judge, LaneSpec};
+use regatta::lab::{Judge, LaneSpec, Scene};
 use regatta::sim::Solver;
 use regatta::sim::bodies::Input;
 use regatta::sim::integrators::METHODS;
@@ -36,6 +36,69 @@ fn a_claim_that_is_false_is_refused_and_a_true_one_is_not() {
     assert!(elsewhere.contains("`x` begins at 0.4, and `start` is 0.5"), "{elsewhere}");
     let moving = refused("0", "", "exact = 'x0*cos(sqrt(k/m)*t) + sin(sqrt(k/m)*t)'");
     assert!(moving.contains("`vx` begins at 2, and `start_velocity` is 0"), "{moving}");
+}
+
+/// What is said of a spring of 4 rad/s² in a scene of 10 s at 60 Hz, with more of its acceleration and with its claims.
+fn said(more: &str, energy: &str, exact: &str) -> Option<String> {
+    let text = format!(
+        "[[law]]\nconstants = {{ k = 4 }}\n{energy}\n[law.coordinates.x]\nstart = 1\n\
+         acceleration = '-k*x{more}'\n{exact}"
+    );
+    parse(&text).err()
+}
+
+#[test]
+fn a_claim_is_held_against_the_motion_at_every_tick_of_the_scene() {
+    let (energy, exact) = ("energy = 'vx*vx/2 + k*x*x/2'", "exact = 'cos(sqrt(k)*t)'");
+    assert_eq!(said("", energy, exact), None);
+    // Between 12 moments that a quick look takes, for a second, or for less than a tick.
+    for pulse in ["t > 4 and t < 5", "t > 8.001 and t < 8.004"] {
+        let more = format!(" + if({pulse}, 9.81, 0)");
+        let moved = said(&more, "", exact).expect("it is false");
+        assert!(moved.contains("and the motion since the tick before leads to"), "{moved}");
+        let leak = said(&more, energy, "").expect("it is false");
+        assert!(leak.contains("the energy is not conserved"), "{leak}");
+    }
+    let braked = said(" - if(t > 7, 0.1*vx, 0)", energy, "").expect("it is false");
+    assert!(braked.contains("the energy is not conserved"), "{braked}");
+}
+
+#[test]
+fn a_constant_is_no_energy() {
+    for constant in ["3", "k", "0*vx + 0*x"] {
+        let said = said("", &format!("energy = '{constant}'"), "").expect("it says nothing");
+        assert!(said.contains("which says nothing of the motion"), "{said}");
+    }
+}
+
+#[test]
+fn a_true_claim_is_accepted_where_nothing_is_exchanged_and_in_a_scene_of_any_length() {
+    // On a circle the potential and the kinetic energy stay, up to rounding.
+    let circle = "energy = '(vx*vx + vy*vy)/2 - 1/sqrt(x*x + y*y)'\n\
+                  [law.coordinates.x]\nstart = 1\nexact = 'cos(t)'\n\
+                  acceleration = '-x/(x*x + y*y)^1.5'\n\
+                  [law.coordinates.y]\nstart_velocity = 1\nexact = 'sin(t)'\n\
+                  acceleration = '-y/(x*x + y*y)^1.5'";
+    assert_eq!(parse(&format!("[[law]]\n{circle}")).err(), None);
+    // Two years of work, if each tick were looked at.
+    let stiff = "energy = 'vx*vx/2 + 1e8*x*x/2'\n[law.coordinates.x]\nstart = 1\n\
+                 acceleration = '-1e8*x'\nexact = 'cos(1e4*t)'";
+    let year = format!("title = 'A year'\ntick_hz = 60\nseconds = 3e7\n[[law]]\n{stiff}");
+    assert!(Scene::parse("year.toml", &year).is_ok());
+}
+
+#[test]
+fn an_exact_solution_of_a_motion_that_is_pushed_for_a_second_is_one() {
+    let push = "[[law]]\n[law.coordinates.x]\nacceleration = 'if(t > 4 and t < 5, 8, 0)'\n";
+    let exact = "exact = 'if(t < 4, 0, if(t < 5, 4*(t - 4)^2, 4 + 8*(t - 5)))'";
+    assert_eq!(parse(&format!("{push}{exact}")).err(), None);
+}
+
+#[test]
+fn an_exact_solution_beside_which_the_motion_is_unstable_is_one() {
+    let text = "[[law]]\n[law.coordinates.x]\nstart = 1\nstart_velocity = -1\n\
+                acceleration = 'x'\nexact = 'exp(-t)'";
+    assert_eq!(parse(text).err(), None);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use regatta::lab::OptionsError;
-use regatta::prelude::{Extras, Options, ParameterOf, Range, Scene, State};
+use regatta::prelude::{Extras, Options, ParameterOf, Range, Scene, State, System};
 use regatta::sim::integrators::{Family, Method, Rk4, method, own_integrator};
 
 use super::{Orbit, Spring};
@@ -72,6 +72,7 @@ fn each_extra_that_is_unfit_or_untrue_is_named() {
             "not conserved",
             Extras { energy: Some(|_, s| s.v * s.v / 2.0 + 19.0 * s.q * s.q), ..plain() },
         ),
+        ("energy", "says nothing", Extras { energy: Some(|_, _| 3.0), ..plain() }),
         ("energy", "NaN", Extras { energy: Some(|_, _| f64::NAN), ..plain() }),
         (
             "exact",
@@ -93,6 +94,32 @@ fn each_extra_that_is_unfit_or_untrue_is_named() {
         assert_eq!(error.field, field, "{error}");
         assert!(error.to_string().contains(says) && !error.remedy.is_empty(), "{error}");
     }
+}
+
+/// A spring that is pushed for a second.
+#[derive(Clone, Debug)]
+struct Pushed;
+
+impl System for Pushed {
+    type Vector = f64;
+
+    fn acceleration(&self, t: f64, q: &f64, _: &f64, a: &mut f64) {
+        *a = -4.0 * q + if t > 4.0 && t < 5.0 { 9.81 } else { 0.0 };
+    }
+}
+
+#[test]
+fn a_claim_is_held_against_the_motion_at_every_tick() {
+    let refused = |extras: Extras<Pushed>| {
+        let options = Options { extras, ..Options::default() };
+        Scene::of(&Pushed, State { q: 1.0, v: 0.0 }, options).expect_err("a fault")
+    };
+    let exact = |_: &Pushed, t: f64| State { q: libm::cos(2.0 * t), v: -2.0 * libm::sin(2.0 * t) };
+    let error = refused(Extras { exact: Some(exact), ..Extras::default() });
+    assert!(error.to_string().contains("the motion since the tick before"), "{error}");
+    let energy = |_: &Pushed, s: &State<f64>| s.v * s.v / 2.0 + 2.0 * s.q * s.q;
+    let error = refused(Extras { energy: Some(energy), ..Extras::default() });
+    assert!(error.to_string().contains("it is not conserved"), "{error}");
 }
 
 #[test]

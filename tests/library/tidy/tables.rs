@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use regatta::lab::{METRICS, SCENES, Scene};
+use regatta::manual::CHAPTERS;
 use regatta::sim::bodies::{BODIES, kind};
 use regatta::sim::integrators::{GENERAL_METHODS, METHODS};
 
@@ -68,38 +69,51 @@ fn every_scene_file_is_built_in() {
     assert!(Scene::built_in("atlantis").is_none());
 }
 
-/// The rows of the README's table that `head` begins.
-fn readme_table(head: &str) -> Vec<String> {
-    let text = std::fs::read_to_string(root().join("README.md")).expect("the README");
-    let (_, after) = text.split_once(head).expect("the table");
+/// The rows of the manual's table that `head` begins.
+fn manual_table(head: &str) -> Vec<String> {
+    let after = CHAPTERS.iter().find_map(|chapter| chapter.text.split_once(head));
+    let (_, after) = after.expect("the table");
     let rows = after.lines().skip(2).take_while(|line| line.starts_with('|'));
     rows.map(str::to_string).collect()
 }
 
-/// The ids at the heads of the rows of the README's table that `head` begins.
-fn readme_rows(head: &str) -> Vec<String> {
+/// The ids at the heads of the rows of the manual's table that `head` begins.
+fn manual_rows(head: &str) -> Vec<String> {
     let id = |row: &String| row.split('`').nth(1).expect("an id").to_string();
-    readme_table(head).iter().map(id).collect()
+    manual_table(head).iter().map(id).collect()
 }
 
 #[test]
-fn the_readme_lists_every_method_what_it_costs_and_every_scene() {
+fn the_manual_lists_every_method_what_it_costs_and_every_scene() {
     let ids = |engines: bool| -> Vec<&str> {
         let methods = METHODS.iter().filter(|method| method.is_engine() == engines);
         methods.map(|method| method.id).collect()
     };
-    assert_eq!(readme_rows("| method | order |"), ids(false));
-    assert_eq!(readme_rows("| engine | version |"), ids(true));
+    assert_eq!(manual_rows("| method | order |"), ids(false));
+    assert_eq!(manual_rows("| engine | version |"), ids(true));
     let general: Vec<&str> = GENERAL_METHODS.iter().map(|method| method.id).collect();
-    assert_eq!(readme_rows("| method | ship, ns |"), general);
+    assert_eq!(manual_rows("| method | ship, ns |"), general);
     let scenes: Vec<&str> = SCENES.iter().map(|scene| scene.name).collect();
-    assert_eq!(readme_rows("| scene | what it shows |"), scenes);
+    assert_eq!(manual_rows("| scene | what it shows |"), scenes);
 }
 
 #[test]
-fn the_readme_says_how_each_engine_steps_a_free_spin() {
+fn the_readme_lists_every_chapter_and_every_chapter_begins_with_its_title() {
+    let readme = std::fs::read_to_string(root().join("README.md")).expect("the README");
+    let (_, after) =
+        readme.split_once("| chapter | what it is about |\n|---|---|\n").expect("the table");
+    let listed: Vec<&str> = after.lines().take_while(|line| line.starts_with('|')).collect();
+    let rows = CHAPTERS.iter().map(|chapter| format!("| `{}` | {} |", chapter.id, chapter.about));
+    assert_eq!(listed, rows.collect::<Vec<_>>());
+    for chapter in CHAPTERS {
+        assert!(chapter.text.starts_with("# "), "{}", chapter.id);
+    }
+}
+
+#[test]
+fn the_manual_says_how_each_engine_steps_a_free_spin() {
     let engines = METHODS.iter().filter_map(|method| method.engine);
-    for (engine, row) in engines.zip(readme_table("| engine | version |")) {
+    for (engine, row) in engines.zip(manual_table("| engine | version |")) {
         let cell = row.rsplit('|').nth(1).expect("a last cell");
         let maps = engine.free_spin.map(|spin| [Some(spin.default), spin.opt_in]);
         let maps = maps.into_iter().flatten().flatten().map(|map| format!("`{}`", map.id()));

@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 
 use image::codecs::png::PngDecoder;
 use image::{AnimationDecoder, RgbaImage};
+use regatta::manual::chapter;
 use tempfile::TempDir;
 
 use super::capture::{drawn_or_skip, names};
@@ -164,10 +165,14 @@ fn ffmpeg_reads_every_film_and_sees_the_frames_that_were_drawn() {
 }
 
 #[test]
-fn the_readmes_pipe_to_ffmpeg_makes_a_film() {
-    let test = "the_readmes_pipe_to_ffmpeg_makes_a_film";
-    let readme = include_str!("../../../README.md");
-    let line = readme.lines().find(|line| line.contains("| ffmpeg")).expect("the README's line");
+fn the_manuals_pipe_to_ffmpeg_makes_a_film() {
+    let test = "the_manuals_pipe_to_ffmpeg_makes_a_film";
+    let line = chapter("commands")
+        .unwrap()
+        .text
+        .lines()
+        .find(|line| line.contains("| ffmpeg"))
+        .expect("the manual's line");
     let (ours, theirs) = line.split_once(" | ").expect("a pipe");
     let folder = tempfile::tempdir().unwrap();
     let Some(_) = asked_or_skip(test, "ffmpeg", &[], Path::new("-version")) else { return };

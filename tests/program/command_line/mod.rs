@@ -10,6 +10,7 @@ mod capture;
 mod chapter;
 mod files;
 mod formats;
+mod help;
 mod identify;
 mod list;
 mod loops;

@@ -4,6 +4,7 @@ use std::io::Read as _;
 use std::process::Stdio;
 
 use regatta::lab::{Language, Precision, source_code};
+use regatta::manual::chapter;
 use regatta::sim::integrators::METHODS;
 
 use super::{refusal, regatta, run, stdout_of};
@@ -77,9 +78,12 @@ fn a_pipe_that_closes_early_ends_it_in_silence() {
 }
 
 #[test]
-fn the_readme_shows_what_is_printed() {
-    let readme = include_str!("../../../README.md");
-    let (_, example) = readme.split_once("$ regatta show position-verlet --as csharp\n").unwrap();
+fn the_manual_shows_what_is_printed() {
+    let (_, example) = chapter("code")
+        .unwrap()
+        .text
+        .split_once("$ regatta show position-verlet --as csharp\n")
+        .unwrap();
     let (shown, _) = example.split_once("```").unwrap();
     assert_eq!(stdout_of("show position-verlet --as csharp"), shown);
 }

@@ -3,7 +3,7 @@
 use super::threads::{Thread, threads};
 use crate::sim::Points;
 use crate::sim::net_plan::{Lists, NetPlan};
-use crate::sim::system::Vector;
+use crate::sim::state::Vector;
 
 /// The place of a fixed node.
 pub(super) const FIXED: u32 = u32::MAX;

@@ -4,7 +4,8 @@ use glam::DVec2;
 
 use super::Net;
 use crate::sim::body::Body;
-use crate::sim::system::{System, Vector};
+use crate::sim::state::Vector;
+use crate::sim::system::System;
 
 /// How long the motion is followed, in seconds: a hanging cloth has fallen by then, and swung back.
 const SECONDS: f64 = 4.0;

@@ -1,9 +1,17 @@
-//! Whether what a person tells of a body of one's own is true.
+//! What is claimed of a custom body, for the [checker](crate::sim::bodies::claims), and the messages about false
+//! claims.
+
+use std::cell::OnceCell;
 
 use super::Own;
+use crate::sim::bodies::claims::{
+    ClaimHorizon, Claimant, Leak, NotSolved, TIMES, find_departure, find_later_leak, find_leak,
+    find_unsolved,
+};
 use crate::sim::body::Body;
 use crate::sim::dice::Dice;
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 /// A claim about a custom body that does not hold. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,118 +27,118 @@ pub struct OwnFault {
 /// The most that a true claim may be off by, as a part of what is compared: the error of differences.
 const TOLERANCE: f64 = 1e-6;
 
-/// When an exact solution is held against the equation, in seconds: at the start and on a wide range of
-/// scales after it.
-const TIMES: [f64; 12] = [0.0, 1e-3, 0.01, 0.07, 0.2, 0.5, 1.0, 1.7, 3.1, 6.3, 11.0, 20.0];
-
 /// The steps of differences in seconds. A motion of any pace is smooth and well above rounding over one of
 /// them.
 const STEPS: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-
-/// How many states are tried around the start: enough to go beyond a coincidence.
-const STATES: usize = 12;
 
 /// The derivative at 0 by differences of fourth order.
 fn derivative(of: impl Fn(f64) -> f64, h: f64) -> f64 {
     (8.0 * (of(h) - of(-h)) - (of(2.0 * h) - of(-2.0 * h))) / (12.0 * h)
 }
 
-/// Whether a derivative by differences is `wanted` for some step, within a part of `scale`.
-fn is_derivative(of: impl Fn(f64) -> f64, wanted: f64, scale: f64) -> bool {
-    STEPS.iter().any(|&h| (derivative(&of, h) - wanted).abs() <= TOLERANCE * scale)
-}
+impl Claimant for Own {
+    const TOLERANCE: f64 = TOLERANCE;
 
-/// The first violation of the equation by `exact`; `None` if it holds or was not given.
-pub(super) fn find_unsolved(own: &Own) -> Option<OwnFault> {
-    let remedy = "correct it, or remove `exact`";
-    let fault = |what: String| Some(OwnFault { field: "exact", what, remedy });
-    let start = own.start();
-    let mut to = start.clone();
-    if !own.motion.exact(0.0, &mut to) {
-        return None;
+    fn claimed(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
+        self.motion.exact(t, to)
     }
-    let mut largest = vec![[0.0_f64; 3]; start.q.len()];
-    for t in TIMES {
+
+    fn claimed_slope(&self, t: f64, wanted: &State<Vec<f64>>) -> State<Vec<f64>> {
         let at = |t: f64| {
-            let mut to = start.clone();
-            own.motion.exact(t, &mut to);
-            to
+            let mut to = wanted.clone();
+            self.motion.exact(t, &mut to);
+            [to.q, to.v].concat()
         };
-        let State { q, v } = at(t);
-        let mut a = v.clone();
-        own.acceleration(t, &q, &v, &mut a);
-        for (i, size) in largest.iter_mut().enumerate() {
-            let [name, _] = own.sheet.coordinates[i];
-            for (size, now) in size.iter_mut().zip([q[i], v[i], a[i]]) {
-                if !now.is_finite() {
-                    return fault(format!("at t = {t} s it gives {now} for {name}"));
+        let wanted = [&wanted.q[..], &wanted.v[..]].concat();
+        let mut nearest = vec![f64::NAN; wanted.len()];
+        for h in STEPS {
+            let [behind, back, on, ahead] = [-2.0, -1.0, 1.0, 2.0].map(|times| at(t + times * h));
+            for (i, nearest) in nearest.iter_mut().enumerate() {
+                let slope = (8.0 * (on[i] - back[i]) - (ahead[i] - behind[i])) / (12.0 * h);
+                let is_nearer = (slope - wanted[i]).abs() < (*nearest - wanted[i]).abs();
+                if is_nearer || nearest.is_nan() {
+                    *nearest = slope;
                 }
-                *size = size.max(now.abs());
-            }
-            let off = [(q[i] - start.q[i], 0), (v[i] - start.v[i], 1)];
-            let differs = |(off, part): &(f64, usize)| off.abs() > TOLERANCE * (1e-9 + size[*part]);
-            if t == 0.0 && off.iter().any(differs) {
-                let found = format!("{name} = {}, moving at {} per second", q[i], v[i]);
-                let begins = format!("{} and {}", start.q[i], start.v[i]);
-                return fault(format!("it begins at {found}, and the start is {begins}"));
-            }
-            if !is_derivative(|h| at(t + h).q[i], v[i], size[1]) {
-                return fault(format!("at t = {t} s the velocity of {name} is not its derivative"));
-            }
-            if !is_derivative(|h| at(t + h).v[i], a[i], size[2]) {
-                let a = a[i];
-                return fault(format!("at t = {t} s {name} does not accelerate by {a} per s²"));
             }
         }
+        let v = nearest.split_off(wanted.len() / 2);
+        State { q: nearest, v }
     }
-    None
-}
 
-/// A state at which `energy` is not conserved; `None` if conserved or not given.
-pub(super) fn find_leak(own: &Own) -> Option<OwnFault> {
-    let remedy = "correct it, take out what drives or damps the motion, or remove `energy`";
-    let fault = |what: String| Some(OwnFault { field: "energy", what, remedy });
-    let start = own.start();
-    let first = own.motion.energy(&start.q, Some(&start.v))?;
-    if !first.is_finite() {
-        return fault(format!("it is {first} at the start"));
+    fn claimed_energy(&self, State { q, v }: &State<Vec<f64>>) -> Option<f64> {
+        self.motion.energy(q, Some(v))
     }
-    let mut dice = Dice::new(0x9E37_79B9_7F4A_7C15);
-    for trial in 0..STATES {
-        let mut there = start.clone();
-        for x in there.q.iter_mut().chain(&mut there.v).filter(|_| trial > 0) {
-            let reach = if *x == 0.0 { 1.0 } else { x.abs() };
-            *x += reach * dice.next();
-        }
-        let State { q, v } = there;
+
+    fn power(&self, t: f64, State { q, v }: &State<Vec<f64>>) -> Option<[f64; 2]> {
         let mut a = v.clone();
-        own.acceleration(0.0, &q, &v, &mut a);
+        self.acceleration(t, q, v, &mut a);
         // The energy some seconds on if only the place changes, only the velocity, or both.
         let energy = |moved: f64, turned: f64| {
-            let q: Vec<f64> = q.iter().zip(&v).map(|(q, v)| q + moved * v).collect();
+            let q: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + moved * v).collect();
             let v: Vec<f64> = v.iter().zip(&a).map(|(v, a)| v + turned * a).collect();
-            own.motion.energy(&q, Some(&v)).unwrap_or(f64::NAN)
+            self.motion.energy(&q, Some(&v)).unwrap_or(f64::NAN)
         };
+        // A state beside the motion need not have an energy, or a force.
+        let here = energy(0.0, 0.0);
+        if !here.is_finite() || a.iter().any(|a| !a.is_finite()) {
+            return None;
+        }
         let power = |h: f64| {
             let exchanged =
                 derivative(|s| energy(s, 0.0), h).abs() + derivative(|s| energy(0.0, s), h).abs();
-            (derivative(|s| energy(s, s), h), exchanged)
+            [derivative(|s| energy(s, s), h).abs(), exchanged]
         };
-        let is_kept = |h: &f64| {
-            let (leaks, exchanged) = power(*h);
-            let rounding = 4.0 * f64::EPSILON * energy(0.0, 0.0).abs() / h;
-            leaks.abs() <= TOLERANCE * exchanged + rounding
+        let is_kept = |h: f64| {
+            let [leaks, exchanged] = power(h);
+            leaks <= TOLERANCE * exchanged + 4.0 * f64::EPSILON * here.abs() / h
         };
-        // A state beside the motion need not have an energy, or a force.
-        let is_defined = energy(0.0, 0.0).is_finite() && a.iter().all(|a| a.is_finite());
-        if is_defined && !STEPS.iter().any(is_kept) {
-            let (leaks, exchanged) = power(1e-4);
-            let state = format!("at q = {q:.3?}, v = {v:.3?}");
-            let powers = format!("{leaks:.3e} J/s, where {exchanged:.3e} J/s are exchanged");
-            return fault(format!("it is not conserved: {state} it changes by {powers}"));
-        }
+        Some(if STEPS.into_iter().any(is_kept) { [0.0, power(1e-4)[1]] } else { power(1e-4) })
     }
-    None
+
+    fn without_claims(&self) -> Self {
+        Self { conserves: OnceCell::from(false), is_solved: OnceCell::from(false), ..self.clone() }
+    }
+}
+
+fn unsolved(own: &Own, fault: NotSolved) -> OwnFault {
+    let name = |i: usize| own.sheet.coordinates[i][0];
+    let velocity_of = |is_velocity| if is_velocity { "the velocity of " } else { "" };
+    let what = match fault {
+        NotSolved::Start { coordinate, is_velocity, found, start } => {
+            let (of, name) = (velocity_of(is_velocity), name(coordinate));
+            format!("it begins at {found} for {of}{name}, and the start is {start}")
+        }
+        NotSolved::Velocity { coordinate, t } => {
+            format!("at t = {t} s the velocity of {} is not its derivative", name(coordinate))
+        }
+        NotSolved::Equation { coordinate, t, wanted, .. } => {
+            format!("at t = {t} s {} does not accelerate by {wanted} per s²", name(coordinate))
+        }
+        NotSolved::Motion { coordinate, is_velocity, t, found, wanted } => {
+            let (of, name) = (velocity_of(is_velocity), name(coordinate));
+            format!(
+                "at t = {t:.4} s it gives {found} for {of}{name}, and the motion since the tick before leads to {wanted}"
+            )
+        }
+    };
+    OwnFault { field: "exact", what, remedy: "correct it, or remove `exact`" }
+}
+
+fn leaking(leak: Leak) -> OwnFault {
+    let what = match leak {
+        Leak::NotFinite(energy) => format!("it is {energy} at the start"),
+        Leak::Constant(energy) => {
+            format!("it is {energy} in every state, which says nothing of the motion")
+        }
+        Leak::Power { t, leaks, exchanged } => format!(
+            "it is not conserved: near t = {t:.2} s it changes by {leaks:.3e} J/s, where {exchanged:.3e} J/s are exchanged"
+        ),
+        Leak::Change { t, first, now } => {
+            format!("it is not conserved: it is {first} J at the start and {now} J at t = {t:.2} s")
+        }
+    };
+    let remedy = "correct it, take out what drives or damps the motion, or remove `energy`";
+    OwnFault { field: "energy", what, remedy }
 }
 
 /// Where a body that was told to be linear is not; `None` if it is, or if nobody has said so.
@@ -172,8 +180,8 @@ fn find_bend(own: &Own) -> Option<OwnFault> {
     None
 }
 
-/// Checks a body of one's own at its start, and what is told of it.
-pub(super) fn check(own: &Own) -> Result<(), OwnFault> {
+/// Checks a body of one's own at its start, and what is told of it, at the ticks of the horizon too.
+pub(super) fn check(own: &Own, horizon: ClaimHorizon) -> Result<(), OwnFault> {
     let State { q, v } = own.start();
     let mut a = v.clone();
     own.acceleration(0.0, &q, &v, &mut a);
@@ -184,6 +192,11 @@ pub(super) fn check(own: &Own) -> Result<(), OwnFault> {
             return Err(OwnFault { field: "start", what, remedy: "begin with finite numbers" });
         }
     }
-    let fault = find_unsolved(own).or_else(|| find_leak(own)).or_else(|| find_bend(own));
-    fault.map_or(Ok(()), Err)
+    if let Some(fault) = find_unsolved(own).or_else(|| find_departure(own, horizon)) {
+        return Err(unsolved(own, fault));
+    }
+    if let Some(leak) = find_leak(own).or_else(|| find_later_leak(own, horizon)) {
+        return Err(leaking(leak));
+    }
+    find_bend(own).map_or(Ok(()), Err)
 }

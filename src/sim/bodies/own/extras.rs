@@ -1,7 +1,8 @@
 //! What a person may tell of a body of one's own beyond its motion.
 
 use crate::sim::parameter::ParameterOf;
-use crate::sim::system::{State, System};
+use crate::sim::state::State;
+use crate::sim::system::System;
 
 /// The energy in joules of a system in a state.
 pub type Energy<S> = fn(&S, &State<<S as System>::Vector>) -> f64;

@@ -6,12 +6,14 @@ use std::sync::{Mutex, PoisonError};
 
 use super::motion::Typed;
 use super::{Extras, Own, OwnFault, claims};
+use crate::sim::bodies::claims::ClaimHorizon;
 use crate::sim::bodies::kind::{Coordinate, Kind, Truth};
 use crate::sim::bodies::own_sheet::OwnSheet;
 use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range};
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The key of the parameter that bodies without parameters of their own have.
 const FORCE: &str = "force";
@@ -20,8 +22,8 @@ const FORCE: &str = "force";
 const MOST_COORDINATES: usize = 256;
 
 /// The kind of bodies that move as `system` does, from `start`. What a layer above needs to draw them is in
-/// `drawing`. Its parameters have the numbers of `system` as defaults. The kind is kept as long as the
-/// program runs.
+/// `drawing`. What `extras` claims is held against the motion at the ticks of `horizon`. Its parameters have the numbers
+/// of `system` as defaults. The kind is kept as long as the program runs.
 ///
 /// # Errors
 /// If the start, a name or a unit is unfit, or if something that is told in `extras` is not so.
@@ -30,6 +32,7 @@ pub fn own_kind<S>(
     start: &State<S::Vector>,
     extras: &Extras<S>,
     drawing: Option<&'static (dyn Any + Send + Sync)>,
+    horizon: ClaimHorizon,
 ) -> Result<&'static Kind, OwnFault>
 where
     S: System + Clone + Send + 'static,
@@ -63,11 +66,11 @@ where
         start: many,
         kick,
         is_linear: extras.is_linear,
-        conserves: false,
-        is_solved: false,
+        conserves: OnceCell::new(),
+        is_solved: OnceCell::new(),
         ranges: OnceCell::new(),
     };
-    claims::check(&own)?;
+    claims::check(&own, horizon)?;
     own.prepare();
     Ok(kind(own, sheet, parameters))
 }

@@ -7,7 +7,8 @@ use std::fmt;
 use super::extras::{Energy, Exact, Extras};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::ParameterOf;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The motion of a body of one's own.
 pub(super) trait Motion: Send {

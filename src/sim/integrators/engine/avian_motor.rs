@@ -3,7 +3,7 @@
 use super::avian::substep;
 use super::{EngineMethod, Rule, Tick, each_with};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::system::Vector;
+use crate::sim::state::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-avian-motor",

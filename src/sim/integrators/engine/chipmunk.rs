@@ -2,7 +2,7 @@
 
 use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
-use crate::sim::system::Vector;
+use crate::sim::state::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-chipmunk",

@@ -4,7 +4,8 @@ use super::{EngineMethod, Rule, Tick};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, Only};
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "held-force",

@@ -13,7 +13,8 @@ use super::card::{Method, NOT_TOLD};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use crate::sim::engine_settings::EngineSettings;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 pub(super) mod avian;
 pub(super) mod avian_motor;

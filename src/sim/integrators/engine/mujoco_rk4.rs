@@ -4,7 +4,7 @@ use super::mujoco::puts_back;
 use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::system::Vector;
+use crate::sim::state::Vector;
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-mujoco-rk4",

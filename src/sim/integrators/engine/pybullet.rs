@@ -4,7 +4,8 @@ use super::{EngineMethod, Rule, Tick, each};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, NOT_TOLD, Only};
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 const ONLY: Only = Only {
     kinds: &["ship", "helm", "orbit", "law", "own"],

@@ -2,7 +2,8 @@
 
 use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::Method;
-use crate::sim::system::{Pursuit, State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::{Pursuit, System};
 
 /// The target of `system` at time `t` (s), if it is followed by a law of the order that `card` is for.
 ///

@@ -7,7 +7,8 @@ use super::step_size::{StepSize, steady_factor};
 use crate::sim::integrators::failure::StepFailure;
 use crate::sim::integrators::integrator::Integrator;
 use crate::sim::integrators::tolerance::Tolerance;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The tableau of a pair of `N` stages. The last stage is at the kept solution, so that its slope is
 /// the first of the next step.

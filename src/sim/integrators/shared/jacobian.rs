@@ -4,7 +4,8 @@
 
 use super::newton::largest;
 use super::slopes::Slopes;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// Safety factor that turns max|J·(±1, …)| into a bound on ‖J‖∞.
 const SPARSE_NORM: f64 = 2.0;

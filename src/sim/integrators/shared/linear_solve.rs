@@ -7,7 +7,8 @@ use super::lu::Lu;
 use super::newton::{Krylov, Stages};
 use super::slopes::Slopes;
 use crate::sim::integrators::failure::StepFailure;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The residual to which an iteration solves, relative to the right-hand side.
 const TOLERANCE: f64 = 1e-10;

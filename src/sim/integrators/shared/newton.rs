@@ -10,7 +10,8 @@
 //! matrix: its linear equations are solved by an iteration of their own.
 
 use crate::sim::integrators::failure::StepFailure;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 use iteration::MAX_ITERATIONS;
 pub(in crate::sim::integrators) use iteration::Newton;
 pub(in crate::sim::integrators) use krylov::Krylov;

@@ -5,7 +5,8 @@
 //! is exact in effect, and that of a curved force is off by `O(h²)`, which keeps second order.
 
 use super::newton::largest;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The reach of a difference as a part of the motion of a step. A larger part takes more of a bend for
 /// slope, a smaller one more rounding.

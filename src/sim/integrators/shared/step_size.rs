@@ -8,7 +8,7 @@
 use super::last_step::LastStep;
 use crate::sim::integrators::failure::StepFailure;
 use crate::sim::integrators::tolerance::Tolerance;
-use crate::sim::system::{State, Vector};
+use crate::sim::state::{State, Vector};
 
 /// Aims below the tolerance, so that few attempts are rejected.
 const SAFETY: f64 = 0.9;

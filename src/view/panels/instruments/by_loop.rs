@@ -30,7 +30,7 @@ const NO_ERROR: &str = "No error: every loop on the stage shows the exact place.
 /// The instrument's plots; `None` if it has none in the loop lab.
 pub(super) fn sheet(lab: &Lab, loops: &LoopLab, instrument: Instrument) -> Option<Sheet> {
     let plots = Plots { lab, loops };
-    let (title, plot) = match instrument {
+    let (title, mut plot) = match instrument {
         Instrument::Motion => ("Motion", plots.motion()),
         Instrument::Error => ("Error", plots.metric()),
         Instrument::Energy => ("Energy", plots.energy()),
@@ -41,6 +41,9 @@ pub(super) fn sheet(lab: &Lab, loops: &LoopLab, instrument: Instrument) -> Optio
         | Instrument::Loop
         | Instrument::Advice => return None,
     };
+    if let Some(waiting) = loops.waiting() {
+        plot.nothing = Some(waiting.into());
+    }
     Some(Sheet { roster: Roster::of(lab), title: title.into(), plots: vec![plot] })
 }
 
@@ -219,6 +222,7 @@ mod tests {
     fn lab_at(scene: &str, now_ns: i64) -> Lab {
         let mut lab = Lab::new(Scene::built_in(scene).unwrap());
         lab.apply(Command::Loop(LoopCommand::ToggleLab));
+        lab.run_loops();
         lab.apply(Command::Loop(LoopCommand::Seek(now_ns)));
         lab
     }

@@ -90,7 +90,7 @@ impl Cell {
     pub(super) fn rank(self, loops: &LoopLab, place: usize) -> Option<f64> {
         let lane = &loops.lanes()[place];
         match self {
-            Cell::Metric(_) => (self.metric()?.measure)(lane.report()).map(f64::abs),
+            Cell::Metric(_) => (self.metric()?.measure)(lane.report()?).map(f64::abs),
             Cell::Verdict => Some(match lane.verdict(loops.scene().tick_hz).severity {
                 Severity::Fine => 0.0,
                 Severity::Doubtful => 1.0,

@@ -25,7 +25,8 @@ pub(in crate::view::panels) fn sentence(loops: &LoopLab) -> String {
             "Raw ticks flip between none and two a frame; press `T` for a {next} Hz display."
         );
     }
-    let repeated = loops.lanes()[raw].report().repeated_percent.unwrap_or_default();
+    let repeated = loops.lanes()[raw].report().and_then(|report| report.repeated_percent);
+    let repeated = repeated.unwrap_or_default();
     if is_new && repeated > MANY_PERCENT {
         let (hz, percent) = (hz(loops.trace()), round(repeated, 2));
         let key = (smooth + 1) % 10;

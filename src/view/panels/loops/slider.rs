@@ -108,6 +108,7 @@ mod tests {
     fn a_press_on_the_track_goes_to_the_moment_there_and_a_row_and_its_eye_select_and_show() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         lab.apply(Command::Loop(LoopCommand::ToggleLab));
+        lab.run_loops();
         let context = Context::default();
         theme::dress(&context);
         let loops = lab.loop_lab().unwrap();

@@ -210,7 +210,7 @@ fn paint(ui: &Ui, loops: &LoopLab, place: usize, cell: Cell, rect: Rect, verdict
         }
         Cell::Metric(_) => {
             let Some(metric) = cell.metric() else { return };
-            let Some(value) = (metric.measure)(lane.report()) else { return };
+            let Some(value) = lane.report().and_then(metric.measure) else { return };
             let (words, font) = (shown(value, metric.unit), FontId::proportional(TYPE));
             ui.painter().text(rect.right_center(), Align2::RIGHT_CENTER, words, font, text);
         }
@@ -277,6 +277,7 @@ mod tests {
     fn rows_are_sorted_by_what_was_clicked_and_back() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         lab.apply(Command::Loop(LoopCommand::ToggleLab));
+        lab.run_loops();
         let loops = lab.loop_lab().unwrap();
         let by_keys: Vec<usize> = (0..loops.lanes().len()).collect();
         assert_eq!(sorted(loops, None), by_keys);

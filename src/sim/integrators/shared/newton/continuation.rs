@@ -10,7 +10,8 @@
 use super::curve::Curve;
 use super::iteration::Newton;
 use super::stages::{Stages, components, largest};
-use crate::sim::system::{System, Vector};
+use crate::sim::state::Vector;
+use crate::sim::system::System;
 
 /// The longest arc length of a step, in each of three attempts: longer steps can jump to a nearby curve
 /// that leads nowhere, shorter ones take longer.

@@ -4,7 +4,8 @@ use super::curve::Curve;
 use super::krylov::Krylov;
 use super::stages::{Stages, components, largest};
 use crate::sim::integrators::shared::lu::Lu;
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The largest number of iterations in one step. Usual are 2 to 5; without a limit a discontinuous
 /// force would never end.

@@ -8,7 +8,8 @@
 //! its sums by the processor: ours have the same bits everywhere.
 
 use super::stages::{Stages, largest};
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The most products of matrix and vector in one step of a method. A soft net needs tens and a stiff one
 /// hundreds; without a limit, equations that have no solution would never end.

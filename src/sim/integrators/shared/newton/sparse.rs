@@ -8,7 +8,8 @@
 
 use super::iteration::{MAX_ITERATIONS, Newton};
 use super::stages::{Stages, components, largest};
-use crate::sim::system::{System, Vector};
+use crate::sim::state::Vector;
+use crate::sim::system::System;
 
 /// The relative residual to which the linear equations of an iteration are solved. The next iteration
 /// solves what is left.

@@ -1,6 +1,7 @@
 //! The stages of an implicit method, whose accelerations are the unknowns.
 
-use crate::sim::system::{State, System, Vector};
+use crate::sim::state::{State, Vector};
+use crate::sim::system::System;
 
 /// The times of the stages, and the weights α and β of the accelerations in their coordinates and
 /// velocities.

@@ -1,0 +1,66 @@
+//! `regatta help`: of the program, of a command, or a chapter of the manual.
+
+use clap::{Args, Command};
+
+use super::error::{Cause, Error};
+use super::output::print;
+use crate::lab::nearest;
+use crate::manual::{CHAPTERS, chapter};
+
+const EXAMPLES: &str = "\
+Examples:
+  regatta help capture
+  regatta help scenes | less";
+
+/// Print this help, that of a command, or a chapter of the manual
+#[derive(Debug, Args)]
+#[command(after_help = after_help())]
+pub(super) struct HelpArgs {
+    /// A command, or a chapter of the manual
+    #[arg(value_name = "COMMAND|CHAPTER")]
+    topic: Option<String>,
+}
+
+fn after_help() -> String {
+    let line = |about: (&str, &str)| format!("\n  {:10}  {}", about.0, about.1);
+    let lines = CHAPTERS.iter().map(|chapter| line((chapter.id, chapter.about)));
+    format!("{EXAMPLES}\n\nChapters:{}", lines.collect::<String>())
+}
+
+/// There is no such command or chapter.
+#[derive(Debug, thiserror::Error)]
+#[error("no command and no chapter is called `{topic}`{}\n`regatta help help` lists the chapters", meant(.nearest))]
+struct NoSuchTopic {
+    topic: String,
+    nearest: Option<String>,
+}
+
+fn meant(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
+}
+
+impl Cause for NoSuchTopic {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
+
+/// Prints what `cli` says of itself or of one of its commands, or a chapter.
+pub(super) fn run(args: &HelpArgs, cli: Command) -> Result<(), Error> {
+    let topic = args.topic.as_deref();
+    if let Some(chapter) = topic.and_then(chapter) {
+        return Ok(print(chapter.text)?);
+    }
+    if let Some(topic) = topic
+        && cli.find_subcommand(topic).is_none()
+    {
+        let commands = cli.get_subcommands().map(Command::get_name);
+        let known = commands.chain(CHAPTERS.iter().map(|chapter| chapter.id));
+        let nearest = nearest(topic, known.map(|name| (name, name))).map(str::to_owned);
+        return Err(NoSuchTopic { topic: topic.to_owned(), nearest }.into());
+    }
+    match cli.try_get_matches_from(["regatta"].into_iter().chain(topic).chain(["--help"])) {
+        Err(help) => Ok(help.print()?),
+        Ok(_) => Ok(()),
+    }
+}

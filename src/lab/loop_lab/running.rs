@@ -1,0 +1,71 @@
+//! Runs the loops one by one, so that it can be done on another thread than the window's: a [`LoopRequest`] goes there,
+//! and each [`FoundLoop`] comes back.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use super::lane::LoopLane;
+use crate::lab::pacing::{FrameTrace, POLICIES};
+use crate::lab::scene::Scene;
+use crate::sim::integrators::Method;
+
+/// A body under a method, to be run in every loop over the frames of a trace.
+pub struct LoopRequest {
+    /// With one body.
+    pub(super) scene: Arc<Scene>,
+    pub(super) method: &'static Method,
+    pub(super) trace: FrameTrace,
+    /// The places of the loops in [`POLICIES`] that are run before the others.
+    pub(super) first: Vec<usize>,
+}
+
+impl LoopRequest {
+    /// The places of all loops, in the order in which they are run.
+    fn places(&self) -> VecDeque<usize> {
+        let is_first = |place: &usize| self.first.contains(place);
+        let (first, others): (VecDeque<_>, VecDeque<_>) = (0..POLICIES.len()).partition(is_first);
+        first.into_iter().chain(others).collect()
+    }
+}
+
+/// A loop that was run.
+pub struct FoundLoop {
+    pub(super) request: Arc<LoopRequest>,
+    /// Its place in [`POLICIES`].
+    pub(super) place: usize,
+    pub(super) lane: LoopLane,
+}
+
+/// Works on one request at a time.
+#[derive(Default)]
+pub struct LoopWorker {
+    request: Option<Arc<LoopRequest>>,
+    /// The places of the loops that are still to be run.
+    left: VecDeque<usize>,
+}
+
+impl LoopWorker {
+    /// Replaces the request; `None` asks for nothing.
+    pub fn set_request(&mut self, request: Option<Arc<LoopRequest>>) {
+        self.left = request.as_ref().map(|request| request.places()).unwrap_or_default();
+        self.request = request;
+    }
+
+    /// Whether there is nothing more to do.
+    pub fn is_done(&self) -> bool {
+        self.left.is_empty()
+    }
+
+    /// Runs one more loop. Returns `None` if there is none, or if `stop` ends it early: the loop is then run again by
+    /// the next call.
+    pub fn work(&mut self, stop: &dyn Fn() -> bool) -> Option<FoundLoop> {
+        let (request, place) = (self.request.as_ref()?, *self.left.front()?);
+        let LoopRequest { scene, method, trace, .. } = &**request;
+        let lane = LoopLane::run(scene, method, &POLICIES[place], trace, stop);
+        if stop() {
+            return None;
+        }
+        self.left.pop_front();
+        Some(FoundLoop { request: Arc::clone(request), place, lane })
+    }
+}

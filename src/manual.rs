@@ -1,0 +1,50 @@
+//! The manual, in chapters: what the program and the library do, with examples. `regatta help` prints the same
+//! text.
+
+/// A chapter of the manual.
+#[derive(Clone, Copy, Debug)]
+pub struct Chapter {
+    /// What `regatta help` is asked for.
+    pub id: &'static str,
+    /// What it is about, in a line.
+    pub about: &'static str,
+    /// Markdown.
+    pub text: &'static str,
+}
+
+macro_rules! chapters {
+    ($($id:ident: $about:literal)*) => {
+        /// All chapters, in the order in which they are read.
+        pub const CHAPTERS: &[Chapter] = &[$(Chapter {
+            id: stringify!($id),
+            about: $about,
+            text: include_str!(concat!("manual/", stringify!($id), ".md")),
+        }),*];
+        $(
+            #[doc = concat!("The manual: ", $about, ".\n\n")]
+            // What these print is run by tests, in a package of its own where it is Rust.
+            #[cfg_attr(all(doc, not(doctest)), doc = include_str!(concat!("manual/", stringify!($id), ".md")))]
+            pub mod $id {}
+        )*
+    };
+}
+
+chapters! {
+    keys: "every key, and what the mouse does"
+    scenes: "the built-in scenes, and how to write one: bodies, scripts, equations, nets"
+    commands: "the command line by examples: advise, sweep, trace, capture, verify"
+    loops: "what a game's loop and display add to a motion"
+    logs: "which engine or method made a log"
+    code: "a method as source code for a game"
+    library: "bodies and methods of one's own, in a game or its tests"
+    ci: "frames and hashes in continuous integration"
+    methods: "every method: order, cost, stability limit"
+    engines: "what the physics engines do to one body"
+    speed: "what a step of each method costs"
+    stable: "what stays as it is from release to release"
+}
+
+/// The chapter that is called `id`.
+pub fn chapter(id: &str) -> Option<&'static Chapter> {
+    CHAPTERS.iter().find(|chapter| chapter.id == id)
+}

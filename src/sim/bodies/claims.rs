@@ -1,0 +1,251 @@
+//! Whether the exact solution and the energy that a body claims are so: the one checker of a
+//! [law](super::Law) and of a [body of one's own](super::Own).
+//!
+//! A claim is held against the equation at the start and at a wide range of times, which is cheap enough for every change
+//! of a parameter, and when a scene is read against the reference solution at every tick.
+
+use crate::sim::body::Body;
+use crate::sim::dice::Dice;
+use crate::sim::reference::Reference;
+use crate::sim::state::State;
+
+/// When claims are held against the equation, in seconds: at the start and on a wide range of scales after it.
+pub(super) const TIMES: [f64; 12] =
+    [0.0, 1e-3, 0.01, 0.07, 0.2, 0.5, 1.0, 1.7, 3.1, 6.3, 11.0, 20.0];
+
+/// States that are tried around the start: enough to go beyond a coincidence.
+const STATES: usize = 12;
+
+/// States that are tried around each later one.
+const LATER_STATES: usize = 3;
+
+/// The most by which a tick may change the energy, or lead away from an exact solution, relative to its size: far above
+/// the accuracy of the reference, and far below what is seen.
+const TICK_TOLERANCE: f64 = 1e-7;
+
+/// The most by which the energy may change in all ticks together.
+const RUN_TOLERANCE: f64 = 1e-6;
+
+/// The most evaluations of the acceleration by the reference for one claim: a minute or two at 60 Hz of a motion like
+/// those of the built-in scenes, in some hundredths of a second. The rest of the horizon is not looked at.
+const MAX_EVALUATIONS: u64 = 300_000;
+
+/// The ticks at which the claims of a body are held against the reference solution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClaimHorizon {
+    /// Ticks per second.
+    pub tick_hz: u32,
+    /// The number of ticks.
+    pub ticks: u64,
+}
+
+/// A body that may claim to know its exact motion and its energy.
+pub(super) trait Claimant: Body<Vector = Vec<f64>> + Clone {
+    /// The most that a true claim may be off by, as a part of what is compared.
+    const TOLERANCE: f64;
+
+    /// Overwrites `to` with the claimed state at `t` (s). Returns whether there is one.
+    fn claimed(&self, t: f64, to: &mut State<Vec<f64>>) -> bool;
+
+    /// The derivative by time of the claimed state; by differences, those that are nearest to `wanted`.
+    fn claimed_slope(&self, t: f64, wanted: &State<Vec<f64>>) -> State<Vec<f64>>;
+
+    /// The claimed energy in joules; `None` if there is none.
+    fn claimed_energy(&self, state: &State<Vec<f64>>) -> Option<f64>;
+
+    /// The power in watts by which the energy changes, and the power that is exchanged; `None` where they are not finite.
+    fn power(&self, t: f64, state: &State<Vec<f64>>) -> Option<[f64; 2]>;
+
+    /// The same body without its claims and its steering, as it is at the start of a run.
+    fn without_claims(&self) -> Self;
+}
+
+/// Why an exact solution is none.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum NotSolved {
+    /// It does not begin at the start.
+    Start { coordinate: usize, is_velocity: bool, found: f64, start: f64 },
+    /// Its velocity is not the derivative of its position.
+    Velocity { coordinate: usize, t: f64 },
+    /// It does not satisfy the equation.
+    Equation { coordinate: usize, t: f64, found: f64, wanted: f64 },
+    /// The motion from the tick before leads elsewhere.
+    Motion { coordinate: usize, is_velocity: bool, t: f64, found: f64, wanted: f64 },
+}
+
+/// Why an energy is not one that the motion conserves.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Leak {
+    /// It is not finite at the start.
+    NotFinite(f64),
+    /// It is the same in every state.
+    Constant(f64),
+    /// It changes by so many watts near the state at `t`.
+    Power { t: f64, leaks: f64, exchanged: f64 },
+    /// It is another one at `t`.
+    Change { t: f64, first: f64, now: f64 },
+}
+
+/// Whether `a` and `b` differ by no more than `most`; a NaN does.
+fn is_near(a: f64, b: f64, most: f64) -> bool {
+    (a - b).abs() <= most
+}
+
+/// Why the exact solution does not satisfy the equation; `None` if it does, or if there is none.
+pub(super) fn find_unsolved<B: Claimant>(body: &B) -> Option<NotSolved> {
+    let body = body.without_claims();
+    let start = body.start();
+    let mut at = start.clone();
+    if !body.claimed(0.0, &mut at) {
+        return None;
+    }
+    let n = start.q.len();
+    let mut largest = vec![[0.0_f64; 3]; n];
+    for t in TIMES {
+        body.claimed(t, &mut at);
+        let mut wanted = State { q: at.v.clone(), v: vec![0.0; n] };
+        body.acceleration(t, &at.q, &at.v, &mut wanted.v);
+        let slope = body.claimed_slope(t, &wanted);
+        for (coordinate, size) in largest.iter_mut().enumerate() {
+            let (q, v, a) = (at.q[coordinate], at.v[coordinate], wanted.v[coordinate]);
+            let found = slope.v[coordinate];
+            for (size, now) in size.iter_mut().zip([q, v, found.abs().max(a.abs())]) {
+                *size = size.max(now.abs());
+            }
+            let starts = [(q, start.q[coordinate]), (v, start.v[coordinate])];
+            for (d, (found, start)) in starts.into_iter().enumerate().filter(|_| t == 0.0) {
+                let scale = size[d].max(size[2]).max(start.abs());
+                if !is_near(found, start, B::TOLERANCE * scale) {
+                    let is_velocity = d == 1;
+                    return Some(NotSolved::Start { coordinate, is_velocity, found, start });
+                }
+            }
+            if !is_near(slope.q[coordinate], v, B::TOLERANCE * size[1]) {
+                return Some(NotSolved::Velocity { coordinate, t });
+            }
+            if !is_near(found, a, B::TOLERANCE * size[2]) {
+                return Some(NotSolved::Equation { coordinate, t, found, wanted: a });
+            }
+        }
+    }
+    None
+}
+
+/// Where the motion from one tick to the next leaves the exact solution; `None` if it does not, or if there is none.
+pub(super) fn find_departure<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<NotSolved> {
+    let body = body.without_claims();
+    let mut from = body.start();
+    let mut to = from.clone();
+    if !body.claimed(0.0, &mut from) {
+        return None;
+    }
+    let mut evaluations = MAX_EVALUATIONS;
+    let mut largest = vec![[0.0_f64; 2]; from.q.len()];
+    let h = 1.0 / f64::from(horizon.tick_hz);
+    for tick in 1..=horizon.ticks {
+        let [before, t] = [tick - 1, tick].map(|tick| tick as f64 / f64::from(horizon.tick_hz));
+        // From the solution itself, so that the error of an unstable motion does not grow.
+        let mut reference = Reference::within(&from, evaluations);
+        reference.solve(&body, before, h, &mut from).ok()?;
+        evaluations = reference.saved_evaluations();
+        body.claimed(t, &mut to);
+        for (coordinate, size) in largest.iter_mut().enumerate() {
+            let pairs =
+                [(to.q[coordinate], from.q[coordinate]), (to.v[coordinate], from.v[coordinate])];
+            for (size, (found, wanted)) in size.iter_mut().zip(pairs) {
+                *size = size.max(found.abs()).max(wanted.abs());
+            }
+            let scales = [size[0] + h * size[1], size[1] + size[0] / h];
+            for (d, (found, wanted)) in pairs.into_iter().enumerate() {
+                if !is_near(found, wanted, TICK_TOLERANCE * scales[d]) {
+                    let is_velocity = d == 1;
+                    return Some(NotSolved::Motion { coordinate, is_velocity, t, found, wanted });
+                }
+            }
+        }
+        std::mem::swap(&mut from, &mut to);
+    }
+    None
+}
+
+/// Where energy leaks around the start; `None` if it does not, or if none is claimed.
+pub(super) fn find_leak<B: Claimant>(body: &B) -> Option<Leak> {
+    let body = body.without_claims();
+    let start = body.start();
+    let first = body.claimed_energy(&start)?;
+    if !first.is_finite() {
+        return Some(Leak::NotFinite(first));
+    }
+    let is_first = |state| body.claimed_energy(&state) == Some(first);
+    if states_around(&start, STATES).all(is_first) {
+        return Some(Leak::Constant(first));
+    }
+    TIMES.into_iter().find_map(|t| {
+        let states = if t == 0.0 { STATES } else { LATER_STATES };
+        find_power(&body, t, &start, states).err()
+    })
+}
+
+/// Where energy leaks along the motion; `None` if it does not, or if none is claimed.
+pub(super) fn find_later_leak<B: Claimant>(body: &B, horizon: ClaimHorizon) -> Option<Leak> {
+    let body = body.without_claims();
+    let mut there = body.start();
+    let first = body.claimed_energy(&there)?;
+    let mut reference = Reference::within(&there, MAX_EVALUATIONS);
+    let (mut before, mut largest, mut exchanged) = (first, first.abs(), 0.0_f64);
+    let h = 1.0 / f64::from(horizon.tick_hz);
+    for tick in 0..horizon.ticks {
+        let t = tick as f64 / f64::from(horizon.tick_hz);
+        match find_power(&body, t, &there, LATER_STATES) {
+            Ok(power) => exchanged += h * power,
+            Err(leak) => return Some(leak),
+        }
+        reference.solve(&body, t, h, &mut there).ok()?;
+        let now = body.claimed_energy(&there).unwrap_or(f64::NAN);
+        largest = largest.max(now.abs()).max(exchanged);
+        let is_kept = is_near(now, before, TICK_TOLERANCE * largest)
+            && is_near(now, first, RUN_TOLERANCE * largest);
+        if !is_kept {
+            let t = (tick + 1) as f64 / f64::from(horizon.tick_hz);
+            return Some(Leak::Change { t, first, now });
+        }
+        before = now;
+    }
+    None
+}
+
+/// The largest power that is exchanged at `states` states around `state` at time `t` (s): by others too, for at a
+/// turning point nothing is exchanged.
+///
+/// # Errors
+/// The largest leak at one of them, beside that power.
+fn find_power<B: Claimant>(
+    body: &B,
+    t: f64,
+    state: &State<Vec<f64>>,
+    states: usize,
+) -> Result<f64, Leak> {
+    let powers = states_around(state, states).filter_map(|there| body.power(t, &there));
+    let [leaks, exchanged] =
+        powers.fold([0.0_f64; 2], |most, power| [0, 1].map(|i| most[i].max(power[i])));
+    if leaks > B::TOLERANCE * exchanged {
+        return Err(Leak::Power { t, leaks, exchanged });
+    }
+    Ok(exchanged)
+}
+
+/// `state`, and others around it, the same in every run.
+fn states_around(
+    state: &State<Vec<f64>>,
+    count: usize,
+) -> impl Iterator<Item = State<Vec<f64>>> + '_ {
+    let mut dice = Dice::new(0x9E37_79B9_7F4A_7C15);
+    (0..count).map(move |trial| {
+        let mut there = state.clone();
+        for x in there.q.iter_mut().chain(&mut there.v).filter(|_| trial > 0) {
+            let reach = if *x == 0.0 { 1.0 } else { x.abs() };
+            *x += reach * dice.next();
+        }
+        there
+    })
+}

@@ -1,0 +1,177 @@
+//! Coordinate vectors, and the state that a body is in.
+
+/// A coordinate vector, with the operations that methods use.
+///
+/// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or
+/// in space, `Vec<f64>` for many coordinates. A method is written once over this trait; it compiles to
+/// registers for the small types and to loops for `Vec`.
+pub trait Vector: Clone + Send + 'static {
+    /// Whether each component's acceleration depends on few others. Implicit methods then solve their
+    /// equations by iteration; else they factor the whole Jacobian.
+    const IS_SPARSE: bool = false;
+
+    /// Copies `from`, which has as many components. Never allocates.
+    fn assign(&mut self, from: &Self);
+    /// `self += h x`, rounded after the product and after the sum.
+    fn add_scaled(&mut self, h: f64, x: &Self);
+    /// `v += k a`, then `q += h v`: a kick and the drift after it.
+    #[inline]
+    fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
+        v.add_scaled(k, a);
+        q.add_scaled(h, v);
+    }
+    /// `self += h1 x1 + h2 x2 …`, term by term in this order, each rounded after the product and after the
+    /// sum.
+    #[inline]
+    fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
+        for (h, x) in terms {
+            self.add_scaled(h, x);
+        }
+    }
+    /// `self = x + h d`, rounded after the product and after the sum, for an `x` with as many components.
+    /// Never allocates.
+    #[inline]
+    fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
+        self.assign(x);
+        self.add_scaled(h, d);
+    }
+    /// `self = h x`, for an `x` with as many components. Never allocates.
+    #[inline]
+    fn assign_scaled(&mut self, h: f64, x: &Self) {
+        for (component, x) in self.components_mut().iter_mut().zip(x.components()) {
+            *component = h * x;
+        }
+    }
+    /// The components in order.
+    fn components(&self) -> &[f64];
+    /// Memory on the heap, in bytes.
+    fn heap_bytes(&self) -> usize {
+        0
+    }
+    /// The components in order, mutable.
+    fn components_mut(&mut self) -> &mut [f64];
+}
+
+impl Vector for f64 {
+    #[inline]
+    fn assign(&mut self, from: &Self) {
+        *self = *from;
+    }
+    #[inline]
+    fn add_scaled(&mut self, h: f64, x: &Self) {
+        *self += h * x;
+    }
+    fn components(&self) -> &[f64] {
+        std::slice::from_ref(self)
+    }
+    fn components_mut(&mut self) -> &mut [f64] {
+        std::slice::from_mut(self)
+    }
+}
+
+macro_rules! glam_vector {
+    ($($Vector:ty),+) => {$(
+        impl Vector for $Vector {
+            #[inline]
+            fn assign(&mut self, from: &Self) {
+                *self = *from;
+            }
+            #[inline]
+            fn add_scaled(&mut self, h: f64, x: &Self) {
+                *self += h * *x;
+            }
+            fn components(&self) -> &[f64] {
+                self.as_ref()
+            }
+            fn components_mut(&mut self) -> &mut [f64] {
+                self.as_mut()
+            }
+        }
+    )+};
+}
+glam_vector!(glam::DVec2, glam::DVec3);
+
+impl Vector for Vec<f64> {
+    #[inline]
+    fn assign(&mut self, from: &Self) {
+        self.copy_from_slice(from);
+    }
+    #[inline]
+    fn add_scaled(&mut self, h: f64, x: &Self) {
+        for (component, x) in self.iter_mut().zip(x) {
+            *component += h * x;
+        }
+    }
+    /// Both in one pass.
+    #[inline]
+    fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
+        for ((a, v), q) in a.iter().zip(v).zip(q) {
+            *v += k * a;
+            *q += h * *v;
+        }
+    }
+    /// All terms in one pass.
+    #[inline]
+    fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
+        let terms = terms.map(|(h, x)| (h, &x[..self.len()]));
+        for (i, component) in self.iter_mut().enumerate() {
+            for (h, x) in terms {
+                *component += h * x[i];
+            }
+        }
+    }
+    #[inline]
+    fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
+        for ((component, x), d) in self.iter_mut().zip(x).zip(d) {
+            *component = x + h * d;
+        }
+    }
+    fn components(&self) -> &[f64] {
+        self
+    }
+    fn heap_bytes(&self) -> usize {
+        size_of_val(&self[..])
+    }
+    fn components_mut(&mut self) -> &mut [f64] {
+        self
+    }
+}
+
+/// Coordinates and velocities. Also their time derivative `(v, a)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State<V> {
+    /// Coordinates, in metres or radians.
+    pub q: V,
+    /// Velocities, per second.
+    pub v: V,
+}
+
+impl<V: Vector> State<V> {
+    /// Copies `from`. Never allocates.
+    #[inline]
+    pub fn assign(&mut self, from: &Self) {
+        self.q.assign(&from.q);
+        self.v.assign(&from.v);
+    }
+
+    /// `self += h1 x1 + h2 x2 …` in both halves.
+    #[inline]
+    pub fn add_terms<const N: usize>(&mut self, terms: [(f64, &Self); N]) {
+        self.q.add_terms(terms.map(|(h, x)| (h, &x.q)));
+        self.v.add_terms(terms.map(|(h, x)| (h, &x.v)));
+    }
+
+    /// `self = x + h d` in both halves. Never allocates.
+    #[inline]
+    pub fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
+        self.q.assign_sum(&x.q, h, &d.q);
+        self.v.assign_sum(&x.v, h, &d.v);
+    }
+
+    /// `self += h x` in both halves.
+    #[inline]
+    pub fn add_scaled(&mut self, h: f64, x: &Self) {
+        self.q.add_scaled(h, &x.q);
+        self.v.add_scaled(h, &x.v);
+    }
+}
