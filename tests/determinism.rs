@@ -1,9 +1,9 @@
 //! The same inputs give the same bits: in debug and release, on every machine, at every frame rate.
 //!
-//! `tests/hashes.txt` holds the state hash of every built-in scene under every method. If
-//! a change of the physics is meant, write it anew: `BLESS=1 cargo test --test determinism`.
+//! `tests/hashes.txt` holds the state hash of every built-in scene under every method, and
+//! `tests/early_hashes.txt` that of a twentieth of the way, where an unoptimised build stops. If a change of the
+//! physics is meant, write both anew: `BLESS=1 cargo test --release --test determinism`.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use regatta::lab::{
@@ -18,6 +18,12 @@ fn ticks(scene: &Scene) -> u64 {
     let coordinates = |body: &SceneBody| (body.kind.coordinates)(&body.values).len() as u64;
     400_000 / scene.bodies.iter().map(coordinates).sum::<u64>().max(4)
 }
+
+/// The part of the ticks after which the early hash is taken.
+const EARLY: u64 = 20;
+
+/// Whether the run ends there: an unoptimised build would take many minutes for the rest.
+const STOPS_EARLY: bool = cfg!(debug_assertions);
 
 const SECOND: i64 = 1_000_000_000;
 
@@ -110,16 +116,17 @@ fn ragged(seed: u64) -> impl FnMut() -> i64 {
     }
 }
 
-/// Ticks a lab one by one to `ticks`, compares it on the way with what pacings have marked, and returns
-/// the hashes at the end.
-fn compare(mut lab: Lab, ticks: u64, paced: &[(&str, Vec<Mark>)], what: &str) -> Vec<u64> {
+/// Ticks a lab one by one to the last of `ticks`, compares it on the way with what pacings have marked, and returns
+/// the hashes at `ticks`.
+fn compare(mut lab: Lab, ticks: &[u64], paced: &[(&str, Vec<Mark>)], what: &str) -> Vec<Vec<u64>> {
     let mut hashes = Vec::new();
-    let last = paced.iter().flat_map(|(_, marks)| marks).map(|mark| mark.0).max();
-    while lab.race().tick() < last.unwrap_or(0).max(ticks) {
+    let marked = paced.iter().flat_map(|(_, marks)| marks).map(|mark| mark.0);
+    let last = marked.chain(ticks.iter().copied()).max().expect("some ticks");
+    while lab.race().tick() < last {
         lab.tick();
         let tick = lab.race().tick();
-        if tick == ticks {
-            hashes = mark(&lab).1;
+        if ticks.contains(&tick) {
+            hashes.push(mark(&lab).1);
         }
         for (pacing, marks) in paced {
             if let Some(there) = marks.iter().find(|there| there.0 == tick) {
@@ -130,43 +137,51 @@ fn compare(mut lab: Lab, ticks: u64, paced: &[(&str, Vec<Mark>)], what: &str) ->
     hashes
 }
 
-/// The lines of one scene: its name, the method, and the hash after its ticks, which must not depend on
-/// the pacing: in the harbour to the end, elsewhere over the first tenth, to save time.
-fn lines(name: &str) -> String {
+/// The lines of one scene, early and at the end: its name, the method, and the hash after its ticks, which must
+/// not depend on the pacing: in the harbour to the end, elsewhere over the first part, to save time.
+fn lines(name: &str) -> Vec<String> {
     let scene = built_in(name);
-    let ticks = ticks(&scene);
-    let paced_ticks = if name == "harbour" { ticks } else { ticks / 10 };
+    let ticks = if STOPS_EARLY {
+        vec![ticks(&scene) / EARLY]
+    } else {
+        vec![ticks(&scene) / EARLY, ticks(&scene)]
+    };
+    let paced_ticks = if name == "harbour" { ticks[ticks.len() - 1] } else { ticks[0] };
     let pacings = [
         ("steady", paced(Field::Everyone.open(&scene), paced_ticks, steady())),
         ("ragged", paced(Field::Everyone.open(&scene), paced_ticks, ragged(0x5eed_0001))),
     ];
-    let hashes = compare(Field::Everyone.open(&scene), ticks, &pacings, name);
-    let mut lines = String::new();
-    for (method, hash) in scene.fitting_methods().zip(hashes) {
-        writeln!(lines, "{name} {} {hash:016x}", method.id).expect("a string takes everything");
-    }
-    lines
+    let hashes = compare(Field::Everyone.open(&scene), &ticks, &pacings, name);
+    let line = |(method, hash): (&Method, u64)| format!("{name} {} {hash:016x}\n", method.id);
+    hashes.into_iter().map(|at| scene.fitting_methods().zip(at).map(line).collect()).collect()
 }
 
-#[test]
-fn every_scene_and_method_keeps_its_hash_at_any_pacing() {
-    let found: String = std::thread::scope(|threads| {
-        let scenes = SCENES.iter().map(|scene| threads.spawn(|| lines(scene.name)));
-        let scenes: Vec<_> = scenes.collect();
-        scenes.into_iter().map(|lines| lines.join().expect("see above")).collect()
-    });
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/hashes.txt");
+/// Compares what was found with a file that is kept, or writes it.
+fn hold(file: &str, found: &str) {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests").join(file);
     if std::env::var_os("BLESS").is_some_and(|value| value == "1") {
-        std::fs::write(&path, &found).expect("tests/hashes.txt can be written");
+        std::fs::write(&path, found).expect("the file can be written");
     }
     let kept = std::fs::read_to_string(&path)
-        .expect("tests/hashes.txt is there; write it with BLESS=1 cargo test --test determinism");
+        .expect("it is there; write it with BLESS=1 cargo test --release --test determinism");
     let missing: Vec<_> = found.lines().filter(|line| !kept.lines().any(|k| k == *line)).collect();
     let stale: Vec<_> = kept.lines().filter(|line| !found.lines().any(|f| f == *line)).collect();
     assert!(
         found == kept,
-        "tests/hashes.txt says otherwise.\nfound, not kept: {missing:#?}\nkept, not found: {stale:#?}",
+        "tests/{file} says otherwise.\nfound, not kept: {missing:#?}\nkept, not found: {stale:#?}",
     );
+}
+
+#[test]
+fn every_scene_and_method_keeps_its_hash_at_any_pacing() {
+    let found: Vec<Vec<String>> = std::thread::scope(|threads| {
+        let scenes = SCENES.iter().map(|scene| threads.spawn(|| lines(scene.name)));
+        let scenes: Vec<_> = scenes.collect();
+        scenes.into_iter().map(|lines| lines.join().expect("see above")).collect()
+    });
+    for (n, file) in ["early_hashes.txt", "hashes.txt"].iter().take(found[0].len()).enumerate() {
+        hold(file, &found.iter().map(|scene| scene[n].as_str()).collect::<String>());
+    }
 }
 
 /// Every kind of input that a script can give.
@@ -191,7 +206,8 @@ fn script() -> Vec<Scripted> {
     ]
 }
 
-const SCRIPTED_TICKS: u64 = 4000;
+/// Beyond the last act of the script, far beyond it in an optimised build.
+const SCRIPTED_TICKS: u64 = if STOPS_EARLY { 1600 } else { 4000 };
 
 /// One lane whose method the script switches, and all methods at once.
 fn fields() -> [(&'static str, Field); 2] {
@@ -218,9 +234,9 @@ fn a_script_acts_at_its_ticks_at_any_pacing() {
                 ("ragged", paced(field.open(&with), SCRIPTED_TICKS, ragged(0x5eed_0002))),
                 ("hasty", paced(field.open(&with), SCRIPTED_TICKS, || SECOND / 4)),
             ];
-            let hash = compare(field.open(&with), SCRIPTED_TICKS, &pacings, &what);
+            let hash = compare(field.open(&with), &[SCRIPTED_TICKS], &pacings, &what);
             let without = scripted(scene.name, Vec::new());
-            let plain = compare(field.open(&without), SCRIPTED_TICKS, &[], &what);
+            let plain = compare(field.open(&without), &[SCRIPTED_TICKS], &[], &what);
             assert_ne!(hash, plain, "{what}: the script changes something");
         }
     }

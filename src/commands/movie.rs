@@ -2,6 +2,9 @@
 
 use std::io::{self, Write};
 
+use image::codecs::gif::{GifEncoder, Repeat};
+use image::{Delay, Frame, ImageError, RgbaImage};
+
 use super::experiment::Experiment;
 use super::interrupt::watch_for_interrupt;
 use super::output::AtomicOutput;
@@ -50,12 +53,14 @@ pub(super) fn record(
     };
     let written =
         Movie::begin(format, &mut output, &recording).map_err(Stop::Taken).and_then(|mut movie| {
-            let encode = |drawn: &Drawn| picture(format, &recording, drawn);
-            let done = run.draw_all(encode, |drawn, picture| {
-                movie.push(&drawn.rgba, picture)?;
-                progress.inc(1);
-                Ok(())
-            })?;
+            let done = run.draw_all(
+                |_| (),
+                |drawn, ()| {
+                    movie.push(drawn)?;
+                    progress.inc(1);
+                    Ok(())
+                },
+            )?;
             if done == frames {
                 movie.end().map_err(Stop::Taken)?;
             }
@@ -86,7 +91,7 @@ pub(super) fn record(
 /// A stream of frames being encoded.
 enum Movie<'a> {
     Apng(Box<png::Writer<&'a mut AtomicOutput>>),
-    Gif(gif::Encoder<&'a mut AtomicOutput>),
+    Gif { encoder: GifEncoder<&'a mut AtomicOutput>, size_px: [u32; 2], fps: u32 },
     Y4m { out: &'a mut AtomicOutput, planes: Vec<u8> },
     Rgba(&'a mut AtomicOutput),
 }
@@ -111,10 +116,9 @@ impl<'a> Movie<'a> {
                 Movie::Apng(Box::new(encoder.write_header().map_err(of_png)?))
             }
             MovieFormat::Gif => {
-                let mut encoder =
-                    gif::Encoder::new(out, small(width), small(height), &[]).map_err(of_gif)?;
-                encoder.set_repeat(gif::Repeat::Infinite).map_err(of_gif)?;
-                Movie::Gif(encoder)
+                let mut encoder = GifEncoder::new_with_speed(out, GIF_SPEED);
+                encoder.set_repeat(Repeat::Infinite).map_err(of_gif)?;
+                Movie::Gif { encoder, size_px: [width, height], fps }
             }
             MovieFormat::Y4m => {
                 writeln!(
@@ -127,12 +131,14 @@ impl<'a> Movie<'a> {
         })
     }
 
-    fn push(&mut self, rgba: &[u8], picture: Option<gif::Frame<'_>>) -> Result<(), io::Error> {
+    fn push(&mut self, Drawn { frame, rgba, .. }: &Drawn) -> Result<(), io::Error> {
         match self {
             Movie::Apng(writer) => writer.write_image_data(rgba).map_err(of_png),
-            Movie::Gif(encoder) => {
-                let picture = picture.expect("a GIF's frames are made pictures of");
-                encoder.write_lzw_pre_encoded_frame(&picture).map_err(of_gif)
+            Movie::Gif { encoder, size_px: [width, height], fps } => {
+                let picture = RgbaImage::from_raw(*width, *height, rgba.clone());
+                let picture = picture.expect("a frame has as many pixels as it says");
+                let frame = Frame::from_parts(picture, 0, 0, shown(*frame, *fps));
+                encoder.encode_frame(frame).map_err(of_gif)
             }
             Movie::Y4m { out, planes } => {
                 to_yuv(rgba, planes);
@@ -146,31 +152,16 @@ impl<'a> Movie<'a> {
     fn end(self) -> Result<(), io::Error> {
         match self {
             Movie::Apng(writer) => writer.finish().map_err(of_png),
-            Movie::Gif(encoder) => encoder.into_inner().map(drop).map_err(of_gif),
-            Movie::Y4m { .. } | Movie::Rgba(_) => Ok(()),
+            // A GIF's encoder writes the last byte when it is dropped; the output tells when it is closed whether it could.
+            Movie::Gif { .. } | Movie::Y4m { .. } | Movie::Rgba(_) => Ok(()),
         }
     }
 }
 
-/// The frame quantised to 256 colours and compressed, for a GIF. `None` for other formats, which write the
-/// pixels themselves.
-fn picture(
-    format: MovieFormat,
-    recording: &Recording,
-    drawn: &Drawn,
-) -> Option<gif::Frame<'static>> {
-    if format != MovieFormat::Gif {
-        return None;
-    }
-    let ([width, height], fps) = (recording.size_px, recording.schedule.fps);
-    let mut rgba = drawn.rgba.clone();
-    let mut picture =
-        gif::Frame::from_rgba_speed(small(width), small(height), &mut rgba, GIF_SPEED);
-    // In hundredths of a second; the remainder is carried to the next frame.
+/// How long a GIF shows this frame. A GIF counts hundredths of a second; the remainder is carried to the next frame.
+fn shown(frame: u32, fps: u32) -> Delay {
     let ends = |frame: u32| u64::from(frame) * 100 / u64::from(fps);
-    picture.delay = (ends(drawn.frame + 1) - ends(drawn.frame)) as u16;
-    picture.make_lzw_pre_encoded();
-    Some(picture)
+    Delay::from_numer_denom_ms((ends(frame + 1) - ends(frame)) as u32 * 10, 1)
 }
 
 fn small(value: u32) -> u16 {
@@ -184,9 +175,9 @@ fn of_png(error: png::EncodingError) -> io::Error {
     }
 }
 
-fn of_gif(error: gif::EncodingError) -> io::Error {
+fn of_gif(error: ImageError) -> io::Error {
     match error {
-        gif::EncodingError::Io(error) => error,
+        ImageError::IoError(error) => error,
         error => io::Error::other(error),
     }
 }

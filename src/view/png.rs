@@ -1,5 +1,12 @@
 //! Pixels as a PNG file.
 
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+use png::text_metadata::{EncodableTextChunk, TEXtChunk};
+
+/// Signature and header, after which the note stands.
+const HEADER_BYTES: usize = 33;
+
 /// What each file says of where it comes from, under the keyword that PNG has for it.
 const SOFTWARE: (&str, &str) = ("Software", "regatta");
 
@@ -14,21 +21,19 @@ pub const NOTED_WITHIN: usize = 128;
 /// If there are not `4 × width × height` bytes.
 pub fn encode([width, height]: [u32; 2], rgba: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width, height);
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Fast);
-    encoder.set_filter(png::Filter::Sub);
-    let (keyword, text) = SOFTWARE;
-    encoder
-        .add_text_chunk(keyword.into(), text.into())
-        .and_then(|()| encoder.write_header())
-        .and_then(|mut writer| {
-            writer.write_image_data(rgba)?;
-            writer.finish()
-        })
+    PngEncoder::new_with_quality(&mut file, CompressionType::Fast, FilterType::Sub)
+        .write_image(rgba, width, height, ExtendedColorType::Rgba8)
         .expect("memory takes any picture");
+    file.splice(HEADER_BYTES..HEADER_BYTES, note());
     file
+}
+
+/// The text chunk of a file, which `image` writes none of.
+fn note() -> Vec<u8> {
+    let mut chunk = Vec::new();
+    let (keyword, text) = SOFTWARE;
+    TEXtChunk::new(keyword, text).encode(&mut chunk).expect("memory takes a chunk");
+    chunk
 }
 
 /// Whether the file that begins with these bytes, [`NOTED_WITHIN`] of them if it has as many, says that

@@ -6,3 +6,4 @@ mod command_line;
 mod dice;
 mod golden;
 mod memory;
+mod packaging;
