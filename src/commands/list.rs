@@ -104,6 +104,7 @@ fn laws() -> String {
   start_velocity = 0.0
   kick = 1.0                            # the change of vx by a kick
   exact = \"x0*cos(sqrt(k/m)*t)\"         # of t, constants and starts, if the motion is known
+  at = [\"x\", \"0\"]                       # where to draw it in metres, of coordinates and constants
   Operators: {operators}
   Functions: {functions}
 "

@@ -21,15 +21,19 @@ mod jet;
 mod layout;
 mod op;
 mod refusal;
+mod registers;
 mod switch;
 mod table;
 mod tape;
+mod text;
 mod token;
 
 pub use expression::{MOST_BYTES, MOST_DEPTH};
 pub use layout::Layout;
 pub use refusal::{Part, Refusal, Remedy};
+pub use registers::Registers;
 pub use tape::MOST_OPERATIONS;
+pub use text::{CoordinateText, LawText};
 
 /// The most coordinates of a law: as many as can be told apart on a stage.
 pub const MOST_COORDINATES: usize = 16;
@@ -61,34 +65,6 @@ pub fn values() -> impl Iterator<Item = &'static str> {
     op::VALUE_WORDS.into_iter()
 }
 
-/// The text of a law: its structure, names and expressions, but no values.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct LawText {
-    /// The names of the constants.
-    pub constants: Vec<String>,
-    /// The coordinates, one or more.
-    pub coordinates: Vec<CoordinateText>,
-    /// The conserved energy in joules, of coordinates, velocities and constants.
-    pub energy: Option<String>,
-    /// The places of the coordinates that are drawn as x and y of one point.
-    pub plane: Option<[usize; 2]>,
-    /// How the first coordinates lie in space.
-    pub layout: Layout,
-}
-
-/// The text of one coordinate.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct CoordinateText {
-    /// Its name; its velocity is called `v` and this.
-    pub name: String,
-    /// One of [`UNITS`].
-    pub unit: &'static str,
-    /// Its acceleration.
-    pub acceleration: String,
-    /// Where it is at time `t`, of `t`, constants and starts, as long as nobody intervenes.
-    pub exact: Option<String>,
-}
-
 /// A compiled law.
 ///
 /// Its inputs, in the order of their slots: the time, throttle and rudder, coordinates, velocities,
@@ -99,6 +75,7 @@ pub struct Equations {
     motion: Tape,
     energy: Option<Tape>,
     exact: Option<Tape>,
+    places: Option<Tape>,
     is_linear: bool,
     angles: Vec<bool>,
     is_steered: [bool; 2],
@@ -122,8 +99,10 @@ impl Equations {
         let energy = text.energy.as_ref().map(|_| compiler.energy()).transpose();
         let is_given = text.coordinates.iter().any(|coordinate| coordinate.exact.is_some());
         let exact = is_given.then(|| compiler.exact()).transpose();
-        match (motion, energy, exact) {
-            (Ok(motion), Ok(energy), Ok(exact)) if refusals.is_empty() => {
+        let is_placed = text.coordinates.iter().any(|coordinate| coordinate.at.is_some());
+        let places = is_placed.then(|| compiler.places()).transpose();
+        match (motion, energy, exact, places) {
+            (Ok(motion), Ok(energy), Ok(exact), Ok(places)) if refusals.is_empty() => {
                 let n = text.coordinates.len();
                 let inputs = inputs(&text);
                 let moves = FIRST_COORDINATE..FIRST_COORDINATE + 2 * n;
@@ -144,12 +123,14 @@ impl Equations {
                     motion,
                     energy,
                     exact,
+                    places,
                 })
             }
-            (motion, energy, exact) => {
+            (motion, energy, exact, places) => {
                 refusals.extend(motion.err().into_iter().flatten());
                 refusals.extend(energy.err().into_iter().flatten());
                 refusals.extend(exact.err().into_iter().flatten());
+                refusals.extend(places.err().into_iter().flatten());
                 Err(refusals)
             }
         }
@@ -176,8 +157,11 @@ impl Equations {
         self.angles[coordinate]
     }
 
-    /// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate.
+    /// The unit of what is drawn in its own scale, for people: of places, of the plane, or of the first coordinate.
     pub fn drawn_unit(&self) -> &'static str {
+        if self.has_places() {
+            return UNITS[0];
+        }
         let drawn = self.text.plane.map_or(0, |[x, _]| x);
         shown_unit(self.text.coordinates[drawn].unit)
     }
@@ -190,8 +174,14 @@ impl Equations {
             Part::Coordinate(i) => &text.coordinates[i].name,
             Part::Acceleration(i) => &text.coordinates[i].acceleration,
             Part::Exact(i) => text.coordinates[i].exact.as_deref().unwrap_or_default(),
+            Part::Place(i, axis) => text.coordinates[i].at.as_ref().map_or("", |at| &at[axis]),
             Part::Energy => text.energy.as_deref().unwrap_or_default(),
         }
+    }
+
+    /// Whether the law says where coordinates are drawn.
+    pub fn has_places(&self) -> bool {
+        self.places.is_some()
     }
 
     /// Whether the law gives an energy.
@@ -231,51 +221,6 @@ impl Equations {
 /// How many inputs the tapes of a law have.
 fn inputs(text: &LawText) -> usize {
     FIRST_COORDINATE + 4 * text.coordinates.len() + text.constants.len()
-}
-
-/// The registers of one copy of a law, and its values: constants, then the coordinates at the start, then
-/// the velocities at the start.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Registers {
-    motion: Vec<f64>,
-    energy: Vec<f64>,
-    exact: Vec<Jet>,
-}
-
-impl Registers {
-    /// The registers for these values.
-    pub fn new(equations: &Equations, values: &[f64]) -> Self {
-        let slots = |tape: Option<&Tape>| tape.map_or(0, |tape| tape.slots);
-        let mut registers = Self {
-            motion: vec![0.0; slots(Some(&equations.motion))],
-            energy: vec![0.0; slots(equations.energy.as_ref())],
-            exact: vec![[0.0; 3]; slots(equations.exact.as_ref())],
-        };
-        registers.set(equations, values);
-        registers
-    }
-
-    /// Sets the values. Never allocates.
-    pub fn set(&mut self, equations: &Equations, values: &[f64]) {
-        let from = equations.first_constant();
-        self.motion[from..from + values.len()].copy_from_slice(values);
-        equations.motion.prepare(&mut self.motion);
-        if let Some(tape) = &equations.energy {
-            self.energy[from..from + values.len()].copy_from_slice(values);
-            tape.prepare(&mut self.energy);
-        }
-        if equations.exact.is_some() {
-            for (slot, &value) in self.exact[from..].iter_mut().zip(values) {
-                *slot = [value, 0.0, 0.0];
-            }
-        }
-    }
-
-    /// Memory on the heap, in bytes.
-    pub fn heap_bytes(&self) -> usize {
-        let numbers = size_of_val(&self.motion[..]) + size_of_val(&self.energy[..]);
-        numbers + size_of_val(&self.exact[..])
-    }
 }
 
 /// A moment of a motion.
@@ -361,6 +306,18 @@ impl Equations {
         }
         tape.evaluate(&mut registers.energy);
         Some(registers.energy[*tape.outputs.first()? as usize])
+    }
+
+    /// Passes the place of each coordinate that has one to `to`: x to the right and y up, in metres, in the order of the
+    /// coordinates. Never allocates.
+    pub(super) fn place(&self, registers: &mut Registers, q: &[f64], mut to: impl FnMut([f64; 2])) {
+        let Some(tape) = &self.places else { return };
+        let slots = &mut registers.places;
+        slots[FIRST_COORDINATE..][..q.len()].copy_from_slice(q);
+        tape.evaluate(slots);
+        for pair in tape.outputs.chunks_exact(2) {
+            to([slots[pair[0] as usize], slots[pair[1] as usize]]);
+        }
     }
 
     /// Passes the exact solution at time `t` (s) to `to`: each coordinate's place among the coordinates, and

@@ -150,6 +150,8 @@ pub(super) enum Wanted {
     Expression,
     /// The names of two coordinates.
     Plane,
+    /// Two expressions.
+    At,
     /// The name of a [`Layout`].
     Layout,
     /// The places of nodes.
@@ -295,7 +297,7 @@ impl Wanted {
             | Wanted::Layout => "a string",
             Wanted::Number(_) => "a number",
             Wanted::Whole(_) => "an integer",
-            Wanted::Methods | Wanted::Curve(_) | Wanted::Plane => "a list",
+            Wanted::Methods | Wanted::Curve(_) | Wanted::Plane | Wanted::At => "a list",
             Wanted::Places => "a list of pairs",
             Wanted::Nodes | Wanted::Ends => "a list of whole numbers from 0",
             Wanted::Node => "a whole number from 0",
@@ -338,6 +340,9 @@ impl fmt::Display for Wanted {
             }
             Wanted::Expression => write!(f, "an expression in double quotes, such as \"-k*x/m\""),
             Wanted::Plane => write!(f, "the names of two coordinates, such as [\"x\", \"y\"]"),
+            Wanted::At => {
+                write!(f, "two expressions for x and y, such as [\"l*sin(a)\", \"-l*cos(a)\"]")
+            }
             Wanted::Places => {
                 write!(f, "the places of the nodes in metres, such as [[0.0, 0.0], [1.0, 0.0]]")
             }

@@ -24,6 +24,7 @@ const START: Field = optional("start");
 const START_VELOCITY: Field = optional("start_velocity");
 const ACCELERATION: Field = required("acceleration", "its second derivative by time");
 const EXACT: Field = optional("exact");
+const AT: Field = optional("at");
 const KICK: Field = optional("kick");
 
 /// The most characters of the name of a unit or of a layout.
@@ -47,6 +48,7 @@ struct WrittenCoordinate {
     unit: &'static str,
     acceleration: Option<Written>,
     exact: Option<Written>,
+    at: Option<[WrittenName; 2]>,
     start: Option<f64>,
     start_velocity: Option<f64>,
     kick: Option<f64>,
@@ -63,6 +65,7 @@ pub(super) fn read_law(
     let energy = row.expression(ENERGY);
     let plane = coordinates.as_ref().and_then(|coordinates| read_plane(row, coordinates));
     let layout = read_layout(row, coordinates.as_deref().unwrap_or_default());
+    check_one_picture(row, coordinates.as_deref().unwrap_or_default());
     let Some(coordinates) = coordinates else { return (None, None) };
     let law = WrittenLaw { constants, coordinates, energy, plane, layout };
     let Some(text) = law.text() else { return (None, None) };
@@ -134,11 +137,23 @@ fn read_coordinates(row: &mut Table<'_>) -> Option<Vec<WrittenCoordinate>> {
             start_velocity: number(&mut table, START_VELOCITY, 0.0),
             acceleration: table.expression(ACCELERATION),
             exact: table.expression(EXACT),
+            at: read_at(&mut table),
             kick: number(&mut table, KICK, f64::from(u8::from(n == 0))),
         });
         row.adopt(table, &TOP);
     }
     Some(coordinates)
+}
+
+fn read_at(table: &mut Table<'_>) -> Option<[WrittenName; 2]> {
+    let written = table.names(AT, &Wanted::At)?;
+    let pair = <[_; 2]>::try_from(written);
+    if pair.is_err() {
+        let what = "`at` is not an x and a y".into();
+        let remedy = format!("write {}", Wanted::At);
+        table.complain(table.span(AT.key), Cause::Law { what, remedy });
+    }
+    Some(pair.ok()?.map(|(span, text)| (text.to_owned(), span)))
 }
 
 fn read_unit(table: &mut Table<'_>) -> &'static str {
@@ -201,6 +216,16 @@ fn read_layout(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) -> Layout
     Layout::default()
 }
 
+/// Refuses a `plane` or a `draw` beside places of coordinates.
+fn check_one_picture(row: &mut Table<'_>, coordinates: &[WrittenCoordinate]) {
+    let has_places = coordinates.iter().any(|coordinate| coordinate.at.is_some());
+    let other = [PLANE, DRAW].into_iter().find(|field| row.has(field.key));
+    if let (true, Some(Field { key, .. })) = (has_places, other) {
+        let what = format!("the law has a `{key}`, and a coordinate has an `at`");
+        row.complain(row.span(key), Cause::Law { what, remedy: "leave one of them out".into() });
+    }
+}
+
 fn offer(written: &str, known: &[&str]) -> String {
     match nearest(written, known.iter().map(|name| (*name, *name))) {
         Some(name) => format!("did you mean `{name}`?"),
@@ -221,6 +246,7 @@ impl WrittenLaw {
                 unit: of.unit,
                 acceleration: text(of.acceleration.as_ref()?),
                 exact: of.exact.as_ref().map(text),
+                at: of.at.as_ref().map(|at| at.each_ref().map(|(text, _)| text.clone())),
             })
         };
         Some(LawText {
@@ -252,6 +278,10 @@ impl WrittenLaw {
             Part::Coordinate(i) => self.coordinates[i].span.clone(),
             Part::Acceleration(i) => within(&self.coordinates[i].acceleration),
             Part::Exact(i) => within(&self.coordinates[i].exact),
+            Part::Place(i, axis) => {
+                let at = &self.coordinates[i].at;
+                at.as_ref().map_or(row.header.clone(), |at| at[axis].1.clone())
+            }
             Part::Energy => within(&self.energy),
         };
         let remedy = match remedy {

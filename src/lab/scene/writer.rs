@@ -167,6 +167,9 @@ fn write_law(text: &mut String, SceneBody { name, values, .. }: &SceneBody, law:
         if let Some(exact) = &coordinate.exact {
             line("exact", quoted(exact));
         }
+        if let Some(at) = &coordinate.at {
+            line("at", list(at.iter().map(|text| quoted(text))));
+        }
     }
 }
 

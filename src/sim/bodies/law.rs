@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::claims::{Claimant, find_leak, find_unsolved};
 use super::false_claims::FalseClaims;
-use super::survey::ranges;
+use super::survey::{ranges, ranges_seen};
 use crate::sim::body::{Body, Input};
 use crate::sim::law::{At, Equations, Layout, Registers};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
@@ -33,6 +33,7 @@ pub struct Law {
     /// Whether the law's exact solution is one with these values; looked at when somebody asks.
     is_solved: OnceCell<bool>,
     ranges: OnceCell<Vec<(f64, f64)>>,
+    corners: OnceCell<[DVec2; 2]>,
 }
 
 impl Law {
@@ -51,6 +52,7 @@ impl Law {
             conserves: OnceCell::new(),
             is_solved: OnceCell::new(),
             ranges: OnceCell::new(),
+            corners: OnceCell::new(),
         };
         law.prepare();
         // Before the first tick, which must not allocate.
@@ -75,6 +77,29 @@ impl Law {
             energy: self.equations.has_energy() && !self.conserves(),
             exact: self.equations.has_exact() && !self.is_solved(),
         }
+    }
+
+    /// The places of coordinates `q` that have one, in metres, in the order of the coordinates.
+    pub fn places(&self, q: &[f64]) -> Vec<DVec2> {
+        let mut places = Vec::new();
+        let registers = &mut self.registers.borrow_mut();
+        self.equations.place(registers, q, |place| places.push(DVec2::from(place)));
+        places
+    }
+
+    /// The lower left and the upper right corner of where the places are in the first seconds of the motion.
+    pub fn places_corners(&self) -> [DVec2; 2] {
+        *self.corners.get_or_init(|| {
+            let mut corners = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+            let registers = &mut self.registers.borrow().clone();
+            ranges_seen(self, |q| {
+                self.equations.place(registers, q, |place| {
+                    let place = DVec2::from(place);
+                    corners = [corners[0].min(place), corners[1].max(place)];
+                });
+            });
+            corners
+        })
     }
 
     fn conserves(&self) -> bool {
@@ -139,6 +164,7 @@ impl Body for Law {
         let values = known(self.equations, &self.values);
         self.registers.get_mut().set(self.equations, values);
         self.ranges.take();
+        self.corners.take();
         self.conserves.take();
         self.is_solved.take();
     }
@@ -224,9 +250,15 @@ impl Body for Law {
         true
     }
 
-    /// The coordinates of the plane, or the first coordinate to the right or up.
+    /// The first place, the coordinates of the plane, or the first coordinate to the right or up.
     fn place(&self, q: &Vec<f64>) -> DVec2 {
         let text = self.equations.text();
+        if self.equations.has_places() {
+            let mut first = None;
+            let registers = &mut self.registers.borrow_mut();
+            self.equations.place(registers, q, |place| first = first.or(Some(place)));
+            return first.unwrap_or_default().into();
+        }
         match (text.plane, text.layout) {
             (Some([x, y]), _) => DVec2::new(q[x], q[y]),
             (None, Layout::Beads | Layout::Follower) => DVec2::new(q[0], 0.0),

@@ -16,8 +16,17 @@ const RUNAWAY: f64 = 1e4;
 
 /// The least and the largest value of each coordinate in the first seconds.
 pub(super) fn ranges<B: Body<Vector = Vec<f64>>>(body: &B) -> Vec<(f64, f64)> {
+    ranges_seen(body, |_| {})
+}
+
+/// As [`ranges`]; passes the coordinates of every tick to `see`.
+pub(super) fn ranges_seen<B: Body<Vector = Vec<f64>>>(
+    body: &B,
+    mut see: impl FnMut(&[f64]),
+) -> Vec<(f64, f64)> {
     let mut state = body.start();
     let mut ranges: Vec<(f64, f64)> = state.q.iter().map(|&q| (q, q)).collect();
+    see(&state.q);
     let body = Counted::new(body.clone());
     let mut solver = <DormandPrince54<Vec<f64>> as Integrator<Counted<B>>>::new(&state.q);
     let mut first_second: Vec<f64> = vec![f64::INFINITY; state.q.len()];
@@ -34,6 +43,7 @@ pub(super) fn ranges<B: Body<Vector = Vec<f64>>>(body: &B) -> Vec<(f64, f64)> {
         for (range, &q) in ranges.iter_mut().zip(&state.q) {
             *range = (range.0.min(q), range.1.max(q));
         }
+        see(&state.q);
         if tick == 60 {
             let reach = |range: &(f64, f64)| RUNAWAY * range.0.abs().max(range.1.abs()).max(1e-9);
             first_second = ranges.iter().map(reach).collect();

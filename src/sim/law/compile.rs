@@ -53,6 +53,10 @@ impl PartScope<'_> {
         match self.part {
             Part::Acceleration(_) => slot < constants.end,
             Part::Energy => moves.contains(&slot) || constants.contains(&slot),
+            Part::Place(..) => {
+                (FIRST_COORDINATE..FIRST_COORDINATE + n).contains(&slot)
+                    || constants.contains(&slot)
+            }
             _ => slot == T || slot >= constants.start,
         }
     }
@@ -77,6 +81,9 @@ impl Scope for PartScope<'_> {
             }
             Part::Energy => {
                 format!("an energy that is conserved does not depend on `{name}`")
+            }
+            Part::Place(..) => {
+                format!("a place is drawn by coordinates and constants alone, not by `{name}`")
             }
             _ if moves.contains(&slot) => {
                 format!(
@@ -116,6 +123,15 @@ impl Compiler<'_> {
             return tape;
         }
         Err(missing.into_iter().chain(tape.err().into_iter().flatten()).collect())
+    }
+
+    /// The tape of the places: x and y of each coordinate that has one.
+    pub(super) fn places(&self) -> Result<Tape, Vec<Refusal>> {
+        let rows = self.text.coordinates.iter().enumerate();
+        let placed = rows.filter_map(|(i, row)| Some((i, row.at.as_ref()?)));
+        let parts =
+            placed.flat_map(|(i, at)| [0, 1].map(|axis| (Part::Place(i, axis), &*at[axis])));
+        self.tape(parts.collect())
     }
 
     fn tape(&self, parts: Vec<(Part, &str)>) -> Result<Tape, Vec<Refusal>> {

@@ -13,6 +13,8 @@ pub enum Part {
     Acceleration(usize),
     /// The exact solution of the coordinate in this place.
     Exact(usize),
+    /// Where the coordinate in this place is drawn: its x (0) or y (1).
+    Place(usize, usize),
     /// The energy.
     Energy,
 }

@@ -1,7 +1,7 @@
 //! A scene says how a law is drawn, and the picture is so.
 
 use glam::DVec2;
-use regatta::lab::picture::{Framing, Look, Mark, Outline};
+use regatta::lab::picture::{Framing, Look, Mark, Outline, Pull};
 use regatta::lab::{Scene, SceneBody};
 use regatta::sim::{Solver, Stepper};
 
@@ -92,6 +92,73 @@ fn the_jumper_falls_down_the_drone_climbs_and_the_car_stands_on_its_wheel() {
     assert!(handles[0].y > handles[1].y);
 
     assert!(matches!(drawn("duffing", &[1.0]).1, Framing::Recorder { .. }));
+}
+
+/// A pendulum of two rods, and a third coordinate that is not drawn.
+const RODS: &str = "constants = { l = 2 }\n\
+    [law.coordinates.a]\nunit = 'rad'\nstart = 1\nacceleration = '-sin(a)'\n\
+    at = ['l*sin(a)', '-l*cos(a)']\n\
+    [law.coordinates.b]\nunit = 'rad'\nacceleration = '-4*b'\n\
+    at = ['l*sin(a) + sin(b)', '-l*cos(a) - cos(b)']\n\
+    [law.coordinates.f]\nunit = 'N'\nstart = 7\nacceleration = '-f'\n";
+
+#[test]
+fn a_law_is_drawn_where_its_scene_says_and_a_hand_takes_it_there() {
+    let scene = read("", RODS).unwrap();
+    let again = Scene::parse("mine.toml", &scene.to_toml()).unwrap();
+    assert!(std::ptr::eq(again.bodies[0].kind, scene.bodies[0].kind), "{}", scene.to_toml());
+
+    let SceneBody { kind, values, .. } = &scene.bodies[0];
+    let mut body: Box<dyn Stepper> = (kind.build)(values, Solver::Truth);
+    let (look, q) = (Look::of(kind), [1.0, -0.5, 7.0]);
+    let upper = 2.0 * DVec2::new(1.0_f64.sin(), -1.0_f64.cos());
+    let lower = upper + DVec2::new((-0.5_f64).sin(), -(-0.5_f64).cos());
+    let outline = look.outline(&*body, 0.0, &q);
+    let discs = outline.marks.iter().filter_map(|mark| match *mark {
+        Mark::Disc { centre, .. } => Some(centre),
+        _ => None,
+    });
+    let discs: Vec<DVec2> = discs.collect();
+    assert_eq!((outline.at, discs.len()), (upper, 2));
+    assert!(discs[0].distance(upper) < 1e-12 && discs[1].distance(lower) < 1e-12, "{discs:?}");
+    let Framing::Fixed { centre_m, half_m, .. } = look.framing(&*body) else { panic!() };
+    // It swings from 1 rad to the other side, with the lower rod straight down.
+    for corner in [upper - DVec2::Y, DVec2::new(-upper.x, upper.y - 1.0), DVec2::new(0.0, -3.0)] {
+        assert!((corner - centre_m).abs().cmple(half_m).all(), "{corner} {centre_m} {half_m}");
+    }
+
+    let to = DVec2::new(1.5, -2.0);
+    let (mut q, mut v) = (q, [0.0, 0.0, 3.0]);
+    let pull = Pull { handle: 1, to, velocity: DVec2::new(0.25, 0.5) };
+    look.pull(&*body, &mut q, &mut v, pull);
+    assert!(look.handles(&*body, &q)[1].at.distance(to) < 1e-6, "{q:?}");
+    assert_eq!((q[2], v[2]), (7.0, 3.0), "what moves no disc keeps its state");
+    body.set(0.0, &q, &v);
+    let moved = [0, 1].map(|i| q[i] + 1e-6 * v[i]);
+    let there = look.handles(&*body, &[moved[0], moved[1], 7.0])[1].at;
+    assert!(((there - to) / 1e-6).distance(pull.velocity) < 1e-3, "{there}");
+}
+
+#[test]
+fn places_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
+    let with = |keys: &str, at: &str| {
+        let one = format!("[law.coordinates.z]\nacceleration = '-z'\nat = {at}\n");
+        read(keys, &one).map(|_| ()).unwrap_err()
+    };
+    for (keys, at, wanted) in [
+        ("", "['z', 'zz']", "mine.toml:7:12: unknown name `zz`"),
+        ("", "['vz', '0']", "a place is drawn by coordinates and constants alone, not by `vz`"),
+        ("", "['z']", "`at` is not an x and a y; write two expressions for x and y"),
+        ("", "'z'", "mine.toml:7:6: `at` is the string"),
+        (
+            "draw = 'vertical'\n",
+            "['z', '0']",
+            "mine.toml:5:8: the law has a `draw`, and a coordinate",
+        ),
+    ] {
+        let told = with(keys, at);
+        assert!(told.contains(wanted), "{told}");
+    }
 }
 
 #[test]

@@ -174,6 +174,7 @@ fn three_hundred_thousand_mutated_expressions_are_read_or_refused_in_place() {
             unit: "m",
             acceleration: acceleration.clone(),
             exact: None,
+            at: None,
         };
         let law = LawText {
             constants: vec!["k".into()],

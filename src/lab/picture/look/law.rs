@@ -1,4 +1,5 @@
-//! A law, drawn as its scene says: beads on rails or in a plane, heights, a carriage, or a follower.
+//! A law, drawn as its scene says: beads on rails or in a plane, heights, a carriage, a follower, or discs in places of
+//! its own.
 
 use super::beads::Beads;
 use super::{Drawn, Framing, Handle, Outline, Pull};
@@ -8,10 +9,12 @@ use crate::sim::law::Layout;
 
 use carriage::Carriage;
 use follower::Follower;
+use places::Places;
 use vertical::Vertical;
 
 mod carriage;
 mod follower;
+mod places;
 mod vertical;
 
 /// A picture of a law: as [`Drawn`], of coordinates of any number.
@@ -38,6 +41,9 @@ impl Arrangement for Beads<'_> {
 }
 
 fn arrangement(law: &Law) -> Box<dyn Arrangement + '_> {
+    if law.equations().has_places() {
+        return Box::new(Places { law });
+    }
     let text = law.equations().text();
     let unit = text.coordinates[0].unit;
     let alike = text.coordinates.iter().take_while(|of| of.unit == unit).count();

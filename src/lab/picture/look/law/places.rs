@@ -1,0 +1,119 @@
+//! Discs where the scene says that the coordinates are.
+
+use glam::{DMat2, DVec2};
+
+use super::super::{Framing, Handle, Mark, Outline, Pull};
+use super::Arrangement;
+use crate::sim::State;
+use crate::sim::bodies::Law;
+
+/// The radius of a disc, in parts of half the picture.
+const DISC: f64 = 0.045;
+
+/// The room beyond the motion, in parts of half the motion, and the least extent either way.
+const BEYOND: f64 = 1.25;
+const LEAST: f64 = 0.4;
+
+/// How long the trail is, in seconds.
+const TRAIL_S: f64 = 4.0;
+
+/// A displacement for slopes, relative to a coordinate, or in its unit near 0.
+const DISPLACEMENT: f64 = 1e-6;
+
+/// The iterations in which a disc is brought to a hand.
+const ITERATIONS: usize = 12;
+
+/// The most by which a coordinate moves in one of them, relative to its size, or in its unit near 0.
+const MAX_CHANGE: f64 = 1.0;
+
+/// What is added to a matrix that may be singular, in parts of its trace.
+const DAMPING: f64 = 1e-9;
+
+pub(super) struct Places<'a> {
+    pub(super) law: &'a Law,
+}
+
+impl Places<'_> {
+    /// The middle of the picture, and half of it.
+    fn room(&self) -> [DVec2; 2] {
+        let [low, high] = self.law.places_corners();
+        let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
+        if !(middle.is_finite() && half.is_finite()) {
+            return [DVec2::ZERO, DVec2::ONE];
+        }
+        let most = half.max_element();
+        let size = if most > 0.0 { most } else { 1.0 };
+        [middle, BEYOND * half.max(DVec2::splat(LEAST * size))]
+    }
+
+    fn radius(&self) -> f64 {
+        let [_, half] = self.room();
+        DISC * half.max_element()
+    }
+
+    /// The change of a place by each coordinate.
+    fn slopes(&self, place: usize, q: &[f64]) -> Vec<DVec2> {
+        let mut moved = q.to_vec();
+        let slope = |(i, &q): (usize, &f64)| {
+            let d = DISPLACEMENT * q.abs().max(1.0);
+            let ends = [q + d, q - d].map(|end| {
+                moved[i] = end;
+                self.law.places(&moved)[place]
+            });
+            moved[i] = q;
+            (ends[0] - ends[1]) / (2.0 * d)
+        };
+        q.iter().enumerate().map(slope).collect()
+    }
+}
+
+/// The least change of the coordinates that moves a place with these slopes by `by`, as far as they can.
+fn least_change(slopes: &[DVec2], by: DVec2) -> Vec<f64> {
+    let outer = |slope: &DVec2| DMat2::from_cols(slope.x * *slope, slope.y * *slope);
+    let square = slopes.iter().fold(DMat2::ZERO, |sum, slope| sum + outer(slope));
+    let trace = square.x_axis.x + square.y_axis.y;
+    if !(trace > 0.0 && trace.is_finite()) {
+        return vec![0.0; slopes.len()];
+    }
+    let weights = (square + DMat2::from_diagonal(DVec2::splat(DAMPING * trace))).inverse() * by;
+    slopes.iter().map(|slope| slope.dot(weights)).collect()
+}
+
+impl Arrangement for Places<'_> {
+    fn draw(&self, q: &[f64], outline: &mut Outline) {
+        let radius = self.radius();
+        let discs = self.law.places(q).into_iter().map(|centre| Mark::Disc { centre, radius });
+        outline.marks.extend(discs);
+    }
+
+    fn framing(&self) -> Framing {
+        let [centre_m, half_m] = self.room();
+        Framing::Fixed { centre_m, half_m, trail_s: TRAIL_S }
+    }
+
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        let radius = self.radius();
+        self.law.places(q).into_iter().map(|at| Handle { at, radius }).collect()
+    }
+
+    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
+        for _ in 0..ITERATIONS {
+            let off = pull.to - self.law.places(&state.q)[pull.handle];
+            if !off.is_finite() {
+                return;
+            }
+            let changes = least_change(&self.slopes(pull.handle, &state.q), off);
+            for (q, change) in state.q.iter_mut().zip(changes) {
+                let most = MAX_CHANGE * q.abs().max(1.0);
+                *q += change.clamp(-most, most);
+            }
+        }
+        let slopes = self.slopes(pull.handle, &state.q);
+        let velocities = least_change(&slopes, pull.velocity);
+        for ((v, velocity), slope) in state.v.iter_mut().zip(velocities).zip(&slopes) {
+            if *slope != DVec2::ZERO {
+                *v = velocity;
+            }
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! Where a law is evaluated.
+
+use super::Equations;
+use super::jet::Jet;
+use super::tape::Tape;
+
+/// The registers of one copy of a law, and its values: constants, then the coordinates at the start, then
+/// the velocities at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Registers {
+    pub(super) motion: Vec<f64>,
+    pub(super) energy: Vec<f64>,
+    pub(super) exact: Vec<Jet>,
+    pub(super) places: Vec<f64>,
+}
+
+impl Registers {
+    /// The registers for these values.
+    pub fn new(equations: &Equations, values: &[f64]) -> Self {
+        let slots = |tape: Option<&Tape>| tape.map_or(0, |tape| tape.slots);
+        let mut registers = Self {
+            motion: vec![0.0; slots(Some(&equations.motion))],
+            energy: vec![0.0; slots(equations.energy.as_ref())],
+            exact: vec![[0.0; 3]; slots(equations.exact.as_ref())],
+            places: vec![0.0; slots(equations.places.as_ref())],
+        };
+        registers.set(equations, values);
+        registers
+    }
+
+    /// Sets the values. Never allocates.
+    pub fn set(&mut self, equations: &Equations, values: &[f64]) {
+        let from = equations.first_constant();
+        self.motion[from..from + values.len()].copy_from_slice(values);
+        equations.motion.prepare(&mut self.motion);
+        for (tape, slots) in
+            [(&equations.energy, &mut self.energy), (&equations.places, &mut self.places)]
+        {
+            if let Some(tape) = tape {
+                slots[from..from + values.len()].copy_from_slice(values);
+                tape.prepare(slots);
+            }
+        }
+        if equations.exact.is_some() {
+            for (slot, &value) in self.exact[from..].iter_mut().zip(values) {
+                *slot = [value, 0.0, 0.0];
+            }
+        }
+    }
+
+    /// Memory on the heap, in bytes.
+    pub fn heap_bytes(&self) -> usize {
+        let tapes = [&self.motion, &self.energy, &self.places];
+        tapes.map(|slots| size_of_val(&slots[..])).iter().sum::<usize>()
+            + size_of_val(&self.exact[..])
+    }
+}

@@ -1,0 +1,33 @@
+//! The text of a law, as a scene writes it.
+
+use super::layout::Layout;
+
+/// The text of a law: its structure, names and expressions, but no values.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct LawText {
+    /// The names of the constants.
+    pub constants: Vec<String>,
+    /// The coordinates, one or more.
+    pub coordinates: Vec<CoordinateText>,
+    /// The conserved energy in joules, of coordinates, velocities and constants.
+    pub energy: Option<String>,
+    /// The places of the coordinates that are drawn as x and y of one point.
+    pub plane: Option<[usize; 2]>,
+    /// How the first coordinates lie in space.
+    pub layout: Layout,
+}
+
+/// The text of one coordinate.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct CoordinateText {
+    /// Its name; its velocity is called `v` and this.
+    pub name: String,
+    /// One of [`UNITS`].
+    pub unit: &'static str,
+    /// Its acceleration.
+    pub acceleration: String,
+    /// Where it is at time `t`, of `t`, constants and starts, as long as nobody intervenes.
+    pub exact: Option<String>,
+    /// Where it is drawn, of coordinates and constants: x to the right and y up, in metres.
+    pub at: Option<[String; 2]>,
+}
