@@ -33,7 +33,7 @@ tick, 1 to 64, are sought:
                of the one with the most; what does not swing stays within 5 % of its range
   accurate     over the scene no coordinate or velocity is off by more than 1 % of its amplitude
 
-What fails with 4 substeps and with 64 is not searched in between. A scene longer than a minute is
+What fails with 8 substeps and with 64 is not searched in between. A scene longer than a minute is
 judged over its first minute. Costs are those of all bodies per simulated second: evaluations of
 the acceleration, and time measured on this machine, the best of several runs. The recommended
 method is the cheapest; between times within a fifth of each other, evaluations decide.

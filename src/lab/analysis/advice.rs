@@ -69,7 +69,7 @@ impl Criterion {
 pub const MOST_ADVISED_SUBSTEPS: u32 = 64;
 
 /// The number of substeps up to which each is tried before the most.
-const FEW_SUBSTEPS: u32 = 4;
+const FEW_SUBSTEPS: u32 = 8;
 
 /// The most work for one run of a stiffer scene, in the unit of [`MOST_WORK`](super::MOST_WORK). There are many such runs.
 const WORK_WHEN_STIFFER: u64 = 10_000_000;
@@ -90,7 +90,7 @@ pub struct MethodAdvice {
 pub enum CriterionResult {
     /// It does, in this way.
     With(CriterionMet),
-    /// It does not with 1 to 4 substeps, nor with [`MOST_ADVISED_SUBSTEPS`]: or with none that was tried in between.
+    /// It does not with 8 substeps or fewer, nor with [`MOST_ADVISED_SUBSTEPS`]; what lies between is not searched then.
     No,
     /// Not known: it takes too much work, or there is no truth.
     Unknown,

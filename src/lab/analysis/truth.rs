@@ -6,7 +6,7 @@ use super::survey::{BodyInput, Moment, Ranges, TimedInput, follow_truth};
 use crate::lab::extent::Extent;
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Coordinate, Input, Truth};
-use crate::sim::integrators::StepFailure;
+use crate::sim::integrators::{GENERAL_METHODS, StepFailure};
 use crate::sim::stability::{NormalMode, normal_modes};
 use crate::sim::{Solver, Stepper};
 
@@ -30,6 +30,9 @@ const MOST_MOMENTS: usize = 100_000;
 const MOST_REFERENCE_MOMENTS: usize = 20_000;
 const FEWEST_MOMENTS: usize = 512;
 const MOST_PRODUCTS: usize = 40_000_000;
+
+/// The tolerance within which a body without a closed form is followed over the long run, absolute and relative.
+const LONG_RUN_TOLERANCE: f64 = 1e-9;
 
 /// The work of one moment of an exact flow and of a reference solution, in evaluations of one coordinate, and the products
 /// of a flow's matrix that take as much as one.
@@ -178,8 +181,11 @@ impl BodyTruth {
         extent.cover(0.0, body.kinetic_energy());
         let conserves = body.energy().is_some() && self.inputs.is_empty();
         let mut moments: u64 = 0;
+        // A reference is dear: what was seen of it is kept.
+        let mut seen = (self.body.kind.truth == Truth::Reference).then(Vec::new);
         let walked = follow_truth(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
             moments += 1;
+            seen.iter_mut().for_each(|seen| seen.push((from.clone(), to.clone())));
             reach.take_in(from, to);
             for moment in fastest(from, to).into_iter().filter(|_| conserves) {
                 there.set(0.0, &moment.x[..n], &moment.x[n..]);
@@ -198,37 +204,57 @@ impl BodyTruth {
         let middle = |range: &(f64, f64)| range.0 + (range.1 - range.0) / 2.0;
         self.centres = reach.ranges.0[..n].iter().map(middle).collect();
         if self.failure.is_none() && self.energy_scale.is_some() {
-            self.swing = self.watch(&self.centres, most);
+            self.swing = self.watch(&self.centres, seen.as_deref(), most);
         }
         let returns = self.swing.as_ref().is_some_and(|swing| swing.crossings.len() > 2);
         if !self.is_oscillator() && !returns && !self.fails_at_start {
             // Other motions are followed beyond the horizon, as far as the truth goes.
-            let mut body = self.start(Solver::Truth);
-            reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
-            let mut sums = vec![0.0; n];
-            let mut seconds = 0.0;
-            let long_run_s = LONG_RUN * self.horizon_s;
-            let mut moments = 0;
-            let _ = follow_truth(&mut *body, &self.inputs, long_run_s, most, |from, to| {
-                moments += 1;
-                reach.take_in(from, to);
-                seconds += to.t - from.t;
-                for (i, sum) in sums.iter_mut().enumerate() {
-                    *sum += (to.t - from.t) * (from.x[i] + to.x[i]) / 2.0;
-                }
-            });
-            self.count_moments(moments, &*body);
-            if self.energy_scale.is_none() && seconds > 0.0 {
+            let long = Some(self.body.kind.truth)
+                .filter(|truth| *truth == Truth::Reference && self.failure.is_none())
+                .and_then(|_| self.long_run(close_solver(), most).ok())
+                .unwrap_or_else(|| match self.long_run(Solver::Truth, most) {
+                    Ok(long) | Err(long) => long,
+                });
+            reach = long.reach;
+            if self.energy_scale.is_none() && !long.means.is_empty() {
                 // A motion that comes to rest swings about its place of rest.
-                self.centres = sums.iter().map(|sum| sum / seconds).collect();
+                self.centres = long.means;
             }
         }
         // What is knocked away from a target that stays does not swing about it.
         let is_chase = body.pursuit(0.0).is_some_and(|pursuit| pursuit.is_still);
         if self.failure.is_none() && self.energy_scale.is_none() && !is_chase {
-            self.swing = self.watch(&self.centres, most);
+            self.swing = self.watch(&self.centres, seen.as_deref(), most);
         }
         self.reach = reach.reach(&self.body, &self.centres, &self.amplitudes);
+    }
+
+    /// The motion over the long run under this solver.
+    ///
+    /// # Errors
+    /// If the solver fails: the motion up to there.
+    fn long_run(&self, solver: Solver, most: usize) -> Result<LongRun, LongRun> {
+        let mut body = self.start(solver);
+        let mut reach = ReachSoFar::new(Ranges::at(&*body), &self.body);
+        let mut sums = vec![0.0; body.q().len()];
+        let (mut seconds, mut moments) = (0.0, 0);
+        let long_run_s = LONG_RUN * self.horizon_s;
+        let walked = follow_truth(&mut *body, &self.inputs, long_run_s, most, |from, to| {
+            moments += 1;
+            reach.take_in(from, to);
+            seconds += to.t - from.t;
+            for (i, sum) in sums.iter_mut().enumerate() {
+                *sum += (to.t - from.t) * (from.x[i] + to.x[i]) / 2.0;
+            }
+        });
+        match solver {
+            Solver::Truth => self.count_moments(moments, &*body),
+            _ => self.count_work(body.evaluations() * sums.len() as u64),
+        }
+        let means =
+            if seconds > 0.0 { sums.iter().map(|sum| sum / seconds).collect() } else { Vec::new() };
+        let long = LongRun { reach, means };
+        if walked.is_ok() { Ok(long) } else { Err(long) }
     }
 
     /// Whether a reference solution would take too much work, so that there is none.
@@ -242,6 +268,21 @@ impl BodyTruth {
             modes.iter().all(|(mode, _)| mode.is_conserved() && mode.omega_squared > 0.0)
         })
     }
+}
+
+/// The motion over the long run.
+struct LongRun {
+    reach: ReachSoFar,
+    /// The mean of each coordinate; empty if it was not followed.
+    means: Vec<f64>,
+}
+
+/// The solver of highest order among those that choose their steps, at [`LONG_RUN_TOLERANCE`]: how far a motion reaches in
+/// the long run, and where it rests, needs no reference, which takes ten times the work.
+fn close_solver() -> Solver {
+    let adaptive = GENERAL_METHODS.iter().filter(|method| method.tolerance.is_some());
+    let method = adaptive.max_by_key(|method| method.order).expect("a method is adaptive");
+    Solver::WithTolerance(method, LONG_RUN_TOLERANCE)
 }
 
 /// The second of two moments, and 15 between them if a velocity has an extreme there.
@@ -279,78 +320,4 @@ fn shares(body: &dyn Stepper, modes: Vec<NormalMode>) -> Vec<(NormalMode, f64)> 
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lab::Scene;
-
-    fn truth(text: &str, seconds: f64) -> BodyTruth {
-        let text = format!("title = \"t\"\ntick_hz = 60\nseconds = {seconds}\n{text}");
-        let scene = Scene::parse("t", &text).unwrap();
-        BodyTruth::new(&scene.bodies[0], &[], 1.0, seconds)
-    }
-
-    #[test]
-    fn amplitudes_do_not_depend_on_the_ratio_of_period_and_horizon() {
-        let omega = std::f64::consts::TAU;
-        for seconds in [1.0, 20.0, 511.0, 512.0, 1024.0] {
-            let spring =
-                format!("[[spring]]\nmass_kg = 1\nstiffness_n_per_m = {}\n", omega * omega);
-            let [q, v] = truth(&spring, seconds).amplitudes[..] else { panic!("one coordinate") };
-            assert!(
-                (q - 1.0).abs() < 1e-4 && (v / omega - 1.0).abs() < 1e-4,
-                "{seconds} s: {q}, {v}"
-            );
-        }
-        // 512 periods and a half in 20 s.
-        let fast = "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 25872.6957612\nx0_m = 0\nv0_m_per_s = 10\n";
-        let [q, v] = truth(fast, 20.0).amplitudes[..] else { panic!("one coordinate") };
-        let omega = 25_872.695_761_2_f64.sqrt();
-        assert!((q * omega / 10.0 - 1.0).abs() < 1e-4 && (v / 10.0 - 1.0).abs() < 1e-4, "{q}, {v}");
-        // Gone within a hundredth of the stretch: the velocity's range is that of its first swing.
-        let damped =
-            "[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 10000\ndamping_n_s_per_m = 100\n";
-        let [q, v] = truth(damped, 60.0).amplitudes[..] else { panic!("one coordinate") };
-        let dense = (0..200_000).map(|i| f64::from(i) * 5e-7).map(|t| {
-            let w = 7500.0_f64.sqrt();
-            let decay = libm::exp(-50.0 * t);
-            let x = decay * (libm::cos(w * t) + 50.0 / w * libm::sin(w * t));
-            (x, -decay * 10_000.0 / w * libm::sin(w * t))
-        });
-        let (mut x, mut y) = ((1.0_f64, 1.0_f64), (0.0_f64, 0.0_f64));
-        for (q, v) in dense {
-            x = (x.0.min(q), x.1.max(q));
-            y = (y.0.min(v), y.1.max(v));
-        }
-        let (expected_q, expected_v) = ((x.1 - x.0) / 2.0, (y.1 - y.0) / 2.0);
-        assert!((q / expected_q - 1.0).abs() < 1e-3, "{q}, not {expected_q}");
-        assert!((v / expected_v - 1.0).abs() < 1e-3, "{v}, not {expected_v}");
-    }
-
-    #[test]
-    fn an_eccentric_orbit_keeps_the_peak_of_its_speed() {
-        // Of eccentricity 0.998: 2000 times as fast near the centre as far from it.
-        let orbit =
-            "[[orbit]]\nmu_m3_per_s2 = 1000\nx0_m = 100\nvy0_m_per_s = 0.1414213562373095\n";
-        let truth = truth(orbit, 200.0);
-        let fastest = truth.amplitudes[3];
-        assert!((fastest / 70.78 - 1.0).abs() < 0.01, "{fastest}");
-    }
-
-    #[test]
-    fn a_pendulum_swings_at_the_period_of_its_amplitude() {
-        let truth = truth("[[pendulum]]\nlength_m = 0.4\ntheta0_rad = 0.7\n", 20.0);
-        let swing = truth.swing.unwrap();
-        let n = swing.crossings.len() - 1;
-        let period = (swing.crossings[n] - swing.crossings[0]) / n as f64;
-        // 2π √(l/g) (1 + θ²/16 + 11 θ⁴/3072 + 173 θ⁶/737280)
-        let series = 1.0
-            + 0.49 / 16.0
-            + 11.0 * 0.49_f64.powi(2) / 3072.0
-            + 173.0 * 0.49_f64.powi(3) / 737_280.0;
-        let expected = std::f64::consts::TAU * (0.4_f64 / 9.81).sqrt() * series;
-        assert!((period / expected - 1.0).abs() < 1e-5, "{period}, not {expected}");
-        let whole = &swing.half_turns[..swing.half_turns.len() - 1];
-        assert_eq!(whole.len(), 2 * swing.crossings.len() + 1, "from rest at the right: {whole:?}");
-        assert!(whole.iter().all(|peak| (peak - 1.0).abs() < 1e-3), "{whole:?}");
-    }
-}
+mod tests;

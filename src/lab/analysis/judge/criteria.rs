@@ -115,6 +115,9 @@ impl Judge {
         tick_hz: u32,
     ) -> CriterionFinding {
         self.each(tick_hz, |truth| {
+            if truth.is_too_dear() {
+                return Err(CriterionMiss::Unknown);
+            }
             let run = follow(truth, spec, tick_hz, Until::Error(TOLERANCE), self.most_work);
             require_truth(truth, &run, tick_hz)?;
             cost_if(run.error <= TOLERANCE, &run)
@@ -130,6 +133,9 @@ impl Judge {
         tick_hz: u32,
     ) -> CriterionFinding {
         self.each(tick_hz, |truth| {
+            if truth.is_too_dear() {
+                return Err(CriterionMiss::Unknown);
+            }
             let run = follow(truth, spec, tick_hz, Until::Horizon, self.most_work);
             require_truth(truth, &run, tick_hz)?;
             if run.failure.is_some() || run.error <= TOLERANCE {

@@ -19,15 +19,20 @@ pub(in crate::lab::analysis) struct Swing {
 }
 
 impl BodyTruth {
-    /// The swing about `middles`, one per coordinate.
-    pub(super) fn watch(&self, middles: &[f64], most: usize) -> Option<Swing> {
+    /// The swing about `middles`, one per coordinate, from the moments that were `seen` if they were kept.
+    pub(super) fn watch(
+        &self,
+        middles: &[f64],
+        seen: Option<&[(Moment, Moment)]>,
+        most: usize,
+    ) -> Option<Swing> {
         let n = middles.len();
         let mut crossings = vec![Vec::new(); n];
         let mut passages = vec![Vec::new(); n];
         let fast: Vec<f64> = self.amplitudes[n..].iter().map(|v| FAINT * v).collect();
         let mut peaks: Vec<(f64, f64)> = Vec::new();
         let mut body = self.start(Solver::Truth);
-        let walked = follow_truth(&mut *body, &self.inputs, self.horizon_s, most, |from, to| {
+        let mut see = |from: &Moment, to: &Moment| {
             let mut peak: f64 = 0.0;
             for i in 0..n {
                 let (a, b) = (from.x[i] - middles[i], to.x[i] - middles[i]);
@@ -45,9 +50,14 @@ impl BodyTruth {
                 }
             }
             peaks.push((to.t, peak));
-        });
-        self.count_moments(peaks.len() as u64, &*body);
-        walked.ok()?;
+        };
+        match seen {
+            Some(seen) => seen.iter().for_each(|(from, to)| see(from, to)),
+            None => {
+                follow_truth(&mut *body, &self.inputs, self.horizon_s, most, see).ok()?;
+                self.count_moments(peaks.len() as u64, &*body);
+            }
+        }
         let coordinate = (0..n).find(|&i| crossings[i].len() >= 2)?;
         let crossings = std::mem::take(&mut crossings[coordinate]);
         let passages = &passages[coordinate];
