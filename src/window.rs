@@ -19,6 +19,7 @@ mod clipboard;
 mod error;
 mod event;
 mod export;
+mod growing_recording;
 mod interrupt;
 mod keys;
 mod new_file;
@@ -37,7 +38,7 @@ mod watch;
 mod work_thread;
 
 pub use error::WindowError;
-pub use opening::{ReadScene, SceneFiles};
+pub use opening::{KeepRecording, ReadScene, SceneFiles};
 pub use run_of_session::Window;
 pub use settings::{Closed, WindowSettings};
 
@@ -45,6 +46,7 @@ use canvas::{Canvas, Drawn};
 use clipboard::Clipboard;
 use error::reason;
 use event::Event;
+use growing_recording::GrowingRecording;
 use keys::Modifiers;
 use pace::Meter;
 use tick_timer::TickTimer;
@@ -77,7 +79,7 @@ pub fn run(
     if heeds_interrupts {
         interrupt::heed(event_loop.create_proxy());
     }
-    let SceneFiles { read, opened } = files;
+    let SceneFiles { read, opened, keep } = files;
     let watch = FileWatch::new(Arc::clone(&read), proxy.clone());
     if let Some((path, _)) = &opened {
         lab.list_as_file(path);
@@ -88,6 +90,7 @@ pub fn run(
     let mut app = App {
         analysis: WorkThread::new(analysis, analysed, proxy.clone()),
         loops: WorkThread::new(LoopWorker::default(), None, proxy.clone()),
+        recording: keep.map(|keep| GrowingRecording::new(keep, proxy.clone())),
         tick_timer: TickTimer::new(proxy.clone()),
         lab,
         read,
@@ -120,6 +123,7 @@ struct App {
     lab: Lab,
     analysis: WorkThread<AnalysisWorker>,
     loops: WorkThread<LoopWorker>,
+    recording: Option<GrowingRecording>,
     tick_timer: TickTimer,
     read: ReadScene,
     watch: FileWatch,
@@ -187,7 +191,13 @@ impl App {
                 self.asked.extend(commands);
                 let notice_leaves = self.lab.notice_left_ns().map(|ns| ns.unsigned_abs());
                 let notice_leaves = notice_leaves.map_or(Duration::MAX, Duration::from_nanos);
-                let after = if again { Duration::ZERO } else { repaint_after.min(notice_leaves) };
+                let recorded = || self.recording.as_ref()?.left(&self.lab, now);
+                let after = match again {
+                    true => Duration::ZERO,
+                    false => {
+                        repaint_after.min(notice_leaves).min(recorded().unwrap_or(Duration::MAX))
+                    }
+                };
                 self.schedule(event_loop, now, after);
             }
             Ok(Drawn::Skipped) => {
@@ -243,6 +253,9 @@ impl App {
         self.lab.set_pace(self.meter.pace());
         if self.lab.race().tick() >= last {
             self.end(event_loop, Ok(()));
+        }
+        if let Some(recording) = &mut self.recording {
+            recording.update(&self.lab, now);
         }
         let title = self.lab.title();
         if title != self.title
@@ -308,54 +321,7 @@ impl ApplicationHandler<Event> for App {
     }
 
     fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Event) {
-        match event {
-            #[cfg(feature = "accessibility")]
-            Event::ScreenReader(request) => {
-                if let Some(canvas) = &mut self.canvas {
-                    screen_reader::answer(&mut canvas.egui, request);
-                    self.request_redraw();
-                }
-            }
-            Event::Interrupted => {
-                self.interrupted = true;
-                self.end(event_loop, Ok(()));
-            }
-            Event::Analysed(findings) => {
-                self.lab.accept_findings(findings);
-                if !self.lab.running() {
-                    self.request_redraw();
-                }
-            }
-            Event::LoopRun(found) => {
-                self.lab.accept_loop(found);
-                if !self.lab.running() {
-                    self.request_redraw();
-                }
-            }
-            Event::TicksTimed(times) => {
-                self.lab.set_tick_times(times);
-                if !self.lab.running() {
-                    self.request_redraw();
-                }
-            }
-            Event::FileGone(path) => {
-                self.lab.file_is_gone(&path);
-                self.request_redraw();
-            }
-            Event::FileBack(path) => {
-                self.lab.file_is_back(&path);
-                self.request_redraw();
-            }
-            Event::FileChanged { path, read } => {
-                match read {
-                    Ok((scene, _)) => self.lab.reload_file(&path, scene),
-                    Err(report) => self.lab.reload_failed(&path, report),
-                }
-                // The time that this took is not simulated.
-                self.stand_still();
-                self.request_redraw();
-            }
-        }
+        self.heed(event_loop, event);
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {

@@ -28,6 +28,7 @@ mod experiment;
 mod scene_file;
 mod spring;
 mod trace_source;
+mod unfinished;
 
 mod clip;
 mod fingerprint;

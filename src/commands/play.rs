@@ -16,6 +16,7 @@ use super::preferences::{self, Preferences};
 use super::recording::Recording;
 use super::schedule::{FPS, Schedule, frames_in};
 use super::terminal::tell;
+use super::unfinished::{self, UnfinishedRecording};
 use super::{clip, scene_file, state_log};
 use crate::lab::pacing::TraceCard;
 use crate::lab::palette::Theme;
@@ -54,7 +55,8 @@ pub(super) struct PlayArgs {
     #[arg(allow_negative_numbers = true)]
     seconds: Option<f64>,
 
-    /// Write the run to FILE as a scene when the window is closed or Ctrl-C is pressed
+    /// Write the run to FILE as a scene when the window is closed or Ctrl-C is pressed; until then it grows beside it, in
+    /// FILE.unfinished.toml
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
 
@@ -134,13 +136,20 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     });
     refuse_to_record_over(&options, record.as_ref())?;
     let record = record.map(AtomicOutput::open_for_text).transpose()?;
+    let unfinished = record.as_ref().and_then(AtomicOutput::file).map(UnfinishedRecording::beside);
+    for told in unfinished::left_behind() {
+        tell(&told);
+        lab.set_notice(told);
+    }
     let played = lab.scene().name.clone();
     let settings = WindowSettings {
         seconds: args.seconds,
         size: preferences.size,
         heeds_interrupts: record.is_some(),
     };
-    let (lab, interrupted) = match window::run(lab, settings, files(&options, &experiment)) {
+    let keep = unfinished.as_ref().map(UnfinishedRecording::keeper);
+    let files = SceneFiles { keep, ..files(&options, &experiment) };
+    let (lab, interrupted) = match window::run(lab, settings, files) {
         Err(WindowError::NoDisplay(reason)) => {
             (without_display(args, &experiment, &reason)?, false)
         }
@@ -160,6 +169,7 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         let text = lab.recording()?;
         record.write_all(text.as_bytes()).map_err(|error| record.failed(error))?;
         let name = record.close_beside()?;
+        unfinished.map(UnfinishedRecording::finish);
         if name != wanted {
             tell(&format!("another program created {wanted} during the run; it was not replaced"));
         }
@@ -237,5 +247,5 @@ fn files(args: &ExperimentArgs, experiment: &Experiment) -> SceneFiles {
     };
     let is_file = !scene_file::is_built_in(args.scene());
     let opened = is_file.then(|| (args.scene().to_owned(), experiment.text.clone()));
-    SceneFiles { read: Arc::new(read), opened }
+    SceneFiles { read: Arc::new(read), opened, keep: None }
 }

@@ -131,8 +131,13 @@ pub(super) fn scene_of(lab: &Lab) -> Option<PathBuf> {
     }
 }
 
+/// The folder of the program's settings.
+pub(super) fn folder() -> Option<PathBuf> {
+    Some(ProjectDirs::from("", "", "regatta")?.config_dir().to_owned())
+}
+
 fn path() -> Option<PathBuf> {
-    Some(ProjectDirs::from("", "", "regatta")?.config_dir().join(FILE_NAME))
+    Some(folder()?.join(FILE_NAME))
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use super::past::{History, Past};
 use super::race::{Entrant, Mode, Race};
 use super::scene::Scene;
 use super::scene_list::SceneList;
-use super::session::{RecordingError, Session, StartSettings, Timeline};
+use super::session::{RecordingError, RunToRecord, Session, StartSettings, Timeline};
 use super::viewer::Viewer;
 use crate::sim::Clock;
 
@@ -224,5 +224,10 @@ impl Lab {
     /// As [`Session::recording_text`](super::Session::recording_text).
     pub fn recording(&self) -> Result<String, RecordingError> {
         self.timeline.session().recording_text(self.timeline.end())
+    }
+
+    /// The whole run, for a [`Recorder`](super::Recorder).
+    pub fn to_record(&self) -> RunToRecord {
+        self.timeline.session().to_record(self.timeline.end())
     }
 }

@@ -101,7 +101,10 @@ pub use scene::{
     nearest, parameter_named,
 };
 pub use scene_list::SceneList;
-pub use session::{Event, EventKind, RecordingError, SNAPSHOT_BYTES, Session, TimeScale, Timeline};
+pub use session::{
+    Event, EventKind, Recorder, RecordingError, RunToRecord, SNAPSHOT_BYTES, Session, TimeScale,
+    Timeline,
+};
 pub use source_code::{
     Language, METHOD_SOURCES, MethodInput, MethodSource, NoSourceCode, Precision, source_code,
 };

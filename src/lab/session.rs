@@ -14,7 +14,7 @@ mod time_scale;
 mod timeline;
 mod undo;
 
-pub use recording::RecordingError;
+pub use recording::{Recorder, RecordingError, RunToRecord};
 pub use run_with_past::{Event, EventKind};
 pub(in crate::lab) use start::StartSettings;
 pub use time_scale::TimeScale;
@@ -28,6 +28,8 @@ pub struct Session {
     race: Race,
     /// The race at its start without a journal, from which a recording begins.
     start: Box<Race>,
+    /// The same one in all copies of this run.
+    identity: Arc<()>,
 }
 
 impl Session {
@@ -55,7 +57,7 @@ impl Session {
     pub(super) fn new(scene: Arc<Scene>, race: Race) -> Self {
         let mut start = race.clone();
         start.set_journal(Journal::default());
-        Self { scene, race, start: Box::new(start) }
+        Self { scene, race, start: Box::new(start), identity: Arc::default() }
     }
 
     /// The scene at its start with one lane, under the method at place `entry` of the scene's [list](Scene::method_list).

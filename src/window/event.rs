@@ -2,8 +2,11 @@
 
 use std::path::PathBuf;
 
+use winit::event_loop::ActiveEventLoop;
+
+use super::App;
 #[cfg(feature = "accessibility")]
-use super::screen_reader::Request;
+use super::screen_reader::{self, Request};
 use crate::lab::{Findings, FoundLoop, LaneSpec, Scene};
 
 /// An event from the program's own threads or from a screen reader.
@@ -19,10 +22,70 @@ pub(super) enum Event {
     TicksTimed(Vec<(LaneSpec, Option<f64>)>),
     /// Ctrl-C was pressed in the terminal.
     Interrupted,
+    /// The run is not recorded as it grows, for this reason.
+    NotRecorded(String),
     /// A watched scene file has changed; `read` is what it holds now.
     FileChanged { path: PathBuf, read: Result<(Scene, String), String> },
     /// A watched scene file cannot be read any more.
     FileGone(PathBuf),
     /// A scene file that was gone exists again, unchanged.
     FileBack(PathBuf),
+}
+
+impl App {
+    /// Does what the event asks for.
+    pub(super) fn heed(&mut self, event_loop: &ActiveEventLoop, event: Event) {
+        match event {
+            #[cfg(feature = "accessibility")]
+            Event::ScreenReader(request) => {
+                if let Some(canvas) = &mut self.canvas {
+                    screen_reader::answer(&mut canvas.egui, request);
+                    self.request_redraw();
+                }
+            }
+            Event::Interrupted => {
+                self.interrupted = true;
+                self.end(event_loop, Ok(()));
+            }
+            Event::Analysed(findings) => {
+                self.lab.accept_findings(findings);
+                if !self.lab.running() {
+                    self.request_redraw();
+                }
+            }
+            Event::LoopRun(found) => {
+                self.lab.accept_loop(found);
+                if !self.lab.running() {
+                    self.request_redraw();
+                }
+            }
+            Event::NotRecorded(reason) => {
+                self.lab.set_notice(format!("The recording is not kept as it grows: {reason}"));
+                self.request_redraw();
+            }
+            Event::TicksTimed(times) => {
+                self.lab.set_tick_times(times);
+                if !self.lab.running() {
+                    self.request_redraw();
+                }
+            }
+            Event::FileGone(path) => {
+                self.lab.file_is_gone(&path);
+                self.request_redraw();
+            }
+            Event::FileBack(path) => {
+                self.lab.file_is_back(&path);
+                self.request_redraw();
+            }
+            Event::FileChanged { path, read } => {
+                match read {
+                    Ok((scene, _)) => self.lab.reload_file(&path, scene),
+                    Err(report) => self.lab.reload_failed(&path, report),
+                }
+                // The time that this took is not simulated.
+                self.stand_still();
+                self.request_redraw();
+            }
+        }
+    }
 }

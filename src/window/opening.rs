@@ -10,12 +10,18 @@ use crate::lab::{Command, Lab, SCENES, Scene};
 /// Reads a scene file and returns its scene and its text, or the error report that the command line would print.
 pub type ReadScene = Arc<dyn Fn(&Path) -> Result<(Scene, String), String> + Send + Sync>;
 
-/// How a window reads scene files, and the one that it starts with.
+/// Keeps the recording of a run so far, a scene file's text, or says why not. It is called every few seconds, with more each
+/// time, on a thread of its own.
+pub type KeepRecording = Box<dyn FnMut(&str) -> Result<(), String> + Send>;
+
+/// How a window reads and writes scene files, and the one that it starts with.
 pub struct SceneFiles {
     /// The function that reads a file.
     pub read: ReadScene,
     /// The file that the window's lab was read from, and its text.
     pub opened: Option<(PathBuf, String)>,
+    /// The function that keeps the recording of the run as it grows, if it is recorded.
+    pub keep: Option<KeepRecording>,
 }
 
 /// Opens the scene file at `path` and returns its path and text. If it cannot be opened, a dialog says why.

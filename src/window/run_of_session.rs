@@ -32,7 +32,7 @@ impl Window {
             let scene = Scene::from_bytes(&name, &bytes).map_err(|errors| errors.to_string())?;
             Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
         };
-        let files = SceneFiles { read: Arc::new(read), opened: None };
+        let files = SceneFiles { read: Arc::new(read), opened: None, keep: None };
         run(Lab::of_session(session), WindowSettings::default(), files)
     }
 }

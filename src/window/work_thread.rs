@@ -79,6 +79,11 @@ impl<W: Work> WorkThread<W> {
         Self { requests, current: request, sent }
     }
 
+    /// The request that was sent last.
+    pub(super) fn request(&self) -> &W::Request {
+        &self.current
+    }
+
     /// Replaces the request, if it has changed.
     pub(super) fn ask(&mut self, request: W::Request) {
         if !W::is_same(&request, &self.current) {

@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, BufReader, Write};
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -272,6 +272,18 @@ impl Desk {
         self.ends();
     }
 
+    /// Kills the program, which can do nothing about it, and returns its display.
+    pub(crate) fn kill(self) -> Display {
+        let Self { program, display, .. } = self;
+        drop(program);
+        display
+    }
+
+    /// The folder that the program works in.
+    pub(crate) fn folder(&self) -> &Path {
+        self.display.folder()
+    }
+
     /// Waits for the program to end of itself, which it has to do well and in silence.
     #[track_caller]
     pub(crate) fn ends(mut self) {
@@ -327,6 +339,11 @@ impl Display {
     pub(crate) fn start(&self, arguments: &str, variables: &[(&str, &str)]) -> Program {
         let here = [("DISPLAY", self.name.as_str()), ("WINIT_X11_SCALE_FACTOR", "1")];
         Program::start(self.folder.path(), arguments, &[&here, variables].concat())
+    }
+
+    /// The folder that its programs work in.
+    pub(crate) fn folder(&self) -> &Path {
+        self.folder.path()
     }
 
     fn xdotool(&self, words: &str) -> Result<String, String> {

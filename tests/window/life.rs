@@ -157,3 +157,36 @@ fn the_scene_that_was_open_last_opens_again_unless_another_is_asked_for() {
     desk.titled("Regatta - harbour - Explicit Euler - 60 Hz");
     desk.program.says("window.toml is ignored: its theme cannot be understood").unwrap();
 }
+
+#[test]
+fn a_killed_program_leaves_its_recording_and_the_next_start_says_where() {
+    let test = "a_killed_program_leaves_its_recording_and_the_next_start_says_where";
+    let Some(desk) = Desk::open(test, "--scene spring --record run.toml") else { return };
+    desk.press("2");
+    desk.press("space");
+    let file = desk.folder().join("run.unfinished.toml");
+    let is_kept = || std::fs::read_to_string(&file).is_ok_and(|text| text.contains("[[command]]"));
+    // Paused, too, what was done last is kept.
+    until("the recording", || is_kept().then_some(()));
+    let mut notes = desk.folder().join("config/regatta/recordings").read_dir().unwrap();
+    assert!(notes.next().is_some());
+    let display = desk.kill();
+    let mut verified = display.start("verify run.unfinished.toml", &[]);
+    let status = until("the end", || verified.ended());
+    assert_eq!(status.code(), Some(0), "{}", verified.said());
+
+    let mut again = display.start("--scene spring --seconds 0.1 --record run.toml", &[]);
+    until("the end", || again.ended());
+    let said = again.said();
+    let told = said.lines().next().unwrap_or_default();
+    assert!(told.starts_with("a recording was not finished when its window ended"), "{said}");
+    assert!(told.ends_with("/run.unfinished.toml"), "{said}");
+    assert!(said.contains("recorded 6 ticks in run.toml"), "{said}");
+    let mut once = display.start("--scene spring --seconds 0.1", &[]);
+    until("the end", || once.ended());
+    assert_eq!(once.said(), "", "told once");
+    let folder = display.folder();
+    let left: Vec<_> = folder.read_dir().unwrap().map(|file| file.unwrap().file_name()).collect();
+    let is_unfinished = |name: &&std::ffi::OsString| name.to_string_lossy().contains("unfinished");
+    assert_eq!(left.iter().filter(is_unfinished).count(), 1, "of the killed one: {left:?}");
+}

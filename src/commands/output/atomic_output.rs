@@ -156,6 +156,14 @@ impl AtomicOutput {
         }
     }
 
+    /// The path of the file, if it is one.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        match self {
+            AtomicOutput::File { path, .. } => Some(path),
+            AtomicOutput::Stdout(_) | AtomicOutput::Device { .. } => None,
+        }
+    }
+
     /// The error for a failed write.
     pub(crate) fn failed(&self, error: io::Error) -> OutputError {
         match self {

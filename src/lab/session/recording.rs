@@ -1,7 +1,10 @@
 //! A run as a scene: its start, its actions, and its states as checks.
 
+use std::sync::Arc;
+
 use super::Session;
 use crate::lab::action::Action;
+use crate::lab::journal::Journal;
 use crate::lab::race::{Mode, Observer, Race};
 use crate::lab::scene::{Check, LARGEST_FILE, LEAST_SECONDS, Scene, Scripted};
 
@@ -36,12 +39,7 @@ impl Session {
     /// # Errors
     /// If it is too long for a scene file, or if a file cannot say what it is of.
     pub fn recording_text(&self, end: u64) -> Result<String, RecordingError> {
-        if let Some(what) = self.scene.in_rust() {
-            return Err(RecordingError::InRust { what: what.to_owned() });
-        }
-        let text = self.recording(end).to_toml();
-        let bytes = text.len();
-        if bytes > LARGEST_FILE { Err(RecordingError::TooLong { bytes }) } else { Ok(text) }
+        Recorder::default().text(&self.to_record(end), &|| false)
     }
 
     /// A scene whose race repeats this run to the bit, from its start to tick `end`: as long as that, or as the scene if no
@@ -52,40 +50,141 @@ impl Session {
     /// An action that names a method without a lane is recorded as a switch of its lane, so that it takes effect in a race
     /// too.
     pub fn recording(&self, end: u64) -> Scene {
-        let mut race = self.start().clone();
-        let lanes: Vec<usize> = race.entrants().iter().map(|e| e.lane_number).collect();
-        let specs = race.entrants().iter().map(|entrant| race.list()[entrant.entry]);
-        let mut scene = Scene {
-            lanes: specs.collect(),
-            tick_hz: race.tick_hz(),
-            opening_method: None,
-            equal_cost: false,
-            opens_as_race: race.mode() == Mode::Race,
-            script: Vec::new(),
-            checks: Vec::new(),
-            ..(*self.scene).clone()
-        };
-        race.set_journal(self.journal().clone());
+        let run = self.to_record(end);
+        let mut repeated = Repeated::new(&run);
+        repeated.advance(end, &|| false);
+        repeated.scene(&run)
+    }
 
-        let mut recorder = ScriptRecorder { lanes, script: Vec::new() };
-        let (mut next_s, mut checks) = (1.0, Vec::new());
-        while race.tick() < end {
-            race.step_seen(&mut recorder);
-            let (tick, t) = (race.tick(), race.t() + ON_TIME_S);
-            if t >= next_s && tick < end {
-                checks.push((tick, recorder.hashes(&race)));
-                next_s = libm::floor(t) + 1.0;
+    /// What a recording to tick `end` is made of.
+    pub(in crate::lab) fn to_record(&self, end: u64) -> RunToRecord {
+        let (identity, scene) = (Arc::clone(&self.identity), Arc::clone(&self.scene));
+        let (start, journal) = (self.start.clone(), self.journal().clone());
+        RunToRecord { identity, scene, start, journal, end }
+    }
+}
+
+/// A run to its last tick, for a [`Recorder`]. Two of one run are equal if they have the same recording.
+#[derive(Clone)]
+pub struct RunToRecord {
+    identity: Arc<()>,
+    scene: Arc<Scene>,
+    start: Box<Race>,
+    journal: Journal,
+    end: u64,
+}
+
+impl RunToRecord {
+    fn is_of_run_of(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.identity, &other.identity)
+    }
+}
+
+impl PartialEq for RunToRecord {
+    fn eq(&self, other: &Self) -> bool {
+        self.is_of_run_of(other) && self.end == other.end && self.journal == other.journal
+    }
+}
+
+/// Makes the recordings of a run as it grows. Each repeats only what is new since the last, if what came before is the
+/// same.
+#[derive(Default)]
+pub struct Recorder {
+    last: Option<(RunToRecord, Repeated)>,
+}
+
+impl Recorder {
+    /// The text of the [recording](Session::recording) of a run, or of the part of it before `stop` says so.
+    ///
+    /// # Errors
+    /// As [`Session::recording_text`].
+    pub fn text(
+        &mut self,
+        run: &RunToRecord,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<String, RecordingError> {
+        if let Some(what) = run.scene.in_rust() {
+            return Err(RecordingError::InRust { what: what.to_owned() });
+        }
+        let known = self.last.take();
+        let known = known.filter(|(last, repeated)| repeated.is_part_of(last, run));
+        let mut repeated = known.map_or_else(|| Repeated::new(run), |(_, repeated)| repeated);
+        repeated.race.set_journal(run.journal.clone());
+        repeated.advance(run.end, stop);
+        let text = repeated.scene(run).to_toml();
+        self.last = Some((run.clone(), repeated));
+        let bytes = text.len();
+        if bytes > LARGEST_FILE { Err(RecordingError::TooLong { bytes }) } else { Ok(text) }
+    }
+}
+
+/// A run that is repeated to be recorded.
+struct Repeated {
+    race: Race,
+    recorder: ScriptRecorder,
+    /// The ticks of the checks so far, with the hash of each lane.
+    checks: Vec<(u64, Vec<(usize, u64)>)>,
+    /// When the next is due, in seconds.
+    next_s: f64,
+}
+
+impl Repeated {
+    /// A run at its start.
+    fn new(run: &RunToRecord) -> Self {
+        let mut race = (*run.start).clone();
+        race.set_journal(run.journal.clone());
+        let lanes = race.entrants().iter().map(|e| e.lane_number).collect();
+        let recorder = ScriptRecorder { lanes, script: Vec::new() };
+        Self { race, recorder, checks: Vec::new(), next_s: 1.0 }
+    }
+
+    /// Whether what was repeated of the run `last` is a part of `run`, too.
+    fn is_part_of(&self, last: &RunToRecord, run: &RunToRecord) -> bool {
+        let (done, tick) = (self.race.done(), self.race.tick());
+        let [before, now] = [&last.journal, &run.journal].map(|journal| journal.rows());
+        let is_same = || now.len() >= done && now[..done] == before[..done];
+        let is_later = || now[done..].first().is_none_or(|next| next.tick >= tick);
+        last.is_of_run_of(run) && tick <= run.end && is_same() && is_later()
+    }
+
+    /// Repeats the run to tick `end`, or until `stop` says so.
+    fn advance(&mut self, end: u64, stop: &dyn Fn() -> bool) {
+        while self.race.tick() < end && !stop() {
+            self.race.step_seen(&mut self.recorder);
+            let (tick, t) = (self.race.tick(), self.race.t() + ON_TIME_S);
+            if t >= self.next_s {
+                self.checks.push((tick, self.recorder.hashes(&self.race)));
+                self.next_s = libm::floor(t) + 1.0;
             }
         }
-        let every = (checks.len() * recorder.lanes.len()).div_ceil(MOST_CHECKS).max(1);
-        let kept = checks.into_iter().skip(every - 1).step_by(every);
-        let at_end = (end, recorder.hashes(&race));
-        // The actions at the last tick come after its checks.
-        race.catch_up(&mut recorder);
-        for (tick, hashes) in kept.chain([at_end]) {
-            let check = |(lane, hash)| Check { tick, lane, hash };
-            scene.checks.extend(hashes.into_iter().map(check));
+    }
+
+    /// The recording of the run so far.
+    fn scene(&self, run: &RunToRecord) -> Scene {
+        let end = self.race.tick();
+        let start = &run.start;
+        let at_start = start.entrants().iter();
+        let mut scene = Scene {
+            lanes: at_start.map(|entrant| start.list()[entrant.entry]).collect(),
+            tick_hz: start.tick_hz(),
+            opening_method: None,
+            equal_cost: false,
+            opens_as_race: start.mode() == Mode::Race,
+            script: Vec::new(),
+            checks: Vec::new(),
+            ..(*run.scene).clone()
+        };
+        let before_end: Vec<_> = self.checks.iter().filter(|(tick, _)| *tick < end).collect();
+        let every = (before_end.len() * self.recorder.lanes.len()).div_ceil(MOST_CHECKS).max(1);
+        let kept = before_end.into_iter().skip(every - 1).step_by(every);
+        let at_end = (end, self.recorder.hashes(&self.race));
+        for (tick, hashes) in kept.chain([&at_end]) {
+            let check = |&(lane, hash): &(usize, u64)| Check { tick: *tick, lane, hash };
+            scene.checks.extend(hashes.iter().map(check));
         }
+        // The actions at the last tick come after its checks, and may still be followed by others.
+        let (mut race, mut recorder) = (self.race.clone(), self.recorder.clone());
+        race.catch_up(&mut recorder);
         scene.script = recorder.script;
         if end > 0 {
             scene.seconds = race.t().max(LEAST_SECONDS);
@@ -95,6 +194,7 @@ impl Session {
 }
 
 /// Records the actions on a race as the script of a scene.
+#[derive(Clone)]
 struct ScriptRecorder {
     /// The lane numbers at the start. In the scene they are counted from 1.
     lanes: Vec<usize>,
@@ -124,5 +224,53 @@ impl Observer for ScriptRecorder {
             (None, other) => other.clone(),
         };
         self.script.push(Scripted { tick: race.tick(), action });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_that_grows_is_recorded_as_if_it_were_recorded_at_once() {
+        let mut session = Session::racing(Scene::built_in("harbour").unwrap().into());
+        let mut recorder = Recorder::default();
+        let mut grown = |session: &Session, end| {
+            let text = recorder.text(&session.to_record(end), &|| false);
+            assert_eq!(text, session.recording_text(end), "to tick {end}");
+        };
+        grown(&session, 0);
+        for (ticks, action) in [
+            (59, None),
+            (1, Some(Action::Kick(2.0))),
+            (0, Some(Action::TickHz(30))),
+            (40, Some(Action::Kick(-1.0))),
+        ] {
+            session.run(ticks);
+            session.act(Action::Throttle(0.5));
+            grown(&session, session.race().tick());
+            action.map(|action| session.act(action));
+            grown(&session, session.race().tick());
+        }
+        // The past is changed: another future.
+        let mut other = session.before_its_first_tick();
+        other.run(30);
+        other.act(Action::Kick(1.0));
+        other.run(100);
+        grown(&other, 130);
+        grown(&other, 90);
+        grown(&session, 100);
+    }
+
+    #[test]
+    fn a_recording_that_is_stopped_goes_on_where_it_was() {
+        let mut session = Session::racing(Scene::built_in("spring").unwrap().into());
+        session.run(100);
+        let mut recorder = Recorder::default();
+        let ticks = std::cell::Cell::new(0);
+        let stop = || ticks.replace(ticks.get() + 1) == 70;
+        assert_eq!(recorder.text(&session.to_record(100), &stop), session.recording_text(70));
+        let text = recorder.text(&session.to_record(100), &|| false);
+        assert_eq!(text, session.recording_text(100));
     }
 }
