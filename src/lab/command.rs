@@ -7,6 +7,7 @@ use super::held::HeldBody;
 use super::instrument::Instrument;
 use super::lane_spec::LaneSpec;
 use super::loop_lab::LoopCommand;
+use super::my_spring::MySpring;
 use super::quantity::Quantity;
 use super::source_code::Language;
 use super::zoom_pan::ZoomPan;
@@ -95,6 +96,12 @@ pub enum Command {
     CompletePath,
     /// Opens the file at that path.
     OpenTypedPath,
+    /// Opens a dialog with the numbers of a spring of one's own.
+    AskForSpring,
+    /// Sets those numbers.
+    DescribeSpring(MySpring),
+    /// Opens that spring as a scene, with advice on it.
+    OpenSpring,
     /// Closes the open dialog.
     CloseDialog,
     /// Shows or hides the exact ghost.

@@ -173,6 +173,12 @@ pub static KEYS: &[Binding] = &[
         repeats: false,
     },
     Binding {
+        shown: "S",
+        about: "a spring of your own: its numbers, the method to take, and the code",
+        keys: &[(Key::Sign('s'), Command::AskForSpring)],
+        repeats: false,
+    },
+    Binding {
         shown: "G",
         about: "exact ghost on / off",
         keys: &[(Key::Sign('g'), Command::ToggleGhost)],

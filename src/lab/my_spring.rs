@@ -8,6 +8,9 @@ use super::scene::{Scene, SceneErrors, USUAL_SECONDS};
 /// A scene of a slow spring has at least so many of its periods.
 const LEAST_PERIODS: f64 = 10.0;
 
+/// The largest number of a spring that is taken.
+const MAX_NUMBER: f64 = 1e12;
+
 /// A damped spring on a mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MySpring {
@@ -17,6 +20,13 @@ pub struct MySpring {
     pub stiffness_n_per_m: f64,
     /// The damping in N s/m.
     pub damping_n_s_per_m: f64,
+}
+
+impl Default for MySpring {
+    /// The example of the documentation.
+    fn default() -> Self {
+        Self { mass_kg: 12.0, stiffness_n_per_m: 900.0, damping_n_s_per_m: 4.0 }
+    }
 }
 
 impl MySpring {
@@ -39,6 +49,26 @@ impl MySpring {
     /// Its damping as a part of what just lets it swing no more.
     pub fn damping_ratio(self) -> f64 {
         self.damping_n_s_per_m / (2.0 * libm::sqrt(self.stiffness_n_per_m * self.mass_kg))
+    }
+
+    /// Finds whether a scene may have these numbers.
+    ///
+    /// # Errors
+    /// The first number that it may not have, in words.
+    pub fn check(self) -> Result<(), String> {
+        let Self { mass_kg, stiffness_n_per_m, damping_n_s_per_m } = self;
+        let (least, most) = (f64::MIN_POSITIVE, MAX_NUMBER);
+        let ranges = [
+            ("the mass", mass_kg, least),
+            ("the stiffness", stiffness_n_per_m, least),
+            ("the damping", damping_n_s_per_m, 0.0),
+        ];
+        let wrong = ranges.into_iter().find(|(_, value, from)| !(*from..=most).contains(value));
+        wrong.map_or(Ok(()), |(name, value, from)| {
+            let wanted = if from > 0.0 { "positive" } else { "0 or more" };
+            let wanted = if value > most { "at most 10¹²" } else { wanted };
+            Err(format!("{name} would be {}; it must be {wanted}", round(value, 4)))
+        })
     }
 
     /// The text of a scene of the spring alone, pulled out by a metre, at this tick rate in Hz.

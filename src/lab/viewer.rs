@@ -11,6 +11,7 @@ use super::instrument::Instrument;
 use super::interpolation::Interpolation;
 use super::lane_spec::LaneSpec;
 use super::live_loop::LiveLoop;
+use super::my_spring::MySpring;
 use super::notice::Notice;
 use super::palette::Theme;
 use super::quantity::Quantity;
@@ -19,6 +20,8 @@ use super::source_code::Language;
 /// A dialog over the window.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Dialog {
+    /// The numbers of a spring of one's own.
+    Spring,
     /// A field for the path of a scene file.
     Path {
         /// Why the scene at the typed path could not be opened; `None` once the path is edited.
@@ -61,6 +64,7 @@ pub struct Viewer {
     pub(super) held: Option<HeldBody>,
     pub(super) dialog: Option<Dialog>,
     pub(super) typed_path: String,
+    pub(super) my_spring: MySpring,
     /// Whether a person chose the theme: then it no longer follows the system's.
     pub(super) theme_is_chosen: bool,
     pub(super) hints: Hints,
@@ -107,6 +111,7 @@ impl Viewer {
             held: None,
             dialog: None,
             typed_path: String::new(),
+            my_spring: MySpring::default(),
             theme_is_chosen: false,
             hints: Hints::default(),
             tour: None,
@@ -142,6 +147,11 @@ impl Viewer {
     /// The path typed so far.
     pub fn typed_path(&self) -> &str {
         &self.typed_path
+    }
+
+    /// The spring that was described last.
+    pub fn my_spring(&self) -> MySpring {
+        self.my_spring
     }
 
     /// The body that the person holds, if any.

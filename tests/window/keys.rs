@@ -51,7 +51,7 @@ fn every_key_of_the_table_does_what_the_table_says() {
     desk.titled("Regatta - spring - Explicit Euler - 60 Hz");
     let mut lab = lab("spring");
     for (key, command) in KEYS.iter().flat_map(|binding| binding.keys) {
-        // Where a path is typed, keys are text.
+        // Where a path or a number is typed, keys are text.
         let others = [
             Command::Screenshot,
             Command::Record,
@@ -59,6 +59,7 @@ fn every_key_of_the_table_does_what_the_table_says() {
             Command::ExportInstrument,
             Command::ToggleFullScreen,
             Command::AskForPath,
+            Command::AskForSpring,
             // It opens a scene, and lets time run.
             Command::ToggleGuide,
             Command::Escape,

@@ -1,6 +1,6 @@
 //! Every kind of widget worked by the mouse, in the window and in its twin: both come to the same run, and look alike.
 
-use regatta::lab::{Command, INSTRUMENTS, Instrument, Lab, Scene};
+use regatta::lab::{Command, INSTRUMENTS, Instrument, Lab, MySpring, Scene};
 
 use crate::desk::Desk;
 use crate::twin::Twin;
@@ -137,5 +137,37 @@ fn a_drag_of_the_cross_on_the_stability_map_sets_the_tick_rate_and_the_parameter
     let value: f64 = value.expect("the last value set").parse().unwrap();
     let expected = lab.race().values(0).iter().copied().find(|value| !values.contains(value));
     assert_eq!(Some(value), expected);
+    desk.quit();
+}
+
+#[test]
+fn a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time() {
+    let test = "a_spring_of_ones_own_is_typed_advised_on_and_kept_for_the_next_time";
+    let Some((desk, mut twin)) = paused(test, "ship") else { return };
+    twin.click(&desk, "a spring of your own");
+    twin.enter(&desk, "mass", "2");
+    twin.enter(&desk, "frequency", "3");
+    twin.enter(&desk, "damping ratio", "1");
+    twin.click(&desk, "Advise at 60 Hz");
+    assert_eq!((twin.lab.scene_name().as_str(), twin.lab.race().tick()), ("my spring", 0));
+    assert_eq!(twin.lab.display().instrument, Instrument::Advice);
+    let heavier = MySpring { mass_kg: 2.0, ..MySpring::default() };
+    let faster = MySpring::of_frequency(2.0, 3.0, heavier.damping_ratio());
+    let spring = MySpring::of_frequency(2.0, faster.frequency_hz(), 1.0);
+    let told = desk.recording();
+    for line in [
+        "mass_kg = 2.0".to_owned(),
+        format!("stiffness_n_per_m = {:?}", spring.stiffness_n_per_m),
+        format!("damping_n_s_per_m = {:?}", spring.damping_n_s_per_m),
+    ] {
+        assert!(told.contains(&line), "no {line} in {told}");
+    }
+    // By keys alone: the first number has the focus, and Enter after the last goes on.
+    for key in ["s", "3", "Return", "Return"] {
+        desk.still();
+        desk.press(key);
+    }
+    desk.still();
+    assert!(desk.recording().contains("mass_kg = 3.0"), "stiffness and damping stay");
     desk.quit();
 }

@@ -110,7 +110,7 @@ impl Lab {
         let frames_per_second = loops.traces()[loops.trace()].refresh().hz().round() as i64;
         match command {
             Command::Loop(command) => self.change_loop_lab(command),
-            Command::ToggleRace => {
+            Command::ToggleRace | Command::OpenSpring => {
                 self.leave_loop_lab();
                 return Some(command);
             }

@@ -6,11 +6,14 @@ use std::path::Path;
 use super::Lab;
 use super::restarting::is_by_hand;
 use crate::lab::display::Display;
+use crate::lab::instrument::Instrument;
 use crate::lab::race::Mode;
 use crate::lab::scene::Scene;
 use crate::lab::scene_list::SceneList;
 use crate::lab::viewer::Dialog;
 
+/// The name of a spring of one's own on the list of scenes.
+const MY_SPRING: &str = "my spring";
 /// The most ticks for which a changed scene is run again: an hour at 60 Hz, which takes about a second.
 const LONGEST_RERUN: u64 = 60 * 3600;
 
@@ -36,6 +39,23 @@ impl Lab {
     pub fn open_file(&mut self, path: &Path, scene: Scene) {
         let place = self.scene_list.put(path, scene);
         self.open(place);
+    }
+
+    /// Opens the spring that a person has described, alone, at the present tick rate, and advises on it. It is on the list
+    /// of scenes under a name that is no file's.
+    pub(super) fn open_spring(&mut self) {
+        let path = Path::new(MY_SPRING);
+        match self.viewer.my_spring.scene(self.clock.tick_hz()) {
+            Ok(scene) => {
+                self.start.mode = Mode::Solo;
+                self.open_file(path, scene);
+                self.viewer.display.instrument = Instrument::Advice;
+            }
+            Err(errors) => {
+                let report = errors.to_string();
+                self.viewer.dialog = Some(Dialog::Mistakes { file: MY_SPRING.into(), report });
+            }
+        }
     }
 
     /// Replaces the scene of a changed file. If it is open and equal, the run goes on; if it has the same lanes and kinds of
@@ -163,6 +183,7 @@ impl Lab {
             ..self.display().clone()
         };
         lab.viewer.typed_path = self.viewer.typed_path.clone();
+        lab.viewer.my_spring = self.viewer.my_spring;
         lab.viewer.pace = self.viewer.pace;
         lab.viewer.theme_is_chosen = self.viewer.theme_is_chosen;
         lab.viewer.hints = self.viewer.hints.of_next_scene();

@@ -5,7 +5,7 @@ use egui::{
     Vec2, vec2,
 };
 
-use self::number::Field;
+pub(super) use self::number::Field;
 use self::rows::{Reach, Row, Spacing, Values, rows};
 use super::ink;
 use crate::lab::{Action, Acts, Command, Lab, edited_values};

@@ -19,6 +19,7 @@ mod instruments;
 mod keycap;
 mod lanes;
 mod loops;
+mod my_spring;
 mod one_step;
 mod opening;
 mod plot_area;

@@ -7,7 +7,7 @@ use egui::{
     TextWrapMode, Ui, Window,
 };
 
-use super::ink;
+use super::{ink, my_spring};
 use crate::lab::{Command, Dialog, Lab};
 
 /// The width of a path that can be read without scrolling, in points.
@@ -15,6 +15,7 @@ const WIDTH: f32 = 460.0;
 
 pub(super) fn show(ui: &Ui, lab: &Lab, dialog: &Dialog, commands: &mut Vec<Command>) {
     match dialog {
+        Dialog::Spring => my_spring::show(ui, lab, commands),
         Dialog::Path { refused } => path(ui, lab, refused.as_deref(), commands),
         Dialog::Mistakes { file, report } => mistakes(ui, file, report, commands),
     }

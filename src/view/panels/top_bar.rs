@@ -21,6 +21,10 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let width = ui.available_width();
     ui.horizontal_centered(|ui| {
         scene_menu(ui, lab, commands);
+        if width >= ROOM_FOR_PACE {
+            let about = "a spring of your own: the method to take, and the code (S)";
+            button(ui, "My spring", about, Command::AskForSpring, commands);
+        }
         transport(ui, lab, width >= ROOM_FOR_BACK, commands);
         if width >= ROOM_FOR_MENUS {
             word(ui, width, "speed");
@@ -78,6 +82,13 @@ fn scene_menu(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let menu = ComboBox::from_id_salt("scene").selected_text(&name).width(92.0).height(480.0);
     let response = menu.show_ui(ui, |ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+        if ui
+            .selectable_label(false, RichText::new("My spring … (S)").font(strong_font(TYPE)))
+            .clicked()
+        {
+            commands.push(Command::AskForSpring);
+        }
+        ui.separator();
         for (place, name) in lab.scene_list().names().enumerate() {
             let is_open = lab.scene_list().open() == Some(place);
             let title = SCENES.get(place).and_then(|scene| Scene::built_in(scene.name));

@@ -20,20 +20,20 @@ struct Fault {
 }
 
 /// A number as a field shows it.
-pub(super) struct Field<'a> {
+pub(in crate::view::panels) struct Field<'a> {
     /// Tells it from all others.
-    pub(super) id: Id,
-    pub(super) value: f64,
+    pub(in crate::view::panels) id: Id,
+    pub(in crate::view::panels) value: f64,
     /// After the number.
-    pub(super) unit: &'a str,
+    pub(in crate::view::panels) unit: &'a str,
     /// What a screen reader calls it.
-    pub(super) name: &'a str,
-    pub(super) is_whole: bool,
+    pub(in crate::view::panels) name: &'a str,
+    pub(in crate::view::panels) is_whole: bool,
 }
 
 impl Field<'_> {
     /// Shows the field. Returns what was entered, if `check` finds nothing wrong with it.
-    pub(super) fn show(
+    pub(in crate::view::panels) fn show(
         &self,
         ui: &mut Ui,
         size: Vec2,
@@ -91,7 +91,7 @@ impl Field<'_> {
     }
 
     /// Says under the field with this id what was wrong with what was typed last.
-    pub(super) fn show_fault(id: Id, ui: &mut Ui) {
+    pub(in crate::view::panels) fn show_fault(id: Id, ui: &mut Ui) {
         if let Some(fault) = ui.data(|data| data.get_temp::<Fault>(id)) {
             ui.label(RichText::new(fault.text).size(11.0).color(ink(ui).bad));
         }

@@ -1,0 +1,115 @@
+//! A spring of one's own: its numbers, each of which can be typed, and a button that asks for advice on it.
+
+use egui::{Align2, Button, FontId, Id, Order, RichText, Sense, Ui, Window, vec2};
+
+use super::ink;
+use super::inspector::Field;
+use crate::lab::{Command, Lab, MySpring};
+use crate::view::theme::TYPE;
+
+const TITLE: &str = "My spring";
+/// The widths of a name and of a number, and the height of a line, in points.
+const NAME: f32 = 118.0;
+const NUMBER: f32 = 150.0;
+const LINE: f32 = 22.0;
+
+/// A number of the spring: its name, its unit, its value, and the spring with another value.
+type Number = (&'static str, &'static str, fn(MySpring) -> f64, fn(MySpring, f64) -> MySpring);
+
+/// The three that make a spring.
+const MADE_OF: [Number; 3] = [
+    ("mass", "kg", |spring| spring.mass_kg, |spring, mass_kg| MySpring { mass_kg, ..spring }),
+    (
+        "stiffness",
+        "N/m",
+        |spring| spring.stiffness_n_per_m,
+        |spring, stiffness_n_per_m| MySpring { stiffness_n_per_m, ..spring },
+    ),
+    (
+        "damping",
+        "N s/m",
+        |spring| spring.damping_n_s_per_m,
+        |spring, damping_n_s_per_m| MySpring { damping_n_s_per_m, ..spring },
+    ),
+];
+
+/// The two that describe it as well, whatever its mass.
+const SEEN_AS: [Number; 2] = [
+    ("frequency", "Hz", MySpring::frequency_hz, |spring, frequency_hz| {
+        MySpring::of_frequency(spring.mass_kg, frequency_hz, spring.damping_ratio())
+    }),
+    ("damping ratio", "", MySpring::damping_ratio, |spring, ratio| {
+        MySpring::of_frequency(spring.mass_kg, spring.frequency_hz(), ratio)
+    }),
+];
+
+pub(super) fn show(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
+    let ctx = ui.ctx();
+    let window = Window::new(TITLE).id(Id::unique(TITLE)).order(Order::Foreground);
+    let window = window.collapsible(false).resizable(false);
+    window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
+        ui.set_width(NAME + NUMBER + 8.0);
+        ui.spacing_mut().item_spacing.y = 4.0;
+        let (tick_hz, has_focus) = (lab.clock().tick_hz(), ui.memory(|m| m.focused().is_some()));
+        let is_new = is_new(ui);
+        for (i, number) in MADE_OF.iter().enumerate() {
+            line(ui, lab, number, is_new && i == 0, commands);
+        }
+        ui.label(RichText::new("or as it is seen").color(ink(ui).dim));
+        for number in &SEEN_AS {
+            line(ui, lab, number, false, commands);
+        }
+        ui.add_space(6.0);
+        ui.horizontal(|ui| {
+            let words = format!("Advise at {tick_hz} Hz");
+            let advise = ui.add(Button::new(RichText::new(words).size(TYPE).strong()));
+            if !is_new && !has_focus {
+                // After a number was typed, Enter goes on.
+                advise.request_focus();
+            }
+            if advise.clicked() {
+                commands.push(Command::OpenSpring);
+            }
+            if ui.button("Close (Esc)").clicked() {
+                commands.push(Command::CloseDialog);
+            }
+        });
+        let told = "Opens it as a scene, with the method to take and its code to copy.";
+        ui.label(RichText::new(told).size(11.5).color(ink(ui).dim));
+    });
+}
+
+/// Whether this is the first frame that shows the dialog.
+fn is_new(ui: &Ui) -> bool {
+    let (id, now) = (Id::unique("my spring was shown"), ui.ctx().cumulative_frame_nr());
+    let last = ui.data_mut(|data| {
+        let last = data.get_temp::<u64>(id);
+        data.insert_temp(id, now);
+        last
+    });
+    last.is_none_or(|last| last + 1 < now)
+}
+
+fn line(
+    ui: &mut Ui,
+    lab: &Lab,
+    (name, unit, value, with): &Number,
+    takes_focus: bool,
+    commands: &mut Vec<Command>,
+) {
+    let spring = lab.viewer().my_spring();
+    let id = Id::unique(("my spring", *name));
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(vec2(NAME, LINE), Sense::hover());
+        let font = FontId::proportional(TYPE);
+        ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, name, font, ink(ui).text);
+        let field = Field { id, value: value(spring), unit, name, is_whole: false };
+        let check = |entered| with(spring, entered).check();
+        let (response, entered) = field.show(ui, vec2(NUMBER, LINE), check);
+        if takes_focus {
+            response.request_focus();
+        }
+        commands.extend(entered.map(|entered| Command::DescribeSpring(with(spring, entered))));
+    });
+    Field::show_fault(id, ui);
+}
