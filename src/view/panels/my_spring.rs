@@ -4,6 +4,7 @@ use egui::{Align2, Button, FontId, Id, Order, RichText, Sense, Ui, Window, vec2}
 
 use super::ink;
 use super::inspector::Field;
+use super::opening::select;
 use crate::lab::{Command, Lab, MySpring};
 use crate::view::theme::TYPE;
 
@@ -108,6 +109,7 @@ fn line(
         let (response, entered) = field.show(ui, vec2(NUMBER, LINE), check);
         if takes_focus {
             response.request_focus();
+            select(ui.ctx(), response.id, 0);
         }
         commands.extend(entered.map(|entered| Command::DescribeSpring(with(spring, entered))));
     });

@@ -81,7 +81,7 @@ fn path(ui: &Ui, lab: &Lab, refused: Option<&str>, commands: &mut Vec<Command>) 
 }
 
 /// Selects what is typed from this character on.
-fn select(ctx: &Context, id: Id, from: usize) {
+pub(super) fn select(ctx: &Context, id: Id, from: usize) {
     let mut state = TextEditState::load(ctx, id).unwrap_or_default();
     let range = CCursorRange::two(CCursor::new(from), CCursor::new(usize::MAX));
     state.cursor.set_char_range(Some(range));
