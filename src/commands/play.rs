@@ -169,7 +169,9 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
         let text = lab.recording()?;
         record.write_all(text.as_bytes()).map_err(|error| record.failed(error))?;
         let name = record.close_beside()?;
-        unfinished.map(UnfinishedRecording::finish);
+        if let Some(unfinished) = unfinished {
+            unfinished.finish();
+        }
         if name != wanted {
             tell(&format!("another program created {wanted} during the run; it was not replaced"));
         }
