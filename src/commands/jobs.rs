@@ -2,14 +2,19 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 
+use super::terminal::tell;
+
 /// The longest time until an interrupt is noticed.
 pub(super) const PATIENCE: Duration = Duration::from_millis(50);
+
+/// The time between two lines on how far the jobs are, where no bar shows it.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
 
 /// The results of `work` for the jobs 0 to `number` - 1, in order; `None` for a job that was not done when
 /// `interrupted` was set. After an interrupt the threads are not waited for: some jobs take minutes, and the
@@ -29,6 +34,7 @@ pub(super) fn results<R: Send + 'static>(
         });
     });
     let mut results: Vec<Option<R>> = (0..number).map(|_| None).collect();
+    let mut told = Instant::now();
     while !interrupted.load(Ordering::Relaxed) {
         match receiver.recv_timeout(PATIENCE) {
             Ok((job, result)) => {
@@ -37,6 +43,10 @@ pub(super) fn results<R: Send + 'static>(
             }
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => break,
+        }
+        if progress.is_hidden() && told.elapsed() >= BETWEEN_LINES {
+            told = Instant::now();
+            tell(&format!("{} of {number} {}", progress.position(), progress.message()));
         }
     }
     progress.finish_and_clear();

@@ -1,6 +1,9 @@
 //! `advise`: what meets each criterion at the given rate, at what cost and with what headroom, and what to take.
 
 use std::fs;
+use std::io::{BufRead, BufReader};
+use std::process::Stdio;
+use std::time::Instant;
 
 use regatta::sim::integrators::GENERAL_METHODS;
 use serde_json::Value;
@@ -274,4 +277,22 @@ fn engines_are_judged_only_where_they_are_asked_for() {
     let refused = refusal("advise --scene follow --family engine", 2);
     assert!(refused.contains("engine-box2d does not step the body"), "{refused}");
     assert!(refusal("advise --family enigne", 2).contains("did you mean engine?"));
+}
+
+#[test]
+fn in_a_pipe_a_line_every_ten_seconds_says_how_far_it_is() {
+    let mut child = regatta()
+        .args(["advise", "--scene", "cloth"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let begin = Instant::now();
+    let mut line = String::new();
+    BufReader::new(child.stderr.take().unwrap()).read_line(&mut line).unwrap();
+    let seconds = begin.elapsed().as_secs_f64();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(line.ends_with(" of 29 methods judged\n"), "{line:?}");
+    assert!(seconds > 10.0, "{seconds} s");
 }
