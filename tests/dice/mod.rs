@@ -20,6 +20,11 @@ impl Dice {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
+    /// From 0 to below `end`.
+    pub(crate) fn below(&mut self, end: usize) -> usize {
+        (self.part() * end as f64) as usize
+    }
+
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + self.part() * (high - low)
     }

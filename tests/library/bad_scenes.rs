@@ -6,7 +6,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use regatta::lab::{LARGEST_FILE, MOST_BODIES, MOST_SHOWN, SCENES, Scene, SceneErrors};
+use regatta::lab::{LARGEST_FILE, MOST_BODIES, MOST_SHOWN, Scene, SceneErrors};
 
 /// A bad scene and what is said of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -244,101 +244,12 @@ fn nesting_as_deep_as_a_file_can_hold_does_not_overflow_the_stack() {
     }
 }
 
-#[test]
-fn a_built_in_scene_with_mistakes_thrown_in_never_panics_and_every_error_has_its_place() {
-    let seed = match std::env::var("SEED") {
-        Ok(seed) => seed.parse().expect("SEED is a number"),
-        Err(_) => 0x5EA_5EED,
-    };
-    println!("run again with SEED={seed}");
-    let mut random = Xorshift(seed);
-    let mut refused = 0;
-    for round in 0..8_000 {
-        let text = SCENES[round % SCENES.len()].text;
-        let bytes = mutate(text.as_bytes(), &mut random);
-        let outcome = std::panic::catch_unwind(|| Scene::from_bytes("mutant.toml", &bytes));
-        let shown = String::from_utf8_lossy(&bytes);
-        match outcome.unwrap_or_else(|_| panic!("round {round} panics on:\n{shown}")) {
-            Ok(scene) => assert!(!scene.lanes.is_empty() && !scene.bodies.is_empty(), "{shown}"),
-            Err(errors) => {
-                check_places(&errors);
-                refused += 1;
-            }
-        }
-    }
-    assert!((2_000..8_000).contains(&refused), "{refused} of 8000 refused: bad mutations");
-}
-
-/// What mutation puts in: parts of scenes, and what is hard on a parser.
-const MORSELS: [&str; 24] = [
-    "[[ship]]\n",
-    "[[spring]]\n",
-    "[[lane]]\n",
-    "[[command]]\n",
-    "[ship]\n",
-    "[",
-    "]",
-    "{",
-    "}",
-    "\"",
-    "'",
-    "\"\"\"",
-    "=",
-    ".",
-    "\n",
-    "\r\n",
-    "#",
-    "\0",
-    "é",
-    "nan",
-    "-1e999",
-    "tick = 3\n",
-    "methods = [\"rk4\", \"rk4\"]\n",
-    "99999999999999999999",
-];
-
-/// One to four cuts, doublings, replaced bytes or morsels.
-fn mutate(text: &[u8], random: &mut Xorshift) -> Vec<u8> {
-    let mut bytes = text.to_vec();
-    for _ in 0..1 + random.below(4) {
-        let at = random.below(bytes.len() + 1);
-        let end = (at + random.below(40)).min(bytes.len());
-        match random.below(6) {
-            0 => bytes.truncate(at),
-            1 => drop(bytes.drain(at..end)),
-            2 => {
-                let part = bytes[at..end].to_vec();
-                let to = random.below(bytes.len() + 1);
-                drop(bytes.splice(to..to, part));
-            }
-            3 if at < bytes.len() => bytes[at] = random.below(256) as u8,
-            4 if at < bytes.len() => bytes[at] = b' ' + random.below(95) as u8,
-            _ => {
-                let morsel = MORSELS[random.below(MORSELS.len())];
-                drop(bytes.splice(at..at, morsel.bytes()));
-            }
-        }
-    }
-    bytes
-}
-
-struct Xorshift(u64);
-
-impl Xorshift {
-    fn below(&mut self, end: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 % end as u64) as usize
-    }
-}
-
 fn refused(text: &str) -> SceneErrors {
     Scene::parse("bad.toml", text).expect_err("a good scene")
 }
 
 /// Errors come in order, and each begins at a place that an editor can go to.
-fn check_places(errors: &SceneErrors) {
+pub(crate) fn check_places(errors: &SceneErrors) {
     assert!(!errors.errors.is_empty());
     let lines: Vec<&str> = errors.text.split('\n').collect();
     let mut last = (1, 1);

@@ -14,7 +14,7 @@ impl Dice {
     }
 
     fn one_of<T: Copy>(&mut self, things: &[T]) -> T {
-        things[(self.part() * things.len() as f64) as usize]
+        things[self.below(things.len())]
     }
 }
 

@@ -33,6 +33,7 @@ mod picture;
 mod pinned;
 mod recordings;
 mod restart;
+mod robot;
 mod scenes;
 mod sessions;
 mod source_code;

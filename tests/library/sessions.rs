@@ -12,10 +12,6 @@ use regatta::sim::bodies::BODIES;
 use regatta::sim::integrators::GENERAL_METHODS;
 
 impl Dice {
-    fn below(&mut self, count: usize) -> usize {
-        (self.part() * count as f64) as usize
-    }
-
     fn spec(&mut self) -> LaneSpec {
         let method = &GENERAL_METHODS[self.below(GENERAL_METHODS.len())];
         let tolerance = (method.tolerance.is_some() && self.part() < 0.5)

@@ -139,7 +139,7 @@ fn random_changes_are_undone_and_done_again_to_the_bit() {
     for _ in 0..8 {
         let mut lab = lab("harbour");
         let mut befores = Vec::new();
-        let mut below = |limit: u64| (dice.part() * limit as f64) as u64;
+        let mut below = |limit: u64| dice.below(limit as usize) as u64;
         for _ in 0..12 {
             (0..below(90)).for_each(|_| lab.tick());
             if below(2) == 0 {

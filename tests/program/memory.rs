@@ -118,8 +118,8 @@ impl Program {
                 self.frame(vec![Event::PointerMoved(from), wheel]);
             }
             _ => {
-                let bound = &KEYS[(dice.part() * KEYS.len() as f64) as usize].keys;
-                let (_, command) = &bound[(dice.part() * bound.len() as f64) as usize];
+                let bound = &KEYS[dice.below(KEYS.len())].keys;
+                let (_, command) = &bound[dice.below(bound.len())];
                 self.lab.apply(command.clone());
                 self.frame(Vec::new());
             }

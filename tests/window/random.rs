@@ -78,7 +78,7 @@ fn event(dice: &mut Dice) -> String {
         ),
         7 => format!("mousemove --window WINDOW {x} {y} click {}", 4 + x % 2),
         8 => format!("mousemove --window WINDOW {x} {y} click 3"),
-        _ => format!("key --delay 2 {}", KEYS[(dice.part() * KEYS.len() as f64) as usize]),
+        _ => format!("key --delay 2 {}", KEYS[dice.below(KEYS.len())]),
     }
 }
 

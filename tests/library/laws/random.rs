@@ -9,7 +9,7 @@ use crate::dice::Dice;
 
 /// A random expression in x, v and t, smooth or with corners, of bounded size.
 fn expression(dice: &mut Dice, depth: usize) -> String {
-    let mut pick = |n: usize| (dice.part() * n as f64) as usize;
+    let mut pick = |n: usize| dice.below(n);
     if depth == 0 {
         return match pick(6) {
             0 => "x".into(),
@@ -152,18 +152,18 @@ fn three_hundred_thousand_mutated_expressions_are_read_or_refused_in_place() {
     let mut dice = Dice::new(2);
     let (mut good, mut bad) = (0, 0);
     for _ in 0..300_000 {
-        let mut text: Vec<char> = SEEDS[(dice.part() * 5.0) as usize].chars().collect();
-        for _ in 0..1 + (dice.part() * 6.0) as usize {
-            let at = (dice.part() * (text.len() + 1) as f64) as usize;
-            match (dice.part() * 3.0) as usize {
+        let mut text: Vec<char> = SEEDS[dice.below(5)].chars().collect();
+        for _ in 0..1 + dice.below(6) {
+            let at = dice.below(text.len() + 1);
+            match dice.below(3) {
                 0 if at < text.len() => drop(text.remove(at)),
                 1 if at < text.len() => {
-                    let to = (at + (dice.part() * 9.0) as usize).min(text.len());
+                    let to = (at + dice.below(9)).min(text.len());
                     let copy: Vec<char> = text[at..to].to_vec();
                     text.splice(at..at, copy);
                 }
                 _ => {
-                    let piece = PIECES[(dice.part() * 40.0) as usize];
+                    let piece = PIECES[dice.below(40)];
                     text.splice(at..at, piece.chars());
                 }
             }
