@@ -96,7 +96,7 @@ fn each_extra_that_is_unfit_or_untrue_is_named() {
     }
 }
 
-/// A spring that is pushed for a second.
+/// A spring that is pushed for a tenth of a second.
 #[derive(Clone, Debug)]
 struct Pushed;
 
@@ -104,7 +104,7 @@ impl System for Pushed {
     type Vector = f64;
 
     fn acceleration(&self, t: f64, q: &f64, _: &f64, a: &mut f64) {
-        *a = -4.0 * q + if t > 4.0 && t < 5.0 { 9.81 } else { 0.0 };
+        *a = -4.0 * q + if t > 3.97 && t < 4.07 { 9.81 } else { 0.0 };
     }
 }
 
