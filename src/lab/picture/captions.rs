@@ -327,17 +327,19 @@ pub(super) fn exact(
         return;
     }
     let is_left = x + beside + ROOM_FOR_EXACT > max[0];
-    let way = if is_left { -1.0 } else { 1.0 };
+    let (way, align) = if is_left { (-1.0, Align::Right) } else { (1.0, Align::Left) };
     let [below, above] = [(y + beside + 6.0).min(max[1] - 8.0), y - beside - 6.0];
     let left = x + way * (beside + 8.0);
     let is_taken = |label: &Label| {
         (label.at[1] - below).abs() < CHIP && (label.at[0] - left).abs() < ROOM_FOR_EXACT
     };
-    let is_above = above > min[1] + CHIP && picture.labels.iter().any(is_taken);
+    let is_above = picture.labels.iter().any(is_taken);
+    if is_above && above <= min[1] + CHIP {
+        return;
+    }
     let at = [left, if is_above { above } else { below }];
     let from = [x + 0.7 * way * beside, if is_above { y - 0.7 * beside } else { y + 0.7 * beside }];
     picture.shapes.push(line(from, [at[0] - 3.0 * way, at[1]], 1.0, palette.exact, camera.rect));
-    let align = if is_left { Align::Right } else { Align::Left };
     let label = text(palette, at, align, 12.0, palette.exact, "exact".into());
     picture.labels.push(Label { is_strong: true, ..label });
 }

@@ -7,6 +7,8 @@ use crate::lab::{Command, STOPS, Tour};
 use crate::view::theme::strong_font;
 
 pub(super) const HEIGHT: f32 = 172.0;
+/// From this width on, in points, the buttons name their keys, and the title stands beside them.
+const ROOM_FOR_KEYS: f32 = 600.0;
 
 pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing = vec2(6.0, 5.0);
@@ -31,15 +33,21 @@ pub(super) fn show(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
 fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
     let place = tour.place();
     let count = STOPS.len();
+    let is_wide = ui.available_width() >= ROOM_FOR_KEYS;
+    let title = RichText::new(format!("{}. {}", place + 1, tour.stop().title));
+    let title = title.font(strong_font(15.0));
+    let show_title = |ui: &mut Ui| ui.add(egui::Label::new(title.clone()).truncate());
     ui.horizontal(|ui| {
-        let title = format!("{}. {}", place + 1, tour.stop().title);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if ui.button("Close").on_hover_text("close the guide (Esc)").clicked() {
                 commands.push(Command::ToggleGuide);
             }
             let dim = ink(ui).dim;
-            let key = |name: &str| RichText::new(name).size(11.0).color(dim);
-            let next = Button::new("Next").right_text(key("Page Down"));
+            let named = |name: &'static str, key: &str| match is_wide {
+                true => Button::new(name).right_text(RichText::new(key).size(11.0).color(dim)),
+                false => Button::new(name),
+            };
+            let next = named("Next", "Page Down");
             let next = if tour.is_done() { next.selected(true) } else { next };
             let next = ui.add_enabled(place + 1 < count, next);
             next.widget_info(|| {
@@ -48,7 +56,7 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
             if next.clicked() {
                 commands.push(Command::NextStop);
             }
-            let back = ui.add_enabled(place > 0, Button::new("Back").right_text(key("Page Up")));
+            let back = ui.add_enabled(place > 0, named("Back", "Page Up"));
             back.widget_info(|| {
                 egui::WidgetInfo::labeled(egui::Role::Button, place > 0, "Back (Page Up)")
             });
@@ -59,12 +67,14 @@ fn head(ui: &mut Ui, tour: &Tour, commands: &mut Vec<Command>) {
                 commands.push(Command::GoToStop(place));
             }
             ui.label(RichText::new(format!("{} of {count}", place + 1)).color(ink(ui).dim));
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                let title = RichText::new(title).font(strong_font(15.0));
-                ui.add(egui::Label::new(title).truncate());
-            });
+            if is_wide {
+                ui.with_layout(Layout::left_to_right(Align::Center), show_title);
+            }
         });
     });
+    if !is_wide {
+        show_title(ui);
+    }
 }
 
 /// The predictions to choose from. Once the task is done, the right one is marked.

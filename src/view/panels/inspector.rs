@@ -23,6 +23,8 @@ const NUMBER_MOST: f32 = 108.0;
 const RESTORE: f32 = 20.0;
 const NAME_PART: f32 = 0.32;
 const NAME_MOST: f32 = 150.0;
+/// A name that is longer takes up to this part of the line.
+const NAME_WIDEST: f32 = 0.42;
 /// Scenes of more bodies than this open with one of them unfolded, the displayed one.
 const FEW_BODIES: usize = 3;
 
@@ -88,8 +90,8 @@ fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
     let Some(values) = *values else {
         line(ui, &parameter.quantity(), &about, |ui, _| {
             let points = (lab.race().values(*body).len() - place) / 2;
-            let text = format!("{points} points, as the scene has them");
-            ui.add(Label::new(RichText::new(text).color(ink(ui).dim)).truncate());
+            let text = RichText::new(format!("{points} points")).color(ink(ui).dim);
+            ui.label(text).on_hover_text("as the scene has them");
         });
         return;
     };
@@ -113,6 +115,7 @@ fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
         checked.map(drop).map_err(|error| error.to_string())
     };
     line(ui, &parameter.quantity(), &about, |ui, [room, number]| {
+        let number = number.max(field.width(ui));
         let slider = vec2(room - number - RESTORE - 2.0 * ui.spacing().item_spacing.x, LINE);
         let slid = show_slider(ui, row, values, &name, slider);
         commands.extend(slid.filter(|value| check(*value).is_ok()).map(set));
@@ -152,7 +155,9 @@ fn show_slider(ui: &mut Ui, row: &Row, values: Values, name: &str, size: Vec2) -
 /// A line with a name at its left, and the rest, which is told its width and that of a typed number.
 fn line(ui: &mut Ui, name: &str, about: &str, rest: impl FnOnce(&mut Ui, [f32; 2])) {
     let width = ui.available_width();
-    let name_width = (NAME_PART * width).min(NAME_MOST);
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let whole = ui.painter().layout_no_wrap(name.to_owned(), font, ink(ui).text).size().x.ceil();
+    let name_width = (NAME_PART * width).min(NAME_MOST).max(whole.min(NAME_WIDEST * width));
     ui.horizontal(|ui| {
         let layout = Layout::left_to_right(Align::Center);
         ui.allocate_ui_with_layout(vec2(name_width, LINE), layout, |ui| {

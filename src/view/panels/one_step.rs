@@ -153,7 +153,7 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
         painter.line_segment([area.at(slope.at), at], Stroke::new(1.0, *colour));
         badge(&painter, at, *number, [*colour, ink.background]);
     }
-    let mut named: Vec<Pos2> = Vec::new();
+    let mut named: Vec<(Pos2, f32)> = Vec::new();
     let words = [
         (Some(step.from), "state", ink.text),
         (step.exact_landing(), "exact", ink.exact),
@@ -162,7 +162,15 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     for (point, text, colour) in words {
         let Some(point) = point.map(|point| area.at(point)) else { continue };
         let half = 3.5 * text.len() as f32;
-        let offsets = [vec2(0.0, 17.0), vec2(0.0, -17.0), vec2(0.0, 33.0), vec2(0.0, -33.0)];
+        let beside = half + 14.0;
+        let offsets = [
+            vec2(0.0, 17.0),
+            vec2(0.0, -17.0),
+            vec2(0.0, 33.0),
+            vec2(0.0, -33.0),
+            vec2(beside, 0.0),
+            vec2(-beside, 0.0),
+        ];
         let places = offsets.map(|offset| {
             let inner = rect.shrink2(vec2(half + 4.0, 9.0));
             if inner.is_positive() { inner.clamp(point + offset) } else { point + offset }
@@ -172,16 +180,18 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
                 (other.y - at.y).abs() < 14.0 && (other.x - at.x).abs() < half + 12.0
             };
             !taken.iter().any(near)
-                && !named.iter().any(|other| {
-                    (other.y - at.y).abs() < 14.0 && (other.x - at.x).abs() < 2.0 * half + 12.0
+                && !named.iter().any(|(other, own)| {
+                    (other.y - at.y).abs() < 14.0 && (other.x - at.x).abs() < half + own + 12.0
                 })
         };
-        let at = *places.iter().find(is_free).unwrap_or(&places[0]);
+        // Where there is no room the colours have to say it.
+        let Some(&at) = places.iter().find(is_free) else { continue };
         label(&painter, (at, 0.0), text, [colour, ink.plot]);
-        named.push(at);
+        named.push((at, half));
     }
     let states = evaluations.iter().map(|(_, _, slope)| area.at(slope.at));
-    let taken: Vec<Pos2> = taken.into_iter().chain(named).chain(states).collect();
+    let taken: Vec<Pos2> =
+        taken.into_iter().chain(named.into_iter().map(|(at, _)| at)).chain(states).collect();
     loupe::show(&painter, &area, step, &taken, (ink, own));
     let about = format!("one step of {}", step.spec.method.name);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &about));

@@ -90,6 +90,14 @@ impl Field<'_> {
         (response, taken)
     }
 
+    /// The width of the number with its unit, in points.
+    pub(super) fn width(&self, ui: &Ui) -> f32 {
+        let font = egui::TextStyle::Button.resolve(ui.style());
+        let text = format!("{} {}", plain(self.value), self.unit);
+        let size = ui.painter().layout_no_wrap(text, font, ink(ui).text).size();
+        size.x + 2.0 * ui.spacing().button_padding.x
+    }
+
     /// Says under the field with this id what was wrong with what was typed last.
     pub(in crate::view::panels) fn show_fault(id: Id, ui: &mut Ui) {
         if let Some(fault) = ui.data(|data| data.get_temp::<Fault>(id)) {
