@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use egui::text::{LayoutJob, TextWrapping};
-use egui::{Color32, FontId, Frame, Galley, Margin, Rect, TextFormat, Ui};
+use egui::{Color32, FontId, Frame, Galley, Key, Margin, Rect, TextFormat, Ui};
 
 use super::theme::{Ink, colour, ink, ink_of, strong_font};
-use crate::lab::{Command, Lab, Outcome, Severity};
+use crate::lab::{Command, Dialog, Lab, Outcome, Severity};
 
 mod advice;
 mod cost;
+mod dialog;
 mod footer;
 mod formula;
 mod guide;
@@ -130,7 +131,14 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab) -> (Vec<Command>, Rect) {
         help::show(ui, &mut commands);
     }
     if let Some(dialog) = lab.viewer().dialog() {
-        opening::show(ui, lab, dialog, &mut commands);
+        match dialog {
+            Dialog::Spring => my_spring::show(ui, lab, &mut commands),
+            Dialog::Path { refused } => opening::path(ui, lab, refused.as_deref(), &mut commands),
+            Dialog::Mistakes { file, report } => opening::mistakes(ui, file, report, &mut commands),
+        }
+        if ui.input(|input| input.key_pressed(Key::Escape)) {
+            commands.push(Command::CloseDialog);
+        }
     }
     (commands, stage)
 }

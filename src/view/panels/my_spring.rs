@@ -1,10 +1,10 @@
 //! A spring of one's own: its numbers, each of which can be typed, and a button that asks for advice on it.
 
-use egui::{Align2, Button, FontId, Id, Order, RichText, Sense, Ui, Window, vec2};
+use egui::{Align2, Button, FontId, Id, RichText, Sense, Ui, vec2};
 
+use super::dialog::{select, window};
 use super::ink;
 use super::inspector::Field;
-use super::opening::select;
 use crate::lab::{Command, Lab, MySpring};
 use crate::view::theme::TYPE;
 
@@ -46,9 +46,7 @@ const SEEN_AS: [Number; 2] = [
 
 pub(super) fn show(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
-    let window = Window::new(TITLE).id(Id::unique(TITLE)).order(Order::Foreground);
-    let window = window.collapsible(false).resizable(false);
-    window.anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
+    window(TITLE).anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
         ui.set_width(NAME + NUMBER + 8.0);
         ui.spacing_mut().item_spacing.y = 4.0;
         let (tick_hz, has_focus) = (lab.clock().tick_hz(), ui.memory(|m| m.focused().is_some()));

@@ -1,39 +1,16 @@
 //! Opening a scene file: a field for its path, and what is wrong with it.
 
-use egui::text::{CCursor, CCursorRange};
-use egui::text_edit::TextEditState;
-use egui::{
-    Align2, Context, Id, Key, Label, Order, RichText, ScrollArea, TextEdit, TextStyle,
-    TextWrapMode, Ui, Window,
-};
+use egui::{Align2, Id, Key, Label, RichText, ScrollArea, TextEdit, TextStyle, TextWrapMode, Ui};
 
-use super::{ink, my_spring};
-use crate::lab::{Command, Dialog, Lab};
+use super::dialog::{select, window};
+use super::ink;
+use crate::lab::{Command, Lab};
 
 /// The width of a path that can be read without scrolling, in points.
 const WIDTH: f32 = 460.0;
 
-pub(super) fn show(ui: &Ui, lab: &Lab, dialog: &Dialog, commands: &mut Vec<Command>) {
-    match dialog {
-        Dialog::Spring => my_spring::show(ui, lab, commands),
-        Dialog::Path { refused } => path(ui, lab, refused.as_deref(), commands),
-        Dialog::Mistakes { file, report } => mistakes(ui, file, report, commands),
-    }
-    if ui.input(|input| input.key_pressed(Key::Escape)) {
-        commands.push(Command::CloseDialog);
-    }
-}
-
-fn window(title: &str) -> Window<'_> {
-    Window::new(title)
-        .id(Id::unique(title))
-        .order(Order::Foreground)
-        .collapsible(false)
-        .resizable(false)
-}
-
 /// A field that has the focus as long as it is there: what is typed is meant for it.
-fn path(ui: &Ui, lab: &Lab, refused: Option<&str>, commands: &mut Vec<Command>) {
+pub(super) fn path(ui: &Ui, lab: &Lab, refused: Option<&str>, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
     let width = WIDTH.min(ctx.content_rect().width() - 40.0).max(40.0);
     window("Open a scene or a log of frames").anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(
@@ -80,16 +57,8 @@ fn path(ui: &Ui, lab: &Lab, refused: Option<&str>, commands: &mut Vec<Command>) 
     );
 }
 
-/// Selects what is typed from this character on.
-pub(super) fn select(ctx: &Context, id: Id, from: usize) {
-    let mut state = TextEditState::load(ctx, id).unwrap_or_default();
-    let range = CCursorRange::two(CCursor::new(from), CCursor::new(usize::MAX));
-    state.cursor.set_char_range(Some(range));
-    state.store(ctx, id);
-}
-
 /// The report, as the command line prints it, in a window of its own.
-fn mistakes(ui: &Ui, file: &str, report: &str, commands: &mut Vec<Command>) {
+pub(super) fn mistakes(ui: &Ui, file: &str, report: &str, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
     let room = ctx.content_rect().size() - egui::vec2(60.0, 120.0);
     let title = format!("{file} cannot be opened");
@@ -135,8 +104,10 @@ fn is_quoted(line: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use egui::Context;
+
     use super::*;
-    use crate::lab::Scene;
+    use crate::lab::{Dialog, Scene};
 
     /// The size of the only window over the lab, in points.
     fn size_of_dialog(lab: &Lab, title: &str) -> egui::Vec2 {
@@ -144,8 +115,14 @@ mod tests {
         let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(800.0, 600.0));
         for _ in 0..3 {
             let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
-            let mut output = ctx.run_ui(input, |ui| {
-                show(ui, lab, lab.viewer().dialog().unwrap(), &mut Vec::new());
+            let mut output = ctx.run_ui(input, |ui| match lab.viewer().dialog() {
+                Some(Dialog::Path { refused }) => {
+                    path(ui, lab, refused.as_deref(), &mut Vec::new());
+                }
+                Some(Dialog::Mistakes { file, report }) => {
+                    mistakes(ui, file, report, &mut Vec::new());
+                }
+                _ => panic!("no dialog about a file"),
             });
             output.textures_delta.clear();
         }
