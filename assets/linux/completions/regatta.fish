@@ -102,7 +102,7 @@ held-force\t''"
 complete -c regatta -n "__fish_regatta_needs_command" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l loop -d 'Open the loop lab on this built-in trace, edge if none is named' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l seconds -d 'Close at the tick nearest to this many simulated seconds [default: never]' -r
-complete -c regatta -n "__fish_regatta_needs_command" -l record -d 'Write the run to FILE as a scene when the window is closed or Ctrl-C is pressed' -r -F
+complete -c regatta -n "__fish_regatta_needs_command" -l record -d 'Write the run to FILE as a scene when the window is closed or Ctrl-C is pressed; until then it grows beside it, in FILE.unfinished.toml' -r -F
 complete -c regatta -n "__fish_regatta_needs_command" -l theme -d 'The theme: dark or light [default: the one chosen last, else the system\'s]' -r -f -a "dark\t''
 light\t''"
 complete -c regatta -n "__fish_regatta_needs_command" -l rewind-mb -d 'Memory for rewinding a run: less makes long jumps slower [default: 64]' -r
@@ -202,7 +202,7 @@ held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l loop -d 'Open the loop lab on this built-in trace, edge if none is named' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l seconds -d 'Close at the tick nearest to this many simulated seconds [default: never]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand play" -l record -d 'Write the run to FILE as a scene when the window is closed or Ctrl-C is pressed' -r -F
+complete -c regatta -n "__fish_regatta_using_subcommand play" -l record -d 'Write the run to FILE as a scene when the window is closed or Ctrl-C is pressed; until then it grows beside it, in FILE.unfinished.toml' -r -F
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l theme -d 'The theme: dark or light [default: the one chosen last, else the system\'s]' -r -f -a "dark\t''
 light\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l rewind-mb -d 'Memory for rewinding a run: less makes long jumps slower [default: 64]' -r
