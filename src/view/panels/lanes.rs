@@ -4,7 +4,7 @@
 use egui::{Align2, FontId, Id, Pos2, Rect, Response, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
 use super::sorting::{self, Order};
-use super::{formula, ink, keycap, short};
+use super::{focus_ring, formula, ink, keycap, short};
 use crate::lab::{Command, FORMULAS, Lab, LaneBody, Language, Mode};
 use crate::view::plot;
 use crate::view::theme::{TYPE, strong_font};
@@ -160,7 +160,11 @@ fn show_row(
         row.is_of_body.then(|| lab.scene().bodies[row.body].name.clone()),
         Some(said.whole().to_owned()),
     ];
-    let name = name.into_iter().flatten().collect::<Vec<_>>().join(", ");
+    let numbers = columns.iter().map(|(column, ..)| match column.cell {
+        Cell::Number(show) => show(row).map(|words| format!("{} {words}", column.head)),
+        _ => None,
+    });
+    let name = name.into_iter().chain(numbers).flatten().collect::<Vec<_>>().join(", ");
     response.widget_info(|| {
         egui::WidgetInfo::selected(egui::Role::Button, true, row.is_selected, &name)
     });
@@ -169,6 +173,7 @@ fn show_row(
         let fill = ink(ui).raised.gamma_multiply(if row.is_selected { 1.0 } else { 0.6 });
         ui.painter().rect_filled(rect, 3.0, fill);
     }
+    focus_ring(ui, &response);
     if row.is_selected {
         let bar = Rect::from_min_size(rect.min + vec2(0.0, 1.0), vec2(BAR, ROW - 2.0));
         ui.painter().rect_filled(bar, 2.0, colour);

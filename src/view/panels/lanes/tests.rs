@@ -132,3 +132,20 @@ fn the_cost_is_that_of_a_tick_now() {
         lab.tick();
     }
 }
+
+#[test]
+fn who_hears_a_row_hears_its_numbers() {
+    let context = egui::Context::default();
+    context.enable_accesskit();
+    let screen = Rect::from_min_size(Pos2::ZERO, vec2(1600.0, 600.0));
+    let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
+    let lab = race();
+    let mut output = context.run_ui(input, |ui| _ = show(ui, &lab, &mut Vec::new()));
+    output.textures_delta.clear();
+    let update = output.platform_output.accesskit_update.take().expect("it is enabled");
+    let heard = update.nodes.iter().filter_map(|(_, node)| node.label());
+    let row = heard.filter(|name| name.starts_with("4 Runge-Kutta 4, ")).next().expect("its row");
+    for head in ["error ", "energy ", "cost 4 ×"] {
+        assert!(row.contains(&format!(", {head}")), "{row}");
+    }
+}

@@ -11,7 +11,7 @@ use crate::lab::{Command, LoopCommand, LoopLab, LoopVerdict, Severity};
 use crate::view::panels::lanes::{self, BAR, HEAD, MARGIN, ROW};
 use crate::view::panels::plot_area::polygon;
 use crate::view::panels::sorting::{self, Order};
-use crate::view::panels::{ink, keycap, severity_tone, short, strong_font};
+use crate::view::panels::{focus_ring, ink, keycap, severity_tone, short, strong_font};
 use crate::view::plot;
 use crate::view::theme::{TYPE, colour};
 
@@ -118,13 +118,18 @@ fn row(
     let lane = &loops.lanes()[place];
     let verdict = lane.verdict(loops.scene().tick_hz);
     let is_selected = place == loops.selected();
-    let spoken = format!("{} {}, {}", place + 1, lane.card().name, verdict.text);
+    let numbers = columns.iter().filter_map(|(column, ..)| {
+        Some(format!(", {} {}", column.head, written(loops, place, column.cell)?))
+    });
+    let numbers: String = numbers.collect();
+    let spoken = format!("{} {}, {}{numbers}", place + 1, lane.card().name, verdict.text);
     response
         .widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, &spoken));
     if is_selected || response.hovered() {
         let fill = ink(ui).raised.gamma_multiply(if is_selected { 1.0 } else { 0.6 });
         ui.painter().rect_filled(rect, 3.0, fill);
     }
+    focus_ring(ui, &response);
     if is_selected {
         let bar = Rect::from_min_size(rect.min + vec2(0.0, 1.0), vec2(BAR, ROW - 2.0));
         let own = colour(ink(ui).theme.loop_style(place).0);
@@ -209,12 +214,18 @@ fn paint(ui: &Ui, loops: &LoopLab, place: usize, cell: Cell, rect: Rect, verdict
             write(words.unwrap_or(wordings[wordings.len() - 1]), at, FontId::proportional(TYPE));
         }
         Cell::Metric(_) => {
-            let Some(metric) = cell.metric() else { return };
-            let Some(value) = lane.report().and_then(metric.measure) else { return };
-            let (words, font) = (shown(value, metric.unit), FontId::proportional(TYPE));
+            let Some(words) = written(loops, place, cell) else { return };
+            let font = FontId::proportional(TYPE);
             ui.painter().text(rect.right_center(), Align2::RIGHT_CENTER, words, font, text);
         }
     }
+}
+
+/// The number of a cell, if it has one.
+fn written(loops: &LoopLab, place: usize, cell: Cell) -> Option<String> {
+    let metric = cell.metric()?;
+    let value = loops.lanes()[place].report().and_then(metric.measure)?;
+    Some(shown(value, metric.unit))
 }
 
 /// A verdict, and what is left of it without its last parts.
