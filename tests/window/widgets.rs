@@ -76,7 +76,8 @@ fn the_instruments_and_the_inspector_are_worked_by_the_mouse() {
     twin.click(&desk, "Error");
     twin.click(&desk, "position error");
     twin.click(&desk, "velocity error");
-    twin.click(&desk, "show this body large");
+    // The title of the plot.
+    twin.click(&desk, "Spring");
     twin.click(&desk, "inspector (E)");
     let stiffness = twin.slider("stiffness");
     twin.drag(&desk, stiffness.center(), stiffness.lerp_inside(egui::vec2(0.8, 0.5)));
