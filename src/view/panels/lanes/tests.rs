@@ -143,8 +143,8 @@ fn who_hears_a_row_hears_its_numbers() {
     let mut output = context.run_ui(input, |ui| _ = show(ui, &lab, &mut Vec::new()));
     output.textures_delta.clear();
     let update = output.platform_output.accesskit_update.take().expect("it is enabled");
-    let heard = update.nodes.iter().filter_map(|(_, node)| node.label());
-    let row = heard.filter(|name| name.starts_with("4 Runge-Kutta 4, ")).next().expect("its row");
+    let mut heard = update.nodes.iter().filter_map(|(_, node)| node.label());
+    let row = heard.find(|name| name.starts_with("4 Runge-Kutta 4, ")).expect("its row");
     for head in ["error ", "energy ", "cost 4 ×"] {
         assert!(row.contains(&format!(", {head}")), "{row}");
     }
