@@ -1,7 +1,7 @@
 //! Every method at every rate on every body: the runs, made in parallel, and their rows.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
@@ -47,7 +47,15 @@ struct Subject {
     alone: Scene,
     /// The key and the value of the parameter that is varied, if the body has it.
     varied: Option<(&'static str, f64)>,
-    judge: Judge,
+    horizon_s: f64,
+    /// Made by the first run that needs it: a truth over years takes minutes, in which an interrupt is heeded.
+    judge: OnceLock<Judge>,
+}
+
+impl Subject {
+    fn judge(&self) -> &Judge {
+        self.judge.get_or_init(|| Judge::over(&self.alone, 1.0, self.horizon_s))
+    }
 }
 
 /// A run to be made.
@@ -116,7 +124,8 @@ impl Grid {
                 }
                 grid.subjects.push(Subject {
                     scene_name: name.clone(),
-                    judge: Judge::over(&alone, 1.0, horizon_s),
+                    judge: OnceLock::new(),
+                    horizon_s,
                     alone,
                     varied,
                 });
@@ -198,7 +207,7 @@ fn judge_all(
     let worked_on = Arc::clone(grid);
     let judge = move |cell: usize| {
         let Cell { subject, spec, tick_hz } = worked_on.cells[cell];
-        worked_on.subjects[subject].judge.verdict(spec, tick_hz)
+        worked_on.subjects[subject].judge().verdict(spec, tick_hz)
     };
     let verdicts = jobs::results(&pool, runs, &progress(runs as u32, "runs"), interrupted, judge);
     let whole: Option<Vec<Verdict>> = verdicts.into_iter().collect();
