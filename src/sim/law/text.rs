@@ -22,7 +22,7 @@ pub struct LawText {
 pub struct CoordinateText {
     /// Its name; its velocity is called `v` and this.
     pub name: String,
-    /// One of [`UNITS`].
+    /// One of [`UNITS`](super::UNITS).
     pub unit: &'static str,
     /// Its acceleration.
     pub acceleration: String,
