@@ -22,8 +22,7 @@ pub(super) struct HelpArgs {
 }
 
 fn after_help() -> String {
-    let line = |about: (&str, &str)| format!("\n  {:10}  {}", about.0, about.1);
-    let lines = CHAPTERS.iter().map(|chapter| line((chapter.id, chapter.about)));
+    let lines = CHAPTERS.iter().map(|chapter| format!("\n  {:10}  {}", chapter.id, chapter.about));
     format!("{EXAMPLES}\n\nChapters:{}", lines.collect::<String>())
 }
 

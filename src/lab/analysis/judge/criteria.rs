@@ -108,6 +108,22 @@ impl Judge {
         if truth.inputs.is_empty() { modes.are_as_wide(self.horizon_s) } else { None }
     }
 
+    /// The run of a lane, of which nothing is known if the truth cannot be used for it.
+    fn beside_truth(
+        &self,
+        truth: &BodyTruth,
+        spec: LaneSpec,
+        tick_hz: u32,
+        until: Until,
+    ) -> Result<Run, CriterionMiss> {
+        if truth.is_too_dear() {
+            return Err(CriterionMiss::Unknown);
+        }
+        let run = follow(truth, spec, tick_hz, until, self.most_work);
+        let gap = truth.gap(run.seconds, tick_hz);
+        without_truth(truth, &run, gap).map_or(Ok(run), |_| Err(CriterionMiss::Unknown))
+    }
+
     /// Whether every body stays within [`TOLERANCE`] of its truth.
     pub(in crate::lab::analysis) fn is_accurate(
         &self,
@@ -115,11 +131,7 @@ impl Judge {
         tick_hz: u32,
     ) -> CriterionFinding {
         self.each(tick_hz, |truth| {
-            if truth.is_too_dear() {
-                return Err(CriterionMiss::Unknown);
-            }
-            let run = follow(truth, spec, tick_hz, Until::Error(TOLERANCE), self.most_work);
-            require_truth(truth, &run, tick_hz)?;
+            let run = self.beside_truth(truth, spec, tick_hz, Until::Error(TOLERANCE))?;
             cost_if(run.error <= TOLERANCE, &run)
         })
     }
@@ -133,11 +145,7 @@ impl Judge {
         tick_hz: u32,
     ) -> CriterionFinding {
         self.each(tick_hz, |truth| {
-            if truth.is_too_dear() {
-                return Err(CriterionMiss::Unknown);
-            }
-            let run = follow(truth, spec, tick_hz, Until::Horizon, self.most_work);
-            require_truth(truth, &run, tick_hz)?;
+            let run = self.beside_truth(truth, spec, tick_hz, Until::Horizon)?;
             if run.failure.is_some() || run.error <= TOLERANCE {
                 return cost_if(run.failure.is_none(), &run);
             }
@@ -190,10 +198,4 @@ fn cost_if(holds: bool, run: &Run) -> Result<f64, CriterionMiss> {
         true => Ok(run.evaluations as f64 / run.seconds),
         false => Err(CriterionMiss::Fails),
     }
-}
-
-/// Fails if the truth cannot be used for this run.
-fn require_truth(truth: &BodyTruth, run: &Run, tick_hz: u32) -> Result<(), CriterionMiss> {
-    let gap = truth.gap(run.seconds, tick_hz);
-    without_truth(truth, run, gap).map_or(Ok(()), |_| Err(CriterionMiss::Unknown))
 }
