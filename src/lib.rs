@@ -72,7 +72,8 @@
 //!   [only](sim::integrators::Only) comes after all others, and is refused elsewhere with the reason on its card. A physics engine is a
 //!   [family](sim::integrators::Family::Engine) of such methods: a rule in `sim/integrators/engine`, which reads what it is
 //!   [told](sim::System::engine_settings) of a body.
-//!   Its [source code](lab::METHOD_SOURCES) for other games is a file in `assets/methods`, and its line in that table.
+//!   Its formula is on its card, and its [source code](lab::MethodSource) for other games in `assets/methods`: both are
+//!   evaluated beside it.
 //! - **A body**: copy `sim/bodies/spring.rs`, declare the file, add its card to
 //!   [`BODIES`](sim::bodies::BODIES); say how it looks, and where a person can grab it, in a file beside
 //!   `lab/picture/look/spring.rs`, and add that to `LOOKS`. `tests/library/exact_flows.rs` and `tests/library/bodies` hold its exact flow, or what stands in for one,

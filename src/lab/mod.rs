@@ -50,6 +50,7 @@ mod zoom_pan;
 
 pub use crate::sim::Clock;
 pub use crate::sim::bodies::{Acts, Coordinate, Parameter, Range};
+pub use crate::sim::integrators::METHODS;
 pub use crate::sim::stability::NoSmallMotion;
 pub use action::Action;
 pub use analysis::{
@@ -85,7 +86,7 @@ pub use loop_lab::{
 pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use my_spring::MySpring;
 pub use notice::Notice;
-pub use one_step::{FORMULAS, Formula, OneStep, Slope};
+pub use one_step::{OneStep, Slope};
 pub use own::{Draw, Options, OptionsError};
 pub use past::{
     CAPACITY, Energies, History, Past, Run, Sample, Samples, Summary, SweptRange, TruthCurve,
@@ -105,8 +106,6 @@ pub use session::{
     Event, EventKind, Recorder, RecordingError, RunToRecord, SNAPSHOT_BYTES, Session, TimeScale,
     Timeline,
 };
-pub use source_code::{
-    Language, METHOD_SOURCES, MethodInput, MethodSource, NoSourceCode, Precision, source_code,
-};
+pub use source_code::{Language, MethodInput, MethodSource, NoSourceCode, Precision, source_code};
 pub use viewer::{Dialog, Viewer};
 pub use zoom_pan::{ZOOMS, ZoomPan};

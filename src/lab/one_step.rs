@@ -1,15 +1,11 @@
 //! The anatomy of the selected method's next tick: where it evaluates the force, what it finds there, where it lands, and
 //! where the true motion from the same state lands. It is taken on copies, so that the run is not disturbed.
 
-pub use formulas::{FORMULAS, Formula};
-
 use super::lab::Lab;
 use super::lane::{Lane, LaneBody};
 use super::lane_spec::LaneSpec;
 use crate::sim::Solver;
 use crate::sim::stability::Tick;
-
-mod formulas;
 
 /// Points on the true motion over the tick: enough for it to look smooth if it makes less than a turn.
 const EXACT_POINTS: u32 = 48;
@@ -57,11 +53,6 @@ impl OneStep {
     /// Where the true motion lands.
     pub fn exact_landing(&self) -> Option<[f64; 2]> {
         self.exact.last().copied()
-    }
-
-    /// How its method is written.
-    pub fn formula(&self) -> Option<&'static Formula> {
-        FORMULAS.iter().find(|formula| formula.method == self.spec.method.id)
     }
 }
 
@@ -198,7 +189,7 @@ fn exact(body: &LaneBody, tick: Tick) -> Vec<[f64; 2]> {
 
 /// The present state with one weighted slope after the other added.
 fn chain(step: &OneStep) -> Vec<[f64; 2]> {
-    let weights = step.formula().map_or(&[][..], |formula| formula.weights);
+    let weights = step.spec.method.weights;
     if step.spec.substeps != 1 || weights.is_empty() || weights.len() != step.evaluations.len() {
         return Vec::new();
     }

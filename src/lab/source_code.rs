@@ -37,92 +37,29 @@ mod names;
 mod printer;
 mod program;
 
-/// A method as it is written in `assets/methods`.
-#[derive(Debug)]
-pub struct MethodSource {
-    /// The id of the method.
-    pub method: &'static str,
-    /// The text, in the language that the module describes.
-    pub text: &'static str,
-}
+/// The source of a method for other games.
+pub struct MethodSource(Program<'static>);
 
 impl MethodSource {
+    /// The source of a method, read off its [card](Method::code); `None` if it has none.
+    pub fn of(method: &Method) -> Option<Self> {
+        (!method.code.is_empty()).then(|| Self(Program::read(method.code)))
+    }
+
     /// What the function takes beside `x`, `v` and `h`.
-    pub fn inputs(&self) -> Vec<MethodInput<'static>> {
-        Program::read(self.text).inputs
+    pub fn inputs(&self) -> &[MethodInput<'static>] {
+        &self.0.inputs
     }
 
     /// What the source says of a claim of the card, `order`, `stability` or `symplectic`, in words of its own.
     pub fn claim(&self, claim: &str) -> Option<&'static str> {
-        Program::read(self.text).claim(claim)
+        self.0.claim(claim)
     }
 
     /// Whether the function has a memory.
     pub fn has_memory(&self) -> bool {
-        !Program::read(self.text).memory.is_empty()
+        !self.0.memory.is_empty()
     }
-}
-
-macro_rules! method_sources {
-    ($($id:literal),+ $(,)?) => {
-        /// The source of every method, in the order of [`METHODS`](crate::sim::integrators::METHODS).
-        pub static METHOD_SOURCES: &[MethodSource] = &[$(MethodSource {
-            method: $id,
-            text: include_str!(concat!("../../assets/methods/", $id, ".step")),
-        }),+];
-    };
-}
-
-method_sources! {
-    "explicit-euler",
-    "midpoint",
-    "improved-euler",
-    "ssp-rk3",
-    "rk4",
-    "adams-bashforth-2",
-    "semi-implicit-euler",
-    "velocity-verlet",
-    "position-verlet",
-    "stormer-verlet",
-    "yoshida4",
-    "pefrl",
-    "adaptive-euler",
-    "bogacki-shampine-32",
-    "dormand-prince-54",
-    "implicit-euler",
-    "implicit-midpoint",
-    "newmark",
-    "bdf2",
-    "gauss-legendre-4",
-    "tr-bdf2",
-    "linearly-implicit-euler",
-    "semi-implicit-euler-implicit-drag",
-    "verlet-exact-drag",
-    "exponential-rosenbrock-euler",
-    "improved-euler-as-printed",
-    "rk4-as-printed",
-    "adaptive-euler-as-printed",
-    "jakobsen-verlet",
-    "lerp-per-frame",
-    "lerp-dt",
-    "exponential-decay",
-    "smooth-damp",
-    "critically-damped-spring",
-    "implicit-spring",
-    "engine-box2d",
-    "engine-rapier",
-    "engine-avian",
-    "engine-avian-motor",
-    "engine-jolt",
-    "engine-physx",
-    "engine-physx-tgs",
-    "engine-bullet",
-    "engine-pybullet",
-    "engine-chipmunk",
-    "engine-mujoco",
-    "engine-mujoco-rk4",
-    "engine-godot",
-    "held-force",
 }
 
 /// Why a method has no source code in a language.
@@ -155,10 +92,10 @@ pub fn source_code(
     precision: Precision,
 ) -> Result<String, NoSourceCode> {
     let refused = |reason| NoSourceCode { method: method.id, language, reason };
-    let source = METHOD_SOURCES.iter().find(|source| source.method == method.id);
+    let source = MethodSource::of(method);
     let source =
         source.ok_or(refused("it is a method of one's own, whose code is where it was made"))?;
-    let program = Program::read(source.text);
+    let program = source.0;
     if let Some(reason) = program.refusal(language).or(language.refusal(precision)) {
         return Err(refused(reason));
     }

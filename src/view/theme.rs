@@ -233,7 +233,7 @@ fn dress_style(style: &mut egui::Style, ink: &Ink) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::FORMULAS;
+    use crate::lab::METHODS;
 
     #[test]
     fn type_grows_with_the_window_and_never_shrinks() {
@@ -274,7 +274,7 @@ mod tests {
                     assert!(fonts.has_glyph(&font, sign), "{sign} in {family:?}");
                 }
             }
-            let formulas = FORMULAS.iter().flat_map(|formula| formula.lines);
+            let formulas = METHODS.iter().flat_map(|method| method.formula);
             for sign in formulas.flat_map(|line| line.chars()) {
                 assert!(fonts.has_glyph(&formula_font(13.0), sign), "{sign} in formulas");
                 assert!(fonts.has_glyph(&quantity_font(13.0), sign), "{sign} in formulas");

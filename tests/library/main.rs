@@ -16,6 +16,7 @@ mod editing;
 mod engines;
 mod exact_curve;
 mod exact_flows;
+mod formulas;
 mod frame_traces;
 mod guide;
 mod hints;

@@ -76,13 +76,11 @@ fn every_method_lands_where_the_run_goes_to_the_bit_and_does_not_disturb_it() {
 }
 
 #[test]
-fn every_method_has_one_formula_and_its_weights_lead_to_the_landing() {
-    assert_eq!(FORMULAS.len(), METHODS.len());
+fn weights_on_a_card_lead_to_the_landing() {
     let mut chains = 0;
-    for (method, formula) in METHODS.iter().zip(FORMULAS) {
-        assert_eq!(method.id, formula.method);
+    for method in METHODS {
         let step = lab(scene_for(method), method.id, 3).one_step().unwrap();
-        assert_eq!(step.chain.is_empty(), formula.weights.is_empty(), "{}", method.id);
+        assert_eq!(step.chain.is_empty(), method.weights.is_empty(), "{}", method.id);
         if let Some(&end) = step.chain.last() {
             assert!(near(end, step.landing.unwrap()), "{}: {end:?}", method.id);
             chains += 1;

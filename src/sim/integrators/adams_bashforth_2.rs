@@ -16,10 +16,12 @@ pub(super) const CARD: Method = Method {
     evaluations: Some(1),
     restart: Some("by a step of improved Euler"),
     source: "Bashforth & Adams, An Attempt to Test the Theories of Capillary Action (1883)",
+    formula: &["k = f(t, y), k₋₁ = f(t − h, y₋₁)", "y′ = y + ½h (3 k − k₋₁)"],
+    code: include_str!("../../../assets/methods/adams-bashforth-2.step"),
     ..EXPLICIT
 };
 
-/// `y' = y + h (3 f - g) / 2`, with `f` the slope here and `g` the slope one step ago.
+/// Adams-Bashforth 2, by the [formula](Method::formula) on its card. `f` is the slope here and `g` the slope one step ago.
 #[derive(Clone)]
 pub struct AdamsBashforth2<V> {
     f: State<V>,

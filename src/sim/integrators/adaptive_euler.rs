@@ -17,6 +17,12 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 2,
     tolerance: Some(TOLERANCE),
     source: "Bourg & Bywalec, Physics for Game Developers 2e, ch. 7, corrected; step control after Hairer, Nørsett & Wanner, Solving ODEs I, II.4",
+    formula: &[
+        "k₁ = f(t, y), k₂ = f(t + ½h, y + ½h k₁)",
+        "error = ½h |k₁ − k₂|",
+        "y′ = y + h k₂ if the error is small",
+    ],
+    code: include_str!("../../../assets/methods/adaptive-euler.step"),
     ..ADAPTIVE
 };
 

@@ -16,6 +16,13 @@ pub(super) const CARD: Method = Method {
     tolerance: Some(TOLERANCE),
     keeps_time: false,
     source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the adaptive step size",
+    formula: &[
+        "v₁ = v + h a, v½ = v + ½h a",
+        "v₂ = v½ + ½h a(t + ½h, q, v½), e = |v₁ − v₂|",
+        "s = h min(1, √(tolerance / e))",
+        "v′ = v + s a, q′ = q + s v′",
+    ],
+    code: include_str!("../../../assets/methods/adaptive-euler-as-printed.step"),
     ..AS_PRINTED
 };
 

@@ -18,10 +18,12 @@ pub(super) const CARD: Method = Method {
         "by a step of Alexander's two-stage SDIRK, which damps as much and has the same order",
     ),
     source: "Curtiss & Hirschfelder, Integration of stiff equations (1952); started by Alexander, Diagonally implicit Runge-Kutta methods for stiff ODEs (1977), the SDIRK of two stages",
+    formula: &["y′ = y + ⅓ (y − y₋₁) + ⅔h f(t + h, y′)"],
+    code: include_str!("../../../assets/methods/bdf2.step"),
     ..IMPLICIT
 };
 
-/// `y' = y + (y - y") / 3 + 2/3 h f(t + h, y')`, with `y"` the state one step before `y`.
+/// BDF2, by the [formula](Method::formula) on its card. `y"` is the state one step before `y`.
 #[derive(Clone)]
 pub struct Bdf2<V> {
     newton: Newton<V, 1>,

@@ -12,10 +12,17 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 3,
     tolerance: Some(Tableau::TOLERANCE),
     source: "Bogacki & Shampine, A 3(2) pair of Runge-Kutta formulas (1989)",
+    formula: &[
+        "k₁ = f(t, y), k₂ = f(t + ½h, y + ½h k₁)",
+        "k₃ = f(t + ¾h, y + ¾h k₂), k₄ = f(t + h, y′)",
+        "error = h |5 k₁ − 6 k₂ − 8 k₃ + 9 k₄| / 72",
+        "y′ = y + h (2 k₁ + 3 k₂ + 4 k₃) / 9 if the error is small",
+    ],
+    code: include_str!("../../../assets/methods/bogacki-shampine-32.step"),
     ..ADAPTIVE
 };
 
-/// `y' = y + h Σ a4j kj`, with the error `h Σ ei ki`.
+/// Bogacki-Shampine 3(2), by the [formula](Method::formula) on its card.
 pub type BogackiShampine32<V> = EmbeddedPair<V, Tableau, 4>;
 
 /// The coefficients of the paper.

@@ -119,6 +119,13 @@ pub struct Method {
     pub about: &'static str,
     /// How it works.
     pub family: Family,
+    /// The formula, line by line: ′ marks what holds at the end of the step. `tests/library/formulas` has the notation,
+    /// and evaluates every formula beside the method.
+    pub formula: &'static [&'static str],
+    /// The weights of the evaluations in `y′ = y + h Σ w k`; empty if the method is no such sum.
+    pub weights: &'static [f64],
+    /// Its source code for other games, in the language of `assets/methods`; empty if there is none.
+    pub code: &'static str,
     /// Global order of the error of the whole state if forces depend on position only. In a listing as
     /// printed `v` may be of higher order than `q`. Of a follower, the order while its target moves evenly
     /// and is not reached. 0 if the error does not shrink with the step.
@@ -199,6 +206,9 @@ const PLAIN: Method = Method {
     also: &[],
     about: "",
     family: Family::Explicit,
+    formula: &[],
+    weights: &[],
+    code: "",
     order: 0,
     order_with_drag: 0,
     evaluations: None,

@@ -14,6 +14,12 @@ pub(super) const CARD: Method = Method {
     name: "Critically damped spring",
     about: "exact at any frame rate while the target rests; starts and stops softly",
     source: "Juckett, Damped Springs (2012); Holden, Spring-It-On: The Game Developer's Spring-Roll-Call (2021)",
+    formula: &[
+        "b = (v + ω (x − g)) h",
+        "x′ = g + (x − g + b) exp(−ω h)",
+        "v′ = (v − ω b) exp(−ω h)",
+    ],
+    code: include_str!("../../../assets/methods/critically-damped-spring.step"),
     ..SECOND_ORDER_FOLLOWER
 };
 

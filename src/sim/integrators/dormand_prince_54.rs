@@ -12,10 +12,16 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 5,
     tolerance: Some(Tableau::TOLERANCE),
     source: "Dormand & Prince, A family of embedded Runge-Kutta formulae (1980), RK5(4)7M",
+    formula: &[
+        "kᵢ = f(t + cᵢ h, y + h Σ aᵢⱼ kⱼ), i = 1 … 7",
+        "error = h |Σ eⱼ kⱼ|",
+        "y′ = y + h Σ a₇ⱼ kⱼ if the error is small",
+    ],
+    code: include_str!("../../../assets/methods/dormand-prince-54.step"),
     ..ADAPTIVE
 };
 
-/// `y' = y + h Σ a7j kj`, with the error `h Σ ei ki`.
+/// Dormand-Prince 5(4), by the [formula](Method::formula) on its card.
 pub type DormandPrince54<V> = EmbeddedPair<V, Tableau, 7>;
 
 /// The coefficients of the paper.

@@ -14,10 +14,13 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 1,
     evaluations: Some(1),
     source: "Euler, Institutionum calculi integralis I (1768); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7, Figure 7-5",
+    formula: &["y′ = y + h f(t, y)"],
+    weights: &[1.0],
+    code: include_str!("../../../assets/methods/explicit-euler.step"),
     ..EXPLICIT
 };
 
-/// `y' = y + h f(t, y)` on the whole state `y = (q, v)`.
+/// Explicit Euler, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct ExplicitEuler<V> {
     k1: State<V>,

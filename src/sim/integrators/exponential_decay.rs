@@ -14,6 +14,8 @@ pub(super) const CARD: Method = Method {
     name: "Exponential decay",
     about: "exact at any frame rate while the target rests, and as cheap as a lerp",
     source: "exact solution of x' = k (g - x); F. Holmér, Lerp smoothing is broken (2024)",
+    formula: &["x′ = g + (x − g) exp(−k h)", "v′ = k (g − x′)"],
+    code: include_str!("../../../assets/methods/exponential-decay.step"),
     ..FIRST_ORDER_FOLLOWER
 };
 

@@ -16,6 +16,12 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 2,
     exact_if_linear: true,
     source: "Pope, An exponential method of numerical integration of ordinary differential equations (1963); Hochbruck & Ostermann, Exponential integrators (2010)",
+    formula: &[
+        "y′ = y + h φ₁(h J) f(t, y) + h² φ₂(h J) fₜ",
+        "J = ∂f/∂y, fₜ = (f(t + h, y) − f(t, y)) / h",
+        "φ₁(z) = (exp(z) − 1) / z, φ₂(z) = (φ₁(z) − 1) / z",
+    ],
+    code: include_str!("../../../assets/methods/exponential-rosenbrock-euler.step"),
     ..LINEARISED
 };
 

@@ -16,6 +16,12 @@ pub(super) const CARD: Method = Method {
     symplectic: true,
     reversible: true,
     source: "Butcher, Implicit Runge-Kutta processes (1964); Hairer, Lubich & Wanner, Geometric Numerical Integration, II.1.3",
+    formula: &[
+        "k₁ = f(t + (½ − r) h, y + h (¼k₁ + (¼ − r) k₂))",
+        "k₂ = f(t + (½ + r) h, y + h ((¼ + r) k₁ + ¼k₂))",
+        "y′ = y + ½h (k₁ + k₂), r = √3 / 6",
+    ],
+    code: include_str!("../../../assets/methods/gauss-legendre-4.step"),
     ..IMPLICIT
 };
 
@@ -26,7 +32,7 @@ const A: [[f64; 2]; 2] = [[0.25, 0.25 - R], [0.25 + R, 0.25]];
 /// The square of `A`: the weights of accelerations in coordinates.
 const A2: [[f64; 2]; 2] = [[1.0 / 24.0, 0.125 - R / 2.0], [0.125 + R / 2.0, 1.0 / 24.0]];
 
-/// `Yi = y + h Σ aij f(t + ci h, Yj)`, then `y' = y + h (f(Y1) + f(Y2)) / 2`.
+/// Gauss-Legendre 4, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct GaussLegendre4<V> {
     newton: Newton<V, 2>,

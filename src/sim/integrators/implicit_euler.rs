@@ -14,10 +14,12 @@ pub(super) const CARD: Method = Method {
     order: 1,
     order_with_drag: 1,
     source: "Curtiss & Hirschfelder, Integration of stiff equations (1952)",
+    formula: &["y′ = y + h f(t + h, y′)"],
+    code: include_str!("../../../assets/methods/implicit-euler.step"),
     ..IMPLICIT
 };
 
-/// `y' = y + h f(t + h, y')` on the whole state `y = (q, v)`.
+/// Implicit Euler, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct ImplicitEuler<V> {
     newton: Newton<V, 1>,

@@ -16,10 +16,12 @@ pub(super) const CARD: Method = Method {
     symplectic: true,
     reversible: true,
     source: "Feng Kang, On difference schemes and symplectic geometry (1985); Hairer, Lubich & Wanner, Geometric Numerical Integration, VI.4",
+    formula: &["m = y + ½h f(t + ½h, m)", "y′ = 2 m − y"],
+    code: include_str!("../../../assets/methods/implicit-midpoint.step"),
     ..IMPLICIT
 };
 
-/// `m = y + h/2 f(t + h/2, m)`, then `y' = 2 m - y`, on the whole state `y = (q, v)`.
+/// Implicit midpoint, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct ImplicitMidpoint<V> {
     newton: Newton<V, 1>,

@@ -14,6 +14,8 @@ pub(super) const CARD: Method = Method {
     name: "Implicit spring",
     about: "stable at any frame rate, without an exponential; follows more slowly the lower the rate",
     source: "Holden, Spring-It-On: The Game Developer's Spring-Roll-Call (2021)",
+    formula: &["v′ = (v + h ω² (g − x)) / (1 + ω h)²", "x′ = x + h v′"],
+    code: include_str!("../../../assets/methods/implicit-spring.step"),
     ..SECOND_ORDER_FOLLOWER
 };
 

@@ -14,10 +14,13 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 2,
     evaluations: Some(2),
     source: "Heun, Neue Methoden zur approximativen Integration (1900); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
+    formula: &["k₁ = f(t, y)", "k₂ = f(t + h, y + h k₁)", "y′ = y + ½h (k₁ + k₂)"],
+    weights: &[0.5, 0.5],
+    code: include_str!("../../../assets/methods/improved-euler.step"),
     ..EXPLICIT
 };
 
-/// `k1 = f(t, y)`, `k2 = f(t + h, y + h k1)`, `y' = y + h (k1 + k2) / 2`.
+/// Improved Euler, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct ImprovedEuler<V> {
     k1: State<V>,

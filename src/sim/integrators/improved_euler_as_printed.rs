@@ -14,10 +14,16 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 1,
     evaluations: Some(2),
     source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the improved Euler method",
+    formula: &[
+        "k₁ = a(t, q, v), k₂ = a(t + h, q, v + h k₁)",
+        "v′ = v + ½h (k₁ + k₂)",
+        "q′ = q + h v′",
+    ],
+    code: include_str!("../../../assets/methods/improved-euler-as-printed.step"),
     ..AS_PRINTED
 };
 
-/// `k1 = a(t, q, v)`, `k2 = a(t + h, q, v + h k1)`, `v' = v + h (k1 + k2) / 2`, then `q' = q + h v'`.
+/// Improved Euler (as printed), by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct ImprovedEulerAsPrinted<V> {
     k1: V,

@@ -17,6 +17,8 @@ pub(super) const CARD: Method = Method {
     // √(2 + 2 KEPT)
     stability_limit: Some(1.994_993_734_326_0),
     source: "Jakobsen, Advanced Character Physics (2001), with his drag of 0.99",
+    formula: &["p = q − h v, q′ = q + 0.99 (q − p) + h² a", "v′ = (q′ − q) / h"],
+    code: include_str!("../../../assets/methods/jakobsen-verlet.step"),
     ..AS_PRINTED
 };
 

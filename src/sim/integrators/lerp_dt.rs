@@ -15,6 +15,8 @@ pub(super) const CARD: Method = Method {
     about: "the right speed at high frame rates; overshoots above a step of 1 / k and explodes above 2 / k",
     stability_limit: Some(2.0),
     source: "folklore of game code; F. Holmér, Lerp smoothing is broken (2024)",
+    formula: &["x′ = x + k h (g − x)", "v′ = k (g − x′)"],
+    code: include_str!("../../../assets/methods/lerp-dt.step"),
     ..FIRST_ORDER_FOLLOWER
 };
 

@@ -16,6 +16,8 @@ pub(super) const CARD: Method = Method {
     order: 0,
     order_with_drag: 0,
     source: "folklore of game code; R. Pavlov, Improved Lerp Smoothing, Game Developer (2016)",
+    formula: &["x′ = x + 0.1 (g − x)", "v′ = k (g − x′)"],
+    code: include_str!("../../../assets/methods/lerp-per-frame.step"),
     ..FIRST_ORDER_FOLLOWER
 };
 

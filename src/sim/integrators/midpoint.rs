@@ -14,10 +14,13 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 2,
     evaluations: Some(2),
     source: "Runge, Über die numerische Auflösung von Differentialgleichungen (1895)",
+    formula: &["k₁ = f(t, y)", "k₂ = f(t + ½h, y + ½h k₁)", "y′ = y + h k₂"],
+    weights: &[0.0, 1.0],
+    code: include_str!("../../../assets/methods/midpoint.step"),
     ..EXPLICIT
 };
 
-/// `k1 = f(t, y)`, `k2 = f(t + h/2, y + h k1 / 2)`, `y' = y + h k2`.
+/// Midpoint, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Midpoint<V> {
     k1: State<V>,

@@ -15,11 +15,12 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 2,
     reversible: true,
     source: "Newmark, A method of computation for structural dynamics (1959)",
+    formula: &["q′ = q + h v + ¼h² (a + a′)", "v′ = v + ½h (a + a′)", "a′ = a(t + h, q′, v′)"],
+    code: include_str!("../../../assets/methods/newmark.step"),
     ..IMPLICIT
 };
 
-/// `q' = q + h v + h² ((1/2 - β) a + β a')` and `v' = v + h ((1 - γ) a + γ a')`, with
-/// `a' = a(t + h, q', v')`.
+/// Newmark, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Newmark<V> {
     a: V,

@@ -16,6 +16,15 @@ pub(super) const CARD: Method = Method {
     evaluations: Some(4),
     stability_limit: Some(2.989),
     source: "Omelyan, Mryglod & Folk, Optimized Forest-Ruth- and Suzuki-like algorithms for integration of motion in many-body systems (2002)",
+    formula: &[
+        "drift ξ, kick ½ − λ, drift χ, kick λ",
+        "drift 1 − 2 (χ + ξ), kick λ",
+        "drift χ, kick ½ − λ, drift ξ",
+        "ξ = 0.1786178958448091",
+        "λ = −0.2123418310626054",
+        "χ = −0.0662645826698185",
+    ],
+    code: include_str!("../../../assets/methods/pefrl.step"),
     ..SYMPLECTIC
 };
 
@@ -32,7 +41,7 @@ const STAGES: [(f64, f64); 4] = [
 /// The drift after the last kick.
 const LAST: f64 = XI;
 
-/// Drifts by ξ, χ, 1-2(χ+ξ), χ, ξ of the step, and between them kicks by (1-2λ)/2, λ, λ, (1-2λ)/2.
+/// PEFRL, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Pefrl<V> {
     a: V,

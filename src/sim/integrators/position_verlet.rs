@@ -14,10 +14,12 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 1,
     evaluations: Some(1),
     source: "Tuckerman, Berne & Martyna, Reversible multiple time scale molecular dynamics (1992)",
+    formula: &["q½ = q + ½h v", "v′ = v + h a(t + ½h, q½, v)", "q′ = q½ + ½h v′"],
+    code: include_str!("../../../assets/methods/position-verlet.step"),
     ..SYMPLECTIC
 };
 
-/// `q½ = q + h v / 2`, `v' = v + h a(t + h/2, q½, v)`, `q' = q½ + h v' / 2`.
+/// Position Verlet, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct PositionVerlet<V> {
     a: V,

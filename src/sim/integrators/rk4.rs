@@ -15,10 +15,19 @@ pub(super) const CARD: Method = Method {
     evaluations: Some(4),
     stability_limit: Some(2.0 * std::f64::consts::SQRT_2),
     source: "Kutta, Beitrag zur näherungsweisen Integration totaler Differentialgleichungen (1901); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
+    formula: &[
+        "k₁ = f(t, y)",
+        "k₂ = f(t + ½h, y + ½h k₁)",
+        "k₃ = f(t + ½h, y + ½h k₂)",
+        "k₄ = f(t + h, y + h k₃)",
+        "y′ = y + h (k₁ + 2 k₂ + 2 k₃ + k₄) / 6",
+    ],
+    weights: &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
+    code: include_str!("../../../assets/methods/rk4.step"),
     ..EXPLICIT
 };
 
-/// `y' = y + h (k1 + 2 k2 + 2 k3 + k4) / 6` on the whole state `y = (q, v)`.
+/// Runge-Kutta 4, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Rk4<V> {
     k1: State<V>,

@@ -14,10 +14,17 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 1,
     evaluations: Some(4),
     source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the Runge-Kutta method",
+    formula: &[
+        "k₁ = a(t, q, v), k₂ = a(t + ½h, q, v + ½h k₁)",
+        "k₃ = a(t + ½h, q, v + ½h k₂), k₄ = a(t + h, q, v + h k₃)",
+        "v′ = v + h (k₁ + 2 k₂ + 2 k₃ + k₄) / 6",
+        "q′ = q + h v′",
+    ],
+    code: include_str!("../../../assets/methods/rk4-as-printed.step"),
     ..AS_PRINTED
 };
 
-/// `v' = v + h (k1 + 2 k2 + 2 k3 + k4) / 6`, all four at the position `q`, then `q' = q + h v'`.
+/// Runge-Kutta 4 (as printed), by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Rk4AsPrinted<V> {
     k1: V,

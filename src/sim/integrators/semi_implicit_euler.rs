@@ -15,10 +15,12 @@ pub(super) const CARD: Method = Method {
     evaluations: Some(1),
     reversible: false,
     source: "de Vogelaere, Methods of integration which preserve the contact transformation property of the Hamilton equations (1956)",
+    formula: &["v′ = v + h a(t, q, v)", "q′ = q + h v′"],
+    code: include_str!("../../../assets/methods/semi-implicit-euler.step"),
     ..SYMPLECTIC
 };
 
-/// `v' = v + h a(t, q, v)`, then `q' = q + h v'`.
+/// Semi-implicit Euler, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct SemiImplicitEuler<V> {
     a: V,

@@ -16,10 +16,12 @@ pub(super) const CARD: Method = Method {
     symplectic: true,
     stability_limit: Some(2.0),
     source: "Ascher, Ruuth & Wetton, Implicit-explicit methods for time-dependent partial differential equations (1995)",
+    formula: &["(I − h ∂a/∂v) (v′ − v) = h a(t, q, v)", "q′ = q + h v′"],
+    code: include_str!("../../../assets/methods/semi-implicit-euler-implicit-drag.step"),
     ..LINEARISED
 };
 
-/// `(I - h ∂a/∂v) (v' - v) = h a(t, q, v)`, then `q' = q + h v'`.
+/// Semi-implicit Euler, implicit drag, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct SemiImplicitEulerImplicitDrag<V> {
     a: V,

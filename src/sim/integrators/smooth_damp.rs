@@ -15,6 +15,13 @@ pub(super) const CARD: Method = Method {
     name: "Smooth damp",
     about: "a critically damped spring within 0.12 % up to a step of 1 / ω; stops dead where it meets a moving target",
     source: "Lowe, Critically Damped Ease-In/Ease-Out Smoothing, Game Programming Gems 4, 1.10 (2004); Unity, Mathf.SmoothDamp",
+    formula: &[
+        "e = 1 / (1 + z + 0.48 z² + 0.235 z³), z = ω h",
+        "b = (v + ω (x − g)) h, p = g + (x − g + b) e",
+        "if (g > x) = (p > g): x′ = g, v′ = 0",
+        "else: x′ = p, v′ = (v − ω b) e",
+    ],
+    code: include_str!("../../../assets/methods/smooth-damp.step"),
     ..SECOND_ORDER_FOLLOWER
 };
 

@@ -16,6 +16,14 @@ pub(super) const CARD: Method = Method {
     // √3, where z⁴ (z² - 3) / 36, the growth of the squared amplitude in a step, changes sign.
     stability_limit: Some(1.732_050_807_568_877_2),
     source: "Shu & Osher, Efficient implementation of essentially non-oscillatory shock-capturing schemes (1988)",
+    formula: &[
+        "k₁ = f(t, y)",
+        "k₂ = f(t + h, y + h k₁)",
+        "k₃ = f(t + ½h, y + ¼h (k₁ + k₂))",
+        "y′ = y + h (k₁ + k₂ + 4 k₃) / 6",
+    ],
+    weights: &[1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
+    code: include_str!("../../../assets/methods/ssp-rk3.step"),
     ..EXPLICIT
 };
 

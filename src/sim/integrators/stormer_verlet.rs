@@ -16,10 +16,16 @@ pub(super) const CARD: Method = Method {
     evaluations: Some(1),
     restart: Some("by placing the position of one step ago on the parabola through q, v and a"),
     source: "Störmer, Sur les trajectoires des corpuscules électrisés (1907); Verlet, Computer \"Experiments\" on Classical Fluids (1967); Jakobsen, Advanced Character Physics (2001)",
+    formula: &[
+        "q′ = 2 q − q₋₁ + h² a",
+        "a′ = a(t + h, q′, (3 q′ − 4 q + q₋₁) / (2 h))",
+        "v′ = (q′ − q) / h + ½h a′",
+    ],
+    code: include_str!("../../../assets/methods/stormer-verlet.step"),
     ..SYMPLECTIC
 };
 
-/// `q' = 2 q - p + h² a`, with `p` the position one step ago, and `v' = (q' - q) / h + h a' / 2`.
+/// Störmer-Verlet, by the [formula](Method::formula) on its card. `p` is the position one step ago.
 ///
 /// The plain difference `(q' - q) / h` is the velocity half a step ago, and first order. Half a kick by
 /// the force at the end, which the next step needs anyway, makes it second order.

@@ -14,6 +14,11 @@ pub(super) const CARD: Method = Method {
     order: 2,
     order_with_drag: 2,
     source: "Bank, Coughran, Fichtner, Grosse, Rose & Smith, Transient simulation of silicon devices and circuits (1985)",
+    formula: &[
+        "Y = y + ½γh (f(t, y) + f(t + γ h, Y)), γ = 2 − √2",
+        "y′ = y + (Y − y) / (γ (2 − γ)) + ½γh f(t + h, y′)",
+    ],
+    code: include_str!("../../../assets/methods/tr-bdf2.step"),
     ..IMPLICIT
 };
 

@@ -16,10 +16,12 @@ pub(super) const CARD: Method = Method {
     evaluations: Some(1),
     restart: Some("by evaluating the force at the start, which else is the last step's end"),
     source: "Swope, Andersen, Berens & Wilson, A computer simulation method for the calculation of equilibrium constants for the formation of physical clusters of molecules (1982)",
+    formula: &["v½ = v + ½h a", "q′ = q + h v½", "a′ = a(t + h, q′, v½ + ½h a)", "v′ = v½ + ½h a′"],
+    code: include_str!("../../../assets/methods/velocity-verlet.step"),
     ..SYMPLECTIC
 };
 
-/// `v½ = v + h a / 2`, `q' = q + h v½`, `a' = a(t + h, q', v½ + h a / 2)`, `v' = v½ + h a' / 2`.
+/// Velocity Verlet, by the [formula](Method::formula) on its card.
 ///
 /// The force at the end uses the predicted velocity there, which keeps second order under drag; with
 /// the half-step velocity `v½` it would be first order.

@@ -18,6 +18,13 @@ pub(super) const CARD: Method = Method {
     reversible: true,
     stability_limit: Some(2.0),
     source: "Strang, On the construction and comparison of difference schemes (1968); in molecular dynamics Bussi & Parrinello, Accurate sampling using Langevin dynamics (2007)",
+    formula: &[
+        "D = ∂a/∂v, w = exp(½h D) v, r = a(t, q, w) − D w",
+        "v½ = w + ½h r, q′ = q + h v½, u = v½ + ½h r",
+        "r′ = a(t + h, q′, u) − D u",
+        "v′ = exp(½h D) (v½ + ½h r′)",
+    ],
+    code: include_str!("../../../assets/methods/verlet-exact-drag.step"),
     ..LINEARISED
 };
 

@@ -17,6 +17,12 @@ pub(super) const CARD: Method = Method {
     evaluations: Some(3),
     stability_limit: Some(1.573),
     source: "Forest & Ruth, Fourth-order symplectic integration (1990); Yoshida, Construction of higher order symplectic integrators (1990)",
+    formula: &[
+        "drift ½θ, kick θ, drift ½(1 − θ), kick 1 − 2θ",
+        "drift ½(1 − θ), kick θ, drift ½θ",
+        "θ = 1 / (2 − ∛2)",
+    ],
+    code: include_str!("../../../assets/methods/yoshida4.step"),
     ..SYMPLECTIC
 };
 
@@ -29,7 +35,7 @@ const STAGES: [(f64, f64); 3] =
 /// The drift after the last kick.
 const LAST: f64 = THETA / 2.0;
 
-/// Drifts by θ/2, (1-θ)/2, (1-θ)/2, θ/2 of the step, and between them kicks by θ, 1-2θ, θ.
+/// Yoshida 4, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
 pub struct Yoshida4<V> {
     a: V,

@@ -26,7 +26,7 @@ fn is_letter(sign: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::FORMULAS;
+    use crate::lab::METHODS;
 
     fn quantities(line: &str) -> Vec<String> {
         let job = job(line, 13.0, Color32::WHITE);
@@ -43,10 +43,8 @@ mod tests {
     #[test]
     fn quantities_are_italic_and_words_and_figures_are_not() {
         assert_eq!(quantities("y′ = y + ½h Σ aᵢⱼ kⱼ if small"), ["y", "y", "h", "a", "k"]);
-        for formula in FORMULAS {
-            for line in formula.lines {
-                assert!(quantities(line).iter().all(|text| text.chars().count() == 1), "{line}");
-            }
+        for line in METHODS.iter().flat_map(|method| method.formula) {
+            assert!(quantities(line).iter().all(|text| text.chars().count() == 1), "{line}");
         }
     }
 }

@@ -5,7 +5,7 @@ use egui::{Align2, FontId, Id, Pos2, Rect, Response, ScrollArea, Sense, Ui, Vec2
 
 use super::sorting::{self, Order};
 use super::{focus_ring, formula, ink, keycap, short};
-use crate::lab::{Command, FORMULAS, Lab, LaneBody, Language, Mode};
+use crate::lab::{Command, Lab, LaneBody, Language, Mode};
 use crate::view::plot;
 use crate::view::theme::{TYPE, strong_font};
 
@@ -262,8 +262,7 @@ fn tooltip(response: Response, row: &Row<'_>, said: &str) -> Response {
         if !method.also.is_empty() {
             ui.label(format!("Also asked for as {}.", method.also.join(", ")));
         }
-        let formula = FORMULAS.iter().find(|formula| formula.method == method.id);
-        for line in formula.map_or(&[][..], |formula| formula.lines) {
+        for line in method.formula {
             ui.label(formula::job(line, 16.0, ink(ui).text));
         }
         ui.label(format!("At {} Hz: {said}.", row.lab.clock().tick_hz()));

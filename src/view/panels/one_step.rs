@@ -214,7 +214,7 @@ fn chain(
             own.gamma_multiply(0.7),
         );
     }
-    let weights = step.formula().map_or(&[][..], |formula| formula.weights);
+    let weights = step.spec.method.weights;
     let links = evaluations.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
     for (ends, ((_, colour, _), _)) in step.chain.windows(2).zip(links) {
         arrow(painter, [area.at(ends[0]), area.at(ends[1])], 4.5, *colour);
@@ -250,7 +250,7 @@ fn badge(painter: &egui::Painter, at: Pos2, number: usize, [colour, text]: [Colo
 
 /// The height of the table, in points.
 fn table_height(step: &OneStep) -> f32 {
-    let lines = step.formula().map_or(0, |formula| formula.lines.len());
+    let lines = step.spec.method.formula.len();
     let rows = step.evaluations.len().min(MOST_DRAWN) + 3;
     FORMULA * lines as f32 + ROW * rows as f32 + 24.0
 }
@@ -261,7 +261,7 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
     let (q, v) = (coordinate.name, coordinate.velocity);
     ui.spacing_mut().item_spacing.y = 1.0;
     ScrollArea::vertical().id_salt("one step").auto_shrink(false).show(ui, |ui| {
-        for line in step.formula().map_or(&[][..], |formula| formula.lines) {
+        for line in step.spec.method.formula {
             ui.label(formula::job(line, 16.0, ink(ui).text));
         }
         let grid = Grid::new("evaluations").num_columns(5).spacing([14.0, 1.0]).striped(true);

@@ -13,7 +13,7 @@ fn arguments(source: &MethodSource, function: &str, suffix: &str) -> String {
         "f" => format!(", (float)({number})"),
         _ => format!(", ({number}){suffix}"),
     };
-    let each = |input: regatta::lab::MethodInput<'_>| match input.name {
+    let each = |input: &regatta::lab::MethodInput<'_>| match input.name {
         "a" => format!(", {function}"),
         "target" => cast(TARGET.to_owned()),
         "rate" => cast(format!("{RATE:?}")),
@@ -24,7 +24,7 @@ fn arguments(source: &MethodSource, function: &str, suffix: &str) -> String {
         "substeps" => format!(", {SUBSTEPS}"),
         other => panic!("{other} is not known here"),
     };
-    source.inputs().into_iter().map(each).collect()
+    source.inputs().iter().map(each).collect()
 }
 
 fn takes_function(source: &MethodSource) -> bool {
@@ -49,7 +49,7 @@ fn forces() -> String {
 fn in_language(
     language: Language,
     precision: Precision,
-) -> impl Iterator<Item = (&'static Method, &'static MethodSource, String, String)> {
+) -> impl Iterator<Item = (&'static Method, MethodSource, String, String)> {
     sources().filter_map(move |(method, source)| {
         let printed = source_code(method, language, precision).ok()?;
         Some((method, source, method.id.replace('-', "_"), printed))
@@ -73,7 +73,7 @@ pub(crate) fn rust(precision: Precision) -> String {
             false => (String::new(), ""),
         };
         let function = format!("|x, v| a(FORCES[k], x as f64, v as f64) as {number}");
-        let more = arguments(source, &function, &format!(" as {number}"));
+        let more = arguments(&source, &function, &format!(" as {number}"));
         writeln!(
             calls,
             "let (mut x, mut v) = (c[0] as {number}, c[1] as {number}); {memory} for n in 0..{STEPS} {{ let h = c[2 + 4 * n / \
@@ -105,8 +105,8 @@ pub(crate) fn c(precision: Precision) -> String {
             true => (format!("{name}_memory m = {}_START;", name.to_uppercase()), "&m, "),
             false => (String::new(), ""),
         };
-        let more = arguments(source, "a", suffix);
-        let user = if takes_function(source) { ", &forces[k]" } else { "" };
+        let more = arguments(&source, "a", suffix);
+        let user = if takes_function(&source) { ", &forces[k]" } else { "" };
         writeln!(
             calls,
             "{{ {number} x = ({number})c[0], v = ({number})c[1]; {memory} for (int n = 0; n < {STEPS}; n++) {{ const double h = c[2 \
@@ -163,7 +163,7 @@ pub(crate) fn c_sharp(precision: Precision) -> String {
             true => (format!("var m = new {class}.Memory();"), "m, "),
             false => (String::new(), ""),
         };
-        let more = arguments(source, "a", suffix);
+        let more = arguments(&source, "a", suffix);
         writeln!(
             calls,
             "{{ {number} x = ({number})c[0], v = ({number})c[1]; {memory} for (int n = 0; n < {STEPS}; n++) {{ double h = c[2 + 4 * \

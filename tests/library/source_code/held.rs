@@ -3,9 +3,11 @@
 use std::cell::Cell;
 
 use regatta::lab::Language;
-use regatta::lab::{METHOD_SOURCES, Precision, source_code};
+use regatta::lab::{Precision, source_code};
 use regatta::sim::integrators::{Method, integrator, method};
 use regatta::sim::{State, System};
+
+use super::known::sources;
 
 /// A spring under a force that depends on time, which is held during a step.
 struct Held {
@@ -47,9 +49,8 @@ fn a_force_that_is_held_where_the_header_says_has_the_order_that_it_says() {
         fine + (fine - coarse) / 3.0
     };
     let mut measured = 0;
-    for source in METHOD_SOURCES {
+    for (method, source) in sources() {
         let takes_acceleration = source.inputs().iter().any(|input| input.name == "a");
-        let method = method(source.method).unwrap();
         let text = source_code(method, Language::C, Precision::Double).unwrap();
         assert_eq!(text.contains("Forces that depend on time"), takes_acceleration, "{text}");
         // The error of adaptive Euler is its tolerance, and an engine is not told of such a system.

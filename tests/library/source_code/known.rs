@@ -1,7 +1,7 @@
 //! The runs that are compared: their forces and targets, and the steps of the methods of the table.
 
-use regatta::lab::{METHOD_SOURCES, MethodSource};
-use regatta::sim::integrators::{Method, integrator, method};
+use regatta::lab::MethodSource;
+use regatta::sim::integrators::{METHODS, Method, integrator};
 use regatta::sim::{EngineSettings, Pursuit, State, System};
 
 /// The acceleration of a run.
@@ -118,6 +118,6 @@ pub(crate) fn steps(method: &Method, case: &Case) -> Vec<[f64; 2]> {
 }
 
 /// The methods of the table, each with its source.
-pub(crate) fn sources() -> impl Iterator<Item = (&'static Method, &'static MethodSource)> {
-    METHOD_SOURCES.iter().map(|source| (method(source.method).expect("a method"), source))
+pub(crate) fn sources() -> impl Iterator<Item = (&'static Method, MethodSource)> {
+    METHODS.iter().map(|method| (method, MethodSource::of(method).expect("a source")))
 }

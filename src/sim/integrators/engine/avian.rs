@@ -17,6 +17,13 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         free_spin: None,
     }),
     source: "Avian 0.7.0: integrator/mod.rs, xpbd/plugin.rs, solver/plugin.rs joint_damping",
+    formula: &[
+        "h = ns(ns(H) / n): whole nanoseconds",
+        "n times: v = v / (1 + h C) + h f, x = x + h v",
+        "d = −x h² K / (1 + h² K), x = x + d",
+        "v = (v + d / h) max(0, 1 − h c)",
+    ],
+    code: include_str!("../../../../assets/methods/engine-avian.step"),
     ..ENGINE
 };
 

@@ -19,6 +19,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         free_spin: None,
     }),
     source: "Avian 0.7.0: integrator/mod.rs, xpbd/plugin.rs, xpbd/joints/prismatic.rs",
+    formula: &[
+        "h = ns(ns(H) / n): whole nanoseconds",
+        "D = 1 + h c + h² K, S = 0",
+        "n times: v = v / (1 + h C) + h f",
+        "the first time: v = v + S₋₁",
+        "x = x + h v, d = −h² (K x + c v) / D",
+        "x = x + d, v = v + d / h, S = S + d",
+    ],
+    code: include_str!("../../../../assets/methods/engine-avian-motor.step"),
     ..ENGINE
 };
 

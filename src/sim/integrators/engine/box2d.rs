@@ -17,6 +17,13 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     }),
     source: "Box2D 3.x main 617d32a: solver.c b2IntegrateVelocitiesTask, b2IntegratePositionsTask; solver.h b2MakeSoft; \
              distance_joint.c",
+    formula: &[
+        "D = 1 + h c + h² K",
+        "n times: p = v / (1 + h C) + h f",
+        "v = (p − h K x) / D, |v| ≤ 400, x = x + h v",
+        "v = (p − h K x) / D",
+    ],
+    code: include_str!("../../../../assets/methods/engine-box2d.step"),
     ..ENGINE
 };
 

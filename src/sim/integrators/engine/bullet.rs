@@ -18,6 +18,14 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         free_spin: Some(FreeSpin { default: SpinMap::NewtonStep, opt_in: None, per_substep: true }),
     }),
     source: "Bullet 3 main 6c888f4: btRigidBody.cpp applyDamping, btGeneric6DofSpring2Constraint.cpp get_limit_motor_info2",
+    formula: &[
+        "k = min(K, 1 / (16 h²)), r = min(c, 1 / h)",
+        "n times: v = v e^(−C h)",
+        "g = −h (k x + r v), b = −h r v",
+        "if f ≠ 0: g = min(max(g − h f, min(g, b, 0)), max(g, b, 0))",
+        "v = v + g + h f, x = x + h v",
+    ],
+    code: include_str!("../../../../assets/methods/engine-bullet.step"),
     ..ENGINE
 };
 

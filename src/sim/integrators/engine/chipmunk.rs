@@ -17,6 +17,8 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         free_spin: None,
     }),
     source: "Chipmunk 2.0.1 in pymunk 7.3.1: cpBodyUpdatePosition, cpBodyUpdateVelocity, cpDampedSpring.c",
+    formula: &["x′ = x + H v", "v′ = ((v − H K x′) e^(−C H) + H f) e^(−c H)"],
+    code: include_str!("../../../../assets/methods/engine-chipmunk.step"),
     ..ENGINE
 };
 

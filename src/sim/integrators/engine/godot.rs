@@ -21,6 +21,8 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         free_spin: Some(FreeSpin { default: SpinMap::Constant, opt_in: None, per_substep: false }),
     }),
     source: "Godot 4.x: godot_body_2d.cpp, godot_joints_2d.cpp GodotDampedSpringJoint2D",
+    formula: &["v = v max(0, 1 − H C) + H f − H K x", "v′ = v e^(−8 c H), x′ = x + H v′"],
+    code: include_str!("../../../../assets/methods/engine-godot.step"),
     ..ENGINE
 };
 

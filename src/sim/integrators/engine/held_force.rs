@@ -27,6 +27,8 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     }),
     source: "what Box2D, Rapier and Avian do with a force that is applied before the step; Jolt, Bullet and MuJoCo too where \
              they substep",
+    formula: &["f = a(t, x, v)", "n times: v = v + h f, x = x + h v"],
+    code: include_str!("../../../../assets/methods/held-force.step"),
     ..ENGINE
 };
 

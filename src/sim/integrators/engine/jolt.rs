@@ -20,6 +20,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         }),
     }),
     source: "Jolt 5.5.1 main 3b47ec3: MotionProperties.inl ApplyForceTorqueAndDragInternal, SpringPart.h",
+    formula: &[
+        "D = 1 + h c + h² K",
+        "n times: v = (v + h f) max(0, 1 − h C), |v| ≤ 500",
+        "v = (v − h K x) / D, x = x + h v",
+    ],
+    code: include_str!("../../../../assets/methods/engine-jolt.step"),
     ..ENGINE
 };
 

@@ -23,6 +23,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         }),
     }),
     source: "MuJoCo 4.0.0: engine_forward.c mj_Euler",
+    formula: &[
+        "n times: a = f − K x − (c + C) v",
+        "if max(|x|, |v|, |a|) > 10¹⁰: x = 0, v = 0, f = 0",
+        "v = (v + h (f − K x)) / (1 + h (c + C)), x = x + h v",
+    ],
+    code: include_str!("../../../../assets/methods/engine-mujoco.step"),
     ..ENGINE
 };
 

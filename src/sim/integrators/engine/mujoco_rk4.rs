@@ -20,6 +20,17 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         free_spin: Some(FreeSpin { default: SpinMap::RungeKutta, opt_in: None, per_substep: true }),
     }),
     source: "MuJoCo 4.0.0: engine_forward.c mj_RungeKutta",
+    formula: &[
+        "a(x, v) = f − K x − (c + C) v",
+        "n times: if max(|x|, |v|, |a(x, v)|) > 10¹⁰: x = 0, v = 0, f = 0",
+        "a₁ = a(x, v), v₂ = v + ½h a₁",
+        "a₂ = a(x + ½h v, v₂), v₃ = v + ½h a₂",
+        "a₃ = a(x + ½h v₂, v₃), v₄ = v + h a₃",
+        "a₄ = a(x + h v₃, v₄)",
+        "x = x + h (v + 2 v₂ + 2 v₃ + v₄) / 6",
+        "v = v + h (a₁ + 2 a₂ + 2 a₃ + a₄) / 6",
+    ],
+    code: include_str!("../../../../assets/methods/engine-mujoco-rk4.step"),
     ..ENGINE
 };
 

@@ -21,6 +21,12 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         }),
     }),
     source: "PhysX 5.1.3: the projected Gauss-Seidel solver, D6 drive and distance joint",
+    formula: &[
+        "v = (v + H f) max(0, 1 − H C)",
+        "v′ = (v − H K x) / D, x′ = x + H v′",
+        "D = 1 + H c + H² K",
+    ],
+    code: include_str!("../../../../assets/methods/engine-physx.step"),
     ..ENGINE
 };
 

@@ -22,6 +22,14 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         }),
     }),
     source: "PhysX 5.1.3: DyTGSContactPrep.cpp, DyCpuGpu1dConstraint.h",
+    formula: &[
+        "v = (v + H f) max(0, 1 − H C), d = 0",
+        "n times: v = (v − h K (x + d)) / D − E h c d",
+        "d = d + h v",
+        "then x′ = x + d, v′ = v / D",
+        "D = 1 + h c + h² K, E = 1 / (1 + h² (c + K))",
+    ],
+    code: include_str!("../../../../assets/methods/engine-physx-tgs.step"),
     ..ENGINE
 };
 

@@ -27,6 +27,8 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         free_spin: None,
     }),
     source: "pybullet 3.2.7: btMultiBody.cpp, its default linear damping",
+    formula: &["d = 1 − e^(−C)", "v′ = v + H (f − d v (1 + |v|))", "x′ = x + H v′"],
+    code: include_str!("../../../../assets/methods/engine-pybullet.step"),
     ..ENGINE
 };
 

@@ -22,6 +22,13 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         }),
     }),
     source: "Rapier 0.36.1: staged_island_solver/worker.rs, motor_model.rs",
+    formula: &[
+        "D = 1 + h c + h² K",
+        "n times: v = (v + h f − h K x) / D, |v| ≤ 400",
+        "x = x + h v",
+        "then v = v / (1 + H C)",
+    ],
+    code: include_str!("../../../../assets/methods/engine-rapier.step"),
     ..ENGINE
 };
 
