@@ -129,14 +129,16 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
     if let Some(percent) = preferences.scale_percent {
         lab.choose_scale(percent);
     }
-    // Before the run, which could otherwise turn out impossible to save.
     let record = args.record.as_deref().map(|path| {
         let older = if args.force { Older::Replace } else { Older::Keep };
         Place { path, option: "--record", older }
     });
     refuse_to_record_over(&options, record.as_ref())?;
-    let record = record.map(AtomicOutput::open_for_text).transpose()?;
-    let unfinished = record.as_ref().and_then(AtomicOutput::file).map(UnfinishedRecording::beside);
+    // Opened before the run, which could otherwise turn out impossible to save. A file is begun again when the run is over,
+    // so that a killed program leaves only what grows beside it.
+    let opened = record.map(AtomicOutput::open_for_text).transpose()?;
+    let unfinished = opened.as_ref().and_then(AtomicOutput::file).map(UnfinishedRecording::beside);
+    let stream = opened.filter(|output| output.file().is_none());
     for told in unfinished::left_behind() {
         tell(&told);
         lab.set_notice(told);
@@ -164,7 +166,8 @@ pub(super) fn run(args: &PlayArgs) -> Result<(), Error> {
             (lab, interrupted)
         }
     };
-    if let Some(mut record) = record {
+    if let Some(place) = record {
+        let mut record = stream.map_or_else(|| AtomicOutput::begin(place), Ok)?;
         let wanted = record.name();
         let text = lab.recording()?;
         record.write_all(text.as_bytes()).map_err(|error| record.failed(error))?;

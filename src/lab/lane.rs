@@ -6,10 +6,10 @@
 use super::action::Action;
 use super::chase::Chase;
 use super::extent::Extent;
-use super::number::superscript;
 use super::scene::Scene;
 use crate::sim::bodies::{Coordinate, FalseClaims, Input, Kind, Law, Own, Truth};
 use crate::sim::integrators::StepFailure;
+use crate::sim::number::superscript;
 use crate::sim::{Solver, Stepper};
 
 /// The largest magnitude of a coordinate or velocity. Beyond it the value would not fit the picture's f32, and the

@@ -31,7 +31,6 @@ mod metrics;
 mod my_spring;
 mod notice;
 mod notices;
-pub mod number;
 mod one_step;
 mod own;
 pub mod pacing;
@@ -51,6 +50,7 @@ mod zoom_pan;
 pub use crate::sim::Clock;
 pub use crate::sim::bodies::{Acts, Coordinate, Parameter, Range};
 pub use crate::sim::integrators::METHODS;
+pub use crate::sim::number;
 pub use crate::sim::stability::NoSmallMotion;
 pub use action::Action;
 pub use analysis::{

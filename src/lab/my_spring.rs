@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::number::round;
 use super::scene::{Scene, SceneErrors, USUAL_SECONDS};
+use crate::sim::number::round;
 
 /// A scene of a slow spring has at least so many of its periods.
 const LEAST_PERIODS: f64 = 10.0;

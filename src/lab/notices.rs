@@ -3,11 +3,11 @@
 use super::action::Action;
 use super::analysis::duration;
 use super::lane::{Halt, LaneBody, Resumed, ResumedFrom};
-use super::number::superscript;
 use super::race::{Observer, Race};
 use super::scene::Scene;
 use crate::sim::bodies::FalseClaims;
 use crate::sim::integrators::StepFailure;
+use crate::sim::number::superscript;
 
 /// Collects notices from a race.
 pub(super) struct Notices<'s> {

@@ -21,6 +21,7 @@ pub mod law;
 #[cfg(feature = "lab")]
 mod least_squares;
 mod net_plan;
+pub mod number;
 mod parameter;
 mod piece;
 mod points;

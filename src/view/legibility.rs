@@ -198,6 +198,17 @@ fn every_text_can_be_read_with_all_methods_racing_in_both_arrangements() {
 }
 
 #[test]
+fn every_text_can_be_read_under_every_method_from_the_start() {
+    let mut lab = race_of_all("harbour");
+    lab.apply(Command::ToggleRace);
+    for entry in 0..lab.entries().len() {
+        lab.apply(Command::Pick(entry));
+        lab.apply(Command::Restart);
+        assert_legible(&lab, lab.entries()[entry].method.name);
+    }
+}
+
+#[test]
 fn every_text_can_be_read_at_every_size_of_type() {
     for scale_percent in SCALE_LADDER {
         let labs = [("harbour", race_of_all("harbour")), ("stiff", run("stiff", false))];

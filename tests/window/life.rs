@@ -189,4 +189,6 @@ fn a_killed_program_leaves_its_recording_and_the_next_start_says_where() {
     let left: Vec<_> = folder.read_dir().unwrap().map(|file| file.unwrap().file_name()).collect();
     let is_unfinished = |name: &&std::ffi::OsString| name.to_string_lossy().contains("unfinished");
     assert_eq!(left.iter().filter(is_unfinished).count(), 1, "of the killed one: {left:?}");
+    let is_part = |name: &std::ffi::OsString| name.to_string_lossy().ends_with(".part");
+    assert!(!left.iter().any(is_part), "{left:?}");
 }

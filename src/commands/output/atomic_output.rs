@@ -139,11 +139,16 @@ impl AtomicOutput {
             _ if older == Older::Keep && fs::symlink_metadata(&path).is_ok() => {
                 Err(OutputError::Taken { path, option })
             }
-            entry => {
-                let part = begin(&path, entry.ok().as_ref()).map_err(fail)?;
-                Ok(AtomicOutput::File { part: BufWriter::new(part), path, option, older })
-            }
+            _ => Self::begin(place),
         }
+    }
+
+    /// Begins a file, whether or not there is one of its name.
+    pub(crate) fn begin(Place { path, option, older }: Place<'_>) -> Result<Self, OutputError> {
+        let path = path.to_owned();
+        let part = begin(&path, fs::metadata(&path).ok().as_ref());
+        let part = BufWriter::new(part.map_err(FileError::of("write", &path, option))?);
+        Ok(AtomicOutput::File { part, path, option, older })
     }
 
     /// Its name in messages.

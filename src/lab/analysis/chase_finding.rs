@@ -5,8 +5,8 @@ use std::fmt;
 use super::truth::BodyTruth;
 use crate::lab::chase::Chase;
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::number::{round, significant};
 use crate::sim::Solver;
+use crate::sim::number::{round, significant};
 
 /// How a body closes on a target that stays, under a method and in truth.
 #[derive(Clone, Copy, Debug, PartialEq)]

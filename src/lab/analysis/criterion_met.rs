@@ -1,6 +1,6 @@
 //! How a method meets a criterion, and by how much.
 
-use crate::lab::number::round;
+use crate::sim::number::round;
 
 /// The largest factor by which bodies are made stiffer.
 pub(super) const MOST_STIFFER: f64 = 10.0;

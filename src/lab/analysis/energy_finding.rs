@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::lab::number::round;
 use crate::sim::bodies::Truth;
+use crate::sim::number::round;
 
 /// A radius above this is growth: the power iteration tells it to some thousandths.
 const GROWING_RADIUS: f64 = 1.01;

@@ -6,9 +6,9 @@ use super::chase_finding::ChaseFinding;
 use super::energy_finding::EnergyFinding;
 use super::limits::TOLERANCE;
 use super::outcome::Outcome;
-use crate::lab::number::{round, significant, superscript};
 use crate::sim::bodies::Truth;
 use crate::sim::integrators::StepFailure;
+use crate::sim::number::{round, significant, superscript};
 
 /// Why and when a body's run ended early.
 #[derive(Clone, Debug, PartialEq)]

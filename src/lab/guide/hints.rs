@@ -71,16 +71,18 @@ impl Hints {
     }
 
     /// The present hint: the scene's, or else the first that was not followed. `flown` is the name of the method and the
-    /// outcome of its verdict.
+    /// outcome of its verdict. Only a run that was changed on its way is worth another look from the start.
     pub(in crate::lab) fn text(
         &self,
         hint: Option<&str>,
         (method, outcome): (&str, Option<Outcome>),
+        was_changed: bool,
     ) -> Option<String> {
         if let Some(hint) = hint.filter(|_| !self.scene) {
             return Some(hint.to_owned());
         }
-        let next = self.leads.iter().position(|done| !done)?;
+        let first = usize::from(!was_changed);
+        let next = (first..LEADS.len()).find(|&lead| !self.leads[lead])?;
         if next == 0 && hint.is_some() {
             return Some(format!("{method} {}. {}", reaction(outcome), LEADS[0].text));
         }
@@ -192,11 +194,28 @@ mod tests {
     }
 
     #[test]
+    fn nobody_is_asked_to_start_again_what_has_only_just_begun() {
+        use crate::lab::Lab;
+        let text = "title = 'mine'\ntick_hz = 60\nseconds = 9\nmethods = ['rk4', 'implicit-euler']\n\
+             [[spring]]\nmass_kg = 1\nstiffness_n_per_m = 9\nx0_m = 1\n";
+        let mut lab = Lab::new(Scene::parse("mine.toml", text).unwrap());
+        let asks_for = |lab: &Lab, key: &str| lab.hint().expect("a lead").contains(key);
+        assert!(asks_for(&lab, "`C`"), "it was just opened");
+        lab.apply(Command::Pick(1));
+        assert!(asks_for(&lab, "`C`"), "it starts under the other method");
+        lab.tick();
+        lab.apply(Command::Pick(0));
+        assert!(asks_for(&lab, "`Home`"), "it did not start under this one");
+        lab.apply(Command::Restart);
+        assert!(asks_for(&lab, "`C`"));
+    }
+
+    #[test]
     fn hints_lead_on_when_they_are_followed_and_in_any_order() {
         let hint = Some("It grows. Press `2`.");
         let mut hints = Hints::default();
         let flown = ("Semi-implicit Euler", Some(Outcome::OutOfPhase));
-        let text = |hints: &Hints| hints.text(hint, flown).unwrap_or_default();
+        let text = |hints: &Hints| hints.text(hint, flown, true).unwrap_or_default();
         assert_eq!(text(&hints), "It grows. Press `2`.");
         hints.see(&Command::TickBack, hint);
         assert_eq!(text(&hints), "It grows. Press `2`.");
@@ -212,6 +231,6 @@ mod tests {
         hints.see(&Command::NextInstrument, hint);
         hints.see(&Command::TickRateUp, hint);
         hints.see(&Command::NextScene, hint);
-        assert_eq!(hints.text(hint, flown), None);
+        assert_eq!(hints.text(hint, flown, true), None);
     }
 }

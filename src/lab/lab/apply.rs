@@ -102,6 +102,8 @@ impl Lab {
             Command::Redo => self.redo(),
             Command::PointerDown(is_down) => self.viewer.pointer_is_down = is_down,
             Command::Restart => {
+                // A run that has come to rest by itself was not paused by anybody.
+                self.running |= self.comes_to_rest();
                 // A hint leads on; the old run is a click away on the timeline.
                 if self.restart_keeping_run() && self.hint().is_none() {
                     self.set_notice("restarted: Ctrl Z brings back the run");

@@ -4,6 +4,7 @@ use super::Lab;
 use crate::lab::command::Command;
 use crate::lab::guide::{Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
 use crate::lab::interpolation::Interpolation;
+use crate::lab::journal::Source;
 use crate::lab::metrics::METRICS;
 use crate::lab::quantity::Quantity;
 use crate::lab::race::Mode;
@@ -32,7 +33,15 @@ impl Lab {
         let outcome = self.viewer.verdict(entry).map(|verdict| verdict.outcome);
         let flown = (self.entries()[entry].method.name, outcome);
         let suits = |hint: &&str| self.mode() == Mode::Solo || suits_race(hint);
-        self.viewer.hints.text(self.scene().hint.as_deref().filter(suits), flown)
+        let hint = self.scene().hint.as_deref().filter(suits);
+        self.viewer.hints.text(hint, flown, self.was_changed_on_the_way())
+    }
+
+    /// Whether a person has acted since the start, so that the run from the start is another.
+    fn was_changed_on_the_way(&self) -> bool {
+        let race = self.race();
+        let rows = &race.journal().rows()[..race.done()];
+        rows.iter().any(|row| row.tick > 0 && row.source == Source::Hand)
     }
 
     /// Shows the hints from the first one again: for a driver that has set up the lab by commands.

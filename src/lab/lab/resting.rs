@@ -5,8 +5,8 @@ use super::Lab;
 use crate::lab::action::Action;
 use crate::lab::display::Motion;
 use crate::lab::journal::Source;
-use crate::lab::number::{round, significant};
 use crate::lab::race::Mode;
+use crate::sim::number::{round, significant};
 
 /// How long before it was over a blow-up is watched again, in seconds, and at least in ticks.
 const LEAD_S: f64 = 1.0;
@@ -119,6 +119,19 @@ mod tests {
         watch(&mut lab, 2);
         assert!(lab.running() && lab.race().t() > lab.scene().seconds);
         assert!(!lab.hint().is_some_and(|hint| hint.contains("are over")));
+    }
+
+    #[test]
+    fn a_restart_runs_after_a_rest_and_stays_paused_after_a_pause() {
+        let mut lab = watched("spring");
+        watch(&mut lab, 21);
+        assert!(!lab.running());
+        lab.apply(Command::Restart);
+        assert_eq!((lab.race().tick(), lab.running()), (0, true));
+        watch(&mut lab, 1);
+        lab.apply(Command::TogglePause);
+        lab.apply(Command::Restart);
+        assert_eq!((lab.race().tick(), lab.running()), (0, false));
     }
 
     #[test]

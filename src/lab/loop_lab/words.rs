@@ -3,7 +3,7 @@
 use super::LoopLab;
 use super::lane::LoopLane;
 use crate::lab::analysis::Severity;
-use crate::lab::number::round;
+use crate::sim::number::round;
 
 /// An animation error that nobody sees, in milliseconds.
 const SMOOTH_MS: f64 = 0.1;

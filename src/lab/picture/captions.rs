@@ -5,10 +5,10 @@ use glam::DVec2;
 use super::moment::Moment;
 use super::sketch::{Camera, SOLID, fill, line, path, ring, rounded};
 use super::{Align, Label, Picture, Rect, Rgba};
-use crate::lab::number::{round, significant};
 use crate::lab::palette::{Palette, faded};
 use crate::lab::race::Entrant;
 use crate::lab::{Halt, Lab, LaneBody, Severity, Verdict};
+use crate::sim::number::{round, significant};
 
 /// The least height of a cell, in points, that marks along its bottom do not crowd.
 const ROOM_FOR_BAR: f32 = 64.0;

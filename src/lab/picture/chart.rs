@@ -7,8 +7,8 @@ use glam::DVec2;
 
 use super::sketch::{Camera, SOLID, fill, line, path};
 use super::{Align, Label, Picture, Rect, Sea, Shape};
-use crate::lab::number::round;
 use crate::lab::palette::{Palette, faded, mixed};
+use crate::sim::number::round;
 
 /// The height of the ruler along the top of the stage, in points.
 pub(super) const RULER: f32 = 24.0;

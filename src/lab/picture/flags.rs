@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::sketch::{Camera, SOLID, fill, line, ring, rounded};
 use super::{Align, Label, Picture, Rect, Rgba};
-use crate::lab::number::{significant, superscript};
 use crate::lab::palette::{Palette, faded, mixed};
+use crate::sim::number::{significant, superscript};
 
 /// The height of a flag and its least width, and the least gap between two, in points.
 const FLAG: f32 = 18.0;

@@ -7,9 +7,9 @@ use super::body::Seen;
 use super::mass::Coat;
 use super::sketch::{Camera, SOLID, line, path};
 use super::{Align, Framing, Label, Look, Outline, Picture, Rect, Rgba, chart};
-use crate::lab::number::round;
 use crate::lab::palette::{Palette, faded};
 use crate::lab::{Lab, LoopFrame, LoopLab, LoopLane, Severity};
+use crate::sim::number::round;
 
 /// From this height of the stage on, in points, a ruler fits above it.
 const ROOM_FOR_RULER: f32 = 260.0;

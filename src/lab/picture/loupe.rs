@@ -6,9 +6,9 @@ use super::moment::Moment;
 use super::sketch::{Camera, SOLID, demote, disc, fill, line, ring};
 use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::METRICS;
-use crate::lab::number::{enlargement, round};
 use crate::lab::palette::faded;
 use crate::lab::race::Entrant;
+use crate::sim::number::{enlargement, round};
 
 /// Its radius, how far it keeps from the edges of its cell, and the height of the number in it, in points.
 const RADIUS: f32 = 36.0;

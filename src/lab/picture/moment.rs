@@ -52,9 +52,9 @@ pub(super) fn turns(body: &LaneBody) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::lab::number::significant;
     use crate::lab::picture::{Whose, compose};
     use crate::lab::{Command, Interpolation, Lab, Scene};
+    use crate::sim::number::significant;
 
     /// A spring under RK4 at a rate at which a tick can be seen.
     fn lab() -> Lab {

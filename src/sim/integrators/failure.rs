@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::sim::number::round;
+
 /// Why a body could not be advanced to the end of its tick.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StepFailure {
@@ -90,15 +92,18 @@ impl fmt::Display for StepFailure {
             ),
             Self::ReferenceTooDear { work_per_s, most } => write!(
                 f,
-                "has no reference solution: too many springs for an exact comparison, some {work_per_s:.0e} evaluations \
-                 per simulated second, and the limit is {most:.0e}",
+                "has no reference solution: too many springs for an exact comparison, some {} evaluations per simulated \
+                 second, and the limit is {}",
+                round(*work_per_s, 1),
+                round(*most, 1),
             ),
             Self::Refused { reason } => write!(f, "cannot be stepped by this method: {reason}"),
             Self::NotFinite { coordinate, value } => {
-                write!(f, "left the numbers: {coordinate} is {value}")
+                let became = if value.is_nan() { "undefined" } else { "infinite" };
+                write!(f, "blew up: {coordinate} became {became}")
             }
             Self::Escaped { coordinate, value } => {
-                write!(f, "left the stage: {coordinate} reached {value:.1e}")
+                write!(f, "blew up: {coordinate} reached {}", round(*value, 2))
             }
         }
     }

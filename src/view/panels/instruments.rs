@@ -3,7 +3,11 @@
 //! Axes follow the truth and the lanes near it. A lane beyond them is cut off at the edge, where an
 //! arrow in its colour says so.
 
-use egui::{Button, Color32, ComboBox, FontId, Label, Rect, RichText, Sense, Stroke, Ui, vec2};
+use std::sync::Arc;
+
+use egui::{
+    Button, Color32, ComboBox, FontId, Galley, Label, Rect, RichText, Sense, Stroke, Ui, vec2,
+};
 
 use super::roster::Roster;
 use super::tracks::Detail;
@@ -36,10 +40,11 @@ const ROW_NAME: f32 = 52.0;
 const ROOM_FOR_LEGEND: f32 = 130.0;
 /// With more lines than this there is no legend either: the table below has the names, and the plots need the room.
 const MOST_IN_LEGEND: usize = 12;
-/// So many lines of a legend fit beside the title.
+/// The most lines of a legend beside the title.
 const BESIDE_TITLE: usize = 2;
-/// And from this width on, in points.
-const WIDTH_BESIDE_TITLE: f32 = 420.0;
+/// The room before a legend that is beside the title, in points, and between its lines.
+const BEFORE_LEGEND: f32 = 8.0;
+const BETWEEN_LINES: f32 = 13.0;
 /// The length of a line in the legend, in points.
 const SWATCH: f32 = 26.0;
 
@@ -142,22 +147,25 @@ fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bo
 fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
     let lines = legend_lines(sheet);
     let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && lines.len() <= MOST_IN_LEGEND;
-    let is_below = lines.len() > BESIDE_TITLE
-        || lab.display().instrument != Instrument::Motion
-        || ui.available_width() < WIDTH_BESIDE_TITLE
-        || shown_coordinates(lab).len() > 1;
-    ui.horizontal(|ui| {
+    let may_be_beside =
+        has_legend && lines.len() <= BESIDE_TITLE && lab.display().instrument == Instrument::Motion;
+    let is_beside = ui.horizontal(|ui| {
         let is_error = lab.display().instrument == Instrument::Error;
         // The metric is said by its menu.
         let title = if is_error { Instrument::Error.name() } else { &sheet.title };
         ui.label(RichText::new(title).font(strong_font(15.0)).color(ink(ui).text));
         choices(ui, lab, commands);
-        if has_legend && !is_below {
-            ui.add_space(8.0);
+        let width = |line: &LegendLine| line.words(ui, &sheet.roster).size().x + SWATCH + 6.0;
+        let room = BEFORE_LEGEND + BETWEEN_LINES * lines.len() as f32;
+        let is_beside =
+            may_be_beside && room + lines.iter().map(width).sum::<f32>() <= ui.available_width();
+        if is_beside {
+            ui.add_space(BEFORE_LEGEND);
             legend(ui, &lines, &sheet.roster, commands);
         }
+        is_beside
     });
-    if has_legend && is_below {
+    if has_legend && !is_beside.inner {
         ui.scope(|ui| {
             ui.spacing_mut().interact_size.y = 15.0;
             ui.horizontal_wrapped(|ui| legend(ui, &lines, &sheet.roster, commands));
@@ -259,6 +267,16 @@ struct LegendLine {
     dash: [f32; 2],
 }
 
+impl LegendLine {
+    /// Its words as they are painted: those of the selected lane stand out.
+    fn words(&self, ui: &Ui, roster: &Roster) -> Arc<Galley> {
+        let is_front = self.entry == Some(roster.front);
+        let font = if is_front { strong_font(12.0) } else { FontId::proportional(12.0) };
+        let inked = if is_front { ink(ui).text } else { ink(ui).dim };
+        ui.painter().layout_no_wrap(self.text.clone(), font, inked)
+    }
+}
+
 /// All whose curves are shown, and the exact solution.
 fn legend_lines(sheet: &Sheet) -> Vec<LegendLine> {
     let runners = sheet.shown().map(|(entry, runner)| LegendLine {
@@ -278,17 +296,14 @@ fn legend_lines(sheet: &Sheet) -> Vec<LegendLine> {
 }
 
 fn legend(ui: &mut Ui, lines: &[LegendLine], roster: &Roster, commands: &mut Vec<Command>) {
-    ui.spacing_mut().item_spacing.x = 13.0;
-    for LegendLine { entry, text, colour, dash } in lines {
-        let is_front = *entry == Some(roster.front);
-        let font = if is_front { strong_font(12.0) } else { FontId::proportional(12.0) };
-        let inked = if is_front { ink(ui).text } else { ink(ui).dim };
-        let words = ui.painter().layout_no_wrap(text.clone(), font, inked);
+    ui.spacing_mut().item_spacing.x = BETWEEN_LINES;
+    for line in lines {
+        let (words, LegendLine { entry, text, colour, dash }) = (line.words(ui, roster), line);
         let size = words.size() + vec2(SWATCH + 6.0, 0.0);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
         plot::swatch(ui.painter(), rect.left_center(), SWATCH, *dash, *colour);
         let at = rect.left_center() + vec2(SWATCH + 6.0, -words.size().y / 2.0);
-        ui.painter().galley(at, words, inked);
+        ui.painter().galley(at, words, ink(ui).text);
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
         focus_ring(ui, &response);
         if response.clicked() && roster.is_race {

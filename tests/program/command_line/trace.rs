@@ -237,7 +237,7 @@ fn a_lane_that_halts_ends_with_a_word_on_standard_error() {
     assert_eq!(output.status.code(), Some(0));
     let said = stderr(&output);
     assert!(said.starts_with("lane 1, semi-implicit-euler, halted at tick "), "{said}");
-    assert!(said.contains("stiff spring left the stage: "), "{said}");
+    assert!(said.contains("stiff spring blew up: "), "{said}");
     assert!(said.ends_with("; its rows end there\n"), "{said}");
     let csv = String::from_utf8(output.stdout).unwrap();
     let last = |lane: &str| {
@@ -294,7 +294,7 @@ fn a_truth_that_halts_is_told_and_nothing_is_compared_with_it() {
     let said = stderr(&output);
     assert!(
         said.starts_with(
-            "lane 0, exact, halted at tick 5 (t = 0.500 s): light left the numbers: v is inf"
+            "lane 0, exact, halted at tick 5 (t = 0.500 s): light blew up: v became infinite"
         ),
         "{said}"
     );
