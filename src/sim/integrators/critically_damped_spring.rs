@@ -1,13 +1,7 @@
 //! Critically damped spring: the exact solution for a target that rests during the step.
 
-use std::marker::PhantomData;
-
 use super::card::{Method, SECOND_ORDER_FOLLOWER};
-use super::failure::StepFailure;
-use super::integrator::Integrator;
-use super::shared::chase::{each, pursuit};
-use crate::sim::state::State;
-use crate::sim::system::{Pursuit, System};
+use super::follower::FollowerRule;
 
 pub(super) const CARD: Method = Method {
     id: "critically-damped-spring",
@@ -23,31 +17,18 @@ pub(super) const CARD: Method = Method {
     ..SECOND_ORDER_FOLLOWER
 };
 
-/// With `c = x - g`, for the target `g` at the end of the step, and `b = (v + ω c) h`:
-/// `x' = g + (c + b) e^(-ω h)`, `v' = (v - ω b) e^(-ω h)`.
+/// Critically damped spring, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
-pub struct CriticallyDampedSpring<V>(PhantomData<V>);
+pub struct CriticallyDampedSpring;
 
-impl<S: System> Integrator<S> for CriticallyDampedSpring<S::Vector> {
-    fn new(_like: &S::Vector) -> Self {
-        Self(PhantomData)
-    }
+impl FollowerRule for CriticallyDampedSpring {
+    const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
-        let Pursuit { target: g, rate: omega, .. } = pursuit(&CARD, system, t + h)?;
+    fn step(h: f64, omega: f64, g: f64, x: f64, v: f64) -> (f64, f64) {
         let e = libm::exp(-omega * h);
-        each(&g, state, |g, x, v| {
-            let change = x - g;
-            let b = (v + omega * change) * h;
-            (g + (change + b) * e, (v - omega * b) * e)
-        });
-        Ok(())
+        let change = x - g;
+        let b = (v + omega * change) * h;
+        (g + (change + b) * e, (v - omega * b) * e)
     }
 }

@@ -1,13 +1,7 @@
 //! Exponential decay: the exact solution for a target that rests during the step.
 
-use std::marker::PhantomData;
-
 use super::card::{FIRST_ORDER_FOLLOWER, Method};
-use super::failure::StepFailure;
-use super::integrator::Integrator;
-use super::shared::chase::{each, lerp, pursuit};
-use crate::sim::state::State;
-use crate::sim::system::{Pursuit, System};
+use super::follower::{FollowerRule, lerp};
 
 pub(super) const CARD: Method = Method {
     id: "exponential-decay",
@@ -19,25 +13,15 @@ pub(super) const CARD: Method = Method {
     ..FIRST_ORDER_FOLLOWER
 };
 
-/// `x' = x + (1 - e^(-k h)) (g - x)`, for the target `g` at the end of the step.
+/// Exponential decay, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
-pub struct ExponentialDecay<V>(PhantomData<V>);
+pub struct ExponentialDecay;
 
-impl<S: System> Integrator<S> for ExponentialDecay<S::Vector> {
-    fn new(_like: &S::Vector) -> Self {
-        Self(PhantomData)
-    }
+impl FollowerRule for ExponentialDecay {
+    const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
-        let Pursuit { target: g, rate: k, .. } = pursuit(&CARD, system, t + h)?;
-        each(&g, state, lerp(-libm::expm1(-k * h), k));
-        Ok(())
+    fn step(h: f64, k: f64, g: f64, x: f64, _v: f64) -> (f64, f64) {
+        lerp(-libm::expm1(-k * h), k, g, x)
     }
 }

@@ -1,13 +1,7 @@
 //! Implicit spring: backward Euler of the critically damped spring, solved by hand.
 
-use std::marker::PhantomData;
-
 use super::card::{Method, SECOND_ORDER_FOLLOWER};
-use super::failure::StepFailure;
-use super::integrator::Integrator;
-use super::shared::chase::{each, pursuit};
-use crate::sim::state::State;
-use crate::sim::system::{Pursuit, System};
+use super::follower::FollowerRule;
 
 pub(super) const CARD: Method = Method {
     id: "implicit-spring",
@@ -19,31 +13,18 @@ pub(super) const CARD: Method = Method {
     ..SECOND_ORDER_FOLLOWER
 };
 
-/// `v' = (v + h ω² (g - x)) / (1 + 2 h ω + h² ω²)`, `x' = x + h v'`, for the target `g` at the end of the step.
+/// Implicit spring, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
-pub struct ImplicitSpring<V>(PhantomData<V>);
+pub struct ImplicitSpring;
 
-impl<S: System> Integrator<S> for ImplicitSpring<S::Vector> {
-    fn new(_like: &S::Vector) -> Self {
-        Self(PhantomData)
-    }
+impl FollowerRule for ImplicitSpring {
+    const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
-        let Pursuit { target: g, rate: omega, .. } = pursuit(&CARD, system, t + h)?;
+    fn step(h: f64, omega: f64, g: f64, x: f64, v: f64) -> (f64, f64) {
         let (pull, z) = (omega * omega * h, omega * h);
-        let resistance = 1.0 + 2.0 * z + z * z;
-        each(&g, state, |g, x, v| {
-            let end = (v + pull * (g - x)) / resistance;
-            (x + h * end, end)
-        });
-        Ok(())
+        let end = (v + pull * (g - x)) / (1.0 + 2.0 * z + z * z);
+        (x + h * end, end)
     }
 }
 

@@ -1,13 +1,7 @@
 //! Lerp by the frame's duration: explicit Euler of the law of first order.
 
-use std::marker::PhantomData;
-
 use super::card::{FIRST_ORDER_FOLLOWER, Method};
-use super::failure::StepFailure;
-use super::integrator::Integrator;
-use super::shared::chase::{each, lerp, pursuit};
-use crate::sim::state::State;
-use crate::sim::system::{Pursuit, System};
+use super::follower::{FollowerRule, lerp};
 
 pub(super) const CARD: Method = Method {
     id: "lerp-dt",
@@ -20,25 +14,15 @@ pub(super) const CARD: Method = Method {
     ..FIRST_ORDER_FOLLOWER
 };
 
-/// `x' = x + k h (g - x)`, for the target `g` at the end of the step.
+/// Lerp by dt, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
-pub struct LerpDt<V>(PhantomData<V>);
+pub struct LerpDt;
 
-impl<S: System> Integrator<S> for LerpDt<S::Vector> {
-    fn new(_like: &S::Vector) -> Self {
-        Self(PhantomData)
-    }
+impl FollowerRule for LerpDt {
+    const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
-        let Pursuit { target: g, rate: k, .. } = pursuit(&CARD, system, t + h)?;
-        each(&g, state, lerp(k * h, k));
-        Ok(())
+    fn step(h: f64, k: f64, g: f64, x: f64, _v: f64) -> (f64, f64) {
+        lerp(k * h, k, g, x)
     }
 }

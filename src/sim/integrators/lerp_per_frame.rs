@@ -1,13 +1,7 @@
 //! Lerp per frame: a tenth of the way in every step, however long the step is.
 
-use std::marker::PhantomData;
-
 use super::card::{FIRST_ORDER_FOLLOWER, Method};
-use super::failure::StepFailure;
-use super::integrator::Integrator;
-use super::shared::chase::{each, lerp, pursuit};
-use crate::sim::state::State;
-use crate::sim::system::{Pursuit, System};
+use super::follower::{FollowerRule, lerp};
 
 pub(super) const CARD: Method = Method {
     id: "lerp-per-frame",
@@ -24,25 +18,15 @@ pub(super) const CARD: Method = Method {
 /// The part of the way that each step goes: a usual value. The higher it is, the faster the chase at every rate.
 const PART: f64 = 0.1;
 
-/// `x' = x + 0.1 (g - x)`, for the target `g` at the end of the step.
+/// Lerp per frame, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
-pub struct LerpPerFrame<V>(PhantomData<V>);
+pub struct LerpPerFrame;
 
-impl<S: System> Integrator<S> for LerpPerFrame<S::Vector> {
-    fn new(_like: &S::Vector) -> Self {
-        Self(PhantomData)
-    }
+impl FollowerRule for LerpPerFrame {
+    const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
-        let Pursuit { target: g, rate: k, .. } = pursuit(&CARD, system, t + h)?;
-        each(&g, state, lerp(PART, k));
-        Ok(())
+    fn step(_h: f64, k: f64, g: f64, x: f64, _v: f64) -> (f64, f64) {
+        lerp(PART, k, g, x)
     }
 }

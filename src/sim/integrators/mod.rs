@@ -5,10 +5,7 @@
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
 //! of each card, both ways. A method of [one's own](Method::own) needs no place in the table. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
 
-use engine::{
-    avian, avian_motor, box2d, bullet, chipmunk, godot, held_force, jolt, mujoco, mujoco_rk4,
-    physx, physx_tgs, pybullet, rapier,
-};
+use engine::*;
 use own::Own;
 use reset_on_change::ResetOnChange;
 use unfit::Unfit;
@@ -28,6 +25,7 @@ mod explicit_euler;
 mod exponential_decay;
 mod exponential_rosenbrock_euler;
 mod failure;
+mod follower;
 mod free_spin;
 mod gauss_legendre_4;
 mod implicit_euler;
@@ -61,63 +59,15 @@ mod velocity_verlet;
 mod verlet_exact_drag;
 mod yoshida4;
 
-pub use adams_bashforth_2::AdamsBashforth2;
-pub use adaptive_euler::AdaptiveEuler;
-pub use adaptive_euler_as_printed::AdaptiveEulerAsPrinted;
-pub use bdf2::Bdf2;
-pub use bogacki_shampine_32::BogackiShampine32;
 pub use card::{Engine, Family, Method, Only};
-pub use critically_damped_spring::CriticallyDampedSpring;
-pub use dormand_prince_54::DormandPrince54;
-pub use engine::EngineMethod;
-pub use engine::avian::Avian;
-pub use engine::avian_motor::AvianMotor;
-pub use engine::box2d::Box2d;
-pub use engine::bullet::Bullet;
-pub use engine::chipmunk::Chipmunk;
-pub use engine::godot::Godot;
-pub use engine::held_force::HeldForce;
-pub use engine::jolt::Jolt;
-pub use engine::mujoco::Mujoco;
-pub use engine::mujoco_rk4::MujocoRk4;
-pub use engine::physx::Physx;
-pub use engine::physx_tgs::PhysxTgs;
-pub use engine::pybullet::Pybullet;
-pub use engine::rapier::Rapier;
-pub use explicit_euler::ExplicitEuler;
-pub use exponential_decay::ExponentialDecay;
-pub use exponential_rosenbrock_euler::ExponentialRosenbrockEuler;
+pub use engine::{EngineMethod, Rule, Tick};
 pub use failure::StepFailure;
+pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
-pub use gauss_legendre_4::GaussLegendre4;
-pub use implicit_euler::ImplicitEuler;
-pub use implicit_midpoint::ImplicitMidpoint;
-pub use implicit_spring::ImplicitSpring;
-pub use improved_euler::ImprovedEuler;
-pub use improved_euler_as_printed::ImprovedEulerAsPrinted;
 pub use integrator::Integrator;
-pub use jakobsen_verlet::JakobsenVerlet;
-pub use lerp_dt::LerpDt;
-pub use lerp_per_frame::LerpPerFrame;
-pub use linearly_implicit_euler::LinearlyImplicitEuler;
-pub use midpoint::Midpoint;
-pub use newmark::Newmark;
 pub use own::{AnySystem, OwnIntegrator, own_integrator};
-pub use pefrl::Pefrl;
-pub use position_verlet::PositionVerlet;
-pub use rk4::Rk4;
-pub use rk4_as_printed::Rk4AsPrinted;
-pub use semi_implicit_euler::SemiImplicitEuler;
-pub use semi_implicit_euler_implicit_drag::SemiImplicitEulerImplicitDrag;
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
-pub use smooth_damp::SmoothDamp;
-pub use ssp_rk3::SspRk3;
-pub use stormer_verlet::StormerVerlet;
 pub use tolerance::Tolerance;
-pub use tr_bdf2::TrBdf2;
-pub use velocity_verlet::VelocityVerlet;
-pub use verlet_exact_drag::VerletExactDrag;
-pub use yoshida4::Yoshida4;
 
 /// What [`construct`] builds from an integrator whose type is chosen at run time.
 pub trait Construct<S: System> {
@@ -145,8 +95,16 @@ const fn fits<S: System, C: Construct<S>>(card: &Method) -> bool {
     }
 }
 
+/// The type of a method on coordinates of `S`: its own, or that of the family of its rule.
+macro_rules! method_type {
+    ($S:ident, $Type:ident) => { $Type<$S::Vector> };
+    ($S:ident, $Rule:ident, $Family:ident) => { $Family<$S::Vector, $Rule> };
+}
+
 macro_rules! methods {
-    ($($file:ident::$Type:ident),+ $(,)?) => {
+    ($($file:ident::$Type:ident $(as $Family:ident)?),+ $(,)?) => {
+        $(pub use $file::$Type;)+
+
         /// Every method, in the order of the digit keys and of race lanes.
         pub static METHODS: &[Method] = &[$($file::CARD),+];
 
@@ -162,7 +120,9 @@ macro_rules! methods {
             }
             $(if const { fits::<S, C>(&$file::CARD) } {
                 if method.id == $file::CARD.id {
-                    return construct.of(<$Type<S::Vector> as Integrator<S>>::new);
+                    return construct.of(
+                        <method_type!(S, $Type $(, $Family)?) as Integrator<S>>::new
+                    );
                 }
             })+
             let Some(only) = method.only else {
@@ -203,26 +163,26 @@ methods! {
     rk4_as_printed::Rk4AsPrinted,
     adaptive_euler_as_printed::AdaptiveEulerAsPrinted,
     jakobsen_verlet::JakobsenVerlet,
-    lerp_per_frame::LerpPerFrame,
-    lerp_dt::LerpDt,
-    exponential_decay::ExponentialDecay,
-    smooth_damp::SmoothDamp,
-    critically_damped_spring::CriticallyDampedSpring,
-    implicit_spring::ImplicitSpring,
-    box2d::Box2d,
-    rapier::Rapier,
-    avian::Avian,
-    avian_motor::AvianMotor,
-    jolt::Jolt,
-    physx::Physx,
-    physx_tgs::PhysxTgs,
-    bullet::Bullet,
-    pybullet::Pybullet,
-    chipmunk::Chipmunk,
-    mujoco::Mujoco,
-    mujoco_rk4::MujocoRk4,
-    godot::Godot,
-    held_force::HeldForce,
+    lerp_per_frame::LerpPerFrame as Follower,
+    lerp_dt::LerpDt as Follower,
+    exponential_decay::ExponentialDecay as Follower,
+    smooth_damp::SmoothDamp as Follower,
+    critically_damped_spring::CriticallyDampedSpring as Follower,
+    implicit_spring::ImplicitSpring as Follower,
+    box2d::Box2d as EngineMethod,
+    rapier::Rapier as EngineMethod,
+    avian::Avian as EngineMethod,
+    avian_motor::AvianMotor as EngineMethod,
+    jolt::Jolt as EngineMethod,
+    physx::Physx as EngineMethod,
+    physx_tgs::PhysxTgs as EngineMethod,
+    bullet::Bullet as EngineMethod,
+    pybullet::Pybullet as EngineMethod,
+    chipmunk::Chipmunk as EngineMethod,
+    mujoco::Mujoco as EngineMethod,
+    mujoco_rk4::MujocoRk4 as EngineMethod,
+    godot::Godot as EngineMethod,
+    held_force::HeldForce as EngineMethod,
 }
 
 /// The number of leading [`METHODS`] that step every body.

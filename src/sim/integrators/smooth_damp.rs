@@ -1,14 +1,8 @@
 //! Smooth damp, as Unity has it: the closed form of the critically damped spring with a rational function for
 //! the exponential, and a clamp of overshoot.
 
-use std::marker::PhantomData;
-
 use super::card::{Method, SECOND_ORDER_FOLLOWER};
-use super::failure::StepFailure;
-use super::integrator::Integrator;
-use super::shared::chase::{each, pursuit};
-use crate::sim::state::State;
-use crate::sim::system::{Pursuit, System};
+use super::follower::FollowerRule;
 
 pub(super) const CARD: Method = Method {
     id: "smooth-damp",
@@ -25,34 +19,20 @@ pub(super) const CARD: Method = Method {
     ..SECOND_ORDER_FOLLOWER
 };
 
-/// With `z = ω h` and `e = 1 / (1 + z + 0.48 z² + 0.235 z³)`, for the target `g` at the end of the step:
-/// `c = x - g`, `b = (v + ω c) h`, `x' = g + (c + b) e`, `v' = (v - ω b) e`. If `x'` is beyond `g`, as seen
-/// from `x`, it is put at `g` with velocity 0.
+/// Smooth damp, by the [formula](Method::formula) on its card.
 #[derive(Clone)]
-pub struct SmoothDamp<V>(PhantomData<V>);
+pub struct SmoothDamp;
 
-impl<S: System> Integrator<S> for SmoothDamp<S::Vector> {
-    fn new(_like: &S::Vector) -> Self {
-        Self(PhantomData)
-    }
+impl FollowerRule for SmoothDamp {
+    const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
-        let Pursuit { target: g, rate: omega, .. } = pursuit(&CARD, system, t + h)?;
+    fn step(h: f64, omega: f64, g: f64, x: f64, v: f64) -> (f64, f64) {
         let z = omega * h;
         let e = 1.0 / (1.0 + z + 0.48 * z * z + 0.235 * z * z * z);
-        each(&g, state, |g, x, v| {
-            let change = x - g;
-            let b = (v + omega * change) * h;
-            let end = g + (change + b) * e;
-            if (g - x > 0.0) == (end > g) { (g, 0.0) } else { (end, (v - omega * b) * e) }
-        });
-        Ok(())
+        let change = x - g;
+        let b = (v + omega * change) * h;
+        let end = g + (change + b) * e;
+        if (g - x > 0.0) == (end > g) { (g, 0.0) } else { (end, (v - omega * b) * e) }
     }
 }

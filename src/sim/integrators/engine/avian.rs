@@ -1,6 +1,6 @@
 //! Avian's distance joint: XPBD, with a damping that is explicit.
 
-use super::{EngineMethod, Rule, Tick, each};
+use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::state::Vector;
 
@@ -27,26 +27,22 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// `n` times: `v = v/(1 + h C) + h f`, `x += h v`, `[δ = -x h² K/(1 + h² K), x += δ, v += δ/h,
-/// v *= 1 - min(1, h c)]`, where `H` and `h` are whole nanoseconds.
-pub type Avian<V> = EngineMethod<V, AvianRule>;
-
-/// The rule of [`Avian`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct AvianRule;
+/// Avian: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct Avian;
 
 /// The substep of a tick of `length` (s), in seconds: both rounded to whole nanoseconds, halves down.
 #[inline]
 pub(super) fn substep(length: f64, substeps: u32) -> f64 {
-    let whole = |ns: f64| (ns - 0.5).ceil();
+    let whole = |ns: f64| libm::ceil(ns - 0.5);
     whole(whole(length * 1e9) / f64::from(substeps)) / 1e9
 }
 
-impl Rule for AvianRule {
+impl Rule for Avian {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
         let (drag, stiff) = (1.0 + h * set.drag, h * h * set.stiffness);
         let kept = 1.0 - (h * set.damping).min(1.0);

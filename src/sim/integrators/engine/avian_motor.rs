@@ -1,7 +1,7 @@
 //! Avian's motor as a spring: implicit, with the corrections of a tick added to the velocity of the next.
 
 use super::avian::substep;
-use super::{EngineMethod, Rule, Tick, each_with};
+use super::{Rule, Tick, each_with};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::state::Vector;
 
@@ -31,23 +31,19 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// `n` times: `v = v/(1 + h C) + h f`, `v += S` in the first, `x += h v`, `[δ = -h² (K x + c v)/D, x += δ,
-/// v += δ/h]`, where `S` is the sum of the `δ` of the tick before, and `H` and `h` are whole nanoseconds.
-pub type AvianMotor<V> = EngineMethod<V, AvianMotorRule>;
+/// Avian, motor: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct AvianMotor;
 
-/// The rule of [`AvianMotor`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct AvianMotorRule;
-
-impl Rule for AvianMotorRule {
+impl Rule for AvianMotor {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (substep(tick.length, tick.substeps), tick.settings);
         let (drag, resistance) = (1.0 + h * set.drag, set.resistance(h));
         let has_spring = set.has_spring();
-        each_with(tick.force, spare, q, v, |sum, x, v, f| {
+        each_with(tick.force, tick.carried, q, v, |sum, x, v, f| {
             let before = std::mem::take(sum);
             for i in 0..tick.substeps {
                 *v = *v / drag + h * f;

@@ -1,6 +1,6 @@
 //! Box2D: every substep solves the soft joint twice.
 
-use super::{EngineMethod, Rule, Tick, cap, each, each_with};
+use super::{Rule, Tick, cap, each, each_with};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::state::Vector;
 
@@ -30,31 +30,27 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
 /// Its speed limit, in metres per second.
 const FASTEST: f64 = 400.0;
 
-/// `n` times: `p = v/(1 + h C) + h f`, `v = p`, `[v = (p - h K x)/D]`, `|v| ≤ 400`, `x += h v`,
-/// `[v = (p - h K x)/D]` with the new `x`. The second solve starts from `p` again.
-pub type Box2d<V> = EngineMethod<V, Box2dRule>;
+/// Box2D: a tick by the [formula](Method::formula) on its card. The second solve starts from `p` again.
+#[derive(Clone)]
+pub struct Box2d;
 
-/// The rule of [`Box2d`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Box2dRule;
-
-impl Rule for Box2dRule {
+impl Rule for Box2d {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (drag, pull, resistance) = (1.0 + h * set.drag, h * set.stiffness, set.resistance(h));
         let has_spring = set.has_spring();
         for _ in 0..tick.substeps {
-            each_with(tick.force, spare, q, v, |p, x, v, f| {
+            each_with(tick.force, tick.carried, q, v, |p, x, v, f| {
                 *p = *v / drag + h * f;
                 *v = if has_spring { (*p - pull * *x) / resistance } else { *p };
             });
             cap(v, FASTEST);
             q.add_scaled(h, v);
             if has_spring {
-                each(spare, q, v, |x, v, p| *v = (p - pull * *x) / resistance);
+                each(tick.carried, q, v, |x, v, p| *v = (p - pull * *x) / resistance);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Bullet: an explicit spring whose stiffness and damping are limited for the step.
 
-use super::{EngineMethod, Rule, Tick, each};
+use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::state::Vector;
@@ -29,20 +29,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// `n` times: `v *= e^(-C h)`, `[K' = K, but 1/(16 h²) where ω h > ¼; c' = min(c, 1/h); g = -h (K' x + c' v),
-/// b = -h c' v; J = g if f = 0, else g - h f between the least and the largest of 0, g and b; v += J]`, `v += h f`,
-/// `x += h v`.
-pub type Bullet<V> = EngineMethod<V, BulletRule>;
+/// Bullet: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct Bullet;
 
-/// The rule of [`Bullet`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct BulletRule;
-
-impl Rule for BulletRule {
+impl Rule for Bullet {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let softest = 1.0 / (16.0 * h * h);
         let stiffness = set.stiffness.min(softest);

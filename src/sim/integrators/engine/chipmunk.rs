@@ -1,6 +1,6 @@
 //! Chipmunk: the drift before the kick.
 
-use super::{EngineMethod, Rule, Tick, each};
+use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::state::Vector;
 
@@ -22,18 +22,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// `x += H v`, `[v -= H K x]`, `v = v e^(-C H) + H f`, `[v *= e^(-c H)]`.
-pub type Chipmunk<V> = EngineMethod<V, ChipmunkRule>;
+/// Chipmunk: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct Chipmunk;
 
-/// The rule of [`Chipmunk`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ChipmunkRule;
-
-impl Rule for ChipmunkRule {
+impl Rule for Chipmunk {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (kept, damped) = (libm::exp(-set.drag * h), libm::exp(-set.damping * h));
         each(tick.force, q, v, |x, v, f| {

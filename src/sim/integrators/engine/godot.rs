@@ -1,6 +1,6 @@
 //! Godot's own 2D physics.
 
-use super::{EngineMethod, Rule, Tick, each};
+use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::state::Vector;
@@ -29,18 +29,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
 /// How often the damping of a spring acts in a tick: in every second of 16 iterations.
 const DAMPINGS: u32 = 8;
 
-/// `v = v max(0, 1 - H C) + H f`, `[v -= H K x, 8 times v *= e^(-c H)]`, `x += H v`.
-pub type Godot<V> = EngineMethod<V, GodotRule>;
+/// Godot: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct Godot;
 
-/// The rule of [`Godot`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct GodotRule;
-
-impl Rule for GodotRule {
+impl Rule for Godot {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (kept, damped) = ((1.0 - h * set.drag).max(0.0), libm::exp(-set.damping * h));
         each(tick.force, q, v, |x, v, f| {

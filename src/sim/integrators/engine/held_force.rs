@@ -1,6 +1,6 @@
 //! A force of one's own, applied once a tick over an engine's substeps.
 
-use super::{EngineMethod, Rule, Tick};
+use super::{Rule, Tick};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, Only};
@@ -32,18 +32,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// `f = a(t, x, v)` once, then `n` times: `v += h f`, `x += h v`.
-pub type HeldForce<V> = EngineMethod<V, HeldForceRule>;
+/// Held force: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct HeldForce;
 
-/// The rule of [`HeldForce`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct HeldForceRule;
-
-impl Rule for HeldForceRule {
+impl Rule for HeldForce {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let h = tick.substep();
         for _ in 0..tick.substeps {
             V::kick_and_drift(h, tick.force, v, h, q);
@@ -51,7 +48,6 @@ impl Rule for HeldForceRule {
     }
 
     fn read<S: System>(
-        &self,
         system: &S,
         t: f64,
         state: &State<S::Vector>,

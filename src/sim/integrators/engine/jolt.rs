@@ -1,6 +1,6 @@
 //! Jolt: one implicit solve a substep, with drag and speed limit before it.
 
-use super::{EngineMethod, Rule, Tick, cap, each};
+use super::{Rule, Tick, cap, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::state::Vector;
@@ -32,18 +32,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
 /// Its speed limit, in metres per second.
 const FASTEST: f64 = 500.0;
 
-/// `n` times: `v = (v + h f) max(0, 1 - h C)`, `|v| ≤ 500`, `[v = (v - h K x)/D]`, `x += h v`.
-pub type Jolt<V> = EngineMethod<V, JoltRule>;
+/// Jolt: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct Jolt;
 
-/// The rule of [`Jolt`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct JoltRule;
-
-impl Rule for JoltRule {
+impl Rule for Jolt {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));
         let kept = (1.0 - h * set.drag).max(0.0);

@@ -9,6 +9,8 @@
 //! `C` the drag, each per unit of mass; `f` the held force per unit of mass; `D = 1 + h c + h² K`. A part of a
 //! formula in brackets stands there only where there is a spring.
 
+use std::marker::PhantomData;
+
 use super::card::{Method, NOT_TOLD};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
@@ -32,7 +34,7 @@ pub(super) mod pybullet;
 pub(super) mod rapier;
 
 /// A tick of an engine: what it is told, and how it is divided.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub struct Tick<'a, V> {
     /// H, in seconds.
     length: f64,
@@ -42,6 +44,8 @@ pub struct Tick<'a, V> {
     settings: EngineSettings,
     /// f, held through the tick.
     force: &'a V,
+    /// What the engine carries from tick to tick; 0 at the start.
+    carried: &'a mut V,
 }
 
 impl<V> Tick<'_, V> {
@@ -52,20 +56,18 @@ impl<V> Tick<'_, V> {
 }
 
 /// What a tick of an engine does.
-pub trait Rule: Clone + Default + Send + 'static {
+pub trait Rule: Clone + Send + 'static {
     /// The engine's card.
     const CARD: &'static Method;
 
-    /// Advances the coordinates `q` and the velocities `v` by a tick. `spare` keeps its value from tick to tick,
-    /// and is 0 at the start.
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, spare: &mut V, q: &mut V, v: &mut V);
+    /// Advances the coordinates `q` and the velocities `v` by a tick.
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V);
 
     /// Writes the force the engine holds constant for the tick; returns the settings it integrates itself.
     ///
     /// # Errors
     /// If the engine cannot express the system.
     fn read<S: System>(
-        &self,
         system: &S,
         t: f64,
         state: &State<S::Vector>,
@@ -79,19 +81,16 @@ pub trait Rule: Clone + Default + Send + 'static {
 /// An engine as a method: it reads the force at the start of a tick, and applies its rule.
 #[derive(Clone)]
 pub struct EngineMethod<V, R> {
-    rule: R,
     force: V,
-    spare: V,
+    carried: V,
+    rule: PhantomData<R>,
 }
 
 impl<S: System, R: Rule> Integrator<S> for EngineMethod<S::Vector, R> {
     fn new(like: &S::Vector) -> Self {
-        let zero = || {
-            let mut zero = like.clone();
-            zero.components_mut().fill(0.0);
-            zero
-        };
-        Self { rule: R::default(), force: zero(), spare: zero() }
+        let mut zero = like.clone();
+        zero.components_mut().fill(0.0);
+        Self { force: zero.clone(), carried: zero, rule: PhantomData }
     }
 
     #[inline]
@@ -102,11 +101,7 @@ impl<S: System, R: Rule> Integrator<S> for EngineMethod<S::Vector, R> {
         h: f64,
         state: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        let Self { rule, force, spare } = self;
-        let settings = rule.read(system, t, state, force)?;
-        let State { q, v } = state;
-        rule.tick(Tick { length: h, substeps: 1, settings, force }, spare, q, v);
-        Ok(())
+        self.tick(system, t, h, 1, state)
     }
 
     #[inline]
@@ -118,20 +113,33 @@ impl<S: System, R: Rule> Integrator<S> for EngineMethod<S::Vector, R> {
         n: u32,
         state: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
-        if R::CARD.engine.is_some_and(|engine| !engine.has_substeps) {
-            let part = h / f64::from(n);
-            return (0..n)
-                .try_for_each(|i| self.step(system, t + part * f64::from(i), part, state));
+        if R::CARD.engine.is_some_and(|engine| engine.has_substeps) {
+            return self.tick(system, t, h, n, state);
         }
-        let Self { rule, force, spare } = self;
-        let settings = rule.read(system, t, state, force)?;
-        let State { q, v } = state;
-        rule.tick(Tick { length: h, substeps: n, settings, force }, spare, q, v);
-        Ok(())
+        let part = h / f64::from(n);
+        (0..n).try_for_each(|i| self.tick(system, t + part * f64::from(i), part, 1, state))
     }
 
     fn reset(&mut self) {
-        self.spare.components_mut().fill(0.0);
+        self.carried.components_mut().fill(0.0);
+    }
+}
+
+impl<V: Vector, R: Rule> EngineMethod<V, R> {
+    #[inline]
+    fn tick<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        t: f64,
+        length: f64,
+        substeps: u32,
+        state: &mut State<V>,
+    ) -> Result<(), StepFailure> {
+        let Self { force, carried, .. } = self;
+        let settings = R::read(system, t, state, force)?;
+        let tick = Tick { length, substeps, settings, force, carried };
+        R::tick(tick, &mut state.q, &mut state.v);
+        Ok(())
     }
 }
 
@@ -144,19 +152,19 @@ fn each<V: Vector>(force: &V, q: &mut V, v: &mut V, change: impl Fn(&mut f64, &m
     }
 }
 
-/// As [`each`], with the spare component too.
+/// As [`each`], with the carried component first.
 #[inline]
 fn each_with<V: Vector>(
     force: &V,
-    spare: &mut V,
+    carried: &mut V,
     q: &mut V,
     v: &mut V,
     change: impl Fn(&mut f64, &mut f64, &mut f64, f64),
 ) {
     let moved = q.components_mut().iter_mut().zip(v.components_mut());
-    let known = spare.components_mut().iter_mut().zip(force.components());
-    for ((x, v), (spare, f)) in moved.zip(known) {
-        change(spare, x, v, *f);
+    let known = carried.components_mut().iter_mut().zip(force.components());
+    for ((x, v), (carried, f)) in moved.zip(known) {
+        change(carried, x, v, *f);
     }
 }
 

@@ -1,6 +1,6 @@
 //! MuJoCo with its Euler integrator: implicit in the damping, explicit in the stiffness.
 
-use super::{EngineMethod, Rule, Tick, each};
+use super::{Rule, Tick, each};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
@@ -56,18 +56,15 @@ pub(super) fn puts_back<V: Vector>(
     !is_sound
 }
 
-/// `n` times: `v = (v + h (f - K x))/(1 + h (c + C))`, `x += h v`. A runaway is put back at 1e10.
-pub type Mujoco<V> = EngineMethod<V, MujocoRule>;
+/// MuJoCo: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct Mujoco;
 
-/// The rule of [`Mujoco`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct MujocoRule;
-
-impl Rule for MujocoRule {
+impl Rule for Mujoco {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let resistance = 1.0 + h * (set.damping + set.drag);
         let mut applied = 1.0;

@@ -1,7 +1,7 @@
 //! MuJoCo with its Runge-Kutta integrator, which holds what user code applies.
 
 use super::mujoco::puts_back;
-use super::{EngineMethod, Rule, Tick, each};
+use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::state::Vector;
@@ -34,18 +34,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// The classical Runge-Kutta method on `a = f - K x - (c + C) v`, with `f` held. A runaway is put back at 1e10.
-pub type MujocoRk4<V> = EngineMethod<V, MujocoRk4Rule>;
+/// MuJoCo, RK4: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct MujocoRk4;
 
-/// The rule of [`MujocoRk4`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct MujocoRk4Rule;
-
-impl Rule for MujocoRk4Rule {
+impl Rule for MujocoRk4 {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let damping = set.damping + set.drag;
         let mut applied = 1.0;

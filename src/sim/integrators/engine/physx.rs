@@ -1,6 +1,6 @@
 //! PhysX with its default solver, projected Gauss-Seidel.
 
-use super::{EngineMethod, Rule, Tick, each};
+use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::state::Vector;
@@ -30,18 +30,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// `v = (v + H f) max(0, 1 - H C)`, `[v = (v - H K x)/D]` with `D` of `H`, `x += H v`.
-pub type Physx<V> = EngineMethod<V, PhysxRule>;
+/// PhysX, PGS: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct Physx;
 
-/// The rule of [`Physx`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct PhysxRule;
-
-impl Rule for PhysxRule {
+impl Rule for Physx {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.length, tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));
         let kept = (1.0 - h * set.drag).max(0.0);

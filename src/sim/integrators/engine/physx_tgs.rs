@@ -1,6 +1,6 @@
 //! PhysX with its temporal Gauss-Seidel solver.
 
-use super::{EngineMethod, Rule, Tick, each};
+use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::state::Vector;
@@ -36,19 +36,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
 /// Its velocity iterations, q.
 const VELOCITY_ITERATIONS: u32 = 1;
 
-/// `v = (v + H f) max(0, 1 - H C)`, `δ = 0`; `n` times: `v = (v - h K (x + δ))/D - E h c δ` with
-/// `E = 1/(1 + h² (c + K))`, `δ += h v`. Then `x += δ`, `v /= D^q`, q = 1. Here `n` counts position iterations.
-pub type PhysxTgs<V> = EngineMethod<V, PhysxTgsRule>;
+/// PhysX, TGS: a tick by the [formula](Method::formula) on its card. Here `n` counts position iterations.
+#[derive(Clone)]
+pub struct PhysxTgs;
 
-/// The rule of [`PhysxTgs`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct PhysxTgsRule;
-
-impl Rule for PhysxTgsRule {
+impl Rule for PhysxTgs {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));
         let bias = h * set.damping / (1.0 + h * h * (set.damping + set.stiffness));

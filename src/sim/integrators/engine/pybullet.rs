@@ -1,6 +1,6 @@
 //! The multibody that pybullet loads a model as, unless it is told otherwise.
 
-use super::{EngineMethod, Rule, Tick, each};
+use super::{Rule, Tick, each};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, NOT_TOLD, Only};
@@ -32,18 +32,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// `v += H (f - d v (1 + |v|))` with `d = 1 - e^(-C·1 s)` per second, `x += H v`.
-pub type Pybullet<V> = EngineMethod<V, PybulletRule>;
+/// pybullet, multibody: a tick by the [formula](Method::formula) on its card. It takes d from a second: `1 - e^(-C·1 s)`.
+#[derive(Clone)]
+pub struct Pybullet;
 
-/// The rule of [`Pybullet`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct PybulletRule;
-
-impl Rule for PybulletRule {
+impl Rule for Pybullet {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, d) = (tick.length, -libm::expm1(-tick.settings.drag));
         let square: f64 = v.components().iter().map(|v| v * v).sum();
         let drag = d * (1.0 + square.sqrt());
@@ -54,7 +51,6 @@ impl Rule for PybulletRule {
     }
 
     fn read<S: System>(
-        &self,
         system: &S,
         t: f64,
         state: &State<S::Vector>,

@@ -1,6 +1,6 @@
 //! Rapier: implicit springs in every substep, and the drag once a tick.
 
-use super::{EngineMethod, Rule, Tick, cap, each};
+use super::{Rule, Tick, cap, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::state::Vector;
@@ -35,18 +35,15 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
 /// Its speed limit, in metres per second.
 const FASTEST: f64 = 400.0;
 
-/// `n` times: `v += h f`, `[v = (v - h K x)/D]`, `|v| ≤ 400`, `x += h v`. Then once: `v /= 1 + H C`.
-pub type Rapier<V> = EngineMethod<V, RapierRule>;
+/// Rapier: a tick by the [formula](Method::formula) on its card.
+#[derive(Clone)]
+pub struct Rapier;
 
-/// The rule of [`Rapier`].
-#[derive(Clone, Copy, Debug, Default)]
-pub struct RapierRule;
-
-impl Rule for RapierRule {
+impl Rule for Rapier {
     const CARD: &'static Method = &CARD;
 
     #[inline]
-    fn tick<V: Vector>(&self, tick: Tick<'_, V>, _spare: &mut V, q: &mut V, v: &mut V) {
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
         let (h, set) = (tick.substep(), tick.settings);
         let (pull, resistance) = (h * set.stiffness, set.resistance(h));
         let has_spring = set.has_spring();

@@ -1,6 +1,5 @@
 //! Building blocks shared by several methods.
 
-pub(super) mod chase;
 pub(super) mod composition;
 pub(super) mod embedded_pair;
 pub(super) mod jacobian;

@@ -1,0 +1,57 @@
+//! Methods that move each coordinate of a body towards its target.
+
+use std::marker::PhantomData;
+
+use super::card::Method;
+use super::failure::StepFailure;
+use super::integrator::Integrator;
+use crate::sim::state::{State, Vector};
+use crate::sim::system::{Pursuit, System};
+
+/// The rule by which a follower moves.
+pub trait FollowerRule: Clone + Send + 'static {
+    /// The method's card.
+    const CARD: &'static Method;
+
+    /// Where a coordinate `x` with velocity `v` is a step of `h` (s) later, and its velocity there. The target is at `g` at
+    /// the end of the step, and `rate` is k or ω of the law, per second.
+    fn step(h: f64, rate: f64, g: f64, x: f64, v: f64) -> (f64, f64);
+}
+
+/// A follower as a method: it reads the target at the end of a step, and applies its rule.
+#[derive(Clone)]
+pub struct Follower<V, R>(PhantomData<(V, R)>);
+
+impl<S: System, R: FollowerRule> Integrator<S> for Follower<S::Vector, R> {
+    fn new(_like: &S::Vector) -> Self {
+        Self(PhantomData)
+    }
+
+    #[inline]
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        State { q, v }: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let only = R::CARD.only.expect("a follower's card says what it follows");
+        let order = only.with.map(|(_, order)| order);
+        let pursuit = system.pursuit(t + h).filter(|found| order == Some(f64::from(found.order)));
+        let refused = StepFailure::Refused { reason: only.reason };
+        let Pursuit { target, rate, .. } = pursuit.ok_or(refused)?;
+        let moved = q.components_mut().iter_mut().zip(v.components_mut());
+        for ((x, v), g) in moved.zip(target.components()) {
+            (*x, *v) = R::step(h, rate, *g, *x, *v);
+        }
+        Ok(())
+    }
+}
+
+/// A step that goes this part of the way to the target, and has the velocity there that the law of first order has at
+/// the rate `k`.
+#[inline]
+pub(super) fn lerp(part: f64, k: f64, g: f64, x: f64) -> (f64, f64) {
+    let end = x + part * (g - x);
+    (end, k * (g - end))
+}
