@@ -15,6 +15,6 @@ pub use crate::sim::bodies::{BODIES, Body, Extras, Input, ParameterOf, Range};
 pub use crate::sim::integrators::{
     Family, Integrator, METHODS, Method, StepFailure, integrator, method, own_integrator,
 };
-pub use crate::sim::{Clock, Due, Solver, State, Stepper, System, Vector, stepper};
+pub use crate::sim::{Clock, Due, Elementwise, Solver, State, Stepper, System, Vector, stepper};
 #[cfg(feature = "desktop")]
 pub use crate::window::Window;

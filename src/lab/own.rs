@@ -92,7 +92,7 @@ impl Scene {
         options: Options<S>,
     ) -> Result<Scene, OptionsError>
     where
-        S: System + Clone + Send + 'static,
+        S: System<Vector: Vector> + Clone + Send + 'static,
     {
         let Options { name, tick_hz, seconds, methods, extras, draw } = options;
         if name.is_empty() || name.chars().count() > MOST_NAME_CHARS {
@@ -176,7 +176,7 @@ impl Race {
     /// If an option cannot be; [`Scene::of`] returns an error instead.
     pub fn of<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Self
     where
-        S: System + Clone + Send + 'static,
+        S: System<Vector: Vector> + Clone + Send + 'static,
     {
         Race::of_scene(&scene(system, start, options))
     }
@@ -188,7 +188,7 @@ impl Race {
 /// As [`Race::of`].
 pub(super) fn scene<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Scene
 where
-    S: System + Clone + Send + 'static,
+    S: System<Vector: Vector> + Clone + Send + 'static,
 {
     Scene::of(system, start, options).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -220,7 +220,7 @@ fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {
 }
 
 /// The drawing function of a user-defined body. Leaked, because `Kind` is `'static`.
-fn drawing<S: System + 'static>(
+fn drawing<S: System<Vector: Vector> + 'static>(
     draw: Draw<S>,
     like: S::Vector,
 ) -> &'static (dyn Any + Send + Sync) {

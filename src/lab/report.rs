@@ -8,7 +8,7 @@ use super::analysis::{
 };
 use super::own::{Options, scene};
 use super::scene::Scene;
-use crate::sim::{State, System};
+use crate::sim::{State, System, Vector};
 
 /// One value for each [`Criterion`].
 #[derive(Clone, Debug, PartialEq)]
@@ -122,7 +122,7 @@ const BLUR: f64 = 1.0;
 /// If an option cannot be; [`Scene::of`] returns an error instead, and [`Report::of_scene`] goes on from there.
 pub fn advise<S>(system: &S, start: State<S::Vector>, options: Options<S>) -> Report
 where
-    S: System + Clone + Send + 'static,
+    S: System<Vector: Vector> + Clone + Send + 'static,
 {
     Report::of_scene(&scene(system, start, options))
 }

@@ -8,7 +8,7 @@ use super::state::{State, Vector};
 use super::system::System;
 
 /// Something that moves by an equation of motion.
-pub trait Body: System + Clone + Send + 'static {
+pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Whether it follows a target, so that [followers](super::integrators::Family::Follower) step it.
     const FOLLOWS: bool = false;
     /// Whether physics engines can be [told](System::engine_settings) of it.

@@ -11,7 +11,7 @@ use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, 
 use super::propagator::{MethodPropagator, Propagator};
 use super::reference::{MOST_REFERENCE_WORK, Reference};
 use super::solver::Solver;
-use super::state::{State, Vector};
+use super::state::{Elementwise, State, Vector};
 use super::stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
 use super::system::{Counted, Counts, Pursuit, Recorded};
 

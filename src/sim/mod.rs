@@ -45,6 +45,6 @@ pub use least_squares::least_squares;
 pub use points::Points;
 pub use reference::{MOST_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
-pub use state::{State, Vector};
+pub use state::{Elementwise, State, Vector};
 pub use stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
 pub use system::{Counted, Counts, Evaluation, Pursuit, Recorded, System};

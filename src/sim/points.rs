@@ -1,6 +1,6 @@
 //! The coordinates of many points, each of which feels few others.
 
-use super::state::Vector;
+use super::state::{Elementwise, Vector};
 
 /// Coordinates of many points in a plane, `x0, y0, x1, y1 …`, for forces between neighbours.
 ///
@@ -23,9 +23,7 @@ impl Points {
     }
 }
 
-impl Vector for Points {
-    const IS_SPARSE: bool = true;
-
+impl Elementwise for Points {
     #[inline]
     fn assign(&mut self, from: &Self) {
         self.0.assign(&from.0);
@@ -46,11 +44,24 @@ impl Vector for Points {
     fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
         self.0.assign_sum(&x.0, h, &d.0);
     }
-    fn components(&self) -> &[f64] {
-        &self.0
+    #[inline]
+    fn scale(&mut self, h: f64) {
+        self.0.scale(h);
+    }
+    #[inline]
+    fn assign_scaled(&mut self, h: f64, x: &Self) {
+        self.0.assign_scaled(h, &x.0);
     }
     fn heap_bytes(&self) -> usize {
         self.0.heap_bytes()
+    }
+}
+
+impl Vector for Points {
+    const IS_SPARSE: bool = true;
+
+    fn components(&self) -> &[f64] {
+        &self.0
     }
     fn components_mut(&mut self) -> &mut [f64] {
         &mut self.0

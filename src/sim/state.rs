@@ -1,19 +1,31 @@
 //! Coordinate vectors, and the state that a body is in.
 
-/// A coordinate vector, with the operations that methods use.
+/// Numbers that are added and scaled each by itself: what the formula of a method with fixed steps does with coordinates.
 ///
-/// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or
-/// in space, `Vec<f64>` for many coordinates. A method is written once over this trait; it compiles to
-/// registers for the small types and to loops for `Vec`.
-pub trait Vector: Clone + Send + 'static {
-    /// Whether each component's acceleration depends on few others. Implicit methods then solve their
-    /// equations by iteration; else they factor the whole Jacobian.
-    const IS_SPARSE: bool = false;
-
-    /// Copies `from`, which has as many components. Never allocates.
+/// The numbers may be the [components](Vector) of one body, or one coordinate of each of several bodies, which are stepped
+/// together and must not mix: each then has the bits that it has alone. A method that looks across components, for a
+/// norm, a limit or a solution, steps one body, and says so by the bound `System<Vector: Vector>`:
+///
+/// ```compile_fail,E0277
+/// # use regatta::sim::{Elementwise, System, integrators::{Integrator, LinearlyImplicitEuler}};
+/// fn step_together<S: System<Vector: Elementwise>>(bodies: &S, like: &S::Vector) {
+///     let _ = <LinearlyImplicitEuler<S::Vector> as Integrator<S>>::new(like);
+/// }
+/// ```
+///
+/// ```
+/// # use regatta::sim::{Elementwise, System, integrators::{Integrator, Rk4}};
+/// fn step_together<S: System<Vector: Elementwise>>(bodies: &S, like: &S::Vector) {
+///     let _ = <Rk4<S::Vector> as Integrator<S>>::new(like);
+/// }
+/// ```
+pub trait Elementwise: Clone + Send + 'static {
+    /// Copies `from`, which has as many numbers. Never allocates.
     fn assign(&mut self, from: &Self);
     /// `self += h x`, rounded after the product and after the sum.
     fn add_scaled(&mut self, h: f64, x: &Self);
+    /// `self *= h`.
+    fn scale(&mut self, h: f64);
     /// `v += k a`, then `q += h v`: a kick and the drift after it.
     #[inline]
     fn kick_and_drift(k: f64, a: &Self, v: &mut Self, h: f64, q: &mut Self) {
@@ -28,31 +40,42 @@ pub trait Vector: Clone + Send + 'static {
             self.add_scaled(h, x);
         }
     }
-    /// `self = x + h d`, rounded after the product and after the sum, for an `x` with as many components.
+    /// `self = x + h d`, rounded after the product and after the sum, for an `x` with as many numbers.
     /// Never allocates.
     #[inline]
     fn assign_sum(&mut self, x: &Self, h: f64, d: &Self) {
         self.assign(x);
         self.add_scaled(h, d);
     }
-    /// `self = h x`, for an `x` with as many components. Never allocates.
+    /// `self = h x`, for an `x` with as many numbers. Never allocates.
     #[inline]
     fn assign_scaled(&mut self, h: f64, x: &Self) {
-        for (component, x) in self.components_mut().iter_mut().zip(x.components()) {
-            *component = h * x;
-        }
+        self.assign(x);
+        self.scale(h);
     }
-    /// The components in order.
-    fn components(&self) -> &[f64];
     /// Memory on the heap, in bytes.
     fn heap_bytes(&self) -> usize {
         0
     }
+}
+
+/// The coordinates of one body.
+///
+/// `f64` is for bodies of one coordinate, [`glam::DVec2`] and [`glam::DVec3`] for motion in a plane or
+/// in space, `Vec<f64>` for many coordinates. A method is written once over this trait; it compiles to
+/// registers for the small types and to loops for `Vec`.
+pub trait Vector: Elementwise {
+    /// Whether each component's acceleration depends on few others. Implicit methods then solve their
+    /// equations by iteration; else they factor the whole Jacobian.
+    const IS_SPARSE: bool = false;
+
+    /// The components in order.
+    fn components(&self) -> &[f64];
     /// The components in order, mutable.
     fn components_mut(&mut self) -> &mut [f64];
 }
 
-impl Vector for f64 {
+impl Elementwise for f64 {
     #[inline]
     fn assign(&mut self, from: &Self) {
         *self = *from;
@@ -61,6 +84,13 @@ impl Vector for f64 {
     fn add_scaled(&mut self, h: f64, x: &Self) {
         *self += h * x;
     }
+    #[inline]
+    fn scale(&mut self, h: f64) {
+        *self *= h;
+    }
+}
+
+impl Vector for f64 {
     fn components(&self) -> &[f64] {
         std::slice::from_ref(self)
     }
@@ -71,7 +101,7 @@ impl Vector for f64 {
 
 macro_rules! glam_vector {
     ($($Vector:ty),+) => {$(
-        impl Vector for $Vector {
+        impl Elementwise for $Vector {
             #[inline]
             fn assign(&mut self, from: &Self) {
                 *self = *from;
@@ -80,6 +110,13 @@ macro_rules! glam_vector {
             fn add_scaled(&mut self, h: f64, x: &Self) {
                 *self += h * *x;
             }
+            #[inline]
+            fn scale(&mut self, h: f64) {
+                *self *= h;
+            }
+        }
+
+        impl Vector for $Vector {
             fn components(&self) -> &[f64] {
                 self.as_ref()
             }
@@ -91,7 +128,7 @@ macro_rules! glam_vector {
 }
 glam_vector!(glam::DVec2, glam::DVec3);
 
-impl Vector for Vec<f64> {
+impl Elementwise for Vec<f64> {
     #[inline]
     fn assign(&mut self, from: &Self) {
         self.copy_from_slice(from);
@@ -126,11 +163,24 @@ impl Vector for Vec<f64> {
             *component = x + h * d;
         }
     }
-    fn components(&self) -> &[f64] {
-        self
+    #[inline]
+    fn scale(&mut self, h: f64) {
+        self.iter_mut().for_each(|component| *component *= h);
+    }
+    #[inline]
+    fn assign_scaled(&mut self, h: f64, x: &Self) {
+        for (component, x) in self.iter_mut().zip(x) {
+            *component = h * x;
+        }
     }
     fn heap_bytes(&self) -> usize {
         size_of_val(&self[..])
+    }
+}
+
+impl Vector for Vec<f64> {
+    fn components(&self) -> &[f64] {
+        self
     }
     fn components_mut(&mut self) -> &mut [f64] {
         self
@@ -146,7 +196,7 @@ pub struct State<V> {
     pub v: V,
 }
 
-impl<V: Vector> State<V> {
+impl<V: Elementwise> State<V> {
     /// Copies `from`. Never allocates.
     #[inline]
     pub fn assign(&mut self, from: &Self) {

@@ -3,14 +3,15 @@
 use std::cell::{Cell, RefCell};
 
 use super::engine_settings::EngineSettings;
-use super::state::{State, Vector};
+use super::state::{Elementwise, State, Vector};
 
 /// An equation of motion of second order, `q″ = a(t, q, v)`.
 ///
 /// It stays second order because symplectic methods need the split into `q` and `v`.
 pub trait System {
-    /// The body's natural coordinates.
-    type Vector: Vector;
+    /// The body's natural coordinates. The [`Vector`] of one body is stepped by every method, and what is merely
+    /// [`Elementwise`] by those that do not look across components.
+    type Vector: Elementwise;
 
     /// Overwrites `a` with the acceleration at time `t` (s). Uses only `+ - × ÷ √` and `libm`.
     fn acceleration(&self, t: f64, q: &Self::Vector, v: &Self::Vector, a: &mut Self::Vector);
@@ -64,7 +65,7 @@ pub trait System {
 }
 
 /// A system behind a pointer: what methods do with it is compiled once for each type of vector.
-impl<V: Vector> System for Box<dyn System<Vector = V>> {
+impl<V: Elementwise> System for Box<dyn System<Vector = V>> {
     type Vector = V;
 
     fn acceleration(&self, t: f64, q: &V, v: &V, a: &mut V) {

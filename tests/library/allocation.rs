@@ -74,11 +74,11 @@ impl<V: Vector> System for Springs<V> {
     }
 }
 
-fn steps_without_allocating<S: System + 'static>(system: &S, like: &S::Vector) {
+fn steps_without_allocating<S: System<Vector: Vector> + 'static>(system: &S, like: &S::Vector) {
     all_step_without_allocating(GENERAL_METHODS, system, like);
 }
 
-fn all_step_without_allocating<S: System + 'static>(
+fn all_step_without_allocating<S: System<Vector: Vector> + 'static>(
     methods: &[Method],
     system: &S,
     like: &S::Vector,

@@ -108,7 +108,7 @@ const STEPS: u32 = 4;
 fn steps(method: &Method, formula: &[&str], case: &Case) -> Vec<Step> {
     let [stiffness, damping, drag, force] = case.told;
     let settings = EngineSettings { stiffness, damping, drag };
-    let order = method.only.and_then(|only| only.with).map_or(1, |(_, order)| order as u32);
+    let order = method.only.and_then(|only| only.law_order).unwrap_or(1);
     let told = Told { settings, force, rate: case.rate, order };
     let [q, v] = case.start;
     let mut state = State { q, v };

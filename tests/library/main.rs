@@ -4,6 +4,7 @@
 mod allocation;
 mod as_printed;
 mod bad_scenes;
+mod blocks;
 mod blow_up;
 mod bodies;
 mod chapter;

@@ -336,9 +336,10 @@ fn chooses_steps(spec: &LaneSpec) -> bool {
 /// ship. `None` if the method fails.
 fn stability(spec: &LaneSpec, is_ship: bool, mode: &NormalMode, hz: f64) -> Option<Stability> {
     let NormalMode { omega_squared, damping_per_s, .. } = *mode;
-    let order = spec.method.only.and_then(|only| only.with).map(|(_, order)| order);
+    let order = spec.method.only.and_then(|only| only.law_order);
     let (id, values) = match order {
         Some(order) => {
+            let order = f64::from(order);
             ("follow", vec![order, omega_squared.sqrt(), 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
         }
         None if spec.method.is_engine() && is_ship => {

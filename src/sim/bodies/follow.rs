@@ -11,6 +11,7 @@ use super::kind::{Coordinate, Kind, Truth};
 use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
 use crate::sim::engine_settings::EngineSettings;
+use crate::sim::integrators::LAW_ORDER;
 use crate::sim::parameter::{self, ParameterOf, Range};
 use crate::sim::state::State;
 use crate::sim::system::{Pursuit, System};
@@ -36,7 +37,7 @@ pub(super) const KIND: Kind = Kind {
 type Of = ParameterOf<Follow>;
 
 const PARAMETERS: [Of; 9] = [
-    Of::count("order", 2, |follow| &mut follow.order)
+    Of::count(LAW_ORDER, 2, |follow| &mut follow.order)
         .or(2.0)
         .about("1 to move straight at the target, 2 with a velocity of its own"),
     Of::number("rate_per_s", RATES, |follow| &mut follow.rate)

@@ -12,7 +12,7 @@ use crate::sim::system::{Counted, System};
 pub type Problem<V> = Counted<Box<dyn System<Vector = V>>>;
 
 /// This system as a problem, with nothing counted.
-pub fn problem<S: System + 'static>(system: S) -> Problem<S::Vector> {
+pub fn problem<S: System<Vector: Vector> + 'static>(system: S) -> Problem<S::Vector> {
     Counted::new(Box::new(system))
 }
 

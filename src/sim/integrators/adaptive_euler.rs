@@ -65,7 +65,7 @@ impl<V: Vector> AdaptiveEuler<V> {
     }
 }
 
-impl<S: System> Integrator<S> for AdaptiveEuler<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for AdaptiveEuler<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         Self::with_tolerance(like, TOLERANCE)
     }

@@ -4,7 +4,7 @@ use super::card::{AS_PRINTED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
@@ -48,7 +48,7 @@ impl<V: Vector> AdaptiveEulerAsPrinted<V> {
     }
 }
 
-impl<S: System> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for AdaptiveEulerAsPrinted<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         Self::with_tolerance(like, TOLERANCE)
     }

@@ -5,7 +5,7 @@ use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
 use super::shared::newton::Newton;
-use crate::sim::state::State;
+use crate::sim::state::{State, Vector};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
@@ -39,7 +39,7 @@ pub struct Bdf2<V> {
 /// The diagonal of the starting method, which makes it L-stable like this one: `1 - 1/√2`.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
-impl<S: System> Integrator<S> for Bdf2<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for Bdf2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
         let [before, start, stage] = [zero.clone(), zero.clone(), zero];

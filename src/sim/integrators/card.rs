@@ -72,13 +72,16 @@ impl Family {
     }
 }
 
+/// The key of the parameter that says by which law a body follows its target.
+pub(in crate::sim) const LAW_ORDER: &str = "order";
+
 /// The bodies that a method is for, if it does not step every body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Only {
     /// The ids of the kinds that it steps.
     pub kinds: &'static [&'static str],
-    /// The key of a parameter and the value that it must have; `None` if any body of these kinds will do.
-    pub with: Option<(&'static str, f64)>,
+    /// The order of the law by which a body must follow its target; `None` if the method is no follower.
+    pub law_order: Option<u32>,
     /// Why it steps no other body: a clause in lower case that follows a colon.
     pub reason: &'static str,
 }
@@ -86,7 +89,7 @@ pub struct Only {
 impl fmt::Display for Only {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.kinds.join(", "))?;
-        self.with.map_or(Ok(()), |(key, value)| write!(f, " with {key} = {value}"))
+        self.law_order.map_or(Ok(()), |order| write!(f, " with {LAW_ORDER} = {order}"))
     }
 }
 
@@ -264,7 +267,7 @@ pub(super) const FIRST_ORDER_FOLLOWER: Method = Method {
     evaluations: Some(1),
     only: Some(Only {
         kinds: &["follow"],
-        with: Some(("order", 1.0)),
+        law_order: Some(1),
         reason: "it moves straight towards a target, so that it steps only a `follow` of order 1",
     }),
     ..PLAIN
@@ -274,7 +277,7 @@ pub(super) const FIRST_ORDER_FOLLOWER: Method = Method {
 pub(super) const SECOND_ORDER_FOLLOWER: Method = Method {
     only: Some(Only {
         kinds: &["follow"],
-        with: Some(("order", 2.0)),
+        law_order: Some(2),
         reason: "it moves towards a target with a velocity of its own, so that it steps only a `follow` of order 2",
     }),
     ..FIRST_ORDER_FOLLOWER
@@ -293,7 +296,7 @@ pub(super) const ENGINE: Method = Method {
     evaluations: Some(1),
     only: Some(Only {
         kinds: &["spring", "ship", "helm", "orbit", "law", "own"],
-        with: None,
+        law_order: None,
         reason: NOT_TOLD,
     }),
     ..PLAIN

@@ -42,7 +42,7 @@ pub struct ExponentialRosenbrockEuler<V> {
     f_t: Vec<f64>,
 }
 
-impl<S: System> Integrator<S> for ExponentialRosenbrockEuler<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let n = like.components().len();
         let [x, f, f_t] = [(); 3].map(|()| vec![0.0; 2 * n]);

@@ -22,7 +22,7 @@ pub trait FollowerRule: Clone + Send + 'static {
 #[derive(Clone)]
 pub struct Follower<V, R>(PhantomData<(V, R)>);
 
-impl<S: System, R: FollowerRule> Integrator<S> for Follower<S::Vector, R> {
+impl<S: System<Vector: Vector>, R: FollowerRule> Integrator<S> for Follower<S::Vector, R> {
     fn new(_like: &S::Vector) -> Self {
         Self(PhantomData)
     }
@@ -36,8 +36,7 @@ impl<S: System, R: FollowerRule> Integrator<S> for Follower<S::Vector, R> {
         State { q, v }: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         let only = R::CARD.only.expect("a follower's card says what it follows");
-        let order = only.with.map(|(_, order)| order);
-        let pursuit = system.pursuit(t + h).filter(|found| order == Some(f64::from(found.order)));
+        let pursuit = system.pursuit(t + h).filter(|found| only.law_order == Some(found.order));
         let refused = StepFailure::Refused { reason: only.reason };
         let Pursuit { target, rate, .. } = pursuit.ok_or(refused)?;
         let moved = q.components_mut().iter_mut().zip(v.components_mut());

@@ -4,7 +4,7 @@ use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::newton::{Newton, Stages};
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
@@ -38,7 +38,7 @@ pub struct GaussLegendre4<V> {
     newton: Newton<V, 2>,
 }
 
-impl<S: System> Integrator<S> for GaussLegendre4<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for GaussLegendre4<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         Self { newton: Newton::new(like) }
     }

@@ -4,7 +4,7 @@ use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::newton::Newton;
-use crate::sim::state::State;
+use crate::sim::state::{State, Vector};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
@@ -25,7 +25,7 @@ pub struct ImplicitEuler<V> {
     newton: Newton<V, 1>,
 }
 
-impl<S: System> Integrator<S> for ImplicitEuler<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for ImplicitEuler<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         Self { newton: Newton::new(like) }
     }

@@ -4,7 +4,7 @@ use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::newton::Newton;
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
@@ -29,7 +29,7 @@ pub struct ImplicitMidpoint<V> {
     middle: State<V>,
 }
 
-impl<S: System> Integrator<S> for ImplicitMidpoint<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for ImplicitMidpoint<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let middle = State { q: like.clone(), v: like.clone() };
         Self { newton: Newton::new(like), middle }

@@ -19,8 +19,10 @@ pub trait Integrator<S: System>: Send {
     /// Advances `state` from `t` to exactly `t + h` (s), unless the card says that the method does not
     /// [keep time](super::Method::keeps_time). Never allocates.
     ///
-    /// A [`StepFailure`] of the method; `state` is then undefined. Overflow is not reported: the caller
-    /// checks the values.
+    /// Overflow is not reported: the caller checks the values.
+    ///
+    /// # Errors
+    /// If the method gives up or is not for the system; `state` is then undefined.
     fn step(
         &mut self,
         system: &S,

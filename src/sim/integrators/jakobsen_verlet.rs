@@ -3,7 +3,7 @@
 use super::card::{AS_PRINTED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{Elementwise, State};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
@@ -49,7 +49,7 @@ impl<S: System> Integrator<S> for JakobsenVerlet<S::Vector> {
     ) -> Result<(), StepFailure> {
         let Self { a } = self;
         system.acceleration(t, q, v, a);
-        v.components_mut().iter_mut().for_each(|v| *v *= KEPT);
+        v.scale(KEPT);
         S::Vector::kick_and_drift(h, a, v, h, q);
         Ok(())
     }

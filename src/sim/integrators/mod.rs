@@ -10,6 +10,7 @@ use own::Own;
 use reset_on_change::ResetOnChange;
 use unfit::Unfit;
 
+use super::state::Vector;
 use super::system::System;
 
 mod adams_bashforth_2;
@@ -59,6 +60,7 @@ mod velocity_verlet;
 mod verlet_exact_drag;
 mod yoshida4;
 
+pub(in crate::sim) use card::LAW_ORDER;
 pub use card::{Engine, Family, Method, Only};
 pub use engine::{EngineMethod, Rule, Tick};
 pub use failure::StepFailure;
@@ -114,7 +116,10 @@ macro_rules! methods {
         ///
         /// # Panics
         /// If `method` is neither from [`METHODS`] nor [one's own](Method::own).
-        pub fn construct<S: System, C: Construct<S>>(method: &Method, construct: C) -> C::Output {
+        pub fn construct<S: System<Vector: Vector>, C: Construct<S>>(
+            method: &Method,
+            construct: C,
+        ) -> C::Output {
             if let Some(build) = method.own {
                 return construct.of(|like| Own::new(build, like));
             }
@@ -214,12 +219,12 @@ pub fn method(id: &str) -> Option<&'static Method> {
 /// rk4.step(&spring, 0.0, 1.0 / 60.0, &mut state).unwrap();
 /// assert!(state.q < 1.0);
 /// ```
-pub fn integrator<S: System + 'static>(
+pub fn integrator<S: System<Vector: Vector> + 'static>(
     method: &Method,
     like: &S::Vector,
 ) -> Box<dyn Integrator<S>> {
     struct Boxed<'a, V>(&'a V);
-    impl<S: System + 'static> Construct<S> for Boxed<'_, S::Vector> {
+    impl<S: System<Vector: Vector> + 'static> Construct<S> for Boxed<'_, S::Vector> {
         type Output = Box<dyn Integrator<S>>;
         fn of<I: Integrator<S> + Clone + 'static>(
             self,

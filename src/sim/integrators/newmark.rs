@@ -4,7 +4,7 @@ use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::newton::{Newton, Stages};
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
@@ -32,7 +32,7 @@ const BETA: f64 = 0.25;
 /// The only γ of second order.
 const GAMMA: f64 = 0.5;
 
-impl<S: System> Integrator<S> for Newmark<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for Newmark<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         Self { a: like.clone(), newton: Newton::new(like) }
     }

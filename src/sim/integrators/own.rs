@@ -162,7 +162,7 @@ impl<V: Clone> Clone for Own<V> {
     }
 }
 
-impl<S: System> Integrator<S> for Own<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for Own<S::Vector> {
     fn new(_like: &S::Vector) -> Self {
         unreachable!("a method of one's own is built by its card")
     }
@@ -204,7 +204,7 @@ struct Spread<'a, S: System> {
     scratch: &'a RefCell<(State<S::Vector>, S::Vector)>,
 }
 
-impl<S: System> System for Spread<'_, S> {
+impl<S: System<Vector: Vector>> System for Spread<'_, S> {
     type Vector = Vec<f64>;
 
     fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {

@@ -37,7 +37,7 @@ impl<I, V: Vector> ResetOnChange<I, V> {
     }
 }
 
-impl<S: System, I: Integrator<S>> Integrator<S> for ResetOnChange<I, S::Vector> {
+impl<S: System<Vector: Vector>, I: Integrator<S>> Integrator<S> for ResetOnChange<I, S::Vector> {
     fn new(like: &S::Vector) -> Self {
         Self::around(I::new(like), like)
     }

@@ -3,7 +3,7 @@
 use super::card::{AS_PRINTED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{Elementwise, State};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {

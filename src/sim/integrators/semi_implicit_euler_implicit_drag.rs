@@ -4,7 +4,7 @@ use super::card::{LINEARISED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::linear_solve::LinearSolve;
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
@@ -28,7 +28,7 @@ pub struct SemiImplicitEulerImplicitDrag<V> {
     equations: LinearSolve<V>,
 }
 
-impl<S: System> Integrator<S> for SemiImplicitEulerImplicitDrag<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for SemiImplicitEulerImplicitDrag<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         Self { a: like.clone(), equations: LinearSolve::new(like) }
     }

@@ -4,7 +4,7 @@ use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::newton::Newton;
-use crate::sim::state::State;
+use crate::sim::state::{State, Vector};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
@@ -40,7 +40,7 @@ const D: f64 = GAMMA / 2.0;
 /// `1 / (γ (2 - γ))`
 const W: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
 
-impl<S: System> Integrator<S> for TrBdf2<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for TrBdf2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
         Self { newton: Newton::new(like), f: zero.clone(), stage: zero }

@@ -5,7 +5,7 @@ use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::jacobian::Jacobian;
 use super::shared::linear_flow::LinearFlow;
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::System;
 
 pub(super) const CARD: Method = Method {
@@ -77,7 +77,7 @@ fn rest<V: Vector>(
     r.add_scaled(-1.0, drag.times(system, &[], v.components()));
 }
 
-impl<S: System> Integrator<S> for VerletExactDrag<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for VerletExactDrag<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let n = like.components().len();
         Self {

@@ -14,7 +14,7 @@ pub(crate) fn fresh<S: System<Vector = f64> + 'static>(method: &Method) -> Box<d
 }
 
 /// A fresh integrator that takes the steps it is given: an adaptive one gets a tolerance that does not bind.
-pub(crate) fn unbound<S: System + 'static>(
+pub(crate) fn unbound<S: System<Vector: Vector> + 'static>(
     method: &Method,
     like: &S::Vector,
 ) -> Box<dyn Integrator<S>> {

@@ -2,7 +2,7 @@
 
 use regatta::sim::bodies::{Body, Input, Net};
 use regatta::sim::integrators::{Family, METHODS, Method, StepFailure};
-use regatta::sim::{Points, State, System, Vector};
+use regatta::sim::{Elementwise, Points, State, System, Vector};
 
 use super::*;
 

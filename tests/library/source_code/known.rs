@@ -101,7 +101,7 @@ impl System for Run {
 /// The states that the method of the table passes through.
 pub(crate) fn steps(method: &Method, case: &Case) -> Vec<[f64; 2]> {
     let force = FORCES[case.force].a;
-    let order = method.only.and_then(|only| only.with).map_or(1, |(_, order)| order as u32);
+    let order = method.only.and_then(|only| only.law_order).unwrap_or(1);
     let run = Run { force, order, has_joint: method.id != "engine-pybullet" };
     let [q, v] = case.start;
     let mut state = State { q, v };

@@ -11,7 +11,27 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 2] = [
+const CONCEPTS: [Concept; 6] = [
+    Concept {
+        name: "dispatch by the type of a method",
+        file: "src/sim/integrators/mod.rs",
+        marks: &["::CARD.id"],
+    },
+    Concept {
+        name: "step of a follower",
+        file: "src/sim/integrators/follower.rs",
+        marks: &["R::step("],
+    },
+    Concept {
+        name: "tick of an engine",
+        file: "src/sim/integrators/engine/mod.rs",
+        marks: &["R::tick("],
+    },
+    Concept {
+        name: "speed limit",
+        file: "src/sim/integrators/engine/mod.rs",
+        marks: &["fn cap", "speed * max_speed"],
+    },
     Concept {
         name: "factorisation of a dense matrix",
         file: "src/sim/integrators/shared/lu.rs",

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::Net;
 use crate::sim::body::Body;
-use crate::sim::state::Vector;
+use crate::sim::state::{Elementwise, Vector};
 use crate::sim::system::System;
 
 /// How long the motion is followed, in seconds: a hanging cloth has fallen by then, and swung back.
@@ -48,7 +48,7 @@ impl Survey {
                 (*low, *high) = (low.min(q), high.max(q));
             }
             net.acceleration(step as f64 * h, &state.q, &state.v, &mut a);
-            Vector::kick_and_drift(h, &a, &mut state.v, h, &mut state.q);
+            Elementwise::kick_and_drift(h, &a, &mut state.v, h, &mut state.q);
         }
         let far = |&[low, high]: &[f64; 2]| high - low;
         let farther = |best: usize, next: usize| {

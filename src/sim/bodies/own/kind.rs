@@ -35,7 +35,7 @@ pub fn own_kind<S>(
     horizon: ClaimHorizon,
 ) -> Result<&'static Kind, OwnFault>
 where
-    S: System + Clone + Send + 'static,
+    S: System<Vector: Vector> + Clone + Send + 'static,
 {
     let many = State { q: start.q.components().to_vec(), v: start.v.components().to_vec() };
     let n = many.q.len();
@@ -76,7 +76,10 @@ where
 }
 
 /// The parameter, with the number of `system` as its default.
-fn told_parameter<S: System + Clone>(parameter: &ParameterOf<S>, system: &S) -> Parameter {
+fn told_parameter<S: System<Vector: Vector> + Clone>(
+    parameter: &ParameterOf<S>,
+    system: &S,
+) -> Parameter {
     let default = parameter.acting_at_once().map(|field| *field(&mut system.clone()));
     Parameter { default, ..parameter.parameter() }
 }

@@ -43,7 +43,7 @@ impl fmt::Debug for dyn Motion {
 
 /// A system with what was told of it.
 #[derive(Clone)]
-pub(super) struct Typed<S: System> {
+pub(super) struct Typed<S: System<Vector: Vector>> {
     system: S,
     /// Multiplies the acceleration of a system without parameters.
     force: f64,
@@ -59,7 +59,7 @@ struct Scratch<V> {
     a: V,
 }
 
-impl<S: System> Typed<S> {
+impl<S: System<Vector: Vector>> Typed<S> {
     pub(super) fn new(system: S, like: &State<S::Vector>, extras: &Extras<S>) -> Self {
         Self {
             system,
@@ -72,7 +72,7 @@ impl<S: System> Typed<S> {
     }
 }
 
-impl<S: System + Clone + Send + 'static> Motion for Typed<S> {
+impl<S: System<Vector: Vector> + Clone + Send + 'static> Motion for Typed<S> {
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
         let Scratch { state, a: own } = &mut *self.scratch.borrow_mut();
         state.q.components_mut().copy_from_slice(q);

@@ -28,7 +28,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
 };
 
 /// Its speed limit, in metres per second.
-const FASTEST: f64 = 400.0;
+const MAX_SPEED: f64 = 400.0;
 
 /// Box2D: a tick by the [formula](Method::formula) on its card. The second solve starts from `p` again.
 #[derive(Clone)]
@@ -47,7 +47,7 @@ impl Rule for Box2d {
                 *p = *v / drag + h * f;
                 *v = if has_spring { (*p - pull * *x) / resistance } else { *p };
             });
-            cap(v, FASTEST);
+            cap(v, MAX_SPEED);
             q.add_scaled(h, v);
             if has_spring {
                 each(tick.carried, q, v, |x, v, p| *v = (p - pull * *x) / resistance);

@@ -14,7 +14,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
             with each the faster",
     only: Some(Only {
         kinds: &["spring", "ship", "helm", "orbit", "pendulum", "chain", "law", "own", "net"],
-        with: None,
+        law_order: None,
         reason: "a follower has no force",
     }),
     stability_limit: Some(0.0),
@@ -47,7 +47,7 @@ impl Rule for HeldForce {
         }
     }
 
-    fn read<S: System>(
+    fn read<S: System<Vector: Vector>>(
         system: &S,
         t: f64,
         state: &State<S::Vector>,

@@ -30,7 +30,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
 };
 
 /// Its speed limit, in metres per second.
-const FASTEST: f64 = 500.0;
+const MAX_SPEED: f64 = 500.0;
 
 /// Jolt: a tick by the [formula](Method::formula) on its card.
 #[derive(Clone)]
@@ -48,7 +48,7 @@ impl Rule for Jolt {
         for _ in 0..tick.substeps {
             v.add_scaled(h, tick.force);
             v.components_mut().iter_mut().for_each(|v| *v *= kept);
-            cap(v, FASTEST);
+            cap(v, MAX_SPEED);
             each(tick.force, q, v, |x, v, _| {
                 if has_spring {
                     *v = (*v - pull * *x) / resistance;

@@ -67,7 +67,7 @@ pub trait Rule: Clone + Send + 'static {
     ///
     /// # Errors
     /// If the engine cannot express the system.
-    fn read<S: System>(
+    fn read<S: System<Vector: Vector>>(
         system: &S,
         t: f64,
         state: &State<S::Vector>,
@@ -86,7 +86,7 @@ pub struct EngineMethod<V, R> {
     rule: PhantomData<R>,
 }
 
-impl<S: System, R: Rule> Integrator<S> for EngineMethod<S::Vector, R> {
+impl<S: System<Vector: Vector>, R: Rule> Integrator<S> for EngineMethod<S::Vector, R> {
     fn new(like: &S::Vector) -> Self {
         let mut zero = like.clone();
         zero.components_mut().fill(0.0);
@@ -168,12 +168,12 @@ fn each_with<V: Vector>(
     }
 }
 
-/// Shortens a velocity longer than `most`, in metres per second.
+/// Shortens a velocity longer than `max_speed`, in metres per second.
 #[inline]
-fn cap<V: Vector>(v: &mut V, most: f64) {
+fn cap<V: Vector>(v: &mut V, max_speed: f64) {
     let square: f64 = v.components().iter().map(|v| v * v).sum();
-    if square > most * most {
-        let part = most / square.sqrt();
+    if square > max_speed * max_speed {
+        let part = max_speed / square.sqrt();
         v.components_mut().iter_mut().for_each(|v| *v *= part);
     }
 }

@@ -33,7 +33,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
 };
 
 /// Where a coordinate, velocity or acceleration is beyond this in SI units, MuJoCo warns and puts the model back.
-const MOST: f64 = 1e10;
+const MAX_VALUE: f64 = 1e10;
 
 /// Before a step: whether the body is put back to the origin at rest, where a model is written (`qpos0`). What user code
 /// applies is lost with it until the next tick.
@@ -44,7 +44,7 @@ pub(super) fn puts_back<V: Vector>(
     v: &mut V,
 ) -> bool {
     let damping = settings.damping + settings.drag;
-    let is_within = |x: f64| x.abs() <= MOST;
+    let is_within = |x: f64| x.abs() <= MAX_VALUE;
     let mut moved = q.components().iter().zip(v.components()).zip(force.components());
     let is_sound = moved.all(|((x, v), f)| {
         is_within(*x) && is_within(*v) && is_within(f - settings.stiffness * x - damping * v)

@@ -30,7 +30,8 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     ..ENGINE
 };
 
-/// PhysX, PGS: a tick by the [formula](Method::formula) on its card.
+/// PhysX, PGS: a tick by the [formula](Method::formula) on its card. Its substeps are position iterations, which
+/// change nothing here.
 #[derive(Clone)]
 pub struct Physx;
 

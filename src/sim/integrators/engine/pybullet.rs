@@ -9,7 +9,7 @@ use crate::sim::system::System;
 
 const ONLY: Only = Only {
     kinds: &["ship", "helm", "orbit", "law", "own"],
-    with: None,
+    law_order: None,
     reason: "pybullet's multibody has no joint with a spring",
 };
 
@@ -50,7 +50,7 @@ impl Rule for Pybullet {
         });
     }
 
-    fn read<S: System>(
+    fn read<S: System<Vector: Vector>>(
         system: &S,
         t: f64,
         state: &State<S::Vector>,

@@ -33,7 +33,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
 };
 
 /// Its speed limit, in metres per second.
-const FASTEST: f64 = 400.0;
+const MAX_SPEED: f64 = 400.0;
 
 /// Rapier: a tick by the [formula](Method::formula) on its card.
 #[derive(Clone)]
@@ -54,7 +54,7 @@ impl Rule for Rapier {
                     *v = (*v - pull * *x) / resistance;
                 }
             });
-            cap(v, FASTEST);
+            cap(v, MAX_SPEED);
             q.add_scaled(h, v);
         }
         let drag = 1.0 + tick.length * set.drag;

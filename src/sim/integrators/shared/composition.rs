@@ -1,6 +1,6 @@
 //! Composition of drifts and kicks, for higher-order symplectic methods.
 
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{Elementwise, State};
 use crate::sim::system::System;
 
 /// For each `(c, d)` of `stages` a drift `q += c h v` and a kick `v += d h a`, then the `last` drift.

@@ -65,7 +65,9 @@ impl<V: Vector, P: Pair<N>, const N: usize> EmbeddedPair<V, P, N> {
     }
 }
 
-impl<S: System, P: Pair<N>, const N: usize> Integrator<S> for EmbeddedPair<S::Vector, P, N> {
+impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
+    for EmbeddedPair<S::Vector, P, N>
+{
     fn new(like: &S::Vector) -> Self {
         Self::with_tolerance(like, P::TOLERANCE)
     }

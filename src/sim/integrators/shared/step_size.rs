@@ -16,7 +16,7 @@ const SAFETY: f64 = 0.9;
 const FACTORS: (f64, f64) = (0.2, 5.0);
 /// A step that could grow by less than this keeps its size, which saves a power. If larger, steps stay
 /// shorter than necessary.
-const LEAST_GROWTH: f64 = 1.25;
+const MIN_GROWTH: f64 = 1.25;
 /// A step keeps its size up to this error, relative to the tolerance. If larger, the next step is often
 /// rejected.
 const LARGEST_STEADY_ERROR: f64 = 0.8;
@@ -34,7 +34,7 @@ pub(in crate::sim::integrators) fn factor(root: f64) -> f64 {
 /// As [`factor`] for an error of order p, but 1 if the step is accepted and could hardly grow.
 #[inline]
 pub(in crate::sim::integrators) fn steady_factor(error: f64, order: u32) -> f64 {
-    let steady = (0..order).fold(1.0, |product, _| product * (SAFETY / LEAST_GROWTH));
+    let steady = (0..order).fold(1.0, |product, _| product * (SAFETY / MIN_GROWTH));
     if (steady..=LARGEST_STEADY_ERROR).contains(&error) {
         1.0
     } else {
