@@ -30,7 +30,7 @@ const CONCEPTS: [Concept; 6] = [
     Concept {
         name: "speed limit",
         file: "src/sim/integrators/engine/mod.rs",
-        marks: &["fn cap", "speed * max_speed"],
+        marks: &["max_speed * max_speed"],
     },
     Concept {
         name: "factorisation of a dense matrix",
