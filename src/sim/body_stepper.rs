@@ -5,6 +5,7 @@ use std::any::Any;
 use glam::DVec2;
 
 use super::body::Body;
+use super::engine_settings::EngineSettings;
 use super::exact_flow::ExactFlow;
 use super::exact_since_start::{ExactSinceStart, is_start};
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
@@ -179,6 +180,9 @@ impl<B: Body> PlacedBody for Placed<B> {
     fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
         let Pursuit { target, rate, order, is_still } = self.body.system.pursuit(t)?;
         Some(Pursuit { target: target.components()[0], rate, order, is_still })
+    }
+    fn engine_settings(&self, t: f64) -> Option<EngineSettings> {
+        self.body.system.engine_settings(t, &self.state, &mut self.state.q.clone())
     }
 
     fn place(&self) -> DVec2 {

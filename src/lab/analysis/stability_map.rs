@@ -12,7 +12,7 @@ use crate::sim::bodies::{Kind, kind};
 use crate::sim::stability::{
     CoupledMotion, NoSmallMotion, NormalMode, SmallMotion, Stability, Tick,
 };
-use crate::sim::{Solver, Stepper};
+use crate::sim::{EngineSettings, Solver, Stepper};
 
 mod contour;
 
@@ -166,23 +166,22 @@ enum Motion {
 
 /// The normal modes of a body.
 struct Modes {
-    kind: &'static Kind,
     modes: Vec<NormalMode>,
-    /// The same for an engine that holds the force of such a body.
+    /// What an engine integrates itself.
+    settings: EngineSettings,
+    /// The same modes for an engine that holds the whole force of such a body.
     held: Option<CoupledMotion>,
 }
 
-/// Bodies of which an engine is told settings; it holds the force of any other.
-const TOLD_TO_ENGINES: [&str; 2] = ["spring", "ship"];
-
 impl Motion {
-    fn of(kind: &'static Kind, body: &dyn Stepper) -> Result<Self, NoSmallMotion> {
+    fn of(body: &dyn Stepper) -> Result<Self, NoSmallMotion> {
         let small = SmallMotion::of(body)?;
         if let Some(mut modes) = small.normal_modes() {
             modes.sort_by(|a, b| b.omega_squared.total_cmp(&a.omega_squared));
-            let is_told = TOLD_TO_ENGINES.contains(&kind.id);
-            let held = if is_told { None } else { small.coupled().ok() };
-            return Ok(Self::Modes(Modes { kind, modes, held }));
+            let settings = body.engine_settings(0.0).unwrap_or(EngineSettings::NONE);
+            let is_held = settings == EngineSettings::NONE;
+            let held = if is_held { small.coupled().ok() } else { None };
+            return Ok(Self::Modes(Modes { modes, settings, held }));
         }
         small.coupled().map(Self::Coupled)
     }
@@ -200,11 +199,14 @@ impl Motion {
             Self::Modes(Modes { modes, .. }) => (modes, None),
             Self::Coupled(coupled) => (&[], Some(coupled)),
         };
-        let is_ship = matches!(self, Self::Modes(Modes { kind, .. }) if kind.id == "ship");
+        let has_joint = match self {
+            Self::Modes(Modes { settings, .. }) => settings.has_spring(),
+            Self::Coupled(_) => false,
+        };
         let together = coupled
             .into_iter()
             .map(move |coupled| coupled.stability(spec.method, 1.0 / hz, spec.substeps).ok());
-        modes.iter().map(move |mode| stability(spec, is_ship, mode, hz)).chain(together)
+        modes.iter().map(move |mode| stability(spec, has_joint, mode, hz)).chain(together)
     }
 
     fn is_stable(&self, spec: &LaneSpec, hz: f64) -> bool {
@@ -234,7 +236,7 @@ pub(super) struct MapWork {
 impl MapWork {
     pub(super) fn new(kind: &'static Kind, request: MapRequest) -> Self {
         let body = (kind.build)(&request.values, Solver::Truth);
-        let found = Motion::of(kind, &*body);
+        let found = Motion::of(&*body);
         let is_slow = matches!(found, Ok(Motion::Coupled(_))) && body.q().len() >= MANY_COUPLED;
         let map = StabilityMap {
             regions: Vec::new(),
@@ -324,7 +326,7 @@ impl MapWork {
         let mut values = values.clone();
         values[*parameter] = value;
         let body = (self.kind.build)(&values, Solver::Truth);
-        Motion::of(self.kind, &*body).ok()
+        Motion::of(&*body).ok()
     }
 }
 
@@ -332,9 +334,9 @@ fn chooses_steps(spec: &LaneSpec) -> bool {
     spec.method.tolerance.is_some() || !spec.method.keeps_time
 }
 
-/// Stability on one mode, measured on a stand-in: a spring; for a follower method a follower; for an engine on a ship a
-/// ship. `None` if the method fails.
-fn stability(spec: &LaneSpec, is_ship: bool, mode: &NormalMode, hz: f64) -> Option<Stability> {
+/// Stability on one mode, measured on a stand-in: a spring; for a follower method a follower; for an engine on a body
+/// without a joint a ship. `None` if the method fails.
+fn stability(spec: &LaneSpec, has_joint: bool, mode: &NormalMode, hz: f64) -> Option<Stability> {
     let NormalMode { omega_squared, damping_per_s, .. } = *mode;
     let order = spec.method.only.and_then(|only| only.law_order);
     let (id, values) = match order {
@@ -342,7 +344,7 @@ fn stability(spec: &LaneSpec, is_ship: bool, mode: &NormalMode, hz: f64) -> Opti
             let order = f64::from(order);
             ("follow", vec![order, omega_squared.sqrt(), 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
         }
-        None if spec.method.is_engine() && is_ship => {
+        None if spec.method.is_engine() && !has_joint => {
             ("ship", vec![0.0, damping_per_s, 1.0, 0.0, 0.0, 1.0])
         }
         None => ("spring", vec![1.0, omega_squared, damping_per_s, 1.0, 0.0, 1.0]),
