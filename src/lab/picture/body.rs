@@ -20,6 +20,18 @@ pub(super) struct Seen<'a> {
     pub(super) palette: &'static Palette,
 }
 
+/// A part that moves as the body does, in points.
+enum Part {
+    /// Its ends.
+    Rod([[f32; 2]; 2]),
+    /// Its centre and radius.
+    Disc([f32; 2], f32),
+    Sprung(Span),
+    /// Two corners.
+    Block([[f32; 2]; 2]),
+    Hull(Berth),
+}
+
 impl Seen<'_> {
     fn span(&self) -> Span {
         let quay = self.camera.points(glam::DVec2::new(self.camera.quay_m, 0.0))[0];
@@ -147,36 +159,40 @@ impl Seen<'_> {
         }
     }
 
-    /// The body itself, in front of everything.
-    pub(super) fn front(&self, shapes: &mut Vec<Shape>, coat: Coat) {
-        let (camera, clip) = (self.camera, self.camera.rect);
-        for mark in &self.outline.marks {
-            match *mark {
+    /// The parts that move as the body does, where this camera sees them.
+    fn parts(&self) -> impl Iterator<Item = Part> {
+        self.outline.marks.iter().filter_map(|mark| {
+            Some(match *mark {
+                Mark::Rod { from, to } => Part::Rod([from, to].map(|at| self.camera.points(at))),
                 Mark::Disc { centre, radius } => {
-                    mass::ball(
-                        shapes,
-                        camera.points(centre),
-                        camera.size(radius),
-                        coat.colour,
-                        clip,
-                    );
+                    Part::Disc(self.camera.points(centre), self.camera.size(radius))
                 }
-                Mark::Sprung => {
-                    mass::block(shapes, self.span().block, camera.block, coat.colour, clip);
-                }
-                Mark::Block { centre, half } => {
-                    mass::slab(shapes, self.box_of(centre, half), coat.colour, clip);
-                }
-                Mark::Hull { bow, length } => {
-                    hull::ship(shapes, self.berth(bow, length), coat.colour, self.palette, clip);
-                }
+                Mark::Sprung => Part::Sprung(self.span()),
+                Mark::Block { centre, half } => Part::Block(self.box_of(centre, half)),
+                Mark::Hull { bow, length } => Part::Hull(self.berth(bow, length)),
                 Mark::Wall { .. }
                 | Mark::Anchor { .. }
                 | Mark::Planet { .. }
                 | Mark::Coil { .. }
-                | Mark::Rod { .. }
                 | Mark::Rail { .. }
-                | Mark::Name { .. } => {}
+                | Mark::Name { .. } => return None,
+            })
+        })
+    }
+
+    /// The body itself, in front of everything.
+    pub(super) fn front(&self, shapes: &mut Vec<Shape>, coat: Coat) {
+        let (camera, clip) = (self.camera, self.camera.rect);
+        for part in self.parts() {
+            match part {
+                // It carries the body.
+                Part::Rod(_) => {}
+                Part::Disc(at, radius) => mass::ball(shapes, at, radius, coat.colour, clip),
+                Part::Sprung(span) => {
+                    mass::block(shapes, span.block, camera.block, coat.colour, clip);
+                }
+                Part::Block(corners) => mass::slab(shapes, corners, coat.colour, clip),
+                Part::Hull(berth) => hull::ship(shapes, berth, coat.colour, self.palette, clip),
             }
         }
     }
@@ -188,31 +204,17 @@ impl Seen<'_> {
             let points = points.iter().map(|point| camera.points(*point));
             shapes.push(path(points, 1.4, faded(coat.colour, 0.7), coat.dash, clip));
         }
-        for mark in &self.outline.marks {
-            match *mark {
-                Mark::Rod { from, to } => {
-                    let ends = [from, to].map(|end| camera.points(end));
+        for part in self.parts() {
+            match part {
+                Part::Rod(ends) => {
                     shapes.push(path(ends, 1.4, faded(coat.colour, 0.7), coat.dash, clip));
                 }
-                Mark::Disc { centre, radius } => {
-                    let radius = camera.size(radius);
-                    mass::hollow_disc(shapes, camera.points(centre), radius, coat, clip);
+                Part::Disc(at, radius) => mass::hollow_disc(shapes, at, radius, coat, clip),
+                Part::Sprung(span) => {
+                    mass::hollow_block(shapes, span.block, camera.block, coat, clip);
                 }
-                Mark::Sprung => {
-                    mass::hollow_block(shapes, self.span().block, camera.block, coat, clip);
-                }
-                Mark::Block { centre, half } => {
-                    mass::hollow_slab(shapes, self.box_of(centre, half), coat, clip);
-                }
-                Mark::Hull { bow, length } => {
-                    hull::hollow(shapes, self.berth(bow, length), coat, clip);
-                }
-                Mark::Wall { .. }
-                | Mark::Anchor { .. }
-                | Mark::Planet { .. }
-                | Mark::Coil { .. }
-                | Mark::Rail { .. }
-                | Mark::Name { .. } => {}
+                Part::Block(corners) => mass::hollow_slab(shapes, corners, coat, clip),
+                Part::Hull(berth) => hull::hollow(shapes, berth, coat, clip),
             }
         }
     }
@@ -229,30 +231,16 @@ impl Seen<'_> {
             shapes.push(path(points.clone(), 3.6, faded(palette.sea[1], 0.6), SOLID, clip));
             shapes.push(path(points, 1.4, faded(palette.exact, 0.8), SOLID, clip));
         }
-        for mark in &self.outline.marks {
-            match *mark {
-                Mark::Rod { from, to } => {
-                    let ends = [from, to].map(|end| camera.points(end));
+        for part in self.parts() {
+            match part {
+                Part::Rod(ends) => {
                     shapes.push(path(ends, 3.6, faded(palette.sea[1], 0.6), SOLID, clip));
                     shapes.push(path(ends, 1.4, faded(palette.exact, 0.8), SOLID, clip));
                 }
-                Mark::Disc { centre, radius } => {
-                    let radius = camera.size(radius);
-                    mass::ghost_disc(shapes, camera.points(centre), radius, palette, clip);
-                }
-                Mark::Sprung => silhouette(shapes, self.span(), palette, clip),
-                Mark::Block { centre, half } => {
-                    mass::ghost_slab(shapes, self.box_of(centre, half), palette, clip);
-                }
-                Mark::Hull { bow, length } => {
-                    hull::ghost(shapes, self.berth(bow, length), palette, clip);
-                }
-                Mark::Wall { .. }
-                | Mark::Anchor { .. }
-                | Mark::Planet { .. }
-                | Mark::Coil { .. }
-                | Mark::Rail { .. }
-                | Mark::Name { .. } => {}
+                Part::Disc(at, radius) => mass::ghost_disc(shapes, at, radius, palette, clip),
+                Part::Sprung(span) => silhouette(shapes, span, palette, clip),
+                Part::Block(corners) => mass::ghost_slab(shapes, corners, palette, clip),
+                Part::Hull(berth) => hull::ghost(shapes, berth, palette, clip),
             }
         }
     }
