@@ -1,8 +1,9 @@
-//! Runs independent jobs on a pool of threads until all are done or Ctrl-C is pressed.
+//! Runs jobs on other threads until all are done or Ctrl-C is pressed.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::time::{Duration, Instant};
+use std::{panic, thread};
 
 use indicatif::ProgressBar;
 use rayon::ThreadPool;
@@ -11,7 +12,7 @@ use rayon::prelude::*;
 use super::terminal::tell;
 
 /// The longest time until an interrupt is noticed.
-pub(super) const PATIENCE: Duration = Duration::from_millis(50);
+const PATIENCE: Duration = Duration::from_millis(50);
 
 /// The time between two lines on how far the jobs are, where no bar shows it.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
@@ -35,22 +36,52 @@ pub(super) fn results<R: Send + 'static>(
     });
     let mut results: Vec<Option<R>> = (0..number).map(|_| None).collect();
     let mut told = Instant::now();
-    while !interrupted.load(Ordering::Relaxed) {
-        match receiver.recv_timeout(PATIENCE) {
-            Ok((job, result)) => {
-                results[job] = Some(result);
-                progress.inc(1);
-            }
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => break,
-        }
+    let mut tell_position = || {
         if progress.is_hidden() && told.elapsed() >= BETWEEN_LINES {
             told = Instant::now();
             tell(&format!("{} of {number} {}", progress.position(), progress.message()));
         }
+    };
+    while let Some((job, result)) = next(&receiver, interrupted, &mut tell_position) {
+        results[job] = Some(result);
+        progress.inc(1);
     }
     progress.finish_and_clear();
     results
+}
+
+/// The result of `work` on a thread of its own; `None` if `interrupted` is set before it is there. After an interrupt the
+/// thread is not waited for: the process is about to end.
+pub(super) fn result<R: Send + 'static>(
+    interrupted: &AtomicBool,
+    work: impl FnOnce() -> R + Send + 'static,
+) -> Option<R> {
+    let (sender, receiver) = mpsc::channel();
+    // After an interrupt the receiver is gone.
+    let thread = thread::spawn(move || _ = sender.send(work()));
+    let found = next(&receiver, interrupted, || ());
+    if found.is_none() && !interrupted.load(Ordering::Relaxed) {
+        panic::resume_unwind(thread.join().expect_err("a thread that sends nothing has panicked"));
+    }
+    found
+}
+
+/// The next result; `None` once none is left or `interrupted` is set. While it waits, `meanwhile` is called at least every
+/// [`PATIENCE`].
+fn next<R>(
+    receiver: &Receiver<R>,
+    interrupted: &AtomicBool,
+    mut meanwhile: impl FnMut(),
+) -> Option<R> {
+    while !interrupted.load(Ordering::Relaxed) {
+        meanwhile();
+        match receiver.recv_timeout(PATIENCE) {
+            Ok(result) => return Some(result),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return None,
+        }
+    }
+    None
 }
 
 #[cfg(test)]
@@ -71,6 +102,23 @@ mod tests {
         };
         let results = results(&pool, 20, &ProgressBar::hidden(), &AtomicBool::new(false), square);
         assert_eq!(results, (0..20).map(|job| Some(job * job)).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_result_is_waited_for_until_an_interrupt_and_a_panic_goes_on() {
+        let interrupted = AtomicBool::new(false);
+        assert_eq!(result(&interrupted, || 7), Some(7));
+        let panics = || -> Option<()> { result(&interrupted, || panic!("a bug")) };
+        let panicked = panic::catch_unwind(panic::AssertUnwindSafe(panics));
+        assert_eq!(panicked.unwrap_err().downcast_ref(), Some(&"a bug"));
+        let set = Arc::new(AtomicBool::new(false));
+        let (begin, sets) = (Instant::now(), Arc::clone(&set));
+        let found = result(&set, move || {
+            sets.store(true, Ordering::Relaxed);
+            thread::sleep(Duration::from_secs(2));
+        });
+        assert_eq!(found, None);
+        assert!(begin.elapsed() < Duration::from_secs(1), "{:?}", begin.elapsed());
     }
 
     #[test]

@@ -8,15 +8,15 @@ use std::collections::{BTreeMap, VecDeque};
 use std::num::NonZero;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::sync::mpsc::{self, Receiver, Sender};
 use std::thread;
 
 use rayon::ThreadPoolBuilder;
 
-use super::jobs::PATIENCE;
+use super::jobs;
 use super::schedule::Schedule;
 use super::state_log::StateLog;
-use crate::lab::{AnalysisWorker, Lab};
+use crate::lab::Lab;
 use crate::view::{OffscreenRenderer, Panels, ReadbackError};
 
 /// Frames that the device draws at a time. More gain nothing on a software adapter, and cost memory.
@@ -194,21 +194,10 @@ pub(super) fn complete_analysis(
     interrupted: &AtomicBool,
 ) -> bool {
     lab.run_loops();
-    let request = lab.unanswered_request().filter(|_| renderer.panels() == Panels::Shown);
-    let Some(request) = request else { return !interrupted.load(Ordering::Relaxed) };
-    let (sender, found) = mpsc::channel();
-    thread::spawn(move || _ = sender.send(AnalysisWorker::new(request).bounded().finish()));
-    while !interrupted.load(Ordering::Relaxed) {
-        match found.recv_timeout(PATIENCE) {
-            Ok(findings) => {
-                lab.accept_findings(findings);
-                return true;
-            }
-            Err(RecvTimeoutError::Timeout) => {}
-            Err(RecvTimeoutError::Disconnected) => panic!("the analysis has panicked"),
-        }
+    if renderer.panels() == Panels::Shown {
+        lab.analyse_bounded(|worker| jobs::result(interrupted, move || worker.finish()));
     }
-    false
+    !interrupted.load(Ordering::Relaxed)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, RgbaImage};
-use regatta::lab::{Action, AnalysisWorker, Command, Lab, SCENES, Scene};
+use regatta::lab::{Action, Command, Lab, SCENES, Scene};
 use regatta::view::{AdapterPreference, Gpu, OffscreenRenderer, Panels};
 
 const SIZE_PX: [u32; 2] = [400, 225];
@@ -31,13 +31,6 @@ fn gpu_or_skip(test: &str) -> Option<Gpu> {
         .ok()
 }
 
-/// Judges as a capture does.
-fn judge(lab: &mut Lab) {
-    if let Some(request) = lab.unanswered_request() {
-        lab.accept_findings(AnalysisWorker::new(request).bounded().finish());
-    }
-}
-
 /// The lab of a built-in scene, in solo or racing, after [`FRAMES`] at 60 a second.
 fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Lab)) -> Lab {
     let mut lab = Lab::new(Scene::built_in(scene).unwrap());
@@ -53,7 +46,7 @@ fn sailed(scene: &str, race: bool, mut each_frame: impl FnMut(&Lab)) -> Lab {
             lab.apply(Command::Pick(3));
         }
         lab.advance(16_666_667);
-        judge(&mut lab);
+        lab.analyse_bounded(|worker| Some(worker.finish()));
         each_frame(&lab);
     }
     lab
@@ -147,7 +140,7 @@ fn the_inspector_beside_a_run_that_was_gone_back_in_looks_as_it_did() {
     lab.apply(Command::SecondForward);
     lab.apply(Command::Seek(FRAMES - 20));
     lab.apply(Command::ToggleInspector);
-    judge(&mut lab);
+    lab.analyse_bounded(|worker| Some(worker.finish()));
     let drawn = drawn(&mut OffscreenRenderer::new(gpu, size_px, 0.4).unwrap(), size_px, &lab);
     assert_eq!(wrong("spring-inspector.png", &drawn), None);
 }

@@ -120,6 +120,18 @@ impl Lab {
         }
     }
 
+    /// Computes what is requested, the verdicts within a stated amount of work, beyond which they are not judged: what a
+    /// capture waits for before each frame. `finish` has the worker do all its steps; it returns `None` if it was
+    /// interrupted, and this returns `false` then.
+    pub fn analyse_bounded(
+        &mut self,
+        finish: impl FnOnce(AnalysisWorker) -> Option<Findings>,
+    ) -> bool {
+        let Some(request) = self.unanswered_request() else { return true };
+        let found = finish(AnalysisWorker::new(request).bounded());
+        found.map(|findings| self.accept_findings(findings)).is_some()
+    }
+
     /// The verdicts and advice that are wanted, unless the findings answer them in full.
     pub fn unanswered_request(&self) -> Option<AnalysisRequest> {
         let request = self.analysis_request();
