@@ -1,12 +1,15 @@
 //! `regatta advise`: recommends a method for a scene at its tick rate, and says why.
 
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 use clap::Args;
+use rayon::ThreadPoolBuilder;
 
 use super::error::Error;
 use super::experiment::{ExperimentArgs, Lineup};
 use super::interrupt::{Interrupted, watch_for_interrupt};
+use super::jobs;
 use super::output::print;
 use super::output::table::TableFormat;
 use super::scene_file;
@@ -17,7 +20,7 @@ use crate::sim::integrators::{Family, METHODS};
 mod judged;
 mod report;
 
-use judged::{judge_all, warn_of_load};
+use judged::{judge_all, search_margins, warn_of_load};
 
 const ABOUT: &str = "\
 Each method is judged on the scene from its start, with its script's inputs, against the exact
@@ -42,7 +45,9 @@ HOLDS FROM is the slowest whole tick rate, at or below the one judged, at which 
 holds with the same substeps: rates are tried downwards, each lower by a sixtieth, for a net by a
 sixth, until one fails. STIFFER BY is the factor by which the named parameter may grow: factors are
 tried upwards, each higher by a tenth, until one fails, 10 at most. Neither is known where the next
-run has no truth or takes too much work.
+run has no truth or takes too much work. With a body of more than eight coordinates they are
+searched for what is recommended and for each method that needs at most four times the evaluations
+of the cheapest.
 
 In JSON a criterion that is not met has met false and nothing else, and one of which that is not
 known is null. Where nothing is recommended, none says why.
@@ -120,11 +125,19 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     };
     let wanted = specs.len();
     let interrupted = watch_for_interrupt();
-    let adviser = Arc::new(Adviser::new(scene, 1.0, scene.tick_hz));
-    let mut rows = judge_all(&adviser, specs, args.rates, &interrupted);
-    for row in &mut rows {
+    let advised = scene.clone();
+    let adviser = jobs::result(&interrupted, move || Adviser::new(&advised, 1.0, advised.tick_hz));
+    let stopped = |judged: usize| {
+        let done = format!("{judged} of {wanted} methods");
+        Err(Interrupted::After { done }.into())
+    };
+    let Some(adviser) = adviser.map(Arc::new) else { return stopped(0) };
+    let pool = ThreadPoolBuilder::new().build().expect("the system starts a thread for each core");
+    let mut rows = judge_all(&pool, &adviser, specs, args.rates, &interrupted);
+    for row in rows.iter_mut().take_while(|_| !interrupted.load(Ordering::Relaxed)) {
         row.time(scene);
     }
+    search_margins(&pool, &adviser, &mut rows, &interrupted);
     let text = match args.format {
         TableFormat::Text => {
             let usual = args.experiment.is_a_spring().then(Language::default);
@@ -134,10 +147,5 @@ pub(super) fn run(args: &AdviseArgs) -> Result<(), Error> {
     };
     print(&text)?;
     warn_of_load(&rows);
-    match rows.len() {
-        judged if judged < wanted => {
-            Err(Interrupted::After { done: format!("{judged} of {wanted} methods") }.into())
-        }
-        _ => Ok(()),
-    }
+    if interrupted.load(Ordering::Relaxed) { stopped(rows.len()) } else { Ok(()) }
 }

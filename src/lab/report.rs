@@ -131,12 +131,11 @@ impl Report {
     /// The advice on the methods of a scene's lanes at its tick rate, under full throttle.
     pub fn of_scene(scene: &Scene) -> Self {
         let adviser = Adviser::new(scene, 1.0, scene.tick_hz);
-        let judged = scene.lanes.iter().map(|&spec| MethodAdvice {
-            spec,
-            verdict: adviser.verdict(spec),
-            met: CRITERIA.map(|criterion| adviser.meets(spec, criterion)),
-        });
-        let judged: Vec<MethodAdvice> = judged.collect();
+        let mut judged: Vec<MethodAdvice> =
+            scene.lanes.iter().map(|&spec| adviser.judged(spec)).collect();
+        for (row, i) in adviser.worth_margins(&judged) {
+            judged[row].search_margins(&adviser, i);
+        }
         let place = |criterion| CRITERIA.iter().position(|one| *one == criterion).unwrap_or(0);
         Self {
             name: scene.name.clone(),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use rayon::ThreadPoolBuilder;
+use rayon::ThreadPool;
 
 use crate::commands::jobs;
 use crate::commands::stopwatch::{self, Timing};
@@ -27,27 +27,55 @@ const EFFORT: Duration = Duration::from_millis(5);
 /// Costs that differ by less than this factor are equal.
 const BLUR: f64 = 1.2;
 
-/// The methods judged, in the order given; after an interrupt those judged by then.
+/// The methods judged, in the order given, without margins; after an interrupt those judged by then.
 pub(super) fn judge_all(
+    pool: &ThreadPool,
     adviser: &Arc<Adviser>,
     specs: Vec<LaneSpec>,
     rates: bool,
     interrupted: &AtomicBool,
 ) -> Vec<Row> {
-    let pool = ThreadPoolBuilder::new().build().expect("the system starts a thread for each core");
     let (methods, adviser) = (specs.len(), Arc::clone(adviser));
     let judge = move |method: usize| Row::judged(&adviser, specs[method], rates);
     let progress = progress(methods as u32, "methods judged");
-    let rows = jobs::results(&pool, methods, &progress, interrupted, judge);
+    let rows = jobs::results(pool, methods, &progress, interrupted, judge);
     rows.into_iter().flatten().collect()
+}
+
+/// Searches the margins of what is recommended and of what else is worth it; after an interrupt the others are missing.
+pub(super) fn search_margins(
+    pool: &ThreadPool,
+    adviser: &Arc<Adviser>,
+    rows: &mut [Row],
+    interrupted: &AtomicBool,
+) {
+    let advised: Vec<MethodAdvice> = rows.iter().map(|row| row.advised.clone()).collect();
+    let mut margins = adviser.worth_margins(&advised);
+    let taken = (0..CRITERIA.len()).filter_map(|i| Some((best(rows, i)?, i)));
+    margins.extend(taken.collect::<Vec<_>>());
+    margins.sort_unstable();
+    margins.dedup();
+    let progress = progress(margins.len() as u32, "margins searched");
+    let (wanted, adviser) = (margins.clone(), Arc::clone(adviser));
+    let search = move |place: usize| {
+        let (row, criterion) = wanted[place];
+        let mut searched = advised[row].clone();
+        searched.search_margins(&adviser, criterion);
+        searched.met[criterion].clone()
+    };
+    let found = jobs::results(pool, margins.len(), &progress, interrupted, search);
+    for ((row, criterion), met) in margins.into_iter().zip(found) {
+        if let Some(met) = met {
+            rows[row].advised.met[criterion] = met;
+        }
+    }
 }
 
 impl Row {
     fn judged(adviser: &Adviser, spec: LaneSpec, rates: bool) -> Self {
-        let met = CRITERIA.map(|criterion| adviser.meets(spec, criterion));
         let plain = LaneSpec { substeps: spec.method.default_substeps, ..spec };
         Self {
-            advised: MethodAdvice { spec, verdict: adviser.verdict(spec), met },
+            advised: adviser.judged(spec),
             timings: [None; CRITERIA.len()],
             rates: rates.then(|| CRITERIA.map(|criterion| adviser.slowest(plain, criterion))),
         }
@@ -91,13 +119,18 @@ pub(super) fn warn_of_load(rows: &[Row]) {
     }
 }
 
-/// The recommended row for a criterion, and how it meets it.
-pub(super) fn best(rows: &[Row], criterion: usize) -> Option<(&Row, &CriterionMet)> {
+/// The place of the recommended row for a criterion.
+pub(super) fn best(rows: &[Row], criterion: usize) -> Option<usize> {
     let advised: Vec<MethodAdvice> = rows.iter().map(|row| row.advised.clone()).collect();
     let cost = |advised: &MethodAdvice, _: &CriterionMet| {
         let row = rows.iter().find(|row| row.advised.spec == advised.spec);
         row.and_then(|row| row.ns_per_s(criterion)).unwrap_or(f64::INFINITY)
     };
-    let row = &rows[recommended(&advised, criterion, BLUR, cost)?];
+    recommended(&advised, criterion, BLUR, cost)
+}
+
+/// The recommended row for a criterion, and how it meets it.
+pub(super) fn recommended_row(rows: &[Row], criterion: usize) -> Option<(&Row, &CriterionMet)> {
+    let row = &rows[best(rows, criterion)?];
     Some((row, row.advised.met[criterion].met()?))
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::judged::{Row, best};
+use super::judged::{Row, recommended_row};
 use crate::commands::output::table::{self, Column};
 use crate::lab::number::round;
 use crate::lab::{
@@ -62,7 +62,7 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
     }
     for (i, criterion) in CRITERIA.iter().enumerate() {
         text += &format!("at {} Hz: {}: ", adviser.tick_hz(), criterion.id());
-        text += &match best(rows, i) {
+        text += &match recommended_row(rows, i) {
             Some((row, met)) => {
                 let (method, with) = (row.advised.spec.method.id, met.clone());
                 Recommendation { method, with }.to_string()
@@ -78,7 +78,8 @@ fn recommendations(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize
 fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
     let place = |criterion| CRITERIA.iter().position(|one| *one == criterion);
     let wanted = [Criterion::LooksRight, Criterion::Bounded];
-    let (row, met) = wanted.into_iter().find_map(|criterion| best(rows, place(criterion)?))?;
+    let (row, met) =
+        wanted.into_iter().find_map(|criterion| recommended_row(rows, place(criterion)?))?;
     let code = source_code(row.advised.spec.method, language, Precision::Double).ok()?;
     let (steps, hz) = (met.substeps, u64::from(adviser.tick_hz()) * u64::from(met.substeps));
     let times = if steps == 1 { "once".into() } else { format!("{steps} times") };
@@ -103,7 +104,7 @@ fn why_none(scene: &Scene, rows: &[Row], criterion: usize) -> String {
 /// The answer as JSON.
 pub(super) fn object(scene: &Scene, adviser: &Adviser, rows: &[Row], wanted: usize) -> Value {
     let recommended = CRITERIA.iter().enumerate().map(|(i, criterion)| {
-        let take = match best(rows, i) {
+        let take = match recommended_row(rows, i) {
             Some((row, met)) => json!({
                 "method": row.advised.spec.method.id,
                 "substeps": met.substeps,
@@ -134,6 +135,7 @@ fn method(scene: &Scene, row: &Row) -> Value {
                 "substeps": met.substeps,
                 "evaluations_per_s": met.evaluations_per_s,
                 "ns_per_s": row.ns_per_s(i).map(f64::round),
+                "margins_searched": met.are_margins_searched,
                 "slowest_hz": met.slowest_hz,
                 "stiffness_factor": met.stiffness_factor,
                 "limited_by": met.limited_by,
@@ -210,8 +212,10 @@ impl MetRow {
     }
 }
 
-/// What stands for a margin whose search ended at a run that has no truth or takes too much work.
-const NOT_KNOWN: &str = "not known";
+/// What stands for a margin whose search ended at a run that has no truth or takes too much work, or that was not searched.
+fn unknown(met: &CriterionMet) -> &'static str {
+    if met.are_margins_searched { "not known" } else { "not searched" }
+}
 
 const METS: &[Column<MetRow>] = &[
     Column { key: "method", heading: Some("METHOD"), value: |row| json!(row.id) },
@@ -233,7 +237,10 @@ const METS: &[Column<MetRow>] = &[
     Column {
         key: "slowest_hz",
         heading: Some("HOLDS FROM"),
-        value: |row| json!(row.met.slowest_hz.map_or(NOT_KNOWN.into(), |hz| format!("{hz} Hz"))),
+        value: |row| {
+            let hz = row.met.slowest_hz.map(|hz| format!("{hz} Hz"));
+            json!(hz.unwrap_or_else(|| unknown(&row.met).into()))
+        },
     },
     Column {
         key: "stiffness_factor",
@@ -242,7 +249,7 @@ const METS: &[Column<MetRow>] = &[
             let CriterionMet { stiffness_factor, limited_by, .. } = &row.met;
             json!(match (stiffness_factor, limited_by) {
                 (Some(factor), Some(parameter)) => format!("{} × {parameter}", round(*factor, 3)),
-                _ => NOT_KNOWN.into(),
+                _ => unknown(&row.met).into(),
             })
         },
     },

@@ -1,15 +1,14 @@
 //! Advice on the method for a scene at its tick rate: the fewest substeps that meet each of three criteria, and how much
 //! lower the rate or stiffer the bodies could be.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex};
+use std::sync::OnceLock;
 
 pub use super::criterion_met::CriterionMet;
 use super::judge::{CriterionFinding, Judge};
 use super::searches::{FACTORS, slowest_down, tried_substeps};
 use super::verdict::Verdict;
 use crate::lab::lane_spec::LaneSpec;
-use crate::lab::scene::{Scene, edited_values};
+use crate::lab::scene::{Scene, SceneBody, edited_values};
 use crate::sim::stability::RateSearch;
 
 /// A requirement that a developer may have of a method.
@@ -74,6 +73,12 @@ const FEW_SUBSTEPS: u32 = 8;
 /// The most work for one run of a stiffer scene, in the unit of [`MOST_WORK`](super::MOST_WORK). There are many such runs.
 const WORK_WHEN_STIFFER: u64 = 10_000_000;
 
+/// A body of more coordinates has its margins searched for methods of about the least cost only: its runs are dear.
+const MANY_COORDINATES: usize = 8;
+
+/// The most times the evaluations of the cheapest method that one of about the least cost needs.
+const MOST_TIMES_CHEAPEST: f64 = 4.0;
+
 /// The advice on one method on a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MethodAdvice {
@@ -83,6 +88,15 @@ pub struct MethodAdvice {
     pub verdict: Verdict,
     /// Whether and how the method meets each of [`CRITERIA`].
     pub met: [CriterionResult; CRITERIA.len()],
+}
+
+impl MethodAdvice {
+    /// Searches the margins of the criterion at this place, if the method meets it.
+    pub fn search_margins(&mut self, adviser: &Adviser, criterion: usize) {
+        if let CriterionResult::With(met) = &mut self.met[criterion] {
+            *met = adviser.with_margins(self.spec, CRITERIA[criterion], met.clone());
+        }
+    }
 }
 
 /// Whether a method meets a criterion.
@@ -112,15 +126,16 @@ pub struct Adviser {
     scene: Scene,
     judge: Judge,
     tick_hz: u32,
-    /// Judges of the scene made stiffer, by the place of their factor; `None` if no scene can be so stiff.
-    stiffer: Mutex<HashMap<usize, Option<Arc<Judge>>>>,
+    /// Judges of the scene made stiffer, by the place of their factor; `None` if no scene can be so stiff. Of several
+    /// threads that need one, the first makes it.
+    stiffer: [OnceLock<Option<Judge>>; FACTORS.len()],
 }
 
 impl Adviser {
     /// An adviser for `scene` under this throttle at this rate.
     pub fn new(scene: &Scene, throttle: f64, tick_hz: u32) -> Self {
         let judge = Judge::new(scene, throttle);
-        Self { scene: scene.clone(), judge, tick_hz, stiffer: Mutex::default() }
+        Self { scene: scene.clone(), judge, tick_hz, stiffer: Default::default() }
     }
 
     /// The judge of the scene.
@@ -138,9 +153,66 @@ impl Adviser {
         self.judge.verdict(spec, self.tick_hz)
     }
 
-    /// Whether a method meets a criterion, and with how many substeps: with one fewer it does not. The substeps of `spec`
-    /// are ignored.
+    /// The work done so far, the truths' included, in evaluations of the acceleration of one coordinate. What is found by
+    /// modes is not counted.
+    pub fn work_done(&self) -> u64 {
+        let stiffer = self.stiffer.iter().filter_map(|judge| judge.get()?.as_ref());
+        std::iter::once(&self.judge).chain(stiffer).map(Judge::work_done).sum()
+    }
+
+    /// Whether a method meets a criterion, with how many substeps, and its margins. The substeps of `spec` are ignored.
     pub fn meets(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
+        match self.fewest_substeps(spec, criterion) {
+            CriterionResult::With(met) => {
+                CriterionResult::With(self.with_margins(spec, criterion, met))
+            }
+            other => other,
+        }
+    }
+
+    /// The verdict on a lane, and whether its method meets each criterion, with how many substeps. No margin is searched.
+    pub fn judged(&self, spec: LaneSpec) -> MethodAdvice {
+        let met = CRITERIA.map(|criterion| self.fewest_substeps(spec, criterion));
+        MethodAdvice { spec, verdict: self.verdict(spec), met }
+    }
+
+    /// The margins that are worth a search: each the place of a method in `advised` and of a criterion that it meets. With a
+    /// body of more than eight coordinates they are those of the methods that need at most four times the evaluations of
+    /// the cheapest.
+    pub fn worth_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
+        let is_dear =
+            |body: &SceneBody| (body.kind.coordinates)(&body.values).len() > MANY_COORDINATES;
+        let most =
+            if self.scene.bodies.iter().any(is_dear) { MOST_TIMES_CHEAPEST } else { f64::INFINITY };
+        let evaluations = |advised: &MethodAdvice, criterion: usize| {
+            advised.met[criterion].met().map(|met| met.evaluations_per_s)
+        };
+        let cheapest: [f64; CRITERIA.len()] = std::array::from_fn(|criterion| {
+            let all = advised.iter().filter_map(|advised| evaluations(advised, criterion));
+            all.fold(f64::INFINITY, f64::min)
+        });
+        let places = (0..advised.len()).flat_map(|row| (0..CRITERIA.len()).map(move |i| (row, i)));
+        let is_worth = |&(row, i): &(usize, usize)| {
+            evaluations(&advised[row], i).is_some_and(|cost| cost <= most * cheapest[i])
+        };
+        places.filter(is_worth).collect()
+    }
+
+    /// How a method meets a criterion, with its margins searched.
+    fn with_margins(
+        &self,
+        spec: LaneSpec,
+        criterion: Criterion,
+        met: CriterionMet,
+    ) -> CriterionMet {
+        let spec = LaneSpec { substeps: met.substeps, ..spec };
+        let (stiffness_factor, limited_by) = self.stiffest(spec, criterion).unzip();
+        let slowest_hz = self.slowest_down(spec, criterion);
+        CriterionMet { are_margins_searched: true, slowest_hz, stiffness_factor, limited_by, ..met }
+    }
+
+    /// Whether a method meets a criterion, and with how many substeps: with one fewer it does not.
+    fn fewest_substeps(&self, spec: LaneSpec, criterion: Criterion) -> CriterionResult {
         let with = |substeps: u32| LaneSpec { substeps, ..spec };
         let tried = |substeps| find(&self.judge, criterion, with(substeps), self.tick_hz);
         let (mut fails, mut holds, mut with_most) = (0, None, None);
@@ -172,15 +244,13 @@ impl Adviser {
                 _ => fails = middle,
             }
         }
-        let spec = with(substeps);
-        let (stiffness_factor, limited_by) = self.stiffest(spec, criterion).unzip();
-        let slowest_hz = self.slowest_down(spec, criterion);
         CriterionResult::With(CriterionMet {
             substeps,
             evaluations_per_s,
-            slowest_hz,
-            stiffness_factor,
-            limited_by,
+            are_margins_searched: false,
+            slowest_hz: None,
+            stiffness_factor: None,
+            limited_by: None,
         })
     }
 
@@ -215,7 +285,7 @@ impl Adviser {
         let mut last_miss = None;
         let holds = |place: &usize| {
             let Some(judge) = self.stiffer(*place) else { return false };
-            last_miss = miss(&judge, criterion, spec, self.tick_hz);
+            last_miss = miss(judge, criterion, spec, self.tick_hz);
             last_miss.is_none()
         };
         let held = (1..FACTORS.len()).take_while(holds).count();
@@ -248,16 +318,13 @@ impl Adviser {
     }
 
     /// The judge of the scene with every body stiffer by the factor at this place.
-    fn stiffer(&self, place: usize) -> Option<Arc<Judge>> {
-        if let Some(known) = self.stiffer.lock().expect("no thread panics with it").get(&place) {
-            return known.clone();
-        }
-        let made = self.stiffen(FACTORS[place]).map(|scene| {
+    fn stiffer(&self, place: usize) -> Option<&Judge> {
+        let make = || {
+            let scene = self.stiffen(FACTORS[place])?;
             let judge = Judge::over(&scene, self.judge.throttle(), self.judge.horizon_s());
-            Arc::new(judge.within(WORK_WHEN_STIFFER))
-        });
-        let mut stiffer = self.stiffer.lock().expect("no thread panics with it");
-        stiffer.entry(place).or_insert(made).clone()
+            Some(judge.within(WORK_WHEN_STIFFER))
+        };
+        self.stiffer[place].get_or_init(make).as_ref()
     }
 
     fn stiffen(&self, factor: f64) -> Option<Scene> {
@@ -327,6 +394,7 @@ mod tests {
         CriterionMet {
             substeps: 1,
             evaluations_per_s: 60.0,
+            are_margins_searched: true,
             slowest_hz,
             stiffness_factor,
             limited_by,

@@ -13,6 +13,8 @@ pub struct CriterionMet {
     pub substeps: u32,
     /// Evaluations of all bodies' accelerations per simulated second.
     pub evaluations_per_s: f64,
+    /// Whether the margins have been searched. Where that is dear, they are for methods of about the least cost only.
+    pub are_margins_searched: bool,
     /// The lowest tick rate in Hz, going down from the requested one, at which the criterion still holds with as many
     /// substeps, as it does at all rates between that were tried; `None` if one hertz lower it is not known, for want of
     /// a truth or for too much work.
@@ -28,6 +30,9 @@ pub struct CriterionMet {
 impl CriterionMet {
     /// Its margins, or that they are not known, as a part of a sentence.
     pub fn margins(&self) -> String {
+        if !self.are_margins_searched {
+            return "how much slower or stiffer, has not been searched".into();
+        }
         let slower = self.slowest_hz.map(|hz| format!("holds down to {hz} Hz"));
         match (slower, self.stiffer()) {
             (Some(slower), Some(stiffer)) => format!("{slower}, or {stiffer}"),

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::advice::{Adviser, CRITERIA, CriterionResult, MethodAdvice};
+use super::advice::{Adviser, MethodAdvice};
 use super::judge::Judge;
 use super::run::MOST_WORK;
 use super::stability_map::{MapRequest, MapWork, StabilityMap};
@@ -118,32 +118,41 @@ pub struct AnalysisWorker {
     mapping: Option<MapWork>,
 }
 
-/// Advice being computed, method by method and criterion by criterion.
+/// Advice being computed: the methods are judged one by one, and then margins are searched one by one.
 struct AdviceInProgress {
     bodies: AdvisedBodies,
     adviser: Adviser,
     /// The methods that step the scene.
     methods: Vec<&'static Method>,
     advised: Vec<MethodAdvice>,
-    /// The results for the present method.
-    met: Vec<CriterionResult>,
+    /// The margins that are still to be searched, the first one last; `None` until all methods are judged.
+    margins: Option<Vec<(usize, usize)>>,
 }
 
 impl AdviceInProgress {
-    /// Tests one more criterion.
+    /// Judges one more method, or searches one more margin.
     fn advance(&mut self) {
-        let Some(method) = self.methods.get(self.advised.len()) else { return };
-        let spec = LaneSpec::plain(method);
-        if let Some(&criterion) = CRITERIA.get(self.met.len()) {
-            self.met.push(self.adviser.meets(spec, criterion));
-        } else {
-            let met = std::mem::take(&mut self.met).try_into().expect("each criterion was tested");
-            self.advised.push(MethodAdvice { spec, verdict: self.adviser.verdict(spec), met });
+        if let Some(method) = self.methods.get(self.advised.len()) {
+            self.advised.push(self.adviser.judged(LaneSpec::plain(method)));
+        }
+        if self.advised.len() < self.methods.len() {
+            return;
+        }
+        match &mut self.margins {
+            None => {
+                let mut margins = self.adviser.worth_margins(&self.advised);
+                margins.reverse();
+                self.margins = Some(margins);
+            }
+            Some(margins) => {
+                let Some((row, criterion)) = margins.pop() else { return };
+                self.advised[row].search_margins(&self.adviser, criterion);
+            }
         }
     }
 
     fn is_done(&self) -> bool {
-        self.advised.len() == self.methods.len()
+        self.margins.as_ref().is_some_and(Vec::is_empty)
     }
 }
 
@@ -163,7 +172,7 @@ impl AnalysisWorker {
     }
 
     /// The same worker, which does a stated amount of work only: what is left then is not judged, and no advice is given.
-    pub fn bounded(self) -> Self {
+    pub(in crate::lab) fn bounded(self) -> Self {
         Self { most_work: MOST_WORK_OF_ALL, ..self }
     }
 
@@ -202,8 +211,8 @@ impl AnalysisWorker {
         }
     }
 
-    /// Does one step: finds a region of the map, computes a missing verdict or, if none is missing, tests a criterion for
-    /// the advice. Returns whether there is more to do.
+    /// Does one step: finds a region of the map, computes a missing verdict or, if none is missing, judges a method or
+    /// searches a margin for the advice. Returns whether there is more to do.
     pub fn work(&mut self) -> bool {
         let AnalysisRequest { scene, by_hand, entries, tick_hz, advice, map } = &self.request;
         if let Some(wanted) = map
@@ -233,7 +242,7 @@ impl AnalysisWorker {
                     adviser: Adviser::new(&scene, 1.0, *tick_hz),
                     methods,
                     advised: Vec::new(),
-                    met: Vec::new(),
+                    margins: None,
                 }
             });
             advising.advance();

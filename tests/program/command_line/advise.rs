@@ -3,12 +3,14 @@
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::Stdio;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use regatta::sim::integrators::GENERAL_METHODS;
 use serde_json::Value;
 
 use super::{refusal, regatta, run_in, stdout_of};
+
+const CRITERIA: [&str; 3] = ["bounded", "looks-right", "accurate"];
 
 fn advice(arguments: &str) -> Value {
     serde_json::from_str(&stdout_of(&format!("advise {arguments} --format json"))).unwrap()
@@ -70,7 +72,7 @@ fn every_method_has_a_verdict_and_meets_criteria_with_so_many_substeps() {
 fn what_is_recommended_meets_its_criterion_and_is_not_as_printed() {
     for scene in ["ship", "harbour", "stiff"] {
         let advice = advice(&format!("--scene {scene}"));
-        assert_eq!(keys(&advice["recommended"]), ["bounded", "looks-right", "accurate"]);
+        assert_eq!(keys(&advice["recommended"]), CRITERIA);
         for (criterion, take) in advice["recommended"].as_object().unwrap() {
             assert_eq!(keys(take), ["method", "substeps", "tick_hz"], "{scene}");
             let id = take["method"].as_str().unwrap();
@@ -214,6 +216,89 @@ fn a_margin_whose_search_ends_at_too_much_work_is_not_known() {
 }
 
 #[test]
+fn what_is_not_known_of_an_adaptive_method_is_null_and_no_reason_to_say_no() {
+    let folder = tempfile::tempdir().unwrap();
+    // The swing loses so slowly that it is not at rest after 2000 times the scene.
+    let scene = "title = 'x'\ntick_hz = 200\nseconds = 3\n[[spring]]\nmass_kg = 1\nstiffness_n_per_m = 300\n";
+    fs::write(folder.path().join("slow.toml"), scene).unwrap();
+    let one = "advise --scene slow.toml --method bogacki-shampine-32 --format";
+    let output = run_in(folder.path(), &format!("{one} json"));
+    let advice: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let criteria = &row(&advice, "bogacki-shampine-32")["criteria"];
+    assert_eq!(criteria["bounded"], Value::Null);
+    assert_eq!([&criteria["looks-right"]["met"], &criteria["accurate"]["met"]], [true, true]);
+    let why = advice["recommended"]["bounded"]["none"].as_str().unwrap();
+    assert!(why.starts_with("not known of any"), "{why}");
+    let text = String::from_utf8(run_in(folder.path(), &format!("{one} text")).stdout).unwrap();
+    assert!(text.contains("bounded: not known of any of these that might"), "{text}");
+    assert!(
+        text.contains("  not known: no truth, or too much work: bogacki-shampine-32\n"),
+        "{text}"
+    );
+}
+
+#[test]
+fn margins_of_many_coordinates_are_searched_near_the_least_cost_and_the_others_say_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = "title = 'x'\ntick_hz = 60\nseconds = 2\n[[chain]]\nmasses = 9\nmass_kg = 1\nstiffness_n_per_m = 800\n";
+    fs::write(folder.path().join("chain.toml"), scene).unwrap();
+    let three = "--method semi-implicit-euler --method rk4 --method dormand-prince-54";
+    let said = |format: &str| {
+        let arguments = format!("advise --scene chain.toml {three} --format {format}");
+        String::from_utf8(run_in(folder.path(), &arguments).stdout).unwrap()
+    };
+    let advice: Value = serde_json::from_str(&said("json")).unwrap();
+    let cheapest = CRITERIA.map(|criterion| {
+        let rows = advice["methods"].as_array().unwrap().iter();
+        let costs = rows.filter_map(|row| row["criteria"][criterion]["evaluations_per_s"].as_f64());
+        costs.fold(f64::INFINITY, f64::min)
+    });
+    let mut counts = [0, 0];
+    for row in advice["methods"].as_array().unwrap() {
+        for (criterion, cheapest) in CRITERIA.iter().zip(cheapest) {
+            let met = &row["criteria"][criterion];
+            let Some(evaluations) = met["evaluations_per_s"].as_f64() else { continue };
+            let is_recommended = advice["recommended"][criterion]["method"] == row["method"];
+            let is_searched = is_recommended || evaluations <= 4.0 * cheapest;
+            assert_eq!(met["margins_searched"], is_searched, "{row}");
+            assert_eq!(met["slowest_hz"].is_null(), !is_searched, "{row}");
+            assert_eq!(met["stiffness_factor"].is_null(), !is_searched, "{row}");
+            counts[usize::from(is_searched)] += 1;
+        }
+    }
+    assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
+    let text = said("text");
+    assert!(text.lines().any(|line| line.ends_with("  not searched  not searched")), "{text}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_is_heeded_while_the_true_motion_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    // Seconds of normal modes.
+    let chain = "[[chain]]\nmasses = 256\nmass_kg = 1\nstiffness_n_per_m = 800\n".repeat(24);
+    let scene = format!("title = 'x'\ntick_hz = 60\nseconds = 60\n{chain}");
+    fs::write(folder.path().join("long.toml"), scene).unwrap();
+    let mut child = regatta()
+        .args(["advise", "--scene", "long.toml"])
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_millis(1000));
+    let sent = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(sent.unwrap().success());
+    let begin = Instant::now();
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    // An idle machine needs a tenth of that.
+    assert!(begin.elapsed() < Duration::from_secs(1), "{:?}", begin.elapsed());
+    let output = child.wait_with_output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(error, "error: interrupted after 0 of 29 methods\n");
+}
+
+#[test]
 fn mistakes_are_refused_as_elsewhere() {
     assert!(refusal("advise --scene shp", 2).contains("did you mean ship?"));
     assert!(refusal("advise --format xml", 2).contains("text, json"));
@@ -293,6 +378,7 @@ fn in_a_pipe_a_line_every_ten_seconds_says_how_far_it_is() {
     let seconds = begin.elapsed().as_secs_f64();
     child.kill().unwrap();
     child.wait().unwrap();
-    assert!(line.ends_with(" of 29 methods judged\n"), "{line:?}");
+    let tells = [" of 29 methods judged\n", " margins searched\n"];
+    assert!(tells.iter().any(|told| line.ends_with(told)), "{line:?}");
     assert!(seconds > 10.0, "{seconds} s");
 }

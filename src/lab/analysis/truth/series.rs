@@ -1,7 +1,7 @@
 //! The true states of one body at the ticks of one rate, and the inputs at those ticks.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use super::BodyTruth;
 use crate::lab::analysis::survey::TimedInput;
@@ -12,11 +12,13 @@ use crate::sim::{Solver, Stepper};
 /// The most products of the exact flow for one series: less than a second of work.
 const MOST_SERIES_PRODUCTS: u64 = 500_000_000;
 
-/// The most values that are cached, some ten megabytes. A full cache is cleared.
-const MOST_KEPT: usize = 1 << 20;
+/// The most values that are cached, some thirty megabytes: a rope's at each of the rates that a search of margins tries. A
+/// full cache is cleared.
+const MOST_KEPT: usize = 1 << 22;
 
-/// The cached series by tick rate in Hz.
-pub(in crate::lab::analysis) type TruthSeriesByRate = Mutex<HashMap<u32, Arc<TruthSeries>>>;
+/// The cached series by tick rate in Hz. Of several threads that ask for one, the first computes it.
+pub(in crate::lab::analysis) type TruthSeriesByRate =
+    Mutex<HashMap<u32, Arc<OnceLock<Arc<TruthSeries>>>>>;
 
 /// The true states at the ticks of one rate.
 pub(in crate::lab::analysis) struct TruthSeries {
@@ -65,20 +67,16 @@ impl BodyTruth {
 
     /// The true states at the ticks of this rate, up to the horizon.
     pub(in crate::lab::analysis) fn series(&self, tick_hz: u32) -> Arc<TruthSeries> {
-        let kept = |series_by_rate: &HashMap<u32, Arc<TruthSeries>>| {
-            series_by_rate.get(&tick_hz).map(Arc::clone)
+        let cell = {
+            let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");
+            let known = series_by_rate.values().filter_map(|cell| cell.get());
+            let held: usize = known.map(|series| series.values.len()).sum();
+            if held > MOST_KEPT && !series_by_rate.contains_key(&tick_hz) {
+                series_by_rate.clear();
+            }
+            Arc::clone(series_by_rate.entry(tick_hz).or_default())
         };
-        if let Some(series) = kept(&self.series_by_rate.lock().expect("no thread panics with it")) {
-            return series;
-        }
-        let series = Arc::new(self.follow(tick_hz));
-        let mut series_by_rate = self.series_by_rate.lock().expect("no thread panics with it");
-        let held: usize = series_by_rate.values().map(|series| series.values.len()).sum();
-        if held + series.values.len() > MOST_KEPT {
-            series_by_rate.clear();
-        }
-        series_by_rate.insert(tick_hz, Arc::clone(&series));
-        series
+        Arc::clone(cell.get_or_init(|| Arc::new(self.follow(tick_hz))))
     }
 
     fn follow(&self, tick_hz: u32) -> TruthSeries {
