@@ -41,6 +41,7 @@ mod scenes;
 mod sessions;
 mod source_code;
 mod stability;
+mod stable;
 mod step_doubling;
 mod steppers;
 mod switching;

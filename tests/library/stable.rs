@@ -1,0 +1,104 @@
+//! What `regatta help stable` promises to a program that uses the library.
+
+use std::collections::BTreeSet;
+
+use regatta::lab::{Criteria, CriterionMet, MethodReport, Recommendation};
+use regatta::prelude::*;
+
+/// Every name that the prelude brings where all features are on.
+const PRELUDE: [&str; 38] = [
+    "Adviser",
+    "BODIES",
+    "Body",
+    "CRITERIA",
+    "Clock",
+    "Due",
+    "Extras",
+    "Family",
+    "Input",
+    "Integrator",
+    "Judge",
+    "Lane",
+    "LaneSpec",
+    "METHODS",
+    "METRICS",
+    "Mark",
+    "Method",
+    "Options",
+    "ParameterOf",
+    "Race",
+    "Range",
+    "Report",
+    "SCENES",
+    "Scene",
+    "Session",
+    "Solver",
+    "State",
+    "StepFailure",
+    "Stepper",
+    "System",
+    "Vector",
+    "Verdict",
+    "Window",
+    "glam",
+    "integrator",
+    "method",
+    "own_integrator",
+    "stepper",
+];
+
+/// The names that the `pub use` lines of a file bring.
+fn exported(text: &str) -> BTreeSet<&str> {
+    let uses = text.split("pub use ").skip(1).filter_map(|rest| rest.split(';').next());
+    let names = uses.flat_map(|list| list.rsplit(['{', '}', ',']));
+    let names = names.map(|name| name.trim().rsplit("::").next().unwrap_or_default());
+    names.filter(|name| !name.is_empty()).collect()
+}
+
+#[test]
+fn the_prelude_brings_what_is_promised_and_nothing_else() {
+    let names = exported(include_str!("../../src/prelude.rs"));
+    assert_eq!(names, BTreeSet::from(PRELUDE), "a change for everybody who imports the prelude");
+}
+
+/// Patterns without `..`: a field that is added, renamed or taken away does not compile here.
+#[test]
+fn a_report_has_the_fields_that_are_promised() {
+    #[derive(Clone)]
+    struct Spring;
+    impl System for Spring {
+        type Vector = f64;
+        fn acceleration(&self, _t: f64, q: &f64, _v: &f64, a: &mut f64) {
+            *a = -40.0 * q;
+        }
+    }
+    let Options { name, tick_hz, seconds: _, methods: _, extras, draw } = Options::default();
+    let two = ["semi-implicit-euler", "rk4"];
+    let methods = two.map(|id| method(id).expect("a method of the table")).to_vec();
+    let options = Options { name, tick_hz, seconds: 3.0, methods, extras, draw };
+    let report = regatta::advise(&Spring, State { q: 1.0, v: 0.0 }, options);
+
+    let Report { name, tick_hz, horizon_s, methods, recommended, not_known } = report;
+    assert_eq!((name.as_str(), tick_hz, horizon_s), ("body", 60, 3.0));
+    let Criteria { bounded, looks_right, accurate } = recommended;
+    for recommendation in [bounded, looks_right, accurate] {
+        let Recommendation { method, with } = recommendation.expect("one of the two does");
+        assert!(two.contains(&method));
+        let CriterionMet { substeps, evaluations_per_s, slowest_hz, stiffness_factor, limited_by } =
+            with;
+        assert_eq!(evaluations_per_s % f64::from(60 * substeps), 0.0);
+        assert!(slowest_hz.is_some_and(|hz| (1..=60).contains(&hz)));
+        assert!(stiffness_factor.is_some_and(|factor| (1.0..=10.0).contains(&factor)));
+        assert_eq!(limited_by.as_deref(), Some("force"));
+    }
+    for id in [not_known.bounded, not_known.looks_right, not_known.accurate] {
+        assert_eq!(id, Vec::<&str>::new());
+    }
+    let ids: Vec<&str> = methods.iter().map(|row| row.method).collect();
+    assert_eq!(ids, two);
+    for MethodReport { method: _, word, verdict, error, criteria } in methods {
+        assert!(!word.contains(' ') && verdict.len() > word.len());
+        assert!(error.is_some_and(f64::is_finite));
+        assert!(criteria.accurate.is_some());
+    }
+}
