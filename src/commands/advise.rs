@@ -41,16 +41,16 @@ judged over its first minute. Costs are those of all bodies per simulated second
 the acceleration, and time measured on this machine, the best of several runs. The recommended
 method is the cheapest; between times within a fifth of each other, evaluations decide.
 
-HOLDS FROM is the slowest whole tick rate, at or below the one judged, at which the criterion still
-holds with the same substeps: rates are tried downwards, each lower by a sixtieth, for a net by a
-sixth, until one fails. STIFFER BY is the factor by which the named parameter may grow: factors are
-tried upwards, each higher by a tenth, until one fails, 10 at most. Neither is known where the next
-run has no truth or takes too much work. With a body of more than eight coordinates they are
-searched for what is recommended and for each method that needs at most four times the evaluations
-of the cheapest.
+HOLDS DOWN TO is the slowest whole tick rate, at or below the one judged, at which the criterion
+still holds with the same substeps: rates are tried downwards, each lower by a sixtieth, for a net
+by a sixth, until one fails. HOLDS UP TO is the factor by which the named parameter may grow:
+factors are tried upwards, each higher by a tenth, until one fails, 10 at most. Neither is known
+where the next run has no truth or takes too much work. With a body of more than eight coordinates
+they are searched for what is recommended and for each method that needs at most four times the
+evaluations of the cheapest.
 
-In JSON a criterion that is not met has met false and nothing else, and one of which that is not
-known is null. Where nothing is recommended, none says why.
+In JSON a criterion that is not met has only met, which is false; one that cannot be told is null.
+Where nothing is recommended, none says why.
 
 The recommendations come first. For a spring of one's own (--k or --frequency), or with --as, the
 method recommended for looks-right, or else for bounded, follows as a function.

@@ -25,8 +25,8 @@ the tick is read off t. The body is one of:
 
 Every method with steps of one length is run beside the log under 1 to 16 substeps, from a start
 that is fitted to the log, of which 3000 ticks are used. Methods as they are set by default are
-believed before others, and counts of substeps that few set, such as 3, last. A residual is what is
-left over, in units of the largest x and v, root mean square. The word is
+believed before others, and counts of substeps that few set, such as 3, last. A residual is the
+root mean square of the difference from the log, in units of the largest x and v. The word is
 
   identified    one method explains the log to its noise, with those that do the same on this body
   cannot tell   methods that differ explain it equally well, or the log is too short to tell

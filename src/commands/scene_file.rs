@@ -63,6 +63,14 @@ pub(super) fn load(path: &Path) -> Result<(Scene, String), SceneFileError> {
     Ok((scene, String::from_utf8_lossy(&bytes).into_owned()))
 }
 
+/// The text that the built-in scene of that name, or the file at that path, has now; `None` if it cannot be read.
+pub(super) fn text_now(path: &Path) -> Option<String> {
+    match built_in(path) {
+        Some(built_in) => Some(built_in.text.to_owned()),
+        None => Some(String::from_utf8_lossy(&read(path).ok()?).into_owned()),
+    }
+}
+
 /// Checks that `method`, which the command line names, steps `scene`.
 pub(super) fn check_method(scene: &Scene, method: &Method) -> Result<(), SceneFileError> {
     scene.refusal(method).map_or(Ok(()), |refusal| Err(SceneFileError::Refused(refusal)))

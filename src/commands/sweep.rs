@@ -29,14 +29,14 @@ use varied::{Varied, varied};
 const ABOUT: &str = "\
 One row for each scene, body, method and tick rate, in that order whatever the number of threads:
   scene, body, method, tick_hz
-  seconds               how far the run came, in simulated seconds
+  seconds               simulated seconds that the run got through
   error                 the largest of a coordinate or a velocity on the way, as a part of its
                         amplitude; empty where the method did not come to the end
   energy_drift_percent  the largest on the way, of the energy that the exact motion exchanges, or
                         without a reference of the largest kinetic energy or the most lost; empty
                         where the body conserves no energy
-  evaluations_per_s     evaluations of the acceleration in a simulated second
-  ns_per_s              nanoseconds for a simulated second, measured here and now, one run at a
+  evaluations_per_s     evaluations of the acceleration per simulated second
+  ns_per_s              nanoseconds per simulated second, measured here and now, one run at a
                         time
   verdict               rounding, accurate, out-of-phase, loses-energy, gains-energy, blew-up,
                         gave-up, no-truth or not-judged

@@ -20,8 +20,8 @@ form and for a law with `exact` from its first input, edit or placing on. q is i
 radians, v in the same unit per second, t in seconds. With --metrics a row for each metric follows,
 its id as coordinate, its value as q, and v empty.
 
-The scene's script is played. A method that it switches to is flown where one lane sails alone; in
-a race each lane keeps its own.
+The scene's script is played. A lane that runs alone switches methods by it; in a race each lane
+keeps its own.
 
 Examples:
   regatta trace --scene ship --method explicit-euler --seconds 8.5
@@ -241,8 +241,8 @@ fn tell_accuracy(bodies: &[SceneBody], at_start: &[Truth], reached: &[Reached], 
         };
         let id = truth.truth().id();
         let came = match reached.relative() {
-            error if error.is_finite() => format!("came to {error:.1e} on this run"),
-            _ => "came to an accuracy that is not known".into(),
+            error if error.is_finite() => format!("reached {error:.1e} on this run"),
+            _ => "reached an unknown accuracy".into(),
         };
         tell(&format!(
             "lane 0, {name}: {why}; its {id} aims at {accuracy:e}, relative, and {came}"

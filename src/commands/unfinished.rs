@@ -1,6 +1,5 @@
-//! The recording of a run that goes on: a scene file beside the one that is to be, which is replaced by a longer one every
-//! few seconds, and removed when the recording is whole. One that a killed program has left behind is told of at the next
-//! start.
+//! The recording of a run while it goes on: a scene file beside the final one. It is replaced by a longer one every few
+//! seconds, and removed when the recording is whole. The next start tells of one that a killed program left behind.
 //!
 //! Where it is stands in a note of its own beside the settings, which is locked as long as the program runs.
 
@@ -108,7 +107,7 @@ fn notes() -> io::Result<PathBuf> {
     preferences::folder().map(|folder| folder.join(NOTES)).ok_or(io::ErrorKind::NotFound.into())
 }
 
-/// What is to be said of the recordings that programs have left behind, once.
+/// What to say, once, of the recordings that programs have left behind.
 pub(super) fn left_behind() -> Vec<String> {
     let Ok(notes) = notes().and_then(fs::read_dir) else { return Vec::new() };
     let notes = notes.filter_map(|entry| Some(entry.ok()?.path()));

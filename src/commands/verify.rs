@@ -17,9 +17,8 @@ use super::frame_folder::{Existing, FrameFolder};
 use super::manifest::{self, Adapter, FILE_NAME, Manifest, SCHEMA};
 use super::output::{DirectoryLock, Older, OutputError, Place, write_text};
 use super::recording::{self, Recording, RecordingError};
-use super::settings;
 use super::terminal::tell;
-use crate::lab::SCENES;
+use super::{scene_file, settings};
 use crate::window::regular_file::{self, Unreadable};
 
 mod checks;
@@ -144,9 +143,9 @@ fn judge(args: &VerifyArgs) -> Result<(), VerifyError> {
         )));
     }
     let scene = &manifest.settings.scene;
-    if SCENES.iter().any(|built_in| built_in.name == scene.name && built_in.text != scene.text) {
+    if scene_file::text_now(Path::new(&scene.name)).is_some_and(|now| now != scene.text) {
         let name = &scene.name;
-        tell(&format!("the built-in scene {name} has changed; the one in the manifest is run"));
+        tell(&format!("{name} has changed since the capture; the scene as captured is run"));
     }
     let mut report = Report::new(&args.dir);
     physics::judge(&manifest, &experiment, &recording, &mut report);

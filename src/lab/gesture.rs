@@ -13,7 +13,7 @@ pub struct Gesture {
 pub static GESTURES: &[Gesture] = &[
     Gesture {
         shown: "Drag a body",
-        about: "put it somewhere and let it go at rest; with Shift, at the speed of the drag",
+        about: "move it and let it go at rest; with Shift, at the speed of the drag",
     },
     Gesture { shown: "Wheel, pinch", about: "zoom the stage, a plot, the timeline" },
     Gesture { shown: "Drag the water", about: "pan; in a plot too" },
@@ -35,7 +35,7 @@ pub static GESTURES: &[Gesture] = &[
         about: "stability map: set the tick rate and the parameter",
     },
     Gesture { shown: "Drag the timeline", about: "go to any tick" },
-    Gesture { shown: "Drop a file", about: "open a scene, or a log of frames in the loop lab" },
+    Gesture { shown: "Drop a file", about: "open a scene, or in the loop lab a frame log" },
 ];
 
 #[cfg(test)]

@@ -29,7 +29,7 @@ use search::search;
 pub struct Fitted {
     /// The candidate.
     pub candidate: Candidate,
-    /// The root mean square of what is left over, in units of the largest coordinate and velocity.
+    /// The root mean square of the residual, in units of the largest coordinate and velocity.
     pub residual: f64,
 }
 

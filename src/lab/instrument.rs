@@ -151,7 +151,7 @@ impl Instrument {
         }
     }
 
-    /// The instrument so many tabs further on, cyclically.
+    /// The instrument `step` tabs further on, cyclically.
     pub(super) fn beside(self, step: isize) -> Self {
         let count = INSTRUMENTS.len() as isize;
         let place = Self::all().position(|instrument| instrument == self).unwrap_or(0) as isize;

@@ -117,7 +117,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Ctrl Z, Ctrl Shift Z",
-        about: "undo the last change, do it again",
+        about: "undo, redo the last change",
         keys: &[
             (Key::ControlSign('z'), Command::Undo),
             (Key::ControlShiftSign('z'), Command::Redo),
@@ -174,7 +174,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "S",
-        about: "a spring of your own: its numbers, the method to take, and the code",
+        about: "a spring of your own: its numbers, the recommended method, and its code",
         keys: &[(Key::Sign('s'), Command::AskForSpring)],
         repeats: false,
     },
@@ -210,7 +210,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Ctrl + − 0",
-        about: "text and panels larger, smaller, as usual",
+        about: "text and panels larger, smaller, back to normal",
         keys: &[
             (Key::ControlSign('+'), Command::ScaleUp),
             // The same key unshifted.

@@ -193,7 +193,7 @@ impl Lab {
         self.viewer.notice = Some(notice.into().into());
     }
 
-    /// So many nanoseconds of real time go by while time in the lab stands still.
+    /// Lets nanoseconds of real time go by while time in the lab stands still.
     pub fn rest(&mut self, ns: i64) {
         self.viewer.pass(ns);
     }

@@ -364,7 +364,7 @@ impl LoopLab {
         self.now_ns = now_ns.clamp(0, self.end_ns);
     }
 
-    /// Goes by so many frames of the selected lane.
+    /// Moves by frames of the selected lane.
     pub fn step(&mut self, frames: i64) {
         let frames_of = self.lanes[self.selected].frames();
         let at = self.lanes[self.selected].frame_at(self.now_ns).unwrap_or_default() as i64;

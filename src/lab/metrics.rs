@@ -98,7 +98,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Coordinate,
         scale: Scale::Log,
         is_comparison: true,
-        about: "largest difference from the truth in a coordinate",
+        about: "largest difference from the exact solution in a coordinate",
         measure: |lane, truth| {
             let [q, exact] = both(lane, truth)?.map(|body| body.like_first(body.stepper.q()));
             known(largest_difference(q, exact))
@@ -111,7 +111,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Velocity,
         scale: Scale::Log,
         is_comparison: true,
-        about: "largest difference from the truth in a velocity",
+        about: "largest difference from the exact solution in a velocity",
         measure: |lane, truth| {
             let [v, exact] = both(lane, truth)?.map(|body| body.like_first(body.stepper.v()));
             known(largest_difference(v, exact))
@@ -124,7 +124,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Of("%"),
         scale: Scale::Linear,
         is_comparison: true,
-        about: "speed beyond the truth's, in percent of the truth's largest speed so far",
+        about: "speed above the exact one, in percent of the largest exact speed so far",
         measure: |lane, truth| {
             let [speed, exact] = both(lane, truth)?.map(LaneBody::speed);
             let largest = truth.extent()?.largest_speed();
@@ -138,7 +138,7 @@ pub const METRICS: &[Metric] = &[
         unit: Unit::Of("%"),
         scale: Scale::Linear,
         is_comparison: true,
-        about: "energy gained, in percent of what the true motion exchanges: the range of its kinetic energy, from when both its ends were seen",
+        about: "energy gained, in percent of what the exact motion exchanges: the range of its kinetic energy, once both its ends were seen",
         measure: |lane, truth| {
             let [lane, exact] = both(lane, truth)?;
             let exchanged = exact.extent()?.exchanged_j(&*exact.stepper)?;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::scene::{Scene, SceneErrors, USUAL_SECONDS};
 use crate::sim::number::round;
 
-/// A scene of a slow spring has at least so many of its periods.
+/// The fewest periods in a scene of a slow spring.
 const LEAST_PERIODS: f64 = 10.0;
 
 /// The largest number of a spring that is taken.

@@ -19,7 +19,7 @@ impl Notice {
         self.left_ns
     }
 
-    /// Takes away so many nanoseconds of the time for which it is still shown.
+    /// Shortens the time for which it is still shown, by nanoseconds.
     pub(super) fn pass(&mut self, ns: i64) {
         self.left_ns = self.left_ns.saturating_sub(ns.max(0)).max(0);
     }

@@ -59,7 +59,7 @@ impl LaneBody {
                 format!("{fate} ({quantity} 10{size}{unit})")
             }
             StepFailure::NotFinite { coordinate, .. } => {
-                format!("{fate} ({} beyond all numbers)", how(coordinate).0)
+                format!("{fate} ({} overflowed)", how(coordinate).0)
             }
             failure => format!("{fate}: {failure}"),
         })

@@ -339,7 +339,7 @@ mod tests {
         (race, past)
     }
 
-    /// Runs the race through so many seconds, and returns the times of the samples.
+    /// Runs the race for these seconds, and returns the times of the samples.
     fn sampled((race, past): &mut (Race, Past), seconds: f64) -> Vec<f64> {
         let end = race.t() + seconds - 1e-9;
         while race.t() < end {

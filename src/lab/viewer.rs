@@ -175,7 +175,7 @@ impl Viewer {
         self.findings.as_ref()?.map.as_ref()
     }
 
-    /// So many nanoseconds of real time go by: a notice leaves.
+    /// Lets nanoseconds of real time go by: a notice leaves.
     pub(super) fn pass(&mut self, ns: i64) {
         self.notice.iter_mut().for_each(|notice| notice.pass(ns));
         self.notice.take_if(|notice| notice.left_ns() == 0);
@@ -204,7 +204,7 @@ impl Viewer {
         self.notice = Some(told.to_owned().into());
     }
 
-    /// Switches to the instrument so many tabs further on, cyclically.
+    /// Switches to the instrument this many tabs further on, cyclically.
     pub(super) fn instrument_beside(&mut self, step: isize) {
         self.display.instrument = self.display.instrument.beside(step);
     }

@@ -44,7 +44,7 @@ impl ZoomPan {
         Self { zoom, centre: centre.map(within_reach) }
     }
 
-    /// Pans by so many widths and heights of the frame.
+    /// Pans by parts of the frame's width and height.
     pub fn panned(self, by: [f64; 2]) -> Self {
         let centre = [0, 1].map(|i| within_reach(self.centre[i] - by[i] / self.zoom));
         Self { centre, ..self }

@@ -51,7 +51,7 @@ const FAR_OUTSIDE: f64 = 10.0;
 pub(super) const CURVE: f32 = 1.6;
 
 /// The height of a time axis in points, at least that of its text: a plot that had to learn it would be
-/// laid out anew in its second frame, and the first would not match.
+/// laid out again in its second frame, and the first would not match.
 pub(super) const X_AXIS: f32 = 16.0;
 
 /// An empty plot, to be looked at and not to be moved.

@@ -9,7 +9,7 @@ const FIRST_CAPACITY: usize = 256;
 
 /// Plain data for quads, the same for all four vertices of each: which corner a vertex is, its index says.
 ///
-/// Not by instances: a software adapter begins anew with each of them.
+/// Not by instances: a software adapter starts over with each of them.
 #[derive(Debug)]
 pub(super) struct Quads<T> {
     label: &'static str,

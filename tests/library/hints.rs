@@ -255,7 +255,7 @@ fn what_a_person_takes_in_hand_the_script_leaves_alone_until_a_restart_and_says_
         let mut lab = scripted();
         assert_eq!(lab.viewer().notice.as_deref(), None);
         lab.apply(command.clone());
-        let said = format!("the {name} is yours: the script leaves it alone until a restart");
+        let said = format!("you have the {name} now: the script leaves it alone until a restart");
         assert_eq!(lab.viewer().notice.as_deref(), Some(&*said), "{command:?}");
         (0..60).for_each(|_| lab.tick());
         assert_eq!(controls(&lab), expected, "{command:?}");
@@ -276,7 +276,7 @@ fn taking_the_same_control_again_is_not_told_again() {
     lab.apply(Command::Throttle(0.1));
     assert_eq!(
         lab.viewer().notice.as_deref(),
-        Some("the throttle is yours: the script leaves it alone until a restart")
+        Some("you have the throttle now: the script leaves it alone until a restart")
     );
 }
 

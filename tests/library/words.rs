@@ -54,6 +54,11 @@ fn a_verdict_says_the_number_that_its_word_is_about() {
         Verdict { error: 2.81, last_error: 2.7, ..phase.clone() },
         "stable, off by 281 % after 20 s",
     );
+    let fast = Verdict { error: 2.17, frequency_error: Some(0.05), ..phase.clone() };
+    is(
+        Verdict { body_name: Some("buoy".into()), ..fast },
+        "stable, 5.0 % fast: off by up to 217 % in 20 s (buoy)",
+    );
     let slow = Verdict { frequency_error: Some(-0.02), ..phase.clone() };
     is(slow.clone(), "stable, out of phase by 25 % after 20 s (2.0 % slow)");
     is(
@@ -62,19 +67,20 @@ fn a_verdict_says_the_number_that_its_word_is_about() {
     );
     is(
         Verdict { doubles_in_s: Some(90.0), parasite_doubles_in_s: Some(7.0), ..phase },
-        "stable, out of phase by 25 % after 20 s; swing ×2 in 90 s; a faint mode ×2 in 7 s",
+        "stable, out of phase by 25 % after 20 s; grows slowly: swing ×2 in 90 s; a faint mode grows: ×2 in 7 s",
     );
 
     let gains = Verdict { frequency_error: Some(0.02), ..plain(Outcome::GainsEnergy) };
     let of_energy = Verdict { energy_change: Some(0.5), ..gains.clone() };
-    is(gains, "gains energy: off by 25 % in 20 s");
-    is(of_energy.clone(), "gains energy: +50 % of its energy in 20 s");
+    is(gains, "grows: off by 25 % in 20 s");
+    is(of_energy.clone(), "gains energy: +50 % in 20 s");
     is(
         Verdict { doubles_in_s: Some(90.0), swings: false, ..of_energy },
         "gains energy: deviation ×2 in 90 s",
     );
     let loses = Verdict { energy_change: Some(-0.5), ..plain(Outcome::LosesEnergy) };
-    is(loses.clone(), "loses energy: −50 % of its energy in 20 s");
+    is(loses.clone(), "loses energy: −50 % in 20 s");
+    is(Verdict { energy_change: Some(-0.998), ..loses.clone() }, "loses energy: all of it in 20 s");
     is(Verdict { halves_in_s: Some(5.0), ..loses }, "loses energy: swing ½ in 5 s");
 
     let failure = StepFailure::NotFinite { coordinate: "x", value: f64::NAN };

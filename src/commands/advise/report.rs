@@ -89,7 +89,7 @@ fn code(adviser: &Adviser, rows: &[Row], language: Language) -> Option<String> {
 /// Why no method is recommended for a criterion.
 fn why_none(scene: &Scene, rows: &[Row], criterion: usize) -> String {
     if rows.iter().any(|row| row.advised.met[criterion] != CriterionResult::No) {
-        return "not known of any of these that might: there is no truth, or it takes too much work".into();
+        return "unknown for those that might: there is no exact motion to compare with, or it takes too much work".into();
     }
     let bodies = match &scene.bodies[..] {
         [body] => body.name.clone(),
@@ -236,7 +236,7 @@ const METS: &[Column<MetRow>] = &[
     },
     Column {
         key: "slowest_hz",
-        heading: Some("HOLDS FROM"),
+        heading: Some("HOLDS DOWN TO"),
         value: |row| {
             let hz = row.met.slowest_hz.map(|hz| format!("{hz} Hz"));
             json!(hz.unwrap_or_else(|| unknown(&row.met).into()))
@@ -244,7 +244,7 @@ const METS: &[Column<MetRow>] = &[
     },
     Column {
         key: "stiffness_factor",
-        heading: Some("STIFFER BY"),
+        heading: Some("HOLDS UP TO"),
         value: |row| {
             let CriterionMet { stiffness_factor, limited_by, .. } = &row.met;
             json!(match (stiffness_factor, limited_by) {

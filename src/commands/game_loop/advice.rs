@@ -22,9 +22,7 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     match advised_loop(&measured, origin_ms + latency_ms) {
         Some(place) => tell(&format!("{trace}: take {}", words(&rows[place], origin_ms))),
         None if rows.iter().all(|row| row.report.animation_error_rms_ms.is_none()) => {
-            tell(&format!(
-                "{trace}: fewer than two frames were displayed, and nothing can be said"
-            ));
+            tell(&format!("{trace}: fewer than two frames were displayed, too few to measure"));
         }
         None => tell(&format!(
             "{trace}: no policy here keeps the game's speed at half the frame rate, stays stable, and has a mean latency \
@@ -33,8 +31,8 @@ pub(super) fn tell_of(rows: &[Measured], latency_ms: f64) {
     }
     if !first.has_one_clock {
         tell(
-            "  the log's two clocks have no common origin: latencies are counted from the least here, and in the rows they \
-             have a constant too many or too few",
+            "  the log's two clocks have no common origin: latencies here are counted from the least, and in the rows \
+             they are off by a constant",
         );
     }
     let depends = rows.iter().filter_map(|row| {
@@ -63,8 +61,5 @@ fn words(row: &Measured, origin_ms: f64) -> String {
         "" => String::new(),
         constants => format!("; {constants}"),
     };
-    format!(
-        "{}: animation error {error} RMS, latency {latency} in the mean{constants}",
-        row.card.id
-    )
+    format!("{}: animation error {error} RMS, mean latency {latency}{constants}", row.card.id)
 }

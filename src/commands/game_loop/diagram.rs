@@ -19,7 +19,7 @@ const EXPLAINED: &str = "Animation error is the change of the moment shown minus
 /// A loop that is further behind or ahead, because it does not keep time, is outside of the chart.
 const LARGEST_LATENCY_MS: f64 = 200.0;
 
-/// The number of charts of the picture of so many traces.
+/// The number of charts in a picture of `traces` traces.
 pub(super) fn charts(traces: usize) -> usize {
     2 * traces.min(MOST_TRACES)
 }

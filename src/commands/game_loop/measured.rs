@@ -10,7 +10,7 @@ use crate::lab::{LaneSpec, Scene};
 /// How many frames the picture of a run shows, and how many of them are before a long one.
 const DRAWN: usize = 30;
 const BEFORE: usize = 8;
-/// A frame is long from so many refreshes on.
+/// A frame is long from this number of refreshes on.
 const LONG: f64 = 2.5;
 /// The most frames that are searched for a long one.
 const MOST_SEARCHED: usize = 100_000;

@@ -114,9 +114,9 @@ const MAX_MAKERS: usize = 3;
 
 /// The best candidate of an identified log, with the other methods whose map is the same on this body. A joint is named
 /// before a held force.
-fn makers(found: &Identification) -> String {
+fn makers(best: &Candidate, also: &[Candidate]) -> String {
     let mut all: Vec<&Candidate> = Vec::new();
-    for candidate in [&found.best.candidate].into_iter().chain(&found.also) {
+    for candidate in [best].into_iter().chain(also) {
         let is_alike = |known: &&Candidate| {
             known.method == candidate.method && known.is_held == candidate.is_held
         };
@@ -124,14 +124,14 @@ fn makers(found: &Identification) -> String {
             all.push(candidate);
         }
     }
-    if found.best.candidate.is_held {
+    if best.is_held {
         all.sort_by_key(|candidate| candidate.is_held);
     }
     let mut named: Vec<String> = all.iter().take(MAX_MAKERS).map(ToString::to_string).collect();
     match (named.len(), all.len() - named.len()) {
         (1, _) => named.remove(0),
-        (_, 0) => format!("{}: the same on this body", named.join(" or ")),
-        (_, more) => format!("{} or {more} more: the same on this body", named.join(" or ")),
+        (_, 0) => format!("{} (the same on this body)", named.join(" or ")),
+        (_, more) => format!("{} or {more} more (the same on this body)", named.join(" or ")),
     }
 }
 
@@ -140,7 +140,9 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
     let residual = |fitted: &Fitted| format!("residual {:.1e}", fitted.residual);
     let rival = runner_up.as_ref();
     let mut lines = vec![match (word, rival) {
-        (Word::Identified, _) => format!("made by {}, {}", makers(found), residual(best)),
+        (Word::Identified, _) => {
+            format!("made by {}, {}", makers(&best.candidate, &found.also), residual(best))
+        }
         (Word::CannotTell, Some(rival)) => format!(
             "cannot tell {} from {}: {} and {:.1e}; {}",
             best.candidate,
@@ -185,4 +187,36 @@ pub(super) fn words(found: &Identification, log: &Log, mass: f64) -> String {
     }
     lines.push(String::new());
     lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::METHODS;
+
+    #[test]
+    fn the_first_line_names_a_joint_before_a_held_force_and_all_whose_map_is_the_same() {
+        let candidate = |id: &str, substeps, is_held| {
+            let method = METHODS.iter().find(|method| method.id == id).expect("a method");
+            Candidate { method, substeps, is_held }
+        };
+        let held = candidate("engine-jolt", 1, true);
+        let joint = candidate("engine-bullet", 1, false);
+        let own = candidate("semi-implicit-euler", 1, false);
+        let more = candidate("engine-mujoco", 1, false);
+        let both = "engine-bullet ×1 or engine-jolt ×1, force held (the same on this body)";
+        for (best, also, named) in [
+            (joint, vec![], "engine-bullet ×1"),
+            (joint, vec![candidate("engine-bullet", 2, false)], "engine-bullet ×1"),
+            (held, vec![joint], both),
+            (joint, vec![held], both),
+            (
+                held,
+                vec![joint, own, more],
+                "engine-bullet ×1 or semi-implicit-euler ×1 or engine-mujoco ×1 or 1 more (the same on this body)",
+            ),
+        ] {
+            assert_eq!(makers(&best, &also), named);
+        }
+    }
 }

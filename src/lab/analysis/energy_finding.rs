@@ -31,7 +31,7 @@ impl EnergyFinding {
     pub(super) fn kept(&self, horizon: &str) -> String {
         let percent = round(100.0 * self.change.abs(), 2);
         match self.is_conserved {
-            true => format!("keeps its energy to {percent} % in {horizon}"),
+            true => format!("keeps its energy within {percent} % in {horizon}"),
             false => format!("gains no energy in {horizon}"),
         }
     }

@@ -10,6 +10,9 @@ use crate::sim::bodies::Truth;
 use crate::sim::integrators::StepFailure;
 use crate::sim::number::{round, significant, superscript};
 
+/// The largest error of a motion that is only out of phase, in amplitudes.
+const ANY_PHASE: f64 = 2.0;
+
 /// Why and when a body's run ended early.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunFailure {
@@ -170,8 +173,12 @@ impl Verdict {
         match (time, self.energy_change) {
             (Some(time), _) => format!("{} {factor} in {}", self.what_grows(), duration(time)),
             (None, Some(change)) => {
-                let sign = if change > 0.0 { "+" } else { "" };
-                format!("{sign}{} of its energy in {}", percent(change), duration(self.horizon_s))
+                let (sign, horizon) =
+                    (if change > 0.0 { "+" } else { "" }, duration(self.horizon_s));
+                match percent(change).as_str() {
+                    "\u{2212}100 %" => format!("all of it in {horizon}"),
+                    part => format!("{sign}{part} in {horizon}"),
+                }
             }
             (None, None) => {
                 format!("off by {} in {}", percent(self.error), duration(self.horizon_s))
@@ -188,9 +195,11 @@ impl Verdict {
     fn out_of_phase(&self) -> String {
         let (error, horizon) = (percent(self.error), duration(self.horizon_s));
         let bounded = if self.is_bounded == Some(true) { "stable, " } else { "" };
-        let is_phase = self.swings && self.energy_change.is_some() && self.error <= 2.0;
-        if is_phase {
+        if self.is_phase_error() {
             return format!("{bounded}out of phase by {error} after {horizon}");
+        }
+        if let Some(pitch) = self.pitch_that_tells() {
+            return format!("{bounded}{pitch}: off by up to {error} in {horizon}");
         }
         let at = self.moment(self.error_at_s);
         match self.last_error {
@@ -205,13 +214,26 @@ impl Verdict {
         }
     }
 
+    fn is_phase_error(&self) -> bool {
+        self.swings && self.energy_change.is_some() && self.error <= ANY_PHASE
+    }
+
+    /// The frequency error, if there is one: `0.18 % fast`.
+    fn pitch(&self) -> Option<String> {
+        self.frequency_error.filter(|_| self.outcome == Outcome::OutOfPhase).map(|error| {
+            let how = if error > 0.0 { "fast" } else { "slow" };
+            format!("{} {how}", percent(error.abs()))
+        })
+    }
+
+    /// The frequency error where it says more than the error, which is past all phases and stays.
+    fn pitch_that_tells(&self) -> Option<String> {
+        self.pitch().filter(|_| self.error > ANY_PHASE && self.last_error > TOLERANCE)
+    }
+
     /// The frequency error and the body's name in brackets, if there are any.
     fn in_brackets(&self) -> String {
-        let pitch =
-            self.frequency_error.filter(|_| self.outcome == Outcome::OutOfPhase).map(|error| {
-                let how = if error > 0.0 { "fast" } else { "slow" };
-                format!("{} {how}", percent(error.abs()))
-            });
+        let pitch = self.pitch().filter(|_| self.pitch_that_tells().is_none());
         let parts: Vec<String> = pitch.into_iter().chain(self.body_name.clone()).collect();
         if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
     }
@@ -230,7 +252,10 @@ impl fmt::Display for Verdict {
             }
             (Outcome::OutOfPhase, ..) => f.write_str(&self.out_of_phase())?,
             (Outcome::GainsEnergy, ..) => {
-                write!(f, "gains energy: {}", self.swing(self.doubles_in_s, "×2"))?;
+                // Without a swing and an energy nobody can say what it gains.
+                let is_known = self.doubles_in_s.or(self.energy_change).is_some();
+                let word = if is_known { "gains energy" } else { "grows" };
+                write!(f, "{word}: {}", self.swing(self.doubles_in_s, "×2"))?;
             }
             (Outcome::LosesEnergy, ..) => {
                 write!(f, "loses energy: {}", self.swing(self.halves_in_s, "½"))?;
@@ -255,12 +280,12 @@ impl fmt::Display for Verdict {
             matches!(self.outcome, Outcome::GainsEnergy | Outcome::BlewUp | Outcome::GaveUp);
         let later = self.doubles_in_s.filter(|_| !is_told);
         if let Some(seconds) = later {
-            write!(f, "; {} ×2 in {}", self.what_grows(), duration(seconds))?;
+            write!(f, "; grows slowly: {} ×2 in {}", self.what_grows(), duration(seconds))?;
         }
         if let Some(seconds) =
             self.parasite_doubles_in_s.filter(|_| self.outcome <= Outcome::GainsEnergy)
         {
-            write!(f, "; a faint mode ×2 in {}", duration(seconds))?;
+            write!(f, "; a faint mode grows: ×2 in {}", duration(seconds))?;
         }
         if let Some(found) = self.by_energy.filter(|_| self.missing_truth().is_some()) {
             write!(f, "; {found}")?;
@@ -330,9 +355,14 @@ mod tests {
                 "spring",
                 "improved-euler",
                 60,
-                "out of phase by 23 % after 20 s (0.18 % fast); swing ×2 in 769 s",
+                "out of phase by 23 % after 20 s (0.18 % fast); grows slowly: swing ×2 in 769 s",
             ),
-            ("spring", "improved-euler", 300, "accurate: error 0.92 % in 20 s; swing ×2 in 26.7 h"),
+            (
+                "spring",
+                "improved-euler",
+                300,
+                "accurate: error 0.92 % in 20 s; grows slowly: swing ×2 in 26.7 h",
+            ),
             ("spring", "rk4", 60, "accurate: error 0.013 % in 20 s"),
             ("spring", "rk4", 10, "loses energy: swing ½ in 171 s"),
             ("stiff", "semi-implicit-euler", 49, "will blow up at 4.14 s"),

@@ -21,10 +21,9 @@ const SAME: f64 = 1e-5;
 const SAME_PART: f64 = 0.2;
 /// The least difference of twice the logarithm of the likelihood that tells candidates apart: four standard deviations.
 const DECISIVE: f64 = 16.0;
-/// More left over than this is no fit, whatever its form.
+/// A larger residual is no fit, whatever its form.
 pub(super) const NO_FIT: f64 = 0.01;
-/// Where what is left over may be neither noise nor rounding, a method is named only if its rival leaves over more than
-/// this many times as much.
+/// Where the residual may be neither noise nor rounding, a method is named only if its rival's is larger by this factor.
 const CLEAR: f64 = 3.0;
 /// A log that this part of all methods explain says nothing.
 const NEARLY_ALL: f64 = 0.8;
@@ -100,7 +99,7 @@ pub(super) fn decide<'a>(
     Some(Decision { word, same, unusual, rival })
 }
 
-/// Whether so many methods do the same that the log says nothing.
+/// Whether the log says nothing, because too many methods do the same.
 fn explained_by_nearly_all(same: &[&(Candidate, Fit)], body: &LoggedBody) -> bool {
     let methods = |all: &mut dyn Iterator<Item = Candidate>| {
         all.map(|candidate| candidate.method.id).collect::<BTreeSet<_>>().len() as f64

@@ -40,9 +40,9 @@ pub(super) struct Fit {
     pub(super) body: LoggedBody,
     /// The run at the rows of the log, in units of the scale.
     run: Vec<[f64; 2]>,
-    /// Left over up to this, rounding may be all that there is.
+    /// A residual up to this may be rounding alone.
     precise: f64,
-    /// What is left over of the coordinate, and of the velocity if it was logged.
+    /// The residuals of the coordinate, and of the velocity if it was logged.
     left: Vec<Vec<f64>>,
 }
 
@@ -201,7 +201,7 @@ impl Fit {
         self.run.iter().zip(&other.run).map(apart).fold(0.0, f64::max)
     }
 
-    /// Whether the rows are so few that nobody can say whether what is left over is noise.
+    /// Whether there are too few rows to tell whether the residual is noise.
     pub(super) fn is_short(&self) -> bool {
         self.run.len() < LEAST_ROWS_OF_NOISE
     }

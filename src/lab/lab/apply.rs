@@ -106,7 +106,7 @@ impl Lab {
                 self.running |= self.comes_to_rest();
                 // A hint leads on; the old run is a click away on the timeline.
                 if self.restart_keeping_run() && self.hint().is_none() {
-                    self.set_notice("restarted: Ctrl Z brings back the run");
+                    self.set_notice("restarted: Ctrl Z brings the run back");
                 }
             }
             Command::Scene(place) => self.open(place),
@@ -228,7 +228,10 @@ impl Lab {
             format!("you changed the past at tick {tick}: Ctrl Z takes it back")
         });
         let released = released.map(|control| {
-            format!("the {} is yours: the script leaves it alone until a restart", control.name())
+            format!(
+                "you have the {} now: the script leaves it alone until a restart",
+                control.name()
+            )
         });
         let told: Vec<String> = told.into_iter().chain(released).chain(discarded).collect();
         self.tell((!told.is_empty()).then(|| told.join("; ")));

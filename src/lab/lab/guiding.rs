@@ -68,7 +68,7 @@ impl Lab {
         }
     }
 
-    /// Opens the stop so many further on, if the guide is open and has one.
+    /// Opens the stop this many further on, if the guide is open and has one.
     pub(super) fn go_to_stop_beside(&mut self, step: isize) {
         let Some(tour) = &self.viewer.tour else { return };
         let place = tour.place().checked_add_signed(step).filter(|place| *place < STOPS.len());

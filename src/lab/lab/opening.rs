@@ -82,7 +82,7 @@ impl Lab {
             "reloaded from the start, with other lanes or bodies".into()
         } else if tick > LONGEST_RERUN {
             self.run_again(place, 0);
-            format!("reloaded from the start, as tick {tick} is far")
+            format!("reloaded from the start: tick {tick} is too far to rerun")
         } else {
             self.run_again(place, tick);
             format!("reloaded and rerun to tick {tick}")

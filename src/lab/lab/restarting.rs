@@ -48,10 +48,10 @@ impl Lab {
     pub(super) fn undo(&mut self) {
         match self.timeline.undo_with(self.start.clone()) {
             Some(undone) => {
-                let notice = format!("undid {}: Ctrl Shift Z does it again", undone.what);
+                let notice = format!("undid {}: Ctrl Shift Z redoes it", undone.what);
                 self.after_exchange(undone, notice);
             }
-            None => self.set_notice("there is nothing to undo"),
+            None => self.set_notice("nothing to undo"),
         }
     }
 
@@ -59,10 +59,10 @@ impl Lab {
     pub(super) fn redo(&mut self) {
         match self.timeline.redo_with(self.start.clone()) {
             Some(redone) => {
-                let notice = format!("did {} again: Ctrl Z takes it back", redone.what);
+                let notice = format!("redid {}: Ctrl Z takes it back", redone.what);
                 self.after_exchange(redone, notice);
             }
-            None => self.set_notice("there is nothing to do again"),
+            None => self.set_notice("nothing to redo"),
         }
     }
 

@@ -55,7 +55,7 @@ impl LoopLane {
             .map(|percent| round(percent.unwrap_or_default(), 3));
         match error {
             error if error < SMOOTH_MS && report.dropped_ms > 0.0 => {
-                let text = format!("smooth, gives up {} ms{late}", round(report.dropped_ms, 3));
+                let text = format!("smooth, but drops {} ms{late}", round(report.dropped_ms, 3));
                 said(Severity::Doubtful, text)
             }
             error if error < SMOOTH_MS => said(Severity::Fine, format!("smooth{late}")),
@@ -68,8 +68,11 @@ impl LoopLane {
                 said(severity, format!("judders: {repeated} % of frames repeat{doubled}"))
             }
             error => {
-                let severity = if error < JUDDER_MS { Severity::Doubtful } else { Severity::Bad };
-                said(severity, format!("uneven by {} ms{late}", round(error, 2)))
+                let (severity, how) = match error < JUDDER_MS {
+                    true => (Severity::Doubtful, "uneven"),
+                    false => (Severity::Bad, "judders"),
+                };
+                said(severity, format!("{how} by {} ms{late}", round(error, 2)))
             }
         }
     }

@@ -42,7 +42,7 @@ pub struct LoopRun {
     meter: PacingMeter,
     last: Option<(Frame, Steps)>,
     script: TimedScript,
-    /// One frame in so many is made; the others are left out.
+    /// One frame in this number is made; the others are left out.
     stride: u32,
 }
 

@@ -99,14 +99,14 @@ pub const PACING_METRICS: &[PacingMetric] = &[
         id: "latency_mean_ms",
         name: "mean latency",
         unit: "ms",
-        about: "moment of display minus moment shown, in the mean",
+        about: "mean of the moment of display minus the moment shown",
         measure: |report| report.latency_mean_ms,
     },
     PacingMetric {
         id: "latency_max_ms",
         name: "largest latency",
         unit: "ms",
-        about: "the largest of moment of display minus moment shown",
+        about: "largest moment of display minus the moment shown",
         measure: |report| report.latency_max_ms,
     },
     PacingMetric {
@@ -148,7 +148,7 @@ pub const PACING_METRICS: &[PacingMetric] = &[
         id: "state_difference",
         name: "difference at half the frame rate",
         unit: "amplitudes",
-        about: "the furthest that the bodies come from where they are if every second frame is left out",
+        about: "the largest distance between the bodies with all frames and with every second frame left out",
         measure: |report| report.state_difference,
     },
 ];

@@ -61,19 +61,19 @@ pub static TRACES: &[TraceCard] = &[
     },
     TraceCard {
         id: "missed-vsync",
-        about: "after every 29 frames of a refresh one of two: its picture is a refresh late, and so is the next frame",
+        about: "after every 29 frames of one refresh, one of two: its picture is a refresh late, and so is the next frame",
         refresh: None,
         build: |id, refresh| FrameTrace::of_pattern(id, refresh, LongFrame::new(refresh, 29, 2)),
     },
     TraceCard {
         id: "heartbeat",
-        about: "frames last 5/4 and 3/4 of a refresh by turns, and are displayed at every refresh (A. Ladavac)",
+        about: "frames last 5/4 and 3/4 of a refresh alternately, and are displayed at every refresh (A. Ladavac)",
         refresh: None,
         build: |id, refresh| FrameTrace::of_pattern(id, refresh, Heartbeat::new(refresh)),
     },
     TraceCard {
         id: "hitch-100ms",
-        about: "after every 2 s of frames of a refresh one of 100 ms",
+        about: "after every 2 s of frames of one refresh, one of 100 ms",
         refresh: None,
         build: |id, refresh| {
             let pattern = LongFrame::lasting(refresh, 2_000_000_000, 100_000_000);
@@ -82,7 +82,7 @@ pub static TRACES: &[TraceCard] = &[
     },
     TraceCard {
         id: "alt-tab-5s",
-        about: "after every 5 s of frames of a refresh one of 5 s, as when a person looks at another window",
+        about: "after every 5 s of frames of one refresh, one of 5 s, as when a person looks at another window",
         refresh: None,
         build: |id, refresh| {
             let pattern = LongFrame::lasting(refresh, 5_000_000_000, 5_000_000_000);

@@ -77,7 +77,7 @@ pub(super) type Summaries<'l> =
     iter::Chain<iter::Copied<vec_deque::Iter<'l, Summary>>, option::IntoIter<Summary>>;
 
 impl SummaryLog {
-    /// A log of summaries that stand for so many samples at most.
+    /// A log of summaries, each of this number of samples at most.
     pub(super) fn new(most_summed: usize) -> Self {
         let whole = WindowedLog::new(CAPACITY / most_summed + 1, SPARE / most_summed);
         Self { most_summed, whole, last: None }

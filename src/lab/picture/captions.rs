@@ -8,6 +8,7 @@ use super::{Align, Label, Picture, Rect, Rgba};
 use crate::lab::palette::{Palette, faded};
 use crate::lab::race::Entrant;
 use crate::lab::{Halt, Lab, LaneBody, Severity, Verdict};
+use crate::sim::bodies::Coordinate;
 use crate::sim::number::{round, significant};
 
 /// The least height of a cell, in points, that marks along its bottom do not crowd.
@@ -99,8 +100,17 @@ pub(super) fn lane(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, entra
     let y = if alone.is_some() { middle - 8.0 } else { middle };
     write(y, colour, name);
     if let Some(halt) = alone {
-        write(middle + 8.0, moment.palette.bad, format!("halted, tick {}", halt.tick));
+        write(middle + 8.0, moment.palette.bad, fate_within(halt, right - left));
     }
+}
+
+/// What became of a body, and when, if this width has room for that.
+fn fate_within(halt: &Halt, width: f32) -> String {
+    let fate = halt.fate();
+    if LETTER * fate.chars().count() as f32 <= width {
+        return fate;
+    }
+    if halt.is_blow_up() { "blew up".into() } else { "gave up".into() }
 }
 
 /// What the stage says of a body whose truth is not tried.
@@ -120,8 +130,8 @@ pub(super) fn halts<'h>(
         return;
     }
     let of_bodies = bodies.map(|(lane, halt)| match lane {
-        None => format!("halted, tick {}", halt.tick),
-        Some(lane) => format!("{lane} halted, tick {}", halt.tick),
+        None => fate_within(halt, width - 9.0 - inset(rect)),
+        Some(lane) => format!("{lane} {}", halt.fate()),
     });
     let of_bodies: Vec<String> = of_bodies.collect();
     let of_bodies = (!of_bodies.is_empty()).then(|| of_bodies.join(" · "));
@@ -170,7 +180,8 @@ pub(super) fn head(
     let body = &entrant.lane.bodies()[index];
     let name = moment.lab.scene().bodies[index].name.chars().count();
     let left = x + NAME_LETTER * name as f32 + 14.0;
-    let right = left + LETTER * widest_state(body) as f32 + 14.0;
+    let (coordinate, _) = moment.lab.past().coordinate(moment.lab.race(), index);
+    let right = left + LETTER * widest_state(coordinate) as f32 + 14.0;
     let chip =
         Chip::of(moment, index, entrant).filter(|_| rect.max[1] - rect.min[1] >= ROOM_FOR_CHIP);
     let room_for = |from: f32| rect.max[0] - 10.0 - from;
@@ -185,9 +196,8 @@ pub(super) fn head(
 }
 
 /// The most letters of what is said of where a body is.
-fn widest_state(body: &LaneBody) -> usize {
+fn widest_state(coordinate: &Coordinate) -> usize {
     const NUMBER: usize = 10;
-    let coordinate = &body.coordinates[0];
     let words = [coordinate.name, coordinate.unit, coordinate.velocity, coordinate.unit];
     words.map(str::len).iter().sum::<usize>() + 2 * NUMBER + 9
 }
@@ -203,22 +213,21 @@ fn state(
 ) {
     let palette = moment.palette;
     if let Some(halt) = body.halted() {
-        let words = format!("halted at tick {}", halt.tick);
-        picture.labels.push(text(palette, at, Align::Left, 12.5, palette.bad, words));
+        picture.labels.push(text(palette, at, Align::Left, 12.5, palette.bad, halt.fate()));
     } else if rect.max[0] - rect.min[0] > ROOM_FOR_NUMBERS {
         let held = moment.lab.viewer().held().filter(|held| held.body == index);
         let (q, v) = match held {
             Some(held) => (held.q.to_vec(), held.v.to_vec()),
             None => moment.lab.shown_state(body),
         };
-        let coordinate = &body.coordinates[0];
-        let place = format!("{} {}", significant(q[0], 4), coordinate.shown_unit());
+        let (coordinate, plotted) = moment.lab.past().coordinate(moment.lab.race(), index);
+        let place = format!("{} {}", significant(q[plotted], 4), coordinate.shown_unit());
         let words = format!(
             "{} = {}   {} = {} {}/s",
             coordinate.name,
             place.trim_end(),
             coordinate.velocity,
-            significant(v[0], 4),
+            significant(v[plotted], 4),
             coordinate.unit,
         );
         picture.labels.push(text(palette, at, Align::Left, 12.5, palette.dim, words));
@@ -230,7 +239,7 @@ fn caption_place(rect: Rect) -> Option<[f32; 2]> {
     fits.then_some([rect.min[0] + 9.0 + inset(rect), rect.min[1] + 13.0])
 }
 
-/// What is to be said of the method on the stage, on one line.
+/// What the stage says of the method, on one line.
 struct Chip {
     sign: &'static str,
     /// The colour of the sign, and of the rim.
@@ -313,7 +322,7 @@ impl Chip {
     }
 }
 
-/// Writes at the ghost, which is here, what it is; `beside` it by so many points.
+/// Labels the ghost, `beside` points from its middle.
 pub(super) fn exact(
     picture: &mut Picture,
     camera: &Camera,

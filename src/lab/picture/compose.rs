@@ -11,7 +11,9 @@ use super::loupe::Near;
 use super::mass::Coat;
 use super::moment::Moment;
 use super::sketch::{Camera, line, path};
-use super::{Cell, Framing, Look, Picture, Rect, Rgba, Whose, captions, chart, loop_stage, loupe};
+use super::{
+    Cell, Framing, Look, Mark, Picture, Rect, Rgba, Whose, captions, chart, loop_stage, loupe,
+};
 use crate::lab::palette::faded;
 use crate::lab::race::Entrant;
 use crate::lab::{Arrangement, Lab, Mode, ZoomPan};
@@ -262,7 +264,13 @@ impl Band<'_> {
             let reach_m = ghost.view.reach_m.max_element();
             loupe::draw(picture, moment, camera, (&near, reach_m), (room, busy));
             if lab.mode() == Mode::Solo && index == 0 {
-                captions::exact(picture, camera, ghost.outline.at, lift, palette);
+                let bead = ghost.outline.marks.iter().find_map(|mark| match mark {
+                    Mark::Disc { radius, .. } => Some(camera.size(*radius)),
+                    _ => None,
+                });
+                let is_recorded = matches!(framing, Framing::Recorder { .. });
+                let beside = bead.filter(|_| is_recorded).unwrap_or(lift);
+                captions::exact(picture, camera, ghost.outline.at, beside, palette);
             }
         }
         let is_alone = self.lanes.len() == 1;

@@ -175,6 +175,8 @@ pub(super) struct Lost {
     flag: Flag,
     /// Whether it is told of at the right edge.
     is_right: bool,
+    /// Whether it left across that edge or the other, and not above or below.
+    is_beside: bool,
     words: String,
 }
 
@@ -193,22 +195,37 @@ impl Lost {
         };
         let sides: Vec<[i32; 2]> = places.clone().map(side).collect();
         let oldest = sides.iter().rposition(|side| *side != [0; 2])?;
-        let axis = usize::from(sides[oldest][0] == 0);
+        let told = if sides[0] == [0; 2] { sides[oldest] } else { sides[0] };
+        let axis = usize::from(told[0] == 0);
         let swings = [-1, 1].iter().all(|way| sides.iter().any(|side| side[axis] == *way));
         let comes_back = sides[..oldest].contains(&[0; 2]);
         let along = |place: DVec2| [place.x, place.y][axis];
         let furthest =
             places.clone().reduce(|a, b| if along(b).abs() > along(a).abs() { b } else { a });
         let (newest, furthest) = (places.clone().next()?, furthest?);
+        let is_beside = axis == 0;
         let told = |value: f64, digits| format!("{} {}", distance(value, digits), camera.unit);
-        let (words, at) = match (swings, comes_back) {
-            (true, _) => (format!("swings ±{}", told(along(furthest).abs(), 2)), None),
-            (false, true) => (format!("out to {}", told(along(furthest), 2)), Some(furthest)),
-            (false, false) => (told(along(newest), 3), Some(newest)),
+        // No arrow says so of what is above or below.
+        let way = |value: f64| match (is_beside, value < 0.0) {
+            (true, _) => "out",
+            (false, true) => "down",
+            (false, false) => "up",
+        };
+        let (words, at) = match (swings, comes_back, is_beside) {
+            (true, ..) => (format!("swings ±{}", told(along(furthest).abs(), 2)), None),
+            (false, true, _) => {
+                let value = along(furthest);
+                (format!("{} to {}", way(value), told(value, 2)), Some(furthest))
+            }
+            (false, false, true) => (told(along(newest), 3), Some(newest)),
+            (false, false, false) => {
+                let value = along(newest);
+                (format!("{} at {}", way(value), told(value, 3)), Some(newest))
+            }
         };
         let middle = (camera.rect.min[0] + camera.rect.max[0]) / 2.0;
         let is_right = at.is_none_or(|place| camera.points(place)[0] > middle);
-        Some(Self { flag, is_right, words })
+        Some(Self { flag, is_right, is_beside, words })
     }
 }
 
@@ -232,9 +249,12 @@ pub(super) fn badges(
     let clip = camera.rect;
     let mut free = clip;
     let (width, height) = (clip.max[0] - clip.min[0], clip.max[1] - clip.min[1]);
+    // In a low cell a badge is as high as that.
+    let high = BADGE.min(height).max(1.0);
+    let (top, scale) = (top.min(height - high), high / BADGE);
     for is_right in [false, true] {
         let of_side: Vec<&Lost> = lost.iter().filter(|badge| badge.is_right == is_right).collect();
-        let rows = ((height - top) / (BADGE + 3.0)).max(1.0) as usize;
+        let rows = ((height - top) / (high + 3.0)).max(1.0) as usize;
         let letters = of_side.iter().map(|badge| badge.words.chars().count()).max().unwrap_or(0);
         let widest = (BESIDE_WORDS + LETTER * letters as f32).max(WIDE_BADGE);
         let is_wide = of_side.len() <= rows && width > 3.0 * widest;
@@ -246,21 +266,23 @@ pub(super) fn badges(
         }
         for (i, badge) in of_side.into_iter().enumerate() {
             let inset = (i / rows) as f32 * (wide + 8.0) + 6.0;
-            let y = clip.min[1] + top + (i % rows) as f32 * (BADGE + 3.0);
+            let y = clip.min[1] + top + (i % rows) as f32 * (high + 3.0);
             let tip = if is_right { clip.max[0] - inset } else { clip.min[0] + inset };
             let inwards = if is_right { -1.0 } else { 1.0 };
             let far = tip + inwards * wide;
-            let middle = y + BADGE / 2.0;
-            let shoulder = tip + inwards * 9.0;
+            let middle = y + high / 2.0;
+            let shoulder = tip + inwards * if badge.is_beside { 9.0 * scale } else { 0.0 };
             let shape =
-                [[tip, middle], [shoulder, y], [far, y], [far, y + BADGE], [shoulder, y + BADGE]];
+                [[tip, middle], [shoulder, y], [far, y], [far, y + high], [shoulder, y + high]];
             picture.shapes.push(fill(&shape, faded(palette.panel, 0.94), clip));
             picture.shapes.push(ring(&shape, 1.6, badge.flag.colour, SOLID, clip));
             let at = [if is_wide { far - inwards * 14.0 } else { (far + shoulder) / 2.0 }, middle];
             let (colour, dark) =
                 (badge.flag.colour, mixed(palette.background, [0, 0, 0, 255], 0.2));
-            let half = 7.5;
-            let digit = rounded([at[0] - half, at[1] - half], [at[0] + half, at[1] + half], 3.0);
+            let number = badge.flag.number.to_string();
+            let half = [if number.len() > 1 { 10.0 } else { 7.5 }, 7.5].map(|half| half * scale);
+            let corner = |sign: f32| [0, 1].map(|axis| at[axis] + sign * half[axis]);
+            let digit = rounded(corner(-1.0), corner(1.0), 3.0 * scale);
             picture.shapes.push(fill(&digit, colour, clip));
             let mut write = |at, size, colour, text| {
                 let halo = [0; 4];
@@ -274,10 +296,10 @@ pub(super) fn badges(
                     text,
                 });
             };
-            write(at, 12.0, dark, badge.flag.number.to_string());
+            write(at, 12.0 * scale, dark, number);
             if is_wide {
                 let middle_of_text = (far - inwards * 24.0 + shoulder) / 2.0;
-                write([middle_of_text, middle], 12.5, palette.text, badge.words.clone());
+                write([middle_of_text, middle], 12.5 * scale, palette.text, badge.words.clone());
             }
         }
     }
@@ -289,7 +311,7 @@ mod tests {
     use super::*;
 
     /// What is told of a body that was at these places in a cell that shows 5 m to each side, and whether at the right.
-    fn told(places: &[f64]) -> Option<(String, bool)> {
+    fn told(places: &[[f64; 2]]) -> Option<(String, bool)> {
         let rect = Rect { min: [0.0; 2], max: [100.0, 50.0] };
         let camera = Camera {
             rect,
@@ -303,18 +325,35 @@ mod tests {
             unit: "m",
         };
         let flag = Flag { at: [0.0; 2], number: 1, colour: [255; 4] };
-        let places = places.iter().map(|x| DVec2::new(*x, 0.0));
+        let places = places.iter().map(|place| DVec2::from(*place));
         Lost::of(flag, &camera, rect, places).map(|lost| (lost.words, lost.is_right))
+    }
+
+    fn told_along(places: &[f64]) -> Option<(String, bool)> {
+        told(&places.iter().map(|x| [*x, 0.0]).collect::<Vec<_>>())
     }
 
     #[test]
     fn a_body_beyond_the_stage_is_told_of_by_its_place_and_one_that_returns_by_its_swing() {
         let said = |words: &str, is_right| Some((words.to_owned(), is_right));
-        assert_eq!(told(&[1.0, -4.9, 4.9]), None, "it stayed");
-        assert_eq!(told(&[23.4, 6.0, 2.0]), said("23.4 m", true), "it left");
-        assert_eq!(told(&[-3e6, -7.0]), said("−10⁶ m", false), "it left long ago");
-        assert_eq!(told(&[2.31, -12.0, 0.0, 14.2]), said("swings ±14 m", true));
-        assert_eq!(told(&[-14.2, 3.0, 12.0]), said("swings ±14 m", true), "the badge stays there");
-        assert_eq!(told(&[2.0, -7.5, 2.0]), said("out to −7.5 m", false));
+        assert_eq!(told_along(&[1.0, -4.9, 4.9]), None, "it stayed");
+        assert_eq!(told_along(&[23.4, 6.0, 2.0]), said("23.4 m", true), "it left");
+        assert_eq!(told_along(&[-3e6, -7.0]), said("−10⁶ m", false), "it left long ago");
+        assert_eq!(told_along(&[2.31, -12.0, 0.0, 14.2]), said("swings ±14 m", true));
+        assert_eq!(
+            told_along(&[-14.2, 3.0, 12.0]),
+            said("swings ±14 m", true),
+            "the badge stays there"
+        );
+        assert_eq!(told_along(&[2.0, -7.5, 2.0]), said("out to −7.5 m", false));
+    }
+
+    #[test]
+    fn a_body_in_the_plane_is_told_of_by_the_way_that_it_is_out_now() {
+        let said = |words: &str, is_right| Some((words.to_owned(), is_right));
+        let over_the_top = [[-37.0, 2.0], [-4.0, 2.0], [0.0, 11.0]];
+        assert_eq!(told(&over_the_top), said("out to −37 m", false));
+        assert_eq!(told(&over_the_top[1..]), said("up to 11 m", false), "it is back");
+        assert_eq!(told(&[[1.0, -9.0], [1.0, -5.0]]), said("down at −9.00 m", true));
     }
 }

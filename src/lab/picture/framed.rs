@@ -14,9 +14,11 @@ const HEAD: f64 = 36.0;
 /// How wide the quay is that springs are moored to, as a part of the cell, and at most in points.
 const QUAY: f32 = 0.07;
 const WIDEST_QUAY: f32 = 56.0;
-/// The side of a block as a part of its cell's height, and its least and its greatest in points.
+/// The side of a block as a part of its cell's height, its least and its greatest in points, and the part of the height
+/// that it never exceeds.
 const BLOCK: f32 = 0.31;
 const BLOCKS: (f32, f32) = (12.0, 88.0);
+const MOST_BLOCK: f32 = 0.65;
 /// How much further than the true one a lane's motion may be for the camera to show it, in solo: along a chart
 /// recorder, and where the body moves both across and up.
 const MOST_SWING: f64 = 2.3;
@@ -172,7 +174,9 @@ impl Moment<'_> {
             points_per_metre: 1.0,
             paper: 0.0,
             magnified: 1.0,
-            block: (BLOCK * height as f32).clamp(BLOCKS.0, BLOCKS.1),
+            block: (BLOCK * height as f32)
+                .clamp(BLOCKS.0, BLOCKS.1)
+                .min(MOST_BLOCK * height as f32),
             quay_m: 0.0,
             unit: "m",
         };

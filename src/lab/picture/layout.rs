@@ -4,8 +4,9 @@ use glam::DVec2;
 
 use super::Rect;
 
-/// Space round the stage and between its cells, in points.
+/// Space round the stage and between its cells, in points, and the largest part of the room for a cell that it takes.
 const MARGIN: f32 = 6.0;
+const MOST_MARGIN: f32 = 0.15;
 
 /// The stage in bands, one below the other, of these parts of its height.
 pub(super) fn bands(stage: Rect, heights: &[f32]) -> Vec<Rect> {
@@ -21,22 +22,24 @@ pub(super) fn bands(stage: Rect, heights: &[f32]) -> Vec<Rect> {
 
 /// The cells of a grid, row by row.
 pub(super) fn grid(stage: Rect, rows: usize, columns: usize) -> Vec<Rect> {
-    let side = |axis: usize, count: usize| {
-        let room = stage.max[axis] - stage.min[axis];
-        ((room - MARGIN * (count as f32 + 1.0)) / count as f32).max(0.0)
+    let sides = |axis: usize, count: usize| {
+        let room = (stage.max[axis] - stage.min[axis]).max(0.0);
+        let margin = MARGIN.min(MOST_MARGIN * room / count as f32);
+        let side = (room - margin * (count as f32 + 1.0)) / count as f32;
+        move |place: usize| {
+            let least = stage.min[axis] + margin + place as f32 * (side + margin);
+            (least, least + side)
+        }
     };
-    let (width, height) = (side(0, columns), side(1, rows));
+    let (across, down) = (sides(0, columns), sides(1, rows));
     let cell = |row: usize, column: usize| {
-        let min = [
-            stage.min[0] + MARGIN + column as f32 * (width + MARGIN),
-            stage.min[1] + MARGIN + row as f32 * (height + MARGIN),
-        ];
-        Rect { min, max: [min[0] + width, min[1] + height] }
+        let (x, y) = (across(column), down(row));
+        Rect { min: [x.0, y.0], max: [x.1, y.1] }
     };
     (0..rows).flat_map(|row| (0..columns).map(move |column| cell(row, column))).collect()
 }
 
-/// So many cells in rows, cut so that a picture of this `shape` is as large as may be in each.
+/// `count` cells in rows, cut so that a picture of this `shape` is as large as possible in each.
 pub(super) fn mosaic(stage: Rect, count: usize, shape: DVec2) -> Vec<Rect> {
     let scale = |cells: &Vec<Rect>| {
         let Rect { min, max } = cells[0];

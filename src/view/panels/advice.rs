@@ -58,7 +58,7 @@ fn which_bodies(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         ] {
             let is_chosen = display.advises_on_one_body == is_one;
             let choice = ui.selectable_label(is_chosen, RichText::new(name).size(SMALL));
-            if choice.on_hover_text("the bodies that the advice is about").clicked() {
+            if choice.on_hover_text("the bodies to advise on").clicked() {
                 commands.push(Command::AdviseOnOneBody(is_one));
             }
         }
@@ -113,7 +113,7 @@ fn answer(
                 let none = match () {
                     () if done < wanted => "none yet".to_owned(),
                     () if all_miss => format!("none with up to {MOST_ADVISED_SUBSTEPS} substeps"),
-                    () => "not known of any that might".into(),
+                    () => "unknown for those that might".into(),
                 };
                 line(ui, RichText::new(none).color(ink(ui).text));
                 return;
@@ -201,7 +201,9 @@ fn table(
             slot(ui, widths.cell, |ui| ui.label(name)).on_hover_text(criterion.about());
         }
     });
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    // The inspector may leave it no row: what has no room is scrolled to.
+    let list = ScrollArea::vertical().auto_shrink(false).min_scrolled_height(0.0);
+    list.show(ui, |ui| {
         ui.spacing_mut().button_padding.y = 1.0;
         ui.spacing_mut().interact_size.y = LINE;
         for (i, advised) in advice.advised.iter().enumerate() {
@@ -235,7 +237,7 @@ fn row(
                 }
                 CriterionResult::Unknown => {
                     ui.label(RichText::new("?").color(ink(ui).dim))
-                        .on_hover_text("not known: there is no truth, or it takes too much work");
+                        .on_hover_text("unknown: there is no exact motion to compare with, or it takes too much work");
                     return;
                 }
             };
@@ -317,6 +319,24 @@ mod tests {
         lab.apply(Command::AdviseOnOneBody(is_of_one));
         let worker = AnalysisWorker::new(lab.analysis_request());
         (lab, worker)
+    }
+
+    #[test]
+    fn no_row_of_the_table_lies_over_the_inspector() {
+        let (mut lab, mut worker) = asked("spring", false);
+        judge(&mut lab, &mut worker, 4);
+        lab.apply(Command::ToggleInspector);
+        for size in SIZES {
+            let (stage, texts) = shown(&lab, size);
+            let beside = |(at, _): &&(Pos2, String)| at.x > stage.right();
+            let title = texts.iter().find(|(_, words)| words == "Inspector").expect("a title").0.y;
+            let over = texts.iter().filter(beside).filter(|(at, words)| {
+                (at.y - title).abs() < 9.0
+                    && !["Inspector", "↺ Restore all", "×"].contains(&&**words)
+            });
+            let over: Vec<_> = over.collect();
+            assert!(over.is_empty(), "{size:?}: {over:?}");
+        }
     }
 
     /// Has so many methods judged.

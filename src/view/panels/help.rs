@@ -11,7 +11,7 @@ use crate::view::theme::TYPE;
 const ROOM_FOR_TWO: f32 = 860.0;
 /// The width of a column, and of the keys in it.
 const COLUMN: f32 = 560.0;
-const KEY: f32 = 112.0;
+const KEY: f32 = 128.0;
 /// What a window has around its content.
 const AROUND: Vec2 = vec2(48.0, 110.0);
 

@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             let restoring = restoring(lab);
             let is_edited = !restoring.is_empty() || Field::has_faults(ui);
             let all = ui.add_enabled_ui(is_edited, |ui| {
-                named(ui, Button::new("↺ Restore all"), "everything as the scene has it")
+                named(ui, Button::new("↺ Restore all"), "restore every value of the scene")
             });
             if all.inner.clicked() {
                 Field::forget_faults(ui);
@@ -121,7 +121,7 @@ fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
         commands.extend(slid.filter(|value| check(*value).is_ok()).map(set));
         let (_, entered) = field.show(ui, vec2(number, LINE), check);
         commands.extend(entered.map(set));
-        let about = format!("{} {} again", values.opened, parameter.unit);
+        let about = format!("back to {} {}", values.opened, parameter.unit);
         restore(ui, values.differ(), &about, &name, || commands.push(set(values.opened)));
     });
     Field::show_fault(field.id, ui);

@@ -53,8 +53,8 @@ pub(super) fn least_height(instrument: Instrument) -> f32 {
     match instrument {
         Instrument::OneStep => 430.0,
         Instrument::StabilityMap | Instrument::Loop => 300.0,
-        Instrument::Energy | Instrument::Phase => 260.0,
-        Instrument::Motion | Instrument::Error | Instrument::Cost | Instrument::Advice => 200.0,
+        Instrument::Energy | Instrument::Phase | Instrument::Advice => 260.0,
+        Instrument::Motion | Instrument::Error | Instrument::Cost => 200.0,
     }
 }
 

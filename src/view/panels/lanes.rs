@@ -29,7 +29,7 @@ pub(super) fn height(lab: &Lab) -> f32 {
     height_of(lab.scene().lanes.len())
 }
 
-/// The height of a table of so many rows, as far as they are in sight.
+/// The height of a table of `rows` rows, as far as they are in sight.
 pub(super) fn height_of(rows: usize) -> f32 {
     HEAD + ROW * rows.clamp(*ROWS.start(), *ROWS.end()) as f32 + 2.0
 }

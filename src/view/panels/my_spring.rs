@@ -54,7 +54,7 @@ pub(super) fn show(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
         for (i, number) in MADE_OF.iter().enumerate() {
             line(ui, lab, number, is_new && i == 0, commands);
         }
-        ui.label(RichText::new("or as it is seen").color(ink(ui).dim));
+        ui.label(RichText::new("or by its swing").color(ink(ui).dim));
         for number in &SEEN_AS {
             line(ui, lab, number, false, commands);
         }
@@ -73,7 +73,7 @@ pub(super) fn show(ui: &Ui, lab: &Lab, commands: &mut Vec<Command>) {
                 commands.push(Command::CloseDialog);
             }
         });
-        let told = "Opens it as a scene, with the method to take and its code to copy.";
+        let told = "Opens it as a scene, with the recommended method and its code to copy.";
         ui.label(RichText::new(told).size(11.5).color(ink(ui).dim));
     });
 }

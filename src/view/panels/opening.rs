@@ -13,48 +13,44 @@ const WIDTH: f32 = 460.0;
 pub(super) fn path(ui: &Ui, lab: &Lab, refused: Option<&str>, commands: &mut Vec<Command>) {
     let ctx = ui.ctx();
     let width = WIDTH.min(ctx.content_rect().width() - 40.0).max(40.0);
-    window("Open a scene or a log of frames").anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(
-        ctx,
-        |ui| {
-            ui.set_min_width(width);
-            let id = Id::unique("path of a scene file");
-            let is_new = !ui.memory(|memory| memory.has_focus(id));
-            if is_new {
-                // What was typed last time can be edited or typed over; what was refused is edited at its end.
-                select(ctx, id, if refused.is_some() { usize::MAX } else { 0 });
-                ui.memory_mut(|memory| memory.request_focus(id));
-            }
-            let typed = lab.viewer().typed_path();
-            let mut text = typed.to_owned();
-            let field =
-                TextEdit::singleline(&mut text).id(id).desired_width(width).lock_focus(true);
-            let field = field.hint_text("path of a scene, or of a log of frames").show(ui);
-            field.response.widget_info(|| {
-                egui::WidgetInfo::labeled(
-                    egui::Role::TextInput,
-                    true,
-                    "path of a scene or of a log of frames",
-                )
-            });
-            if text != typed {
-                commands.push(Command::TypePath(text));
-            }
-            if ui.input(|input| input.key_pressed(Key::Tab)) {
-                commands.push(Command::CompletePath);
-                select(ctx, id, usize::MAX);
-            }
-            if ui.input(|input| input.key_pressed(Key::Enter)) {
-                commands.push(Command::OpenTypedPath);
-            }
-            let keys = "Enter opens, Tab completes, Esc closes. Or drop a file onto the window.";
-            ui.label(RichText::new(keys).color(ink(ui).dim));
-            if let Some(report) = refused {
-                ui.separator();
-                let room = egui::vec2(width, ctx.content_rect().height() - 240.0);
-                report_within(ui, lab.viewer().typed_path(), report, room);
-            }
-        },
-    );
+    window("Open a scene or a frame log").anchor(Align2::CENTER_TOP, [0.0, 80.0]).show(ctx, |ui| {
+        ui.set_min_width(width);
+        let id = Id::unique("path of a scene file");
+        let is_new = !ui.memory(|memory| memory.has_focus(id));
+        if is_new {
+            // What was typed last time can be edited or typed over; what was refused is edited at its end.
+            select(ctx, id, if refused.is_some() { usize::MAX } else { 0 });
+            ui.memory_mut(|memory| memory.request_focus(id));
+        }
+        let typed = lab.viewer().typed_path();
+        let mut text = typed.to_owned();
+        let field = TextEdit::singleline(&mut text).id(id).desired_width(width).lock_focus(true);
+        let field = field.hint_text("path of a scene or of a frame log").show(ui);
+        field.response.widget_info(|| {
+            egui::WidgetInfo::labeled(
+                egui::Role::TextInput,
+                true,
+                "path of a scene or of a frame log",
+            )
+        });
+        if text != typed {
+            commands.push(Command::TypePath(text));
+        }
+        if ui.input(|input| input.key_pressed(Key::Tab)) {
+            commands.push(Command::CompletePath);
+            select(ctx, id, usize::MAX);
+        }
+        if ui.input(|input| input.key_pressed(Key::Enter)) {
+            commands.push(Command::OpenTypedPath);
+        }
+        let keys = "Enter opens, Tab completes, Esc closes. Or drop a file onto the window.";
+        ui.label(RichText::new(keys).color(ink(ui).dim));
+        if let Some(report) = refused {
+            ui.separator();
+            let room = egui::vec2(width, ctx.content_rect().height() - 240.0);
+            report_within(ui, lab.viewer().typed_path(), report, room);
+        }
+    });
 }
 
 /// The report, as the command line prints it, in a window of its own.
@@ -149,9 +145,9 @@ mod tests {
     fn the_field_shows_why_a_path_is_refused() {
         let mut lab = Lab::new(Scene::built_in("spring").unwrap());
         lab.apply(Command::AskForPath);
-        let before = size_of_dialog(&lab, "Open a scene or a log of frames");
+        let before = size_of_dialog(&lab, "Open a scene or a frame log");
         lab.refuse_typed_path(std::path::Path::new("a.toml"), "error: none ".repeat(40));
-        let after = size_of_dialog(&lab, "Open a scene or a log of frames");
+        let after = size_of_dialog(&lab, "Open a scene or a frame log");
         assert!(after.y > before.y + 40.0 && after.x <= before.x + 20.0, "{before:?} {after:?}");
     }
 }

@@ -57,7 +57,7 @@ impl PlotArea {
         })
     }
 
-    /// Round marks along an axis with their numbers, at least so many points apart as long as there are three.
+    /// Round marks along an axis with their numbers, at least `apart` points apart as long as there are three.
     pub(super) fn marks(&self, axis: usize, apart: f64) -> Vec<(f64, String)> {
         let [low, high] = self.bounds[axis];
         let room = if axis == 0 { self.rect.width() } else { self.rect.height() };

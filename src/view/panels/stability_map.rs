@@ -30,7 +30,7 @@ const DEEPEST: f32 = 0.7;
 const CROSS_ID: &str = "cross of the stability map";
 /// The size of the cross, in points.
 const CROSS: f32 = 13.0;
-/// So many steps of an arrow key are a factor of ten of the parameter.
+/// The steps of an arrow key in a factor of ten of the parameter.
 const STEPS_OF_DECADE: f64 = 20.0;
 /// How far a boundary's label is from it, and from the middle of any other label or boundary, in points.
 const BESIDE: f32 = 10.0;

@@ -38,9 +38,9 @@ const NEAR_THE_BOUND: f64 = 0.75;
 /// The least distances in points between the numbers along the track, and between two marks.
 const NUMBERS_APART: f64 = 64.0;
 const MARKS_APART: f32 = 15.0;
-/// The closest view shows so many ticks.
+/// The ticks in the closest view.
 const LEAST_TICKS: f64 = 12.0;
-/// Turning the wheel by so many points zooms by *e*.
+/// The points by which the wheel turns to zoom by *e*.
 const WHEEL: f64 = 240.0;
 /// The most marks that a tooltip tells of.
 const MOST_TOLD: usize = 8;

@@ -22,7 +22,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     ui.horizontal_centered(|ui| {
         scene_menu(ui, lab, commands);
         if width >= ROOM_FOR_PACE {
-            let about = "a spring of your own: the method to take, and the code (S)";
+            let about = "a spring of your own: the recommended method, and its code (S)";
             button(ui, "My spring", about, Command::AskForSpring, commands);
         }
         transport(ui, lab, width >= ROOM_FOR_BACK, commands);
@@ -136,7 +136,7 @@ fn modes(ui: &mut Ui, lab: &Lab, width: f32, commands: &mut Vec<Command>) {
     let parts = [
         (
             "Solo",
-            "fly one method, and switch it in flight (C)",
+            "run one method, and switch it while it runs (C)",
             is_in(Mode::Solo),
             to_mode(Mode::Solo),
         ),

@@ -29,12 +29,12 @@ struct Point {
 pub(super) enum Detail {
     /// Every sample counts.
     Samples,
-    /// It is seen on so many columns of pixels.
+    /// The number of pixel columns on which it is seen.
     Columns(f32),
 }
 
 impl Detail {
-    /// So many points of a curve are enough.
+    /// The number of a curve's points that is enough.
     fn least_points(self) -> usize {
         match self {
             Self::Samples => usize::MAX,

@@ -41,7 +41,7 @@ fn a_net_without_a_reference_is_judged_by_energy_and_spectral_radius_and_says_so
         assert_eq!(verdict.outcome.severity() == Severity::Bad, is_known, "{id}");
     }
     let kept = verdict(&scene, "implicit-midpoint").to_string();
-    assert!(kept.starts_with("keeps its energy to "), "{kept}");
+    assert!(kept.starts_with("keeps its energy within "), "{kept}");
     // An implicit method with memory: its map is not one of the state alone.
     let alone = verdict(&scene, "bdf2");
     assert_eq!(alone.by_energy.unwrap().spectral_radius, None);

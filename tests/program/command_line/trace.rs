@@ -74,7 +74,7 @@ fn a_body_without_a_closed_form_has_a_reference_for_truth_and_its_accuracy_is_to
     assert_eq!(heads[..3], expected);
     assert_eq!(heads.len(), 2 * 2 * 3);
     let said =
-        "lane 0, helm: has no closed form; its reference aims at 1e-10, relative, and came to ";
+        "lane 0, helm: has no closed form; its reference aims at 1e-10, relative, and reached ";
     let came: f64 = stderr(&output)
         .strip_prefix(said)
         .and_then(|rest| rest.strip_suffix(" on this run\n"))
@@ -89,7 +89,7 @@ fn a_law_that_gives_its_solution_has_an_exact_truth_up_to_its_first_input() {
     let law = "title = 'x'\ntick_hz = 10\nseconds = 0.3\n[[law]]\nname = 'swing'\n[law.coordinates.x]\n\
                start = 1\nacceleration = '-x'\nexact = 'cos(t)'\n";
     let kick = "[[command]]\ntick = 1\nkick = 1.0\n";
-    let aim = "lane 0, swing: is exact only up to its first input, edit or placing; its reference aims at 1e-10, relative, and came to ";
+    let aim = "lane 0, swing: is exact only up to its first input, edit or placing; its reference aims at 1e-10, relative, and reached ";
     for (text, methods, said) in [
         (law.to_owned(), ["exact"; 4], ""),
         (format!("{law}{kick}"), ["exact", "exact", "reference", "reference"], aim),

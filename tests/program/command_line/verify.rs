@@ -156,6 +156,26 @@ fn a_lane_that_ends_otherwise_is_a_change_of_physics() {
 }
 
 #[test]
+fn a_scene_file_that_has_changed_since_the_capture_is_told_of_and_not_run() {
+    let test = "a_scene_file_that_has_changed_since_the_capture_is_told_of_and_not_run";
+    let Some(folder) = clip_or_skip(test) else { return };
+    let mut text = String::new();
+    edit(folder.path(), |manifest| {
+        manifest.settings.scene.name = "mine.toml".into();
+        text = manifest.settings.scene.text.clone();
+        manifest.settings_hash = manifest.settings.hash();
+    });
+    let file = folder.path().join("mine.toml");
+    for (now, is_told) in [(text.clone(), false), (format!("{text}\nfaulty"), true)] {
+        fs::write(&file, now).unwrap();
+        let (code, stdout, stderr) = verify(folder.path(), "--physics-only");
+        assert_eq!(code, Some(0), "{stdout}{stderr}");
+        let said = "mine.toml has changed since the capture; the scene as captured is run";
+        assert_eq!(stderr.contains(said), is_told, "{stderr}");
+    }
+}
+
+#[test]
 fn a_changed_constant_is_a_change_of_physics_at_the_first_tick() {
     let test = "a_changed_constant_is_a_change_of_physics_at_the_first_tick";
     let Some(folder) = clip_or_skip(test) else { return };
@@ -170,7 +190,7 @@ fn a_changed_constant_is_a_change_of_physics_at_the_first_tick() {
     let (code, stdout, stderr) = verify(folder.path(), "--physics-only");
     assert_eq!(code, Some(1));
     assert!(stdout.starts_with("physics: differs first at tick 1: lane 1, "), "{stdout}");
-    assert!(stderr.contains("the built-in scene spring has changed"), "{stderr}");
+    assert!(stderr.contains("spring has changed since the capture"), "{stderr}");
     let verify = regatta()
         .current_dir(folder.path())
         .env("WGPU_BACKEND", "dx12")

@@ -6,7 +6,7 @@ use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::Chain;
 
-/// The radius of each of so many beads, in metres.
+/// The radius of each bead of a chain, in metres.
 fn bead(chain: &Chain, beads: usize) -> f64 {
     let unit = chain.amplitude();
     let room = 2.0 * Chain::HALF_LENGTH * unit / (beads + 1) as f64;

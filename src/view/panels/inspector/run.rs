@@ -57,13 +57,13 @@ fn show_lane(ui: &mut Ui, lab: &Lab, entrant: &Entrant, commands: &mut Vec<Comma
             let (response, entered) = tolerance.show(ui, vec2(TOLERANCE, LINE), |value| {
                 within("tolerance", value, TOLERANCES, "")
             });
-            response.on_hover_text("tolerance: the error that a substep may have");
+            response.on_hover_text("tolerance: the largest error of a substep");
             commands.extend(entered.map(|tolerance| act(Action::Tolerance { lane, tolerance })));
         }
         None => drop(ui.allocate_exact_size(vec2(TOLERANCE, LINE), egui::Sense::hover())),
     }
     let opened = opened(lab, entrant);
-    let about = format!("{} again, as the scene has it", opened.method.name);
+    let about = format!("back to {}", opened.method.name);
     restore(ui, spec != opened, &about, &format!("lane {number}"), || {
         commands.push(act(Action::Lane { lane, spec: opened }));
     });
@@ -126,13 +126,13 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
         name: "tick rate",
         is_whole: true,
     };
-    let about = "ticks per second; every method begins again from its state";
+    let about = "ticks per second; a change restarts every method from its present state";
     line(ui, "tick rate", about, |ui, [room, number]| {
         ui.add_space(room - number - RESTORE - ui.spacing().item_spacing.x);
         let size = vec2(number, LINE);
         let (_, entered) = rate.show(ui, size, |value| whole("tick rate", value, MOST_TICK_HZ));
         commands.extend(entered.map(|value| Command::TickHz(value as u32)));
-        let about = format!("{} Hz again", opened.tick_hz);
+        let about = format!("back to {} Hz", opened.tick_hz);
         restore(ui, tick_hz != opened.tick_hz, &about, "tick rate", || {
             commands.push(Command::TickHz(opened.tick_hz));
         });
@@ -156,7 +156,7 @@ pub(super) fn show_time(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
             let check = |value| within("length", value, (LEAST_SECONDS, MOST_SECONDS), " s");
             let (_, entered) = length.show(ui, size, check);
             commands.extend(entered.map(Command::Seconds));
-            let about = format!("{} s again", opened.seconds);
+            let about = format!("back to {} s", opened.seconds);
             restore(ui, seconds != opened.seconds, &about, "length", || {
                 commands.push(Command::Seconds(opened.seconds));
             });

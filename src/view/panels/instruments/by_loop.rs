@@ -15,7 +15,7 @@ use crate::view::axis_scale::AxisScale;
 use crate::view::curves::Dots;
 use crate::view::plot::SwitchMark;
 
-/// So many seconds are in view where every frame is to be seen.
+/// The seconds in view where every frame shows.
 const FRAMES_S: f64 = 1.0;
 /// A loop this many times further out than the exact solution does not stretch the axes.
 const HEALTHY: f64 = 1.6;

@@ -30,8 +30,13 @@ fn plot(lab: &Lab, body: usize, detail: Detail) -> PlotModel {
     let quantity = lab.display().quantity;
     let tracks = Track::of_quantity(lab, body, quantity, detail);
     let exact = ExactLine::of_quantity(lab, body, quantity);
-    let y =
-        ranges::around_truth(exact.fitted(lab, 1), &Track::fitted(lab, &tracks), 1, healthy(lab));
+    let lanes = Track::fitted(lab, &tracks);
+    // Where the truth has ended, what the selected lane does is looked at.
+    let selected = lanes
+        .iter()
+        .filter(|lane| lane.is_front && truth.halted().is_some())
+        .flat_map(|lane| lane.along(1));
+    let y = ranges::around_truth(exact.fitted(lab, 1).chain(selected), &lanes, 1, healthy(lab));
     let name = capitalised(&lab.scene().bodies[body].name);
     PlotModel {
         id: format!("{} of {body}", quantity.symbol(coordinate)),

@@ -192,7 +192,7 @@ impl ExactLine {
         Self { part, curve: Curve { dash, colour, ..self.curve }, ..self }
     }
 
-    /// The curve from jump to jump, for a plot that has these times in view on so many columns of pixels.
+    /// The curve from jump to jump, for a plot with these times in view on this number of pixel columns.
     fn curves(&self, truth: &LaneBody, view: [f64; 2], columns: f32) -> Vec<Curve> {
         let starts = [0].iter().chain(&self.jumps);
         let ends = self.jumps.iter().copied().chain([self.curve.points.len()]);
@@ -283,7 +283,7 @@ impl PlotModel {
         PlotBounds::from_min_max([x[0], y[0]], [x[1], y[1]])
     }
 
-    /// Everything in the plot with `bounds` in view on so many columns of pixels.
+    /// Everything in the plot with `bounds` in view on this number of pixel columns.
     pub(super) fn drawing(
         &self,
         lab: &Lab,

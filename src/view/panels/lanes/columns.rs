@@ -94,7 +94,7 @@ pub(super) static COLUMNS: &[Column] = &[
     },
     Column {
         head: "Body",
-        about: "the body of this row; for a method that is not flown, the body that its verdict is about",
+        about: "the body of this row; of a method that does not run, the body that its verdict is about",
         width: 106.0,
         turn: 1,
         is_wanted: has_bodies,
@@ -103,7 +103,7 @@ pub(super) static COLUMNS: &[Column] = &[
     },
     Column {
         head: "Verdict",
-        about: "what this method does to the scene at this tick rate, judged on its worst body, in a run of its own; sorted from best to worst",
+        about: "what this method does to the scene at this tick rate: its worst body, judged in a run of its own; a click sorts from best to worst",
         width: 0.0,
         turn: 0,
         is_wanted: always,
@@ -142,7 +142,7 @@ pub(super) static COLUMNS: &[Column] = &[
     },
     Column {
         head: "half-life",
-        about: "time in which the body covered half of the way to its target; under a method that is not flown, that of the verdict",
+        about: "time in which the body covered half of the way to its target; of a method that does not run, the verdict's",
         width: 88.0,
         turn: 1,
         is_wanted: follows,
@@ -160,7 +160,7 @@ pub(super) static COLUMNS: &[Column] = &[
     },
     Column {
         head: "energy",
-        about: "energy gained or lost, in percent of the energy that the exact motion exchanges",
+        about: "energy gained or lost, in percent of the energy that the exact swing exchanges",
         width: 98.0,
         turn: 3,
         is_wanted: has_energies,
@@ -184,7 +184,7 @@ pub(super) static COLUMNS: &[Column] = &[
     },
     Column {
         head: "cost",
-        about: "evaluations per tick, now: explicit Euler with one substep costs 1 ×",
+        about: "evaluations per tick; explicit Euler with one substep costs 1 ×",
         width: 48.0,
         turn: 4,
         is_wanted: always,

@@ -93,7 +93,10 @@ pub(super) fn show(ui: &Ui, room: Rect, series: &[Series]) {
         let at = pos2(middle, rect.bottom() + 3.0);
         painter.text(at, Align2::CENTER_TOP, name, FontId::proportional(11.0), ink.dim);
         let number = |x: f32, y: f32, share: f64, colour: Color32| {
-            let (at, text) = (pos2(x, y - 1.0), percent(share));
+            // Over a narrow bar a third digit would lie on the next bar.
+            let is_long = width < ROOM_FOR_NUMBER && share >= 10.0;
+            let text = if is_long { round(share, 2) } else { percent(share) };
+            let at = pos2(x, y - 1.0);
             painter.text(at, Align2::CENTER_BOTTOM, text, strong_font(11.0), colour);
         };
         let top_of = |share: f64| area.at([0.0, share]).y.min(rect.bottom() - LEAST);

@@ -9,7 +9,7 @@ use crate::lab::number::round;
 use crate::view::panels::plot_area::PlotArea;
 use crate::view::panels::{ink, strong_font};
 
-/// So many frames are shown.
+/// The number of frames shown.
 const FRAMES: usize = 24;
 /// The least reach of the axis, in milliseconds: less is not seen.
 const LEAST_MS: f64 = 1.0;

@@ -11,7 +11,7 @@ use crate::view::panels::plot_area::PlotArea;
 use crate::view::panels::{ink, strong_font};
 use crate::view::theme::Ink;
 
-/// So many frames of the display are shown.
+/// The number of the display's frames that are shown.
 const FRAMES: f64 = 12.0;
 /// Where a lane is further off, in lengths of the plot, it is off the plot.
 const FURTHEST: f64 = 1.0;

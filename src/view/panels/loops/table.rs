@@ -71,7 +71,7 @@ fn head(
         let words = match column.cell {
             Cell::Verdict => {
                 let display = loops.traces()[loops.trace()].name();
-                format!("Verdict at {} Hz on {display}", loops.scene().tick_hz)
+                format!("Verdict at {} Hz, trace {display}", loops.scene().tick_hz)
             }
             _ => column.head.to_owned(),
         };
@@ -264,7 +264,7 @@ fn tooltip(response: Response, loops: &LoopLab, place: usize, verdict: &LoopVerd
         ui.label(format!("Odd frames: {}.", card.odd_frames));
         let display = loops.traces()[loops.trace()].name();
         let tick_hz = loops.scene().tick_hz;
-        ui.label(format!("At {tick_hz} Hz on {display}: {}.", verdict.text));
+        ui.label(format!("At {tick_hz} Hz, trace {display}: {}.", verdict.text));
         ui.label(format!("Used by {}.", card.users));
         ui.label(RichText::new(card.source).color(ink(ui).dim));
     })

@@ -69,7 +69,7 @@ fn the_sentence_counts_the_stable_methods() {
         // At 60 Hz ω h is 1.67.
         "2 of 4 methods are stable."
     );
-    assert!(notes(map).contains("Explicit Euler, Improved Euler are stable nowhere here."));
+    assert!(notes(map).contains("Explicit Euler, Improved Euler are stable nowhere on this map."));
     assert!(notes(map).contains("Adaptive Euler picks its own steps"));
     assert_eq!(point_in_words(&lab, 1, 20, 90.0), "20 Hz, k = 90 N/m");
 }

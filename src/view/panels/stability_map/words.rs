@@ -140,15 +140,13 @@ pub(super) fn counted(map: &StabilityMap) -> String {
 pub(super) fn no_map(why: NoSmallMotion) -> String {
     let why = match why {
         NoSmallMotion::NoRest => {
-            "this body rests neither at its origin nor near its start, and a map is of small motions about rest."
+            "a map is of small motions about rest, and this body rests neither at its origin nor near its start."
         }
         NoSmallMotion::Corner => {
             "the force has a corner or a jump where this body rests, so that it does not behave as a spring there."
         }
         NoSmallMotion::Unsteady => "the stiffness or the damping of this body changes in time.",
-        NoSmallMotion::TooManyCoordinates => {
-            "this body has too many coordinates that act on each other to take them all together at every point."
-        }
+        NoSmallMotion::TooManyCoordinates => "too many coordinates of this body act on each other.",
         NoSmallMotion::NotFinite => {
             "the force or its slope is not a finite number where this body rests."
         }
@@ -169,7 +167,7 @@ pub(super) fn notes(map: &StabilityMap) -> String {
     let mut notes = String::new();
     if !nowhere.is_empty() {
         let verb = if nowhere.len() == 1 { "is" } else { "are" };
-        notes += &format!(" {} {verb} stable nowhere here.", nowhere.join(", "));
+        notes += &format!(" {} {verb} stable nowhere on this map.", nowhere.join(", "));
     }
     if !own.is_empty() {
         let verb = if own.len() == 1 { "picks its" } else { "pick their" };

@@ -92,7 +92,7 @@ impl Context<'_> {
 
     /// The mark of the last tick that was reached.
     pub(super) fn end(&self, tick: u64) -> Mark {
-        let text = format!("{}: nothing was run beyond it", moment(tick, self.times));
+        let text = format!("{}: the run has not gone further", moment(tick, self.times));
         Mark { tick, sign: Sign::End, colour: self.ink.text, text }
     }
 
@@ -151,7 +151,7 @@ impl Context<'_> {
             Action::Place { body, .. } => (
                 Sign::Place,
                 self.ink.good,
-                format!("{} is put in its place", self.scene.bodies[body].name),
+                format!("{} is moved by hand", self.scene.bodies[body].name),
             ),
         }
     }
@@ -160,7 +160,7 @@ impl Context<'_> {
         let name = &self.scene.bodies[body].name;
         let fate = if is_blow_up { "blew up" } else { "halted: its solver gave up" };
         match lane {
-            0 => format!("the truth of {name} {fate}"),
+            0 => format!("the exact solution of {name} {fate}"),
             _ => format!("{name} in lane {lane} {fate}"),
         }
     }
