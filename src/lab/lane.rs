@@ -151,7 +151,8 @@ impl LaneBody {
     /// the coordinates, if it has one yet; `no reference` where that would take too much work.
     pub fn truth_in_words(&self) -> String {
         let id = self.truth().id();
-        if let Some(StepFailure::ReferenceTooDear { .. }) = self.halted().map(|halt| &halt.failure)
+        if let Some(StepFailure::ReferenceTooExpensive { .. }) =
+            self.halted().map(|halt| &halt.failure)
         {
             return self.truth().missing().into();
         }

@@ -14,7 +14,7 @@ use super::reference::{MOST_REFERENCE_WORK, Reference};
 use super::solver::Solver;
 use super::state::{Elementwise, State, Vector};
 use super::stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
-use super::system::{Counted, Counts, Pursuit, Recorded};
+use super::system::{Counted, Counts, Coupling, Pursuit, Recorded};
 
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
@@ -156,7 +156,7 @@ impl<B: Body> PlacedBody for Placed<B> {
         self.body.system.reference_work() > MOST_REFERENCE_WORK
     }
     fn is_sparse(&self) -> bool {
-        B::Vector::IS_SPARSE
+        B::coupling() == Coupling::Few
     }
 
     fn is_closed_form_of(&self, memory: Memory<'_>) -> bool {

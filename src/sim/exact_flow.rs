@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::integrators::StepFailure;
 use super::propagator::Propagator;
-use super::state::{State, Vector};
+use super::state::{State, Vector, largest};
 use super::stepper::Change;
 use super::system::Counted;
 
@@ -60,14 +60,14 @@ impl<V: Vector> Anchor<V> {
             error = body.exact_error(self.t, t - self.t, &self.state, state);
             let late = f64::EPSILON * (t.abs() + self.t.abs());
             body.acceleration(t, &state.q, &state.v, &mut scratch.v);
-            error[0] += late * largest(&state.v);
-            error[1] += late * largest(&scratch.v);
+            error[0] += late * largest(state.v.components());
+            error[1] += late * largest(scratch.v.components());
         }
         if self.error != [0.0; 2] {
             body.exact_into(self.t, t - self.t, &self.displaced, scratch);
             scratch.add_scaled(-1.0, state);
-            error[0] += largest(&scratch.q);
-            error[1] += largest(&scratch.v);
+            error[0] += largest(scratch.q.components());
+            error[1] += largest(scratch.v.components());
         }
         error.map(|error| if error.is_nan() { f64::INFINITY } else { error })
     }
@@ -115,14 +115,4 @@ impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
         let mut scratch = state.clone();
         Some(self.anchor.error(&body.system, self.t, state, &mut scratch))
     }
-}
-
-/// The largest magnitude; NaN if a component is NaN.
-fn largest<V: Vector>(vector: &V) -> f64 {
-    vector.components().iter().fold(
-        0.0,
-        |most: f64, x| {
-            if x.abs() > most || x.is_nan() { x.abs() } else { most }
-        },
-    )
 }

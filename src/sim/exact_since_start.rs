@@ -5,7 +5,7 @@ use super::body::Body;
 use super::integrators::StepFailure;
 use super::propagator::Propagator;
 use super::reference::Reference;
-use super::state::{State, Vector};
+use super::state::{State, Vector, largest};
 use super::stepper::Change;
 use super::system::Counted;
 
@@ -74,14 +74,14 @@ impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
         if !self.is_untouched {
             return self.reference.truth_error(body, state);
         }
-        let largest =
-            |x: &B::Vector| x.components().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let mut a = state.v.clone();
         body.system.acceleration(self.t, &state.q, &state.v, &mut a);
         let late = f64::EPSILON * self.t;
-        let of =
-            |size: &B::Vector, rate: &B::Vector| ROUNDING * largest(size) + late * largest(rate);
-        Some([of(&state.q, &state.v), of(&state.v, &a)])
+        let of = |size: &B::Vector, rate: &B::Vector| {
+            ROUNDING * largest(size.components()) + late * largest(rate.components())
+        };
+        let error = [of(&state.q, &state.v), of(&state.v, &a)];
+        Some(error.map(|error| if error.is_nan() { f64::INFINITY } else { error }))
     }
 
     fn heap_bytes(&self) -> usize {

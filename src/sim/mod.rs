@@ -11,7 +11,6 @@ mod body_stepper;
 mod clock;
 #[cfg(feature = "lab")]
 pub mod conformance;
-mod dice;
 mod double_double;
 mod engine_settings;
 mod exact_flow;
@@ -33,6 +32,7 @@ pub mod stability;
 mod state;
 mod stepper;
 mod system;
+mod xor_shift;
 
 #[cfg(feature = "lab")]
 pub(crate) use accumulator::most_ticks;
@@ -47,4 +47,4 @@ pub use reference::{MOST_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
 pub use state::{Elementwise, State, Vector};
 pub use stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
-pub use system::{Counted, Counts, Evaluation, Pursuit, Recorded, System};
+pub use system::{Counted, Counts, Coupling, Evaluation, Pursuit, Recorded, System};

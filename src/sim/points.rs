@@ -58,8 +58,6 @@ impl Elementwise for Points {
 }
 
 impl Vector for Points {
-    const IS_SPARSE: bool = true;
-
     fn components(&self) -> &[f64] {
         &self.0
     }

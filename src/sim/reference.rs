@@ -7,7 +7,7 @@
 use super::body::Body;
 use super::integrators::StepFailure;
 use super::propagator::Propagator;
-use super::state::{State, Vector};
+use super::state::{State, Vector, largest};
 use super::stepper::Change;
 use super::system::Counted;
 
@@ -35,7 +35,7 @@ const EVALUATIONS_PER_CALL: u64 = 6_000;
 
 /// The largest number of evaluations saved for hard stretches, all available at the start: some tenths
 /// of a second of work.
-const MOST_SAVED_EVALUATIONS: u64 = 4_000_000;
+const MAX_SAVED_EVALUATIONS: u64 = 4_000_000;
 
 /// The most [work](Body::reference_work) for which a body has a reference solution, per simulated second:
 /// about as long as the second itself in an unoptimised build, and a tenth of that in an optimised one.
@@ -80,7 +80,7 @@ pub(super) struct Reference<V> {
 
 impl<V: Vector> Reference<V> {
     pub(super) fn new(like: &State<V>) -> Self {
-        Self::with_allowance(like, Allowance::new(EVALUATIONS_PER_CALL, MOST_SAVED_EVALUATIONS))
+        Self::with_allowance(like, Allowance::new(EVALUATIONS_PER_CALL, MAX_SAVED_EVALUATIONS))
     }
 
     /// A reference that fails after about this many evaluations in all.
@@ -143,7 +143,8 @@ impl<V: Vector> Reference<V> {
         }
         let work_per_s = body.reference_work();
         if work_per_s > MOST_REFERENCE_WORK {
-            let failure = StepFailure::ReferenceTooDear { work_per_s, most: MOST_REFERENCE_WORK };
+            let failure =
+                StepFailure::ReferenceTooExpensive { work_per_s, most: MOST_REFERENCE_WORK };
             self.failed = Some(failure.clone());
             return Err(failure);
         }
@@ -156,8 +157,7 @@ impl<V: Vector> Reference<V> {
         allowance.saved = (allowance.saved + allowance.per_call).min(allowance.most);
         work.evaluations = 0;
         let solved = solution.advance(body, t, h, work, allowance.saved);
-        self.fastest =
-            [self.fastest[0].max(largest(&y.v)), self.fastest[1].max(largest(&work.begin.v))];
+        self.fastest = [self.fastest[0].max(size(&y.v)), self.fastest[1].max(size(&work.begin.v))];
         let solved = solved.and_then(|()| check.advance(body, t, h, work, allowance.saved));
         allowance.saved = allowance.saved.saturating_sub(work.evaluations);
         if let Err(ended) = solved {
@@ -172,8 +172,8 @@ impl<V: Vector> Reference<V> {
         self.elapsed += h.abs();
         solution.subtract(check, &mut self.difference);
         self.largest_difference = [
-            self.largest_difference[0].max(largest(&self.difference.q)),
-            self.largest_difference[1].max(largest(&self.difference.v)),
+            self.largest_difference[0].max(size(&self.difference.q)),
+            self.largest_difference[1].max(size(&self.difference.v)),
         ];
         Ok(())
     }
@@ -186,10 +186,10 @@ impl<V: Vector> Reference<V> {
         // Both solutions share the rounding of the time and of the force law's constants, which shifts
         // the motion in time, and the rounding of the result.
         let late = f64::EPSILON * self.elapsed;
-        let size = [largest(&y.q), largest(&y.v)];
-        let fastest = [self.fastest[0].max(size[1]), self.fastest[1]];
+        let sizes = [size(&y.q), size(&y.v)];
+        let fastest = [self.fastest[0].max(sizes[1]), self.fastest[1]];
         [0, 1].map(|i| {
-            MARGIN * self.largest_difference[i] + late * fastest[i] + f64::EPSILON * size[i]
+            MARGIN * self.largest_difference[i] + late * fastest[i] + f64::EPSILON * sizes[i]
         })
     }
 }
@@ -232,8 +232,8 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
     }
 }
 
-/// The largest magnitude; infinite if a component is NaN.
-fn largest<V: Vector>(vector: &V) -> f64 {
-    let size = |x: &f64| if x.is_nan() { f64::INFINITY } else { x.abs() };
-    vector.components().iter().map(size).fold(0.0, f64::max)
+/// The largest magnitude; infinite if a component is NaN, so that no comparison loses it.
+fn size<V: Vector>(vector: &V) -> f64 {
+    let size = largest(vector.components());
+    if size.is_nan() { f64::INFINITY } else { size }
 }

@@ -48,6 +48,7 @@ impl Stability {
     /// at any length of tick; on a nonlinear body only if it makes at most one and a half turns in a
     /// tick, or turns no faster than under the forces linearised at the start.
     ///
+    /// # Errors
     /// The failure of the method or of the exact flow in the first ticks.
     pub fn of(body: &dyn Stepper, solver: Solver, tick: Tick) -> Result<Self, StepFailure> {
         let truth = true_modes(body, tick)?;

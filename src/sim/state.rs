@@ -65,10 +65,6 @@ pub trait Elementwise: Clone + Send + 'static {
 /// in space, `Vec<f64>` for many coordinates. A method is written once over this trait; it compiles to
 /// registers for the small types and to loops for `Vec`.
 pub trait Vector: Elementwise {
-    /// Whether each component's acceleration depends on few others. Implicit methods then solve their
-    /// equations by iteration; else they factor the whole Jacobian.
-    const IS_SPARSE: bool = false;
-
     /// The components in order.
     fn components(&self) -> &[f64];
     /// The components in order, mutable.
@@ -185,6 +181,15 @@ impl Vector for Vec<f64> {
     fn components_mut(&mut self) -> &mut [f64] {
         self
     }
+}
+
+/// The largest magnitude; NaN if a component is NaN.
+#[inline]
+pub(in crate::sim) fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
+    components.into_iter().fold(0.0, |largest: f64, component| {
+        let size = component.abs();
+        if size > largest || size.is_nan() { size } else { largest }
+    })
 }
 
 /// Coordinates and velocities. Also their time derivative `(v, a)`.

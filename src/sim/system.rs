@@ -25,7 +25,7 @@ pub trait System {
 
     /// Overwrites `slope` with the derivative of the acceleration at `state` in the direction `along`, if the
     /// system has a formula for it. Returns whether it has; an implicit method takes differences if not. It
-    /// costs about as much as an evaluation, and counts as one.
+    /// costs about as much as an evaluation, and [`Counted`] counts it as one.
     #[inline]
     fn acceleration_slope(
         &self,
@@ -57,11 +57,44 @@ pub trait System {
         Some(EngineSettings::NONE)
     }
 
+    /// Which coordinates act on which, for every system of the type.
+    #[inline]
+    fn coupling() -> Coupling
+    where
+        Self: Sized,
+    {
+        Coupling::All
+    }
+
     /// Reports that a method left out `h` (s) of a step, as a method that does not [keep
     /// time](super::integrators::Method::keeps_time) does. It does not affect the motion; [`Counted`]
     /// sums it.
     #[inline]
     fn skipped(&self, _h: f64) {}
+}
+
+/// Which coordinates and velocities the acceleration of a coordinate depends on. Implicit methods choose their linear
+/// algebra by it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coupling {
+    /// Any: the whole Jacobian is factored.
+    All,
+    /// Those whose index differs by at most this: the Jacobian is a band, and is factored.
+    Band(usize),
+    /// Few, at any index: equations are solved by iteration, without a matrix.
+    Few,
+}
+
+impl Coupling {
+    /// How far from the diagonal the entries of a Jacobian of `size` rows lie; `None` if it is not to be formed.
+    #[inline]
+    pub(super) fn reach(self, size: usize) -> Option<usize> {
+        match self {
+            Self::All => Some(size - 1),
+            Self::Band(reach) => Some(reach.min(size - 1)),
+            Self::Few => None,
+        }
+    }
 }
 
 /// A system behind a pointer: what methods do with it is compiled once for each type of vector.
@@ -147,6 +180,11 @@ impl<S: System> System for Counted<S> {
     type Vector = S::Vector;
 
     #[inline]
+    fn coupling() -> Coupling {
+        S::coupling()
+    }
+
+    #[inline]
     fn acceleration(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &mut S::Vector) {
         self.evaluations.set(self.evaluations.get() + 1);
         self.system.acceleration(t, q, v, a);
@@ -229,7 +267,7 @@ impl<V: Vector> System for Recorded<'_, V> {
         self.evaluations.borrow_mut().push(Evaluation { t, q, v, a });
     }
 
-    /// Not kept: it is no evaluation.
+    /// Not kept: it finds no acceleration.
     fn acceleration_slope(
         &self,
         t: f64,

@@ -259,7 +259,7 @@ impl BodyTruth {
 
     /// Whether a reference solution would take too much work, so that there is none.
     pub(super) fn is_too_dear(&self) -> bool {
-        matches!(self.failure, Some(StepFailure::ReferenceTooDear { .. }))
+        matches!(self.failure, Some(StepFailure::ReferenceTooExpensive { .. }))
     }
 
     /// Whether the body is linear and all its modes are undamped oscillations.

@@ -18,7 +18,7 @@ use crate::sim::body_stepper::stepper;
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{self, Fault, ParameterOf, Range};
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{Coupling, System};
 
 /// The largest number of masses: as many as can be told apart on a wide stage. The closed form needs of
 /// the order of its square multiplications per tick.
@@ -175,6 +175,10 @@ impl Chain {
 impl System for Chain {
     type Vector = Vec<f64>;
 
+    fn coupling() -> Coupling {
+        Coupling::Band(1)
+    }
+
     /// Solved joint by joint in sweeps.
     fn engine_settings(
         &self,
@@ -183,6 +187,19 @@ impl System for Chain {
         _force: &mut Vec<f64>,
     ) -> Option<EngineSettings> {
         None
+    }
+
+    /// The force is linear: its slope is the force of the displacement alone.
+    #[inline]
+    fn acceleration_slope(
+        &self,
+        t: f64,
+        _state: &State<Vec<f64>>,
+        along: &State<Vec<f64>>,
+        slope: &mut Vec<f64>,
+    ) -> bool {
+        self.acceleration(t, &along.q, &along.v, slope);
+        true
     }
 
     #[inline]

@@ -5,9 +5,9 @@
 //! of a parameter, and when a scene is read against the reference solution at every tick.
 
 use crate::sim::body::Body;
-use crate::sim::dice::Dice;
 use crate::sim::reference::Reference;
 use crate::sim::state::State;
+use crate::sim::xor_shift::XorShift;
 
 /// When claims are held against the equation, in seconds: at the start and on a wide range of scales after it.
 pub(super) const TIMES: [f64; 12] =
@@ -245,12 +245,12 @@ fn states_around(
     state: &State<Vec<f64>>,
     count: usize,
 ) -> impl Iterator<Item = State<Vec<f64>>> + '_ {
-    let mut dice = Dice::new(0x9E37_79B9_7F4A_7C15);
+    let mut random = XorShift::new(0x9E37_79B9_7F4A_7C15);
     (0..count).map(move |trial| {
         let mut there = state.clone();
         for x in there.q.iter_mut().chain(&mut there.v).filter(|_| trial > 0) {
             let reach = if *x == 0.0 { 1.0 } else { x.abs() };
-            *x += reach * dice.next();
+            *x += reach * random.next();
         }
         there
     })

@@ -13,7 +13,7 @@ use crate::sim::body::{Body, Input};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{Coupling, System};
 use frame::{FIXED, Frame};
 use survey::Survey;
 
@@ -175,6 +175,10 @@ impl Net {
 
 impl System for Net {
     type Vector = Points;
+
+    fn coupling() -> Coupling {
+        Coupling::Few
+    }
 
     /// Solved joint by joint in sweeps.
     fn engine_settings(

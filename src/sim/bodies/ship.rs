@@ -82,6 +82,19 @@ impl System for Ship {
         *a = push - rate * v;
     }
 
+    /// The drag is linear.
+    #[inline]
+    fn acceleration_slope(
+        &self,
+        _t: f64,
+        _state: &State<f64>,
+        along: &State<f64>,
+        slope: &mut f64,
+    ) -> bool {
+        *slope = -(self.drag / self.mass) * along.v;
+        true
+    }
+
     /// The drag is the damping setting of the body, and the thrust is held.
     #[inline]
     fn engine_settings(

@@ -91,6 +91,19 @@ impl System for Spring {
         *a = -k * x - c * v;
     }
 
+    /// The force is linear: its slope is the force of the displacement alone.
+    #[inline]
+    fn acceleration_slope(
+        &self,
+        t: f64,
+        _state: &State<f64>,
+        along: &State<f64>,
+        slope: &mut f64,
+    ) -> bool {
+        self.acceleration(t, &along.q, &along.v, slope);
+        true
+    }
+
     /// A joint.
     #[inline]
     fn engine_settings(

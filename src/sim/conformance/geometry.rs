@@ -1,6 +1,6 @@
 //! Phase-space area, and reversibility.
 
-use super::problems::{Pendulum, Problem, problem, spring, unbound};
+use super::problems::{Pendulum, Problem, fixed_step, problem, spring};
 use super::{Claim, yes_or_no};
 use crate::sim::integrators::{Method, StepFailure};
 use crate::sim::state::State;
@@ -21,7 +21,7 @@ fn map(
     system: &Problem<f64>,
     mut state: State<f64>,
 ) -> Result<State<f64>, StepFailure> {
-    unbound(method, &0.0).step(system, 0.0, STEP, &mut state)?;
+    fixed_step(method, &0.0).step(system, 0.0, STEP, &mut state)?;
     Ok(state)
 }
 
@@ -61,7 +61,7 @@ pub(super) fn symplectic(method: &Method) -> Claim {
 
 /// How far from its start a step of `h` and a step of `-h` leave the state.
 fn there_and_back(method: &Method, system: Problem<f64>) -> Result<f64, StepFailure> {
-    let mut integrator = unbound(method, &0.0);
+    let mut integrator = fixed_step(method, &0.0);
     let mut state = FROM;
     integrator.step(&system, 0.0, STEP, &mut state)?;
     integrator.step(&system, STEP, -STEP, &mut state)?;

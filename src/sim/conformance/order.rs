@@ -2,7 +2,7 @@
 
 use super::Claim;
 use super::problems::{
-    Air, Kepler, Problem, SHIP, course_in_air, kepler_orbit, problem, spring, unbound,
+    Air, Kepler, Problem, SHIP, course_in_air, fixed_step, kepler_orbit, problem, spring,
 };
 use crate::sim::body::Body;
 use crate::sim::integrators::Method;
@@ -67,7 +67,7 @@ impl<V: Vector> Course<V> {
 fn errors<V: Vector>(method: &Method, course: &Course<V>, steps: u32) -> Result<[f64; 2], String> {
     let Course { name, system, span, truths, round_off, .. } = course;
     let mut state = truths[0].clone();
-    let mut integrator = unbound(method, &state.q);
+    let mut integrator = fixed_step(method, &state.q);
     let (mut worst, mut largest) = ([0.0, 0.0], [0.0, 0.0]);
     let stretch = span / f64::from(MOMENTS);
     for (moment, truth) in (0..MOMENTS).zip(&truths[1..]) {

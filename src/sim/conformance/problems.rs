@@ -22,7 +22,7 @@ pub fn fresh(method: &Method) -> Box<dyn Integrator<Problem<f64>>> {
 }
 
 /// A fresh integrator that takes the steps it is given: an adaptive one gets a tolerance that does not bind.
-pub fn unbound<V: Vector>(method: &Method, like: &V) -> Box<dyn Integrator<Problem<V>>> {
+pub fn fixed_step<V: Vector>(method: &Method, like: &V) -> Box<dyn Integrator<Problem<V>>> {
     let mut integrator = integrator(method, like);
     integrator.set_tolerance(Tolerance::uniform(1e100));
     integrator

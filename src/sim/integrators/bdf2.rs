@@ -43,7 +43,13 @@ impl<S: System<Vector: Vector>> Integrator<S> for Bdf2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
         let [before, start, stage] = [zero.clone(), zero.clone(), zero];
-        Self { newton: Newton::new(like), before, start, stage, last_step: LastStep::NONE }
+        Self {
+            newton: Newton::new(like, S::coupling()),
+            before,
+            start,
+            stage,
+            last_step: LastStep::NONE,
+        }
     }
 
     fn step(

@@ -4,7 +4,7 @@ use super::card::{LINEARISED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::shared::jacobian::Jacobian;
-use super::shared::linear_flow::LinearFlow;
+use super::shared::linear_flow::{LinearFlow, response};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::System;
 
@@ -42,32 +42,15 @@ pub struct ExponentialRosenbrockEuler<V> {
     f_t: Vec<f64>,
 }
 
-impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::Vector> {
-    fn new(like: &S::Vector) -> Self {
-        let n = like.components().len();
-        let [x, f, f_t] = [(); 3].map(|()| vec![0.0; 2 * n]);
-        Self {
-            a: like.clone(),
-            a_later: like.clone(),
-            jacobian: Jacobian::new(like),
-            flow: LinearFlow::new(2 * n, S::Vector::IS_SPARSE),
-            x,
-            f,
-            f_t,
-        }
-    }
-
-    fn step(
+impl<V: Vector> ExponentialRosenbrockEuler<V> {
+    /// The step of several coordinates, whose derivatives are taken.
+    fn step_together(
         &mut self,
-        system: &S,
-        t: f64,
+        system: &dyn System<Vector = V>,
         h: f64,
-        y: &mut State<S::Vector>,
+        y: &mut State<V>,
     ) -> Result<(), StepFailure> {
         let Self { a, a_later, jacobian, flow, x, f, f_t } = self;
-        system.acceleration(t, &y.q, &y.v, a);
-        system.acceleration(t + h, &y.q, &y.v, a_later);
-        jacobian.take(system, t, h, y, a);
         let n = a.components().len();
 
         // The time by which velocities are multiplied is the step, or less on a stiff system.
@@ -93,6 +76,46 @@ impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::
             y.q.components_mut()[i] += x[i];
             y.v.components_mut()[i] += x[n + i] / time;
         }
+        Ok(())
+    }
+}
+
+impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::Vector> {
+    fn new(like: &S::Vector) -> Self {
+        let n = like.components().len();
+        let [x, f, f_t] = [(); 3].map(|()| vec![0.0; 2 * n]);
+        Self {
+            a: like.clone(),
+            a_later: like.clone(),
+            jacobian: Jacobian::new(like, S::coupling()),
+            flow: LinearFlow::new(2 * n, S::coupling()),
+            x,
+            f,
+            f_t,
+        }
+    }
+
+    fn step(
+        &mut self,
+        system: &S,
+        t: f64,
+        h: f64,
+        y: &mut State<S::Vector>,
+    ) -> Result<(), StepFailure> {
+        let Self { a, a_later, jacobian, .. } = self;
+        system.acceleration(t, &y.q, &y.v, a);
+        system.acceleration(t + h, &y.q, &y.v, a_later);
+        jacobian.take(system, t, h, y, a);
+        let State { q, v } = y;
+        let ([q], [v]) = (q.components_mut(), v.components_mut()) else {
+            return self.step_together(system, h, y);
+        };
+        // φ1 and φ2 of a matrix of two rows, by the response of one coordinate to pushes.
+        let [by_q, by_v] = jacobian.of_one();
+        let [s, s1, s2] = response(h * h * by_q, h * by_v);
+        let (a, more) = (a.components()[0], a_later.components()[0] - a.components()[0]);
+        *q += h * *v * (1.0 + h * h * by_q * s2) + h * h * (a * s1 + more * s2);
+        *v += h * (h * by_q * *v * s1 + a * s + more * s1);
         Ok(())
     }
 

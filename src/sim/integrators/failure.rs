@@ -19,7 +19,7 @@ pub enum StepFailure {
         limit: u32,
     },
     /// The linear equations of a step were not solved within the work that a step may take.
-    Unsolved,
+    LinearSolveFailed,
     /// A reference solution exceeded its budget of evaluations.
     ReferenceFailed {
         /// The evaluations spent.
@@ -28,7 +28,7 @@ pub enum StepFailure {
     /// The force jumps back and forth where the motion stands, so that it has no solution in the usual sense.
     Sticks,
     /// A reference solution would take too much work.
-    ReferenceTooDear {
+    ReferenceTooExpensive {
         /// An estimate of it: evaluations of a spring for each simulated second.
         work_per_s: f64,
         /// The most that a reference solution may take, [`MOST_REFERENCE_WORK`].
@@ -60,7 +60,7 @@ pub enum StepFailure {
 impl StepFailure {
     /// Whether it is known before the first step, and nothing went wrong: a reference solution was not tried.
     pub fn is_foreseen(&self) -> bool {
-        matches!(self, Self::ReferenceTooDear { .. })
+        matches!(self, Self::ReferenceTooExpensive { .. })
     }
 }
 
@@ -78,7 +78,7 @@ impl fmt::Display for StepFailure {
                 "the solver gave up on a step's equations: {limit} of Newton's iterations do not solve them, nor does \
                  following the solution from a shorter step; raise the tick rate or the substeps"
             ),
-            Self::Unsolved => f.write_str(
+            Self::LinearSolveFailed => f.write_str(
                 "the solver gave up on a step's linear equations; raise the tick rate or the substeps",
             ),
             Self::ReferenceFailed { evaluations } => write!(
@@ -90,7 +90,7 @@ impl fmt::Display for StepFailure {
                 "sticks where its force jumps back and forth, as under dry friction at rest, and an equation of motion \
                  has no solution there; make the jump a slope, such as tanh(v/0.01) for sign(v)",
             ),
-            Self::ReferenceTooDear { work_per_s, most } => write!(
+            Self::ReferenceTooExpensive { work_per_s, most } => write!(
                 f,
                 "has no reference solution: too many springs for an exact comparison, some {} evaluations per simulated \
                  second, and the limit is {}",

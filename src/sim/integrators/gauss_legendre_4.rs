@@ -3,7 +3,8 @@
 use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use super::shared::newton::{Newton, Stages};
+use super::shared::newton::Newton;
+use super::shared::stages::Stages;
 use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::System;
 
@@ -40,7 +41,7 @@ pub struct GaussLegendre4<V> {
 
 impl<S: System<Vector: Vector>> Integrator<S> for GaussLegendre4<S::Vector> {
     fn new(like: &S::Vector) -> Self {
-        Self { newton: Newton::new(like) }
+        Self { newton: Newton::new(like, S::coupling()) }
     }
 
     fn step(
@@ -51,9 +52,9 @@ impl<S: System<Vector: Vector>> Integrator<S> for GaussLegendre4<S::Vector> {
         y: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         let Self { newton } = self;
-        for (known, c) in newton.known.iter_mut().zip(C) {
-            known.assign(y);
-            known.q.add_scaled(h * c, &y.v);
+        for (base, c) in newton.base.iter_mut().zip(C) {
+            base.assign(y);
+            base.q.add_scaled(h * c, &y.v);
         }
         newton.solve(
             system,

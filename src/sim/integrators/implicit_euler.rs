@@ -27,7 +27,7 @@ pub struct ImplicitEuler<V> {
 
 impl<S: System<Vector: Vector>> Integrator<S> for ImplicitEuler<S::Vector> {
     fn new(like: &S::Vector) -> Self {
-        Self { newton: Newton::new(like) }
+        Self { newton: Newton::new(like, S::coupling()) }
     }
 
     fn step(

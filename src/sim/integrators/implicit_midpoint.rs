@@ -32,7 +32,7 @@ pub struct ImplicitMidpoint<V> {
 impl<S: System<Vector: Vector>> Integrator<S> for ImplicitMidpoint<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let middle = State { q: like.clone(), v: like.clone() };
-        Self { newton: Newton::new(like), middle }
+        Self { newton: Newton::new(like, S::coupling()), middle }
     }
 
     fn step(

@@ -3,7 +3,7 @@
 use super::card::{LINEARISED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use super::shared::linear_solve::LinearSolve;
+use super::shared::linearisation::Linearisation;
 use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::System;
 
@@ -28,12 +28,12 @@ pub(super) const CARD: Method = Method {
 pub struct LinearlyImplicitEuler<V> {
     /// The right-hand side, and then `x`.
     a: V,
-    equations: LinearSolve<V>,
+    equations: Linearisation<V, 1>,
 }
 
 impl<S: System<Vector: Vector>> Integrator<S> for LinearlyImplicitEuler<S::Vector> {
     fn new(like: &S::Vector) -> Self {
-        Self { a: like.clone(), equations: LinearSolve::new(like) }
+        Self { a: like.clone(), equations: Linearisation::new(like, S::coupling()) }
     }
 
     fn step(
@@ -47,7 +47,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for LinearlyImplicitEuler<S::Vecto
         system.acceleration(t + h, &y.q, &y.v, a);
         equations.slopes.reach_for(h, y, a);
         equations.add_slope(system, t + h, y, h, &y.v, a);
-        equations.solve(system, t + h, y, [h * h, h], a)?;
+        equations.solve_at(system, t + h, y, [h * h, h], a)?;
         S::Vector::kick_and_drift(h, a, &mut y.v, h, &mut y.q);
         Ok(())
     }

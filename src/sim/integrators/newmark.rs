@@ -3,7 +3,8 @@
 use super::card::{IMPLICIT, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use super::shared::newton::{Newton, Stages};
+use super::shared::newton::Newton;
+use super::shared::stages::Stages;
 use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::System;
 
@@ -34,7 +35,7 @@ const GAMMA: f64 = 0.5;
 
 impl<S: System<Vector: Vector>> Integrator<S> for Newmark<S::Vector> {
     fn new(like: &S::Vector) -> Self {
-        Self { a: like.clone(), newton: Newton::new(like) }
+        Self { a: like.clone(), newton: Newton::new(like, S::coupling()) }
     }
 
     fn step(
@@ -50,7 +51,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for Newmark<S::Vector> {
         y.q.add_scaled(h * h * (0.5 - BETA), a);
         y.v.add_scaled(h * (1.0 - GAMMA), a);
 
-        newton.known[0].assign(y);
+        newton.base[0].assign(y);
         let (alpha, beta) = (h * h * BETA, h * GAMMA);
         newton.solve(system, &Stages { t: [t + h], alpha: [[alpha]], beta: [[beta]] })?;
         y.q.add_scaled(alpha, &newton.a[0]);

@@ -3,7 +3,7 @@
 use super::card::{LINEARISED, Method};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use super::shared::linear_solve::LinearSolve;
+use super::shared::linearisation::Linearisation;
 use crate::sim::state::{Elementwise, State, Vector};
 use crate::sim::system::System;
 
@@ -25,12 +25,12 @@ pub(super) const CARD: Method = Method {
 #[derive(Clone)]
 pub struct SemiImplicitEulerImplicitDrag<V> {
     a: V,
-    equations: LinearSolve<V>,
+    equations: Linearisation<V, 1>,
 }
 
 impl<S: System<Vector: Vector>> Integrator<S> for SemiImplicitEulerImplicitDrag<S::Vector> {
     fn new(like: &S::Vector) -> Self {
-        Self { a: like.clone(), equations: LinearSolve::new(like) }
+        Self { a: like.clone(), equations: Linearisation::new(like, S::coupling()) }
     }
 
     fn step(
@@ -43,7 +43,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for SemiImplicitEulerImplicitDrag<
         let Self { a, equations } = self;
         system.acceleration(t, &y.q, &y.v, a);
         equations.slopes.reach_for(h, y, a);
-        equations.solve(system, t, y, [0.0, h], a)?;
+        equations.solve_at(system, t, y, [0.0, h], a)?;
         S::Vector::kick_and_drift(h, a, &mut y.v, h, &mut y.q);
         Ok(())
     }

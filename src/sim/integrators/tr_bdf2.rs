@@ -43,7 +43,7 @@ const W: f64 = 1.0 / (GAMMA * (2.0 - GAMMA));
 impl<S: System<Vector: Vector>> Integrator<S> for TrBdf2<S::Vector> {
     fn new(like: &S::Vector) -> Self {
         let zero = State { q: like.clone(), v: like.clone() };
-        Self { newton: Newton::new(like), f: zero.clone(), stage: zero }
+        Self { newton: Newton::new(like, S::coupling()), f: zero.clone(), stage: zero }
     }
 
     fn step(

@@ -5,7 +5,7 @@
 
 use crate::sim::body::Body;
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::System;
 
 /// The number of columns of the extrapolation table; the last has order 16. More gain nothing in `f64`.
@@ -98,7 +98,7 @@ impl<V: Vector> Extrapolation<V> {
         self.evaluations += 1;
         SmoothPiece { body, piece }.derivative(t, y, &mut self.begin);
         for angles in [false, true].into_iter().filter(|_| body.has_jumps()) {
-            let of = |x: &V| largest(x, |i| body.is_angle(i) == angles);
+            let of = |x: &V| largest_of(x, |i| body.is_angle(i) == angles);
             let [q, v] = &mut self.largest[usize::from(angles)];
             (*q, *v) = (q.max(of(&y.q)), v.max(of(&y.v)));
         }
@@ -179,7 +179,7 @@ impl<V: Vector> Extrapolation<V> {
     /// its change. Angles and lengths are scaled separately.
     fn passes<B: Body<Vector = V>>(&self, body: &B, h: f64, y: &State<V>, tolerance: f64) -> bool {
         let part = |y: &V, slope: &V, last: &V, before: &V, angles: bool, most: f64| {
-            let of = |x: &V| largest(x, |i| body.is_angle(i) == angles);
+            let of = |x: &V| largest_of(x, |i| body.is_angle(i) == angles);
             let scale = (of(y) + h.abs() * of(slope)).max(most);
             let mut pairs = last.components().iter().zip(before.components()).enumerate();
             // Written so that a NaN does not pass.
@@ -211,8 +211,8 @@ fn extrapolate<V: Vector>(coarse: &mut State<V>, fine: &State<V>, weight: f64) {
     each(&mut coarse.v, &fine.v);
 }
 
-/// The largest magnitude of the selected components.
-fn largest<V: Vector>(vector: &V, is_chosen: impl Fn(usize) -> bool) -> f64 {
+/// The largest magnitude of the components with these indices.
+fn largest_of<V: Vector>(vector: &V, is_chosen: impl Fn(usize) -> bool) -> f64 {
     let components = vector.components().iter().enumerate();
-    components.filter(|&(i, _)| is_chosen(i)).fold(0.0, |most, (_, x)| x.abs().max(most))
+    largest(components.filter(|&(i, _)| is_chosen(i)).map(|(_, component)| component))
 }

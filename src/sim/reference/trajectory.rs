@@ -29,17 +29,17 @@ const CROSSING_ROUNDING: f64 = 1e-13;
 
 /// The largest number of boundaries crossed one after another without a step. A motion that is pushed back
 /// to a jump of the force from both sides, such as one at rest under dry friction, crosses it for ever.
-const MOST_STANDS: usize = 4 * MOST_SWITCHES;
+const MAX_STANDS: usize = 4 * MOST_SWITCHES;
 
 /// The largest number of attempts to end a step at a boundary; the search converges superlinearly.
-const MOST_SEARCH_STEPS: u32 = 60;
+const MAX_SEARCH_STEPS: u32 = 60;
 
 /// A boundary crossed by less than this within a step, and crossed back, is ignored: the error is far
 /// smaller, because the two forces agree at the corner.
 const IGNORED_CROSSING: f64 = 1e-9;
 
 /// How often a step is halved if it leaves its piece and comes back to it.
-const MOST_HALVINGS: u32 = 8;
+const MAX_HALVINGS: u32 = 8;
 
 /// How a trajectory chooses its steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +74,18 @@ struct Crossing {
     /// The distance to the boundary at the start of the step and at its end.
     begun: f64,
     ended: f64,
+}
+
+/// What became of a step that was tried.
+enum Tried {
+    /// It was too long for the tolerance.
+    Rejected,
+    /// It left its piece of the force law on the way, and came back.
+    LeftPiece,
+    /// It ended after this part of it, at the boundary of its piece, and the piece was changed.
+    AtBoundary { part: f64 },
+    /// It was taken, with so many columns.
+    Accepted { columns: usize },
 }
 
 /// Why a trajectory ends.
@@ -176,10 +188,7 @@ impl<V: Vector> Trajectory<V> {
         self.unwind(body);
         let mut carried = self.step.map_or(h, |step| step.copysign(h));
         let mut left = h;
-        let mut halvings = 0;
-        let mut stands = 0;
-        let switches = body.switches();
-        let tolerance = self.control.tolerance();
+        let (mut halvings, mut stands) = (0, 0);
         work.begin(body, &self.piece, t, &self.at);
         while work.evaluations < budget {
             let is_first = left.abs() > 0.5 * h.abs();
@@ -189,58 +198,80 @@ impl<V: Vector> Trajectory<V> {
                 left
             };
             let trial = if carried.abs() < most.abs() { carried } else { most };
-            let from = t + (h - left);
-            let Some(columns) = work.attempt(body, &self.piece, from, trial, &self.at, tolerance)
-            else {
-                carried = REJECTED_FACTOR * trial;
-                continue;
-            };
-            let mut stepped = trial;
-            let mut begun = NO_BOUNDARIES;
-            let mut ended = NO_BOUNDARIES;
-            if switches > 0 {
-                begun = body.distances_to_ends(&self.piece, from, &self.at);
-                ended = body.distances_to_ends(&self.piece, from + trial, work.end(&self.at));
-                self.extend(body, &ended);
-            }
-            if let Some(crossing) = self.first_crossing(switches, &begun, &ended) {
-                let Some((part, crossing)) =
-                    self.find_first_boundary(body, work, from, trial, &begun, crossing)
-                else {
+            let stepped = match self.try_step(body, t + (h - left), trial, halvings, work) {
+                Tried::Rejected => {
                     carried = REJECTED_FACTOR * trial;
                     continue;
-                };
-                stepped = part * trial;
-                stands = if part > 0.0 { 0 } else { stands + 1 };
-                if stands > MOST_STANDS {
-                    return Err(Ended::Sticks);
                 }
-                if part > 0.0 {
-                    self.add(work.added());
+                Tried::LeftPiece => {
+                    halvings += 1;
+                    carried = trial / 2.0;
+                    continue;
                 }
-                let Crossing { switch, side, .. } = crossing;
-                let mode = &mut self.piece.modes[switch];
-                *mode = body.neighbour(switch, *mode, side);
-            } else if halvings < MOST_HALVINGS && self.leaves_piece(body, &work.least_distances) {
-                halvings += 1;
-                carried = trial / 2.0;
-                continue;
-            } else {
-                self.add(work.added());
-                // A step cut short by the end of the call gives no information about the next one.
-                if trial == carried && columns <= FEW_COLUMNS {
-                    carried *= 2.0;
+                Tried::AtBoundary { part } => {
+                    stands = if part > 0.0 { 0 } else { stands + 1 };
+                    if stands > MAX_STANDS {
+                        return Err(Ended::Sticks);
+                    }
+                    part * trial
                 }
-                if trial == left {
-                    self.step = Some(carried);
-                    return Ok(());
+                Tried::Accepted { columns } => {
+                    // A step cut short by the end of the call gives no information about the next one.
+                    if trial == carried && columns <= FEW_COLUMNS {
+                        carried *= 2.0;
+                    }
+                    if trial == left {
+                        self.step = Some(carried);
+                        return Ok(());
+                    }
+                    trial
                 }
-            }
+            };
             halvings = 0;
             left -= stepped;
             work.begin(body, &self.piece, t + (h - left), &self.at);
         }
         Err(Ended::Budget)
+    }
+
+    /// Tries one step of `h` from `t`, after this many halvings for leaving the piece. Moves the state if it is taken,
+    /// and changes the piece at a boundary.
+    fn try_step<B: Body<Vector = V>>(
+        &mut self,
+        body: &B,
+        t: f64,
+        h: f64,
+        halvings: u32,
+        work: &mut Extrapolation<V>,
+    ) -> Tried {
+        let tolerance = self.control.tolerance();
+        let Some(columns) = work.attempt(body, &self.piece, t, h, &self.at, tolerance) else {
+            return Tried::Rejected;
+        };
+        let switches = body.switches();
+        let (mut begun, mut ended) = (NO_BOUNDARIES, NO_BOUNDARIES);
+        if switches > 0 {
+            begun = body.distances_to_ends(&self.piece, t, &self.at);
+            ended = body.distances_to_ends(&self.piece, t + h, work.end(&self.at));
+            self.extend(body, &ended);
+        }
+        if let Some(crossing) = self.first_crossing(switches, &begun, &ended) {
+            let found = self.find_first_boundary(body, work, t, h, &begun, crossing);
+            let Some((part, Crossing { switch, side, .. })) = found else {
+                return Tried::Rejected;
+            };
+            if part > 0.0 {
+                self.add(work.added());
+            }
+            let mode = &mut self.piece.modes[switch];
+            *mode = body.neighbour(switch, *mode, side);
+            return Tried::AtBoundary { part };
+        }
+        if halvings < MAX_HALVINGS && self.leaves_piece(body, &work.least_distances) {
+            return Tried::LeftPiece;
+        }
+        self.add(work.added());
+        Tried::Accepted { columns }
     }
 
     /// Takes the finite distances of a state into the extents.
@@ -332,7 +363,7 @@ impl<V: Vector> Trajectory<V> {
         };
         let (mut inner, mut outer) = ((0.0, begun), (1.0, ended));
         let mut part = 1.0;
-        for _ in 0..MOST_SEARCH_STEPS {
+        for _ in 0..MAX_SEARCH_STEPS {
             part = inner.0 + (outer.0 - inner.0) * (inner.1 / (inner.1 - outer.1));
             work.attempt(body, &self.piece, t, part * h, &self.at, self.control.tolerance())?;
             let ended = work.end(&self.at);

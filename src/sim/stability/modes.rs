@@ -62,6 +62,7 @@ impl NormalMode {
     /// Stability of a method with equal steps on this mode of `body`, which must be [`unforced`]. The
     /// frequency is compared if the mode makes less than half a turn in a step.
     ///
+    /// # Errors
     /// The failure of the method in the first ticks.
     pub fn stability(
         &self,
@@ -106,7 +107,7 @@ impl NormalMode {
             return Ok(Stability::OVERFLOW);
         };
         let mut stability = compare(&self.true_modes(), &values, tick.h);
-        stability.spectral_radius = stability.spectral_radius.powi(times as i32);
+        stability.spectral_radius = libm::pow(stability.spectral_radius, f64::from(times));
         let is_blurred = (stability.growth_per_s * tick.h).abs() <= NEUTRAL_WITH_MEMORY;
         if has_memory && is_blurred && self.is_conserved() && self.omega_squared > 0.0 {
             // The map of a method with memory is not accurate enough for a small growth; the energy

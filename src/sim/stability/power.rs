@@ -3,8 +3,8 @@
 
 use super::ensemble::Ensemble;
 use super::tick::Tick;
-use crate::sim::dice::Dice;
 use crate::sim::integrators::{Method, StepFailure};
+use crate::sim::xor_shift::XorShift;
 use crate::sim::{Solver, Stepper};
 
 /// The most iterations: they tell the radius to a thousandth.
@@ -155,8 +155,8 @@ fn radius(logs: &[f64]) -> Option<f64> {
 
 /// A vector with a part in every mode, the same on every run.
 fn start_vector(components: usize) -> Vec<f64> {
-    let mut dice = Dice::new(0x9E37_79B9_7F4A_7C15);
-    (0..components).map(|_| dice.next()).collect()
+    let mut random = XorShift::new(0x9E37_79B9_7F4A_7C15);
+    (0..components).map(|_| random.next()).collect()
 }
 
 #[cfg(test)]

@@ -137,7 +137,7 @@ impl CoupledMotion {
         };
         self.keep_what_drifts(&mut values);
         let mut stability = compare(&self.truth, &values, tick.h);
-        stability.spectral_radius = stability.spectral_radius.powi(times as i32);
+        stability.spectral_radius = libm::pow(stability.spectral_radius, f64::from(times));
         Ok(stability)
     }
 
@@ -160,13 +160,13 @@ impl CoupledMotion {
 const LATER_S: [f64; 2] = [0.37, 2.9];
 
 /// Rates below this fraction of the largest count as zero: twice the digits that a double eigenvalue keeps.
-const STILL: f64 = 1e-7;
+const FORCE_FREE: f64 = 1e-7;
 
 /// The furthest that rounding moves a double eigenvalue.
 const SPLIT: f64 = 1e-6;
 
 /// A true growth below this fraction of the largest rate is rounding.
-const NO_GROWTH: f64 = 1e-10;
+const ROUNDED_GROWTH: f64 = 1e-10;
 
 /// The modes of `x″ = A x + B x′`, and the unit of velocity.
 fn true_modes(jacobian: &DMatrix<f64>) -> Option<(Vec<Mode>, f64)> {
@@ -182,8 +182,8 @@ fn true_modes(jacobian: &DMatrix<f64>) -> Option<(Vec<Mode>, f64)> {
     let largest = values.iter().map(|value| value.modulus).fold(0.0, f64::max);
     let mode = |value: &Eigenvalue| {
         let growth = value.modulus * libm::cos(value.angle);
-        let is_still = value.modulus <= STILL * largest;
-        let is_rounding = is_still || growth.abs() <= NO_GROWTH * largest;
+        let is_still = value.modulus <= FORCE_FREE * largest;
+        let is_rounding = is_still || growth.abs() <= ROUNDED_GROWTH * largest;
         Mode {
             growth_per_s: if is_rounding { 0.0 } else { growth },
             frequency: if is_still || !value.is_complex() {

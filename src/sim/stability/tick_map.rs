@@ -152,6 +152,7 @@ impl TickMap {
 /// Attempts that fail are skipped: their copies were displaced too far, for instance into the centre of
 /// an orbit.
 ///
+/// # Errors
 /// The last failure, if all attempts fail.
 fn most_linear<T>(
     tries: impl IntoIterator<Item = Result<(f64, T), StepFailure>>,

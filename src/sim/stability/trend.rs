@@ -13,6 +13,7 @@ use crate::sim::integrators::StepFailure;
 /// of the time (Das, Saiki, Sander & Yorke, Quantitative quasiperiodicity, 2017). Valid for small
 /// growth over the stretch.
 ///
+/// # Errors
 /// The failure of the method; [`StepFailure::NotFinite`] if the energy is not finite.
 ///
 /// # Panics

@@ -183,7 +183,7 @@ fn a_net_has_a_reference_up_to_the_stated_work_and_none_above() {
         match advanced {
             Ok(()) => assert!(net.truth_error().unwrap()[0] < 1e-9),
             Err(failure) => {
-                assert!(matches!(failure, StepFailure::ReferenceTooDear { .. }), "{failure}");
+                assert!(matches!(failure, StepFailure::ReferenceTooExpensive { .. }), "{failure}");
                 assert_eq!(net.truth_error(), Some([f64::INFINITY; 2]));
                 assert!(failure.to_string().starts_with("has no reference solution"), "{failure}");
             }

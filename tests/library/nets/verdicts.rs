@@ -109,7 +109,7 @@ fn the_race_goes_on_without_a_truth() {
     let mut race = Race::of_scene(&scene);
     race.run(30);
     let truth = race.truth().halted().expect("it has none");
-    assert!(matches!(truth.failure, StepFailure::ReferenceTooDear { .. }) && truth.tick == 0);
+    assert!(matches!(truth.failure, StepFailure::ReferenceTooExpensive { .. }) && truth.tick == 0);
     assert_eq!(race.truth().bodies()[0].truth_in_words(), "no reference");
     let implicit = &race.entrants()[1].lane;
     assert!(implicit.halted().is_none());

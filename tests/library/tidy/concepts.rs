@@ -11,7 +11,7 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 6] = [
+const CONCEPTS: [Concept; 10] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",
@@ -33,9 +33,29 @@ const CONCEPTS: [Concept; 6] = [
         marks: &["max_speed * max_speed"],
     },
     Concept {
-        name: "factorisation of a dense matrix",
+        name: "factorisation of a matrix",
         file: "src/sim/integrators/shared/lu.rs",
         marks: &["column.swap("],
+    },
+    Concept {
+        name: "slope of a force, by its formula or by a difference",
+        file: "src/sim/integrators/shared/slopes.rs",
+        marks: &["acceleration_slope(t, y,"],
+    },
+    Concept {
+        name: "convergence of the equations of a step",
+        file: "src/sim/integrators/shared/newton.rs",
+        marks: &["const SLOW_CONVERGENCE"],
+    },
+    Concept {
+        name: "linear equations without a matrix",
+        file: "src/sim/integrators/shared/krylov.rs",
+        marks: &["omega2"],
+    },
+    Concept {
+        name: "exponential of a linear flow",
+        file: "src/sim/integrators/shared/linear_flow.rs",
+        marks: &["const DEGREE"],
     },
     Concept {
         name: "hash of a state",

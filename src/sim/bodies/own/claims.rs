@@ -9,9 +9,9 @@ use crate::sim::bodies::claims::{
     find_unsolved,
 };
 use crate::sim::body::Body;
-use crate::sim::dice::Dice;
 use crate::sim::state::State;
 use crate::sim::system::System;
+use crate::sim::xor_shift::XorShift;
 
 /// A claim about a custom body that does not hold. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -153,12 +153,12 @@ fn find_bend(own: &Own) -> Option<OwnFault> {
         own.motion.acceleration(t, q, v, &mut a);
         a
     };
-    let mut dice = Dice::new(0x2545_F491_4F6C_DD1D);
+    let mut random = XorShift::new(0x2545_F491_4F6C_DD1D);
     let still = vec![0.0; 2 * n];
     for t in TIMES {
         // From far inside to far outside the motion: beyond its corners, if it has any.
         for reach in [1e-3, 0.03, 1.0, 30.0, 1e3] {
-            let mut state = || (0..2 * n).map(|_| reach * dice.next()).collect::<Vec<_>>();
+            let mut state = || (0..2 * n).map(|_| reach * random.next()).collect::<Vec<_>>();
             let [one, other] = [state(), state()];
             let sum: Vec<f64> = one.iter().zip(&other).map(|(a, b)| a + b).collect();
             let at = [&still, &one, &other, &sum].map(|state| acceleration(t, state));

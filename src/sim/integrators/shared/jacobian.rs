@@ -1,11 +1,11 @@
 //! The derivatives of the acceleration by coordinates and by velocities, and their products with vectors.
 //!
-//! They are kept as matrices, or for a [sparse vector](Vector::IS_SPARSE) taken along each vector.
+//! They are kept as matrices, or where [few](Coupling::Few) coordinates act on each taken along each vector.
 
-use super::newton::largest;
+use super::linearisation::alternate;
 use super::slopes::Slopes;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::state::{State, Vector, largest};
+use crate::sim::system::{Coupling, System};
 
 /// Safety factor that turns max|J·(±1, …)| into a bound on ‖J‖∞.
 const SPARSE_NORM: f64 = 2.0;
@@ -18,21 +18,32 @@ pub(in crate::sim::integrators) struct Jacobian<V> {
     at: State<V>,
     along: State<V>,
     slope: V,
-    /// Column by column; empty if it is not asked for, or of a sparse vector.
+    /// How far from the diagonal the entries lie; `None` if no matrix is kept.
+    reach: Option<usize>,
+    /// Column by column, of each the rows that it [reaches](Self::rows); `by_q` is empty if it is not asked for.
     by_q: Vec<f64>,
     by_v: Vec<f64>,
 }
 
+/// The first and the number of the rows that are kept of column `j` of `n`.
+#[inline]
+fn rows(j: usize, reach: usize, n: usize) -> (usize, usize) {
+    let height = n.min(2 * reach + 1);
+    (j.saturating_sub(reach).min(n - height), height)
+}
+
 impl<V: Vector> Jacobian<V> {
     /// For both derivatives.
-    pub(in crate::sim::integrators) fn new(like: &V) -> Self {
-        let by_v = Self::by_velocity(like);
+    pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
+        let by_v = Self::by_velocity(like, coupling);
         Self { by_q: by_v.by_v.clone(), ..by_v }
     }
 
     /// For `∂a/∂v` alone.
-    pub(in crate::sim::integrators) fn by_velocity(like: &V) -> Self {
-        let n = if V::IS_SPARSE { 0 } else { like.components().len() };
+    pub(in crate::sim::integrators) fn by_velocity(like: &V, coupling: Coupling) -> Self {
+        let n = like.components().len();
+        let reach = coupling.reach(n);
+        let entries = reach.map_or(0, |reach| n * rows(0, reach, n).1);
         let state = State { q: like.clone(), v: like.clone() };
         Self {
             slopes: Slopes::new(like),
@@ -40,8 +51,9 @@ impl<V: Vector> Jacobian<V> {
             at: state.clone(),
             along: state,
             slope: like.clone(),
+            reach,
             by_q: Vec::new(),
-            by_v: vec![0.0; n * n],
+            by_v: vec![0.0; entries],
         }
     }
 
@@ -51,9 +63,10 @@ impl<V: Vector> Jacobian<V> {
     }
 
     /// Takes the derivatives at `t` and `y`, where the acceleration is `a`, for a step of `h`.
+    #[inline]
     pub(in crate::sim::integrators) fn take(
         &mut self,
-        system: &dyn System<Vector = V>,
+        system: &impl System<Vector = V>,
         t: f64,
         h: f64,
         y: &State<V>,
@@ -63,32 +76,45 @@ impl<V: Vector> Jacobian<V> {
         self.t = t;
         at.assign(y);
         slopes.reach_for(h, y, a);
-        let n = slope.components().len();
-        along.q.components_mut().fill(0.0);
-        along.v.components_mut().fill(0.0);
-        for (j, column) in by_q.chunks_exact_mut(n).enumerate() {
-            along.q.components_mut()[j] = 1.0;
-            slopes.take(system, t, at, along, slope);
-            along.q.components_mut()[j] = 0.0;
-            column.copy_from_slice(slope.components());
-        }
-        for (j, column) in by_v.chunks_exact_mut(n).enumerate() {
-            along.v.components_mut()[j] = 1.0;
-            slopes.take(system, t, at, along, slope);
-            along.v.components_mut()[j] = 0.0;
-            column.copy_from_slice(slope.components());
+        let Some(reach) = self.reach else { return };
+        let n = a.components().len();
+        let apart = n.min(2 * reach + 1);
+        for (is_by_v, matrix) in [by_q, by_v].into_iter().enumerate().filter(|(_, m)| !m.is_empty())
+        {
+            for begin in 0..apart {
+                along.q.components_mut().fill(0.0);
+                along.v.components_mut().fill(0.0);
+                let part = if is_by_v == 1 { &mut along.v } else { &mut along.q };
+                part.components_mut().iter_mut().skip(begin).step_by(apart).for_each(|x| *x = 1.0);
+                slopes.take(system, t, at, along, None, slope);
+                for j in (begin..n).step_by(apart) {
+                    let (first, height) = rows(j, reach, n);
+                    let column = &mut matrix[j * height..][..height];
+                    for (row, entry) in (first..).zip(column) {
+                        let is_reached = row.abs_diff(j) <= reach;
+                        *entry = if is_reached { slope.components()[row] } else { 0.0 };
+                    }
+                }
+            }
         }
     }
 
+    /// `∂a/∂q` and `∂a/∂v` of a system of one coordinate.
+    #[inline]
+    pub(in crate::sim::integrators) fn of_one(&self) -> [f64; 2] {
+        [self.by_q.first().copied().unwrap_or(0.0), self.by_v[0]]
+    }
+
     /// `∂a/∂q q + ∂a/∂v v`. An empty `q` stands for 0.
+    #[inline]
     pub(in crate::sim::integrators) fn times(
         &mut self,
-        system: &dyn System<Vector = V>,
+        system: &(impl System<Vector = V> + ?Sized),
         q: &[f64],
         v: &[f64],
     ) -> &V {
-        let Self { slopes, t, at, along, slope, by_q, by_v } = self;
-        if V::IS_SPARSE {
+        let Self { slopes, t, at, along, slope, reach, by_q, by_v } = self;
+        let Some(reach) = *reach else {
             let there = along.q.components_mut();
             if q.is_empty() {
                 there.fill(0.0)
@@ -96,15 +122,18 @@ impl<V: Vector> Jacobian<V> {
                 there.copy_from_slice(q)
             }
             along.v.components_mut().copy_from_slice(v);
-            slopes.take(system, *t, at, along, slope);
+            slopes.take(system, *t, at, along, None, slope);
             return slope;
-        }
+        };
         let sums = slope.components_mut();
         sums.fill(0.0);
         let n = sums.len();
-        let columns = by_q.chunks_exact(n).zip(q).chain(by_v.chunks_exact(n).zip(v));
-        for (column, x) in columns {
-            sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry * x);
+        for (matrix, x) in [(by_q, q), (by_v, v)] {
+            for (j, x) in x.iter().enumerate() {
+                let (first, height) = rows(j, reach, n);
+                let column = &matrix[j * height..][..height];
+                sums[first..].iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry * x);
+            }
         }
         slope
     }
@@ -114,26 +143,27 @@ impl<V: Vector> Jacobian<V> {
         &mut self,
         system: &dyn System<Vector = V>,
     ) -> [f64; 2] {
-        let Self { slopes, t, at, along, slope, by_q, by_v } = self;
-        if V::IS_SPARSE {
+        let Self { slopes, t, at, along, slope, reach, by_q, by_v } = self;
+        let Some(reach) = *reach else {
             return [true, false].map(|is_by_q| {
                 along.q.components_mut().fill(0.0);
                 along.v.components_mut().fill(0.0);
                 let part = if is_by_q { &mut along.q } else { &mut along.v };
-                for (i, x) in part.components_mut().iter_mut().enumerate() {
-                    *x = if i / 2 % 2 == 0 { 1.0 } else { -1.0 };
-                }
-                slopes.take(system, *t, at, along, slope);
-                SPARSE_NORM * largest(slope.components().iter())
+                alternate(part, 1.0);
+                slopes.take(system, *t, at, along, None, slope);
+                SPARSE_NORM * largest(slope.components())
             });
-        }
+        };
         [by_q, by_v].map(|matrix| {
             let sums = slope.components_mut();
             sums.fill(0.0);
-            for column in matrix.chunks_exact(sums.len()) {
-                sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += entry.abs());
+            let (_, height) = rows(0, reach, sums.len());
+            for (j, column) in matrix.chunks_exact(height).enumerate() {
+                let (first, _) = rows(j, reach, sums.len());
+                let sums = sums[first..].iter_mut().zip(column);
+                sums.for_each(|(sum, entry)| *sum += entry.abs());
             }
-            largest(slope.components().iter())
+            largest(slope.components())
         })
     }
 }

@@ -4,8 +4,9 @@
 //! & Higham, *Computing the action of the matrix exponential*, 2011). If that takes too many pieces and the matrix
 //! is small, scaling and squaring is used instead. Both use products and sums only.
 
-use super::newton::largest;
 use crate::sim::integrators::failure::StepFailure;
+use crate::sim::state::largest;
+use crate::sim::system::Coupling;
 
 /// The degree of the Taylor polynomial. Over a piece of norm 1 it leaves out 1/19!, less than a unit of round-off.
 const DEGREE: u32 = 18;
@@ -16,6 +17,57 @@ const MOST_PIECES: f64 = 1000.0;
 /// The largest system that is scaled and squared; three matrices of this size are 28 kB.
 const SMALL: usize = 32;
 
+/// The terms of the series of a [`response`]: what they leave out is below a unit of round-off.
+const TERMS: usize = 12;
+/// The largest root of the equation of a response whose series is summed; from there it is doubled.
+const SHORT: f64 = 0.25;
+
+/// How `x″ = y x + z x′` answers a push at time 0, at time 1: the displacement `s(1)` that a unit of velocity makes, its
+/// integral, and the integral of that. It is the exponential of one coordinate.
+///
+/// Products and sums only: the series over a part of the time, doubled until it is the whole. No term cancels another
+/// of a motion that decays.
+#[inline]
+pub(in crate::sim::integrators) fn response(y: f64, z: f64) -> [f64; 3] {
+    let (mut y, mut z, mut doublings) = (y, z, 0);
+    while z.abs() > SHORT || y.abs() > SHORT * SHORT {
+        if !(y + z).is_finite() {
+            return [f64::NAN; 3];
+        }
+        (y, z, doublings) = (y / 4.0, z / 2.0, doublings + 1);
+    }
+    // s = Σ u / n!, with u = 1, z, z² + y … from n = 1.
+    let (mut s1, mut s2) = (0.0, 0.0);
+    let (mut u, mut last) = (1.0, 0.0);
+    for [once, twice] in INVERSE_FACTORIALS {
+        s1 += once * u;
+        s2 += twice * u;
+        (u, last) = (z * u + y * last, u);
+    }
+    let mut s = 1.0 + y * s2 + z * s1;
+    for _ in 0..doublings {
+        // The displacement and the velocity, halfway, of a unit of displacement and of one of velocity.
+        let (p, v) = (1.0 + y * s1, 1.0 + y * s1 + z * s);
+        s2 = (s2 + s1 + s * (s1 - z * s2) + v * s2) / 8.0;
+        s1 = (s1 + s * (s - z * s1) + v * s1) / 4.0;
+        s = s * (p + v) / 2.0;
+        (y, z) = (4.0 * y, 2.0 * z);
+    }
+    [s, s1, s2]
+}
+
+/// `1 / (n + 1)!` and `1 / (n + 2)!` from n = 1.
+const INVERSE_FACTORIALS: [[f64; 2]; TERMS] = {
+    let mut table = [[0.0; 2]; TERMS];
+    let (mut n, mut factorial) = (0, 1.0);
+    while n < TERMS {
+        factorial *= (n + 2) as f64;
+        table[n] = [1.0 / factorial, 1.0 / (factorial * (n + 3) as f64)];
+        n += 1;
+    }
+    table
+};
+
 /// Scratch for a system of `size` equations.
 #[derive(Clone)]
 pub(in crate::sim::integrators) struct LinearFlow {
@@ -25,9 +77,9 @@ pub(in crate::sim::integrators) struct LinearFlow {
 }
 
 impl LinearFlow {
-    /// For so many equations, of a `small` system if the matrix may be formed.
-    pub(in crate::sim::integrators) fn new(size: usize, is_sparse: bool) -> Self {
-        let is_small = !is_sparse && size <= SMALL;
+    /// For so many equations of coordinates that act on each other so.
+    pub(in crate::sim::integrators) fn new(size: usize, coupling: Coupling) -> Self {
+        let is_small = coupling != Coupling::Few && size <= SMALL;
         let squaring = is_small.then(|| Box::new(Squaring::new(size + 2)));
         Self { term: vec![0.0; size], next: vec![0.0; size], squaring }
     }
@@ -82,7 +134,7 @@ impl LinearFlow {
                 for ((term, next), c) in term.iter_mut().zip(&*next).zip(c) {
                     *term = part / f64::from(k) * (next + grown * c);
                 }
-                if largest(term.iter()) == 0.0 {
+                if largest(&*term) == 0.0 {
                     break;
                 }
             }
@@ -172,10 +224,11 @@ fn multiply(size: usize, a: &[f64], b: &[f64], product: &mut [f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use Coupling::{All, Few};
 
     /// `x' = A x + b + t c` for the matrix `[[0, w], [-w, -d]]`, from 0.
     fn flow(
-        is_sparse: bool,
+        coupling: Coupling,
         [w, d]: [f64; 2],
         b: [f64; 2],
         c: [f64; 2],
@@ -185,7 +238,7 @@ mod tests {
         let product = |x: &[f64], y: &mut [f64]| {
             y.copy_from_slice(&[w * x[1], -w * x[0] - d * x[1]]);
         };
-        LinearFlow::new(2, is_sparse).advance(&mut x, &b, &c, norm, &mut { product })?;
+        LinearFlow::new(2, coupling).advance(&mut x, &b, &c, norm, &mut { product })?;
         Ok(x)
     }
 
@@ -197,26 +250,61 @@ mod tests {
 
     #[test]
     fn a_push_turns_as_sine_and_cosine_say_in_pieces_and_by_squaring() {
-        for (is_sparse, w) in [(true, 0.6), (true, 40.0), (false, 0.6), (false, 40.0)] {
-            let found = flow(is_sparse, [w, 0.0], [0.0, w], [0.0, 0.0]).unwrap();
+        for (coupling, w) in [(Few, 0.6), (Few, 40.0), (All, 0.6), (All, 40.0)] {
+            let found = flow(coupling, [w, 0.0], [0.0, w], [0.0, 0.0]).unwrap();
             near(found, [1.0 - libm::cos(w), libm::sin(w)], 40.0);
             // A push that grows: x = t - sin(wt)/w, x' = (1 - cos(wt))/w.
-            let found = flow(is_sparse, [w, 0.0], [0.0; 2], [0.0, w]).unwrap();
+            let found = flow(coupling, [w, 0.0], [0.0; 2], [0.0, w]).unwrap();
             near(found, [1.0 - libm::sin(w) / w, (1.0 - libm::cos(w)) / w], 40.0);
         }
     }
 
     #[test]
     fn a_decay_far_beyond_the_step_ends_where_it_tends() {
-        let found = flow(false, [0.0, 1e9], [0.0, 1e9], [0.0; 2]).unwrap();
+        let found = flow(All, [0.0, 1e9], [0.0, 1e9], [0.0; 2]).unwrap();
         near(found, [0.0, 1.0], 1e3);
-        let failure = flow(true, [0.0, 1e9], [0.0, 1e9], [0.0; 2]);
+        let failure = flow(Few, [0.0, 1e9], [0.0, 1e9], [0.0; 2]);
         assert_eq!(failure, Err(StepFailure::TooManySubsteps { limit: 1000 }));
     }
 
     #[test]
+    fn a_response_is_that_of_swing_decay_and_growth() {
+        // s = e^(αt) sin(ωt)/ω with z = 2α and y = -α² - ω², and its integrals from the equation.
+        for alpha in [0.0, -0.3, -4.0, 0.5] {
+            for w in [1e-3, 0.2, 1.7, 30.0] {
+                let (y, z) = (-alpha * alpha - w * w, 2.0 * alpha);
+                let (sin, cos, e) = (libm::sin(w), libm::cos(w), libm::exp(alpha));
+                let found = response(y, z);
+                let (s, v) = (e * sin / w, e * (cos + alpha * sin / w));
+                let s1 = (v - 1.0 - z * s) / y;
+                let wanted = [s, s1, (s - 1.0 - z * s1) / y];
+                // What the equation cancels to find the integrals.
+                for (i, (found, wanted)) in found.into_iter().zip(wanted).enumerate() {
+                    let room = 1e-14 * (1.0 + w) * [1.0, 1.0 / y.abs(), 1.0 / (y * y)][i];
+                    assert!(
+                        (found - wanted).abs() < room,
+                        "{y}, {z}: {i} is {found}, not {wanted}"
+                    );
+                }
+            }
+        }
+        // Decay alone, as slow and as fast as it may be: s = (e^z - 1)/z.
+        for z in [-1e-9, -0.1, -3.0, -50.0, -1e9] {
+            let [s, s1, s2] = response(0.0, z);
+            let wanted = libm::expm1(z) / z;
+            assert!((s / wanted - 1.0).abs() < 1e-14, "{z}: {s}, not {wanted}");
+            if z <= -3.0 {
+                let (once, twice) = ((s - 1.0) / z, ((s - 1.0) / z - 0.5) / z);
+                assert!((s1 / once - 1.0).abs() < 1e-14, "{z}: {s1}, not {once}");
+                assert!((s2 / twice - 1.0).abs() < 1e-13, "{z}: {s2}, not {twice}");
+            }
+        }
+        assert!(response(f64::NAN, 0.0)[0].is_nan() && response(0.0, f64::INFINITY)[0].is_nan());
+    }
+
+    #[test]
     fn nothing_finite_comes_of_an_undefined_matrix() {
-        let found = flow(false, [f64::NAN, 0.0], [1.0; 2], [0.0; 2]).unwrap();
+        let found = flow(All, [f64::NAN, 0.0], [1.0; 2], [0.0; 2]).unwrap();
         assert!(found.iter().all(|x| x.is_nan()));
     }
 }

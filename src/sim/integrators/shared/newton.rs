@@ -1,28 +1,104 @@
 //! Newton's iteration for the accelerations at the stages of an implicit method.
 //!
 //! Coordinates and velocities of a stage are sums of known terms and of the accelerations, which are
-//! therefore the only unknowns. The Jacobian is taken by finite differences once per step, and again if
-//! convergence is slow. The iteration continues to round-off, because a method conserves a quantity
-//! only as well as its equations are solved. If it does not converge, the solution is continued from a
-//! shorter step.
+//! therefore the only unknowns. The Jacobian is taken once per step, and again if convergence is slow. The iteration
+//! continues to round-off, because a method conserves a quantity only as well as its equations are solved. If it does
+//! not converge, the solution is continued from a shorter step.
 //!
-//! A body of many coordinates that feel few others each has a [sparse vector](Vector::IS_SPARSE), and no
-//! matrix: its linear equations are solved by an iteration of their own.
+//! Of a body of many coordinates that feel [few](crate::sim::Coupling::Few) others each no matrix is formed: its linear
+//! equations are solved roughly, and a correction that makes the residual larger is taken in part.
 
+use super::linearisation::Linearisation;
+use super::stages::{Stages, largest_of};
 use crate::sim::integrators::failure::StepFailure;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
-use iteration::MAX_ITERATIONS;
-pub(in crate::sim::integrators) use iteration::Newton;
-pub(in crate::sim::integrators) use krylov::Krylov;
-pub(in crate::sim::integrators) use stages::{Stages, largest};
+use crate::sim::state::{State, Vector, largest};
+use crate::sim::system::{Coupling, System};
+use continuation::Curve;
 
 mod continuation;
-mod curve;
-mod iteration;
-mod krylov;
 mod sparse;
-mod stages;
+
+/// The largest number of iterations in one step. Usual are 2 to 5; without a limit a discontinuous
+/// force would never end.
+const MAX_ITERATIONS: u32 = 30;
+/// An iteration that reduces the error by less than this factor needs a new Jacobian, or is at the end of what rounding
+/// allows.
+const SLOW_CONVERGENCE: f64 = 0.1;
+/// The residual at rounding level, relative to the rounding scale: how much a unit of round-off grows
+/// in the force law.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+/// Relative differences for the Jacobian, of accelerations and velocities, and of coordinates. The
+/// first is the cube root of round-off, which balances truncation and rounding. The second is much
+/// smaller because a coordinate may be far from the centre of its force.
+const RELATIVE_DIFFERENCES: (f64, f64) = (6e-6, 1e-11);
+/// The bounds of a difference: below underflow, above overflow.
+const EXTREMES: (f64, f64) = (1e-150, 1e150);
+
+/// Solves `A_i = a(t_i, Q_i, V_i)` for all `S` stages at once, where `Q_i = q_i + Σ α_ij A_j` and
+/// `V_i = v_i + Σ β_ij A_j`.
+#[derive(Clone)]
+pub(in crate::sim::integrators) struct Newton<V, const S: usize> {
+    /// `q_i` and `v_i`, set before solving.
+    pub(in crate::sim::integrators) base: [State<V>; S],
+    /// `A_i`, after solving.
+    pub(in crate::sim::integrators) a: [V; S],
+    /// The force law evaluated at `A`.
+    evaluated: [V; S],
+    linearisation: Linearisation<V, S>,
+    /// `evaluated - A`
+    residual: Vec<f64>,
+    /// The last correction of `A`.
+    correction: Vec<f64>,
+    /// `A` where an attempt began that may fail.
+    kept: Vec<f64>,
+    /// The scale of the rounding error of `evaluated`, in units of round-off; empty without a matrix.
+    rounding_scale: Vec<f64>,
+    /// For steps at which the iteration alone fails.
+    curve: Curve<V, S>,
+}
+
+/// How an iteration converges.
+struct Convergence {
+    /// The size of the last correction; NaN before the first, after which no rate is known.
+    last: f64,
+}
+
+/// What a correction says about the convergence.
+enum Progress {
+    /// What is left is rounding.
+    Solved,
+    /// The Jacobian serves for another iteration.
+    Fast,
+    /// A new Jacobian is needed.
+    Slow,
+    /// Nothing finite is left.
+    Lost,
+}
+
+impl Convergence {
+    const BEGUN: Self = Self { last: f64::NAN };
+
+    /// Judges a correction that brought the largest unknown to `size`, of a residual that may have been at rounding
+    /// level.
+    #[inline]
+    fn judge(&mut self, correction: f64, size: f64, is_at_rounding: bool) -> Progress {
+        let rate = correction / self.last;
+        self.last = correction;
+        // The remaining error is at most a geometric series of corrections at this rate.
+        let left = rate / (1.0 - rate) * correction;
+        let is_solved = rate < 1.0 && left <= f64::EPSILON * size;
+        let is_fast = rate <= SLOW_CONVERGENCE;
+        if !size.is_finite() {
+            Progress::Lost
+        } else if is_solved || is_at_rounding && !is_fast {
+            Progress::Solved
+        } else if rate > SLOW_CONVERGENCE {
+            Progress::Slow
+        } else {
+            Progress::Fast
+        }
+    }
+}
 
 impl<V: Vector> Newton<V, 1> {
     /// Replaces `y` by the solution of `Y = y + c f(t, Y)`.
@@ -33,8 +109,8 @@ impl<V: Vector> Newton<V, 1> {
         c: f64,
         y: &mut State<V>,
     ) -> Result<(), StepFailure> {
-        self.known[0].assign(y);
-        self.known[0].q.add_scaled(c, &y.v);
+        self.base[0].assign(y);
+        self.base[0].q.add_scaled(c, &y.v);
         self.solve(system, &Stages { t: [t], alpha: [[c * c]], beta: [[c]] })?;
         y.v.add_scaled(c, &self.a[0]);
         y.q.add_scaled(c, &y.v);
@@ -43,6 +119,31 @@ impl<V: Vector> Newton<V, 1> {
 }
 
 impl<V: Vector, const S: usize> Newton<V, S> {
+    pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
+        let state = State { q: like.clone(), v: like.clone() };
+        let vectors = || std::array::from_fn(|_| like.clone());
+        let linearisation = Linearisation::new(like, coupling);
+        let zeros = vec![0.0; S * like.components().len()];
+        Self {
+            base: std::array::from_fn(|_| state.clone()),
+            a: vectors(),
+            evaluated: vectors(),
+            rounding_scale: if linearisation.is_matrix_free() { Vec::new() } else { zeros.clone() },
+            linearisation,
+            residual: zeros.clone(),
+            correction: zeros.clone(),
+            curve: Curve::new(like, zeros.len()),
+            kept: zeros,
+        }
+    }
+
+    /// Memory in bytes, without its own size and that of its coordinate vectors.
+    pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
+        let vectors = [&self.residual, &self.correction, &self.kept, &self.rounding_scale];
+        let vectors = vectors.into_iter().map(|vector| size_of_val(&vector[..])).sum::<usize>();
+        self.linearisation.heap_bytes() + self.curve.heap_bytes() + vectors
+    }
+
     /// Solves for the accelerations at the stages.
     pub(in crate::sim::integrators) fn solve(
         &mut self,
@@ -52,8 +153,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         for a in &mut self.a {
             a.components_mut().fill(0.0);
         }
-        self.krylov.iter_mut().for_each(|krylov| krylov.begin_step());
-        let is_solved = if const { V::IS_SPARSE } {
+        let is_solved = if self.linearisation.is_matrix_free() {
             self.iterate_sparsely(system, stages)
         } else {
             self.iterate(system, stages) || self.solve_by_continuation(system, stages)
@@ -62,5 +162,114 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             return Ok(());
         }
         Err(StepFailure::NewtonFailed { limit: MAX_ITERATIONS })
+    }
+
+    /// Evaluates the forces at the current `A`.
+    #[inline]
+    fn evaluate(&mut self, system: &(impl System<Vector = V> + ?Sized), stages: &Stages<S>) {
+        let Self { base, a, evaluated, linearisation, .. } = self;
+        stages.evaluate(system, base, a, &mut linearisation.at, evaluated);
+    }
+
+    /// Iterates from the current `A`. Returns whether it converged.
+    #[inline(always)]
+    fn iterate(&mut self, system: &(impl System<Vector = V> + ?Sized), stages: &Stages<S>) -> bool {
+        let mut is_stale = true;
+        let mut convergence = Convergence::BEGUN;
+        for _ in 0..MAX_ITERATIONS {
+            self.evaluate(system, stages);
+            if is_stale {
+                self.factor(system, stages, stages);
+            }
+            let is_at_rounding = self.compute_residual();
+            self.linearisation.solve(&mut self.correction);
+            let (correction, size) = self.correct();
+            is_stale = match convergence.judge(correction, size, is_at_rounding) {
+                Progress::Solved => return true,
+                Progress::Fast => false,
+                Progress::Slow | Progress::Lost => true,
+            };
+        }
+        false
+    }
+
+    /// Computes and factors the Jacobian at the current `A`, by differences suited to the weights of
+    /// `whole`.
+    // Without inlining it would leave the loop, because it is called from two places; that costs a
+    // fourteenth of a step.
+    #[inline(always)]
+    fn factor(
+        &mut self,
+        system: &(impl System<Vector = V> + ?Sized),
+        stages: &Stages<S>,
+        whole: &Stages<S>,
+    ) {
+        let Self { base, a, evaluated, linearisation, rounding_scale, .. } = self;
+        let most = |half: fn(&State<V>) -> &V| {
+            base.iter().fold(0.0, |most: f64, base| most.max(largest(half(base).components())))
+        };
+        let v = most(|base| &base.v) / whole.beta[0][0].abs();
+        let q = most(|base| &base.q) / whole.alpha[0][0];
+        let near = v.max(largest_of(evaluated)).max(largest_of(a));
+        let difference = (RELATIVE_DIFFERENCES.0 * near)
+            .max(RELATIVE_DIFFERENCES.1 * q)
+            .clamp(EXTREMES.0, EXTREMES.1);
+        let size = v.max(q).min(EXTREMES.1);
+        let rows = evaluated.iter().flat_map(V::components);
+        rounding_scale.iter_mut().zip(rows).for_each(|(scale, force)| *scale = force.abs());
+        linearisation.factor(system, stages, Some((evaluated, difference)), |row, slope| {
+            rounding_scale[row] += slope.abs() * size;
+        });
+    }
+
+    /// Computes the residual, as the next right-hand side too. Returns whether it is at rounding level.
+    #[inline]
+    fn compute_residual(&mut self) -> bool {
+        let Self { a, evaluated, residual, correction, rounding_scale, .. } = self;
+        let mut is_at_rounding = true;
+        let forces = evaluated.iter().flat_map(V::components);
+        let rows = forces.zip(a.iter().flat_map(V::components)).zip(&*rounding_scale);
+        for ((residual, correction), ((force, a), scale)) in
+            residual.iter_mut().zip(correction).zip(rows)
+        {
+            *residual = force - a;
+            *correction = *residual;
+            is_at_rounding &= residual.abs() <= ROUND_OFF * scale + EXTREMES.0;
+        }
+        is_at_rounding
+    }
+
+    /// Adds the correction to `A`. Returns the largest components of both.
+    #[inline]
+    fn correct(&mut self) -> (f64, f64) {
+        self.add_correction(1.0);
+        (largest(&self.correction), largest_of(&self.a))
+    }
+
+    /// Adds `part` of the correction to `A`.
+    #[inline]
+    fn add_correction(&mut self, part: f64) {
+        let n = self.correction.len() / S;
+        for (a, correction) in self.a.iter_mut().zip(self.correction.chunks_exact(n)) {
+            for (a, correction) in a.components_mut().iter_mut().zip(correction) {
+                *a += part * correction;
+            }
+        }
+    }
+
+    /// Keeps `A`.
+    fn keep(&mut self) {
+        let n = self.kept.len() / S;
+        for (kept, a) in self.kept.chunks_exact_mut(n).zip(&self.a) {
+            kept.copy_from_slice(a.components());
+        }
+    }
+
+    /// Goes back to the `A` that was kept.
+    fn go_back(&mut self) {
+        let n = self.kept.len() / S;
+        for (kept, a) in self.kept.chunks_exact(n).zip(&mut self.a) {
+            a.components_mut().copy_from_slice(kept);
+        }
     }
 }

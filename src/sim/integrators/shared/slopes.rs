@@ -1,11 +1,12 @@
-//! The derivative of the acceleration in a direction: by the system's formula, or by a central difference.
+//! The derivative of the acceleration in a direction: by the system's formula, or by a difference.
 //!
-//! A difference reaches about as far as the step is going to move the state. The rounding of the
-//! acceleration then changes a step by a few units of round-off, so that the derivative of a linear force
-//! is exact in effect, and that of a curved force is off by `O(h²)`, which keeps second order.
+//! A difference is central where the result of a step depends on it. It then reaches about as far as the step is going
+//! to move the state: the rounding of the acceleration changes a step by a few units of round-off, so that the
+//! derivative of a linear force is exact in effect, and that of a curved force is off by `O(h²)`, which keeps second
+//! order. Where it only steers an iteration it is a forward one, from the force that is known, and so short that a
+//! corner of the force is seldom within its reach.
 
-use super::newton::largest;
-use crate::sim::state::{State, Vector};
+use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::System;
 
 /// The reach of a difference as a part of the motion of a step. A larger part takes more of a bend for
@@ -15,6 +16,12 @@ const PART: f64 = 1.0 / 16.0;
 /// The least reach, in metres or radians and per second, and relative to the state: the root of round-off.
 /// Without it a body at rest would have rounding for a slope.
 const LEAST: f64 = 1.5e-8;
+
+/// The forces at the state of a forward difference, and how many times the direction it reaches.
+pub(in crate::sim::integrators) struct Forward<'a, V> {
+    pub(in crate::sim::integrators) from: &'a V,
+    pub(in crate::sim::integrators) part: f64,
+}
 
 /// Scratch for the differences.
 #[derive(Clone)]
@@ -31,28 +38,40 @@ impl<V: Vector> Slopes<V> {
         Self { reach: [0.0; 2], moved, behind: like.clone() }
     }
 
-    /// Chooses the reach for a step of `h` from `y`, where the acceleration is `a`.
+    /// Chooses the reach of central differences for a step of `h` from `y`, where the acceleration is `a`.
+    #[inline]
     pub(in crate::sim::integrators) fn reach_for(&mut self, h: f64, y: &State<V>, a: &V) {
-        let [q, v, a] = [&y.q, &y.v, a].map(|part| largest(part.components().iter()));
+        let [q, v, a] = [&y.q, &y.v, a].map(|part| largest(part.components()));
         let change = v + h.abs() * a;
         let reach = |ahead: f64, now: f64| (PART * ahead).max(LEAST * (1.0 + now));
         self.reach = [reach(h.abs() * change, q), reach(change, v)];
     }
 
-    /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`.
+    /// Overwrites `slope` with the derivative of the acceleration at `y` in the direction `along`, by a central
+    /// difference if none is given.
+    #[inline]
     pub(in crate::sim::integrators) fn take(
         &mut self,
-        system: &dyn System<Vector = V>,
+        system: &(impl System<Vector = V> + ?Sized),
         t: f64,
         y: &State<V>,
         along: &State<V>,
+        forward: Option<Forward<'_, V>>,
         slope: &mut V,
     ) {
         if system.acceleration_slope(t, y, along, slope) {
             return;
         }
         let Self { reach, moved, behind } = self;
-        let [q, v] = [&along.q, &along.v].map(|part| largest(part.components().iter()));
+        if let Some(Forward { from, part }) = forward {
+            moved.assign_sum(y, part, along);
+            system.acceleration(t, &moved.q, &moved.v, slope);
+            for (slope, from) in slope.components_mut().iter_mut().zip(from.components()) {
+                *slope = (*slope - from) / part;
+            }
+            return;
+        }
+        let [q, v] = [&along.q, &along.v].map(|part| largest(part.components()));
         let part = (reach[0] / q).min(reach[1] / v);
         if part.is_infinite() {
             slope.components_mut().fill(0.0);

@@ -7,9 +7,8 @@
 //! nonlinear eigenvalue problems*, 1977), it is followed through such folds. If the force is bounded
 //! and smooth, the curve cannot end before λ = 1.
 
-use super::curve::Curve;
-use super::iteration::Newton;
-use super::stages::{Stages, components, largest};
+use super::Newton;
+use crate::sim::integrators::shared::stages::{Stages, largest_of};
 use crate::sim::state::Vector;
 use crate::sim::system::System;
 
@@ -21,14 +20,47 @@ const SHORTEST_STEP: f64 = 1e-7;
 /// The factors by which a step grows if it converged, and shrinks if it did not.
 const STEP_FACTORS: (f64, f64) = (1.5, 0.3);
 /// The largest number of steps of an attempt.
-const MOST_STEPS: u32 = 1000;
+const MAX_STEPS: u32 = 1000;
 /// The largest number of corrector iterations of a step.
-const MOST_CORRECTIONS: u32 = 6;
+const MAX_CORRECTIONS: u32 = 6;
 /// The size of the last correction. It can be coarse, because the end of the curve is solved to
 /// round-off.
 const CORRECTOR_TOLERANCE: f64 = 1e-6;
 /// The change of λ for the derivative with respect to it.
 const LAMBDA_DIFFERENCE: f64 = 1e-6;
+
+/// The current point on the curve of solutions, and its tangent.
+#[derive(Clone, Debug)]
+pub(super) struct Curve<V, const S: usize> {
+    lambda: f64,
+    /// The unit of accelerations: the largest force found on the curve.
+    scale: f64,
+    /// The forces a little further in λ.
+    further: [V; S],
+    /// The derivative of the solution with respect to λ.
+    slope_by_lambda: Vec<f64>,
+    /// The unit tangent: accelerations in units of `scale`, and λ.
+    tangent: Vec<f64>,
+    tangent_lambda: f64,
+}
+
+impl<V: Vector, const S: usize> Curve<V, S> {
+    pub(super) fn new(like: &V, size: usize) -> Self {
+        Self {
+            lambda: 0.0,
+            scale: 1.0,
+            further: std::array::from_fn(|_| like.clone()),
+            slope_by_lambda: vec![0.0; size],
+            tangent: vec![0.0; size],
+            tangent_lambda: 1.0,
+        }
+    }
+
+    /// Memory on the heap, in bytes, without that of its coordinate vectors.
+    pub(super) fn heap_bytes(&self) -> usize {
+        size_of_val(&self.slope_by_lambda[..]) + size_of_val(&self.tangent[..])
+    }
+}
 
 impl<V: Vector, const S: usize> Newton<V, S> {
     /// Solves the equations. Returns whether it succeeded.
@@ -51,9 +83,9 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     ) -> bool {
         // At λ = 0 the force does not depend on the accelerations.
         self.a.iter_mut().for_each(|a| a.components_mut().fill(0.0));
-        let Self { known, a, evaluated, stage, curve, .. } = self;
-        stages.scaled(0.0).evaluate(system, known, a, stage, evaluated);
-        let force = largest(components(evaluated));
+        self.evaluate(system, &stages.scaled(0.0));
+        let Self { a, evaluated, curve, .. } = self;
+        let force = largest_of(evaluated);
         if !force.is_finite() {
             return false;
         }
@@ -66,13 +98,10 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         curve.tangent_lambda = 1.0;
 
         let mut step = longest;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             self.update_tangent(system, stages);
-            let Self { a, curve, .. } = self;
-            for (start, a) in curve.start.iter_mut().zip(components(a)) {
-                *start = *a;
-            }
-            let begun = curve.lambda;
+            self.keep();
+            let begun = self.curve.lambda;
             if self.predict_and_correct(system, stages, step) {
                 // The curve has only its start at λ = 0; with λ < 0 this is another curve.
                 if self.curve.lambda < 0.0 {
@@ -85,17 +114,14 @@ impl<V: Vector, const S: usize> Newton<V, S> {
                 // The chord crosses λ = 1 close to the solution.
                 let part = (1.0 - begun) / (self.curve.lambda - begun);
                 let rows = self.a.iter_mut().flat_map(V::components_mut);
-                for (a, start) in rows.zip(&self.curve.start) {
+                for (a, start) in rows.zip(&self.kept) {
                     *a = start + part * (*a - start);
                 }
                 if self.iterate(system, stages) {
                     return true;
                 }
             }
-            let rows = self.a.iter_mut().flat_map(V::components_mut);
-            for (a, start) in rows.zip(&self.curve.start) {
-                *a = *start;
-            }
+            self.go_back();
             self.curve.lambda = begun;
             step *= STEP_FACTORS.1;
             if step < SHORTEST_STEP {
@@ -134,11 +160,11 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         }
         curve.lambda += step * curve.tangent_lambda;
         let mut last = f64::INFINITY;
-        for _ in 0..MOST_CORRECTIONS {
+        for _ in 0..MAX_CORRECTIONS {
             self.linearise_on_curve(system, stages);
             self.compute_residual();
-            self.jacobian.solve(&mut self.residual);
-            let Self { a, residual, curve, .. } = self;
+            self.linearisation.solve(&mut self.correction);
+            let Self { a, correction: residual, curve, .. } = self;
             let Curve { lambda, scale, slope_by_lambda, tangent, tangent_lambda, .. } = curve;
             let unit = *scale * *scale;
             let across = dot(tangent, slope_by_lambda) / unit + *tangent_lambda;
@@ -169,20 +195,21 @@ impl<V: Vector, const S: usize> Newton<V, S> {
     fn linearise_on_curve(&mut self, system: &dyn System<Vector = V>, stages: &Stages<S>) {
         let lambda = self.curve.lambda;
         let here = stages.scaled(lambda);
-        {
-            let Self { known, a, evaluated, stage, .. } = self;
-            here.evaluate(system, known, a, stage, evaluated);
+        self.evaluate(system, &here);
+        self.factor(system, &here, stages);
+        let Self { base, a, evaluated, linearisation, curve, .. } = self;
+        let Curve { scale, further, slope_by_lambda, .. } = curve;
+        *scale = scale.max(largest_of(evaluated));
+        let there = stages.scaled(lambda + LAMBDA_DIFFERENCE);
+        there.evaluate(system, base, a, &mut linearisation.at, further);
+        let rows = further
+            .iter()
+            .zip(evaluated.iter())
+            .flat_map(|(further, here)| further.components().iter().zip(here.components()));
+        for (slope_by_lambda, (further, here)) in slope_by_lambda.iter_mut().zip(rows) {
+            *slope_by_lambda = (further - here) / LAMBDA_DIFFERENCE;
         }
-        self.factor_jacobian(system, &here, stages);
-        let Self { known, a, evaluated, perturbed, stage, curve, jacobian, .. } = self;
-        curve.scale = curve.scale.max(largest(components(evaluated)));
-        stages.scaled(lambda + LAMBDA_DIFFERENCE).evaluate(system, known, a, stage, perturbed);
-        let rows = components(perturbed).zip(components(evaluated));
-        for (slope_by_lambda, (perturbed, evaluated)) in curve.slope_by_lambda.iter_mut().zip(rows)
-        {
-            *slope_by_lambda = (perturbed - evaluated) / LAMBDA_DIFFERENCE;
-        }
-        jacobian.solve(&mut curve.slope_by_lambda);
+        linearisation.solve(slope_by_lambda);
     }
 }
 

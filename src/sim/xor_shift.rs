@@ -1,9 +1,9 @@
 //! Numbers that look random and are the same on every run: Marsaglia's xorshift with 13, 7 and 17.
 
 /// A sequence of such numbers, from a seed that is not 0.
-pub(super) struct Dice(u64);
+pub(super) struct XorShift(u64);
 
-impl Dice {
+impl XorShift {
     /// The sequence of this seed.
     pub(super) fn new(seed: u64) -> Self {
         Self(seed)

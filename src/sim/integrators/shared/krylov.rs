@@ -1,0 +1,178 @@
+//! Linear equations without a matrix: BiCGSTAB(2) in storage allocated once. Sleijpen & Fokkema,
+//! *BiCGstab(ℓ) for linear equations involving unsymmetric matrices with complex spectrum* (1993).
+//!
+//! The matrix is not symmetric where springs are damped, and indefinite where they are compressed, which
+//! rules out conjugate gradients; that of several stages has complex eigenvalues, at which BiCGSTAB stalls;
+//! GMRES keeps a vector for each iteration, and these vectors are in every snapshot. Written out because
+//! nalgebra-sparse has no solver for such a matrix, and faer is many times the size of this layer and chooses
+//! its sums by the processor: ours have the same bits everywhere.
+
+/// The most products of matrix and vector in one step of a method. A soft net needs tens and a stiff one
+/// hundreds; without a limit, equations that have no solution would never end.
+const MAX_PRODUCTS: u32 = 12_000;
+/// Products in one iteration.
+const PRODUCTS: u32 = 4;
+/// The relative residual of the linear equations of a descent.
+const DESCENT_TOLERANCE: f64 = 1e-2;
+
+/// A matrix: overwrites its second argument with the product of the matrix and the first.
+pub(super) type Matrix<'a> = dyn FnMut(&[f64], &mut [f64]) + 'a;
+
+/// Scratch of the iterations.
+#[derive(Clone)]
+pub(super) struct Krylov {
+    /// Products left in this step.
+    left: u32,
+    x: Vec<f64>,
+    r: Vec<f64>,
+    shadow: Vec<f64>,
+    u: Vec<f64>,
+    v: Vec<f64>,
+    s: Vec<f64>,
+    w: Vec<f64>,
+    t: Vec<f64>,
+}
+
+impl Krylov {
+    pub(super) fn new(size: usize) -> Self {
+        let [x, r, shadow, u, v, s, w, t] = [(); 8].map(|()| vec![0.0; size]);
+        Self { left: 0, x, r, shadow, u, v, s, w, t }
+    }
+
+    /// Memory in bytes.
+    pub(super) fn heap_bytes(&self) -> usize {
+        size_of::<Self>() + 8 * size_of_val(&self.x[..])
+    }
+
+    pub(super) fn begin_step(&mut self) {
+        self.left = MAX_PRODUCTS;
+    }
+
+    /// Whether the step has no products left.
+    pub(super) fn is_spent(&self) -> bool {
+        self.left < PRODUCTS
+    }
+
+    /// Overwrites the right-hand side `b` with the solution, to a residual of `tolerance` times `b`, or as
+    /// near as the products left allow.
+    pub(super) fn solve(&mut self, matrix: &mut Matrix<'_>, tolerance: f64, b: &mut [f64]) {
+        self.r.copy_from_slice(b);
+        self.x.fill(0.0);
+        let enough = tolerance * dot(&self.r, &self.r).sqrt();
+        self.iterate(matrix, enough);
+        b.copy_from_slice(&self.x);
+    }
+
+    /// Overwrites the residual `b` with a direction down the energy whose gradient it is: the solution by
+    /// conjugate gradients, as far as the energy curves upwards (Steihaug, *The conjugate gradient method and
+    /// trust regions in large scale optimization*, 1983). Returns whether it does so along all that was tried.
+    pub(super) fn descend(&mut self, matrix: &mut Matrix<'_>, b: &mut [f64]) -> bool {
+        let Self { left, x, r, u: p, v: product, .. } = self;
+        r.copy_from_slice(b);
+        x.fill(0.0);
+        p.copy_from_slice(r);
+        let mut size = dot(r, r);
+        let enough = DESCENT_TOLERANCE * DESCENT_TOLERANCE * size;
+        let mut curves_upwards = true;
+        while *left >= PRODUCTS && size > enough {
+            *left -= 1;
+            matrix(p, product);
+            let curvature = dot(p, product);
+            if curvature <= 0.0 || curvature.is_nan() {
+                curves_upwards = false;
+                break;
+            }
+            let alpha = size / curvature;
+            add(x, alpha, p);
+            add(r, -alpha, product);
+            let next = dot(r, r);
+            assign_sum(p, r, next / size);
+            size = next;
+        }
+        // Of an energy that curves downwards at once, the steepest direction.
+        if dot(x, x) == 0.0 {
+            x.copy_from_slice(r);
+        }
+        b.copy_from_slice(x);
+        curves_upwards
+    }
+
+    /// The iteration by its textbook letters: `x` the solution, `r` the residual, `u` a direction, and `v`,
+    /// `s`, `w` and `t` their products.
+    fn iterate(&mut self, matrix: &mut Matrix<'_>, enough: f64) {
+        let Self { left, x, r, shadow, u, v, s, w, t } = self;
+        let mut multiply = |left: &mut u32, x: &[f64], y: &mut [f64]| {
+            *left -= 1;
+            matrix(x, y);
+        };
+        shadow.copy_from_slice(r);
+        u.fill(0.0);
+        let (mut rho, mut alpha, mut omega2) = (1.0, 0.0, 1.0);
+        let is_done = |r: &[f64]| {
+            let size = dot(r, r).sqrt();
+            size <= enough || size.is_nan()
+        };
+        while *left >= PRODUCTS && !is_done(r) {
+            rho *= -omega2;
+            let mut next = dot(r, shadow);
+            let mut beta = alpha * next / rho;
+            rho = next;
+            assign_sum(u, r, -beta);
+            multiply(left, u, v);
+            alpha = rho / dot(v, shadow);
+            add(r, -alpha, v);
+            add(x, alpha, u);
+            if is_done(r) {
+                return;
+            }
+            multiply(left, r, s);
+
+            next = dot(s, shadow);
+            beta = alpha * next / rho;
+            rho = next;
+            assign_sum(v, s, -beta);
+            multiply(left, v, w);
+            alpha = rho / dot(w, shadow);
+            assign_sum(u, r, -beta);
+            add(r, -alpha, v);
+            add(s, -alpha, w);
+            add(x, alpha, u);
+            if is_done(r) {
+                return;
+            }
+            multiply(left, s, t);
+
+            // The residual is made as small as can be along its two products.
+            let (along, across, both) = (dot(s, s), dot(s, t), dot(t, t));
+            let first = dot(r, s);
+            let apart = both - across * across / along;
+            // Where all point one way, as in equal bodies apart, the first product alone ends it.
+            if apart <= 0.0 {
+                add(x, first / along, r);
+                return;
+            }
+            omega2 = (dot(r, t) - across * first / along) / apart;
+            let omega1 = (first - across * omega2) / along;
+            add(x, omega1, r);
+            add(x, omega2, s);
+            add(r, -omega1, s);
+            add(r, -omega2, t);
+            add(u, -omega1, v);
+            add(u, -omega2, w);
+        }
+    }
+}
+
+/// `to = x + times to`
+fn assign_sum(to: &mut [f64], x: &[f64], times: f64) {
+    to.iter_mut().zip(x).for_each(|(to, x)| *to = x + times * *to);
+}
+
+fn add(to: &mut [f64], times: f64, x: &[f64]) {
+    to.iter_mut().zip(x).for_each(|(to, x)| *to += times * x);
+}
+
+/// The inner product, summed in order.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |sum, (a, b)| sum + a * b)
+}

@@ -1,0 +1,308 @@
+//! The forces of a step linearised at its stages, and the linear equations `X - ∂a/∂A X = b` for the accelerations there.
+//!
+//! The matrix is factored: as a band where each coordinate is acted on by its neighbours alone. Where
+//! [few](Coupling::Few) coordinates at any index act on each it is never formed: its equations are solved by iteration.
+//! All that a method learns of the derivatives of a force is [slopes](Slopes) along directions.
+
+use super::krylov::Krylov;
+use super::lu::StageLu;
+use super::slopes::{Forward, Slopes};
+use super::stages::Stages;
+use crate::sim::integrators::failure::StepFailure;
+use crate::sim::state::{State, Vector, largest};
+use crate::sim::system::{Coupling, System};
+
+/// The residual to which an iteration solves the equations of a step, relative to the right-hand side.
+const TOLERANCE: f64 = 1e-10;
+
+/// The states at the stages of a step, and how the forces change from there.
+#[derive(Clone)]
+pub(in crate::sim::integrators) struct Linearisation<V, const S: usize> {
+    /// Where the forces are linearised.
+    pub(in crate::sim::integrators) at: [State<V>; S],
+    pub(in crate::sim::integrators) slopes: Slopes<V>,
+    along: State<V>,
+    slope: V,
+    /// The matrix, if there is one equation in all.
+    alone: f64,
+    /// `None` if the matrix is not formed, or alone.
+    matrix: Option<StageLu>,
+    /// Solves without a matrix.
+    krylov: Option<Box<Krylov>>,
+}
+
+impl<V: Vector, const S: usize> Linearisation<V, S> {
+    pub(in crate::sim::integrators) fn new(like: &V, coupling: Coupling) -> Self {
+        let state = State { q: like.clone(), v: like.clone() };
+        let n = like.components().len();
+        let reach = coupling.reach(n);
+        Self {
+            at: std::array::from_fn(|_| state.clone()),
+            slopes: Slopes::new(like),
+            along: state,
+            slope: like.clone(),
+            alone: 1.0,
+            matrix: reach.filter(|_| S * n > 1).map(|reach| StageLu::new(S, n, reach)),
+            krylov: reach.is_none().then(|| Box::new(Krylov::new(S * n))),
+        }
+    }
+
+    /// Memory in bytes, without its own size and that of its coordinate vectors.
+    pub(in crate::sim::integrators) fn heap_bytes(&self) -> usize {
+        let matrix = self.matrix.as_ref().map_or(0, StageLu::heap_bytes);
+        matrix + self.krylov.as_ref().map_or(0, |krylov| krylov.heap_bytes())
+    }
+
+    /// Whether equations are solved without a matrix.
+    pub(super) fn is_matrix_free(&self) -> bool {
+        self.krylov.is_some()
+    }
+
+    /// Forms and factors the matrix, of slopes by [forward](Forward) differences from the forces `evaluated` at the
+    /// stages, if they are given with how far to go in units of `A`. Shows each entry of `∂a/∂A` that is not 0 for certain to
+    /// `see`, with its row.
+    #[inline(always)]
+    pub(super) fn factor(
+        &mut self,
+        system: &(impl System<Vector = V> + ?Sized),
+        stages: &Stages<S>,
+        forward: Option<(&[V; S], f64)>,
+        mut see: impl FnMut(usize, f64),
+    ) {
+        let Self { at, slopes, along, slope, alone, matrix, .. } = self;
+        let n = slope.components().len();
+        let mut take = |s: usize, i: usize, first: usize, apart: usize, slope: &mut V| {
+            let State { q, v } = &mut *along;
+            for (half, weight) in [(q, stages.alpha[i][s]), (v, stages.beta[i][s])] {
+                half.components_mut().fill(0.0);
+                for j in (first..n).step_by(apart) {
+                    half.components_mut()[j] = weight;
+                }
+            }
+            let forward = forward.map(|(from, part)| Forward { from: &from[i], part });
+            slopes.take(system, stages.t[i], &at[i], along, forward, slope);
+        };
+        let Some(matrix) = matrix else {
+            take(0, 0, 0, 1, slope);
+            let slope = slope.components()[0];
+            see(0, slope);
+            *alone = 1.0 - slope;
+            return;
+        };
+        // Coordinates that act on different ones are moved together.
+        let apart = matrix.apart();
+        for s in 0..S {
+            for first in 0..apart {
+                for j in (first..n).step_by(apart) {
+                    matrix.begin_column(s, j);
+                }
+                for i in 0..S {
+                    take(s, i, first, apart, slope);
+                    for j in (first..n).step_by(apart) {
+                        let rows = matrix.rows(j);
+                        let slopes = &slope.components()[rows.clone()];
+                        matrix.put([s, j], i, slopes);
+                        (i * n + rows.start..)
+                            .zip(slopes)
+                            .for_each(|(row, slope)| see(row, *slope));
+                    }
+                }
+            }
+        }
+        matrix.factor();
+    }
+
+    /// Overwrites the right-hand side `x` with the solution by the matrix last factored. A singular matrix gives values
+    /// that are not finite.
+    #[inline]
+    pub(super) fn solve(&mut self, x: &mut [f64]) {
+        match &mut self.matrix {
+            Some(matrix) => matrix.solve(x),
+            None => x[0] /= self.alone,
+        }
+    }
+
+    /// Grants the iterations the products of a step.
+    pub(super) fn begin_step(&mut self) {
+        self.krylov.iter_mut().for_each(|krylov| krylov.begin_step());
+    }
+
+    /// Whether the iterations of the step have no products left.
+    pub(super) fn is_spent(&self) -> bool {
+        self.krylov.as_ref().is_some_and(|krylov| krylov.is_spent())
+    }
+
+    /// Overwrites the right-hand side `b` with the solution by iteration, as [`Krylov::solve`].
+    pub(super) fn iterate(
+        &mut self,
+        system: &dyn System<Vector = V>,
+        stages: &Stages<S>,
+        tolerance: f64,
+        b: &mut [f64],
+    ) {
+        self.with_products(system, stages, |krylov, matrix| krylov.solve(matrix, tolerance, b));
+    }
+
+    /// Overwrites the residual `b` with a direction down the energy, as [`Krylov::descend`].
+    pub(super) fn descend(
+        &mut self,
+        system: &dyn System<Vector = V>,
+        stages: &Stages<S>,
+        b: &mut [f64],
+    ) -> bool {
+        self.with_products(system, stages, |krylov, matrix| krylov.descend(matrix, b))
+    }
+
+    fn with_products<T>(
+        &mut self,
+        system: &dyn System<Vector = V>,
+        stages: &Stages<S>,
+        work: impl FnOnce(&mut Krylov, &mut dyn FnMut(&[f64], &mut [f64])) -> T,
+    ) -> T {
+        let Self { at, slopes, along, slope, krylov, .. } = self;
+        let krylov = krylov.as_mut().expect("only what forms no matrix iterates");
+        let n = slope.components().len();
+        work(krylov, &mut |x, y| {
+            for (i, y) in y.chunks_exact_mut(n).enumerate() {
+                along.q.components_mut().fill(0.0);
+                along.v.components_mut().fill(0.0);
+                let weights = stages.alpha[i].iter().zip(&stages.beta[i]);
+                for ((alpha, beta), x) in weights.zip(x.chunks_exact(n)) {
+                    add(along.q.components_mut(), *alpha, x);
+                    add(along.v.components_mut(), *beta, x);
+                }
+                slopes.take(system, stages.t[i], &at[i], along, None, slope);
+                let x = &x[i * n..];
+                for ((y, x), slope) in y.iter_mut().zip(x).zip(slope.components()) {
+                    *y = x - slope;
+                }
+            }
+        })
+    }
+
+    /// Largest acceleration at the first stage when neighbours are displaced by ±`distance`: an estimate of the
+    /// stiffest mode.
+    pub(super) fn largest_change(
+        &mut self,
+        system: &dyn System<Vector = V>,
+        t: f64,
+        distance: f64,
+    ) -> f64 {
+        let Self { at, slopes, along, slope, .. } = self;
+        alternate(&mut along.q, distance);
+        along.v.components_mut().fill(0.0);
+        slopes.take(system, t, &at[0], along, None, slope);
+        largest(slope.components())
+    }
+}
+
+impl<V: Vector> Linearisation<V, 1> {
+    /// Adds `times` the derivative of the acceleration at `y` in the direction `(along, 0)` to `x`.
+    #[inline]
+    pub(in crate::sim::integrators) fn add_slope(
+        &mut self,
+        system: &impl System<Vector = V>,
+        t: f64,
+        y: &State<V>,
+        times: f64,
+        along: &V,
+        x: &mut V,
+    ) {
+        self.along.q.assign(along);
+        self.along.v.components_mut().fill(0.0);
+        self.slopes.take(system, t, y, &self.along, None, &mut self.slope);
+        x.add_scaled(times, &self.slope);
+    }
+
+    /// Overwrites the right-hand side `x` with the solution of `(I - α ∂a/∂q - β ∂a/∂v) x' = x`, with the
+    /// derivatives at `t` and `y`. A singular matrix gives values that are not finite.
+    ///
+    /// # Errors
+    /// [`StepFailure::LinearSolveFailed`] if an iteration comes to no end.
+    #[inline]
+    pub(in crate::sim::integrators) fn solve_at(
+        &mut self,
+        system: &impl System<Vector = V>,
+        t: f64,
+        y: &State<V>,
+        [alpha, beta]: [f64; 2],
+        x: &mut V,
+    ) -> Result<(), StepFailure> {
+        self.at[0].assign(y);
+        let stages = Stages { t: [t], alpha: [[alpha]], beta: [[beta]] };
+        if x.components().len() == 1 {
+            self.factor(system, &stages, None, |_, _| ());
+            self.solve(x.components_mut());
+            return Ok(());
+        }
+        self.solve_together(system, &stages, x)
+    }
+
+    /// The same for several coordinates, compiled once for all systems of them.
+    fn solve_together(
+        &mut self,
+        system: &dyn System<Vector = V>,
+        stages: &Stages<1>,
+        x: &mut V,
+    ) -> Result<(), StepFailure> {
+        if self.is_matrix_free() {
+            self.begin_step();
+            self.iterate(system, stages, TOLERANCE, x.components_mut());
+            return if self.is_spent() { Err(StepFailure::LinearSolveFailed) } else { Ok(()) };
+        }
+        self.factor(system, stages, None, |_, _| ());
+        self.solve(x.components_mut());
+        Ok(())
+    }
+}
+
+/// Overwrites the coordinates of points in a plane with ±`distance`, so that neighbours move apart.
+pub(super) fn alternate<V: Vector>(x: &mut V, distance: f64) {
+    for (i, x) in x.components_mut().iter_mut().enumerate() {
+        *x = if i / 2 % 2 == 0 { distance } else { -distance };
+    }
+}
+
+fn add(to: &mut [f64], times: f64, x: &[f64]) {
+    to.iter_mut().zip(x).for_each(|(to, x)| *to += times * x);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::points::Points;
+
+    /// Springs apart from each other, all equal or each stiffer than the last.
+    struct Apart {
+        stiffer: f64,
+    }
+
+    impl System for Apart {
+        type Vector = Points;
+        fn coupling() -> Coupling {
+            Coupling::Few
+        }
+        fn acceleration(&self, _t: f64, q: &Points, v: &Points, a: &mut Points) {
+            for (i, a) in a.0.iter_mut().enumerate() {
+                *a = -(9.0 + self.stiffer * i as f64) * q.0[i] - 0.4 * v.0[i];
+            }
+        }
+    }
+
+    #[test]
+    fn a_sparse_vector_is_solved_even_where_all_products_point_one_way() {
+        let start: Vec<f64> = (0..8).map(|i| 1.0 - 0.3 * f64::from(i)).collect();
+        let y = State { q: Points(start.clone()), v: Points(start.clone()) };
+        let [alpha, beta] = [0.01, 0.1];
+        for stiffer in [0.0, 2.0] {
+            let mut equations = Linearisation::<_, 1>::new(&y.q, Coupling::Few);
+            let mut x = Points(start.clone());
+            equations.slopes.reach_for(0.1, &y, &y.q);
+            equations.solve_at(&Apart { stiffer }, 0.0, &y, [alpha, beta], &mut x).unwrap();
+            for (i, (x, b)) in x.0.iter().zip(&start).enumerate() {
+                let wanted = b / (1.0 + alpha * (9.0 + stiffer * i as f64) + beta * 0.4);
+                assert!((x - wanted).abs() < 1e-7, "{i}: {x}, not {wanted}");
+            }
+        }
+    }
+}
