@@ -86,7 +86,7 @@ fn laws() -> String {
             Some(row) if row.len() + function.len() <= FUNCTIONS_WIDTH => {
                 *row = format!("{row}  {function}");
             }
-            _ => rows.push(function.to_owned()),
+            _ => rows.push(function),
         }
     }
     let functions = rows.join("\n             ");

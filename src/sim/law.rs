@@ -17,13 +17,13 @@ mod compile;
 mod diagnosis;
 mod expression;
 mod form;
+mod function;
 mod jet;
 mod layout;
 mod op;
 mod refusal;
 mod registers;
 mod switch;
-mod table;
 mod tape;
 mod text;
 mod token;
@@ -56,8 +56,8 @@ pub fn operators() -> impl Iterator<Item = &'static str> {
 }
 
 /// The functions of expressions, each as it is called: `min(a, b)`.
-pub fn functions() -> impl Iterator<Item = &'static str> {
-    op::FUNCTIONS.iter().map(|function| function.usage)
+pub fn functions() -> impl Iterator<Item = String> {
+    function::FUNCTIONS.iter().map(function::Function::usage)
 }
 
 /// The names that every acceleration can use: the time, the inputs and π.

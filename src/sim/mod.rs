@@ -11,6 +11,7 @@ mod body_stepper;
 mod clock;
 #[cfg(feature = "lab")]
 pub mod conformance;
+mod curve;
 mod double_double;
 mod engine_settings;
 mod exact_flow;

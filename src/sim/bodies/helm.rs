@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 use super::kind::{Coordinate, Kind, Truth};
 use crate::sim::body::{Body, Input};
 use crate::sim::body_stepper::stepper;
+use crate::sim::curve::Curve;
 use crate::sim::parameter::{self, ParameterOf, Range};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
 use crate::sim::state::State;
@@ -71,65 +72,10 @@ const PARAMETERS: [Of; 12] = [
         .or(20_000.0)
         .about("the impulse of one kick, ahead"),
     Of::curve("thrust_curve", ["m/s", "N"], |helm, points| {
-        helm.thrust = ThrustCurve::new(points.iter().copied())
+        helm.thrust = Curve::new(points.iter().copied())
     })
     .about("the full thrust at speeds ahead: straight between them, level beyond them"),
 ];
-
-/// Thrust over speed, from a table.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ThrustCurve {
-    /// Points of a speed in m/s and the thrust in newtons, in order of speed. Without points the thrust
-    /// is 0.
-    points: Vec<[f64; 2]>,
-}
-
-impl ThrustCurve {
-    /// The curve through points of speed in m/s and thrust in N.
-    ///
-    /// If there are no points, or if the speeds do not rise.
-    pub fn new(points: impl IntoIterator<Item = [f64; 2]>) -> Self {
-        let points: Vec<_> = points.into_iter().collect();
-        assert!(!points.is_empty(), "a curve without a point");
-        assert!(points.is_sorted_by(|a, b| a[0] < b[0]), "speeds that do not rise: {points:?}");
-        Self { points }
-    }
-
-    /// The thrust at `speed`, in newtons: linear between the points, constant beyond them.
-    #[inline]
-    pub fn at(&self, speed: f64) -> f64 {
-        self.on(self.piece(speed), speed)
-    }
-
-    /// The index of the piece at `speed`: the number of points at or below it.
-    #[inline]
-    fn piece(&self, speed: f64) -> usize {
-        self.points.partition_point(|point| point[0] <= speed)
-    }
-
-    /// The largest magnitude of a point's speed; 1 if that is 0.
-    fn fastest(&self) -> f64 {
-        let [first, last] = [self.points.first(), self.points.last()];
-        let fastest = first.into_iter().chain(last).map(|[x, _]| x.abs()).fold(0.0, f64::max);
-        if fastest > 0.0 { fastest } else { 1.0 }
-    }
-
-    /// The points at the lower and the upper boundary of a piece.
-    #[inline]
-    fn ends(&self, piece: usize) -> (Option<&[f64; 2]>, Option<&[f64; 2]>) {
-        (piece.checked_sub(1).map(|below| &self.points[below]), self.points.get(piece))
-    }
-
-    /// The thrust in newtons by one piece of the curve, continued linearly beyond its boundaries.
-    #[inline]
-    fn on(&self, piece: usize, speed: f64) -> f64 {
-        match self.ends(piece) {
-            (Some([x0, y0]), Some([x1, y1])) => y0 + (speed - x0) / (x1 - x0) * (y1 - y0),
-            (Some([_, y]), None) | (None, Some([_, y])) => *y,
-            (None, None) => 0.0,
-        }
-    }
-}
 
 /// A steered ship. Its coordinates are x and y in metres and the heading ψ, in radians
 /// counter-clockwise from x.
@@ -147,8 +93,8 @@ pub struct Helm {
     pub yaw_drag: f64,
     /// L, in newton metres for each metre per second ahead.
     pub rudder_moment: f64,
-    /// T, over the speed ahead.
-    pub thrust: ThrustCurve,
+    /// T in newtons, over the speed ahead in m/s.
+    pub thrust: Curve,
     /// The throttle: the fraction of full thrust, -1 to 1.
     pub throttle: f64,
     /// The rudder: the fraction of its full angle, -1 to 1; positive turns left.
@@ -170,10 +116,6 @@ fn surge(state: &State<DVec3>) -> f64 {
     bow(state.q.z).dot(state.v.truncate())
 }
 
-/// Rounding of a speed at a boundary, relative to the speed and to the boundary. A smaller tolerance
-/// would take a rounded boundary for a crossing.
-const SPEED_ROUNDING: f64 = 16.0 * f64::EPSILON;
-
 impl Helm {
     /// Full throttle, rudder amidships and all parameters 0, to be set by [`Body::with_parameters`].
     pub const BLANK: Self = Self {
@@ -183,13 +125,19 @@ impl Helm {
         side_drag: 0.0,
         yaw_drag: 0.0,
         rudder_moment: 0.0,
-        thrust: ThrustCurve { points: Vec::new() },
+        thrust: Curve::EMPTY,
         throttle: 1.0,
         rudder: 0.0,
         q0: DVec3::ZERO,
         u0: 0.0,
         kick: 0.0,
     };
+
+    /// The largest magnitude of a speed of the curve; 1 if that is 0.
+    fn fastest(&self) -> f64 {
+        let fastest = self.thrust.points().iter().map(|[speed, _]| speed.abs()).fold(0.0, f64::max);
+        if fastest > 0.0 { fastest } else { 1.0 }
+    }
 
     /// The acceleration, with `thrust` as the thrust at a surge speed.
     #[inline]
@@ -217,7 +165,7 @@ impl Body for Helm {
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn heap_bytes(&self) -> usize {
-        size_of_val(&self.thrust.points[..])
+        size_of_val(self.thrust.points())
     }
 
     fn start(&self) -> State<DVec3> {
@@ -238,26 +186,20 @@ impl Body for Helm {
 
     fn piece(&self, _t: f64, state: &State<DVec3>) -> Piece {
         let mut piece = Piece::FIRST;
-        piece.modes[0] = self.thrust.piece(surge(state)) as i64;
+        piece.modes[0] = self.thrust.piece(surge(state));
         piece
     }
 
     fn distances_to_ends(&self, piece: &Piece, _t: f64, state: &State<DVec3>) -> Distances {
-        let u = surge(state);
-        let (lower, upper) = self.thrust.ends(piece.modes[0] as usize);
-        let unit = self.thrust.fastest();
-        let distances_to_ends = |end: Option<&[f64; 2]>, sign: f64| {
-            let distances_to_ends = |x: f64| sign * (u - x) + SPEED_ROUNDING * (u.abs() + x.abs());
-            end.map_or(f64::INFINITY, |[x, _]| distances_to_ends(*x) / unit)
-        };
         let mut distances = NO_BOUNDARIES;
-        distances[0] = [distances_to_ends(lower, 1.0), distances_to_ends(upper, -1.0)];
+        let speeds = self.thrust.distances(piece.modes[0], surge(state));
+        distances[0] = speeds.map(|distance| distance / self.fastest());
         distances
     }
 
     #[inline]
     fn acceleration_on(&self, piece: &Piece, _t: f64, q: &DVec3, v: &DVec3, a: &mut DVec3) {
-        *a = self.acceleration_under(|u| self.thrust.on(piece.modes[0] as usize, u), q, v);
+        *a = self.acceleration_under(|u| self.thrust.on(piece.modes[0], u), q, v);
     }
 
     fn energy(&self, _state: &State<DVec3>) -> Option<f64> {

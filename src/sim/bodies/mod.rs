@@ -27,7 +27,7 @@ pub use chain::Chain;
 pub use claims::ClaimHorizon;
 pub use false_claims::FalseClaims;
 pub use follow::Follow;
-pub use helm::{Helm, ThrustCurve};
+pub use helm::Helm;
 pub use kind::{Build, Coordinate, Kind, Truth};
 pub use law::{Law, check_law, law_kind};
 pub use net::{Net, net_kind};
@@ -40,6 +40,7 @@ pub use ship::Ship;
 pub use spring::Spring;
 
 pub use super::body::{Body, Input};
+pub use super::curve::Curve;
 pub use super::net_plan::{
     Form, Grid, Lists, MOST_NODES, MOST_SPRINGS, NetFault, NetPart, NetPlan, Pin, PlannedSpring,
 };

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use super::expression::{Expression, Scope, parse};
-use super::op::{FUNCTIONS, is_word};
+use super::function::Function;
+use super::op::is_word;
 use super::refusal::{Fault, Part, Refusal, Remedy};
 use super::tape::{MOST_OPERATIONS, MOST_SWITCHES, Tape};
 use super::token::is_name_start;
@@ -209,5 +210,5 @@ fn is_name(name: &str) -> bool {
 }
 
 fn is_reserved(name: &str) -> bool {
-    is_word(name) || FUNCTIONS.iter().any(|function| function.name == name)
+    is_word(name) || Function::named(name).is_some()
 }

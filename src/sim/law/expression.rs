@@ -4,10 +4,11 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use super::op::{FUNCTIONS, Op, is_word};
+use super::function::{FUNCTIONS, Function};
+use super::op::{INFIXES, Infix, Level, Op, is_word};
 use super::refusal::{Fault, Remedy, quoted};
-use super::table::Table;
 use super::token::{Token, tokens};
+use crate::sim::curve::Curve;
 
 mod call;
 mod nodes;
@@ -26,11 +27,23 @@ const LARGEST_PRODUCT: u32 = 16;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) op: Op,
-    pub(super) arguments: [usize; 3],
+    operands: [usize; 3],
+    count: usize,
     /// The value of a number.
     pub(super) number: f64,
     /// The place of an input among the inputs, or of a table among the tables.
     pub(super) index: usize,
+}
+
+impl Node {
+    fn leaf(op: Op) -> Self {
+        Self { op, operands: [0; 3], count: 0, number: 0.0, index: 0 }
+    }
+
+    /// The nodes that it reads.
+    pub(super) fn arguments(&self) -> &[usize] {
+        &self.operands[..self.count]
+    }
 }
 
 /// An expression whose value is a number.
@@ -39,7 +52,7 @@ pub(super) struct Expression {
     pub(super) nodes: Vec<Node>,
     /// The bytes of each node.
     pub(super) spans: Vec<Range<usize>>,
-    pub(super) tables: Vec<Table>,
+    pub(super) tables: Vec<Curve>,
 }
 
 /// The names that an expression may use.
@@ -165,114 +178,70 @@ impl Parser<'_> {
     }
 
     fn any(&mut self) -> Result<usize, Fault> {
-        let mut left = self.conjunction()?;
-        while self.is_word("or") {
+        self.operation(Level::Or)
+    }
+
+    /// Operands joined by operators that bind at least as tightly as `least`.
+    fn operation(&mut self, least: Level) -> Result<usize, Fault> {
+        let mut left = self.operand(least)?;
+        while let Some(infix) = self.infix().filter(|infix| infix.level >= least) {
+            if infix.op == Op::Power {
+                left = self.power(left)?;
+                continue;
+            }
             self.next += 1;
-            let right = self.conjunction()?;
-            left = self.logical(Op::Or, left, right)?;
+            let right = self.operation(infix.level.tighter())?;
+            for operand in [left, right] {
+                match infix.op {
+                    Op::And | Op::Or => self.want_truth(operand)?,
+                    _ => self.want_number(operand)?,
+                };
+            }
+            if infix.level == Level::Comparison
+                && let Some(second) = self.infix().filter(|second| second.level == infix.level)
+            {
+                let what = format!("`{}` follows another comparison", second.sign);
+                return Err(Fault::new(self.span(), what, "write `a < b and b < c`"));
+            }
+            let span = self.span_of(left).start..self.span_of(right).end;
+            let operands = if infix.is_swapped { [right, left] } else { [left, right] };
+            left = self.push(infix.op, &operands, span);
         }
         Ok(left)
     }
 
-    fn conjunction(&mut self) -> Result<usize, Fault> {
-        let mut left = self.negation()?;
-        while self.is_word("and") {
-            self.next += 1;
-            let right = self.negation()?;
-            left = self.logical(Op::And, left, right)?;
-        }
-        Ok(left)
+    /// The operator that comes next.
+    fn infix(&self) -> Option<&'static Infix> {
+        let is_sign = matches!(self.peek(), Token::Symbol(_) | Token::Name);
+        INFIXES.iter().find(|infix| is_sign && infix.sign == self.written())
     }
 
-    fn logical(&mut self, op: Op, left: usize, right: usize) -> Result<usize, Fault> {
-        let (left, right) = (self.want_truth(left)?, self.want_truth(right)?);
-        Ok(self.push(op, &[left, right], self.span_of(left).start..self.span_of(right).end))
-    }
-
-    fn negation(&mut self) -> Result<usize, Fault> {
-        if !self.is_word("not") {
-            return self.comparison();
-        }
+    /// What stands before an operator that binds at least as tightly as `least`.
+    fn operand(&mut self, least: Level) -> Result<usize, Fault> {
         let start = self.span().start;
-        self.next += 1;
-        let operand = self.nested(Self::negation)?;
-        let operand = self.want_truth(operand)?;
-        Ok(self.push(Op::Not, &[operand], start..self.span_of(operand).end))
-    }
-
-    fn comparison(&mut self) -> Result<usize, Fault> {
-        let left = self.sum()?;
-        let Token::Symbol(symbol) = self.peek() else { return Ok(left) };
-        let Some((op, is_swapped)) = comparison(symbol) else { return Ok(left) };
-        self.next += 1;
-        let right = self.sum()?;
-        let (left, right) = (self.want_number(left)?, self.want_number(right)?);
-        if let Token::Symbol(second) = self.peek()
-            && comparison(second).is_some()
-        {
-            let what = format!("`{second}` follows another comparison");
-            return Err(Fault::new(self.span(), what, "write `a < b and b < c`"));
-        }
-        let span = self.span_of(left).start..self.span_of(right).end;
-        let operands = if is_swapped { [right, left] } else { [left, right] };
-        Ok(self.push(op, &operands, span))
-    }
-
-    fn sum(&mut self) -> Result<usize, Fault> {
-        self.binary(Self::product, |symbol| match symbol {
-            "+" => Some(Op::Add),
-            "-" => Some(Op::Subtract),
-            _ => None,
-        })
-    }
-
-    fn product(&mut self) -> Result<usize, Fault> {
-        self.binary(Self::signed, |symbol| match symbol {
-            "*" => Some(Op::Multiply),
-            "/" => Some(Op::Divide),
-            _ => None,
-        })
-    }
-
-    /// Operands joined by operators of one precedence, from left to right.
-    fn binary(
-        &mut self,
-        operand: impl Fn(&mut Self) -> Result<usize, Fault>,
-        operator: impl Fn(&str) -> Option<Op>,
-    ) -> Result<usize, Fault> {
-        let mut left = operand(self)?;
-        while let Token::Symbol(symbol) = self.peek()
-            && let Some(op) = operator(symbol)
-        {
+        if least <= Level::Not && self.is_word("not") {
             self.next += 1;
-            let right = operand(self)?;
-            let (a, b) = (self.want_number(left)?, self.want_number(right)?);
-            left = self.push(op, &[a, b], self.span_of(a).start..self.span_of(b).end);
+            let operand = self.nested(|parser| parser.operation(Level::Not))?;
+            let operand = self.want_truth(operand)?;
+            return Ok(self.push(Op::Not, &[operand], start..self.span_of(operand).end));
         }
-        Ok(left)
+        let is_negated = self.takes("-");
+        if !is_negated && !self.takes("+") {
+            return self.primary();
+        }
+        let operand = self.nested(|parser| parser.operation(Level::Sign))?;
+        let operand = self.want_number(operand)?;
+        if !is_negated {
+            return Ok(operand);
+        }
+        Ok(self.push(Op::Negate, &[operand], start..self.span_of(operand).end))
     }
 
-    fn signed(&mut self) -> Result<usize, Fault> {
-        let start = self.span().start;
-        if self.takes("-") {
-            let operand = self.nested(Self::signed)?;
-            let operand = self.want_number(operand)?;
-            return Ok(self.push(Op::Negate, &[operand], start..self.span_of(operand).end));
-        }
-        if self.takes("+") {
-            let operand = self.nested(Self::signed)?;
-            return self.want_number(operand);
-        }
-        self.power()
-    }
-
-    fn power(&mut self) -> Result<usize, Fault> {
-        let base = self.primary()?;
-        if !self.takes("^") {
-            return Ok(base);
-        }
+    /// The power of `base`, before whose sign the parser stands. It groups to the right.
+    fn power(&mut self, base: usize) -> Result<usize, Fault> {
+        self.next += 1;
         let base = self.want_number(base)?;
-        let exponent = self.nested(Self::signed)?;
+        let exponent = self.nested(|parser| parser.operation(Level::Sign))?;
         let exponent = self.want_number(exponent)?;
         let span = self.span_of(base).start..self.span_of(exponent).end;
         let Some((times, is_inverse)) = self.whole(exponent) else {
@@ -296,7 +265,7 @@ impl Parser<'_> {
     fn whole(&self, node: usize) -> Option<(u32, bool)> {
         let nodes = &self.expression.nodes;
         let (node, is_negative) = match nodes[node].op {
-            Op::Negate => (nodes[nodes[node].arguments[0]], true),
+            Op::Negate => (nodes[nodes[node].operands[0]], true),
             _ => (nodes[node], false),
         };
         let is_small = node.number.fract() == 0.0 && node.number <= f64::from(LARGEST_PRODUCT);
@@ -333,10 +302,10 @@ impl Parser<'_> {
     fn named(&mut self) -> Result<usize, Fault> {
         let (span, name) = (self.span(), self.written().to_owned());
         self.next += 1;
-        if let Some(function) = FUNCTIONS.iter().find(|function| function.name == name) {
+        if let Some(function) = Function::named(&name) {
             if self.peek() != Token::Symbol("(") {
                 let what = format!("`{name}` is a function");
-                return Err(Fault::new(span, what, format!("write `{}`", function.usage)));
+                return Err(Fault::new(span, what, format!("write `{}`", function.usage())));
             }
             return self.call(function, span);
         }
@@ -345,8 +314,7 @@ impl Parser<'_> {
                 let what = format!("`{name}` is no function");
                 return Err(Fault::new(span, what, format!("write `{name}*(…)` for a product")));
             }
-            let node = Node { op: Op::Input, arguments: [0; 3], number: 0.0, index: input };
-            return Ok(self.node(node, span));
+            return Ok(self.node(Node { index: input, ..Node::leaf(Op::Input) }, span));
         }
         if name == "pi" {
             return Ok(self.number(PI, span));
@@ -369,17 +337,4 @@ impl Parser<'_> {
         let what = format!("unknown {noun} `{}`", quoted(&name));
         Err(Fault { span, what, remedy: Remedy::Name { written: name, known } })
     }
-}
-
-/// The operation of a comparison, and whether its operands change places.
-fn comparison(symbol: &str) -> Option<(Op, bool)> {
-    Some(match symbol {
-        "<" => (Op::Less, false),
-        "<=" => (Op::LessEqual, false),
-        ">" => (Op::Less, true),
-        ">=" => (Op::LessEqual, true),
-        "==" => (Op::Equal, false),
-        "!=" => (Op::NotEqual, false),
-        _ => return None,
-    })
 }

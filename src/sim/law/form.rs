@@ -37,7 +37,16 @@ pub(super) fn is_linear(
                 _ => Dependence::Any,
             },
             Op::Divide if operand(1) == Dependence::Constant => operand(0),
-            _ => match operands.iter().map(|&slot| of[slot as usize]).max() {
+            Op::Number
+            | Op::Input
+            | Op::Divide
+            | Op::Power
+            | Op::And
+            | Op::Or
+            | Op::Not
+            | Op::If
+            | Op::Smooth(_)
+            | Op::Switch(_) => match operands.iter().map(|&slot| of[slot as usize]).max() {
                 None | Some(Dependence::Constant) => Dependence::Constant,
                 _ => Dependence::Any,
             },
@@ -51,7 +60,7 @@ pub(super) fn is_linear(
 pub(super) fn is_angle(tape: &Tape, input: usize) -> bool {
     let is_it = |slot: &u16| usize::from(*slot) == input;
     let mut uses = tape.operations().filter(|(_, operands, ..)| operands.iter().any(is_it));
-    let is_periodic = |op: Op| matches!(op, Op::Sin | Op::Cos | Op::Tan);
+    let is_periodic = |op: Op| matches!(op, Op::Smooth(function) if function.is_periodic);
     let mut is_used = false;
     let are_periodic = uses.all(|(op, ..)| {
         is_used = true;

@@ -2,9 +2,8 @@
 //! to rounding.
 
 use super::op::Op;
-use super::switch;
-use super::table::Table;
 use super::tape::Tape;
+use crate::sim::curve::Curve;
 
 /// A value, its derivative and its second derivative.
 pub(super) type Jet = [f64; 3];
@@ -20,85 +19,31 @@ pub(super) fn evaluate(tape: &Tape, slots: &mut [Jet]) {
     }
 }
 
-fn apply(op: Op, [a, b, c]: [Jet; 3], table: Option<&Table>) -> Jet {
-    let [x, ..] = a;
+fn apply(op: Op, [a, b, c]: [Jet; 3], table: Option<&Curve>) -> Jet {
     match op {
+        // Already in their slots.
+        Op::Number | Op::Input => a,
         Op::Negate => a.map(|x| -x),
         Op::Add => sum(a, b),
         Op::Subtract => difference(a, b),
         Op::Multiply => product(a, b),
         Op::Divide => quotient(a, b),
         Op::Power => power(a, b),
-        Op::Sqrt => root(a),
-        Op::Exp => {
-            let e = libm::exp(x);
-            chain(a, [e, e, e])
-        }
-        Op::Ln => chain(a, [libm::log(x), 1.0 / x, -1.0 / (x * x)]),
-        Op::Sin => chain(a, [libm::sin(x), libm::cos(x), -libm::sin(x)]),
-        Op::Cos => chain(a, [libm::cos(x), -libm::sin(x), -libm::cos(x)]),
-        Op::Tan => {
-            let tan = libm::tan(x);
-            let slope = 1.0 + tan * tan;
-            chain(a, [tan, slope, 2.0 * tan * slope])
-        }
-        Op::Asin | Op::Acos => {
-            let slope = 1.0 / (1.0 - x * x).sqrt();
-            let bend = x * slope * slope * slope;
-            match op {
-                Op::Asin => chain(a, [libm::asin(x), slope, bend]),
-                _ => chain(a, [libm::acos(x), -slope, -bend]),
-            }
-        }
-        Op::Atan => {
-            let slope = 1.0 / (1.0 + x * x);
-            chain(a, [libm::atan(x), slope, -2.0 * x * slope * slope])
-        }
-        Op::Tanh => {
-            let tanh = libm::tanh(x);
-            let slope = 1.0 - tanh * tanh;
-            chain(a, [tanh, slope, -2.0 * tanh * slope])
-        }
-        Op::Atan2 => {
-            // The derivative of the angle of (b, a), and that of this derivative.
-            let radius2 = sum(product(a, a), product(b, b));
-            let numerator = [b[0] * a[1] - a[0] * b[1], b[0] * a[2] - a[0] * b[2], 0.0];
-            let slope = quotient(numerator, [radius2[0], radius2[1], 0.0]);
-            [libm::atan2(a[0], b[0]), slope[0], slope[1]]
-        }
-        Op::Hypot => {
-            let [_, slope, bend] = root(sum(product(a, a), product(b, b)));
-            [libm::hypot(a[0], b[0]), slope, bend]
-        }
         Op::And => constant(a[0] * b[0]),
         Op::Or => constant(f64::from(u8::from(a[0] + b[0] > 0.0))),
         Op::Not => constant(1.0 - a[0]),
         Op::If if a[0] == 1.0 => b,
         Op::If => c,
-        _ => switched(op, [a, b], table),
+        Op::Smooth(smooth) => (smooth.jet)(a, b),
+        Op::Switch(switch) => switch.jet([a, b], table),
     }
 }
 
-fn switched(op: Op, [a, b]: [Jet; 2], table: Option<&Table>) -> Jet {
-    let mode = switch::mode(op, a[0], b[0], table);
-    match op {
-        Op::Abs if mode == 1 => a,
-        Op::Abs => a.map(|x| -x),
-        Op::Min | Op::Max if mode == 1 => a,
-        Op::Min | Op::Max => b,
-        Op::Table => {
-            let slope = table.map_or(0.0, |table| table.slope(mode));
-            chain(a, [switch::value(op, mode, a[0], b[0], table), slope, 0.0])
-        }
-        _ => constant(switch::value(op, mode, a[0], b[0], table)),
-    }
-}
-
-fn constant(value: f64) -> Jet {
+pub(super) fn constant(value: f64) -> Jet {
     [value, 0.0, 0.0]
 }
 
-fn sum(a: Jet, b: Jet) -> Jet {
+pub(super) fn sum(a: Jet, b: Jet) -> Jet {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
@@ -106,17 +51,17 @@ fn difference(a: Jet, b: Jet) -> Jet {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-fn product(a: Jet, b: Jet) -> Jet {
+pub(super) fn product(a: Jet, b: Jet) -> Jet {
     [a[0] * b[0], a[1] * b[0] + a[0] * b[1], a[2] * b[0] + 2.0 * a[1] * b[1] + a[0] * b[2]]
 }
 
-fn quotient(a: Jet, b: Jet) -> Jet {
+pub(super) fn quotient(a: Jet, b: Jet) -> Jet {
     let value = a[0] / b[0];
     let slope = (a[1] - value * b[1]) / b[0];
     [value, slope, (a[2] - 2.0 * slope * b[1] - value * b[2]) / b[0]]
 }
 
-fn root(a: Jet) -> Jet {
+pub(super) fn root(a: Jet) -> Jet {
     let root = a[0].sqrt();
     let slope = a[1] / (2.0 * root);
     [root, slope, (a[2] - 2.0 * slope * slope) / (2.0 * root)]
@@ -134,6 +79,6 @@ fn power(a: Jet, b: Jet) -> Jet {
 }
 
 /// `f` of a jet, given the value of `f` and its first two derivatives there.
-fn chain(a: Jet, [value, slope, bend]: [f64; 3]) -> Jet {
+pub(super) fn chain(a: Jet, [value, slope, bend]: [f64; 3]) -> Jet {
     [value, slope * a[1], bend * a[1] * a[1] + slope * a[2]]
 }

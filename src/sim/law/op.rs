@@ -1,7 +1,10 @@
 //! The operations of expressions and tapes.
 
+use super::function::Smooth;
+use super::switch::{Pieces, Switch, Value};
+
 /// One operation. Logic is 0 for false and 1 for true.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Op {
     Number,
     Input,
@@ -11,105 +14,91 @@ pub(super) enum Op {
     Multiply,
     Divide,
     Power,
-    Sqrt,
-    Exp,
-    Ln,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Tanh,
-    Atan2,
-    Hypot,
-    Abs,
-    Sign,
-    Floor,
-    Step,
-    Min,
-    Max,
-    Less,
-    LessEqual,
-    Equal,
-    NotEqual,
-    Table,
     And,
     Or,
     Not,
     If,
+    Smooth(&'static Smooth),
+    Switch(Switch),
 }
 
 impl Op {
-    /// Whether the operation is smooth only piece by piece.
-    pub(super) fn is_switch(self) -> bool {
-        use Op::{Abs, Equal, Floor, Less, LessEqual, Max, Min, NotEqual, Sign, Step, Table};
-        matches!(
-            self,
-            Abs | Sign | Floor | Step | Min | Max | Less | LessEqual | Equal | NotEqual | Table
-        )
-    }
-
     /// Whether the value is true or false, not a number.
     pub(super) fn is_truth(self) -> bool {
-        use Op::{And, Equal, Less, LessEqual, Not, NotEqual, Or};
-        matches!(self, Less | LessEqual | Equal | NotEqual | And | Or | Not)
+        match self {
+            Op::And | Op::Or | Op::Not => true,
+            Op::Switch(switch) => switch.is_truth(),
+            Op::Number | Op::Input | Op::Negate | Op::If | Op::Smooth(_) => false,
+            Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Power => false,
+        }
+    }
+
+    /// Whether its points are those of a table.
+    pub(super) fn is_table(self) -> bool {
+        self == Op::Switch(Switch::TABLE)
     }
 }
 
-/// A function that an expression can call.
-pub(super) struct Function {
-    pub(super) name: &'static str,
-    /// What it takes, for messages.
-    pub(super) usage: &'static str,
-    pub(super) arguments: usize,
-    pub(super) body: Body,
+/// How tightly an operator binds, loosest first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Level {
+    Or,
+    And,
+    Not,
+    Comparison,
+    Sum,
+    Product,
+    Sign,
+    Power,
 }
 
-/// What a call becomes.
-#[derive(Clone, Copy)]
-pub(super) enum Body {
-    Op(Op),
-    /// `min(max(x, low), high)`.
-    Clamp,
-    /// `if(condition, a, b)`.
-    If,
-    /// `table(x, [[x0, y0], …])`.
-    Table,
+impl Level {
+    /// The level of what can stand to the right of an operator that groups to the left.
+    pub(super) fn tighter(self) -> Self {
+        match self {
+            Level::Or => Level::And,
+            Level::And => Level::Not,
+            Level::Not => Level::Comparison,
+            Level::Comparison => Level::Sum,
+            Level::Sum => Level::Product,
+            Level::Product => Level::Sign,
+            Level::Sign | Level::Power => Level::Power,
+        }
+    }
 }
 
-/// Every function.
-pub(super) const FUNCTIONS: [Function; 21] = [
-    function("sqrt", "sqrt(x)", 1, Body::Op(Op::Sqrt)),
-    function("abs", "abs(x)", 1, Body::Op(Op::Abs)),
-    function("sign", "sign(x)", 1, Body::Op(Op::Sign)),
-    function("min", "min(a, b)", 2, Body::Op(Op::Min)),
-    function("max", "max(a, b)", 2, Body::Op(Op::Max)),
-    function("clamp", "clamp(x, low, high)", 3, Body::Clamp),
-    function("floor", "floor(x)", 1, Body::Op(Op::Floor)),
-    function("exp", "exp(x)", 1, Body::Op(Op::Exp)),
-    function("ln", "ln(x)", 1, Body::Op(Op::Ln)),
-    function("sin", "sin(x)", 1, Body::Op(Op::Sin)),
-    function("cos", "cos(x)", 1, Body::Op(Op::Cos)),
-    function("tan", "tan(x)", 1, Body::Op(Op::Tan)),
-    function("asin", "asin(x)", 1, Body::Op(Op::Asin)),
-    function("acos", "acos(x)", 1, Body::Op(Op::Acos)),
-    function("atan", "atan(x)", 1, Body::Op(Op::Atan)),
-    function("atan2", "atan2(y, x)", 2, Body::Op(Op::Atan2)),
-    function("tanh", "tanh(x)", 1, Body::Op(Op::Tanh)),
-    function("hypot", "hypot(x, y)", 2, Body::Op(Op::Hypot)),
-    function("if", "if(condition, a, b)", 3, Body::If),
-    function("step", "step(x)", 1, Body::Op(Op::Step)),
-    function("table", "table(x, [[x0, y0], [x1, y1]])", 1, Body::Table),
+/// An operator between two operands.
+pub(super) struct Infix {
+    pub(super) sign: &'static str,
+    pub(super) level: Level,
+    pub(super) op: Op,
+    /// Whether its operands change places.
+    pub(super) is_swapped: bool,
+}
+
+/// Every operator between two operands.
+pub(super) const INFIXES: [Infix; 13] = [
+    infix("or", Level::Or, Op::Or),
+    infix("and", Level::And, Op::And),
+    comparison("<", Pieces::Less, Value::Truth),
+    comparison("<=", Pieces::LessEqual, Value::Truth),
+    Infix { is_swapped: true, ..comparison(">", Pieces::Less, Value::Truth) },
+    Infix { is_swapped: true, ..comparison(">=", Pieces::LessEqual, Value::Truth) },
+    comparison("==", Pieces::Order, Value::Equal),
+    comparison("!=", Pieces::Order, Value::NotEqual),
+    infix("+", Level::Sum, Op::Add),
+    infix("-", Level::Sum, Op::Subtract),
+    infix("*", Level::Product, Op::Multiply),
+    infix("/", Level::Product, Op::Divide),
+    infix("^", Level::Power, Op::Power),
 ];
 
-const fn function(
-    name: &'static str,
-    usage: &'static str,
-    arguments: usize,
-    body: Body,
-) -> Function {
-    Function { name, usage, arguments, body }
+const fn infix(sign: &'static str, level: Level, op: Op) -> Infix {
+    Infix { sign, level, op, is_swapped: false }
+}
+
+const fn comparison(sign: &'static str, pieces: Pieces, value: Value) -> Infix {
+    infix(sign, Level::Comparison, Op::Switch(Switch { pieces, value }))
 }
 
 /// The operators that are words.

@@ -1,84 +1,156 @@
 //! The switches of a tape: operations that are smooth only piece by piece, and the mode in which each
 //! is.
 
-use super::op::Op;
-use super::table::Table;
+use super::jet::{Jet, chain, constant};
+use crate::sim::curve::Curve;
+use crate::sim::piece::{above, below};
 
-/// Rounding of a value at a boundary, relative to the numbers that are compared.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
-/// The mode in which a switch is at these values: 0 or 1; the order of two values, -1, 0 or 1; a whole
-/// number for `floor`; the piece of a table.
-#[inline]
-pub(super) fn mode(op: Op, a: f64, b: f64, table: Option<&Table>) -> i64 {
-    match op {
-        Op::Abs | Op::Step => i64::from(a >= 0.0),
-        Op::Min | Op::Less => i64::from(a < b),
-        Op::LessEqual => i64::from(a <= b),
-        Op::Max => i64::from(a > b),
-        Op::Sign => i64::from(a > 0.0) - i64::from(a < 0.0),
-        Op::Equal | Op::NotEqual => i64::from(a > b) - i64::from(a < b),
-        // It saturates where no number has a fraction.
-        Op::Floor => libm::floor(a) as i64,
-        Op::Table => table.map_or(0, |table| table.piece(a)),
-        _ => 0,
-    }
+/// An operation on `a` and `b` that is smooth only piece by piece.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Switch {
+    pub(super) pieces: Pieces,
+    pub(super) value: Value,
 }
 
-/// The value of a switch in a mode, continued smoothly beyond the boundaries of the mode.
-#[inline]
-pub(super) fn value(op: Op, mode: i64, a: f64, b: f64, table: Option<&Table>) -> f64 {
-    match op {
-        // Adding 0 takes the sign of a negative zero.
-        Op::Abs if mode == 1 => a + 0.0,
-        Op::Abs => -a,
-        Op::Min | Op::Max if mode == 1 => a,
-        Op::Min | Op::Max => b,
-        Op::Equal => f64::from(u8::from(mode == 0)),
-        Op::NotEqual => f64::from(u8::from(mode != 0)),
-        Op::Table => table.map_or(f64::NAN, |table| table.on(mode, a)),
-        _ => mode as f64,
-    }
+/// How the mode follows from the operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Pieces {
+    /// 1 if a ≥ 0, else 0.
+    NotNegative,
+    /// 1 if a < b, else 0.
+    Less,
+    /// 1 if a ≤ b, else 0.
+    LessEqual,
+    /// 1 if a > b, else 0.
+    Greater,
+    /// The sign of a: -1, 0 or 1.
+    Sign,
+    /// The sign of a - b: -1, 0 or 1.
+    Order,
+    /// The largest whole number up to a.
+    Floor,
+    /// The piece of a curve at a.
+    Table,
 }
 
-/// Signed distances to the lower and the upper boundary of a mode; negative beyond them.
-pub(super) fn distances(op: Op, mode: i64, a: f64, b: f64, table: Option<&Table>) -> [f64; 2] {
-    let to = |value: f64, end: f64| value - end + ROUNDING * (value.abs() + end.abs());
-    let above = |value: f64, end: f64| to(-value, -end);
-    let lower_higher = |value: f64, end: f64| match mode {
-        1 => [to(value, end), f64::INFINITY],
-        _ => [f64::INFINITY, above(value, end)],
-    };
-    match op {
-        Op::Abs | Op::Step => lower_higher(a, 0.0),
-        Op::Min | Op::Less | Op::LessEqual => lower_higher(b, a),
-        Op::Max => lower_higher(a, b),
-        Op::Sign | Op::Equal | Op::NotEqual => {
-            let end = if op == Op::Sign { 0.0 } else { b };
-            match mode {
-                -1 => [f64::INFINITY, above(a, end)],
-                1 => [to(a, end), f64::INFINITY],
-                _ => [to(a, end), above(a, end)],
+/// The value in a mode.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Value {
+    /// The mode as a number.
+    Mode,
+    /// The mode as true or false.
+    Truth,
+    /// Whether the mode is 0.
+    Equal,
+    /// Whether the mode is not 0.
+    NotEqual,
+    /// a in mode 1, else -a.
+    Magnitude,
+    /// a in mode 1, else b.
+    Choice,
+    /// That of the curve's piece.
+    Table,
+}
+
+impl Switch {
+    /// The curve of `table(x, …)`.
+    pub(super) const TABLE: Self = Self { pieces: Pieces::Table, value: Value::Table };
+
+    /// Whether the value is true or false, not a number.
+    pub(super) fn is_truth(self) -> bool {
+        match self.value {
+            Value::Truth | Value::Equal | Value::NotEqual => true,
+            Value::Mode | Value::Magnitude | Value::Choice | Value::Table => false,
+        }
+    }
+
+    /// The mode at these values.
+    #[inline]
+    pub(super) fn mode(self, a: f64, b: f64, table: Option<&Curve>) -> i64 {
+        match self.pieces {
+            Pieces::NotNegative => i64::from(a >= 0.0),
+            Pieces::Less => i64::from(a < b),
+            Pieces::LessEqual => i64::from(a <= b),
+            Pieces::Greater => i64::from(a > b),
+            Pieces::Sign => i64::from(a > 0.0) - i64::from(a < 0.0),
+            Pieces::Order => i64::from(a > b) - i64::from(a < b),
+            // It saturates where no number has a fraction.
+            Pieces::Floor => libm::floor(a) as i64,
+            Pieces::Table => table.map_or(0, |table| table.piece(a)),
+        }
+    }
+
+    /// The value at these values.
+    #[inline]
+    pub(super) fn value(self, a: f64, b: f64, table: Option<&Curve>) -> f64 {
+        match self.pieces {
+            Pieces::Floor => libm::floor(a),
+            _ => self.value_on(self.mode(a, b, table), a, b, table),
+        }
+    }
+
+    /// The value in a mode, continued smoothly beyond the boundaries of the mode.
+    #[inline]
+    pub(super) fn value_on(self, mode: i64, a: f64, b: f64, table: Option<&Curve>) -> f64 {
+        match self.value {
+            Value::Mode | Value::Truth => mode as f64,
+            Value::Equal => f64::from(u8::from(mode == 0)),
+            Value::NotEqual => f64::from(u8::from(mode != 0)),
+            // Adding 0 takes the sign of a negative zero.
+            Value::Magnitude if mode == 1 => a + 0.0,
+            Value::Magnitude => -a,
+            Value::Choice if mode == 1 => a,
+            Value::Choice => b,
+            Value::Table => table.map_or(f64::NAN, |table| table.on(mode, a)),
+        }
+    }
+
+    /// The value with its derivatives at these values.
+    pub(super) fn jet(self, [a, b]: [Jet; 2], table: Option<&Curve>) -> Jet {
+        let mode = self.mode(a[0], b[0], table);
+        let value = self.value_on(mode, a[0], b[0], table);
+        match self.value {
+            Value::Mode | Value::Truth | Value::Equal | Value::NotEqual => constant(value),
+            Value::Magnitude if mode == 1 => a,
+            Value::Magnitude => a.map(|x| -x),
+            Value::Choice if mode == 1 => a,
+            Value::Choice => b,
+            Value::Table => chain(a, [value, table.map_or(0.0, |table| table.slope(mode)), 0.0]),
+        }
+    }
+
+    /// Signed distances to the lower and the upper boundary of a mode; negative beyond them.
+    pub(super) fn distances(self, mode: i64, a: f64, b: f64, table: Option<&Curve>) -> [f64; 2] {
+        let one_boundary = |value: f64, end: f64| match mode {
+            1 => [above(value, end), f64::INFINITY],
+            _ => [f64::INFINITY, below(value, end)],
+        };
+        let point = |end: f64| match mode {
+            -1 => [f64::INFINITY, below(a, end)],
+            1 => [above(a, end), f64::INFINITY],
+            _ => [above(a, end), below(a, end)],
+        };
+        match self.pieces {
+            Pieces::NotNegative => one_boundary(a, 0.0),
+            Pieces::Less | Pieces::LessEqual => one_boundary(b, a),
+            Pieces::Greater => one_boundary(a, b),
+            Pieces::Sign => point(0.0),
+            Pieces::Order => point(b),
+            Pieces::Floor => [above(a, mode as f64), below(a, mode as f64 + 1.0)],
+            Pieces::Table => table.map_or([f64::INFINITY; 2], |table| table.distances(mode, a)),
+        }
+    }
+
+    /// The mode beyond the lower (`side` 0) or the upper (1) boundary of a mode.
+    pub(super) fn neighbour(self, mode: i64, side: usize) -> i64 {
+        let beyond = 2 * side as i64 - 1;
+        match self.pieces {
+            // A value is equal to another for no time, unless it starts so.
+            Pieces::Sign | Pieces::Order => beyond,
+            Pieces::NotNegative | Pieces::Less | Pieces::LessEqual | Pieces::Greater => {
+                mode + beyond
             }
+            Pieces::Floor | Pieces::Table => mode + beyond,
         }
-        Op::Floor => {
-            let low = mode as f64;
-            [to(a, low), above(a, low + 1.0)]
-        }
-        Op::Table => {
-            let (low, high) = table.map_or((None, None), |table| table.ends(mode));
-            let infinite = f64::INFINITY;
-            [low.map_or(infinite, |[x, _]| to(a, x)), high.map_or(infinite, |[x, _]| above(a, x))]
-        }
-        _ => [f64::INFINITY; 2],
-    }
-}
-
-/// The mode beyond the lower (`side` 0) or the upper (1) boundary of a mode.
-pub(super) fn neighbour(op: Op, mode: i64, side: usize) -> i64 {
-    match op {
-        // A value is equal to another for no time, unless it starts so.
-        Op::Sign | Op::Equal | Op::NotEqual => 2 * side as i64 - 1,
-        _ => mode + 2 * side as i64 - 1,
     }
 }

@@ -9,8 +9,8 @@ use std::ops::Range;
 use super::expression::{Expression, Node};
 use super::op::Op;
 use super::refusal::Part;
-use super::switch;
-use super::table::Table;
+use super::switch::Switch;
+use crate::sim::curve::Curve;
 
 /// The most operations of a tape: a step of ten microseconds.
 pub const MOST_OPERATIONS: usize = 4096;
@@ -24,7 +24,9 @@ struct Instruction {
     op: Op,
     to: u16,
     operands: [u16; 3],
-    /// The place of its table.
+    /// How many operands it reads.
+    count: u8,
+    /// The index of its table.
     table: u16,
 }
 
@@ -45,8 +47,8 @@ pub(super) struct Tape {
     pub(super) outputs: Vec<u16>,
     pub(super) slots: usize,
     /// The switches of the main part.
-    switches: Vec<Instruction>,
-    tables: Vec<Table>,
+    switches: Vec<(Switch, Instruction)>,
+    tables: Vec<Curve>,
     /// Where each operation comes from, by its slot.
     origins: HashMap<u16, Origin>,
 }
@@ -85,9 +87,10 @@ impl Tape {
             let mut slots = vec![0; expression.nodes.len()];
             let rows = expression.nodes.iter().zip(&expression.spans).zip(used).enumerate();
             for (n, ((node, span), _)) in rows.filter(|(_, (_, is_used))| *is_used) {
-                let count = arguments(node.op);
-                let operands =
-                    [0, 1, 2].map(|i| if i < count { slots[node.arguments[i]] } else { 0 });
+                let mut operands = [0; 3];
+                for (operand, &argument) in operands.iter_mut().zip(node.arguments()) {
+                    *operand = slots[argument];
+                }
                 let origin = Origin { part: *part, span: span.clone() };
                 slots[n] = match node.op {
                     Op::Input => node.index as u16,
@@ -113,9 +116,10 @@ impl Tape {
         known: &mut HashMap<Key, u16>,
         origin: Origin,
     ) -> u16 {
-        let table = (node.op == Op::Table).then(|| &expression.tables[node.index]);
-        let points = table.map_or(vec![], Table::bits);
-        let key = (node.op, operands, node.number.to_bits(), points);
+        let table = node.op.is_table().then(|| &expression.tables[node.index]);
+        let points = table.map_or(&[][..], Curve::points);
+        let bits = points.iter().map(|point| point.map(f64::to_bits)).collect();
+        let key = (node.op, operands, node.number.to_bits(), bits);
         if let Some(&slot) = known.get(&key) {
             return slot;
         }
@@ -123,19 +127,20 @@ impl Tape {
         self.slots += 1;
         known.insert(key, to);
         self.origins.insert(to, origin);
-        let is_constant =
-            operands[..arguments(node.op)].iter().all(|&slot| is_fixed[slot as usize]);
+        let count = node.arguments().len();
+        let is_constant = operands[..count].iter().all(|&slot| is_fixed[slot as usize]);
         is_fixed.push(is_constant);
         let place = self.tables.len() as u16;
         self.tables.extend(table.cloned());
-        let instruction = Instruction { op: node.op, to, operands, table: place };
+        let count = count as u8;
+        let instruction = Instruction { op: node.op, to, operands, count, table: place };
         match node.op {
             Op::Number => self.numbers.push((to, node.number)),
             _ if is_constant => self.prelude.push(instruction),
-            _ => {
+            op => {
                 self.main.push(instruction);
-                if node.op.is_switch() {
-                    self.switches.push(instruction);
+                if let Op::Switch(switch) = op {
+                    self.switches.push((switch, instruction));
                 }
             }
         }
@@ -145,37 +150,36 @@ impl Tape {
     /// Writes the numbers and all that depends on constants alone, once the constants are in their slots.
     pub(super) fn prepare(&self, slots: &mut [f64]) {
         self.numbers.iter().for_each(|&(slot, number)| slots[slot as usize] = number);
-        self.run(&self.prelude, slots, Self::natural_value);
+        self.run(&self.prelude, slots, Switch::value);
     }
 
     /// Evaluates the tape.
     #[inline]
     pub(super) fn evaluate(&self, slots: &mut [f64]) {
-        self.run(&self.main, slots, Self::natural_value);
+        self.run(&self.main, slots, Switch::value);
     }
 
     /// Evaluates the tape with every switch in its mode of `modes`.
     pub(super) fn evaluate_on(&self, modes: &[i64], slots: &mut [f64]) {
         let mut modes = modes.iter();
-        self.run(&self.main, slots, |tape, instruction, a, b| {
-            let mode = modes.next().copied().unwrap_or(0);
-            switch::value(instruction.op, mode, a, b, tape.table(instruction))
+        self.run(&self.main, slots, |switch, a, b, table| {
+            switch.value_on(modes.next().copied().unwrap_or(0), a, b, table)
         });
     }
 
     /// The modes of the switches at the values of the last evaluation.
     pub(super) fn write_modes(&self, slots: &[f64], modes: &mut [i64]) {
-        for (instruction, to) in self.switches.iter().zip(modes) {
+        for ((switch, instruction), to) in self.switches.iter().zip(modes) {
             let [a, b, _] = instruction.operands.map(|slot| slots[slot as usize]);
-            *to = switch::mode(instruction.op, a, b, self.table(instruction));
+            *to = switch.mode(a, b, self.table(instruction));
         }
     }
 
     /// The distances of the switches to the boundaries of these modes, at the values of the last evaluation.
     pub(super) fn write_distances(&self, slots: &[f64], modes: &[i64], to: &mut [[f64; 2]]) {
-        for ((instruction, &mode), to) in self.switches.iter().zip(modes).zip(to) {
+        for (((switch, instruction), &mode), to) in self.switches.iter().zip(modes).zip(to) {
             let [a, b, _] = instruction.operands.map(|slot| slots[slot as usize]);
-            *to = switch::distances(instruction.op, mode, a, b, self.table(instruction));
+            *to = switch.distances(mode, a, b, self.table(instruction));
         }
     }
 
@@ -186,13 +190,13 @@ impl Tape {
 
     /// The mode of the switch in this place beyond a boundary of its mode.
     pub(super) fn neighbour(&self, place: usize, mode: i64, side: usize) -> i64 {
-        switch::neighbour(self.switches[place].op, mode, side)
+        self.switches[place].0.neighbour(mode, side)
     }
 
     /// The operations of the prelude and of the main part, with their operands and where they write.
-    pub(super) fn operations(&self) -> impl Iterator<Item = (Op, &[u16], u16, Option<&Table>)> {
+    pub(super) fn operations(&self) -> impl Iterator<Item = (Op, &[u16], u16, Option<&Curve>)> {
         self.prelude.iter().chain(&self.main).map(|instruction| {
-            let operands = &instruction.operands[..arguments(instruction.op)];
+            let operands = &instruction.operands[..usize::from(instruction.count)];
             (instruction.op, operands, instruction.to, self.table(instruction))
         })
     }
@@ -214,17 +218,8 @@ impl Tape {
         self.origins.get(&slot)
     }
 
-    fn table(&self, instruction: &Instruction) -> Option<&Table> {
-        (instruction.op == Op::Table).then(|| &self.tables[instruction.table as usize])
-    }
-
-    #[inline]
-    fn natural_value(&self, instruction: &Instruction, a: f64, b: f64) -> f64 {
-        let (op, table) = (instruction.op, self.table(instruction));
-        match op {
-            Op::Floor => libm::floor(a),
-            _ => switch::value(op, switch::mode(op, a, b, table), a, b, table),
-        }
+    fn table(&self, instruction: &Instruction) -> Option<&Curve> {
+        instruction.op.is_table().then(|| &self.tables[instruction.table as usize])
     }
 
     #[inline]
@@ -232,7 +227,7 @@ impl Tape {
         &self,
         instructions: &[Instruction],
         slots: &mut [f64],
-        mut switched: impl FnMut(&Self, &Instruction, f64, f64) -> f64,
+        mut switched: impl FnMut(Switch, f64, f64, Option<&Curve>) -> f64,
     ) {
         for instruction in instructions {
             let [a, b, c] = instruction.operands.map(|slot| slots[slot as usize]);
@@ -243,41 +238,17 @@ impl Tape {
                 Op::Multiply => a * b,
                 Op::Divide => a / b,
                 Op::Power => libm::pow(a, b),
-                Op::Sqrt => a.sqrt(),
-                Op::Exp => libm::exp(a),
-                Op::Ln => libm::log(a),
-                Op::Sin => libm::sin(a),
-                Op::Cos => libm::cos(a),
-                Op::Tan => libm::tan(a),
-                Op::Asin => libm::asin(a),
-                Op::Acos => libm::acos(a),
-                Op::Atan => libm::atan(a),
-                Op::Tanh => libm::tanh(a),
-                Op::Atan2 => libm::atan2(a, b),
-                Op::Hypot => libm::hypot(a, b),
                 Op::And => a * b,
                 Op::Or => f64::from(u8::from(a + b > 0.0)),
                 Op::Not => 1.0 - a,
                 Op::If if a == 1.0 => b,
                 Op::If => c,
-                _ => switched(self, instruction, a, b),
+                Op::Smooth(smooth) => (smooth.value)(a, b),
+                Op::Switch(switch) => switched(switch, a, b, self.table(instruction)),
+                // The caller writes them.
+                Op::Number | Op::Input => slots[instruction.to as usize],
             };
         }
-    }
-}
-
-/// How many arguments an operation has.
-fn arguments(op: Op) -> usize {
-    use Op::{
-        Add, And, Atan2, Divide, Equal, Hypot, If, Input, Less, LessEqual, Max, Min, Multiply,
-        NotEqual, Number, Or, Power, Subtract,
-    };
-    match op {
-        Number | Input => 0,
-        Add | Subtract | Multiply | Divide | Power | Atan2 | Hypot | Min | Max | Less
-        | LessEqual | Equal | NotEqual | And | Or => 2,
-        If => 3,
-        _ => 1,
     }
 }
 
@@ -289,7 +260,7 @@ fn used(expression: &Expression) -> Vec<bool> {
     }
     for (n, node) in expression.nodes.iter().enumerate().rev() {
         if used[n] {
-            node.arguments[..arguments(node.op)].iter().for_each(|&argument| used[argument] = true);
+            node.arguments().iter().for_each(|&argument| used[argument] = true);
         }
     }
     used

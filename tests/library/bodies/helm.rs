@@ -1,10 +1,10 @@
 //! The steered ship: its thrust curve, its straight course, its turning circle.
 
 use glam::{DVec2, DVec3};
-use regatta::sim::bodies::{Body, Helm, Input, Ship, ThrustCurve};
+use regatta::sim::bodies::{Body, Curve, Helm, Input, Ship};
 use regatta::sim::{Solver, State, Stepper, System, stepper};
 
-fn helm(thrust: ThrustCurve) -> Helm {
+fn helm(thrust: Curve) -> Helm {
     Helm {
         mass: 40_000.0,
         inertia: 1.7e6,
@@ -21,8 +21,8 @@ fn helm(thrust: ThrustCurve) -> Helm {
     }
 }
 
-fn curve() -> ThrustCurve {
-    ThrustCurve::new([[0.0, 40_000.0], [5.0, 36_000.0], [10.0, 24_000.0], [15.0, 8_000.0]])
+fn curve() -> Curve {
+    Curve::new([[0.0, 40_000.0], [5.0, 36_000.0], [10.0, 24_000.0], [15.0, 8_000.0]])
 }
 
 /// Runs the truth at 60 Hz.
@@ -51,15 +51,15 @@ fn the_curve_is_straight_between_its_points_and_level_beyond_them() {
         let found = curve().at(speed);
         assert!((found - thrust).abs() < 1e-6, "{found} N at {speed} m/s");
     }
-    assert_eq!(ThrustCurve::new([[2.0, 7.0]]).at(-1.0), 7.0);
+    assert_eq!(Curve::new([[2.0, 7.0]]).at(-1.0), 7.0);
     for bad in [vec![], vec![[1.0, 2.0], [1.0, 3.0]], vec![[1.0, 2.0], [0.5, 3.0]]] {
-        assert!(std::panic::catch_unwind(|| ThrustCurve::new(bad)).is_err());
+        assert!(std::panic::catch_unwind(|| Curve::new(bad)).is_err());
     }
 }
 
 #[test]
 fn on_a_straight_course_under_level_thrust_it_is_the_chapters_ship() {
-    let level = helm(ThrustCurve::new([[0.0, 30_000.0], [1.0, 30_000.0]]));
+    let level = helm(Curve::new([[0.0, 30_000.0], [1.0, 30_000.0]]));
     let ship = Ship {
         thrust: 30_000.0,
         throttle: 0.8,

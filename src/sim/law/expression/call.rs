@@ -2,38 +2,45 @@
 
 use std::ops::Range;
 
-use super::{Node, Parser};
-use crate::sim::law::op::{Body, Function, Op};
+use super::Parser;
+use crate::sim::curve::Curve;
+use crate::sim::law::function::{Function, Meaning};
+use crate::sim::law::op::Op;
 use crate::sim::law::refusal::Fault;
-use crate::sim::law::table::{MOST_POINTS, Table};
+use crate::sim::law::switch::{Pieces, Switch, Value};
 use crate::sim::law::token::Token;
+use crate::sim::parameter::MOST_POINTS;
 
 impl Parser<'_> {
     /// The call of a function whose name has been taken.
-    pub(super) fn call(&mut self, function: &Function, name: Range<usize>) -> Result<usize, Fault> {
+    pub(super) fn call(
+        &mut self,
+        function: &'static Function,
+        name: Range<usize>,
+    ) -> Result<usize, Fault> {
         self.next += 1;
         let mut arguments = Vec::new();
         let mut table = None;
+        let wanted = function.arguments.len();
         loop {
-            if matches!(function.body, Body::Table) && arguments.len() == 1 {
+            if matches!(function.meaning, Meaning::Table) && arguments.len() == 1 {
                 table = Some(self.table()?);
                 break;
             }
             arguments.push(self.nested(Self::any)?);
-            if arguments.len() > function.arguments || !self.takes(",") {
+            if arguments.len() > wanted || !self.takes(",") {
                 break;
             }
         }
-        let is_complete = matches!(function.body, Body::Table) == table.is_some();
-        if arguments.len() != function.arguments || !is_complete {
+        if arguments.len() + usize::from(table.is_some()) != wanted {
             let end = self.here().end.max(name.end);
             let what = format!("`{}` does not take these arguments", function.name);
-            let remedy = format!("write `{}`", function.usage);
+            let remedy = format!("write `{}`", function.usage());
             return Err(Fault::new(name.start..end, what, remedy));
         }
         self.expect(")", "the arguments")?;
         let span = name.start..self.tokens[self.next - 1].1.end;
-        let condition = matches!(function.body, Body::If);
+        let condition = matches!(function.meaning, Meaning::If);
         for (place, &argument) in arguments.iter().enumerate() {
             if condition && place == 0 {
                 self.want_truth(argument)?;
@@ -41,24 +48,27 @@ impl Parser<'_> {
                 self.want_number(argument)?;
             }
         }
-        Ok(match function.body {
-            Body::Op(op) => self.push(op, &arguments, span),
-            Body::If => self.push(Op::If, &arguments, span),
-            Body::Clamp => {
-                let raised = self.push(Op::Max, &arguments[..2], span.clone());
-                self.push(Op::Min, &[raised, arguments[2]], span)
+        Ok(match &function.meaning {
+            Meaning::Smooth(smooth) => self.push(Op::Smooth(smooth), &arguments, span),
+            Meaning::Switch(switch) => self.push(Op::Switch(*switch), &arguments, span),
+            Meaning::If => self.push(Op::If, &arguments, span),
+            Meaning::Clamp => {
+                let [max, min] = [Pieces::Greater, Pieces::Less]
+                    .map(|pieces| Op::Switch(Switch { pieces, value: Value::Choice }));
+                let raised = self.push(max, &arguments[..2], span.clone());
+                self.push(min, &[raised, arguments[2]], span)
             }
-            Body::Table => {
-                let index = self.expression.tables.len();
+            Meaning::Table => {
+                let node = self.push(Op::Switch(Switch::TABLE), &arguments, span);
+                self.expression.nodes[node].index = self.expression.tables.len();
                 self.expression.tables.extend(table);
-                let arguments = [arguments[0], 0, 0];
-                self.node(Node { op: Op::Table, arguments, number: 0.0, index }, span)
+                node
             }
         })
     }
 
     /// The points of a table.
-    fn table(&mut self) -> Result<Table, Fault> {
+    fn table(&mut self) -> Result<Curve, Fault> {
         let start = self.span().start;
         self.expect("[", "the comma, before the points `[[x0, y0], [x1, y1]]`")?;
         let mut points: Vec<[f64; 2]> = Vec::new();
@@ -88,7 +98,7 @@ impl Parser<'_> {
             let span = start..self.tokens[self.next - 1].1.end;
             return Err(Fault::new(span, "the table has one point", "write two or more"));
         }
-        Ok(Table::new(points))
+        Ok(Curve::new(points))
     }
 
     /// A number with or without a sign.

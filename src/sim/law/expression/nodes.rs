@@ -8,9 +8,9 @@ use crate::sim::law::refusal::{Fault, quoted};
 
 impl Parser<'_> {
     pub(super) fn push(&mut self, op: Op, arguments: &[usize], span: Range<usize>) -> usize {
-        let mut all = [0; 3];
-        all[..arguments.len()].copy_from_slice(arguments);
-        self.node(Node { op, arguments: all, number: 0.0, index: 0 }, span)
+        let mut operands = [0; 3];
+        operands[..arguments.len()].copy_from_slice(arguments);
+        self.node(Node { op, operands, count: arguments.len(), number: 0.0, index: 0 }, span)
     }
 
     pub(super) fn node(&mut self, node: Node, span: Range<usize>) -> usize {
@@ -20,7 +20,7 @@ impl Parser<'_> {
     }
 
     pub(super) fn number(&mut self, number: f64, span: Range<usize>) -> usize {
-        self.node(Node { op: Op::Number, arguments: [0; 3], number, index: 0 }, span)
+        self.node(Node { number, ..Node::leaf(Op::Number) }, span)
     }
 
     pub(super) fn span_of(&self, node: usize) -> Range<usize> {

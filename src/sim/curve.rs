@@ -1,0 +1,76 @@
+//! A curve through points: straight between them, level beyond them.
+
+use super::piece::{above, below};
+
+/// Points in order of rising x. Without points the curve is 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    points: Vec<[f64; 2]>,
+}
+
+impl Curve {
+    /// No points.
+    pub const EMPTY: Self = Self { points: Vec::new() };
+
+    /// The curve through these points.
+    ///
+    /// # Panics
+    /// If there are no points, or if their x do not rise.
+    pub fn new(points: impl IntoIterator<Item = [f64; 2]>) -> Self {
+        let points: Vec<_> = points.into_iter().collect();
+        assert!(!points.is_empty(), "a curve without a point");
+        assert!(points.is_sorted_by(|a, b| a[0] < b[0]), "x that do not rise: {points:?}");
+        Self { points }
+    }
+
+    /// The points.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    /// The value at `x`.
+    #[inline]
+    pub fn at(&self, x: f64) -> f64 {
+        self.on(self.piece(x), x)
+    }
+
+    /// The piece at `x`: the number of points at or below it.
+    #[inline]
+    pub(super) fn piece(&self, x: f64) -> i64 {
+        self.points.partition_point(|point| point[0] <= x) as i64
+    }
+
+    /// The points at the lower and the upper boundary of a piece.
+    #[inline]
+    fn ends(&self, piece: i64) -> (Option<[f64; 2]>, Option<[f64; 2]>) {
+        let at = |index: i64| self.points.get(usize::try_from(index).ok()?).copied();
+        (at(piece - 1), at(piece))
+    }
+
+    /// The value by one piece, continued linearly beyond its boundaries.
+    #[inline]
+    pub(super) fn on(&self, piece: i64, x: f64) -> f64 {
+        match self.ends(piece) {
+            (Some([x0, y0]), Some([x1, y1])) => y0 + (x - x0) / (x1 - x0) * (y1 - y0),
+            (Some([_, y]), None) | (None, Some([_, y])) => y,
+            (None, None) => 0.0,
+        }
+    }
+
+    /// The slope of one piece.
+    pub(super) fn slope(&self, piece: i64) -> f64 {
+        match self.ends(piece) {
+            (Some([x0, y0]), Some([x1, y1])) => (y1 - y0) / (x1 - x0),
+            _ => 0.0,
+        }
+    }
+
+    /// Signed distances of `x` to the lower and the upper boundary of a piece; negative beyond them.
+    pub(super) fn distances(&self, piece: i64, x: f64) -> [f64; 2] {
+        let (lower, upper) = self.ends(piece);
+        [
+            lower.map_or(f64::INFINITY, |[end, _]| above(x, end)),
+            upper.map_or(f64::INFINITY, |[end, _]| below(x, end)),
+        ]
+    }
+}

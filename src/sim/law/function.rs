@@ -1,0 +1,266 @@
+//! The functions of expressions, one row each: name, arguments, value, and derivatives or pieces.
+//!
+//! To add a smooth function of one argument, add a `unary!` row here, and its reference to the test below.
+
+use std::hash::{Hash, Hasher};
+
+use super::jet::{Jet, chain, product, quotient, root, sum};
+use super::switch::{Pieces, Switch, Value};
+
+/// A function that an expression can call.
+pub(super) struct Function {
+    pub(super) name: &'static str,
+    /// Its arguments, for messages.
+    pub(super) arguments: &'static [&'static str],
+    pub(super) meaning: Meaning,
+}
+
+/// What a call becomes.
+pub(super) enum Meaning {
+    Smooth(Smooth),
+    Switch(Switch),
+    /// `min(max(x, low), high)`.
+    Clamp,
+    /// `if(condition, a, b)`.
+    If,
+    /// `table(x, [[x0, y0], …])`.
+    Table,
+}
+
+/// A function of one or two arguments that is smooth wherever it is defined. Two are equal if they are the same row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Smooth {
+    /// The value. A function of one argument ignores the second.
+    pub(super) value: fn(f64, f64) -> f64,
+    /// The value with its first and second derivative along a curve.
+    pub(super) jet: fn(Jet, Jet) -> Jet,
+    /// Whether a full turn of the argument leaves the value unchanged.
+    pub(super) is_periodic: bool,
+}
+
+impl PartialEq for Smooth {
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self, other)
+    }
+}
+
+impl Eq for Smooth {}
+
+impl Hash for Smooth {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        std::ptr::hash(self, state);
+    }
+}
+
+/// A smooth function of one argument: its value `f` at `x`, and its first and second derivative there.
+macro_rules! unary {
+    ($name:literal, |$x:ident| $f:ident = $value:expr, $derivatives:expr) => {
+        smooth(
+            $name,
+            &["x"],
+            |$x, _| $value,
+            |a, _| {
+                let $x = a[0];
+                let $f = $value;
+                let [first, second] = $derivatives;
+                chain(a, [$f, first, second])
+            },
+        )
+    };
+}
+
+/// Every function.
+pub(super) static FUNCTIONS: [Function; 21] = [
+    smooth("sqrt", &["x"], |x, _| x.sqrt(), |x, _| root(x)),
+    switch("abs", &["x"], Pieces::NotNegative, Value::Magnitude),
+    switch("sign", &["x"], Pieces::Sign, Value::Mode),
+    switch("min", &["a", "b"], Pieces::Less, Value::Choice),
+    switch("max", &["a", "b"], Pieces::Greater, Value::Choice),
+    function("clamp", &["x", "low", "high"], Meaning::Clamp),
+    switch("floor", &["x"], Pieces::Floor, Value::Mode),
+    unary!("exp", |x| f = libm::exp(x), [f, f]),
+    unary!("ln", |x| f = libm::log(x), [1.0 / x, -1.0 / (x * x)]),
+    unary!("sin", |x| f = libm::sin(x), [libm::cos(x), -f]).periodic(),
+    unary!("cos", |x| f = libm::cos(x), [-libm::sin(x), -f]).periodic(),
+    unary!("tan", |x| f = libm::tan(x), {
+        let slope = 1.0 + f * f;
+        [slope, 2.0 * f * slope]
+    })
+    .periodic(),
+    unary!("asin", |x| f = libm::asin(x), {
+        let slope = 1.0 / (1.0 - x * x).sqrt();
+        [slope, x * slope * slope * slope]
+    }),
+    unary!("acos", |x| f = libm::acos(x), {
+        let slope = 1.0 / (1.0 - x * x).sqrt();
+        [-slope, -(x * slope * slope * slope)]
+    }),
+    unary!("atan", |x| f = libm::atan(x), {
+        let slope = 1.0 / (1.0 + x * x);
+        [slope, -2.0 * x * slope * slope]
+    }),
+    smooth("atan2", &["y", "x"], libm::atan2, |y, x| {
+        // The derivative of the angle, and that of this derivative.
+        let radius2 = sum(product(y, y), product(x, x));
+        let numerator = [x[0] * y[1] - y[0] * x[1], x[0] * y[2] - y[0] * x[2], 0.0];
+        let slope = quotient(numerator, [radius2[0], radius2[1], 0.0]);
+        [libm::atan2(y[0], x[0]), slope[0], slope[1]]
+    }),
+    unary!("tanh", |x| f = libm::tanh(x), {
+        let slope = 1.0 - f * f;
+        [slope, -2.0 * f * slope]
+    }),
+    smooth("hypot", &["x", "y"], libm::hypot, |x, y| {
+        let [_, first, second] = root(sum(product(x, x), product(y, y)));
+        [libm::hypot(x[0], y[0]), first, second]
+    }),
+    function("if", &["condition", "a", "b"], Meaning::If),
+    switch("step", &["x"], Pieces::NotNegative, Value::Mode),
+    function("table", &["x", "[[x0, y0], [x1, y1]]"], Meaning::Table),
+];
+
+const fn function(
+    name: &'static str,
+    arguments: &'static [&'static str],
+    meaning: Meaning,
+) -> Function {
+    Function { name, arguments, meaning }
+}
+
+const fn smooth(
+    name: &'static str,
+    arguments: &'static [&'static str],
+    value: fn(f64, f64) -> f64,
+    jet: fn(Jet, Jet) -> Jet,
+) -> Function {
+    function(name, arguments, Meaning::Smooth(Smooth { value, jet, is_periodic: false }))
+}
+
+const fn switch(
+    name: &'static str,
+    arguments: &'static [&'static str],
+    pieces: Pieces,
+    value: Value,
+) -> Function {
+    function(name, arguments, Meaning::Switch(Switch { pieces, value }))
+}
+
+impl Function {
+    const fn periodic(mut self) -> Self {
+        if let Meaning::Smooth(smooth) = &mut self.meaning {
+            smooth.is_periodic = true;
+        }
+        self
+    }
+
+    /// How it is called: `min(a, b)`.
+    pub(super) fn usage(&self) -> String {
+        format!("{}({})", self.name, self.arguments.join(", "))
+    }
+
+    /// The function with this name.
+    pub(super) fn named(name: &str) -> Option<&'static Self> {
+        FUNCTIONS.iter().find(|function| function.name == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::law::expression::{Scope, parse};
+    use crate::sim::law::refusal::Part;
+    use crate::sim::law::{jet, tape::Tape};
+
+    struct Plane;
+
+    impl Scope for Plane {
+        fn input(&self, name: &str) -> Option<usize> {
+            ["x", "y"].iter().position(|known| *known == name)
+        }
+        fn names(&self) -> Vec<String> {
+            vec![]
+        }
+        fn why_not(&self, _: &str) -> Option<String> {
+            None
+        }
+    }
+
+    type Reference = fn(f64, f64) -> f64;
+
+    /// A call of every function, and its value by the standard library.
+    const REFERENCES: &[(&str, Reference)] = &[
+        ("sqrt(x)", |x, _| x.sqrt()),
+        ("abs(x)", |x, _| x.abs()),
+        ("sign(x)", |x, _| x.signum()),
+        ("min(x, y)", |x, y| x.min(y)),
+        ("max(x, y)", |x, y| x.max(y)),
+        ("clamp(x, -0.25, y)", |x, y| x.max(-0.25).min(y)),
+        ("floor(x)", |x, _| x.floor()),
+        ("exp(x)", |x, _| x.exp()),
+        ("ln(x)", |x, _| x.ln()),
+        ("sin(x)", |x, _| x.sin()),
+        ("cos(x)", |x, _| x.cos()),
+        ("tan(x)", |x, _| x.tan()),
+        ("asin(x)", |x, _| x.asin()),
+        ("acos(x)", |x, _| x.acos()),
+        ("atan(x)", |x, _| x.atan()),
+        ("atan2(x, y)", |x, y| x.atan2(y)),
+        ("tanh(x)", |x, _| x.tanh()),
+        ("hypot(x, y)", |x, y| x.hypot(y)),
+        ("if(x < y, x*x, y)", |x, y| if x < y { x * x } else { y }),
+        ("step(x)", |x, _| f64::from(u8::from(x >= 0.0))),
+        ("table(x, [[-1, 2], [0.1, 3], [1, -4]])", |x, _| {
+            if x < 0.1 { 2.0 + (x + 1.0) / 1.1 } else { 3.0 - 7.0 * (x - 0.1) / 0.9 }
+        }),
+    ];
+
+    /// Whether both are the same within `most`, or neither is a number.
+    fn is_near(a: f64, b: f64, most: f64) -> bool {
+        a.is_nan() && b.is_nan() || (a - b).abs() <= most * (1.0 + b.abs())
+    }
+
+    #[test]
+    fn every_function_has_the_value_of_the_standard_library_and_the_derivatives_of_its_differences()
+    {
+        for function in &FUNCTIONS {
+            let is_call = |(call, _): &&(&str, _)| call.starts_with(&format!("{}(", function.name));
+            let (call, reference) =
+                REFERENCES.iter().find(is_call).unwrap_or_else(|| panic!("{}", function.usage()));
+            let expression = parse(call, &Plane).unwrap_or_else(|fault| panic!("{fault:?}"));
+            let parts = [(Part::Energy, &expression)];
+            let Ok(tape) = Tape::new(2, |_| false, &parts) else { panic!("{call} is too long") };
+            let output = usize::from(tape.outputs[0]);
+            let mut numbers = 0;
+            for [x, y] in [[0.4, 0.7], [0.6, 0.2], [-0.3, 0.9], [-0.7, -0.5], [0.9, -0.8]] {
+                let mut slots = vec![0.0; tape.slots];
+                slots[..2].copy_from_slice(&[x, y]);
+                tape.prepare(&mut slots);
+                tape.evaluate(&mut slots);
+                let value = slots[output];
+                assert!(is_near(value, reference(x, y), 1e-15), "{call} at {x}, {y}: {value}");
+                if value.is_nan() {
+                    continue;
+                }
+                numbers += 1;
+
+                let curve = [[x, 1.0, 0.7], [y, -0.3, 0.4]];
+                let mut jets = vec![[0.0; 3]; tape.slots];
+                jets[..2].copy_from_slice(&curve);
+                jet::evaluate(&tape, &mut jets);
+                let [by_jet, first, second] = jets[output];
+                assert!(is_near(by_jet, value, 0.0), "{call} at {x}, {y}: {by_jet}");
+                let h = 1e-4;
+                let [before, after] = [-h, h].map(|s| {
+                    let [x, y] = curve.map(|[q, v, a]| q + v * s + a * s * s / 2.0);
+                    reference(x, y)
+                });
+                let slope = (after - before) / (2.0 * h);
+                let bend = (after - 2.0 * value + before) / (h * h);
+                assert!(is_near(first, slope, 1e-6), "{call} at {x}, {y}: {first} for {slope}");
+                assert!(is_near(second, bend, 1e-6), "{call} at {x}, {y}: {second} for {bend}");
+            }
+            assert!(numbers >= 2, "{call}");
+        }
+        assert_eq!(REFERENCES.len(), FUNCTIONS.len());
+    }
+}
