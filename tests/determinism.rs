@@ -15,7 +15,7 @@ use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
 /// Ticks after which the hash is taken: 28 minutes at 60 Hz. For a scene of many coordinates fewer, so
 /// that it takes no longer than one of four.
 fn ticks(scene: &Scene) -> u64 {
-    let coordinates = |body: &SceneBody| (body.kind.coordinates)(&body.values).len() as u64;
+    let coordinates = |body: &SceneBody| body.kind.coordinates(&body.values).len() as u64;
     400_000 / scene.bodies.iter().map(coordinates).sum::<u64>().max(4)
 }
 

@@ -1,5 +1,7 @@
 //! `regatta list`: the program's own tables, for people and for programs.
 
+use std::sync::Arc;
+
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
@@ -58,7 +60,7 @@ pub(super) fn run(args: &ListArgs) -> Result<(), Error> {
         }
         Listing::Methods => write(METHOD, METHODS, args.format),
         Listing::Bodies if args.format == TableFormat::Text => bodies_with_keys(),
-        Listing::Bodies => write(BODY, BODIES, args.format),
+        Listing::Bodies => write(BODY, &BODIES, args.format),
         Listing::Metrics => write(METRIC, METRICS, args.format),
         Listing::Policies => write(POLICY, POLICIES, args.format),
         Listing::Traces => write(TRACE, TRACES, args.format),
@@ -114,7 +116,7 @@ fn laws() -> String {
 /// Characters of a row of functions: with the margin it fits a line of a terminal.
 const FUNCTIONS_WIDTH: usize = 80;
 
-/// How a scene lays out a net; the keys of [`Net::DESCRIPTIONS`] follow.
+/// How a scene lays out a net; the keys of [`Net::descriptions`] follow.
 const NETS: &str = "
 [[net]]: masses joined by springs in the plane, as a grid or as lists
   columns = 24                          # a grid, numbered from 0 at the top left, row by row
@@ -131,13 +133,13 @@ const NETS: &str = "
 
 fn bodies_with_keys() -> String {
     let keys = BODIES.iter().map(|body| {
-        let keys = table::text(PARAMETER, body.parameters, "  ");
+        let keys = table::text(PARAMETER, &body.parameters, "  ");
         let refused = body.engine_refusal.map(|why| refused_by_engines(body.id, why));
         format!("\n[[{}]]\n{keys}{}", body.id, refused.unwrap_or_default())
     });
-    let of_nets = table::text(PARAMETER, Net::DESCRIPTIONS, "  ");
+    let of_nets = table::text(PARAMETER, Net::descriptions(), "  ");
     let of_nets = of_nets + &refused_by_engines("net", Net::ENGINE_REFUSAL);
-    table::text(BODY, BODIES, "") + &keys.collect::<String>() + &laws() + NETS + &of_nets
+    table::text(BODY, &BODIES, "") + &keys.collect::<String>() + &laws() + NETS + &of_nets
 }
 
 /// Two lines that say why engines do not step the bodies of this kind, and which methods of the family do.
@@ -252,13 +254,13 @@ const METHOD: &[Column<Method>] = &[
     Column { key: "source", heading: None, value: |method| json!(method.source) },
 ];
 
-const BODY: &[Column<Kind>] = &[
+const BODY: &[Column<Arc<Kind>>] = &[
     Column { key: "id", heading: Some("ID"), value: |body| json!(body.id) },
     Column { key: "about", heading: Some("EQUATION"), value: |body| json!(body.about) },
     Column {
         key: "coordinates",
         heading: None,
-        value: |body| table::json(COORDINATE, body.plain_coordinates()),
+        value: |body| table::json(COORDINATE, body.coordinates(&body.plain_values())),
     },
     Column { key: "truth", heading: Some("TRUTH"), value: |body| json!(body.truth.id()) },
     Column {
@@ -271,7 +273,7 @@ const BODY: &[Column<Kind>] = &[
     Column {
         key: "parameters",
         heading: None,
-        value: |body| table::json(PARAMETER, body.parameters),
+        value: |body| table::json(PARAMETER, &body.parameters),
     },
 ];
 

@@ -164,7 +164,7 @@ impl SweepArgs {
         let methods = METHODS.iter().filter(asked).collect();
         for method in &self.methods {
             // A method runs on the bodies that it steps; one that steps none would leave no row.
-            let alone = |body: &SceneBody| refusal(method, body.kind, &body.values).is_none();
+            let alone = |body: &SceneBody| refusal(method, &body.kind, &body.values).is_none();
             if !scenes.iter().any(|(_, scene)| scene.bodies.iter().any(alone)) {
                 scene_file::check_method(&scenes[0].1, method)?;
             }
@@ -206,6 +206,14 @@ const COLUMNS: &[Column<Row>] = &[
         heading: None,
         value: |row| json!(row.verdict.chase.map(|chase| chase.overshoot_percent)),
     },
-    Column { key: "parameter", heading: None, value: |row| json!(row.varied.map(|(key, _)| key)) },
-    Column { key: "value", heading: None, value: |row| json!(row.varied.map(|(_, value)| value)) },
+    Column {
+        key: "parameter",
+        heading: None,
+        value: |row| json!(row.varied.as_ref().map(|(key, _)| key)),
+    },
+    Column {
+        key: "value",
+        heading: None,
+        value: |row| json!(row.varied.as_ref().map(|(_, value)| value)),
+    },
 ];

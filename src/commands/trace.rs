@@ -146,8 +146,8 @@ impl Trace {
         for (n, body) in bodies.filter(|(_, body)| body.halted().is_none()) {
             let method = method_id(lane.solver(), body);
             let values = body.stepper.q().iter().zip(body.stepper.v());
-            for (coordinate, (&q, &v)) in body.coordinates.iter().zip(values) {
-                self.row(number, method, n, coordinate.name, q, Some(v))?;
+            for (coordinate, (&q, &v)) in body.coordinates().iter().zip(values) {
+                self.row(number, method, n, &coordinate.name, q, Some(v))?;
             }
             let Some(truth) = truth.filter(|_| self.metrics) else { continue };
             for metric in METRICS {

@@ -323,7 +323,7 @@ mod tests {
             let (_, binding) = command_for(key).unwrap();
             let words: Vec<&str> = binding.about.split(|c: char| !c.is_alphabetic()).collect();
             assert!(words.contains(&"law"), "{}", binding.about);
-            for body in BODIES {
+            for body in BODIES.iter() {
                 let is_named = words.contains(&body.id);
                 assert_eq!(
                     is_named,

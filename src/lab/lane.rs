@@ -3,11 +3,13 @@
 //! A body that blows up or whose solver fails halts alone: the other bodies of its lane go on, unchanged to the
 //! bit.
 
+use std::sync::Arc;
+
 use super::action::Action;
 use super::chase::Chase;
 use super::extent::Extent;
 use super::scene::Scene;
-use crate::sim::bodies::{Coordinate, FalseClaims, Input, Kind, Law, Own, Truth};
+use crate::sim::bodies::{Coordinate, Custom, FalseClaims, Input, Kind, Law, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::number::superscript;
 use crate::sim::{Solver, Stepper};
@@ -58,9 +60,7 @@ pub enum ResumedFrom {
 #[derive(Clone)]
 pub struct LaneBody {
     /// Its card.
-    pub kind: &'static Kind,
-    /// Its coordinates, in state order.
-    pub coordinates: &'static [Coordinate],
+    pub kind: Arc<Kind>,
     /// The body under the lane's solver.
     pub stepper: Box<dyn Stepper>,
     /// Coordinates one tick ago, for drawing between ticks.
@@ -78,23 +78,22 @@ pub struct LaneBody {
 }
 
 impl LaneBody {
-    /// The claims of a [`Law`], or of a body of one's [`Own`], that do not hold with the present parameters; of other
+    /// The claims of a [`Law`], or of a body of one's [`Custom`], that do not hold with the present parameters; of other
     /// bodies none.
     pub fn false_claims(&self) -> FalseClaims {
         let body = self.stepper.body();
         let law = || body.downcast_ref().map(Law::false_claims);
-        body.downcast_ref().map(Own::false_claims).or_else(law).unwrap_or_default()
+        body.downcast_ref().map(Custom::false_claims).or_else(law).unwrap_or_default()
     }
 
     /// A body of `kind` with `values` at its start, under `solver`.
-    pub(super) fn new(kind: &'static Kind, values: &[f64], solver: Solver) -> Self {
+    pub(super) fn new(kind: Arc<Kind>, values: &[f64], solver: Solver) -> Self {
         let stepper = (kind.build)(values, solver);
         let state = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
         let [previous_q, previous_v] = state.clone();
         let chase = Chase::new(&*stepper, 0.0);
         let mut body = Self {
             kind,
-            coordinates: (kind.coordinates)(values),
             stepper,
             previous_q,
             previous_v,
@@ -106,6 +105,11 @@ impl LaneBody {
         };
         body.cover();
         body
+    }
+
+    /// Its coordinates, in state order.
+    pub fn coordinates(&self) -> &[Coordinate] {
+        &self.kind.all_coordinates[..self.stepper.q().len()]
     }
 
     /// Why and when the body stopped, if it did.
@@ -131,8 +135,8 @@ impl LaneBody {
 
     /// The values whose coordinate has the same unit as the first; `values` has one per coordinate.
     pub(super) fn like_first(&self, values: &[f64]) -> impl Iterator<Item = f64> {
-        let unit = self.coordinates[0].unit;
-        let pairs = self.coordinates.iter().zip(values);
+        let unit = self.coordinates()[0].unit;
+        let pairs = self.coordinates().iter().zip(values);
         pairs.filter(move |(coordinate, _)| coordinate.unit == unit).map(|(_, &value)| value)
     }
 
@@ -179,7 +183,7 @@ impl LaneBody {
         let stepped = self
             .stepper
             .advance(t, h, substeps)
-            .and_then(|()| check(&*self.stepper, self.coordinates));
+            .and_then(|()| check(&*self.stepper, self.coordinates()));
         match stepped {
             Ok(()) => {
                 self.cover();
@@ -206,7 +210,7 @@ impl LaneBody {
         q.copy_from_slice(self.stepper.q());
         v.copy_from_slice(self.stepper.v());
         let is_taken = self.stepper.input(t, input);
-        match check(&*self.stepper, self.coordinates) {
+        match check(&*self.stepper, self.coordinates()) {
             Ok(()) => {
                 self.cover();
                 if is_taken {
@@ -242,7 +246,7 @@ impl LaneBody {
         q0.copy_from_slice(self.stepper.q());
         v0.copy_from_slice(self.stepper.v());
         self.stepper.set(t, q, v);
-        if let Err(failure) = check(&*self.stepper, self.coordinates) {
+        if let Err(failure) = check(&*self.stepper, self.coordinates()) {
             let [q, v] = &self.before_input;
             self.stepper.set(t, q, v);
             self.halted = Some(Halt { tick, t, body: place, failure });
@@ -276,14 +280,14 @@ impl LaneBody {
 /// Fails if a coordinate or a velocity of a body is not finite or is beyond [`ESCAPE`].
 pub(super) fn check(body: &dyn Stepper, coordinates: &[Coordinate]) -> Result<(), StepFailure> {
     let names = coordinates.iter();
-    let q = names.clone().map(|c| c.name).zip(body.q());
-    let v = names.map(|c| c.velocity).zip(body.v());
+    let q = names.clone().map(|c| &c.name).zip(body.q());
+    let v = names.map(|c| &c.velocity).zip(body.v());
     for (coordinate, &value) in q.chain(v) {
         if !value.is_finite() {
-            return Err(StepFailure::NotFinite { coordinate, value });
+            return Err(StepFailure::NotFinite { coordinate: coordinate.clone(), value });
         }
         if value.abs() > ESCAPE {
-            return Err(StepFailure::Escaped { coordinate, value });
+            return Err(StepFailure::Escaped { coordinate: coordinate.clone(), value });
         }
     }
     Ok(())
@@ -301,7 +305,8 @@ impl Lane {
     /// The scene's bodies at their start under `solver`, which takes `substeps` steps in a tick.
     pub fn new(scene: &Scene, solver: Solver, substeps: u32) -> Self {
         let bodies = scene.bodies.iter();
-        let bodies = bodies.map(|body| LaneBody::new(body.kind, &body.values, solver)).collect();
+        let bodies =
+            bodies.map(|body| LaneBody::new(body.kind.clone(), &body.values, solver)).collect();
         Self { solver, substeps, bodies }
     }
 

@@ -349,7 +349,7 @@ mod tests {
         let helm = kind("helm").unwrap();
         let scene = Scene::built_in("helm").unwrap();
         let [truth, mut lane] =
-            [(); 2].map(|()| LaneBody::new(helm, &scene.bodies[0].values, Solver::Truth));
+            [(); 2].map(|()| LaneBody::new(helm.clone(), &scene.bodies[0].values, Solver::Truth));
         let moved = |by: &[f64], values: &[f64]| -> Vec<f64> {
             values.iter().zip(by).map(|(value, by)| value + by).collect()
         };
@@ -366,8 +366,8 @@ mod tests {
         let ship = kind("ship").unwrap();
         let under = |id| Solver::Method(method(id).unwrap());
         let values = [2e4, 1e3, 1e4, 0.0, 0.0, 2e4];
-        let truth = LaneBody::new(ship, &values, Solver::Truth);
-        let mut lane = LaneBody::new(ship, &values, under("adaptive-euler-as-printed"));
+        let truth = LaneBody::new(ship.clone(), &values, Solver::Truth);
+        let mut lane = LaneBody::new(ship.clone(), &values, under("adaptive-euler-as-printed"));
         let lost = |lane: &LaneBody| (metric("lost_time").measure)(lane, &truth).unwrap();
         lane.stepper.advance(0.0, 0.5, 1).unwrap();
         let once = lost(&lane);

@@ -67,9 +67,9 @@ impl LaneBody {
 
     /// The quantity of the body that has this name, in words, and its unit after a space, if it has one.
     fn quantity(&self, name: &str) -> (String, String) {
-        let several = self.coordinates.len() > 1;
-        let velocity = self.coordinates.iter().find(|coordinate| coordinate.velocity == name);
-        let of = velocity.or(self.coordinates.iter().find(|coordinate| coordinate.name == name));
+        let several = self.coordinates().len() > 1;
+        let velocity = self.coordinates().iter().find(|coordinate| coordinate.velocity == name);
+        let of = velocity.or(self.coordinates().iter().find(|coordinate| coordinate.name == name));
         let quantity = match velocity {
             _ if several => name,
             Some(_) => "speed",
@@ -149,7 +149,7 @@ mod tests {
         let scene = Scene::built_in("helm").unwrap();
         let failures = [
             StepFailure::NewtonFailed { limit: 9 },
-            StepFailure::NotFinite { coordinate: "x", value: f64::NAN },
+            StepFailure::NotFinite { coordinate: "x".into(), value: f64::NAN },
         ];
         let [gave_up, blew_up] =
             failures.map(|failure| Halt { tick: 3, t: 0.05, body: 0, failure });

@@ -70,7 +70,7 @@ impl Lab {
     /// `range`. Empty if the body has several coordinates, or conserves no energy.
     pub fn orbit(&self, through: [f64; 2], range: [f64; 2]) -> Vec<Vec<[f64; 2]>> {
         let body = &self.selected().lane.bodies()[self.display().body];
-        match body.coordinates.len() {
+        match body.coordinates().len() {
             1 => orbit(body, self.race().t(), through, range),
             _ => Vec::new(),
         }
@@ -116,7 +116,7 @@ fn one_step(body: &LaneBody, spec: LaneSpec, number: u64, tick: Tick) -> Option<
 fn growth(body: &LaneBody, spec: LaneSpec, Tick { t, h, substeps }: Tick) -> Option<[f64; 2]> {
     let stepper = &body.stepper;
     let mut at_rest = [0.0];
-    if body.coordinates.len() > 1 || !stepper.is_linear() {
+    if body.coordinates().len() > 1 || !stepper.is_linear() {
         return None;
     }
     stepper.acceleration(t, &[0.0], &[0.0], &mut at_rest);

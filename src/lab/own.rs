@@ -1,8 +1,8 @@
-//! An experiment on a body of one's own: a [`System`] and a start are enough.
+//! An experiment on a custom body: a [`System`] and a start are enough.
 
 use std::any::Any;
 use std::fmt;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::lane_spec::LaneSpec;
 use super::picture::{Drawing, Mark};
@@ -11,7 +11,7 @@ use super::scene::{
     LEAST_SECONDS, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS, MOST_TICK_HZ, Scene, SceneBody,
     claim_horizon,
 };
-use crate::sim::bodies::{Extras, OwnFault, own_kind, refusal};
+use crate::sim::bodies::{CustomFault, Extras, custom_kind, refusal};
 use crate::sim::integrators::{METHODS, Method};
 use crate::sim::{State, System, Vector};
 
@@ -68,8 +68,8 @@ impl fmt::Display for OptionsError {
 
 impl std::error::Error for OptionsError {}
 
-impl From<OwnFault> for OptionsError {
-    fn from(OwnFault { field, what, remedy }: OwnFault) -> Self {
+impl From<CustomFault> for OptionsError {
+    fn from(CustomFault { field, what, remedy }: CustomFault) -> Self {
         Self { field, what, remedy: remedy.to_owned() }
     }
 }
@@ -81,8 +81,6 @@ fn error(field: &'static str, what: String, remedy: impl Into<String>) -> Option
 impl Scene {
     /// The scene of one body that moves as `system` does, from `start`. It has all that a scene from a file has but a
     /// text: it cannot be recorded.
-    ///
-    /// Each call keeps some hundred bytes until the program ends.
     ///
     /// # Errors
     /// If an option is out of its range or unfit, or if an energy or an exact solution is not one.
@@ -108,10 +106,9 @@ impl Scene {
             return Err(error("seconds", seconds.to_string(), remedy));
         }
         let drawing = draw.map(|draw| drawing::<S>(draw, start.q.clone()));
-        let kind = own_kind(system, &start, &extras, drawing, claim_horizon(seconds, tick_hz))?;
-        let values: Vec<f64> =
-            kind.parameters.iter().map(|parameter| parameter.default.unwrap_or(1.0)).collect();
-        let steps = |method: &&'static Method| refusal(method, kind, &values).is_none();
+        let kind = custom_kind(system, &start, &extras, drawing, claim_horizon(seconds, tick_hz))?;
+        let values = kind.plain_values();
+        let steps = |method: &&'static Method| refusal(method, &kind, &values).is_none();
         let lanes = match &methods[..] {
             [] => METHODS
                 .iter()
@@ -122,7 +119,7 @@ impl Scene {
             chosen => {
                 check_methods(chosen)?;
                 if let Some(method) = chosen.iter().find(|method| !steps(method)) {
-                    let reason = refusal(method, kind, &values).unwrap_or_default();
+                    let reason = refusal(method, &kind, &values).unwrap_or_default();
                     return Err(error(
                         "methods",
                         format!("{}: {reason}", method.id),
@@ -219,16 +216,16 @@ fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {
     Ok(())
 }
 
-/// The drawing function of a user-defined body. Leaked, because `Kind` is `'static`.
+/// The drawing function of a custom body.
 fn drawing<S: System<Vector: Vector> + 'static>(
     draw: Draw<S>,
     like: S::Vector,
-) -> &'static (dyn Any + Send + Sync) {
+) -> Arc<dyn Any + Send + Sync> {
     let like = Mutex::new(like);
     let draw = move |system: &dyn Any, q: &[f64]| {
         let mut own_q = like.lock().unwrap_or_else(PoisonError::into_inner).clone();
         own_q.components_mut().copy_from_slice(q);
         system.downcast_ref().map_or_else(Vec::new, |system| draw(system, &own_q))
     };
-    Box::leak(Box::new(Drawing(Box::new(draw))))
+    Arc::new(Drawing(Box::new(draw)))
 }

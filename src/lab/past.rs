@@ -106,9 +106,9 @@ impl Past {
     }
 
     /// The recorded coordinate of the body at this place of the scene, and its index.
-    pub fn coordinate(&self, race: &Race, body: usize) -> (&'static Coordinate, usize) {
+    pub fn coordinate<'r>(&self, race: &'r Race, body: usize) -> (&'r Coordinate, usize) {
         let index = self.truth_curves[body].coordinate();
-        (&race.truth().bodies()[body].coordinates[index], index)
+        (&race.truth().bodies()[body].coordinates()[index], index)
     }
 
     /// Since when (s) the motion is one: since a body was last placed or a parameter last set, or since before the start.

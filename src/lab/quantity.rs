@@ -25,10 +25,10 @@ impl Quantity {
     }
 
     /// Its symbol for this coordinate.
-    pub fn symbol(self, coordinate: &Coordinate) -> &'static str {
+    pub fn symbol(self, coordinate: &Coordinate) -> &str {
         match self {
-            Quantity::Position => coordinate.name,
-            Quantity::Velocity => coordinate.velocity,
+            Quantity::Position => &coordinate.name,
+            Quantity::Velocity => &coordinate.velocity,
         }
     }
 

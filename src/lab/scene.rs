@@ -5,10 +5,11 @@
 //! reported at once, each with its place and its remedy; a [`Scene`] has none.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::action::Action;
 use super::lane_spec::LaneSpec;
-use crate::sim::bodies::{ClaimHorizon, Kind};
+use crate::sim::bodies::{ClaimHorizon, Kind, Origin};
 use crate::sim::integrators::Method;
 
 mod cause;
@@ -115,7 +116,7 @@ pub struct SceneBody {
     /// Its name, not found on any other body of the scene.
     pub name: String,
     /// What it is.
-    pub kind: &'static Kind,
+    pub kind: Arc<Kind>,
     /// What [`Kind::build`] takes: one value for each of the kind's parameters, in their order, and for
     /// a curve two for each point.
     pub values: Vec<f64>,
@@ -194,7 +195,8 @@ impl Scene {
     /// The name of a body, or the id of a lane's method, that is written in Rust, so that no scene file holds it; `None`
     /// if there is none.
     pub fn in_rust(&self) -> Option<&str> {
-        let mut bodies = self.bodies.iter().filter(|body| body.kind.own.is_some());
+        let mut bodies =
+            self.bodies.iter().filter(|body| matches!(body.kind.origin, Origin::Custom(_)));
         let mut lanes = self.lanes.iter().filter(|lane| lane.method.own.is_some());
         let body = bodies.next().map(|body| &*body.name);
         body.or_else(|| lanes.next().map(|lane| lane.method.id))

@@ -14,6 +14,9 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Whether physics engines can be [told](System::engine_settings) of it.
     const HAS_JOINT: bool = true;
 
+    /// Whether it has a closed form: [`Body::exact`] and the like.
+    const HAS_EXACT: bool = false;
+
     /// The parameters of this kind of body. Its card lists their descriptions as
     /// [`Kind::parameters`](super::bodies::Kind::parameters).
     const PARAMETERS: &'static [ParameterOf<Self>] = &[];
@@ -53,9 +56,10 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     fn start(&self) -> State<Self::Vector>;
 
     /// The exact flow over `dt` (s) under constant input, from time 0 if the forces depend on time.
-    /// Returns `None` for all arguments if the body has no closed form; its truth is then a reference
-    /// solution.
-    fn exact(&self, dt: f64, from: &State<Self::Vector>) -> Option<State<Self::Vector>>;
+    /// `None` if the body has [no closed form](Body::HAS_EXACT); its truth is then a reference solution.
+    fn exact(&self, _dt: f64, _from: &State<Self::Vector>) -> Option<State<Self::Vector>> {
+        None
+    }
 
     /// The exact flow over `dt` (s) from time `t` (s). A body whose forces depend on time overrides this.
     fn exact_at(

@@ -30,7 +30,7 @@ pub(super) fn with_solver<B: Body>(placed: Placed<B>, solver: Solver, t: f64) ->
             let tolerance = Some(Tolerance::uniform(tolerance));
             construct(method, UnderMethod { placed, tolerance })
         }
-        Solver::Truth if placed.body.system.exact(0.0, &placed.state).is_some() => {
+        Solver::Truth if B::HAS_EXACT => {
             let propagator = ExactFlow::new(&placed.state, t);
             Box::new(BodyStepper { placed, propagator })
         }

@@ -85,7 +85,7 @@ impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
         self.t = t + h;
         let Anchor { state: from, t: begin, .. } = &self.anchor;
         let is_known = body.system.exact_into(*begin, self.t - begin, from, state);
-        assert!(is_known, "a body has a closed form always or never");
+        assert!(is_known, "a body with `HAS_EXACT` has a closed form");
         Ok(())
     }
 

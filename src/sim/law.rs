@@ -157,15 +157,6 @@ impl Equations {
         self.angles[coordinate]
     }
 
-    /// The unit of what is drawn in its own scale, for people: of places, of the plane, or of the first coordinate.
-    pub fn drawn_unit(&self) -> &'static str {
-        if self.has_places() {
-            return UNITS[0];
-        }
-        let drawn = self.text.plane.map_or(0, |[x, _]| x);
-        shown_unit(self.text.coordinates[drawn].unit)
-    }
-
     /// The text of a part.
     pub fn part(&self, part: Part) -> &str {
         let text = &self.text;

@@ -5,7 +5,11 @@
 //! the struct that holds its value. A [`Kind`](super::bodies::Kind) has the same list as plain
 //! [`Parameter`]s, for code that does not know the struct.
 
+use std::borrow::Cow;
 use std::fmt;
+
+/// Text that a table spells, or that a kind made from a scene owns.
+pub type Text = Cow<'static, str>;
 
 /// The largest magnitude of a body's parameter; products in the force laws overflow beyond it.
 pub const LARGEST: f64 = 1e15;
@@ -14,14 +18,14 @@ pub const LARGEST: f64 = 1e15;
 pub const MOST_POINTS: usize = 64;
 
 /// One key of a body's table in a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// The key, unit included.
-    pub key: &'static str,
+    pub key: Text,
     /// What it is.
     pub about: &'static str,
     /// The symbol of the unit that ends the key, such as `N/m`; empty if the key names none.
-    pub unit: &'static str,
+    pub unit: Text,
     /// The default; `None` if the scene must give a value.
     pub default: Option<f64>,
     /// The allowed values.
@@ -33,8 +37,8 @@ pub struct Parameter {
 impl Parameter {
     /// Its name in words: the key without the unit.
     pub fn quantity(&self) -> String {
-        let end = unit(self.key).0;
-        self.key.strip_suffix(end).unwrap_or(self.key).replace('_', " ")
+        let end = unit(&self.key).0;
+        self.key.strip_suffix(end).unwrap_or(&self.key).replace('_', " ")
     }
 }
 
@@ -122,7 +126,7 @@ impl fmt::Display for Range {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The key of the value to change.
-    pub key: &'static str,
+    pub key: Text,
     /// What is wrong.
     pub what: String,
     /// How to fix it.
@@ -145,7 +149,8 @@ enum Slot<B> {
 
 impl<B> ParameterOf<B> {
     const fn new(key: &'static str, range: Range, acts: Acts, slot: Slot<B>) -> Self {
-        let unit = unit(key).1;
+        let unit = Cow::Borrowed(unit(key).1);
+        let key = Cow::Borrowed(key);
         let parameter = Parameter { key, about: "", unit, default: None, range, acts };
         Self { parameter, slot }
     }
@@ -190,7 +195,7 @@ impl<B> ParameterOf<B> {
 
     /// The parameter without its field.
     pub(super) fn parameter(&self) -> Parameter {
-        self.parameter
+        self.parameter.clone()
     }
 
     /// The field of a parameter that acts at once; `None` for other parameters.
@@ -221,17 +226,6 @@ impl<B> ParameterOf<B> {
 pub(super) fn write<B>(body: &mut B, parameters: &[ParameterOf<B>], values: &[f64]) {
     let left = parameters.iter().fold(values, |values, parameter| parameter.write(body, values));
     assert!(left.is_empty(), "values without a parameter: {left:?}");
-}
-
-/// The descriptions of these parameters, without the fields.
-pub(super) const fn descriptions<B, const N: usize>(of: &[ParameterOf<B>; N]) -> [Parameter; N] {
-    let mut parameters = [of[0].parameter; N];
-    let mut n = 1;
-    while n < N {
-        parameters[n] = of[n].parameter;
-        n += 1;
-    }
-    parameters
 }
 
 /// Suffixes of keys and the symbols of the units they name. A suffix comes before any shorter suffix

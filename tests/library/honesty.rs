@@ -107,7 +107,7 @@ fn amplitudes(scene: &Scene) -> Vec<f64> {
         }
     }
     let body = &scene.bodies[0];
-    let coordinates = (body.kind.coordinates)(&body.values);
+    let coordinates = body.kind.coordinates(&body.values);
     let n = coordinates.len();
     let half = |i: usize| {
         let like = (0..n).filter(|&j| coordinates[j].unit == coordinates[i % n].unit);
@@ -191,7 +191,7 @@ fn crossings(q: &[f64]) -> Vec<f64> {
 /// The claims of a verdict that a plain run contradicts.
 fn lies(scene: &Scene, spec: LaneSpec, tick_hz: u32, verdict: &Verdict) -> Vec<String> {
     let amplitudes = amplitudes(scene);
-    let kind = scene.bodies[0].kind;
+    let kind = &scene.bodies[0].kind;
     let plain = plain(scene, spec, tick_hz, &amplitudes, 10.0);
     let hz = f64::from(tick_hz);
     let mut lies = Vec::new();

@@ -68,7 +68,7 @@ fn action(dice: &mut Dice, session: &Session) -> Action {
         11..13 => Action::Rudder(dice.between(-1.0, 1.0)),
         13..15 => Action::Kick(dice.between(-1.0, 1.0)),
         15..17 => {
-            let kind = race.truth().bodies()[body].kind;
+            let kind = &race.truth().bodies()[body].kind;
             let parameter = dice.below(kind.parameters.len());
             let value = race.values(body)[parameter] * dice.between(0.8, 1.25);
             Action::Set { body, parameter, value }
@@ -326,7 +326,7 @@ fn snapshots_of_ten_hours_stay_within_their_memory_limit() {
 fn every_kind_of_body_is_among_the_random_scenes() {
     let mut dice = Dice::new(4);
     let scenes: Vec<Scene> = (0..200).map(|n| scene(&mut dice, n)).collect();
-    for kind in BODIES {
+    for kind in BODIES.iter() {
         assert!(
             scenes.iter().any(|s| s.bodies.iter().any(|b| b.kind.id == kind.id)),
             "{}",

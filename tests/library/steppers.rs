@@ -17,7 +17,7 @@ fn bodies(solver: Solver, damping: f64) -> impl Iterator<Item = (&'static str, B
         "pendulum" => vec![1.7, 0.4, 9.81, damping, 0.6, 0.3, 2.0],
         "orbit" => vec![1000.0, 9.0, 2.0, 1.5, 10.0, 0.3],
         "helm" => {
-            let card = kind("helm").unwrap().parameters;
+            let card = &kind("helm").unwrap().parameters;
             let plain = card[..card.len() - 1].iter().map(|p| p.default.unwrap_or(1.5));
             plain.chain([0.0, 2.0, 10.0, 1.0]).collect()
         }

@@ -83,7 +83,7 @@ fn a_verdict_says_the_number_that_its_word_is_about() {
     is(Verdict { energy_change: Some(-0.998), ..loses.clone() }, "loses energy: all of it in 20 s");
     is(Verdict { halves_in_s: Some(5.0), ..loses }, "loses energy: swing ½ in 5 s");
 
-    let failure = StepFailure::NotFinite { coordinate: "x", value: f64::NAN };
+    let failure = StepFailure::NotFinite { coordinate: "x".into(), value: f64::NAN };
     let ended = Verdict {
         failure: Some(RunFailure { t: 4.0, cause: failure.clone() }),
         parasite_doubles_in_s: Some(7.0),

@@ -13,6 +13,7 @@ use crate::commands::jobs;
 use crate::commands::stopwatch;
 use crate::commands::terminal::progress;
 use crate::lab::{Clock, Judge, LONGEST_HORIZON_S, LaneSpec, Scene, SceneBody, Verdict};
+use crate::sim::bodies::Text;
 use crate::sim::integrators::Method;
 
 /// The system cannot start the threads.
@@ -46,7 +47,7 @@ struct Subject {
     scene_name: String,
     alone: Scene,
     /// The key and the value of the parameter that is varied, if the body has it.
-    varied: Option<(&'static str, f64)>,
+    varied: Option<(Text, f64)>,
     horizon_s: f64,
     /// Made by the first run that needs it: a truth over years takes minutes, in which an interrupt is heeded.
     judge: OnceLock<Judge>,
@@ -80,7 +81,7 @@ pub(super) struct Row {
     pub(super) tick_hz: u32,
     pub(super) verdict: Verdict,
     pub(super) ns_per_s: Option<f64>,
-    pub(super) varied: Option<(&'static str, f64)>,
+    pub(super) varied: Option<(Text, f64)>,
 }
 
 impl Row {
@@ -166,7 +167,7 @@ impl Grid {
             tick_hz,
             verdict,
             ns_per_s: None,
-            varied: *varied,
+            varied: varied.clone(),
         };
         let ticks = (row.seconds() * f64::from(tick_hz)).round() as u64;
         row.ns_per_s = stopwatch::ns_per_s(alone, spec, tick_hz, ticks, EFFORT);
@@ -175,19 +176,16 @@ impl Grid {
 }
 
 /// A body with each value of the parameter that is varied, or as it is.
-fn variants(
-    body: &SceneBody,
-    varied: &Option<Varied>,
-) -> Vec<(SceneBody, Option<(&'static str, f64)>)> {
+fn variants(body: &SceneBody, varied: &Option<Varied>) -> Vec<(SceneBody, Option<(Text, f64)>)> {
     let found = varied.as_ref().and_then(|varied| {
         let (place, parameter) = body.kind.parameter(&varied.key)?;
-        Some((place, parameter.key, &varied.values))
+        Some((place, &parameter.key, &varied.values))
     });
     let Some((place, key, values)) = found else { return vec![(body.clone(), None)] };
     let variant = |&value: &f64| {
         let mut body = body.clone();
         body.values[place] = value;
-        (body, Some((key, value)))
+        (body, Some((key.clone(), value)))
     };
     values.iter().map(variant).collect()
 }

@@ -13,8 +13,8 @@ pub(super) struct Varied {
 /// The sweep cannot vary a parameter as it is asked to.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CannotVary {
-    #[error("no body has a parameter {key:?}; {}", remedy(*.nearest))]
-    Unknown { key: String, nearest: Option<&'static str> },
+    #[error("no body has a parameter {key:?}; {}", remedy(.nearest.as_deref()))]
+    Unknown { key: String, nearest: Option<String> },
     #[error("--vary {key}={value} on {body:?}: {why}")]
     Refused { key: String, value: f64, body: String, why: String },
 }
@@ -54,7 +54,7 @@ impl Varied {
             let Some((place, _)) = body.kind.parameter(&self.key) else { continue };
             is_known = true;
             for &value in &self.values {
-                edited_values(body.kind, &body.values, place, value).map_err(|error| {
+                edited_values(&body.kind, &body.values, place, value).map_err(|error| {
                     let (key, body, why) = (self.key.clone(), body.name.clone(), error.to_string());
                     CannotVary::Refused { key, value, body, why }
                 })?;
@@ -64,7 +64,9 @@ impl Varied {
             return Ok(());
         }
         let bodies = scenes.iter().flat_map(|(_, scene)| &scene.bodies);
-        let keys = bodies.flat_map(|body| body.kind.parameters.iter().map(|it| (it.key, it.key)));
-        Err(CannotVary::Unknown { key: self.key.clone(), nearest: nearest(&self.key, keys) })
+        let keys =
+            bodies.flat_map(|body| body.kind.parameters.iter().map(|it| (&*it.key, &*it.key)));
+        let nearest = nearest(&self.key, keys).map(str::to_owned);
+        Err(CannotVary::Unknown { key: self.key.clone(), nearest })
     }
 }

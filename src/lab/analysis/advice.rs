@@ -265,7 +265,7 @@ impl Adviser {
     fn slowest_down(&self, spec: LaneSpec, criterion: Criterion) -> Option<u32> {
         // The runs of a net are dear, and so are the modes of a method with memory.
         let is_dear = spec.method.restart.is_some()
-            || self.scene.bodies.iter().any(|body| body.kind.net.is_some());
+            || self.scene.bodies.iter().any(|body| body.kind.net().is_some());
         let strides = if is_dear { 6 } else { 60 };
         // The last miss of the search is that next to its result.
         let mut is_known = true;
@@ -300,7 +300,7 @@ impl Adviser {
     /// Each body with the place of its leading parameter.
     fn stiff_bodies(&self) -> impl Iterator<Item = (usize, usize)> {
         self.scene.bodies.iter().enumerate().filter_map(|(body, of)| {
-            let (leads, _) = of.kind.parameter(of.kind.leading)?;
+            let (leads, _) = of.kind.parameter(&of.kind.leading)?;
             Some((body, leads))
         })
     }
@@ -309,7 +309,7 @@ impl Adviser {
     fn stiffness_name(&self, body: usize) -> String {
         let body = &self.scene.bodies[body];
         let (_, leading) =
-            body.kind.parameter(body.kind.leading).expect("a card leads by a key of its own");
+            body.kind.parameter(&body.kind.leading).expect("a card leads by a key of its own");
         let quantity = leading.quantity();
         match self.scene.bodies.len() {
             1 => quantity,
@@ -332,7 +332,7 @@ impl Adviser {
         for (body, leads) in self.stiff_bodies() {
             let body = &mut scene.bodies[body];
             let stiffer = body.values[leads] * factor;
-            body.values = edited_values(body.kind, &body.values, leads, stiffer).ok()?;
+            body.values = edited_values(&body.kind, &body.values, leads, stiffer).ok()?;
         }
         Some(scene)
     }

@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn bounded_is_what_neither_fails_nor_leaves_nor_goes_on_gaining() {
         let (mut truth, run, _) = followed();
-        let cause = StepFailure::Escaped { coordinate: "x", value: 1e39 };
+        let cause = StepFailure::Escaped { coordinate: "x".into(), value: 1e39 };
         let failure = Some(RunFailure { t: 1.0, cause: cause.clone() });
         let cases: [(&str, Run, Option<bool>); 12] = [
             ("as it is", run.clone(), Some(true)),

@@ -4,6 +4,8 @@
 //! damping couples the modes, the map of a step of the whole body decides. A nonlinear body is linearised about rest. A
 //! method that chooses its own steps has no region: no tick rate bounds it.
 
+use std::sync::Arc;
+
 use contour::{Corners, contour};
 
 use crate::lab::lane_spec::LaneSpec;
@@ -225,7 +227,7 @@ impl Motion {
 
 /// A map being computed, method by method.
 pub(super) struct MapWork {
-    kind: &'static Kind,
+    kind: Arc<Kind>,
     map: StabilityMap,
     /// How many points are tried along the rates and along the values.
     corners: [usize; 2],
@@ -234,7 +236,7 @@ pub(super) struct MapWork {
 }
 
 impl MapWork {
-    pub(super) fn new(kind: &'static Kind, request: MapRequest) -> Self {
+    pub(super) fn new(kind: Arc<Kind>, request: MapRequest) -> Self {
         let body = (kind.build)(&request.values, Solver::Truth);
         let found = Motion::of(&*body);
         let is_slow = matches!(found, Ok(Motion::Coupled(_))) && body.q().len() >= MANY_COUPLED;
@@ -252,7 +254,7 @@ impl MapWork {
     /// Replaces the request. Regions that answer the new one too are kept.
     pub(super) fn set_request(&mut self, request: MapRequest) {
         if !request.has_regions_of(&self.map.request) {
-            *self = Self::new(self.kind, request);
+            *self = Self::new(self.kind.clone(), request);
         } else if request != self.map.request {
             self.map.request = request;
             self.map.here.clear();
@@ -260,8 +262,8 @@ impl MapWork {
     }
 
     /// Whether it maps the body of `request`, which is of this kind.
-    pub(super) fn is_of(&self, kind: &'static Kind, request: &MapRequest) -> bool {
-        std::ptr::eq(self.kind, kind) && self.map.request.body == request.body
+    pub(super) fn is_of(&self, kind: &Arc<Kind>, request: &MapRequest) -> bool {
+        Arc::ptr_eq(&self.kind, kind) && self.map.request.body == request.body
     }
 
     pub(super) fn map(&self) -> StabilityMap {

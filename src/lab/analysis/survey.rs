@@ -184,9 +184,14 @@ impl Moment {
         body.advance(from, to - from, 1)?;
         let moment = Self::of(body, to);
         match moment.x.iter().find(|x| !x.is_finite()) {
-            Some(&value) => Err(StepFailure::NotFinite { coordinate: "the exact solution", value }),
+            Some(&value) => {
+                Err(StepFailure::NotFinite { coordinate: "the exact solution".into(), value })
+            }
             None if moment.is_finite() => Ok(moment),
-            None => Err(StepFailure::NotFinite { coordinate: "its acceleration", value: f64::NAN }),
+            None => Err(StepFailure::NotFinite {
+                coordinate: "its acceleration".into(),
+                value: f64::NAN,
+            }),
         }
     }
 }

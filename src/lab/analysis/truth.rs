@@ -140,8 +140,8 @@ impl BodyTruth {
         body
     }
 
-    pub(super) fn coordinates(&self) -> &'static [Coordinate] {
-        (self.body.kind.coordinates)(&self.body.values)
+    pub(super) fn coordinates(&self) -> &[Coordinate] {
+        self.body.kind.coordinates(&self.body.values)
     }
 
     /// The work done so far on this body, its truth included, in evaluations of one coordinate.

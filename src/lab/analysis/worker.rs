@@ -204,7 +204,7 @@ impl AnalysisWorker {
     /// Updates the map's request; a map of another body is dropped.
     fn set_map(&mut self, request: &AnalysisRequest) {
         let Some(wanted) = &request.map else { return };
-        let kind = request.scene.bodies[wanted.body].kind;
+        let kind = &request.scene.bodies[wanted.body].kind;
         self.mapping = self.mapping.take().filter(|work| work.is_of(kind, wanted));
         if let Some(work) = &mut self.mapping {
             work.set_request(wanted.clone());
@@ -219,7 +219,7 @@ impl AnalysisWorker {
             && !self.is_mapped()
         {
             // Before the verdicts, because it takes less time than one of them may.
-            let new = || MapWork::new(scene.bodies[wanted.body].kind, wanted.clone());
+            let new = || MapWork::new(scene.bodies[wanted.body].kind.clone(), wanted.clone());
             self.mapping.get_or_insert_with(new).advance();
         } else if let Some(&spec) = entries.get(self.judged) {
             let judge =

@@ -58,7 +58,7 @@ impl Lab {
         let is_mappable = |(place, parameter): &(usize, &crate::lab::Parameter)| {
             // The constants of a law may have any sign, and a kick changes no motion.
             let is_positive =
-                kind.law.is_some() && values[*place] > 0.0 && !parameter.key.contains('.');
+                kind.law().is_some() && values[*place] > 0.0 && !parameter.key.contains('.');
             let is_signless = is_positive
                 || matches!(parameter.range, Range::Positive(_) | Range::NonNegative(_));
             parameter.acts == Acts::AtOnce && is_signless
@@ -71,8 +71,8 @@ impl Lab {
     pub fn mapped_parameter(&self) -> Option<usize> {
         let body = self.display().body;
         let chosen = self.display().mapped_parameter.filter(|(of, _)| *of == body);
-        let kind = self.scene().bodies[body].kind;
-        let leading = kind.parameter(kind.leading).map(|(place, _)| place);
+        let kind = &self.scene().bodies[body].kind;
+        let leading = kind.parameter(&kind.leading).map(|(place, _)| place);
         let mut places = self.mappable_parameters();
         let wanted = chosen.map(|(_, place)| place).or(leading);
         let first = places.next()?;

@@ -20,7 +20,7 @@ impl Lab {
     pub fn loop_lab_refusal(&self) -> Option<String> {
         let SceneBody { name, kind, .. } = &self.scene().bodies[self.display().body];
         let refusal = "is a net, which the loop lab does not take; open another scene";
-        kind.net.is_some().then(|| format!("{name} {refusal}"))
+        kind.net().is_some().then(|| format!("{name} {refusal}"))
     }
 
     /// Opens the loop lab with the displayed body, unless it is [refused](Self::loop_lab_refusal).

@@ -205,7 +205,7 @@ impl Lab {
 fn is_alike(a: &Scene, b: &Scene) -> bool {
     let kinds = |scene: &Scene| -> Vec<_> {
         let bodies = scene.bodies.iter();
-        bodies.map(|body| (body.kind.id, (body.kind.coordinates)(&body.values).len())).collect()
+        bodies.map(|body| (body.kind.id, body.kind.coordinates(&body.values).len())).collect()
     };
     a.lanes == b.lanes && kinds(a) == kinds(b)
 }

@@ -7,19 +7,20 @@ impl Lab {
     /// next restart on.
     pub(super) fn plot_coordinate(&mut self, body: usize, coordinate: usize) {
         let Some(of) = self.race().truth().bodies().get(body) else { return };
-        let Some(chosen) = of.coordinates.get(coordinate) else { return };
+        let Some(chosen) = of.coordinates().get(coordinate) else { return };
+        let name = chosen.name.clone();
         self.viewer.display.choose_coordinate(body, coordinate);
         if self.record_chosen_coordinates() {
             return self.timeline.show_present();
         }
-        self.set_notice(format!("{} is plotted from the next restart on: press Home", chosen.name));
+        self.set_notice(format!("{name} is plotted from the next restart on: press Home"));
     }
 
     /// Records the coordinates that a person has chosen, and of other bodies the usual ones. Returns whether it could.
     pub(super) fn record_chosen_coordinates(&mut self) -> bool {
         let chosen = &self.viewer.display.coordinates;
         let coordinate = |(place, usual): (usize, usize)| {
-            let count = self.race().truth().bodies()[place].coordinates.len();
+            let count = self.race().truth().bodies()[place].coordinates().len();
             let chosen = chosen.get(place).copied().flatten();
             chosen.filter(|&index| index < count).unwrap_or(usual)
         };

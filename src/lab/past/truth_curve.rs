@@ -150,7 +150,7 @@ impl TruthCurve {
     ) -> Vec<[f64; 2]> {
         let mut copy = truth.stepper.with_solver(Solver::Truth, 0.0);
         let mut flow = |from: &TruthSample, t: f64| {
-            if truth.coordinates.len() > 1 {
+            if truth.coordinates().len() > 1 {
                 return None;
             }
             copy.set(from.t, &[from.q], &[from.v]);
@@ -211,7 +211,7 @@ impl TruthCurve {
             self.between.input(from_s, input);
         }
         // A tick longer than the curve has as many points as the curve, or as many as are affordable.
-        let coordinates = truth.coordinates.len();
+        let coordinates = truth.coordinates().len();
         let most = (MOST_PRODUCTS / (coordinates * coordinates)).clamp(FEWEST_POINTS, GRID);
         let spacing_s = self.spacing_s.max((to_s - from_s) / most as f64);
         let first = libm::floor(from_s / spacing_s);

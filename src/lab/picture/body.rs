@@ -56,8 +56,8 @@ impl Seen<'_> {
     /// What does not move, of a body that is not seen.
     pub(super) fn still(&self, picture: &mut Picture) {
         let is_still = |mark: &&Mark| {
-            use Mark::{Anchor, Name, Planet, Rail, Wall};
-            matches!(mark, Wall { .. } | Anchor { .. } | Planet { .. } | Rail { .. } | Name { .. })
+            use Mark::{Anchor, Planet, Rail, Wall};
+            matches!(mark, Wall { .. } | Anchor { .. } | Planet { .. } | Rail { .. })
         };
         let marks = self.outline.marks.iter().filter(is_still).copied().collect();
         let Outline { t, at, .. } = *self.outline;
@@ -136,7 +136,7 @@ impl Seen<'_> {
                     let ends = [from, to].map(|end| camera.points(end));
                     strut(shapes, ends, camera.size(radius), self.palette, clip);
                 }
-                Mark::Disc { .. } | Mark::Block { .. } | Mark::Hull { .. } | Mark::Name { .. } => {}
+                Mark::Disc { .. } | Mark::Block { .. } | Mark::Hull { .. } => {}
             }
         }
         self.names(picture);
@@ -144,9 +144,8 @@ impl Seen<'_> {
 
     /// Writes the names of the rails, at their left ends.
     fn names(&self, picture: &mut Picture) {
-        for mark in &self.outline.marks {
-            let Mark::Name { at, text } = *mark else { continue };
-            let [x, y] = self.camera.points(at);
+        for (at, text) in &self.outline.names {
+            let [x, y] = self.camera.points(*at);
             picture.labels.push(Label {
                 at: [x - 6.0, y],
                 align: Align::Right,
@@ -154,7 +153,7 @@ impl Seen<'_> {
                 colour: self.palette.text,
                 is_strong: true,
                 halo: faded(self.palette.sea[1], 0.85),
-                text: text.to_owned(),
+                text: text.clone(),
             });
         }
     }
@@ -174,8 +173,7 @@ impl Seen<'_> {
                 | Mark::Anchor { .. }
                 | Mark::Planet { .. }
                 | Mark::Coil { .. }
-                | Mark::Rail { .. }
-                | Mark::Name { .. } => return None,
+                | Mark::Rail { .. } => return None,
             })
         })
     }

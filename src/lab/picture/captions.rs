@@ -198,7 +198,7 @@ pub(super) fn head(
 /// The most letters of what is said of where a body is.
 fn widest_state(coordinate: &Coordinate) -> usize {
     const NUMBER: usize = 10;
-    let words = [coordinate.name, coordinate.unit, coordinate.velocity, coordinate.unit];
+    let words = [&*coordinate.name, coordinate.unit, &*coordinate.velocity, coordinate.unit];
     words.map(str::len).iter().sum::<usize>() + 2 * NUMBER + 9
 }
 
@@ -271,7 +271,7 @@ impl Chip {
         let lane = furthest(&mut samples.map(|sample| sample.q));
         let samples = past.truth_curves()[index].since(since_s);
         let exact = furthest(&mut samples.map(|sample| sample.q));
-        let unit = moment.lab.race().truth().bodies()[index].coordinates[0].shown_unit();
+        let unit = moment.lab.race().truth().bodies()[index].coordinates()[0].shown_unit();
         let how_far =
             |reach: f64| format!("{} {unit}", significant(reach, 2)).trim_end().to_owned();
         Some(Self {

@@ -203,7 +203,7 @@ impl Band<'_> {
         };
         for lane in behind.chain([&self.front]) {
             let body = &lane.lane.bodies()[index];
-            let (look, coordinates) = (Look::of(body.kind), lab.shown_state(body).0);
+            let (look, coordinates) = (Look::of(&body.kind), lab.shown_state(body).0);
             let outline = look.outline(&*body.stepper, moment.t, &coordinates);
             let (colour, dash) = moment.style(lane.entry);
             let at = camera.points(outline.at);

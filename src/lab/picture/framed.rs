@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::look::drawn_unit;
 use super::moment::{Moment, turns};
 use super::outgrown::{Room, strayed_m};
 use super::sketch::Camera;
@@ -159,7 +160,7 @@ pub(super) fn quay_width(cell: Rect) -> f32 {
 impl Moment<'_> {
     /// The camera of a cell that shows the body at this place of the scene, zoomed and panned as a person has it.
     pub(super) fn camera(&self, rect: Rect, index: usize, view: &View) -> Camera {
-        let unit = self.lab.race().truth().bodies()[index].kind.drawn_unit();
+        let unit = drawn_unit(&self.lab.race().truth().bodies()[index].kind);
         let camera = Camera { unit, ..self.fitted(rect, view) }.grown(view.grown);
         camera.through(self.lab.display().zoom_pan(view.zoomed_as))
     }

@@ -27,7 +27,7 @@ impl Ghost {
         let remembered = moment.lab.past();
         let curve = &remembered.truth_curves()[index];
         let (q, v) = moment.lab.shown_truth(index);
-        let look = Look::of(body.kind);
+        let look = Look::of(&body.kind);
         let course = look.course(&*body.stepper, &q, &v);
         let outline = Outline { course, ..look.outline(&*body.stepper, moment.t, &q) };
         let framing = look.framing(&*body.stepper);

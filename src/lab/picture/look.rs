@@ -7,23 +7,23 @@ use glam::DVec2;
 
 use super::outline::{Mark, Outline};
 use crate::sim::bodies::{
-    Body, Chain, Follow, Helm, Kind, Law, Net, Orbit, Own, Pendulum, Ship, Spring,
+    Body, Chain, Custom, Follow, Helm, Kind, Law, Net, Orbit, Origin, Pendulum, Ship, Spring,
 };
 use crate::sim::{State, Stepper, Vector};
 
 mod beads;
 mod chain;
+mod custom;
 mod follow;
 mod helm;
 mod law;
 mod net;
 mod orbit;
-mod own;
 mod pendulum;
 mod ship;
 mod spring;
 
-pub(in crate::lab) use own::Drawing;
+pub(in crate::lab) use custom::Drawing;
 
 /// What part of a body's world the stage shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,8 +126,19 @@ static LOOKS: &[Look] = &[
 static LAW_LOOK: Look = Look::of_type::<Law>("law");
 static NET_LOOK: Look = Look::of_type::<Net>("net");
 
-/// The look of bodies of one's own, whose kinds are not in it either.
-static OWN_LOOK: Look = Look::of_type::<Own>("own");
+/// The look of custom bodies, whose kinds are not in it either.
+static CUSTOM_LOOK: Look = Look::of_type::<Custom>("own");
+
+/// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate. Empty for a pure
+/// number.
+pub(super) fn drawn_unit(kind: &Kind) -> &'static str {
+    let plane = match &kind.origin {
+        Origin::Law(law) if !law.has_places() => law.text().plane,
+        Origin::Custom(info) => info.plane,
+        Origin::Table | Origin::Law(_) | Origin::Net(_) => return "m",
+    };
+    kind.all_coordinates[plane.map_or(0, |[x, _]| x)].shown_unit()
+}
 
 impl Look {
     const fn of_type<B: Drawn>(kind: &'static str) -> Self {
@@ -159,14 +170,11 @@ impl Look {
 
     /// The look of bodies of this kind.
     pub fn of(kind: &Kind) -> &'static Look {
-        if kind.law.is_some() {
-            return &LAW_LOOK;
-        }
-        if kind.own.is_some() {
-            return &OWN_LOOK;
-        }
-        if kind.net.is_some() {
-            return &NET_LOOK;
+        match kind.origin {
+            Origin::Law(_) => return &LAW_LOOK,
+            Origin::Custom(_) => return &CUSTOM_LOOK,
+            Origin::Net(_) => return &NET_LOOK,
+            Origin::Table => {}
         }
         let look = LOOKS.iter().find(|look| look.kind == kind.id);
         look.expect("the tests below find a look for every kind")
@@ -225,7 +233,7 @@ mod tests {
     #[test]
     fn every_kind_has_a_look_that_shows_where_the_body_is() {
         assert!(LOOKS.iter().map(|look| look.kind).eq(BODIES.iter().map(|kind| kind.id)));
-        for kind in BODIES {
+        for kind in BODIES.iter() {
             let (look, mut body) = (Look::of(kind), body(kind));
             for tick in 0..30 {
                 let outline = look.outline(&*body, f64::from(tick) / 60.0, body.q());

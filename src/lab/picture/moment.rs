@@ -47,7 +47,7 @@ impl<'a> Moment<'a> {
 
 /// Whether a body leaves the line that it starts on: the one coordinate of the others is along it.
 pub(super) fn turns(body: &LaneBody) -> bool {
-    body.coordinates.len() > 1
+    body.coordinates().len() > 1
 }
 
 #[cfg(test)]

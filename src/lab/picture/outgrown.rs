@@ -63,7 +63,7 @@ impl Room {
     /// How far the parts of a body are now, at most.
     fn present(&self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> DVec2 {
         let body = &lane.lane.bodies()[body];
-        let look = Look::of(body.kind);
+        let look = Look::of(&body.kind);
         let race = moment.lab.race();
         let h = race.last_step_s();
         let extent = |q: &[f64], v: &[f64]| {
@@ -108,7 +108,7 @@ pub(in crate::lab) fn slow_motion_percent(lab: &Lab) -> u32 {
     }
     let decades = lab.past().histories(0).iter().zip(lab.selected().lane.bodies());
     let decades = decades.map(|(history, body)| {
-        let base_m = match Look::of(body.kind).framing(&*body.stepper) {
+        let base_m = match Look::of(&body.kind).framing(&*body.stepper) {
             Framing::Recorder { half_width_m } => half_width_m,
             Framing::Fixed { half_m, .. } => half_m.max_element(),
             Framing::Follow { width_m, .. } => width_m,

@@ -56,13 +56,6 @@ pub enum Mark {
         /// The other end.
         to: DVec2,
     },
-    /// What a rail is called.
-    Name {
-        /// Its end, left of which the name is written.
-        at: DVec2,
-        /// The name.
-        text: &'static str,
-    },
     /// A bead, a bob, a satellite.
     Disc {
         /// Its centre.
@@ -96,6 +89,8 @@ pub struct Thread {
 pub struct Outline {
     /// What is drawn, the first at the bottom.
     pub marks: Vec<Mark>,
+    /// The names of rails, and where each is written: left of this point.
+    pub names: Vec<(DVec2, String)>,
     /// The threads of a net, below the marks.
     pub threads: Vec<Thread>,
     /// Where the exact body will go if nothing intervenes: a closed course.

@@ -71,7 +71,7 @@ impl Race {
             Action::TickHz(tick_hz) => self.tick_hz != *tick_hz,
             Action::Set { body, parameter, value } => {
                 let present = &self.values[*body];
-                let kind = self.truth.bodies()[*body].kind;
+                let kind = &self.truth.bodies()[*body].kind;
                 let acts = kind.parameters.get(*parameter).map(|parameter| parameter.acts);
                 let is_new = present.get(*parameter).is_some_and(|present| present != value);
                 is_new
@@ -81,7 +81,7 @@ impl Race {
             Action::Place { body, q, v } => {
                 let bodies = self.entrants.iter().map(|e| &e.lane).chain([&self.truth]);
                 let mut bodies = bodies.map(|lane| &lane.bodies()[*body]);
-                let coordinates = self.truth.bodies()[*body].coordinates.len();
+                let coordinates = self.truth.bodies()[*body].coordinates().len();
                 let fits = [q, v].iter().all(|values| {
                     values.len() == coordinates && values.iter().all(|value| value.is_finite())
                 });

@@ -7,7 +7,7 @@ use super::LARGEST_FILE;
 use super::clip::clip;
 use super::refusal::Refusal;
 use crate::lab::lane_spec::LaneSpec;
-use crate::sim::bodies::{self, BODIES, Fault, Pin};
+use crate::sim::bodies::{self, BODIES, Fault, Pin, Text};
 use crate::sim::integrators::METHODS;
 use crate::sim::law::Layout;
 
@@ -27,12 +27,7 @@ pub(super) enum Cause {
     #[error("missing key `{key}` {place}")]
     MissingKey { key: &'static str, place: Place, about: &'static str, wanted: Wanted },
     #[error("unknown key `{}` {place}", clip(key))]
-    UnknownKey {
-        key: String,
-        place: Place,
-        nearest: Option<&'static str>,
-        known: Vec<&'static str>,
-    },
+    UnknownKey { key: String, place: Place, nearest: Option<Text>, known: Vec<Text> },
     #[error("`{key}` does not belong {place}")]
     Misplaced { key: &'static str, place: Place },
     #[error("unknown table `{}`", clip(key))]
@@ -47,7 +42,7 @@ pub(super) enum Cause {
     #[error("{subject} is {found}, not {}", wanted.noun())]
     WrongType { subject: String, found: String, wanted: Wanted },
     #[error("`{key}` is {value}, out of range")]
-    OutOfRange { key: &'static str, value: String, wanted: Wanted },
+    OutOfRange { key: Text, value: String, wanted: Wanted },
     #[error("{subject} is {value}, out of range")]
     ItemOutOfRange { subject: String, value: String, wanted: Wanted },
     #[error("`{key}` has {found} point{}", if *found == 1 { "" } else { "s" })]
@@ -99,9 +94,9 @@ pub(super) enum Cause {
     #[error("no body of this scene is called {:?}", clip(name))]
     UnknownBody { name: String, known: Vec<String> },
     #[error("{:?} is no parameter of this body", clip(key))]
-    UnknownParameter { key: String, nearest: Option<&'static str>, known: Vec<&'static str> },
+    UnknownParameter { key: String, nearest: Option<Text>, known: Vec<Text> },
     #[error("`{key}` acts at the start only, and a command comes later")]
-    ActsAtStart { key: &'static str, settable: Vec<&'static str> },
+    ActsAtStart { key: Text, settable: Vec<Text> },
     #[error("{what}")]
     Law { what: String, remedy: String },
     #[error("{what}")]
@@ -198,7 +193,7 @@ impl Cause {
             Cause::MissingKey { key, about, wanted, .. } => {
                 format!("write `{key} = …`: {about}, {wanted}")
             }
-            Cause::UnknownKey { nearest, known, .. } => offer(*nearest, known, '`'),
+            Cause::UnknownKey { nearest, known, .. } => offer(nearest.as_deref(), known, '`'),
             Cause::Misplaced { .. } => "move it above the first table".into(),
             Cause::UnknownTable { nearest, known, .. } => offer(*nearest, known, '['),
             Cause::UnknownMethod { nearest, known, .. } => offer(*nearest, known, '"'),
@@ -252,7 +247,7 @@ impl Cause {
                 let known: Vec<&str> = known.iter().map(String::as_str).collect();
                 format!("write one of {}", list(&known, '"', ", "))
             }
-            Cause::UnknownParameter { nearest, known, .. } => offer(*nearest, known, '"'),
+            Cause::UnknownParameter { nearest, known, .. } => offer(nearest.as_deref(), known, '"'),
             Cause::ActsAtStart { settable, .. } => format!(
                 "write it in the body's table, move the body by `place`, or set one of {}",
                 list(settable, '"', ", ")
@@ -371,15 +366,15 @@ fn describe(lane: &LaneSpec) -> String {
     format!("{:?} with `substeps = {substeps}`{}", method.id, within.unwrap_or_default())
 }
 
-fn offer(nearest: Option<&str>, known: &[&str], quote: char) -> String {
+fn offer(nearest: Option<&str>, known: &[impl AsRef<str>], quote: char) -> String {
     match nearest {
         Some(name) => format!("did you mean {}?", list(&[name], quote, "")),
         None => format!("write one of {}", list(known, quote, ", ")),
     }
 }
 
-fn list(names: &[&str], quote: char, between: &str) -> String {
-    let quoted = names.iter().map(|name| match quote {
+fn list(names: &[impl AsRef<str>], quote: char, between: &str) -> String {
+    let quoted = names.iter().map(AsRef::as_ref).map(|name| match quote {
         '[' => format!("`[[{name}]]`"),
         _ => format!("{quote}{name}{quote}"),
     });

@@ -1,6 +1,7 @@
 //! Reads the bodies of a scene file.
 
 use std::ops::Range as Span;
+use std::sync::Arc;
 
 use super::cause::Cause;
 use super::errors::position;
@@ -16,7 +17,7 @@ const NAME: Field = optional("name");
 /// A body as the file describes it, faults included.
 pub(super) struct Described {
     /// What it is; `None` for a law or a net with faults.
-    pub(super) kind: Option<&'static Kind>,
+    pub(super) kind: Option<Arc<Kind>>,
     /// The name of its table array.
     id: &'static str,
     pub(super) name: Option<String>,
@@ -41,18 +42,18 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Des
         let name = row.text(NAME, MOST_NAME_CHARS);
         let name_at = row.span(NAME.key);
         let (kind, values) = match kind(id) {
-            Some(kind) => (Some(kind), read_values(kind.parameters, &mut row)),
+            Some(kind) => (Some(kind.clone()), read_values(&kind.parameters, &mut row)),
             None if id == NET => {
-                let values = read_values(Net::DESCRIPTIONS, &mut row);
+                let values = read_values(Net::descriptions(), &mut row);
                 (read_net(&mut row), values)
             }
             None => read_law(&mut row, horizon),
         };
-        if let (Some(kind), Some(values)) = (kind, &values)
+        if let (Some(kind), Some(values)) = (&kind, &values)
             && let Err(fault) = (kind.check)(values)
-            && kind.law.is_none()
+            && kind.law().is_none()
         {
-            row.complain(row.span(fault.key), Cause::Fault(fault));
+            row.complain(row.span(&fault.key), Cause::Fault(fault));
         }
         bodies.push(Described { kind, id, name, name_at, values });
         top.adopt(row, &TOP);
@@ -60,14 +61,14 @@ pub(super) fn read_bodies(top: &mut Table<'_>, horizon: ClaimHorizon) -> Vec<Des
     bodies
 }
 
-fn read_values(parameters: &[Parameter], row: &mut Table<'_>) -> Option<Vec<f64>> {
-    let read = |parameter: &Parameter| {
-        let Parameter { key, about, default, range, .. } = *parameter;
+fn read_values(parameters: &'static [Parameter], row: &mut Table<'_>) -> Option<Vec<f64>> {
+    let read = |parameter: &'static Parameter| {
+        let Parameter { key, about, default, range, .. } = parameter;
         let field = if default.is_some() { optional(key) } else { required(key, about) };
         let given = match range {
-            Range::Curve { .. } => row.curve(field, range).map(|points| points.concat()),
-            Range::Count(most) => row.whole(field, 1..=most).map(|count| vec![f64::from(count)]),
-            _ => row.number(field, range).map(|number| vec![number]),
+            Range::Curve { .. } => row.curve(field, *range).map(|points| points.concat()),
+            Range::Count(most) => row.whole(field, 1..=*most).map(|count| vec![f64::from(count)]),
+            _ => row.number(field, *range).map(|number| vec![number]),
         };
         given.or(default.map(|number| vec![number]))
     };

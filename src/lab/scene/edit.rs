@@ -25,13 +25,11 @@ impl EditError {
 ///
 /// # Errors
 /// If there is none: names the nearest key, or all.
-pub fn parameter_named(
-    kind: &'static Kind,
-    key: &str,
-) -> Result<(usize, &'static Parameter), EditError> {
+pub fn parameter_named<'k>(kind: &'k Kind, key: &str) -> Result<(usize, &'k Parameter), EditError> {
     kind.parameter(key).ok_or_else(|| {
-        let known: Vec<_> = kind.parameters.iter().map(|parameter| parameter.key).collect();
-        let nearest = nearest(key, known.iter().map(|name| (*name, *name)));
+        let known: Vec<_> = kind.parameters.iter().map(|parameter| parameter.key.clone()).collect();
+        let nearest = nearest(key, known.iter().map(|name| (&**name, &**name)));
+        let nearest = nearest.map(|name| name.to_owned().into());
         let place = Place::Table(kind.id);
         EditError { cause: Cause::UnknownKey { key: key.into(), place, nearest, known } }
     })
@@ -51,14 +49,16 @@ pub fn edited_values(
     place: usize,
     value: f64,
 ) -> Result<Vec<f64>, EditError> {
-    let Parameter { key, range, .. } = kind.parameters[place];
-    let (wanted, written) = (Wanted::of(range), written(value));
+    let Parameter { key, range, .. } = &kind.parameters[place];
+    let (wanted, written) = (Wanted::of(*range), written(value));
     if let Range::Curve { .. } = range {
         let (subject, found) = (format!("`{key}`"), format!("the number {written}"));
         return Err(EditError { cause: Cause::WrongType { subject, found, wanted } });
     }
     if !range.contains(value) {
-        return Err(EditError { cause: Cause::OutOfRange { key, value: written, wanted } });
+        return Err(EditError {
+            cause: Cause::OutOfRange { key: key.clone(), value: written, wanted },
+        });
     }
     let mut edited = values.to_vec();
     edited[place] = value;
@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn an_edit_is_taken_or_refused_in_the_words_of_the_scene_parser() {
         let (mut taken, mut refused) = (0, 0);
-        for kind in BODIES {
+        for kind in BODIES.iter() {
             let begun = parsed(&table(kind, None)).unwrap();
             for (place, parameter) in kind.parameters.iter().enumerate() {
                 let values: &[f64] = match parameter.range {
@@ -175,9 +175,9 @@ mod tests {
 
     #[test]
     fn every_key_is_found_in_its_place_and_no_other_is() {
-        for kind in BODIES {
+        for kind in BODIES.iter() {
             for (place, wanted) in kind.parameters.iter().enumerate() {
-                let (found, parameter) = parameter_named(kind, wanted.key).unwrap();
+                let (found, parameter) = parameter_named(kind, &wanted.key).unwrap();
                 assert!(found == place && parameter == wanted, "{} {}", kind.id, wanted.key);
             }
             assert!(parameter_named(kind, kind.id).is_err());

@@ -19,7 +19,7 @@ pub(super) fn check_method(
     table: &mut Table<'_>,
 ) {
     let refused = bodies.iter().find_map(|Described { kind, name, values, .. }| {
-        let kind = (*kind)?;
+        let kind = kind.as_ref()?;
         let reason = refusal(method, kind, values.as_ref()?)?;
         let body = name.clone().unwrap_or_else(|| kind.id.into());
         Some(Refusal { method: method.id, body, reason })
@@ -32,7 +32,7 @@ pub(super) fn check_method(
 /// A plain lane for each method that steps all of these bodies, without those of engines.
 pub(super) fn every_lane(bodies: &[Described]) -> Vec<LaneSpec> {
     let steps = |method: &Method, body: &Described| {
-        let known = body.kind.zip(body.values.as_ref());
+        let known = body.kind.as_ref().zip(body.values.as_ref());
         known.is_none_or(|(kind, values)| refusal(method, kind, values).is_none())
     };
     let own = METHODS.iter().filter(|method| !method.is_engine());

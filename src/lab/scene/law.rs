@@ -1,6 +1,7 @@
 //! Reads a `[[law]]`: an equation of motion that the scene writes itself.
 
 use std::ops::Range as Span;
+use std::sync::Arc;
 
 use super::cause::{Cause, Wanted};
 use super::fields::{TOP, optional, required};
@@ -59,7 +60,7 @@ struct WrittenCoordinate {
 pub(super) fn read_law(
     row: &mut Table<'_>,
     horizon: ClaimHorizon,
-) -> (Option<&'static Kind>, Option<Vec<f64>>) {
+) -> (Option<Arc<Kind>>, Option<Vec<f64>>) {
     let (constants, numbers) = read_constants(row);
     let coordinates = read_coordinates(row);
     let energy = row.expression(ENERGY);
@@ -77,7 +78,7 @@ pub(super) fn read_law(
         }
     };
     let values = law.values(numbers);
-    if let (Some(values), Some(equations)) = (&values, kind.law)
+    if let (Some(values), Some(equations)) = (&values, kind.law())
         && row.is_faultless()
         && let Err(refusal) = check_law(equations, values, horizon)
     {

@@ -1,6 +1,7 @@
 //! Reads a `[[net]]`: masses joined by springs, as a grid or as lists.
 
 use std::ops::Range as Span;
+use std::sync::Arc;
 
 use super::cause::{Cause, Wanted};
 use super::fields::{TOP, optional, required};
@@ -43,7 +44,7 @@ struct Spans {
 }
 
 /// The kind of a net; `None` where there is a fault.
-pub(super) fn read_net(row: &mut Table<'_>) -> Option<&'static Kind> {
+pub(super) fn read_net(row: &mut Table<'_>) -> Option<Arc<Kind>> {
     let mut spans = Spans::default();
     let given = |keys: &[Field], row: &Table<'_>| keys.iter().find(|it| row.has(it.key)).copied();
     let lists = given(&LIST_KEYS, row);

@@ -168,7 +168,7 @@ fn read_action(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
             && !context
                 .bodies
                 .iter()
-                .any(|body| body.kind.is_none_or(|kind| kind.inputs.contains(&input)))
+                .any(|body| body.kind.as_ref().is_none_or(|kind| kind.inputs.contains(&input)))
         {
             row.complain(row.span(field.key), Cause::NoTaker { input });
         }
@@ -237,22 +237,23 @@ fn read_set(context: &SceneContext<'_>, set: &mut Table<'_>) -> Option<Action> {
     let key = set.text(KEY, MOST_NAME_CHARS);
     set.knows(VALUE.key);
     let (place, Described { kind, values, .. }) = body?;
-    let (key, kind) = (key?, (*kind)?);
-    let Some((parameter, &Parameter { key: known, range, acts, .. })) = kind.parameter(&key) else {
-        let known: Vec<_> = kind.parameters.iter().map(|parameter| parameter.key).collect();
-        let nearest = nearest(&key, known.iter().map(|name| (*name, *name)));
+    let (key, kind) = (key?, kind.as_ref()?);
+    let Some((parameter, Parameter { key: known, range, acts, .. })) = kind.parameter(&key) else {
+        let known: Vec<_> = kind.parameters.iter().map(|parameter| parameter.key.clone()).collect();
+        let nearest = nearest(&key, known.iter().map(|name| (&**name, &**name)));
+        let nearest = nearest.map(|name| name.to_owned().into());
         set.complain(set.span(KEY.key), Cause::UnknownParameter { key, nearest, known });
         return None;
     };
-    if acts == Acts::AtStart {
+    if *acts == Acts::AtStart {
         let at_once = kind.parameters.iter().filter(|parameter| parameter.acts == Acts::AtOnce);
-        let settable = at_once.map(|parameter| parameter.key).collect();
-        set.complain(set.span(KEY.key), Cause::ActsAtStart { key: known, settable });
+        let settable = at_once.map(|parameter| parameter.key.clone()).collect();
+        set.complain(set.span(KEY.key), Cause::ActsAtStart { key: known.clone(), settable });
         return None;
     }
-    let value = match range {
+    let value = match *range {
         Range::Count(most) => f64::from(set.whole(VALUE, 1..=most)?),
-        _ => set.number(VALUE, range)?,
+        _ => set.number(VALUE, *range)?,
     };
     // A fault with what the body has otherwise; where that was set before, it may be none.
     if let Some(values) = values
@@ -268,7 +269,7 @@ fn read_place(context: &SceneContext<'_>, place: &mut Table<'_>) -> Option<Actio
     let body = read_body(context, place);
     [Q, V].iter().for_each(|field| place.knows(field.key));
     let (at, Described { kind, values, .. }) = body?;
-    let count = ((*kind)?.coordinates)(values.as_ref()?).len();
+    let count = kind.as_ref()?.coordinates(values.as_ref()?).len();
     let (q, v) = (place.coordinates(Q, count), place.coordinates(V, count));
     Some(Action::Place { body: at, q: q?.into(), v: v?.into() })
 }

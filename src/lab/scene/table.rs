@@ -230,8 +230,8 @@ impl<'t> Table<'t> {
             }
         }
         // A misspelt or misplaced key is not reported as missing too.
-        let misspelt = unknown.iter().filter_map(|error| match error.cause {
-            Cause::UnknownKey { nearest, .. } => nearest,
+        let misspelt = unknown.iter().filter_map(|error| match &error.cause {
+            Cause::UnknownKey { nearest, .. } => nearest.as_deref(),
             _ => None,
         });
         let misplaced = self.below.iter().filter_map(|error| match error.cause {
@@ -260,7 +260,10 @@ impl<'t> Table<'t> {
         let key = key.into();
         match is_table {
             true => Cause::UnknownTable { key, nearest, known },
-            false => Cause::UnknownKey { key, place, nearest, known },
+            false => {
+                let known = known.into_iter().map(bodies::Text::from).collect();
+                Cause::UnknownKey { key, place, nearest: nearest.map(bodies::Text::from), known }
+            }
         }
     }
 
@@ -308,7 +311,7 @@ impl<'t> Table<'t> {
             let written = clip(&self.text[value.span()]);
             self.complain(
                 value.span(),
-                Cause::OutOfRange { key: field.key, value: written, wanted },
+                Cause::OutOfRange { key: field.key.into(), value: written, wanted },
             );
         }
         number

@@ -103,7 +103,7 @@ impl Scene {
             Action::Kick(times) => line("kick", number(*times)),
             Action::Set { body, parameter, value } => {
                 let parameter = &self.bodies[*body].kind.parameters[*parameter];
-                let (name, key) = (name(*body), quoted(parameter.key));
+                let (name, key) = (name(*body), quoted(&parameter.key));
                 let value = parameter_value(parameter.range, *value);
                 line("set", format!("{{ body = {name}, key = {key}, value = {value} }}"));
             }
@@ -203,11 +203,13 @@ fn spring(PlannedSpring { between: [a, b], stiffness, damping, rest }: &PlannedS
 
 fn write_body(text: &mut String, body: &SceneBody) {
     let SceneBody { name, kind, values } = body;
-    if let Some(law) = kind.law {
+    if let Some(law) = kind.law() {
         return write_law(text, body, law.text());
     }
     *text += &format!("\n[[{}]]\nname = {}\n", kind.id, quoted(name));
-    kind.net.iter().for_each(|plan| write_plan(text, plan));
+    if let Some(plan) = kind.net() {
+        write_plan(text, plan);
+    }
     for (parameter, place) in kind.parameters.iter().zip(0..) {
         let value = match parameter.range {
             // A curve is the last parameter, and takes all remaining values.

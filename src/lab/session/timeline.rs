@@ -292,7 +292,7 @@ impl Timeline {
         let bodies =
             self.run.session.race.entrants().iter().flat_map(|entrant| entrant.lane.bodies());
         let work = bodies.map(|body| {
-            body.stepper.evaluations() * (body.coordinates.len() as u64 + WORK_OF_AN_EVALUATION)
+            body.stepper.evaluations() * (body.coordinates().len() as u64 + WORK_OF_AN_EVALUATION)
         });
         if work.sum::<u64>() > MOST_REPEATED_WORK {
             return false;

@@ -7,62 +7,49 @@
 //! overdamped.
 
 use std::f64::consts::PI;
-use std::sync::LazyLock;
 
 use glam::DVec2;
 
-use super::kind::{Coordinate, Kind, Truth};
+use super::kind::{Coordinate, Kind};
 use super::oscillator;
 use crate::sim::body::{Body, Input};
-use crate::sim::body_stepper::stepper;
 use crate::sim::engine_settings::EngineSettings;
-use crate::sim::parameter::{self, Fault, ParameterOf, Range};
+use crate::sim::parameter::{Fault, ParameterOf, Range};
 use crate::sim::state::State;
 use crate::sim::system::{Coupling, System};
 
 /// The largest number of masses: as many as can be told apart on a wide stage. The closed form needs of
 /// the order of its square multiplications per tick.
-const MOST_MASSES: u32 = 256;
+const MAX_MASSES: u32 = 256;
 
-/// x1, x2 …
-static COORDINATES: LazyLock<Vec<Coordinate>> = LazyLock::new(|| {
-    let coordinate = |n| Coordinate {
-        name: String::leak(format!("x{n}")),
-        velocity: String::leak(format!("v{n}")),
-        unit: "m",
-    };
-    (1..=MOST_MASSES).map(coordinate).collect()
-});
-
-pub(super) const KIND: Kind = Kind {
+pub(super) fn kind() -> Kind {
+    Kind {
     id: "chain",
-    about: "m xᵢ″ = Σ k (xⱼ - xᵢ) + c (xⱼ - xᵢ)′, j = i ± 1: masses joined by springs between two walls",
-    coordinates: &|values| &COORDINATES[..values[0] as usize],
-    parameters: &parameter::descriptions(&PARAMETERS),
-    inputs: &["kick"],
-    leading: "stiffness_n_per_m",
-    truth: Truth::Exact,
-    check: &|values| match values {
+    about: "m xᵢ″ = Σ k (xⱼ - xᵢ) + c (xⱼ - xᵢ)′, j = i ± 1: masses joined by springs between two walls".into(),
+    all_coordinates: (1..=MAX_MASSES)
+        .map(|n| Coordinate::new(format!("x{n}"), format!("v{n}"), "m"))
+        .collect(),
+    is_counted: true,
+    leading: "stiffness_n_per_m".into(),
+    check: Box::new(|values| match values {
         [masses, .., plucked, _, _] if plucked > masses => Err(Fault {
-            key: "plucked_mass",
+            key: "plucked_mass".into(),
             what: format!("`plucked_mass` is {plucked}, of {masses} masses"),
             remedy: format!("write a whole number from 1 to {masses}, or more `masses`"),
         }),
         _ => Ok(()),
-    },
-    build: &|values, solver| stepper(Chain::BLANK.with_parameters(values), solver),
+    }),
     engine_refusal: Some(
         "an engine solves a chain joint by joint in sweeps, and its formula here is of one joint alone",
     ),
-    law: None,
-    own: None,
-    net: None,
-};
+        ..Kind::of(Chain::BLANK)
+    }
+}
 
 type Of = ParameterOf<Chain>;
 
 const PARAMETERS: [Of; 7] = [
-    Of::count("masses", MOST_MASSES, |chain| &mut chain.masses)
+    Of::count("masses", MAX_MASSES, |chain| &mut chain.masses)
         .or(8.0)
         .about("how many masses there are"),
     Of::number("mass_kg", Range::POSITIVE, |chain| &mut chain.mass).about("m, each mass"),
@@ -71,7 +58,7 @@ const PARAMETERS: [Of; 7] = [
     Of::number("damping_n_s_per_m", Range::NON_NEGATIVE, |chain| &mut chain.damping)
         .or(0.0)
         .about("c, the force of each spring's dash-pot for each metre per second of stretching"),
-    Of::count("plucked_mass", MOST_MASSES, |chain| &mut chain.plucked)
+    Of::count("plucked_mass", MAX_MASSES, |chain| &mut chain.plucked)
         .or(1.0)
         .about("the mass that is held aside at the start, and that a kick hits"),
     Of::number("x0_m", Range::ANY, |chain| &mut chain.x0)
@@ -222,6 +209,7 @@ impl System for Chain {
 
 impl Body for Chain {
     const HAS_JOINT: bool = false;
+    const HAS_EXACT: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn prepare(&mut self) {

@@ -1,8 +1,11 @@
 //! Whether the exact solution and the energy that a body claims are so: the one checker of a
-//! [law](super::Law) and of a [body of one's own](super::Own).
+//! [law](super::Law) and of a [custom body](super::Custom).
 //!
 //! A claim is held against the equation at the start and at a wide range of times, which is cheap enough for every change
 //! of a parameter, and when a scene is read against the reference solution at every tick.
+
+use std::cell::OnceCell;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::sim::body::Body;
 use crate::sim::reference::Reference;
@@ -42,6 +45,67 @@ pub struct ClaimHorizon {
     pub tick_hz: u32,
     /// The number of ticks.
     pub ticks: u64,
+}
+
+/// Claims of a body that a change of its parameters has made untrue: of a [law](super::Law) or of a [custom
+/// body](super::Custom) with its present parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FalseClaims {
+    /// That the energy is conserved.
+    pub energy: bool,
+    /// That the exact solution satisfies the equation.
+    pub exact: bool,
+}
+
+/// The number of sets of parameters whose findings are kept: some minutes of a slider.
+const MAX_FINDINGS: usize = 256;
+
+/// The findings on the bodies of one kind: the bits of their parameters, and what does not hold with them; oldest
+/// first.
+type Findings = Mutex<Vec<(Vec<u64>, FalseClaims)>>;
+
+/// Which claims of a body hold with its present parameters. Copies of a body share the findings, so that each set of
+/// parameters is checked once.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Checked {
+    findings: Arc<Findings>,
+    present: OnceCell<FalseClaims>,
+}
+
+impl Checked {
+    /// No claim holds.
+    pub(super) fn without_claims() -> Self {
+        let none = FalseClaims { energy: true, exact: true };
+        Self { present: OnceCell::from(none), ..Self::default() }
+    }
+
+    /// Forgets the present parameters, because they changed.
+    pub(super) fn reset(&mut self) {
+        self.present.take();
+    }
+
+    /// The false claims of `body`, whose present parameters have these `values`.
+    pub(super) fn false_claims<B: Claimant>(&self, body: &B, values: &[f64]) -> FalseClaims {
+        *self.present.get_or_init(|| {
+            let is_of = |(bits, _): &&(Vec<u64>, _)| {
+                values.iter().map(|x| x.to_bits()).eq(bits.iter().copied())
+            };
+            let findings = || self.findings.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some((_, known)) = findings().iter().find(is_of) {
+                return *known;
+            }
+            let found = FalseClaims {
+                energy: find_leak(body).is_some(),
+                exact: find_unsolved(body).is_some(),
+            };
+            let mut findings = findings();
+            if findings.len() == MAX_FINDINGS {
+                findings.remove(0);
+            }
+            findings.push((values.iter().map(|x| x.to_bits()).collect(), found));
+            found
+        })
+    }
 }
 
 /// A body that may claim to know its exact motion and its energy.

@@ -7,32 +7,27 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::kind::{Coordinate, Kind, Truth};
+use super::kind::{Coordinate, Kind};
 use crate::sim::body::{Body, Input};
-use crate::sim::body_stepper::stepper;
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::LAW_ORDER;
-use crate::sim::parameter::{self, ParameterOf, Range};
+use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
 use crate::sim::system::{Pursuit, System};
 
-pub(super) const KIND: Kind = Kind {
-    id: "follow",
-    about: "x′ = k (g - x) or x″ = k² (g - x) - 2 k x′: a camera that follows a target g(t)",
-    coordinates: &|_| &[Coordinate { name: "x", velocity: "v", unit: "m" }],
-    parameters: &parameter::descriptions(&PARAMETERS),
-    inputs: &["kick"],
-    leading: "rate_per_s",
-    truth: Truth::Exact,
-    check: &|_| Ok(()),
-    build: &|values, solver| stepper(Follow::BLANK.with_parameters(values), solver),
-    engine_refusal: Some(
-        "a follower moves towards its target by a rule, and an engine moves bodies by forces",
-    ),
-    law: None,
-    own: None,
-    net: None,
-};
+pub(super) fn kind() -> Kind {
+    Kind {
+        id: "follow",
+        about: "x′ = k (g - x) or x″ = k² (g - x) - 2 k x′: a camera that follows a target g(t)"
+            .into(),
+        all_coordinates: vec![Coordinate::new("x", "v", "m")],
+        leading: "rate_per_s".into(),
+        engine_refusal: Some(
+            "a follower moves towards its target by a rule, and an engine moves bodies by forces",
+        ),
+        ..Kind::of(Follow::BLANK)
+    }
+}
 
 type Of = ParameterOf<Follow>;
 
@@ -195,6 +190,7 @@ impl System for Follow {
 impl Body for Follow {
     const FOLLOWS: bool = true;
     const HAS_JOINT: bool = false;
+    const HAS_EXACT: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {

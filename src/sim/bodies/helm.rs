@@ -7,36 +7,24 @@
 
 use glam::{DVec2, DVec3};
 
-use super::kind::{Coordinate, Kind, Truth};
+use super::kind::{Coordinate, Kind};
 use crate::sim::body::{Body, Input};
-use crate::sim::body_stepper::stepper;
 use crate::sim::curve::Curve;
-use crate::sim::parameter::{self, ParameterOf, Range};
+use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) fn kind() -> Kind {
+    Kind {
     id: "helm",
-    about: "m v′ = thrust(u) - C u ahead, - S w abeam; I r′ = rudder L u - D r: a ship that is steered",
-    coordinates: &|_| {
-        &[
-            Coordinate { name: "x", velocity: "vx", unit: "m" },
-            Coordinate { name: "y", velocity: "vy", unit: "m" },
-            Coordinate { name: "psi", velocity: "r", unit: "rad" },
-        ]
-    },
-    parameters: &parameter::descriptions(&PARAMETERS),
+    about: "m v′ = thrust(u) - C u ahead, - S w abeam; I r′ = rudder L u - D r: a ship that is steered".into(),
+    all_coordinates: vec![Coordinate::new("x", "vx", "m"), Coordinate::new("y", "vy", "m"), Coordinate::new("psi", "r", "rad")],
     inputs: &["throttle", "rudder", "kick"],
-    leading: "side_drag_n_s_per_m",
-    truth: Truth::Reference,
-    check: &|_| Ok(()),
-    build: &|values, solver| stepper(Helm::BLANK.with_parameters(values), solver),
-    engine_refusal: None,
-    law: None,
-    own: None,
-    net: None,
-};
+    leading: "side_drag_n_s_per_m".into(),
+        ..Kind::of(Helm::BLANK)
+    }
+}
 
 type Of = ParameterOf<Helm>;
 
@@ -170,10 +158,6 @@ impl Body for Helm {
 
     fn start(&self) -> State<DVec3> {
         State { q: self.q0, v: (self.u0 * bow(self.q0.z)).extend(0.0) }
-    }
-
-    fn exact(&self, _dt: f64, _from: &State<DVec3>) -> Option<State<DVec3>> {
-        None
     }
 
     fn is_angle(&self, coordinate: usize) -> bool {

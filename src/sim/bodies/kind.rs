@@ -1,11 +1,14 @@
 //! The card of a kind of body.
 
+use std::any::Any;
 use std::fmt;
+use std::sync::Arc;
 
-use super::own_sheet::OwnSheet;
+use crate::sim::body::Body;
+use crate::sim::body_stepper::stepper;
 use crate::sim::law::{Equations, shown_unit};
 use crate::sim::net_plan::NetPlan;
-use crate::sim::parameter::{Fault, Parameter};
+use crate::sim::parameter::{Fault, Parameter, ParameterOf, Text};
 use crate::sim::reference::REFERENCE_ACCURACY;
 use crate::sim::solver::Solver;
 use crate::sim::stepper::Stepper;
@@ -52,38 +55,82 @@ impl Truth {
 /// Builds a body from the values of its parameters, under a solver.
 pub type Build = dyn Fn(&[f64], Solver) -> Box<dyn Stepper> + Send + Sync;
 
+/// Checks values that are each in range for errors in combination.
+pub type Check = dyn Fn(&[f64]) -> Result<(), Fault> + Send + Sync;
+
 /// A body kind's card: its name, its coordinates, and the keys by which a scene describes it.
 pub struct Kind {
     /// The name of its table array in a scene.
     pub id: &'static str,
     /// Its equation of motion, in one line.
-    pub about: &'static str,
-    /// The coordinates of a body with these parameter values, in state order.
-    pub coordinates: &'static (dyn Fn(&[f64]) -> &'static [Coordinate] + Send + Sync),
+    pub about: Text,
+    /// The coordinates that such a body can have, in state order.
+    pub all_coordinates: Vec<Coordinate>,
+    /// Whether the first parameter is the number of coordinates; otherwise a body has all of them.
+    pub is_counted: bool,
     /// The keys of its table, in the order of the values that [`Kind::build`] expects.
-    pub parameters: &'static [Parameter],
+    pub parameters: Vec<Parameter>,
     /// The inputs that it accepts: `throttle`, `rudder`, `kick`.
     pub inputs: &'static [&'static str],
     /// The key of the parameter that makes it stiffer: larger values make the motion faster in relation
     /// to the tick.
-    pub leading: &'static str,
+    pub leading: Text,
     /// Whether its truth is a closed form or a reference solution.
     pub truth: Truth,
     /// Checks values that are each in range for errors in combination.
-    pub check: &'static (dyn Fn(&[f64]) -> Result<(), Fault> + Send + Sync),
+    pub check: Box<Check>,
     /// Builds a body from these parameter values (see
     /// [`Body::with_parameters`](super::Body::with_parameters)), at its start under a solver.
-    pub build: &'static Build,
+    pub build: Box<Build>,
     /// Why an engine cannot be [told](crate::sim::System::engine_settings) of such a body: a clause in lower case that
     /// follows a colon. `None` if it can.
     pub engine_refusal: Option<&'static str>,
-    /// The equations of a [law](super::law_kind), which a scene writes itself; `None` for a kind of the
-    /// table.
-    pub law: Option<&'static Equations>,
-    /// What is known of a [body of one's own](super::own_kind); `None` for a kind of the table.
-    pub own: Option<&'static OwnSheet>,
-    /// The nodes and springs of a [net](super::net_kind), which a scene lays out; `None` for any other kind.
-    pub net: Option<&'static NetPlan>,
+    /// What the kind was made of.
+    pub origin: Origin,
+}
+
+/// What a kind was made of.
+#[derive(Clone, Debug)]
+pub enum Origin {
+    /// A line of [`BODIES`](super::BODIES).
+    Table,
+    /// The equations of a [law](super::law_kind), which a scene writes itself.
+    Law(Arc<Equations>),
+    /// A [custom body](super::custom_kind).
+    Custom(Arc<CustomInfo>),
+    /// The nodes and springs of a [net](super::net_kind), which a scene lays out.
+    Net(Arc<NetPlan>),
+}
+
+/// The coordinates of a custom body, and how it is drawn.
+#[derive(Debug)]
+pub struct CustomInfo {
+    /// Its coordinates.
+    pub coordinates: Vec<Coordinate>,
+    /// The indices of the coordinates that are x and y of a plane, if it is drawn in one.
+    pub plane: Option<[usize; 2]>,
+    /// How it is drawn, for a layer that knows the type; `None` for the usual look.
+    pub drawing: Option<Arc<dyn Any + Send + Sync>>,
+}
+
+/// Two are equal if they describe the same bodies: by the same text or plan, or as clones of one custom body.
+impl PartialEq for Origin {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Origin::Table, Origin::Table) => true,
+            (Origin::Law(a), Origin::Law(b)) => a.text() == b.text(),
+            (Origin::Custom(a), Origin::Custom(b)) => Arc::ptr_eq(a, b),
+            (Origin::Net(a), Origin::Net(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+/// Two are equal if they describe the same bodies.
+impl PartialEq for Kind {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id && self.origin == other.origin
+    }
 }
 
 impl fmt::Debug for Kind {
@@ -93,39 +140,76 @@ impl fmt::Debug for Kind {
 }
 
 impl Kind {
-    /// The coordinates of a body with default parameters, and 1 for those without a default.
-    pub fn plain_coordinates(&self) -> &'static [Coordinate] {
-        let default = |parameter: &Parameter| parameter.default.unwrap_or(1.0);
-        (self.coordinates)(&self.parameters.iter().map(default).collect::<Vec<_>>())
-    }
-
-    /// The unit of what is drawn in its own scale, for people; empty if it has none.
-    pub fn drawn_unit(&self) -> &'static str {
-        match (self.law, self.own) {
-            (Some(law), _) => law.drawn_unit(),
-            (_, Some(sheet)) => sheet.drawn_unit(),
-            (None, None) => "m",
+    /// The kind of bodies like `blank`, without a name, coordinates and a leading parameter: what most kinds have in
+    /// common.
+    pub(super) fn of<B: Body + Sync>(blank: B) -> Self {
+        Self {
+            id: "",
+            about: "".into(),
+            all_coordinates: Vec::new(),
+            is_counted: false,
+            parameters: B::PARAMETERS.iter().map(ParameterOf::parameter).collect(),
+            inputs: &["kick"],
+            leading: "".into(),
+            truth: if B::HAS_EXACT { Truth::Exact } else { Truth::Reference },
+            check: Box::new(|_| Ok(())),
+            build: Box::new(move |values, solver| {
+                stepper(blank.clone().with_parameters(values), solver)
+            }),
+            engine_refusal: None,
+            origin: Origin::Table,
         }
     }
 
+    /// The coordinates of a body with these parameter values, in state order.
+    pub fn coordinates(&self, values: &[f64]) -> &[Coordinate] {
+        match values {
+            [count, ..] if self.is_counted => &self.all_coordinates[..*count as usize],
+            _ => &self.all_coordinates,
+        }
+    }
+
+    /// The values of default parameters, and 1 for those without a default.
+    pub fn plain_values(&self) -> Vec<f64> {
+        self.parameters.iter().map(|parameter| parameter.default.unwrap_or(1.0)).collect()
+    }
+
+    /// The equations of a law.
+    pub fn law(&self) -> Option<&Arc<Equations>> {
+        if let Origin::Law(equations) = &self.origin { Some(equations) } else { None }
+    }
+
+    /// The plan of a net.
+    pub fn net(&self) -> Option<&Arc<NetPlan>> {
+        if let Origin::Net(plan) = &self.origin { Some(plan) } else { None }
+    }
+
     /// The parameter with this key, and its index in [`Kind::parameters`].
-    pub fn parameter(&self, key: &str) -> Option<(usize, &'static Parameter)> {
+    pub fn parameter(&self, key: &str) -> Option<(usize, &Parameter)> {
         self.parameters.iter().enumerate().find(|(_, parameter)| parameter.key == key)
     }
 }
 
 /// One coordinate of a body.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Coordinate {
     /// Its name, as in the `coordinate` column of the CSV: ASCII, easy to type.
-    pub name: &'static str,
+    pub name: Text,
     /// The name of its velocity.
-    pub velocity: &'static str,
+    pub velocity: Text,
     /// Its unit.
     pub unit: &'static str,
 }
 
 impl Coordinate {
+    pub(super) fn new(
+        name: impl Into<Text>,
+        velocity: impl Into<Text>,
+        unit: &'static str,
+    ) -> Self {
+        Self { name: name.into(), velocity: velocity.into(), unit }
+    }
+
     /// Its unit for people: empty for a pure number.
     pub fn shown_unit(&self) -> &'static str {
         shown_unit(self.unit)

@@ -1,12 +1,12 @@
 //! A body whose equation of motion a scene writes itself.
 
 use std::cell::{OnceCell, RefCell};
+use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::claims::{Claimant, find_leak, find_unsolved};
-use super::false_claims::FalseClaims;
-use super::survey::{ranges, ranges_seen};
+use super::bounds::{bounds, bounds_seen};
+use super::claims::{Checked, Claimant, FalseClaims};
 use crate::sim::body::{Body, Input};
 use crate::sim::law::{At, Equations, Layout, Registers};
 use crate::sim::piece::{Distances, NO_BOUNDARIES, Piece};
@@ -22,61 +22,51 @@ pub use kind::law_kind;
 /// A body that moves by a law of a scene.
 #[derive(Clone, Debug)]
 pub struct Law {
-    equations: &'static Equations,
+    equations: Arc<Equations>,
     /// As [`law_kind`]'s parameters.
     values: Vec<f64>,
     /// Throttle and rudder: from -1 to 1.
     steering: [f64; 2],
     registers: RefCell<Registers>,
-    /// Whether the law's energy is conserved with these values; looked at when somebody asks.
-    conserves: OnceCell<bool>,
-    /// Whether the law's exact solution is one with these values; looked at when somebody asks.
-    is_solved: OnceCell<bool>,
-    ranges: OnceCell<Vec<(f64, f64)>>,
+    checked: Checked,
+    bounds: OnceCell<Vec<(f64, f64)>>,
     corners: OnceCell<[DVec2; 2]>,
 }
 
 impl Law {
     /// A body with full throttle, the rudder amidships, and these values of [`law_kind`]'s parameters.
     ///
+    /// # Panics
     /// If the number of values is wrong.
-    pub fn new(equations: &'static Equations, values: &[f64]) -> Self {
+    pub fn new(equations: Arc<Equations>, values: &[f64]) -> Self {
         let text = equations.text();
         let most = text.constants.len() + 3 * text.coordinates.len();
         assert_eq!(values.len(), most, "a law is given a value for each parameter");
-        let mut law = Self {
+        let registers = Registers::new(&equations, known(&equations, values));
+        Self {
             equations,
             values: values.into(),
             steering: [1.0, 0.0],
-            registers: RefCell::new(Registers::new(equations, known(equations, values))),
-            conserves: OnceCell::new(),
-            is_solved: OnceCell::new(),
-            ranges: OnceCell::new(),
+            registers: RefCell::new(registers),
+            checked: Checked::default(),
+            bounds: OnceCell::new(),
             corners: OnceCell::new(),
-        };
-        law.prepare();
-        // Before the first tick, which must not allocate.
-        law.conserves();
-        law.is_solved();
-        law
+        }
     }
 
     /// The law.
-    pub fn equations(&self) -> &'static Equations {
-        self.equations
+    pub fn equations(&self) -> &Arc<Equations> {
+        &self.equations
     }
 
-    /// The least and the largest value of each coordinate in the first seconds of the motion, for drawing.
-    pub fn ranges(&self) -> &[(f64, f64)] {
-        self.ranges.get_or_init(|| ranges(self))
+    /// The least and the largest value of each coordinate in the first seconds of the motion.
+    pub fn bounds(&self) -> &[(f64, f64)] {
+        self.bounds.get_or_init(|| bounds(self))
     }
 
     /// The claims of the text that do not hold with the present constants.
     pub fn false_claims(&self) -> FalseClaims {
-        FalseClaims {
-            energy: self.equations.has_energy() && !self.conserves(),
-            exact: self.equations.has_exact() && !self.is_solved(),
-        }
+        self.checked.false_claims(self, &self.values)
     }
 
     /// The places of coordinates `q` that have one, in metres, in the order of the coordinates.
@@ -92,7 +82,7 @@ impl Law {
         *self.corners.get_or_init(|| {
             let mut corners = [DVec2::INFINITY, DVec2::NEG_INFINITY];
             let registers = &mut self.registers.borrow().clone();
-            ranges_seen(self, |q| {
+            bounds_seen(self, |q| {
                 self.equations.place(registers, q, |place| {
                     let place = DVec2::from(place);
                     corners = [corners[0].min(place), corners[1].max(place)];
@@ -100,16 +90,6 @@ impl Law {
             });
             corners
         })
-    }
-
-    fn conserves(&self) -> bool {
-        let finds = || self.equations.has_energy() && find_leak(self).is_none();
-        *self.conserves.get_or_init(finds)
-    }
-
-    fn is_solved(&self) -> bool {
-        let finds = || self.equations.has_exact() && find_unsolved(self).is_none();
-        *self.is_solved.get_or_init(finds)
     }
 
     fn coordinates(&self) -> usize {
@@ -144,8 +124,12 @@ impl System for Law {
 }
 
 impl Body for Law {
-    fn with_parameters(self, values: &[f64]) -> Self {
-        Self::new(self.equations, values)
+    fn with_parameters(mut self, values: &[f64]) -> Self {
+        self.values.copy_from_slice(values);
+        self.prepare();
+        // Before the first tick, which must not allocate.
+        self.false_claims();
+        self
     }
 
     fn set_parameter(&mut self, place: usize, value: f64) -> bool {
@@ -161,17 +145,16 @@ impl Body for Law {
     }
 
     fn prepare(&mut self) {
-        let values = known(self.equations, &self.values);
-        self.registers.get_mut().set(self.equations, values);
-        self.ranges.take();
+        let values = known(&self.equations, &self.values);
+        self.registers.get_mut().set(&self.equations, values);
+        self.bounds.take();
         self.corners.take();
-        self.conserves.take();
-        self.is_solved.take();
+        self.checked.reset();
     }
 
     fn heap_bytes(&self) -> usize {
-        let ranges = self.ranges.get().map_or(0, |ranges| size_of_val(&ranges[..]));
-        size_of_val(&self.values[..]) + self.registers.borrow().heap_bytes() + ranges
+        let bounds = self.bounds.get().map_or(0, |bounds| size_of_val(&bounds[..]));
+        size_of_val(&self.values[..]) + self.registers.borrow().heap_bytes() + bounds
     }
 
     fn start(&self) -> State<Vec<f64>> {
@@ -179,12 +162,8 @@ impl Body for Law {
         State { q: q.into(), v: v.into() }
     }
 
-    fn exact(&self, _dt: f64, _from: &State<Vec<f64>>) -> Option<State<Vec<f64>>> {
-        None
-    }
-
     fn exact_since_start(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
-        self.is_solved() && self.claimed(t, to)
+        !self.false_claims().exact && self.claimed(t, to)
     }
 
     fn is_linear(&self) -> bool {
@@ -227,7 +206,7 @@ impl Body for Law {
     }
 
     fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
-        if self.conserves() { self.claimed_energy(state) } else { None }
+        if self.false_claims().energy { None } else { self.claimed_energy(state) }
     }
 
     fn kinetic_energy(&self, state: &State<Vec<f64>>) -> Option<f64> {

@@ -4,9 +4,12 @@
 //! Its [`Kind`] card says how a scene describes it; [`Look`](crate::lab::picture::Look) says how it is
 //! drawn. To add one, copy `spring.rs`, declare it, and name it in [`BODIES`].
 
+use std::sync::{Arc, LazyLock};
+
+mod bounds;
 mod chain;
 mod claims;
-mod false_claims;
+mod custom;
 mod follow;
 mod helm;
 mod kepler;
@@ -15,25 +18,20 @@ mod law;
 mod net;
 mod orbit;
 mod oscillator;
-mod own;
-mod own_sheet;
 mod pendulum;
 mod refusal;
 mod ship;
 mod spring;
-mod survey;
 
 pub use chain::Chain;
-pub use claims::ClaimHorizon;
-pub use false_claims::FalseClaims;
+pub use claims::{ClaimHorizon, FalseClaims};
+pub use custom::{Custom, CustomFault, Energy, Exact, Extras, custom_kind};
 pub use follow::Follow;
 pub use helm::Helm;
-pub use kind::{Build, Coordinate, Kind, Truth};
+pub use kind::{Build, Check, Coordinate, CustomInfo, Kind, Origin, Truth};
 pub use law::{Law, check_law, law_kind};
 pub use net::{Net, net_kind};
 pub use orbit::{Ellipse, Orbit};
-pub use own::{Energy, Exact, Extras, Own, OwnFault, own_kind};
-pub use own_sheet::OwnSheet;
 pub use pendulum::Pendulum;
 pub use refusal::refusal;
 pub use ship::Ship;
@@ -44,15 +42,27 @@ pub use super::curve::Curve;
 pub use super::net_plan::{
     Form, Grid, Lists, MOST_NODES, MOST_SPRINGS, NetFault, NetPart, NetPlan, Pin, PlannedSpring,
 };
-pub use super::parameter::{Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range};
+pub use super::parameter::{
+    Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range, Text,
+};
 pub use super::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
 
 /// Every kind of body, in menu order.
-pub static BODIES: &[Kind] =
-    &[ship::KIND, spring::KIND, chain::KIND, pendulum::KIND, orbit::KIND, helm::KIND, follow::KIND];
+pub static BODIES: LazyLock<Vec<Arc<Kind>>> = LazyLock::new(|| {
+    let kinds = [
+        ship::kind(),
+        spring::kind(),
+        chain::kind(),
+        pendulum::kind(),
+        orbit::kind(),
+        helm::kind(),
+        follow::kind(),
+    ];
+    kinds.map(Arc::new).into()
+});
 
-/// The kind with this id. A [law](law_kind) and a [body of one's own](own_kind) have kinds of their own, which are
-/// not in the table.
-pub fn kind(id: &str) -> Option<&'static Kind> {
+/// The kind with this id. A [law](law_kind), a [net](net_kind) and a [custom body](custom_kind) have kinds of their own,
+/// which are not in the table.
+pub fn kind(id: &str) -> Option<&'static Arc<Kind>> {
     BODIES.iter().find(|kind| kind.id == id)
 }

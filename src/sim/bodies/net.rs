@@ -53,7 +53,7 @@ const PARAMETERS: [Of; 8] = [
 /// A net of masses and springs. Its coordinates are the places of its free nodes, in metres.
 #[derive(Clone, Debug)]
 pub struct Net {
-    frame: &'static Frame,
+    frame: Arc<Frame>,
     /// m, in kilograms.
     mass: f64,
     /// k, in newtons per metre.
@@ -86,7 +86,7 @@ struct Springs {
 }
 
 impl Net {
-    fn blank(frame: &'static Frame) -> Self {
+    fn blank(frame: Arc<Frame>) -> Self {
         Self {
             frame,
             mass: 1.0,
@@ -103,7 +103,7 @@ impl Net {
 
     /// The places of both ends of each spring with the free nodes at `q`, in the order of the arrays.
     fn spring_ends<'a>(&'a self, q: &'a Points) -> impl Iterator<Item = [DVec2; 2]> + 'a {
-        let Frame { ends, anchors, .. } = self.frame;
+        let Frame { ends, anchors, .. } = &*self.frame;
         let at = |place: u32| DVec2::from(q.pairs()[place as usize]);
         let free = ends.iter().map(move |[a, b]| [at(*a), at(*b)]);
         free.chain(anchors.iter().map(move |(a, anchor)| [at(*a), DVec2::from(*anchor)]))
@@ -111,7 +111,7 @@ impl Net {
 
     /// Where the fixed nodes are.
     pub fn fixed(&self) -> impl Iterator<Item = DVec2> + '_ {
-        let Frame { lists, .. } = self.frame;
+        let Frame { lists, .. } = &*self.frame;
         lists.fixed.iter().map(|&node| DVec2::from(lists.nodes[node]))
     }
 
@@ -121,7 +121,7 @@ impl Net {
         &'a self,
         q: &'a Points,
     ) -> impl Iterator<Item = (impl Iterator<Item = DVec2> + 'a, bool)> + 'a {
-        let Frame { lists, place_of, threads, .. } = self.frame;
+        let Frame { lists, place_of, threads, .. } = &*self.frame;
         let at = move |node: usize| match place_of[node] {
             FIXED => DVec2::from(lists.nodes[node]),
             place => DVec2::from(q.pairs()[place as usize]),
@@ -155,7 +155,7 @@ impl Net {
     /// A bound on the square of the fastest frequency, and on the fastest rate of damping, per node: those
     /// of a node whose neighbours all move against it.
     fn fastest(&self, constants: &[[f64; 3]]) -> [f64; 2] {
-        let Frame { ends, anchors, free, .. } = self.frame;
+        let Frame { ends, anchors, free, .. } = &*self.frame;
         let mut sums = vec![[0.0; 2]; free.len()];
         let mut add = |place: u32, [k, c, _]: &[f64; 3], times: f64| {
             let [stiffness, damping] = &mut sums[place as usize];
@@ -193,7 +193,7 @@ impl System for Net {
     #[inline]
     fn acceleration(&self, _t: f64, q: &Points, v: &Points, a: &mut Points) {
         let (q, v, a) = (q.pairs(), v.pairs(), a.pairs_mut());
-        let Frame { ends, anchors, .. } = self.frame;
+        let Frame { ends, anchors, .. } = &*self.frame;
         let drag = self.drag / self.mass;
         for (a, v) in a.iter_mut().zip(v) {
             *a = [-drag * v[0], -self.gravity - drag * v[1]];
@@ -225,7 +225,7 @@ impl System for Net {
     ) -> bool {
         let (q, v) = (state.q.pairs(), state.v.pairs());
         let (dq, dv, slope) = (along.q.pairs(), along.v.pairs(), slope.pairs_mut());
-        let Frame { ends, anchors, .. } = self.frame;
+        let Frame { ends, anchors, .. } = &*self.frame;
         let drag = self.drag / self.mass;
         for (slope, dv) in slope.iter_mut().zip(dv) {
             *slope = [-drag * dv[0], -drag * dv[1]];
@@ -280,7 +280,7 @@ impl Body for Net {
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn prepare(&mut self) {
-        let Frame { lists, order, .. } = self.frame;
+        let Frame { lists, order, .. } = &*self.frame;
         let constants = order.iter().map(|&place| {
             let spring = &lists.springs[place];
             let stiffness = spring.stiffness.unwrap_or(self.stiffness);
@@ -298,10 +298,6 @@ impl Body for Net {
 
     fn start(&self) -> State<Points> {
         State { q: self.frame.start.clone(), v: self.frame.zeros() }
-    }
-
-    fn exact(&self, _dt: f64, _from: &State<Points>) -> Option<State<Points>> {
-        None
     }
 
     fn reference_work(&self) -> f64 {

@@ -3,40 +3,29 @@
 use glam::DVec2;
 
 use super::kepler;
-use super::kind::{Coordinate, Kind, Truth};
+use super::kind::{Coordinate, Kind};
 use crate::sim::body::{Body, Input};
-use crate::sim::body_stepper::stepper;
-use crate::sim::parameter::{self, Fault, ParameterOf, Range};
+use crate::sim::parameter::{Fault, ParameterOf, Range};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) fn kind() -> Kind {
+    Kind {
     id: "orbit",
-    about: "r″ = -μ r / |r|³: a satellite about a fixed centre, on an ellipse, parabola or hyperbola",
-    coordinates: &|_| {
-        &[
-            Coordinate { name: "x", velocity: "vx", unit: "m" },
-            Coordinate { name: "y", velocity: "vy", unit: "m" },
-        ]
-    },
-    parameters: &parameter::descriptions(&PARAMETERS),
-    inputs: &["kick"],
-    leading: "mu_m3_per_s2",
-    truth: Truth::Exact,
-    check: &|values| match values {
+    about: "r″ = -μ r / |r|³: a satellite about a fixed centre, on an ellipse, parabola or hyperbola".into(),
+    all_coordinates: vec![Coordinate::new("x", "vx", "m"), Coordinate::new("y", "vy", "m")],
+    leading: "mu_m3_per_s2".into(),
+    check: Box::new(|values| match values {
         [_, 0.0, 0.0, ..] => Err(Fault {
-            key: "x0_m",
+            key: "x0_m".into(),
             what: "the orbit starts at its centre, where the pull is infinite".into(),
             remedy: "write an `x0_m` or a `y0_m` other than 0".into(),
         }),
         _ => Ok(()),
-    },
-    build: &|values, solver| stepper(Orbit::BLANK.with_parameters(values), solver),
-    engine_refusal: None,
-    law: None,
-    own: None,
-    net: None,
-};
+    }),
+        ..Kind::of(Orbit::BLANK)
+    }
+}
 
 type Of = ParameterOf<Orbit>;
 
@@ -119,6 +108,7 @@ impl System for Orbit {
 }
 
 impl Body for Orbit {
+    const HAS_EXACT: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<DVec2> {

@@ -2,31 +2,25 @@
 
 use glam::DVec2;
 
-use super::kind::{Coordinate, Kind, Truth};
+use super::kind::{Coordinate, Kind};
 use crate::sim::body::{Body, Input};
-use crate::sim::body_stepper::stepper;
 use crate::sim::engine_settings::EngineSettings;
-use crate::sim::parameter::{self, ParameterOf, Range};
+use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
-pub(super) const KIND: Kind = Kind {
-    id: "pendulum",
-    about: "m l² θ″ = -m g l sin θ - c θ′: a bob on a rod, at any angle",
-    coordinates: &|_| &[Coordinate { name: "theta", velocity: "omega", unit: "rad" }],
-    parameters: &parameter::descriptions(&PARAMETERS),
-    inputs: &["kick"],
-    leading: "gravity_m_per_s2",
-    truth: Truth::Reference,
-    check: &|_| Ok(()),
-    build: &|values, solver| stepper(Pendulum::BLANK.with_parameters(values), solver),
-    engine_refusal: Some(
-        "in an engine a pendulum is a hinge, whose rod the solver holds by constraint forces",
-    ),
-    law: None,
-    own: None,
-    net: None,
-};
+pub(super) fn kind() -> Kind {
+    Kind {
+        id: "pendulum",
+        about: "m l² θ″ = -m g l sin θ - c θ′: a bob on a rod, at any angle".into(),
+        all_coordinates: vec![Coordinate::new("theta", "omega", "rad")],
+        leading: "gravity_m_per_s2".into(),
+        engine_refusal: Some(
+            "in an engine a pendulum is a hinge, whose rod the solver holds by constraint forces",
+        ),
+        ..Kind::of(Pendulum::BLANK)
+    }
+}
 
 type Of = ParameterOf<Pendulum>;
 
@@ -123,10 +117,6 @@ impl Body for Pendulum {
 
     fn start(&self) -> State<f64> {
         State { q: self.theta0, v: self.omega0 }
-    }
-
-    fn exact(&self, _dt: f64, _from: &State<f64>) -> Option<State<f64>> {
-        None
     }
 
     fn is_angle(&self, _coordinate: usize) -> bool {

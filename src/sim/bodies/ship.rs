@@ -2,29 +2,23 @@
 
 use glam::DVec2;
 
-use super::kind::{Coordinate, Kind, Truth};
+use super::kind::{Coordinate, Kind};
 use crate::sim::body::{Body, Input};
-use crate::sim::body_stepper::stepper;
 use crate::sim::engine_settings::EngineSettings;
-use crate::sim::parameter::{self, ParameterOf, Range};
+use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
-pub(super) const KIND: Kind = Kind {
-    id: "ship",
-    about: "m s″ = T - C s′: full thrust times throttle, against linear drag",
-    coordinates: &|_| &[Coordinate { name: "s", velocity: "v", unit: "m" }],
-    parameters: &parameter::descriptions(&PARAMETERS),
-    inputs: &["throttle", "kick"],
-    leading: "drag_n_s_per_m",
-    truth: Truth::Exact,
-    check: &|_| Ok(()),
-    build: &|values, solver| stepper(Ship::BLANK.with_parameters(values), solver),
-    engine_refusal: None,
-    law: None,
-    own: None,
-    net: None,
-};
+pub(super) fn kind() -> Kind {
+    Kind {
+        id: "ship",
+        about: "m s″ = T - C s′: full thrust times throttle, against linear drag".into(),
+        all_coordinates: vec![Coordinate::new("s", "v", "m")],
+        inputs: &["throttle", "kick"],
+        leading: "drag_n_s_per_m".into(),
+        ..Kind::of(Ship::BLANK)
+    }
+}
 
 type Of = ParameterOf<Ship>;
 
@@ -109,6 +103,7 @@ impl System for Ship {
 }
 
 impl Body for Ship {
+    const HAS_EXACT: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {

@@ -2,30 +2,23 @@
 
 use glam::DVec2;
 
-use super::kind::{Coordinate, Kind, Truth};
+use super::kind::{Coordinate, Kind};
 use super::oscillator;
 use crate::sim::body::{Body, Input};
-use crate::sim::body_stepper::stepper;
 use crate::sim::engine_settings::EngineSettings;
-use crate::sim::parameter::{self, ParameterOf, Range};
+use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
 use crate::sim::system::System;
 
-pub(super) const KIND: Kind = Kind {
-    id: "spring",
-    about: "m x″ = -k x - c x′: a mass on a spring with a dash-pot",
-    coordinates: &|_| &[Coordinate { name: "x", velocity: "v", unit: "m" }],
-    parameters: &parameter::descriptions(&PARAMETERS),
-    inputs: &["kick"],
-    leading: "stiffness_n_per_m",
-    truth: Truth::Exact,
-    check: &|_| Ok(()),
-    build: &|values, solver| stepper(Spring::BLANK.with_parameters(values), solver),
-    engine_refusal: None,
-    law: None,
-    own: None,
-    net: None,
-};
+pub(super) fn kind() -> Kind {
+    Kind {
+        id: "spring",
+        about: "m x″ = -k x - c x′: a mass on a spring with a dash-pot".into(),
+        all_coordinates: vec![Coordinate::new("x", "v", "m")],
+        leading: "stiffness_n_per_m".into(),
+        ..Kind::of(Spring::BLANK)
+    }
+}
 
 type Of = ParameterOf<Spring>;
 
@@ -119,6 +112,7 @@ impl System for Spring {
 }
 
 impl Body for Spring {
+    const HAS_EXACT: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::sim::number::round;
+use crate::sim::parameter::Text;
 
 /// Why a body could not be advanced to the end of its tick.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,14 +45,14 @@ pub enum StepFailure {
     /// A value became infinite or undefined.
     NotFinite {
         /// The coordinate's name.
-        coordinate: &'static str,
+        coordinate: Text,
         /// Its value.
         value: f64,
     },
     /// A value left the range in which bodies are simulated; `lab::ESCAPE`.
     Escaped {
         /// The coordinate's name.
-        coordinate: &'static str,
+        coordinate: Text,
         /// The value that was too large.
         value: f64,
     },

@@ -212,7 +212,7 @@ mod tests {
     use crate::sim::integrators::method;
 
     fn failure(value: f64) -> StepFailure {
-        StepFailure::NotFinite { coordinate: "x", value }
+        StepFailure::NotFinite { coordinate: "x".into(), value }
     }
 
     #[test]

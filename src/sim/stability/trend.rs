@@ -42,7 +42,7 @@ fn mean_energy(
         body.advance(t + h * k as f64, h, substeps)?;
         let energy = body.energy().expect("it conserves its energy");
         if !energy.is_finite() {
-            return Err(StepFailure::NotFinite { coordinate: "energy", value: energy });
+            return Err(StepFailure::NotFinite { coordinate: "energy".into(), value: energy });
         }
         let weight = bump((k as f64 + 0.5) / ticks as f64);
         sum += weight * energy;
@@ -65,7 +65,7 @@ mod tests {
 
     /// The growth rate of an undamped spring of 1 kg and ω = 6 rad/s, released at 1 m: 18 J.
     fn growth(id: &str, h: f64, seconds: f64) -> Result<f64, StepFailure> {
-        let build = kind("spring").unwrap().build;
+        let build = &kind("spring").unwrap().build;
         let mut spring =
             build(&[1.0, 36.0, 0.0, 1.0, 0.0, 1.0], Solver::Method(method(id).unwrap()));
         let tick = Tick { t: 0.0, h, substeps: 1 };

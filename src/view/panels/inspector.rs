@@ -84,7 +84,7 @@ fn show_body(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
 
 fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
     let Row { body, place, parameter, values } = row;
-    let kind = lab.scene().bodies[*body].kind;
+    let kind = &lab.scene().bodies[*body].kind;
     let set = |value| Command::Act(Action::Set { body: *body, parameter: *place, value });
     let about = format!("{}\n{}, {}", parameter.about, parameter.key, parameter.range);
     let Some(values) = *values else {
@@ -99,7 +99,7 @@ fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
     let field = Field {
         id: ui.scope_id().with((body, place)),
         value: values.present,
-        unit: parameter.unit,
+        unit: &parameter.unit,
         name: &name,
         is_whole: matches!(
             Reach::of(parameter.range, values),
@@ -251,9 +251,9 @@ mod tests {
                 texts.iter().filter(is_of).count()
             };
             let bodies = &lab.scene().bodies;
-            for parameter in bodies.iter().flat_map(|body| body.kind.parameters) {
+            for parameter in bodies.iter().flat_map(|body| &body.kind.parameters) {
                 let quantity = parameter.quantity();
-                let of_all = bodies.iter().flat_map(|body| body.kind.parameters);
+                let of_all = bodies.iter().flat_map(|body| &body.kind.parameters);
                 let alike = of_all.filter(|other| other.quantity() == quantity).count();
                 assert!(count(&quantity) >= alike, "{}: {quantity}: {texts:?}", scene.name);
             }
@@ -266,7 +266,7 @@ mod tests {
                 assert!(count(text) >= 1, "{}: {text}", scene.name);
             }
             // A net has no parameters of its start.
-            let mut parameters = bodies.iter().flat_map(|body| body.kind.parameters);
+            let mut parameters = bodies.iter().flat_map(|body| &body.kind.parameters);
             let has_start = parameters.any(|parameter| parameter.acts == Acts::AtStart);
             assert_eq!(count("from the next start") >= 1, has_start, "{}", scene.name);
         }

@@ -212,8 +212,8 @@ fn choices(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
 }
 
 /// The coordinates of the displayed body.
-fn shown_coordinates(lab: &Lab) -> &'static [Coordinate] {
-    lab.race().truth().bodies()[lab.display().body].coordinates
+fn shown_coordinates(lab: &Lab) -> &[Coordinate] {
+    lab.race().truth().bodies()[lab.display().body].coordinates()
 }
 
 /// Offers the coordinates of the displayed body, if it has several.
@@ -221,13 +221,11 @@ fn coordinate_choice(ui: &mut Ui, lab: &Lab, commands: &mut Vec<Command>) {
     let body = lab.display().body;
     let coordinates = shown_coordinates(lab);
     if coordinates.len() > 1 {
-        let named = |(index, coordinate): (usize, &'static Coordinate)| {
-            (Command::Coordinate { body, coordinate: index }, coordinate.name)
-        };
+        let command = |index| Command::Coordinate { body, coordinate: index };
         let (chosen, index) = lab.past().coordinate(lab.race(), body);
         ui.label(RichText::new("of").color(ink(ui).dim));
-        let offered = coordinates.iter().enumerate().map(named);
-        choice(ui, "coordinate", offered, named((index, chosen)), commands);
+        let offered = (0..).map(command).zip(coordinates.iter().map(|of| &*of.name));
+        choice(ui, "coordinate", offered, (command(index), &*chosen.name), commands);
     }
 }
 

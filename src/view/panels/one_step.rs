@@ -102,11 +102,11 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     let painter = ui.painter_at(whole);
     painter.rect_filled(rect, 0.0, ink.plot);
     area.axes(&painter, ink, [&area.marks(0, 64.0), &area.marks(1, 26.0)]);
-    let coordinate = &lab.race().truth().bodies()[lab.display().body].coordinates[0];
+    let coordinate = &lab.race().truth().bodies()[lab.display().body].coordinates()[0];
     let small = FontId::proportional(11.5);
     let up = format!("velocity {}, {}", coordinate.velocity, Unit::Velocity.on(coordinate));
     painter.text(whole.left_top(), Align2::LEFT_TOP, up, small.clone(), ink.dim);
-    let along = headed(coordinate.name, coordinate.shown_unit());
+    let along = headed(&coordinate.name, coordinate.shown_unit());
     painter.text(rect.right_top(), Align2::RIGHT_BOTTOM, along, small, ink.dim);
 
     let painter = painter.with_clip_rect(rect);
@@ -257,8 +257,8 @@ fn table_height(step: &OneStep) -> f32 {
 
 /// The formula, every evaluation in numbers, and where the tick ends.
 fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
-    let coordinate = &lab.race().truth().bodies()[lab.display().body].coordinates[0];
-    let (q, v) = (coordinate.name, coordinate.velocity);
+    let coordinate = &lab.race().truth().bodies()[lab.display().body].coordinates()[0];
+    let (q, v) = (&coordinate.name, &coordinate.velocity);
     ui.spacing_mut().item_spacing.y = 1.0;
     ScrollArea::vertical().id_salt("one step").auto_shrink(false).show(ui, |ui| {
         for line in step.spec.method.formula {

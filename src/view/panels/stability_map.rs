@@ -67,7 +67,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Comman
     ui.add(Label::new(words)).on_hover_text(each_method(map));
 }
 
-fn parameter(lab: &Lab, place: usize) -> &'static Parameter {
+fn parameter(lab: &Lab, place: usize) -> &Parameter {
     &lab.scene().bodies[lab.display().body].kind.parameters[place]
 }
 
@@ -367,7 +367,7 @@ fn set(lab: &Lab, map: &StabilityMap, value: f64, commands: &mut Vec<Command>) {
     let (body, parameter) = (map.request.body, map.request.parameter);
     let value = to_three_digits(value);
     let values = lab.race().values(body);
-    let kind = lab.scene().bodies[body].kind;
+    let kind = &lab.scene().bodies[body].kind;
     if value != values[parameter] && edited_values(kind, values, parameter, value).is_ok() {
         commands.push(Command::Act(Action::Set { body, parameter, value }));
     }

@@ -53,7 +53,7 @@ fn bits(body: &dyn Stepper) -> Vec<u64> {
 
 #[test]
 fn an_edit_keeps_the_state_and_the_body_goes_on_as_one_built_with_the_value() {
-    for kind in BODIES {
+    for kind in BODIES.iter() {
         let values = values(kind);
         for place in acting(kind, Acts::AtOnce) {
             let mut edited = values.clone();
@@ -84,7 +84,7 @@ fn an_edit_keeps_the_state_and_the_body_goes_on_as_one_built_with_the_value() {
 
 #[test]
 fn what_changes_nothing_at_once_changes_no_bit_and_no_memory() {
-    for kind in BODIES {
+    for kind in BODIES.iter() {
         let values = values(kind);
         for solver in solvers() {
             let ended = |set: &dyn Fn(&mut dyn Stepper)| {
@@ -111,7 +111,7 @@ fn what_changes_nothing_at_once_changes_no_bit_and_no_memory() {
 
 #[test]
 fn a_value_at_the_end_of_its_range_panics_nowhere() {
-    for kind in BODIES {
+    for kind in BODIES.iter() {
         let values = values(kind);
         for place in acting(kind, Acts::AtOnce) {
             let range = kind.parameters[place].range;
@@ -150,7 +150,7 @@ fn the_errors_of_the_truth_outlast_an_edit() {
 fn counts_and_curves_act_at_the_start_and_so_does_what_the_start_alone_reads() {
     let at_start = |id: &str| {
         let kind = kind(id).unwrap();
-        acting(kind, Acts::AtStart).map(|place| kind.parameters[place].key).collect::<Vec<_>>()
+        acting(kind, Acts::AtStart).map(|place| &kind.parameters[place].key).collect::<Vec<_>>()
     };
     assert_eq!(at_start("ship"), ["s0_m", "v0_m_per_s"]);
     assert_eq!(at_start("chain"), ["masses", "plucked_mass", "x0_m"]);
@@ -191,9 +191,9 @@ fn every_parameter_has_the_unit_that_ends_its_key_and_says_what_it_is() {
     assert_eq!(unit_of_key("mu_m3_per_s2"), "m³/s²");
     assert_eq!(unit_of_key("plucked_mass"), "");
     assert_eq!(unit_of_key("rate_per_s"), "1/s");
-    for kind in BODIES {
-        for parameter in kind.parameters {
-            assert_eq!(parameter.unit, unit_of_key(parameter.key), "{}", parameter.key);
+    for kind in BODIES.iter() {
+        for parameter in &kind.parameters {
+            assert_eq!(parameter.unit, unit_of_key(&parameter.key), "{}", parameter.key);
             let is_number = !matches!(parameter.range, Range::Count(_) | Range::Curve { .. });
             assert_eq!(parameter.unit.is_empty(), !is_number, "{}", parameter.key);
             assert!(!parameter.about.is_empty(), "{} {}", kind.id, parameter.key);
@@ -211,9 +211,9 @@ fn a_parameter_is_called_by_its_key_without_the_unit() {
     assert_eq!(called("pendulum"), names);
     assert_eq!(called("chain")[4], "plucked mass");
     assert_eq!(called("helm")[3], "side drag");
-    for kind in BODIES {
+    for kind in BODIES.iter() {
         assert!(
-            kind.parameter(kind.leading).is_some_and(|(_, leading)| leading.acts == Acts::AtOnce)
+            kind.parameter(&kind.leading).is_some_and(|(_, leading)| leading.acts == Acts::AtOnce)
         );
     }
 }

@@ -219,7 +219,7 @@ fn a_body_that_no_engine_can_be_told_of_says_why_and_each_says_something_else() 
     let box2d = method("engine-box2d").unwrap();
     let steps = |method: &Method, kind: &Kind| method.only.unwrap().kinds.contains(&kind.id);
     let mut reasons = Vec::new();
-    for kind in BODIES {
+    for kind in BODIES.iter() {
         assert_eq!(steps(box2d, kind), kind.engine_refusal.is_none(), "{}", kind.id);
         let Some(reason) = kind.engine_refusal else { continue };
         reasons.push(reason);

@@ -164,7 +164,7 @@ fn what_is_linear_and_what_is_an_angle_is_read_from_the_text() {
         let law = body(&format!(
             "[[law]]\nconstants = {{ k = 2 }}\n[law.coordinates.x]\nstart = 1\nacceleration = '{acceleration}'"
         ));
-        let equations = law.kind.law.unwrap();
+        let equations = law.kind.law().unwrap();
         assert_eq!(equations.is_linear(), is_linear, "{acceleration}");
         assert_eq!(equations.is_angle(0), is_angle, "{acceleration}");
     }
@@ -201,7 +201,7 @@ fn kicks_and_constants_act_at_once_and_starts_do_not() {
 #[test]
 fn the_range_of_a_coordinate_is_found_before_the_motion_is_drawn() {
     let law = body("[[law]]\n[law.coordinates.x]\nstart = 2\nacceleration = '-9*x'");
-    let law = Law::new(law.kind.law.unwrap(), &law.values);
-    let &[(least, most)] = law.ranges() else { panic!("{:?}", law.ranges()) };
+    let law = Law::new(law.kind.law().unwrap().clone(), &law.values);
+    let &[(least, most)] = law.bounds() else { panic!("{:?}", law.bounds()) };
     assert!((least + 2.0).abs() < 0.01 && (most - 2.0).abs() < 0.01, "{least} to {most}");
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 use regatta::lab::{Judge, LaneSpec, Race, Scene};
 use regatta::prelude::{Extras, Options, ParameterOf, Range, State};
 use regatta::sim::Solver;
-use regatta::sim::bodies::{FalseClaims, Own};
+use regatta::sim::bodies::{Custom, FalseClaims};
 use regatta::sim::integrators::{GENERAL_METHODS, METHODS};
 
 use super::{Orbit, Spring};
@@ -134,7 +134,7 @@ fn own_parameters_act_in_a_run_and_have_their_units() {
     assert_eq!((a[0], stepper.energy()), (-90.0, Some(45.0)));
     assert!(stepper.set_parameter(0.0, 1, 0.5));
     assert_eq!(stepper.energy(), None, "drag conserves no energy");
-    let claims = stepper.body().downcast_ref::<Own>().expect("an own body").false_claims();
+    let claims = stepper.body().downcast_ref::<Custom>().expect("an own body").false_claims();
     assert_eq!(claims, FalseClaims { energy: true, exact: false });
     assert!(stepper.set_parameter(0.0, 1, 0.0));
     assert_eq!(stepper.energy(), Some(45.0));

@@ -86,7 +86,7 @@ fn an_own_body_is_drawn_as_its_author_says_or_as_beads() {
         let scene = Scene::of(&Orbit { mu: 40.0 }, start, options).unwrap();
         let body = &scene.bodies[0];
         let stepper = (body.kind.build)(&body.values, Solver::Truth);
-        Look::of(body.kind).outline(&*stepper, 0.0, stepper.q())
+        Look::of(&body.kind).outline(&*stepper, 0.0, stepper.q())
     };
     let Outline { marks, at, .. } = outline(None);
     assert_eq!(at, DVec2::new(3.0, 0.0));

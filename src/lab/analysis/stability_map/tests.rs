@@ -10,10 +10,10 @@ fn spring(damping: f64, ids: &[&str]) -> StabilityMap {
 
 fn map(values: [f64; 6], parameter: usize, specs: Vec<LaneSpec>) -> StabilityMap {
     let kind = kind("spring").unwrap();
-    let opened = SceneBody { name: "spring".into(), kind, values: values.to_vec() };
+    let opened = SceneBody { name: "spring".into(), kind: kind.clone(), values: values.to_vec() };
     let specs = specs.into_iter().enumerate().collect();
     let request = MapRequest::new((0, parameter), &opened, &values, 20, specs);
-    let mut work = MapWork::new(kind, request);
+    let mut work = MapWork::new(kind.clone(), request);
     while !work.is_done() {
         work.advance();
     }
@@ -177,7 +177,7 @@ fn the_present_point_changes_no_region() {
         (values[1], values[2]) = (k, c);
         MapRequest::new((1, 1), opened, &values, tick_hz, specs.clone())
     };
-    let mut work = MapWork::new(opened.kind, request(90.0, 1.0, 20));
+    let mut work = MapWork::new(opened.kind.clone(), request(90.0, 1.0, 20));
     while !work.is_done() {
         work.advance();
     }
@@ -196,7 +196,7 @@ fn map_of(scene: &Scene, key: &str, tick_hz: u32, ids: &[&str]) -> StabilityMap 
     let (place, _) = body.kind.parameter(key).unwrap();
     let specs = ids.iter().map(|id| LaneSpec::plain(method(id).unwrap())).enumerate().collect();
     let request = MapRequest::new((0, place), body, &body.values, tick_hz, specs);
-    let mut work = MapWork::new(body.kind, request);
+    let mut work = MapWork::new(body.kind.clone(), request);
     while !work.is_done() {
         work.advance();
     }
@@ -340,10 +340,10 @@ fn a_body_without_rest_has_no_map_and_a_pendulum_has_that_of_its_small_swings() 
     for (name, is_possible) in [("orbit", false), ("pendulum", true), ("chain", true)] {
         let scene = Scene::built_in(name).unwrap();
         let body = &scene.bodies[0];
-        let (place, _) = body.kind.parameter(body.kind.leading).unwrap();
+        let (place, _) = body.kind.parameter(&body.kind.leading).unwrap();
         let specs = vec![(0, LaneSpec::plain(method("semi-implicit-euler").unwrap()))];
         let request = MapRequest::new((0, place), body, &body.values, 60, specs);
-        let mut work = MapWork::new(body.kind, request);
+        let mut work = MapWork::new(body.kind.clone(), request);
         while !work.is_done() {
             work.advance();
         }
@@ -359,7 +359,7 @@ fn a_follower_is_mapped_on_a_body_of_its_rate() {
     for (tick_hz, is_stable) in [(6, true), (4, false)] {
         let specs = specs.iter().copied().enumerate().collect();
         let request = MapRequest::new((0, 1), body, &body.values, tick_hz, specs);
-        let mut work = MapWork::new(body.kind, request);
+        let mut work = MapWork::new(body.kind.clone(), request);
         while !work.is_done() {
             work.advance();
         }

@@ -48,14 +48,18 @@ mod tests {
 
     #[test]
     fn the_amplitude_is_half_the_range_or_the_constant_value() {
-        let ship = kind("ship").unwrap().plain_coordinates();
+        let ship = &kind("ship").unwrap().all_coordinates;
         assert_eq!(amplitudes(&[(-1.0, 3.0), (20.0, 20.0)], ship), [2.0, 20.0]);
         assert_eq!(amplitudes(&[(0.0, 0.0), (5.0, 5.0 + 1e-12)], ship), [1.0, 5.0 + 1e-12]);
     }
 
     #[test]
     fn components_of_one_unit_share_the_largest_and_velocities_are_apart() {
-        let coordinate = |name, unit| Coordinate { name, velocity: name, unit };
+        let coordinate = |name: &'static str, unit| Coordinate {
+            name: name.into(),
+            velocity: name.into(),
+            unit,
+        };
         let coordinates = [coordinate("x", "m"), coordinate("a", "rad"), coordinate("y", "m")];
         let found = largest_alike(&coordinates, &[1.0, 7.0, 3.0, 20.0, 5.0, 10.0]);
         assert_eq!(found, [3.0, 7.0, 3.0, 20.0, 5.0, 20.0]);

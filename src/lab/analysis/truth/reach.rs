@@ -69,7 +69,7 @@ pub(super) struct ReachSoFar {
 
 impl ReachSoFar {
     pub(super) fn new(ranges: Ranges, body: &SceneBody) -> Self {
-        let coordinates = (body.kind.coordinates)(&body.values);
+        let coordinates = body.kind.coordinates(&body.values);
         let is_central =
             coordinates.len() > 1 && coordinates.iter().all(|it| it.unit == coordinates[0].unit);
         Self { ranges, is_central, turns: false, distance: 0.0, speed: 0.0 }
@@ -96,7 +96,7 @@ impl ReachSoFar {
         if self.is_central && self.turns {
             return Reach::Centre { distance: self.distance, speed: self.speed };
         }
-        let coordinates = (body.kind.coordinates)(&body.values);
+        let coordinates = body.kind.coordinates(&body.values);
         let about = |(i, (low, high)): (usize, &(f64, f64))| {
             let centre = centres.get(i).copied().unwrap_or(low + (high - low) / 2.0);
             (centre, (high - centre).max(centre - low).max(amplitudes[i]))

@@ -83,7 +83,7 @@ fn a_map_keeps_its_regions_while_its_cross_is_moved() {
     let found = worker.findings().map.expect("a map");
     assert_eq!(found.regions.len(), found.request.specs.len());
     let [damping, stiffness] = ["damping", "stiffness"].map(|name| {
-        let parameters = lab.scene().bodies[0].kind.parameters;
+        let parameters = &lab.scene().bodies[0].kind.parameters;
         parameters.iter().position(|parameter| parameter.key.starts_with(name)).unwrap()
     });
     let mut moved = |parameter: usize, value: f64| {

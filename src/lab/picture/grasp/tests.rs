@@ -23,7 +23,7 @@ fn off(grip: &Grip, by: [f32; 2]) -> [f32; 2] {
 
 #[test]
 fn every_handle_of_every_kind_can_be_grabbed_and_is_at_least_12_points_wide() {
-    for kind in BODIES {
+    for kind in BODIES.iter() {
         let picture = picture(&lab(kind.id));
         let cell = &picture.cells[0];
         let own = cell.grips.iter().filter(|grip| grip.whose != Whose::Truth);
@@ -39,7 +39,7 @@ fn every_handle_of_every_kind_can_be_grabbed_and_is_at_least_12_points_wide() {
 
 #[test]
 fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
-    for kind in BODIES {
+    for kind in BODIES.iter() {
         let mut lab = lab(kind.id);
         // Zoomed and panned, too.
         let zoom_pan = lab.display().zoom_pan(0).zoomed(1.25, [0.1, 0.05]).panned([0.03, -0.02]);
@@ -57,7 +57,7 @@ fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
         // A camera that follows the truth follows it there.
         let body = &lab.race().entrants()[0].lane.bodies()[0];
         assert_eq!(body.stepper.q(), &held.q[..]);
-        let handles = Look::of(body.kind).handles(&*body.stepper, body.stepper.q());
+        let handles = Look::of(&body.kind).handles(&*body.stepper, body.stepper.q());
         assert_eq!(handles[grip.handle].at, held.handle);
         // As near to the hand as the body can be.
         let reached = cell.camera.points(held.handle);

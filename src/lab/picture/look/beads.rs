@@ -57,7 +57,7 @@ fn middle_and_half(&(low, high): &(f64, f64)) -> [f64; 2] {
 /// A body that is drawn as beads.
 pub(super) struct Beads<'a> {
     /// The name and the unit of each coordinate.
-    pub(super) coordinates: Vec<[&'static str; 2]>,
+    pub(super) coordinates: Vec<[&'a str; 2]>,
     /// The least and the largest value of each coordinate.
     pub(super) ranges: &'a [(f64, f64)],
     /// The coordinates that are x and y of a plane, if it is drawn in one.
@@ -104,7 +104,7 @@ impl Beads<'_> {
         for (rail, &[text, _]) in rails.iter().zip(&self.coordinates) {
             let [from, to] = rail.ends();
             outline.marks.push(Mark::Rail { from, to });
-            outline.marks.push(Mark::Name { at: from, text });
+            outline.names.push((from, text.to_owned()));
             if rail.ends()[0].x <= rail.place(0.0).x && rail.place(0.0).x <= rail.ends()[1].x {
                 let tick = DVec2::new(0.0, 0.9 * radius);
                 let zero = rail.place(0.0);

@@ -48,11 +48,11 @@ fn arrangement(law: &Law) -> Box<dyn Arrangement + '_> {
     let unit = text.coordinates[0].unit;
     let alike = text.coordinates.iter().take_while(|of| of.unit == unit).count();
     // Those of other units are no places.
-    let ranges = &law.ranges()[..alike];
+    let ranges = &law.bounds()[..alike];
     match text.layout {
         Layout::Beads => {
             let coordinates = text.coordinates.iter().map(|of| [&*of.name, of.unit]).collect();
-            Box::new(Beads { coordinates, ranges: law.ranges(), plane: text.plane })
+            Box::new(Beads { coordinates, ranges: law.bounds(), plane: text.plane })
         }
         Layout::Vertical => Box::new(Vertical { ranges }),
         Layout::Carriage => Box::new(Carriage::new(ranges)),

@@ -1,10 +1,10 @@
 //! What a law claims, for the [checker](crate::sim::bodies::claims), and the messages about false claims.
 
-use std::cell::OnceCell;
+use std::sync::Arc;
 
 use super::Law;
 use crate::sim::bodies::claims::{
-    ClaimHorizon, Claimant, Leak, NotSolved, find_departure, find_later_leak, find_leak,
+    Checked, ClaimHorizon, Claimant, Leak, NotSolved, find_departure, find_later_leak, find_leak,
     find_unsolved,
 };
 use crate::sim::body::Body;
@@ -43,12 +43,7 @@ impl Claimant for Law {
     }
 
     fn without_claims(&self) -> Self {
-        Self {
-            steering: [1.0, 0.0],
-            conserves: OnceCell::from(false),
-            is_solved: OnceCell::from(false),
-            ..self.clone()
-        }
+        Self { steering: [1.0, 0.0], checked: Checked::without_claims(), ..self.clone() }
     }
 }
 
@@ -59,12 +54,12 @@ impl Claimant for Law {
 /// # Errors
 /// The first of these that is not so, with its place in the text.
 pub fn check_law(
-    equations: &'static Equations,
+    equations: &Arc<Equations>,
     values: &[f64],
     horizon: ClaimHorizon,
 ) -> Result<(), Refusal> {
     check_start(equations, values)?;
-    let law = Law::new(equations, values);
+    let law = Law::new(equations.clone(), values);
     if let Some(fault) = find_unsolved(&law).or_else(|| find_departure(&law, horizon)) {
         return Err(unsolved(&law, fault));
     }
@@ -75,8 +70,8 @@ pub fn check_law(
 }
 
 /// Checks that the accelerations are finite at the start.
-pub(super) fn check_start(equations: &'static Equations, values: &[f64]) -> Result<(), Refusal> {
-    let law = Law::new(equations, values);
+pub(super) fn check_start(equations: &Arc<Equations>, values: &[f64]) -> Result<(), Refusal> {
+    let law = Law::new(equations.clone(), values);
     let State { q, v } = law.start();
     let mut a = v.clone();
     law.acceleration(0.0, &q, &v, &mut a);

@@ -1,49 +1,25 @@
-//! The kind of a law: made once for each text, and kept as long as the program runs.
+//! The kind of a law.
 
-use std::collections::HashMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::Law;
 use super::claims::{check_start, first_key};
-use crate::sim::bodies::kind::{Coordinate, Kind, Truth};
+use crate::sim::bodies::kind::{Coordinate, Kind, Origin, Truth};
+use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
-use crate::sim::law::{At, Equations, LawText, Refusal, Registers};
-use crate::sim::parameter::{Acts, Fault, Parameter, Range};
+use crate::sim::law::{At, CoordinateText, Equations, LawText, Refusal, Registers};
+use crate::sim::parameter::{Acts, Fault, Parameter, Range, Text};
 
-/// The kinds of all texts so far. They are never freed: the rest of the program holds a body's kind as
-/// `&'static`, and a person writes few laws in the life of a process.
-static KINDS: Mutex<Option<HashMap<LawText, &'static Kind>>> = Mutex::new(None);
-
-/// The kind of bodies that move by this law; the same text has the same kind. Its parameters are the
-/// constants, then of the coordinates `z.start …`, `z.start_velocity …` and `z.kick …`.
+/// The kind of bodies that move by this law. Its parameters are the constants, then for each coordinate its start
+/// `x.start`, its start velocity `x.start_velocity` and its kick `x.kick`.
 ///
 /// # Errors
 /// All faults of the text.
-pub fn law_kind(text: LawText) -> Result<&'static Kind, Vec<Refusal>> {
-    let mut kinds = KINDS.lock().unwrap_or_else(PoisonError::into_inner);
-    let kinds = kinds.get_or_insert_default();
-    if let Some(kind) = kinds.get(&text) {
-        return Ok(kind);
-    }
-    let equations: &'static Equations = Box::leak(Box::new(Equations::new(text.clone())?));
-    let kind = Box::leak(Box::new(kind(equations)));
-    kinds.insert(text, kind);
-    Ok(kind)
-}
-
-fn leaked(text: String) -> &'static str {
-    String::leak(text)
-}
-
-fn kind(equations: &'static Equations) -> Kind {
+pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
+    let equations = Arc::new(Equations::new(text)?);
     let text = equations.text();
-    let coordinate = |of: &crate::sim::law::CoordinateText| Coordinate {
-        name: leaked(of.name.clone()),
-        velocity: leaked(format!("v{}", of.name)),
-        unit: of.unit,
-    };
-    let coordinates: &'static [Coordinate] =
-        Vec::leak(text.coordinates.iter().map(coordinate).collect());
+    let coordinate =
+        |of: &CoordinateText| Coordinate::new(of.name.clone(), format!("v{}", of.name), of.unit);
     let inputs: &[&str] = match equations.is_steered() {
         [false, false] => &["kick"],
         [true, false] => &["throttle", "kick"],
@@ -52,40 +28,44 @@ fn kind(equations: &'static Equations) -> Kind {
     };
     let about: Vec<_> =
         text.coordinates.iter().map(|of| format!("{}″ = {}", of.name, of.acceleration)).collect();
-    let first_key = leaked(first_key(&text.coordinates, &text.constants));
-    let check = move |values: &[f64]| {
-        check_start(equations, values).map_err(|refusal| Fault {
-            key: first_key,
-            what: refusal.what,
-            remedy: "give it another start or other constants".into(),
-        })
-    };
-    Kind {
+    let first_key: Text = first_key(&text.coordinates, &text.constants).into();
+    let parameters = parameters(text);
+    let leading = leading(&equations).map(|index| text.constants[index].clone().into());
+    // Of all bodies, so that they share the findings on their claims.
+    let template = Mutex::new(Law::new(equations.clone(), &vec![1.0; parameters.len()]));
+    Ok(Arc::new(Kind {
         id: "law",
-        about: leaked(about.join("; ")),
-        coordinates: Box::leak(Box::new(move |_: &[f64]| coordinates)),
-        parameters: Vec::leak(parameters(equations)),
+        about: about.join("; ").into(),
+        all_coordinates: text.coordinates.iter().map(coordinate).collect(),
+        is_counted: false,
+        parameters,
         inputs,
-        leading: leading(equations)
-            .map_or(first_key, |place| leaked(text.constants[place].clone())),
+        leading: leading.unwrap_or_else(|| first_key.clone()),
         truth: Truth::Reference,
-        check: Box::leak(Box::new(check)),
-        build: Box::leak(Box::new(move |values: &[f64], solver| {
-            stepper(Law::new(equations, values), solver)
-        })),
+        check: Box::new({
+            let equations = equations.clone();
+            move |values| {
+                check_start(&equations, values).map_err(|refusal| Fault {
+                    key: first_key.clone(),
+                    what: refusal.what,
+                    remedy: "give it another start or other constants".into(),
+                })
+            }
+        }),
+        build: Box::new(move |values, solver| {
+            let law = template.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            stepper(law.with_parameters(values), solver)
+        }),
         engine_refusal: None,
-        law: Some(equations),
-        own: None,
-        net: None,
-    }
+        origin: Origin::Law(equations.clone()),
+    }))
 }
 
-fn parameters(equations: &Equations) -> Vec<Parameter> {
-    let text = equations.text();
+fn parameters(text: &LawText) -> Vec<Parameter> {
     let constant = |name: &String| Parameter {
-        key: leaked(name.clone()),
+        key: name.clone().into(),
         about: "a constant of the law",
-        unit: "",
+        unit: "".into(),
         default: None,
         range: Range::ANY,
         acts: Acts::AtOnce,
@@ -96,15 +76,14 @@ fn parameters(equations: &Equations) -> Vec<Parameter> {
         ("start_velocity", "its velocity at the start", "/s", Acts::AtStart),
         ("kick", "the change of its velocity by one kick", "/s", Acts::AtOnce),
     ] {
-        parameters.extend(text.coordinates.iter().enumerate().map(|(place, of)| Parameter {
-            key: leaked(format!("{}.{key}", of.name)),
+        parameters.extend(text.coordinates.iter().enumerate().map(|(index, of)| Parameter {
+            key: format!("{}.{key}", of.name).into(),
             about,
-            unit: leaked(if of.unit == "1" && per_s.is_empty() {
-                String::new()
-            } else {
-                format!("{}{per_s}", of.unit)
-            }),
-            default: Some(f64::from(u8::from(key == "kick" && place == 0))),
+            unit: match (of.unit, per_s) {
+                ("1", "") => "".into(),
+                (unit, per_s) => format!("{unit}{per_s}").into(),
+            },
+            default: Some(f64::from(u8::from(key == "kick" && index == 0))),
             range: Range::ANY,
             acts,
         }));
@@ -112,7 +91,7 @@ fn parameters(equations: &Equations) -> Vec<Parameter> {
     parameters
 }
 
-/// The place of the constant that makes the motion stiffest: by which the derivatives of the accelerations
+/// The index of the constant that makes the motion stiffest: by which the derivatives of the accelerations
 /// by the coordinates grow most, with all constants about 1. `None` if none does.
 fn leading(equations: &Equations) -> Option<usize> {
     let text = equations.text();
@@ -121,8 +100,8 @@ fn leading(equations: &Equations) -> Option<usize> {
     let v: Vec<f64> = q.iter().map(|q| 0.5 * q).collect();
     let stiffness = |raised: Option<usize>| {
         let mut values = vec![1.0; constants + 2 * n];
-        if let Some(place) = raised {
-            values[place] = 1.25;
+        if let Some(index) = raised {
+            values[index] = 1.25;
         }
         let mut registers = Registers::new(equations, &values);
         let mut acceleration = |q: &[f64]| {
@@ -144,8 +123,8 @@ fn leading(equations: &Equations) -> Option<usize> {
         sum
     };
     let plain = stiffness(None);
-    let growths = (0..constants).map(|place| (place, stiffness(Some(place)) - plain));
+    let growths = (0..constants).map(|index| (index, stiffness(Some(index)) - plain));
     let growing = growths.filter(|(_, growth)| *growth > 1e-9 * plain && growth.is_finite());
     // The first of those that grow alike.
-    growing.reduce(|most, next| if next.1 > most.1 { next } else { most }).map(|(place, _)| place)
+    growing.reduce(|most, next| if next.1 > most.1 { next } else { most }).map(|(index, _)| index)
 }

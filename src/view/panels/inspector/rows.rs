@@ -12,12 +12,12 @@ const FROM_NOTHING: f64 = 10.0;
 const FEWEST: f64 = 16.0;
 
 /// A parameter of a body.
-pub(super) struct Row {
+pub(super) struct Row<'l> {
     /// The body's place in the scene.
     pub(super) body: usize,
     /// The parameter's place among those of its kind.
     pub(super) place: usize,
-    pub(super) parameter: &'static Parameter,
+    pub(super) parameter: &'l Parameter,
     /// Its value now, and in the scene as it was opened; `None` of a curve, which is no number.
     pub(super) values: Option<Values>,
 }
@@ -35,10 +35,10 @@ impl Values {
 }
 
 /// The parameters of a body: those that act at once, then those that act from the next start.
-pub(super) fn rows(lab: &Lab, body: usize) -> Vec<Row> {
+pub(super) fn rows<'l>(lab: &'l Lab, body: usize) -> Vec<Row<'l>> {
     let opened = &lab.scene_as_opened().bodies[body];
     let (present, next) = (lab.race().values(body), &lab.scene().bodies[body].values);
-    let row = |(place, parameter): (usize, &'static Parameter)| {
+    let row = |(place, parameter): (usize, &'l Parameter)| {
         let is_number = !matches!(parameter.range, Range::Curve { .. });
         let values = is_number.then(|| Values {
             present: if parameter.acts == Acts::AtStart { next[place] } else { present[place] },
@@ -46,7 +46,7 @@ pub(super) fn rows(lab: &Lab, body: usize) -> Vec<Row> {
         });
         Row { body, place, parameter, values }
     };
-    let mut rows: Vec<Row> = opened.kind.parameters.iter().enumerate().map(row).collect();
+    let mut rows: Vec<Row<'l>> = opened.kind.parameters.iter().enumerate().map(row).collect();
     rows.sort_by_key(|row| row.parameter.acts == Acts::AtStart);
     rows
 }
@@ -140,8 +140,11 @@ mod tests {
         let mut seen = 0;
         let positive = [1e-300, 1e-3, 1.0, 39.5, 255.0, 1e15];
         for scene in SCENES {
-            for parameter in
-                Scene::built_in(scene.name).unwrap().bodies.iter().flat_map(|b| b.kind.parameters)
+            for parameter in Scene::built_in(scene.name)
+                .unwrap()
+                .bodies
+                .iter()
+                .flat_map(|b| b.kind.parameters.clone())
             {
                 let range = parameter.range;
                 let signed = positive.iter().flat_map(|value| [*value, -value]).chain([0.0]);

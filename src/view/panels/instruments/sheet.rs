@@ -89,12 +89,12 @@ impl PlotAxis {
 
     /// A coordinate.
     pub(super) fn of(coordinate: &Coordinate) -> Self {
-        Self::new(coordinate.name, coordinate.shown_unit(), AxisScale::Linear)
+        Self::new(&coordinate.name, coordinate.shown_unit(), AxisScale::Linear)
     }
 
     /// The velocity of a coordinate.
     pub(super) fn of_velocity(coordinate: &Coordinate) -> Self {
-        Self::new(coordinate.velocity, &Unit::Velocity.on(coordinate), AxisScale::Linear)
+        Self::new(&coordinate.velocity, &Unit::Velocity.on(coordinate), AxisScale::Linear)
     }
 
     /// A quantity of a coordinate.

@@ -10,7 +10,7 @@ use crate::sim::parameter::ParameterOf;
 use crate::sim::state::{State, Vector};
 use crate::sim::system::System;
 
-/// The motion of a body of one's own.
+/// The motion of a custom body.
 pub(super) trait Motion: Send {
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
     /// As [`System::engine_settings`].
@@ -25,14 +25,20 @@ pub(super) trait Motion: Send {
     fn energy(&self, q: &[f64], v: Option<&[f64]>) -> Option<f64>;
     /// Overwrites `to` with the exact state at time `t` (s). Returns whether anybody has said what it is.
     fn exact(&self, t: f64, to: &mut State<Vec<f64>>) -> bool;
-    /// Sets the parameter in this place. Returns whether that is new.
-    fn set(&mut self, place: usize, value: f64) -> bool;
+    /// Sets the parameter with this index.
+    fn set(&mut self, index: usize, value: f64);
     fn system(&self) -> &dyn Any;
     fn boxed_clone(&self) -> Box<dyn Motion>;
     /// Its size, without coordinates on the heap.
     fn bytes(&self) -> usize;
     /// The number of coordinate vectors that it holds.
     fn vectors(&self) -> usize;
+}
+
+impl Clone for Box<dyn Motion> {
+    fn clone(&self) -> Self {
+        self.boxed_clone()
+    }
 }
 
 impl fmt::Debug for dyn Motion {
@@ -121,15 +127,11 @@ impl<S: System<Vector: Vector> + Clone + Send + 'static> Motion for Typed<S> {
         true
     }
 
-    fn set(&mut self, place: usize, value: f64) -> bool {
-        let field = match self.parameters.get(place) {
-            Some(field) => field(&mut self.system),
-            None if place == 0 => &mut self.force,
-            None => return false,
-        };
-        let is_new = *field != value;
-        *field = value;
-        is_new
+    fn set(&mut self, index: usize, value: f64) {
+        match self.parameters.get(index) {
+            Some(field) => *field(&mut self.system) = value,
+            None => self.force = value,
+        }
     }
 
     fn system(&self) -> &dyn Any {

@@ -1,12 +1,10 @@
 //! What is claimed of a custom body, for the [checker](crate::sim::bodies::claims), and the messages about false
 //! claims.
 
-use std::cell::OnceCell;
-
-use super::Own;
+use super::Custom;
 use crate::sim::bodies::claims::{
-    ClaimHorizon, Claimant, Leak, NotSolved, TIMES, find_departure, find_later_leak, find_leak,
-    find_unsolved,
+    Checked, ClaimHorizon, Claimant, Leak, NotSolved, TIMES, find_departure, find_later_leak,
+    find_leak, find_unsolved,
 };
 use crate::sim::body::Body;
 use crate::sim::state::State;
@@ -15,7 +13,7 @@ use crate::sim::xor_shift::XorShift;
 
 /// A claim about a custom body that does not hold. Messages are in lower case.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OwnFault {
+pub struct CustomFault {
     /// The field of [`Extras`](super::Extras), or `start`.
     pub field: &'static str,
     /// What is wrong.
@@ -36,7 +34,7 @@ fn derivative(of: impl Fn(f64) -> f64, h: f64) -> f64 {
     (8.0 * (of(h) - of(-h)) - (of(2.0 * h) - of(-2.0 * h))) / (12.0 * h)
 }
 
-impl Claimant for Own {
+impl Claimant for Custom {
     const TOLERANCE: f64 = TOLERANCE;
 
     fn claimed(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
@@ -96,12 +94,12 @@ impl Claimant for Own {
     }
 
     fn without_claims(&self) -> Self {
-        Self { conserves: OnceCell::from(false), is_solved: OnceCell::from(false), ..self.clone() }
+        Self { checked: Checked::without_claims(), ..self.clone() }
     }
 }
 
-fn unsolved(own: &Own, fault: NotSolved) -> OwnFault {
-    let name = |i: usize| own.sheet.coordinates[i][0];
+fn unsolved(own: &Custom, fault: NotSolved) -> CustomFault {
+    let name = |i: usize| &own.info.coordinates[i].name;
     let velocity_of = |is_velocity| if is_velocity { "the velocity of " } else { "" };
     let what = match fault {
         NotSolved::Start { coordinate, is_velocity, found, start } => {
@@ -121,10 +119,10 @@ fn unsolved(own: &Own, fault: NotSolved) -> OwnFault {
             )
         }
     };
-    OwnFault { field: "exact", what, remedy: "correct it, or remove `exact`" }
+    CustomFault { field: "exact", what, remedy: "correct it, or remove `exact`" }
 }
 
-fn leaking(leak: Leak) -> OwnFault {
+fn leaking(leak: Leak) -> CustomFault {
     let what = match leak {
         Leak::NotFinite(energy) => format!("it is {energy} at the start"),
         Leak::Constant(energy) => {
@@ -138,11 +136,11 @@ fn leaking(leak: Leak) -> OwnFault {
         }
     };
     let remedy = "correct it, take out what drives or damps the motion, or remove `energy`";
-    OwnFault { field: "energy", what, remedy }
+    CustomFault { field: "energy", what, remedy }
 }
 
 /// Where a body that was told to be linear is not; `None` if it is, or if nobody has said so.
-fn find_bend(own: &Own) -> Option<OwnFault> {
+fn find_bend(own: &Custom) -> Option<CustomFault> {
     if !own.is_linear {
         return None;
     }
@@ -168,11 +166,11 @@ fn find_bend(own: &Own) -> Option<OwnFault> {
                 let size = parts.iter().fold(sum[i].abs(), |size, part| size.max(part.abs()));
                 let off = [sum[i] - none[i] - parts[0] - parts[1], none[i] - parts[2]];
                 if off.iter().any(|off| off.is_nan() || off.abs() > 1e-9 * size) {
-                    let [name, _] = own.sheet.coordinates[i];
+                    let name = &own.info.coordinates[i].name;
                     let what =
                         format!("the acceleration of {name} is not linear at {reach} from 0");
                     let remedy = "leave it out: the default is no";
-                    return Some(OwnFault { field: "is_linear", what, remedy });
+                    return Some(CustomFault { field: "is_linear", what, remedy });
                 }
             }
         }
@@ -180,16 +178,16 @@ fn find_bend(own: &Own) -> Option<OwnFault> {
     None
 }
 
-/// Checks a body of one's own at its start, and what is told of it, at the ticks of the horizon too.
-pub(super) fn check(own: &Own, horizon: ClaimHorizon) -> Result<(), OwnFault> {
+/// Checks a custom body at its start, and what is told of it, at the ticks of the horizon too.
+pub(super) fn check(own: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFault> {
     let State { q, v } = own.start();
     let mut a = v.clone();
     own.acceleration(0.0, &q, &v, &mut a);
     for (values, what) in [(&q, "coordinate"), (&v, "velocity"), (&a, "acceleration")] {
         if let Some(i) = values.iter().position(|value| !value.is_finite()) {
-            let [name, _] = own.sheet.coordinates[i];
+            let name = &own.info.coordinates[i].name;
             let what = format!("the {what} of {name} is {} at the start", values[i]);
-            return Err(OwnFault { field: "start", what, remedy: "begin with finite numbers" });
+            return Err(CustomFault { field: "start", what, remedy: "begin with finite numbers" });
         }
     }
     if let Some(fault) = find_unsolved(own).or_else(|| find_departure(own, horizon)) {

@@ -1,17 +1,16 @@
-//! The kind of a body of one's own: made for each, and kept as long as the program runs.
+//! The kind of a custom body.
 
 use std::any::Any;
 use std::cell::OnceCell;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::motion::Typed;
-use super::{Extras, Own, OwnFault, claims};
-use crate::sim::bodies::claims::ClaimHorizon;
-use crate::sim::bodies::kind::{Coordinate, Kind, Truth};
-use crate::sim::bodies::own_sheet::OwnSheet;
+use super::{Custom, CustomFault, Extras, claims};
+use crate::sim::bodies::claims::{Checked, ClaimHorizon};
+use crate::sim::bodies::kind::{Coordinate, CustomInfo, Kind, Origin, Truth};
 use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
-use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range};
+use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range, Text};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::System;
 
@@ -19,35 +18,35 @@ use crate::sim::system::System;
 const FORCE: &str = "force";
 
 /// The largest number of coordinates. Larger systems need a sparse Jacobian; write a body.
-const MOST_COORDINATES: usize = 256;
+const MAX_COORDINATES: usize = 256;
 
 /// The kind of bodies that move as `system` does, from `start`. What a layer above needs to draw them is in
 /// `drawing`. What `extras` claims is held against the motion at the ticks of `horizon`. Its parameters have the numbers
-/// of `system` as defaults. The kind is kept as long as the program runs.
+/// of `system` as defaults.
 ///
 /// # Errors
 /// If the start, a name or a unit is unfit, or if something that is told in `extras` is not so.
-pub fn own_kind<S>(
+pub fn custom_kind<S>(
     system: &S,
     start: &State<S::Vector>,
     extras: &Extras<S>,
-    drawing: Option<&'static (dyn Any + Send + Sync)>,
+    drawing: Option<Arc<dyn Any + Send + Sync>>,
     horizon: ClaimHorizon,
-) -> Result<&'static Kind, OwnFault>
+) -> Result<Arc<Kind>, CustomFault>
 where
     S: System<Vector: Vector> + Clone + Send + 'static,
 {
     let many = State { q: start.q.components().to_vec(), v: start.v.components().to_vec() };
     let n = many.q.len();
-    let fault = |field, what: String, remedy| Err(OwnFault { field, what, remedy });
-    if n == 0 || n > MOST_COORDINATES || many.v.len() != n {
+    let fault = |field, what: String, remedy| Err(CustomFault { field, what, remedy });
+    if n == 0 || n > MAX_COORDINATES || many.v.len() != n {
         let what = format!("it has {n} coordinates and {} velocities", many.v.len());
         return fault("start", what, "give it as many of both, 1 to 256");
     }
     let coordinates = coordinates(&extras.coordinates, n)?;
     let plane = plane(extras.plane, &coordinates)?;
     let parameters: Vec<Parameter> = match &extras.parameters[..] {
-        [] => vec![FORCE_PARAMETER],
+        [] => vec![force_parameter()],
         own => own.iter().map(|parameter| told_parameter(parameter, system)).collect(),
     };
     check_keys(&parameters)?;
@@ -59,20 +58,18 @@ where
         }
         None => kick[0] = 1.0,
     }
-    let sheet: &'static OwnSheet = Box::leak(Box::new(OwnSheet { coordinates, plane, drawing }));
-    let mut own = Own {
+    let own = Custom {
         motion: Box::new(Typed::new(system.clone(), start, extras)),
-        sheet,
+        info: Arc::new(CustomInfo { coordinates, plane, drawing }),
+        values: parameters.iter().filter_map(|parameter| parameter.default).collect(),
         start: many,
         kick,
         is_linear: extras.is_linear,
-        conserves: OnceCell::new(),
-        is_solved: OnceCell::new(),
-        ranges: OnceCell::new(),
+        checked: Checked::default(),
+        bounds: OnceCell::new(),
     };
     claims::check(&own, horizon)?;
-    own.prepare();
-    Ok(kind(own, sheet, parameters))
+    Ok(Arc::new(kind(own, parameters)))
 }
 
 /// The parameter, with the number of `system` as its default.
@@ -84,75 +81,78 @@ fn told_parameter<S: System<Vector: Vector> + Clone>(
     Parameter { default, ..parameter.parameter() }
 }
 
-const FORCE_PARAMETER: Parameter = Parameter {
-    key: FORCE,
-    about: "what its acceleration is multiplied by",
-    unit: "",
-    default: Some(1.0),
-    range: Range::POSITIVE,
-    acts: Acts::AtOnce,
-};
+fn force_parameter() -> Parameter {
+    Parameter {
+        key: FORCE.into(),
+        about: "what its acceleration is multiplied by",
+        unit: "".into(),
+        default: Some(1.0),
+        range: Range::POSITIVE,
+        acts: Acts::AtOnce,
+    }
+}
 
-fn kind(own: Own, sheet: &'static OwnSheet, parameters: Vec<Parameter>) -> &'static Kind {
-    let coordinate = |[name, unit]: &[&'static str; 2]| Coordinate {
-        name,
-        velocity: String::leak(format!("v{name}")),
-        unit,
-    };
-    let coordinates: &'static [Coordinate] =
-        Vec::leak(sheet.coordinates.iter().map(coordinate).collect());
-    let parameters: &'static [Parameter] = Vec::leak(parameters);
-    let leading = parameters[0].key;
+fn kind(own: Custom, parameters: Vec<Parameter>) -> Kind {
+    let info = own.info.clone();
+    let leading = parameters[0].key.clone();
     // A system need not be shared between threads: each body gets a copy.
-    let template: &'static Mutex<Own> = Box::leak(Box::new(Mutex::new(own)));
-    let copy = |values: &[f64]| {
-        let own = template.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        own.with_parameters(values)
+    let template = Arc::new(Mutex::new(own));
+    let copy =
+        |template: &Mutex<Custom>| template.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    let check = {
+        let (template, info, leading) = (template.clone(), info.clone(), leading.clone());
+        move |values: &[f64]| {
+            let mut own = copy(&template);
+            own.write(values);
+            let State { q, v } = own.start();
+            let mut a = v.clone();
+            own.acceleration(0.0, &q, &v, &mut a);
+            let unfit = a.iter().position(|a| !a.is_finite());
+            unfit.map_or(Ok(()), |i| {
+                let name = &info.coordinates[i].name;
+                let what = format!("the acceleration of {name} is {} at the start", a[i]);
+                let remedy = "take values with a finite one".into();
+                Err(Fault { key: leading.clone(), what, remedy })
+            })
+        }
     };
-    let check = move |values: &[f64]| {
-        let own = copy(values);
-        let State { q, v } = own.start();
-        let mut a = v.clone();
-        own.acceleration(0.0, &q, &v, &mut a);
-        let unfit = a.iter().position(|a| !a.is_finite());
-        unfit.map_or(Ok(()), |i| {
-            let what =
-                format!("the acceleration of {} is {} at the start", coordinates[i].name, a[i]);
-            Err(Fault { key: leading, what, remedy: "take values with a finite one".into() })
-        })
-    };
-    Box::leak(Box::new(Kind {
+    Kind {
         id: "own",
-        about: "a body written in Rust",
-        coordinates: Box::leak(Box::new(move |_: &[f64]| coordinates)),
+        about: "a body written in Rust".into(),
+        all_coordinates: info.coordinates.clone(),
+        is_counted: false,
         parameters,
         inputs: &["kick"],
         leading,
         truth: Truth::Reference,
-        check: Box::leak(Box::new(check)),
-        build: Box::leak(Box::new(move |values: &[f64], solver| stepper(copy(values), solver))),
+        check: Box::new(check),
+        build: Box::new(move |values, solver| {
+            stepper(copy(&template).with_parameters(values), solver)
+        }),
         engine_refusal: None,
-        law: None,
-        own: Some(sheet),
-        net: None,
-    }))
+        origin: Origin::Custom(info),
+    }
 }
 
 /// The names and units of `n` coordinates.
 fn coordinates(
     told: &[(&'static str, &'static str)],
     n: usize,
-) -> Result<Vec<[&'static str; 2]>, OwnFault> {
+) -> Result<Vec<Coordinate>, CustomFault> {
+    let coordinate = |name: Text, unit| {
+        let velocity = format!("v{name}");
+        Coordinate::new(name, velocity, unit)
+    };
     let fault = |what: String| {
         let remedy = "give each a name of its own of letters, digits and underscores";
-        Err(OwnFault { field: "coordinates", what, remedy })
+        Err(CustomFault { field: "coordinates", what, remedy })
     };
     if told.is_empty() {
         let name = |i: usize| match n {
-            ..=3 => ["x", "y", "z"][i],
-            _ => String::leak(format!("q{}", i + 1)),
+            ..=3 => ["x", "y", "z"][i].into(),
+            _ => format!("q{}", i + 1).into(),
         };
-        return Ok((0..n).map(|i| [name(i), "m"]).collect());
+        return Ok((0..n).map(|i| coordinate(name(i), "m")).collect());
     }
     if told.len() != n {
         return fault(format!("it names {} coordinates, and the start has {n}", told.len()));
@@ -162,7 +162,7 @@ fn coordinates(
             return fault(format!("{name:?} is no name for a coordinate, or the second"));
         }
     }
-    Ok(told.iter().map(|&(name, unit)| [name, unit]).collect())
+    Ok(told.iter().map(|&(name, unit)| coordinate(name.into(), unit)).collect())
 }
 
 fn is_name(name: &str) -> bool {
@@ -173,26 +173,26 @@ fn is_name(name: &str) -> bool {
 /// The plane that was told, or that of two coordinates in metres.
 fn plane(
     told: Option<[usize; 2]>,
-    coordinates: &[[&'static str; 2]],
-) -> Result<Option<[usize; 2]>, OwnFault> {
+    coordinates: &[Coordinate],
+) -> Result<Option<[usize; 2]>, CustomFault> {
     match (told, coordinates) {
-        (Some([x, y]), _) if x == y || x.max(y) >= coordinates.len() => Err(OwnFault {
+        (Some([x, y]), _) if x == y || x.max(y) >= coordinates.len() => Err(CustomFault {
             field: "plane",
             what: format!("coordinates {x} and {y} of {} make no plane", coordinates.len()),
             remedy: "name two coordinates by their places, from 0",
         }),
-        (None, [[_, "m"], [_, "m"]]) => Ok(Some([0, 1])),
+        (None, [Coordinate { unit: "m", .. }, Coordinate { unit: "m", .. }]) => Ok(Some([0, 1])),
         (told, _) => Ok(told),
     }
 }
 
-fn check_keys(parameters: &[Parameter]) -> Result<(), OwnFault> {
+fn check_keys(parameters: &[Parameter]) -> Result<(), CustomFault> {
     for (i, Parameter { key, acts, range, default, .. }) in parameters.iter().enumerate() {
         let is_taken = parameters[..i].iter().any(|earlier| earlier.key == *key);
         let is_number =
             *acts == Acts::AtOnce && !matches!(range, Range::Count(_) | Range::Curve { .. });
         if !is_name(key) || is_taken || !is_number {
-            return Err(OwnFault {
+            return Err(CustomFault {
                 field: "parameters",
                 what: format!("{key:?} is no name for a number that acts at once, or the second"),
                 remedy: "give each a name of its own, and make it by `ParameterOf::number`",
@@ -200,7 +200,7 @@ fn check_keys(parameters: &[Parameter]) -> Result<(), OwnFault> {
         }
         let value = default.unwrap_or(f64::NAN);
         if !range.contains(value) {
-            return Err(OwnFault {
+            return Err(CustomFault {
                 field: "parameters",
                 what: format!("{key} is {value}, and its range is {range}"),
                 remedy: "give the system another number, or the parameter a wider range",

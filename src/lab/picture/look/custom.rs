@@ -1,26 +1,27 @@
-//! A body of one's own: as its author draws it, or beads on rails or in a plane.
+//! A custom body: as its author draws it, or beads on rails or in a plane.
 
 use std::any::Any;
 
 use super::beads::Beads;
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
-use crate::sim::bodies::Own;
+use crate::sim::bodies::Custom;
 
 /// What its author draws: the system and the coordinates, to marks.
 type Draw = dyn Fn(&dyn Any, &[f64]) -> Vec<Mark> + Send + Sync;
 
-/// How the author of a body draws it; the sheet of the body holds it.
+/// How the author of a body draws it; its kind holds it.
 pub(in crate::lab) struct Drawing(pub(in crate::lab) Box<Draw>);
 
-fn beads(own: &Own) -> Beads<'_> {
-    let sheet = own.sheet();
-    Beads { coordinates: sheet.coordinates.clone(), ranges: own.ranges(), plane: sheet.plane }
+fn beads(own: &Custom) -> Beads<'_> {
+    let info = own.info();
+    let coordinates = info.coordinates.iter().map(|of| [&*of.name, of.unit]).collect();
+    Beads { coordinates, ranges: own.bounds(), plane: info.plane }
 }
 
-impl Drawn for Own {
+impl Drawn for Custom {
     fn draw(&self, q: &Vec<f64>, outline: &mut Outline) {
-        match self.sheet().drawing.and_then(<dyn Any + Send + Sync>::downcast_ref::<Drawing>) {
+        match self.info().drawing.as_ref().and_then(|drawing| drawing.downcast_ref::<Drawing>()) {
             Some(Drawing(draw)) => outline.marks.extend(draw(self.system(), q)),
             None => beads(self).draw(q, outline),
         }

@@ -1,0 +1,159 @@
+//! A custom body: any [`System`] with a start.
+
+use std::any::Any;
+use std::cell::OnceCell;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::bounds::bounds;
+use super::claims::{Checked, FalseClaims};
+use super::kind::CustomInfo;
+use crate::sim::body::{Body, Input};
+use crate::sim::engine_settings::EngineSettings;
+use crate::sim::state::State;
+use crate::sim::system::System;
+
+mod claims;
+mod extras;
+mod kind;
+mod motion;
+
+pub use claims::CustomFault;
+pub use extras::{Energy, Exact, Extras};
+pub use kind::custom_kind;
+use motion::Motion;
+
+/// A custom body. The type of its system is forgotten, so that it needs no code of its own here.
+#[derive(Clone, Debug)]
+pub struct Custom {
+    motion: Box<dyn Motion>,
+    info: Arc<CustomInfo>,
+    /// The present values of the parameters.
+    values: Vec<f64>,
+    start: State<Vec<f64>>,
+    /// The change of the velocity by one kick.
+    kick: Vec<f64>,
+    /// Whether the acceleration is linear.
+    is_linear: bool,
+    checked: Checked,
+    bounds: OnceCell<Vec<(f64, f64)>>,
+}
+
+impl Custom {
+    /// Its coordinates, and how it is drawn.
+    pub fn info(&self) -> &CustomInfo {
+        &self.info
+    }
+
+    /// The system with its present parameters; its type is the one that it was made of.
+    pub fn system(&self) -> &dyn Any {
+        self.motion.system()
+    }
+
+    /// What was told of it and does not hold with the present parameters.
+    pub fn false_claims(&self) -> FalseClaims {
+        self.checked.false_claims(self, &self.values)
+    }
+
+    /// The least and the largest value of each coordinate in the first seconds of the motion.
+    pub fn bounds(&self) -> &[(f64, f64)] {
+        self.bounds.get_or_init(|| bounds(self))
+    }
+
+    /// Sets all parameters.
+    fn write(&mut self, values: &[f64]) {
+        for (index, &value) in values.iter().enumerate() {
+            self.set_parameter(index, value);
+        }
+    }
+}
+
+impl System for Custom {
+    type Vector = Vec<f64>;
+
+    fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        self.motion.acceleration(t, q, v, a);
+    }
+
+    fn engine_settings(
+        &self,
+        t: f64,
+        State { q, v }: &State<Vec<f64>>,
+        force: &mut Vec<f64>,
+    ) -> Option<EngineSettings> {
+        self.motion.engine_settings(t, q, v, force)
+    }
+}
+
+impl Body for Custom {
+    fn with_parameters(mut self, values: &[f64]) -> Self {
+        self.write(values);
+        // Before the first tick, which must not allocate.
+        self.false_claims();
+        self
+    }
+
+    fn set_parameter(&mut self, index: usize, value: f64) -> bool {
+        let is_new = self.values.get(index).is_some_and(|old| *old != value);
+        if is_new {
+            self.values[index] = value;
+            self.motion.set(index, value);
+            self.prepare();
+        }
+        is_new
+    }
+
+    fn prepare(&mut self) {
+        self.bounds.take();
+        self.checked.reset();
+    }
+
+    fn heap_bytes(&self) -> usize {
+        let vectors = 3 + self.motion.vectors();
+        let bounds = self.bounds.get().map_or(0, |bounds| size_of_val(&bounds[..]));
+        let values = size_of_val(&self.values[..]);
+        self.motion.bytes() + vectors * size_of_val(&self.start.q[..]) + values + bounds
+    }
+
+    fn start(&self) -> State<Vec<f64>> {
+        self.start.clone()
+    }
+
+    fn exact_since_start(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
+        !self.false_claims().exact && self.motion.exact(t, to)
+    }
+
+    fn is_linear(&self) -> bool {
+        self.is_linear
+    }
+
+    fn is_angle(&self, coordinate: usize) -> bool {
+        self.info.coordinates[coordinate].unit == "rad"
+    }
+
+    fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
+        if self.false_claims().energy {
+            return None;
+        }
+        self.motion.energy(&state.q, Some(&state.v))
+    }
+
+    fn kinetic_energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
+        Some(self.energy(state)? - self.motion.energy(&state.q, None)?)
+    }
+
+    fn input(&mut self, input: Input, state: &mut State<Vec<f64>>) -> bool {
+        let Input::Kick(times) = input else { return false };
+        state.v.iter_mut().zip(&self.kick).for_each(|(v, kick)| *v += times * kick);
+        true
+    }
+
+    /// The coordinates of the plane, or the first coordinate to the right.
+    fn place(&self, q: &Vec<f64>) -> DVec2 {
+        match self.info.plane {
+            Some([x, y]) => DVec2::new(q[x], q[y]),
+            None => DVec2::new(q[0], 0.0),
+        }
+    }
+}
