@@ -278,8 +278,8 @@ const BODY: &[Column<Arc<Kind>>] = &[
 ];
 
 const COORDINATE: &[Column<Coordinate>] = &[
-    Column { key: "name", heading: None, value: |coordinate| json!(coordinate.name) },
-    Column { key: "velocity", heading: None, value: |coordinate| json!(coordinate.velocity) },
+    Column { key: "name", heading: None, value: |coordinate| json!(&*coordinate.name) },
+    Column { key: "velocity", heading: None, value: |coordinate| json!(&*coordinate.velocity) },
     Column { key: "unit", heading: None, value: |coordinate| json!(coordinate.unit) },
 ];
 

@@ -322,7 +322,7 @@ impl Equations {
         let Some(tape) = &self.exact else { return false };
         let slots = &mut registers.exact;
         slots[T] = [t, 1.0, 0.0];
-        jet::evaluate(tape, slots);
+        tape.evaluate_jets(slots);
         for (i, &slot) in tape.outputs.iter().enumerate() {
             to(i, slots[slot as usize]);
         }
@@ -340,7 +340,7 @@ impl Equations {
                 slots[FIRST_COORDINATE + i] = [q[i], moves, 0.0];
                 slots[FIRST_COORDINATE + n + i] = [v[i], turns, 0.0];
             }
-            jet::evaluate(tape, &mut slots);
+            tape.evaluate_jets(&mut slots);
             tape.outputs.first().map(|&slot| slots[slot as usize][1])
         };
         Some([rate(true)?, rate(false)?])

@@ -194,17 +194,17 @@ impl Kind {
 #[derive(Clone, Debug)]
 pub struct Coordinate {
     /// Its name, as in the `coordinate` column of the CSV: ASCII, easy to type.
-    pub name: Text,
+    pub name: Arc<str>,
     /// The name of its velocity.
-    pub velocity: Text,
+    pub velocity: Arc<str>,
     /// Its unit.
     pub unit: &'static str,
 }
 
 impl Coordinate {
     pub(super) fn new(
-        name: impl Into<Text>,
-        velocity: impl Into<Text>,
+        name: impl Into<Arc<str>>,
+        velocity: impl Into<Arc<str>>,
         unit: &'static str,
     ) -> Self {
         Self { name: name.into(), velocity: velocity.into(), unit }

@@ -1,9 +1,9 @@
 //! Failures of a step.
 
 use std::fmt;
+use std::sync::Arc;
 
 use crate::sim::number::round;
-use crate::sim::parameter::Text;
 
 /// Why a body could not be advanced to the end of its tick.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,14 +45,14 @@ pub enum StepFailure {
     /// A value became infinite or undefined.
     NotFinite {
         /// The coordinate's name.
-        coordinate: Text,
+        coordinate: Arc<str>,
         /// Its value.
         value: f64,
     },
     /// A value left the range in which bodies are simulated; `lab::ESCAPE`.
     Escaped {
         /// The coordinate's name.
-        coordinate: Text,
+        coordinate: Arc<str>,
         /// The value that was too large.
         value: f64,
     },

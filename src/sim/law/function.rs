@@ -169,7 +169,7 @@ mod tests {
     use super::*;
     use crate::sim::law::expression::{Scope, parse};
     use crate::sim::law::refusal::Part;
-    use crate::sim::law::{jet, tape::Tape};
+    use crate::sim::law::tape::Tape;
 
     struct Plane;
 
@@ -246,7 +246,7 @@ mod tests {
                 let curve = [[x, 1.0, 0.7], [y, -0.3, 0.4]];
                 let mut jets = vec![[0.0; 3]; tape.slots];
                 jets[..2].copy_from_slice(&curve);
-                jet::evaluate(&tape, &mut jets);
+                tape.evaluate_jets(&mut jets);
                 let [by_jet, first, second] = jets[output];
                 assert!(is_near(by_jet, value, 0.0), "{call} at {x}, {y}: {by_jet}");
                 let h = 1e-4;

@@ -7,6 +7,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::expression::{Expression, Node};
+use super::jet::{self, Jet};
 use super::op::Op;
 use super::refusal::Part;
 use super::switch::Switch;
@@ -183,6 +184,17 @@ impl Tape {
         }
     }
 
+    /// Evaluates the tape with derivatives, given the slots of the inputs.
+    pub(super) fn evaluate_jets(&self, slots: &mut [Jet]) {
+        for &(slot, number) in &self.numbers {
+            slots[slot as usize] = jet::constant(number);
+        }
+        for (op, operands, to, table) in self.operations() {
+            let operand = |n: usize| operands.get(n).map_or([0.0; 3], |&slot| slots[slot as usize]);
+            slots[to as usize] = jet(op, [operand(0), operand(1), operand(2)], table);
+        }
+    }
+
     /// How many switches there are.
     pub(super) fn switches(&self) -> usize {
         self.switches.len()
@@ -206,11 +218,6 @@ impl Tape {
         let is_it = |read: &u16| usize::from(*read) == slot;
         self.operations().any(|(_, operands, ..)| operands.iter().any(is_it))
             || self.outputs.iter().any(is_it)
-    }
-
-    /// The slots that hold numbers of the text.
-    pub(super) fn numbers(&self) -> &[(u16, f64)] {
-        &self.numbers
     }
 
     /// Where the operation that writes this slot stands; `None` for an input.
@@ -249,6 +256,26 @@ impl Tape {
                 Op::Number | Op::Input => slots[instruction.to as usize],
             };
         }
+    }
+}
+
+fn jet(op: Op, [a, b, c]: [Jet; 3], table: Option<&Curve>) -> Jet {
+    match op {
+        // Already in their slots.
+        Op::Number | Op::Input => a,
+        Op::Negate => a.map(|x| -x),
+        Op::Add => jet::sum(a, b),
+        Op::Subtract => jet::difference(a, b),
+        Op::Multiply => jet::product(a, b),
+        Op::Divide => jet::quotient(a, b),
+        Op::Power => jet::power(a, b),
+        Op::And => jet::constant(a[0] * b[0]),
+        Op::Or => jet::constant(f64::from(u8::from(a[0] + b[0] > 0.0))),
+        Op::Not => jet::constant(1.0 - a[0]),
+        Op::If if a[0] == 1.0 => b,
+        Op::If => c,
+        Op::Smooth(smooth) => (smooth.jet)(a, b),
+        Op::Switch(switch) => switch.jet([a, b], table),
     }
 }
 

@@ -30,11 +30,11 @@ fn motion_shows_the_chosen_quantity_and_its_table_follows() {
 #[test]
 fn a_net_plots_what_moves_far_and_any_other_coordinate_that_is_chosen() {
     let mut lab = Lab::new(Scene::built_in("bridge").unwrap());
-    let named = |lab: &Lab| lab.past().coordinate(lab.race(), 0).0.name.clone();
+    let named = |lab: &Lab| lab.past().coordinate(lab.race(), 0).0.name.to_string();
     assert_eq!(named(&lab), "y4", "the sag in the middle");
     (0..90).for_each(|_| lab.tick());
     let coordinates = lab.race().truth().bodies()[0].coordinates();
-    let chosen = coordinates.iter().position(|coordinate| coordinate.name == "x7").unwrap();
+    let chosen = coordinates.iter().position(|coordinate| &*coordinate.name == "x7").unwrap();
     lab.apply(Command::Coordinate { body: 0, coordinate: chosen });
     assert_eq!(lab.race().tick(), 90);
     let table = csv(&lab).unwrap();
