@@ -84,8 +84,15 @@ fn a_report_has_the_fields_that_are_promised() {
     for recommendation in [bounded, looks_right, accurate] {
         let Recommendation { method, with } = recommendation.expect("one of the two does");
         assert!(two.contains(&method));
-        let CriterionMet { substeps, evaluations_per_s, slowest_hz, stiffness_factor, limited_by } =
-            with;
+        let CriterionMet {
+            substeps,
+            evaluations_per_s,
+            are_margins_searched,
+            slowest_hz,
+            stiffness_factor,
+            limited_by,
+        } = with;
+        assert!(are_margins_searched);
         assert_eq!(evaluations_per_s % f64::from(60 * substeps), 0.0);
         assert!(slowest_hz.is_some_and(|hz| (1..=60).contains(&hz)));
         assert!(stiffness_factor.is_some_and(|factor| (1.0..=10.0).contains(&factor)));

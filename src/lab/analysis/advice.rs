@@ -181,7 +181,7 @@ impl Adviser {
     /// the cheapest.
     pub fn worth_margins(&self, advised: &[MethodAdvice]) -> Vec<(usize, usize)> {
         let is_dear =
-            |body: &SceneBody| (body.kind.coordinates)(&body.values).len() > MANY_COORDINATES;
+            |body: &SceneBody| body.kind.coordinates(&body.values).len() > MANY_COORDINATES;
         let most =
             if self.scene.bodies.iter().any(is_dear) { MOST_TIMES_CHEAPEST } else { f64::INFINITY };
         let evaluations = |advised: &MethodAdvice, criterion: usize| {

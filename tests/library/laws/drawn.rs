@@ -110,7 +110,7 @@ fn a_law_is_drawn_where_its_scene_says_and_a_hand_takes_it_there() {
 
     let SceneBody { kind, values, .. } = &scene.bodies[0];
     let mut body: Box<dyn Stepper> = (kind.build)(values, Solver::Truth);
-    let (look, q) = (Look::of(&kind), [1.0, -0.5, 7.0]);
+    let (look, q) = (Look::of(kind), [1.0, -0.5, 7.0]);
     let upper = 2.0 * DVec2::new(1.0_f64.sin(), -1.0_f64.cos());
     let lower = upper + DVec2::new((-0.5_f64).sin(), -(-0.5_f64).cos());
     let outline = look.outline(&*body, 0.0, &q);
