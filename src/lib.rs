@@ -22,7 +22,8 @@
 //!   [`AnalysisWorker`](lab::AnalysisWorker) runs both, and the stability map, beside the race. The truth is a lane
 //!   whose solver is the exact flow, or a [reference](sim::REFERENCE_ACCURACY) for a body that has none. The layer knows no GPU and no wall clock: time comes in as
 //!   integers, text as `&str`.
-//!   [`identify`](lab::identify) finds the method that made a log.
+//!   [`identify`](lab::identify) finds the method that made a log, and [`port`](lab::port) the settings with which engines
+//!   move a spring alike.
 //!   Game loops are in [`lab::pacing`]: a [`Policy`](lab::pacing::Policy) decides each frame which steps are made, a
 //!   [`FrameTrace`](lab::pacing::FrameTrace) says when frames begin and are displayed, and a
 //!   [`LoopRun`](lab::pacing::LoopRun) measures what a viewer sees. The [`LoopLab`](lab::LoopLab) has every frame of every

@@ -1,6 +1,6 @@
 //! `regatta identify`: which method, with how many substeps, made a log of a motion.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -60,6 +60,21 @@ pub(super) struct IdentifyArgs {
     #[arg(long, value_name = "N", value_parser = rate)]
     tick_hz: f64,
 
+    /// The mass in kg
+    #[arg(long, value_name = "KG", default_value = "1", value_parser = positive)]
+    mass: f64,
+
+    #[command(flatten)]
+    read: LogArgs,
+
+    /// The format: text or json
+    #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
+    format: TableFormat,
+}
+
+/// The options that say what a log is of, and how it is read.
+#[derive(Debug, Args)]
+pub(super) struct LogArgs {
     /// The stiffness of the spring in N/m [default: fitted]
     #[arg(long, value_name = "N/M", value_parser = number, allow_negative_numbers = true)]
     k: Option<f64>,
@@ -68,10 +83,6 @@ pub(super) struct IdentifyArgs {
     #[arg(long, value_name = "N S/M", value_parser = number, allow_negative_numbers = true)]
     #[arg(requires = "k")]
     c: Option<f64>,
-
-    /// The mass in kg
-    #[arg(long, value_name = "KG", default_value = "1", value_parser = positive)]
-    mass: f64,
 
     /// The damping setting of the body in 1/s
     #[arg(long, value_name = "1/S", value_parser = number, allow_negative_numbers = true)]
@@ -96,15 +107,11 @@ pub(super) struct IdentifyArgs {
     /// The column of the velocity in metres per second
     #[arg(long, value_name = "NAME", default_value = "v")]
     v_column: String,
-
-    /// The format: text or json
-    #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
-    format: TableFormat,
 }
 
 /// Why nothing can be said of a log.
 #[derive(Debug, thiserror::Error)]
-enum IdentifyError {
+pub(super) enum IdentifyError {
     /// The file is not read.
     #[error("cannot read the log {}: {source}", .path.display())]
     Unreadable {
@@ -129,7 +136,7 @@ fn parsed(written: &str, fits: fn(f64) -> bool, wanted: &str) -> Result<f64, Str
     number.ok_or_else(|| format!("give {wanted}"))
 }
 
-fn rate(written: &str) -> Result<f64, String> {
+pub(super) fn rate(written: &str) -> Result<f64, String> {
     parsed(written, |hz| hz > 0.0 && hz <= 1e6, "a rate above 0 and up to 1000000 Hz, such as 60")
 }
 
@@ -145,20 +152,37 @@ fn signed(written: &str) -> Result<f64, String> {
     parsed(written, |_| true, "a number")
 }
 
+impl LogArgs {
+    /// Reads the log at `path`, of a game with this tick rate in hertz.
+    pub(super) fn read(&self, path: &Path, tick_hz: f64) -> Result<Log, IdentifyError> {
+        let unreadable = |source| IdentifyError::Unreadable { path: path.to_owned(), source };
+        let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(unreadable)?;
+        let text = String::from_utf8_lossy(&bytes);
+        let columns = Columns {
+            tick: self.tick_column.clone(),
+            t: self.t_column.clone(),
+            x: self.x_column.clone(),
+            v: self.v_column.clone(),
+        };
+        let name = path.display().to_string();
+        Log::parse(&name, &text, &columns, tick_hz).map_err(IdentifyError::Invalid)
+    }
+
+    /// The body of the log, which has this mass in kg.
+    pub(super) fn body(&self, mass: f64) -> LoggedBody {
+        let spring = match (self.k, self.drag, self.thrust) {
+            (Some(k), ..) => Some([k / mass, self.c.unwrap_or(0.0) / mass]),
+            (None, None, None) => None,
+            (None, ..) => Some([0.0; 2]),
+        };
+        let (drag, thrust) = (self.drag.unwrap_or(0.0), self.thrust.unwrap_or(0.0));
+        LoggedBody { spring, drag, push: thrust / mass }
+    }
+}
+
 pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
-    let path = &args.log;
-    let unreadable = |source| IdentifyError::Unreadable { path: path.clone(), source };
-    let bytes = regular_file::read(path, MAX_TABLE_BYTES).map_err(unreadable)?;
-    let text = String::from_utf8_lossy(&bytes);
-    let columns = Columns {
-        tick: args.tick_column.clone(),
-        t: args.t_column.clone(),
-        x: args.x_column.clone(),
-        v: args.v_column.clone(),
-    };
-    let name = path.display().to_string();
-    let log = Log::parse(&name, &text, &columns, args.tick_hz).map_err(IdentifyError::Invalid)?;
-    let found = identify(&log, &body(args), args.tick_hz);
+    let log = args.read.read(&args.log, args.tick_hz)?;
+    let found = identify(&log, &args.read.body(args.mass), args.tick_hz);
     let text = match (args.format, &found) {
         (TableFormat::Text, Some(found)) => words(found, &log, args.mass),
         (TableFormat::Text, None) => NOTHING_RUNS.to_owned(),
@@ -166,14 +190,4 @@ pub(super) fn run(args: &IdentifyArgs) -> Result<(), Error> {
     };
     print(&text)?;
     Ok(())
-}
-
-fn body(args: &IdentifyArgs) -> LoggedBody {
-    let spring = match (args.k, args.drag, args.thrust) {
-        (Some(k), ..) => Some([k / args.mass, args.c.unwrap_or(0.0) / args.mass]),
-        (None, None, None) => None,
-        (None, ..) => Some([0.0; 2]),
-    };
-    let (drag, thrust) = (args.drag.unwrap_or(0.0), args.thrust.unwrap_or(0.0));
-    LoggedBody { spring, drag, push: thrust / args.mass }
 }

@@ -236,6 +236,16 @@ const METHOD: &[Column<Method>] = &[
         value: |method| json!(method.engine.map(|engine| engine.tick_hz)),
     },
     Column {
+        key: "engine_version",
+        heading: None,
+        value: |method| json!(method.engine.map(|e| e.version).filter(|v| !v.is_empty())),
+    },
+    Column {
+        key: "engine_logged",
+        heading: None,
+        value: |method| json!(method.engine.and_then(|engine| engine.logged)),
+    },
+    Column {
         key: "engine_damping_ratio_at_1_hz",
         heading: None,
         value: |method| json!(method.engine.and_then(|engine| engine.damping_ratio)),

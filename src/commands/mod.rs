@@ -19,6 +19,7 @@ mod help;
 mod identify;
 mod list;
 mod play;
+mod port;
 mod show;
 mod sweep;
 mod trace;
@@ -62,6 +63,7 @@ use help::HelpArgs;
 use identify::IdentifyArgs;
 use list::ListArgs;
 use play::PlayArgs;
+use port::PortArgs;
 use show::ShowArgs;
 use sweep::SweepArgs;
 pub use terminal::{stderr_renderer, tell};
@@ -79,6 +81,7 @@ Examples:
   regatta sweep --scene spring --plot spring.png > spring.csv
   regatta loop --trace steady-144 --policy fixed --policy fixed-linear
   regatta identify spring.csv --tick-hz 60 --k 40
+  regatta port --want 2.5Hz --zeta 0.3             the settings of every engine for a spring
   regatta show rk4 --as csharp                     the method's code, for your game
   regatta chapter --out figures
   regatta verify clip
@@ -109,6 +112,7 @@ enum Command {
     Sweep(SweepArgs),
     Loop(LoopArgs),
     Identify(IdentifyArgs),
+    Port(PortArgs),
     Show(ShowArgs),
     Chapter(ChapterArgs),
     List(ListArgs),
@@ -130,6 +134,7 @@ pub fn run(cli: Cli) -> Result<(), Error> {
         Command::Sweep(args) => sweep::run(&args),
         Command::Loop(args) => game_loop::run(&args),
         Command::Identify(args) => identify::run(&args),
+        Command::Port(args) => port::run(&args),
         Command::Show(args) => show::run(&args),
         Command::Chapter(args) => chapter::run(&args),
         Command::List(args) => list::run(&args),

@@ -21,6 +21,7 @@ pub use effective::Effective;
 use fit::Fit;
 pub use logged::{Columns, Log, LogError, LogRow};
 pub use logged_body::LoggedBody;
+pub(super) use motion::run;
 use nearest::nearest;
 use search::search;
 

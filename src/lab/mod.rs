@@ -37,6 +37,7 @@ pub mod pacing;
 pub mod palette;
 mod past;
 pub mod picture;
+mod port;
 mod quantity;
 mod race;
 mod report;
@@ -91,6 +92,10 @@ pub use own::{Draw, Options, OptionsError};
 pub use past::{
     CAPACITY, Energies, History, Past, Run, Sample, Samples, Summary, SweptRange, TruthCurve,
     TruthSample,
+};
+pub use port::{
+    Approach, DriveLimits, FollowerPort, Ported, Reach, Relief, Setup, Wish, WishError,
+    drive_limits, followers, port, setups,
 };
 pub use quantity::Quantity;
 pub use race::{Entrant, Mode, Observer, Race};

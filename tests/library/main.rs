@@ -34,6 +34,7 @@ mod own;
 mod pacing_policies;
 mod picture;
 mod pinned;
+mod port;
 mod recordings;
 mod restart;
 mod robot;

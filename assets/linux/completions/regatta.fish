@@ -119,6 +119,7 @@ complete -c regatta -n "__fish_regatta_needs_command" -f -a "advise" -d 'Recomme
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "sweep" -d 'Run every method at every tick rate on every scene and write one row per run'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "loop" -d 'Measure what game loops do to motion on a display'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "identify" -d 'Say which engine or method, with how many substeps, made a log of a motion'
+complete -c regatta -n "__fish_regatta_needs_command" -f -a "port" -d 'Say the settings with which a spring moves the same in every engine'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "show" -d 'Print a method as a function in Rust, C, C# or GDScript'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "chapter" -d 'Print the chapter\'s tables, and draw its Figures 7-2 to 7-8'
 complete -c regatta -n "__fish_regatta_needs_command" -f -a "list" -d 'List the scenes, methods, bodies, metrics, policies, traces or keys'
@@ -664,9 +665,9 @@ complete -c regatta -n "__fish_regatta_using_subcommand loop" -l language -d 'Th
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l force -d 'Replace the files that are there'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -s h -l help -d 'Print help'
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-hz -d 'Ticks per second of the game that wrote it' -r
+complete -c regatta -n "__fish_regatta_using_subcommand identify" -l mass -d 'The mass in kg' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l k -d 'The stiffness of the spring in N/m [default: fitted]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l c -d 'The damping of the spring in N s/m [default: 0 with --k, else fitted]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand identify" -l mass -d 'The mass in kg' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l drag -d 'The damping setting of the body in 1/s' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l thrust -d 'A constant force in newtons' -r
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l tick-column -d 'The column of the tick\'s number' -r
@@ -676,6 +677,26 @@ complete -c regatta -n "__fish_regatta_using_subcommand identify" -l v-column -d
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
 json\t'An array of objects, for programs'"
 complete -c regatta -n "__fish_regatta_using_subcommand identify" -s h -l help -d 'Print help'
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l want -d 'The frequency in Hz that a player is to see' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l zeta -d 'The damping ratio that a player is to see, 1 where it just swings no more [default: 0]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l from -d 'The settings of an engine, a log, or how a value chases its target' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l mass -d 'The mass on the spring in kg' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-hz -d 'Ticks per second of the engines, and of a log' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l substeps -d 'Substeps per tick, 1 to 10000 [default: each engine\'s own]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l to -d 'The engines (`regatta list methods`), or all' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l decimation -d 'The ticks through which a drive of user code holds its force' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l k -d 'The stiffness of the spring in N/m [default: fitted]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l c -d 'The damping of the spring in N s/m [default: 0 with --k, else fitted]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l drag -d 'The damping setting of the body in 1/s' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l thrust -d 'A constant force in newtons' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-column -d 'The column of the tick\'s number' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l t-column -d 'The column of the time in seconds' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l x-column -d 'The column of the coordinate in metres' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l v-column -d 'The column of the velocity in metres per second' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l format -d 'The format: text or json' -r -f -a "text\t'Aligned columns, for people'
+json\t'An array of objects, for programs'"
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l drive -d 'The limits of a drive with these gains'
+complete -c regatta -n "__fish_regatta_using_subcommand port" -s h -l help -d 'Print help'
 complete -c regatta -n "__fish_regatta_using_subcommand show" -l as -d 'The language' -r -f -a "rust\t''
 c\t''
 csharp\t''

@@ -42,7 +42,7 @@ impl System for Known {
 const LOST: f64 = 1e150;
 
 /// The states of a run at these ticks, which rise; `None` if the candidate cannot make it.
-pub(super) fn run(
+pub(in crate::lab) fn run(
     candidate: Candidate,
     body: &LoggedBody,
     start: [f64; 2],

@@ -6,6 +6,7 @@
 use std::fmt;
 
 use super::free_spin::FreeSpin;
+use super::joint_mode::JointMode;
 use super::own::OwnIntegrator;
 use super::tolerance::Tolerance;
 
@@ -106,6 +107,13 @@ pub struct Engine {
     /// How it integrates torque-free rotation in 3D; `None` if unknown or planar: for engines in the plane, for
     /// pybullet's multibody and for a held force.
     pub free_spin: Option<FreeSpin>,
+    /// The version whose source the formula was read from; empty for a held force, which is of no engine alone.
+    pub version: &'static str,
+    /// The day on which logs of that version were made, as year-month-day, that the formula is held against; `None` if
+    /// there are none.
+    pub logged: Option<&'static str>,
+    /// The ways in which it is told a spring; empty if it has none.
+    pub modes: &'static [JointMode],
 }
 
 /// The card of a method: its claims. `tests/library/conformance` measures every field.

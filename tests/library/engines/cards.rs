@@ -7,7 +7,7 @@ use regatta::sim::bodies::{BODIES, Kind, Net, kind, refusal};
 use regatta::sim::integrators::{METHODS, Method, integrator, method};
 use regatta::sim::{Counted, State};
 
-use super::log::Body;
+use super::log::{Body, Log};
 
 fn engines() -> impl Iterator<Item = &'static Method> {
     METHODS.iter().filter(|method| method.is_engine())
@@ -128,6 +128,22 @@ fn an_undamped_spring_stays_bounded_up_to_the_stability_limit_of_an_engine() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn an_engine_has_the_day_of_its_logs_if_it_has_any() {
+    let logs = Log::all();
+    for method in engines() {
+        let logged = method.engine.unwrap().logged;
+        let has_logs = logs.iter().any(|log| log.method() == method);
+        assert_eq!(logged.is_some(), has_logs, "{}", method.id);
+        let is_day = |day: &str| {
+            let parts: Vec<&str> = day.split('-').collect();
+            parts.iter().map(|part| part.len()).eq([4, 2, 2])
+                && parts.iter().all(|part| part.parse::<u32>().is_ok())
+        };
+        assert!(logged.is_none_or(is_day), "{}: {logged:?}", method.id);
     }
 }
 

@@ -7,3 +7,5 @@ mod oracles;
 mod reproduced;
 mod spin_maps;
 mod tumble;
+
+pub(crate) use log::Body;

@@ -11,7 +11,7 @@ struct Concept {
     marks: &'static [&'static str],
 }
 
-const CONCEPTS: [Concept; 10] = [
+const CONCEPTS: [Concept; 11] = [
     Concept {
         name: "dispatch by the type of a method",
         file: "src/sim/integrators/mod.rs",
@@ -56,6 +56,11 @@ const CONCEPTS: [Concept; 10] = [
         name: "exponential of a linear flow",
         file: "src/sim/integrators/shared/linear_flow.rs",
         marks: &["const DEGREE"],
+    },
+    Concept {
+        name: "inverse of the tick of an engine",
+        file: "src/lab/port/inverse.rs",
+        marks: &["by_stiffness[0] * by_damping[1]"],
     },
     Concept {
         name: "hash of a state",

@@ -118,6 +118,8 @@ fn the_manual_says_how_each_engine_steps_a_free_spin() {
         let maps = engine.free_spin.map(|spin| [Some(spin.default), spin.opt_in]);
         let maps = maps.into_iter().flatten().flatten().map(|map| format!("`{}`", map.id()));
         assert_eq!(cell.trim(), maps.collect::<Vec<_>>().join(", or "), "{row}");
+        let version = row.split('|').nth(2).expect("a second cell");
+        assert!(version.contains(engine.version), "{row}");
     }
 }
 

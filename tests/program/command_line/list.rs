@@ -38,7 +38,8 @@ fn a_method_is_listed_with_all_of_its_card() {
         let keys: Vec<_> = object.as_object().unwrap().keys().map(String::as_str).collect();
         let expected = "id name also family order order_with_drag evaluations exact_if_linear symplectic reversible \
                         stability_limit tolerance restart keeps_time as_printed only only_because \
-                        default_substeps engine_tick_hz engine_damping_ratio_at_1_hz engine_free_spin \
+                        default_substeps engine_tick_hz engine_version engine_logged \
+                        engine_damping_ratio_at_1_hz engine_free_spin \
                         engine_free_spin_opt_in about source";
         assert_eq!(keys.join(" "), expected);
         let only = method.only.map(|only| (only.to_string(), only.reason));
@@ -56,6 +57,11 @@ fn a_method_is_listed_with_all_of_its_card() {
         let (tick_hz, ratio) = engine.unzip();
         assert_eq!(object["engine_tick_hz"], Value::from(tick_hz), "{}", method.id);
         assert_eq!(object["engine_damping_ratio_at_1_hz"], Value::from(ratio.flatten()));
+        let logged = method.engine.and_then(|engine| engine.logged);
+        assert_eq!(object["engine_logged"], Value::from(logged), "{}", method.id);
+        let version =
+            method.engine.map(|engine| engine.version).filter(|version| !version.is_empty());
+        assert_eq!(object["engine_version"], Value::from(version), "{}", method.id);
         let spin = method.engine.and_then(|engine| engine.free_spin);
         let default = spin.map(|spin| spin.default.id());
         assert_eq!(object["engine_free_spin"], Value::from(default), "{}", method.id);

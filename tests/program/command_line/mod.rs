@@ -17,6 +17,7 @@ mod loops;
 mod manifest;
 mod mishaps;
 mod mistakes;
+mod port;
 mod recordings;
 mod show;
 mod sweep;

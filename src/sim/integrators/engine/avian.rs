@@ -2,7 +2,16 @@
 
 use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::joint_mode::JointQuantity::{Compliance, DampingPerMass};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 1] = [mode(
+    "distance-joint",
+    ("compliance", Compliance),
+    ("linear", DampingPerMass),
+    "DistanceJoint::new(anchor, body).with_compliance({compliance}),\nJointDamping { linear: {linear}, angular: 0.0 },",
+)];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-avian",
@@ -15,6 +24,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         damping_ratio: Some(0.00818),
         has_substeps: true,
         free_spin: None,
+        version: "0.7.0",
+        logged: Some("2026-11-21"),
+        modes: &MODES,
     }),
     source: "Avian 0.7.0: integrator/mod.rs, xpbd/plugin.rs, solver/plugin.rs joint_damping",
     formula: &[

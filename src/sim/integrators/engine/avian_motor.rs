@@ -3,7 +3,16 @@
 use super::avian::substep;
 use super::{Rule, Tick, each_with};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::joint_mode::JointQuantity::{DampingRatio, Frequency};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 1] = [mode(
+    "spring-damper",
+    ("frequency", Frequency),
+    ("damping_ratio", DampingRatio),
+    "LinearMotor::new(MotorModel::SpringDamper {\n    frequency: {frequency},\n    damping_ratio: {damping_ratio},\n})",
+)];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-avian-motor",
@@ -17,6 +26,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         damping_ratio: Some(0.00813),
         has_substeps: true,
         free_spin: None,
+        version: "0.7.0",
+        logged: Some("2026-11-21"),
+        modes: &MODES,
     }),
     source: "Avian 0.7.0: integrator/mod.rs, xpbd/plugin.rs, xpbd/joints/prismatic.rs",
     formula: &[

@@ -2,7 +2,16 @@
 
 use super::{Rule, Tick, cap, each, each_with};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::joint_mode::JointQuantity::{DampingRatio, Frequency};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 1] = [mode(
+    "spring",
+    ("hertz", Frequency),
+    ("dampingRatio", DampingRatio),
+    "def.enableSpring = true;\ndef.hertz = {hertz};\ndef.dampingRatio = {dampingRatio};\nbodyDef.linearDamping = 0.0;",
+)];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-box2d",
@@ -14,6 +23,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         damping_ratio: Some(0.02617),
         has_substeps: true,
         free_spin: None,
+        version: "3.x main 617d32a",
+        logged: Some("2026-11-21"),
+        modes: &MODES,
     }),
     source: "Box2D 3.x main 617d32a: solver.c b2IntegrateVelocitiesTask, b2IntegratePositionsTask; solver.h b2MakeSoft; \
              distance_joint.c",

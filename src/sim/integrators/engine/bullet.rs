@@ -3,7 +3,16 @@
 use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
+use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 1] = [mode(
+    "6dof-spring",
+    ("stiffness", Stiffness),
+    ("damping", Damping),
+    "spring->enableSpring(axis, true);\nspring->setStiffness(axis, {stiffness});\nspring->setDamping(axis, {damping});",
+)];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-bullet",
@@ -16,6 +25,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         damping_ratio: Some(0.0),
         has_substeps: true,
         free_spin: Some(FreeSpin { default: SpinMap::NewtonStep, opt_in: None, per_substep: true }),
+        version: "3 main 6c888f4",
+        logged: Some("2026-11-21"),
+        modes: &MODES,
     }),
     source: "Bullet 3 main 6c888f4: btRigidBody.cpp applyDamping, btGeneric6DofSpring2Constraint.cpp get_limit_motor_info2",
     formula: &[

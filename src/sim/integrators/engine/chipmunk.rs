@@ -2,7 +2,16 @@
 
 use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 1] = [mode(
+    "damped-spring",
+    ("stiffness", Stiffness),
+    ("damping", Damping),
+    "cpDampedSpringNew(anchor, body, cpvzero, cpvzero, restLength, {stiffness}, {damping});",
+)];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-chipmunk",
@@ -15,6 +24,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         damping_ratio: Some(0.0),
         has_substeps: false,
         free_spin: None,
+        version: "2.0.1 in pymunk 7.3.1",
+        logged: Some("2026-11-21"),
+        modes: &MODES,
     }),
     source: "Chipmunk 2.0.1 in pymunk 7.3.1: cpBodyUpdatePosition, cpBodyUpdateVelocity, cpDampedSpring.c",
     formula: &["x′ = x + H v", "v′ = ((v − H K x′) e^(−C H) + H f) e^(−c H)"],

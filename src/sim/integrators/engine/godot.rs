@@ -3,7 +3,16 @@
 use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
+use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 1] = [mode(
+    "damped-spring-joint-2d",
+    ("stiffness", Stiffness),
+    ("damping", Damping),
+    "joint.stiffness = {stiffness}\njoint.damping = {damping}\nbody.linear_damp_mode = RigidBody2D.DAMP_MODE_REPLACE\nbody.linear_damp = 0.0",
+)];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-godot",
@@ -19,6 +28,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         has_substeps: false,
         // Of its bodies in space.
         free_spin: Some(FreeSpin { default: SpinMap::Constant, opt_in: None, per_substep: false }),
+        version: "4.x",
+        logged: None,
+        modes: &MODES,
     }),
     source: "Godot 4.x: godot_body_2d.cpp, godot_joints_2d.cpp GodotDampedSpringJoint2D",
     formula: &["v = v max(0, 1 − H C) + H f − H K x", "v′ = v e^(−8 c H), x′ = x + H v′"],

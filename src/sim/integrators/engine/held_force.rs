@@ -4,8 +4,17 @@ use super::{Rule, Tick};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, Only};
+use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::System;
+
+const MODES: [JointMode; 1] = [mode(
+    "force",
+    ("stiffness", Stiffness),
+    ("damping", Damping),
+    "force = -{stiffness} * x - {damping} * v;",
+)];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "held-force",
@@ -24,6 +33,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         damping_ratio: Some(-0.01961),
         has_substeps: true,
         free_spin: None,
+        version: "",
+        logged: None,
+        modes: &MODES,
     }),
     source: "what Box2D, Rapier and Avian do with a force that is applied before the step; Jolt, Bullet and MuJoCo too where \
              they substep",

@@ -3,7 +3,26 @@
 use super::{Rule, Tick, cap, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
+use crate::sim::integrators::joint_mode::JointQuantity::{
+    Damping, DampingRatio, Frequency, Stiffness,
+};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 2] = [
+    mode(
+        "frequency-and-damping",
+        ("mFrequency", Frequency),
+        ("mDamping", DampingRatio),
+        "settings.mLimitsSpringSettings =\n    SpringSettings(ESpringMode::FrequencyAndDamping, {mFrequency}f, {mDamping}f);\nbodySettings.mLinearDamping = 0.0f;",
+    ),
+    mode(
+        "stiffness-and-damping",
+        ("mStiffness", Stiffness),
+        ("mDamping", Damping),
+        "settings.mLimitsSpringSettings =\n    SpringSettings(ESpringMode::StiffnessAndDamping, {mStiffness}f, {mDamping}f);\nbodySettings.mLinearDamping = 0.0f;",
+    ),
+];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-jolt",
@@ -18,6 +37,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
             opt_in: Some(SpinMap::ScaledMomentum),
             per_substep: true,
         }),
+        version: "5.5.1 main 3b47ec3",
+        logged: Some("2026-11-21"),
+        modes: &MODES,
     }),
     source: "Jolt 5.5.1 main 3b47ec3: MotionProperties.inl ApplyForceTorqueAndDragInternal, SpringPart.h",
     formula: &[

@@ -4,7 +4,33 @@ use super::{Rule, Tick, each};
 use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
+use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 3] = [
+    mode(
+        "joint",
+        ("stiffness", Stiffness),
+        ("damping", Damping),
+        "<joint type=\"slide\" stiffness=\"{stiffness}\" damping=\"{damping}\"/>",
+    ),
+    mode(
+        "actuator",
+        ("kp", Stiffness),
+        ("kv", Damping),
+        "<option integrator=\"implicitfast\"/>\n<position joint=\"slide\" kp=\"{kp}\" kv=\"{kv}\"/>",
+    ),
+    JointMode {
+        is_explicit: true,
+        ..mode(
+            "actuator-euler",
+            ("kp", Stiffness),
+            ("kv", Damping),
+            "<option integrator=\"Euler\"/>\n<position joint=\"slide\" kp=\"{kp}\" kv=\"{kv}\"/>",
+        )
+    },
+];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-mujoco",
@@ -21,6 +47,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
             opt_in: Some(SpinMap::NewtonStep),
             per_substep: true,
         }),
+        version: "4.0.0",
+        logged: Some("2026-11-21"),
+        modes: &MODES,
     }),
     source: "MuJoCo 4.0.0: engine_forward.c mj_Euler",
     formula: &[

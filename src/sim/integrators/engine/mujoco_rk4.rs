@@ -4,7 +4,16 @@ use super::mujoco::puts_back;
 use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
+use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 1] = [mode(
+    "joint",
+    ("stiffness", Stiffness),
+    ("damping", Damping),
+    "<option integrator=\"RK4\"/>\n<joint type=\"slide\" stiffness=\"{stiffness}\" damping=\"{damping}\"/>",
+)];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-mujoco-rk4",
@@ -18,6 +27,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         damping_ratio: Some(0.0),
         has_substeps: true,
         free_spin: Some(FreeSpin { default: SpinMap::RungeKutta, opt_in: None, per_substep: true }),
+        version: "4.0.0",
+        logged: Some("2026-11-21"),
+        modes: &MODES,
     }),
     source: "MuJoCo 4.0.0: engine_forward.c mj_RungeKutta",
     formula: &[

@@ -3,7 +3,32 @@
 use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
+use crate::sim::integrators::joint_mode::JointQuantity::{
+    Damping, DampingPerMass, Stiffness, StiffnessPerMass,
+};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 3] = [
+    mode(
+        "force-drive",
+        ("stiffness", Stiffness),
+        ("damping", Damping),
+        "joint->setDrive(PxD6Drive::eX, PxD6JointDrive({stiffness}f, {damping}f, PX_MAX_F32, false));\nbody->setLinearDamping(0.0f);",
+    ),
+    mode(
+        "acceleration-drive",
+        ("stiffness", StiffnessPerMass),
+        ("damping", DampingPerMass),
+        "joint->setDrive(PxD6Drive::eX, PxD6JointDrive({stiffness}f, {damping}f, PX_MAX_F32, true));\nbody->setLinearDamping(0.0f);",
+    ),
+    mode(
+        "unity",
+        ("positionSpring", Stiffness),
+        ("positionDamper", Damping),
+        "JointDrive drive = joint.xDrive;\ndrive.positionSpring = {positionSpring}f;\ndrive.positionDamper = {positionDamper}f;\njoint.xDrive = drive;\nbody.linearDamping = 0f;",
+    ),
+];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-physx",
@@ -19,6 +44,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
             opt_in: Some(SpinMap::ScaledMomentum),
             per_substep: false,
         }),
+        version: "5.1.3",
+        logged: Some("2026-11-21"),
+        modes: &MODES,
     }),
     source: "PhysX 5.1.3: the projected Gauss-Seidel solver, D6 drive and distance joint",
     formula: &[

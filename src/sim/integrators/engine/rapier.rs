@@ -3,7 +3,26 @@
 use super::{Rule, Tick, cap, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
+use crate::sim::integrators::joint_mode::JointQuantity::{
+    Damping, DampingPerMass, Stiffness, StiffnessPerMass,
+};
+use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+
+const MODES: [JointMode; 2] = [
+    mode(
+        "force-based",
+        ("stiffness", Stiffness),
+        ("damping", Damping),
+        "SpringJointBuilder::new(rest_length, {stiffness}, {damping})",
+    ),
+    mode(
+        "acceleration-based",
+        ("stiffness", StiffnessPerMass),
+        ("damping", DampingPerMass),
+        "SpringJointBuilder::new(rest_length, {stiffness}, {damping})\n    .spring_model(MotorModel::AccelerationBased)",
+    ),
+];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-rapier",
@@ -20,6 +39,9 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
             opt_in: None,
             per_substep: true,
         }),
+        version: "0.36.1",
+        logged: Some("2026-11-21"),
+        modes: &MODES,
     }),
     source: "Rapier 0.36.1: staged_island_solver/worker.rs, motor_model.rs",
     formula: &[

@@ -1,0 +1,232 @@
+//! `regatta port`: the settings with which a spring moves the same in every engine.
+
+use clap::builder::RangedU64ValueParser;
+use clap::{ArgGroup, Args};
+
+use super::error::{Cause, Error};
+use super::identify::{LogArgs, number, positive, rate};
+use super::output::print;
+use super::output::table::TableFormat;
+use crate::lab::{
+    DriveLimits, MOST_SUBSTEPS, Ported, Setup, Wish, WishError, drive_limits, followers, identify,
+    nearest, port, setups,
+};
+use crate::sim::integrators::{METHODS, Method};
+
+mod from;
+mod report;
+
+use from::{From, with_unit};
+
+const ABOUT: &str = "\
+What a player sees of a spring differs from engine to engine: each damps by itself, softens or
+stiffens it. For each engine, the settings are sought under which its tick shows what is wished:
+
+  --want 2.5Hz --zeta 0.3        a frequency and a damping ratio
+  --from engine-X:KEY=VALUE,…    what engine X shows with its own settings; substeps, tick_hz and
+                                 mode may be given as keys too
+  --from LOG.csv                 what is seen in a log, which is read as by `regatta identify`
+  --from lerp:0.1@60fps          a value that chases a target: also smooth-damp:SECONDS and
+                                 half-life:SECONDS, to every follower at every rate of frames
+
+The frequency is the one at which the spring swings, or would without its damping; with a damping
+ratio d it swings √(1 - d²) times as fast. Frequency and damping ratio are read off the map of a
+tick, which is measured on the engine's step. The body is on a line and has no drag of its own, and
+what holds the spring rests. The word is
+
+  reached      the engine shows the wish, to rounding
+  nearest      it does not; these settings come nearest
+  unreachable  it does not, because it damps more by itself: its floor is the least damping ratio
+               that it shows at this frequency
+
+Nearest is the least sum of two distances, of the logarithms of the frequencies and of the damping
+ratios. A number of substeps that is not given is the engine's own default.
+
+With --drive the wish is the gains of a drive, as the equation of motion has them: of the engine's
+own, and of a force of user code that is held through --decimation ticks. Told are the largest
+stable stiffness with the damping of the wish, the largest stable damping with its stiffness, and
+the fewest substeps, up to 64, with which both are stable.
+
+JSON has want (frequency_hz, damping_ratio, mass_kg), tick_hz and engines, each with method, mode,
+substeps, word, settings, sees, floor, own_force and code, or with --drive drives.
+
+Examples:
+  regatta port --want 2.5Hz --zeta 0.3 --mass 80
+  regatta port --want 1Hz --to engine-box2d,engine-jolt --tick-hz 50
+  regatta port --from engine-godot:stiffness=1000,damping=80 --mass 80 --to engine-jolt
+  regatta port --from spring.csv --tick-hz 60 --format json
+  regatta port --want 5Hz --zeta 1 --drive --decimation 4 --tick-hz 500 --to engine-mujoco
+  regatta port --from lerp:0.1@60fps";
+
+/// Say the settings with which a spring moves the same in every engine
+#[derive(Debug, Args)]
+#[command(after_help = ABOUT)]
+#[command(group = ArgGroup::new("wish").required(true))]
+pub(super) struct PortArgs {
+    /// The frequency in Hz that a player is to see
+    #[arg(long, value_name = "HZ", group = "wish", allow_hyphen_values = true)]
+    #[arg(value_parser = |written: &str| with_unit(written, "Hz"))]
+    want: Option<f64>,
+
+    /// The damping ratio that a player is to see, 1 where it just swings no more [default: 0]
+    #[arg(long, value_name = "RATIO", value_parser = number, allow_negative_numbers = true)]
+    #[arg(requires = "want")]
+    zeta: Option<f64>,
+
+    /// The settings of an engine, a log, or how a value chases its target
+    #[arg(long, value_name = "ENGINE:KEY=VALUE,…|LOG.csv|CHASE", group = "wish")]
+    from: Option<String>,
+
+    /// The mass on the spring in kg
+    #[arg(long, value_name = "KG", default_value = "1", value_parser = positive)]
+    #[arg(allow_negative_numbers = true)]
+    mass: f64,
+
+    /// Ticks per second of the engines, and of a log
+    #[arg(long, value_name = "N", default_value = "60", value_parser = rate)]
+    tick_hz: f64,
+
+    /// Substeps per tick, 1 to 10000 [default: each engine's own]
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = RangedU64ValueParser::<u32>::new().range(1..=u64::from(MOST_SUBSTEPS)))]
+    substeps: Option<u32>,
+
+    /// The engines (`regatta list methods`), or all
+    #[arg(long, value_name = "ID,…", default_value = "all", value_delimiter = ',')]
+    #[arg(value_parser = engines)]
+    to: Vec<Asked>,
+
+    /// The limits of a drive with these gains
+    #[arg(long)]
+    drive: bool,
+
+    /// The ticks through which a drive of user code holds its force
+    #[arg(long, value_name = "N", default_value = "1", requires = "drive")]
+    #[arg(value_parser = RangedU64ValueParser::<u32>::new().range(1..=1000))]
+    decimation: u32,
+
+    #[command(flatten)]
+    read: LogArgs,
+
+    /// The format: text or json
+    #[arg(long, value_name = "FORMAT", default_value = "text", hide_possible_values = true)]
+    format: TableFormat,
+}
+
+/// One engine, or all of them.
+#[derive(Clone, Copy, Debug)]
+enum Asked {
+    All,
+    One(&'static Method),
+}
+
+/// Whether a method is told a spring.
+fn has_modes(method: &Method) -> bool {
+    method.engine.is_some_and(|engine| !engine.modes.is_empty())
+}
+
+/// The engine of this id, which has a spring.
+fn engine(id: &str) -> Result<&'static Method, String> {
+    let all = || METHODS.iter().filter(|method| has_modes(method));
+    all().find(|method| method.id == id).ok_or_else(|| {
+        let ids = || all().map(|method| method.id);
+        match nearest(id, ids().map(|id| (id, id))) {
+            Some(meant) => format!("no engine with a spring is called {id}; did you mean {meant}?"),
+            None => {
+                let all = ids().collect::<Vec<_>>().join(", ");
+                format!("no engine with a spring is called {id}; there are {all}")
+            }
+        }
+    })
+}
+
+fn engines(id: &str) -> Result<Asked, String> {
+    if id == "all" { Ok(Asked::All) } else { engine(id).map(Asked::One) }
+}
+
+/// Why nothing can be ported.
+#[derive(Debug, thiserror::Error)]
+enum PortError {
+    /// What is asked cannot be read.
+    #[error("--from {from}: {fault}")]
+    From { from: String, fault: String },
+    /// The log shows no spring.
+    #[error("{log}: no spring can be seen in it; give --k, log v too, or log for longer")]
+    NoSpring { log: String },
+    /// A wish that no engine can show.
+    #[error("{0}")]
+    Wish(#[from] WishError),
+    /// What has no meaning of a chase.
+    #[error("--drive is for a spring; give --want, or settings of an engine in --from")]
+    DriveOfChase,
+}
+
+impl Cause for PortError {
+    fn exit_code(&self) -> u8 {
+        2
+    }
+}
+
+/// A setup that shows nothing near a wish has no settings.
+struct PortedEngine {
+    setup: Setup,
+    ported: Option<Ported>,
+}
+
+/// A drive in an engine: its own, and with its first mode that of a force of user code.
+struct Drive {
+    setup: Setup,
+    limits: Vec<DriveLimits>,
+}
+
+pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
+    let from = args.from.as_deref().map(|written| {
+        From::parse(written, args.tick_hz, args.mass)
+            .map_err(|fault| PortError::From { from: written.to_owned(), fault })
+    });
+    let wish = match from.transpose()? {
+        Some(From::Approach(_, _)) if args.drive => return Err(PortError::DriveOfChase.into()),
+        Some(From::Approach(approach, fps)) => {
+            let ports = followers(approach, fps);
+            return Ok(print(&report::followers(approach, &ports, args.format))?);
+        }
+        Some(From::Engine(wish)) => wish,
+        Some(From::Log(path)) => {
+            let log = args.read.read(&path, args.tick_hz)?;
+            let found = identify(&log, &args.read.body(args.mass), args.tick_hz);
+            let seen = found.and_then(|found| found.effective).filter(|seen| seen.omega > 0.0);
+            let none = || PortError::NoSpring { log: path.display().to_string() };
+            Wish::of(seen.ok_or_else(none)?, args.mass)
+        }
+        None => Wish {
+            frequency_hz: args.want.expect("one of the group is given"),
+            damping_ratio: args.zeta.unwrap_or(0.0),
+            mass_kg: args.mass,
+        },
+    };
+    wish.check(args.tick_hz).map_err(PortError::Wish)?;
+    let named: Option<Vec<&Method>> = args
+        .to
+        .iter()
+        .map(|asked| match asked {
+            Asked::One(method) => Some(*method),
+            Asked::All => None,
+        })
+        .collect();
+    let setups = setups(named.as_deref(), args.tick_hz, args.substeps);
+    let text = if args.drive {
+        let limits = |setup: Setup| {
+            let of = |held| drive_limits(setup, wish.joint(), held);
+            let modes = setup.method.engine.map_or(&[][..], |engine| engine.modes);
+            let own_force = (modes.first() == Some(setup.mode)).then(|| of(Some(args.decimation)));
+            Drive { setup, limits: [of(None)].into_iter().chain(own_force).collect() }
+        };
+        let drives: Vec<Drive> = setups.into_iter().map(limits).collect();
+        report::drives(&wish, args.tick_hz, &drives, args.format)
+    } else {
+        let of = |setup| PortedEngine { setup, ported: port(&wish, setup) };
+        let all: Vec<PortedEngine> = setups.into_iter().map(of).collect();
+        report::engines(&wish, args.tick_hz, &all, args.format)
+    };
+    Ok(print(&text)?)
+}

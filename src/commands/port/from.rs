@@ -1,0 +1,138 @@
+//! What `--from` says: the settings of an engine, a log, or how a value chases its target.
+
+use std::path::PathBuf;
+
+use super::engine;
+use crate::lab::{Approach, MOST_SUBSTEPS, Setup, Wish};
+use crate::sim::integrators::{JointMode, Method};
+
+/// Where a wish comes from.
+pub(super) enum From {
+    /// From what an engine shows.
+    Engine(Wish),
+    /// From a chase, and its rate of frames if it has one.
+    Approach(Approach, Option<f64>),
+    /// From a log.
+    Log(PathBuf),
+}
+
+/// A number that may have this unit behind it.
+pub(super) fn with_unit(written: &str, unit: &str) -> Result<f64, String> {
+    let number = written.strip_suffix(unit).unwrap_or(written).trim_end();
+    let found = number.parse::<f64>().ok().filter(|number| number.is_finite());
+    found.ok_or_else(|| match unit {
+        "" => format!("\"{written}\" is no number without a unit"),
+        unit => format!("\"{written}\" is no number of {unit}; write it as 2.5{unit}"),
+    })
+}
+
+fn above_0(written: &str, unit: &str, what: &str) -> Result<f64, String> {
+    let found = with_unit(written, unit)?;
+    if found > 0.0 { Ok(found) } else { Err(format!("{what} is {written}; it must be above 0")) }
+}
+
+impl From {
+    /// Reads it, at this tick rate in hertz and of a body of this mass in kg.
+    pub(super) fn parse(written: &str, tick_hz: f64, mass_kg: f64) -> Result<Self, String> {
+        let Some((head, rest)) = written.split_once(':') else {
+            return Ok(From::Log(written.into()));
+        };
+        match head {
+            "lerp" => {
+                let (part, fps) =
+                    rest.split_once('@').ok_or("give the frames too: lerp:0.1@60fps")?;
+                let fps = above_0(fps, "fps", "the rate of frames")?;
+                let part = with_unit(part, "")?;
+                let fits = part > 0.0 && part < 1.0;
+                let wrong = || format!("the part is {part}; it must be between 0 and 1");
+                Ok(From::Approach(
+                    Approach::of_lerp(fits.then_some(part).ok_or_else(wrong)?, fps),
+                    Some(fps),
+                ))
+            }
+            "smooth-damp" => {
+                let seconds = above_0(rest, "s", "the smoothing time")?;
+                Ok(From::Approach(Approach::of_smooth_time(seconds), None))
+            }
+            "half-life" => {
+                let half_life_s = above_0(rest, "s", "the half-life")?;
+                Ok(From::Approach(Approach { half_life_s }, None))
+            }
+            // A drive of a path has one letter.
+            _ if head.len() == 1 => Ok(From::Log(written.into())),
+            _ => of_engine(engine(head)?, rest, tick_hz, mass_kg).map(From::Engine),
+        }
+    }
+}
+
+/// What an engine shows with settings that are written as `key=value,…`.
+fn of_engine(
+    method: &'static Method,
+    written: &str,
+    tick_hz: f64,
+    mass_kg: f64,
+) -> Result<Wish, String> {
+    let modes = method.engine.map_or(&[][..], |engine| engine.modes);
+    let (mut mode, mut tick_hz, mut substeps) = (None, tick_hz, method.default_substeps);
+    let mut values: Vec<(&str, &str)> = Vec::new();
+    for pair in written.split(',') {
+        let (key, value) =
+            pair.split_once('=').ok_or_else(|| format!("\"{pair}\" is no KEY=VALUE"))?;
+        match key.trim() {
+            "mode" => {
+                let known = modes.iter().find(|mode| mode.id == value);
+                let ids = || modes.iter().map(|mode| mode.id).collect::<Vec<_>>().join(", ");
+                mode = Some(known.ok_or_else(|| format!("no mode {value}; there are {}", ids()))?);
+            }
+            "tick_hz" => tick_hz = above_0(value, "Hz", "tick_hz")?,
+            "substeps" => {
+                let number = value.parse().ok().filter(|n| (1..=MOST_SUBSTEPS).contains(n));
+                substeps =
+                    number.ok_or(format!("substeps is {value}; give 1 to {MOST_SUBSTEPS}"))?;
+            }
+            key if values.iter().any(|(known, _)| *known == key) => {
+                return Err(format!("{key} is given twice"));
+            }
+            key => values.push((key, value)),
+        }
+    }
+    let names = |mode: &JointMode| mode.settings().map(|setting| setting.name);
+    let tried = || modes.iter().filter(|known| mode.is_none_or(|mode| mode == *known));
+    let fits = |mode: &&JointMode| values.iter().all(|(key, _)| names(mode).contains(key));
+    let Some(mode) = tried().find(fits) else {
+        let known: Vec<String> = tried().map(|mode| names(mode).join(" and ")).collect();
+        let keys: Vec<&str> = values.iter().map(|(key, _)| *key).collect();
+        let (keys, known) = (keys.join(" and "), known.join(", or "));
+        return Err(format!("{} has no {keys}; it has {known}", method.id));
+    };
+    let [stiffness, damping] = mode.settings();
+    let value = |setting: crate::sim::integrators::Setting| {
+        let given = values.iter().find(|(key, _)| *key == setting.name);
+        given.map(|(_, value)| with_unit(value, setting.quantity.unit())).transpose()
+    };
+    let first = value(stiffness).map_err(|fault| format!("{}: {fault}", stiffness.name))?;
+    let second = value(damping).map_err(|fault| format!("{}: {fault}", damping.name))?;
+    let first = first.ok_or_else(|| format!("give {} too", stiffness.name))?;
+    let second = second.unwrap_or(0.0);
+    if first <= 0.0 || second < 0.0 {
+        let (name, value, wanted) = match first <= 0.0 {
+            true => (stiffness.name, first, "above 0"),
+            false => (damping.name, second, "0 or more"),
+        };
+        return Err(format!("{name} is {value}; it must be {wanted}"));
+    }
+    let setup = Setup { method, mode, tick_hz, substeps };
+    let seen = setup.sees(mode.joint([first, second], mass_kg));
+    let seen = seen.ok_or_else(|| {
+        format!("nothing swings so in {} ×{substeps} at {tick_hz} Hz; tick faster", method.id)
+    })?;
+    let wish = Wish::of(seen, mass_kg);
+    if wish.damping_ratio < -1e-9 {
+        let ratio = wish.damping_ratio;
+        return Err(format!(
+            "so set, {} ×{substeps} at {tick_hz} Hz gains energy: its damping ratio is {ratio:.4}; damp more, or tick faster",
+            method.id
+        ));
+    }
+    Ok(Wish { damping_ratio: wish.damping_ratio.max(0.0), ..wish })
+}

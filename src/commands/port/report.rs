@@ -1,0 +1,245 @@
+//! What was ported, in words and as JSON.
+
+use serde_json::{Map, Value, json};
+
+use super::{Drive, PortedEngine};
+use crate::commands::output::table::TableFormat;
+use crate::lab::number::{round, significant};
+use crate::lab::{Approach, DriveLimits, Effective, FollowerPort, Ported, Reach, Setup, Wish};
+
+/// A frequency, a damping ratio and how long the energy lasts.
+fn sees(seen: &Effective) -> String {
+    let ratio = seen.decay / seen.omega;
+    let ratio = if ratio.abs() < 5e-7 { 0.0 } else { ratio };
+    let hz = seen.omega / std::f64::consts::TAU;
+    let mut said = format!("{} Hz, damping ratio {}", significant(hz, 4), significant(ratio, 3));
+    match seen.frequency_hz() {
+        Some(swings) if (swings / hz - 1.0).abs() > 1e-3 => {
+            said += &format!(", swings at {} Hz", significant(swings, 4));
+        }
+        Some(_) => {}
+        None => said += ", does not swing",
+    }
+    match seen.energy_halves_s().filter(|seconds| seconds.abs() < 1e5) {
+        Some(s) if s > 0.0 => said + &format!(", the energy halves in {} s", significant(s, 3)),
+        Some(s) => said + &format!(", the energy doubles in {} s", significant(-s, 3)),
+        None => said + ", the energy stays",
+    }
+}
+
+fn seen_object(seen: &Effective) -> Value {
+    json!({
+        "frequency_hz": seen.omega / std::f64::consts::TAU,
+        "damping_ratio": seen.decay / seen.omega,
+        "swings_hz": seen.frequency_hz(),
+        "energy_halves_s": seen.energy_halves_s(),
+    })
+}
+
+fn name(setup: &Setup) -> String {
+    format!("{} ×{}, {}", setup.method.id, setup.substeps, setup.mode.id)
+}
+
+/// The engine's version and the day of its logs.
+fn origin(setup: &Setup) -> Option<String> {
+    let engine = setup.method.engine.filter(|engine| !engine.version.is_empty())?;
+    let logged = engine.logged.map_or("held against no log".into(), |day| format!("logged {day}"));
+    Some(format!("version {}, {logged}", engine.version))
+}
+
+fn want(wish: &Wish, tick_hz: f64) -> String {
+    let [hz, ratio] = [wish.frequency_hz, wish.damping_ratio].map(|x| significant(x, 4));
+    format!("{hz} Hz, damping ratio {ratio}, {} kg, at {tick_hz} ticks per second\n", wish.mass_kg)
+}
+
+fn object(wish: &Wish, tick_hz: f64, key: &str, rows: Vec<Value>) -> String {
+    let object = json!({
+        "want": {
+            "frequency_hz": wish.frequency_hz,
+            "damping_ratio": wish.damping_ratio,
+            "mass_kg": wish.mass_kg,
+        },
+        "tick_hz": tick_hz,
+        key: rows,
+    });
+    format!("{object:#}\n")
+}
+
+/// The settings of every engine.
+pub(super) fn engines(
+    wish: &Wish,
+    tick_hz: f64,
+    all: &[PortedEngine],
+    format: TableFormat,
+) -> String {
+    match format {
+        TableFormat::Json => object(wish, tick_hz, "engines", all.iter().map(row).collect()),
+        TableFormat::Text => {
+            let blocks = all.iter().map(|engine| block(wish, engine));
+            want(wish, tick_hz) + &blocks.collect::<String>()
+        }
+    }
+}
+
+fn row(PortedEngine { setup, ported }: &PortedEngine) -> Value {
+    let engine = setup.method.engine;
+    let settings = |ported: &Ported| -> Map<String, Value> {
+        let names = setup.mode.settings().map(|setting| setting.name.to_owned());
+        names.into_iter().zip(ported.values.map(Value::from)).collect()
+    };
+    let word = ported.as_ref().map_or(Reach::Nearest, |ported| ported.reach).id();
+    let force = |[k, c]: [f64; 2]| json!({"stiffness_n_per_m": k, "damping_n_s_per_m": c});
+    json!({
+        "method": setup.method.id,
+        "mode": setup.mode.id,
+        "substeps": setup.substeps,
+        "version": engine.map(|engine| engine.version),
+        "logged": engine.and_then(|engine| engine.logged),
+        "word": word,
+        "settings": ported.as_ref().map(settings),
+        "sees": ported.as_ref().map(|ported| seen_object(&ported.sees)),
+        "floor": ported.as_ref().and_then(|p| p.floor).map(|ratio| json!({"damping_ratio": ratio})),
+        "own_force": ported.as_ref().and_then(|ported| ported.own_force).map(force),
+        "code": ported.as_ref().map(Ported::code),
+    })
+}
+
+fn block(wish: &Wish, PortedEngine { setup, ported }: &PortedEngine) -> String {
+    let Some(ported) = ported else {
+        return format!("\n{}: nothing near\n", name(setup));
+    };
+    let mut lines = vec![format!("\n{}: {}", name(setup), ported.reach.id())];
+    let set = setup.mode.settings().into_iter().zip(ported.values).map(|(setting, value)| {
+        let unit = setting.quantity.unit();
+        format!("{} = {} {unit}", setting.name, round(value, 6)).trim_end().to_owned()
+    });
+    lines.push(format!("  {}", set.collect::<Vec<_>>().join(", ")));
+    lines.push(format!("  a player sees: {}", sees(&ported.sees)));
+    lines.extend(missed(wish, ported).map(|said| format!("  {said}")));
+    lines.extend(ported.own_force.map(|[k, c]| {
+        let [k, c] = [k, c].map(|x| round(x, 6));
+        format!("  a force of your own reaches it: stiffness {k} N/m, damping {c} N s/m")
+    }));
+    lines.extend(ported.code().lines().map(|line| format!("    {line}")));
+    lines.extend(origin(setup).map(|said| format!("  {said}")));
+    lines.join("\n") + "\n"
+}
+
+/// What is missed, and why.
+fn missed(wish: &Wish, ported: &Ported) -> Option<String> {
+    let Setup { method, substeps, tick_hz, .. } = ported.setup;
+    let three = |ratio: f64| significant(ratio, 3);
+    let hz = round(wish.frequency_hz, 4);
+    match (ported.reach, ported.floor) {
+        (Reach::Reached, _) => None,
+        (Reach::Unreachable, Some(floor)) => {
+            let mut said = format!(
+                "{} ×{substeps} at {tick_hz} Hz cannot go below a damping ratio of {} at {hz} Hz",
+                method.name,
+                three(floor)
+            );
+            if let Some(relief) = ported.relief {
+                let way = match relief.setup.substeps == substeps {
+                    true => format!("at {} Hz", relief.setup.tick_hz),
+                    false => format!("×{}", relief.setup.substeps),
+                };
+                said += &format!("; {way} can go to {}", three(relief.damping_ratio));
+                let more = relief.enough.filter(|enough| *enough != relief.setup.substeps);
+                said += &more.map_or(String::new(), |n| format!(", and ×{n} reaches it"));
+            }
+            Some(said)
+        }
+        _ => {
+            let off = 100.0 * (ported.sees.omega / std::f64::consts::TAU / wish.frequency_hz - 1.0);
+            let ratio = ported.sees.decay / ported.sees.omega - wish.damping_ratio;
+            Some(format!("missed: frequency by {off:+.3} %, damping ratio by {ratio:+.4}"))
+        }
+    }
+}
+
+/// The limits of drives.
+pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableFormat) -> String {
+    let mass = wish.mass_kg;
+    let [kp, kv] = wish.joint().map(|gain| gain * mass);
+    match format {
+        TableFormat::Json => {
+            let row = |drive: &Drive, limits: &DriveLimits| {
+                json!({
+                    "method": drive.setup.method.id,
+                    "mode": limits.held_ticks.map_or(drive.setup.mode.id, |_| "own-force"),
+                    "substeps": drive.setup.substeps,
+                    "decimation": limits.held_ticks,
+                    "gains": { "kp_n_per_m": kp, "kv_n_s_per_m": kv },
+                    "max_kp_n_per_m": limits.max_stiffness.map(|k| k * mass),
+                    "max_kv_n_s_per_m": limits.max_damping.map(|c| c * mass),
+                    "fewest_substeps": limits.fewest_substeps,
+                    "sees": limits.sees.as_ref().map(seen_object),
+                })
+            };
+            let rows = all.iter().flat_map(|d| d.limits.iter().map(move |limits| row(d, limits)));
+            object(wish, tick_hz, "drives", rows.collect())
+        }
+        TableFormat::Text => {
+            let gains = format!("kp {} N/m, kv {} N s/m\n", round(kp, 6), round(kv, 6));
+            let said = |drive: &Drive, limits: &DriveLimits| {
+                let gain = |most: Option<f64>, unit: &str| match most {
+                    Some(most) => format!("up to {} {unit}", round(most * mass, 4)),
+                    None => "any".into(),
+                };
+                let substeps = match limits.fewest_substeps {
+                    Some(n) => format!("stable from ×{n}"),
+                    None => "stable with no number of substeps up to 64".into(),
+                };
+                let who = match limits.held_ticks {
+                    None => "the engine's drive".into(),
+                    Some(1) => "a force of your own, held 1 tick".into(),
+                    Some(n) => format!("a force of your own, held {n} ticks"),
+                };
+                let seen = limits.sees.as_ref().map_or("no swing".into(), sees);
+                format!(
+                    "\n{}: {who}\n  kp {} with this kv, kv {} with this kp, {substeps}\n  a player sees: {seen}\n",
+                    name(&drive.setup),
+                    gain(limits.max_stiffness, "N/m"),
+                    gain(limits.max_damping, "N s/m"),
+                )
+            };
+            let blocks =
+                all.iter().flat_map(|d| d.limits.iter().map(move |limits| said(d, limits)));
+            want(wish, tick_hz) + &gains + &blocks.collect::<String>()
+        }
+    }
+}
+
+/// The settings of every follower.
+pub(super) fn followers(approach: Approach, all: &[FollowerPort], format: TableFormat) -> String {
+    match format {
+        TableFormat::Json => {
+            let row = |port: &FollowerPort| {
+                json!({
+                    "method": port.method.id,
+                    "fps": port.fps,
+                    "settings": { port.setting: port.value },
+                    "code": port.code,
+                })
+            };
+            let object = json!({
+                "want": { "half_life_s": approach.half_life_s, "rate_per_s": approach.rate() },
+                "followers": all.iter().map(row).collect::<Vec<_>>(),
+            });
+            format!("{object:#}\n")
+        }
+        TableFormat::Text => {
+            let [half, rate] = [approach.half_life_s, approach.rate()].map(|x| significant(x, 4));
+            let mut said = format!("halves in {half} s: 1 - exp(-{rate} dt)\n");
+            for of_method in all.chunk_by(|a, b| a.method == b.method) {
+                let first = &of_method[0];
+                said += &format!("\n{}, {}\n", first.method.id, first.setting);
+                for port in of_method {
+                    let value = significant(port.value, 5);
+                    said += &format!("  {:>4} fps  {value:10}  {}\n", port.fps, port.code);
+                }
+            }
+            said
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! What an engine calls the stiffness and the damping of a spring, and in which units it takes them.
+
+use std::f64::consts::TAU;
+
+/// A way in which an engine is told a spring: one setting for its stiffness and one for its damping.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointMode {
+    /// Kebab-case name, unique among the modes of the engine.
+    pub id: &'static str,
+    /// What sets the stiffness.
+    pub stiffness: Setting,
+    /// What sets the damping.
+    pub damping: Setting,
+    /// Whether the engine computes the spring's force at the start of a substep, as it does a force of user code.
+    pub is_explicit: bool,
+    /// Lines of code that set it, in the engine's own language. The name of a setting in braces stands for its value.
+    pub code: &'static str,
+}
+
+/// A number that an engine takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Setting {
+    /// Its name in the engine.
+    pub name: &'static str,
+    /// What it is.
+    pub quantity: JointQuantity,
+}
+
+/// What a setting of a joint is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointQuantity {
+    /// k, in N/m.
+    Stiffness,
+    /// k/m, in 1/s².
+    StiffnessPerMass,
+    /// 1/k, in m/N.
+    Compliance,
+    /// √(k/m) / 2π, in Hz.
+    Frequency,
+    /// c, in N s/m.
+    Damping,
+    /// c/m, in 1/s.
+    DampingPerMass,
+    /// c / (2 √(k m)).
+    DampingRatio,
+}
+
+use JointQuantity::*;
+
+impl JointQuantity {
+    /// Its unit; empty if it has none.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Stiffness => "N/m",
+            StiffnessPerMass => "1/s²",
+            Compliance => "m/N",
+            Frequency => "Hz",
+            Damping => "N s/m",
+            DampingPerMass => "1/s",
+            DampingRatio => "",
+        }
+    }
+
+    /// Its value for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on a mass in kg.
+    pub fn of(self, [stiffness, damping]: [f64; 2], mass_kg: f64) -> f64 {
+        match self {
+            Stiffness => stiffness * mass_kg,
+            StiffnessPerMass => stiffness,
+            Compliance => 1.0 / (stiffness * mass_kg),
+            Frequency => libm::sqrt(stiffness) / TAU,
+            Damping => damping * mass_kg,
+            DampingPerMass => damping,
+            DampingRatio => damping / (2.0 * libm::sqrt(stiffness)),
+        }
+    }
+}
+
+impl JointMode {
+    /// What sets the stiffness, and what sets the damping.
+    pub fn settings(&self) -> [Setting; 2] {
+        [self.stiffness, self.damping]
+    }
+
+    /// The values of its settings for a joint of this stiffness in 1/s² and damping in 1/s, each per unit of mass, on a
+    /// mass in kg.
+    pub fn values(&self, joint: [f64; 2], mass_kg: f64) -> [f64; 2] {
+        self.settings().map(|setting| setting.quantity.of(joint, mass_kg))
+    }
+
+    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, that these values of its settings are on a
+    /// mass in kg.
+    pub fn joint(&self, [first, second]: [f64; 2], mass_kg: f64) -> [f64; 2] {
+        let stiffness = match self.stiffness.quantity {
+            Stiffness => first / mass_kg,
+            Compliance => 1.0 / (first * mass_kg),
+            Frequency => (TAU * first) * (TAU * first),
+            _ => first,
+        };
+        let damping = match self.damping.quantity {
+            Damping => second / mass_kg,
+            DampingRatio => 2.0 * second * libm::sqrt(stiffness),
+            _ => second,
+        };
+        [stiffness, damping]
+    }
+
+    /// Its lines of code with these values; a whole number gets a decimal point.
+    pub fn code_with(&self, values: [f64; 2]) -> String {
+        let mut code = self.code.to_owned();
+        for (setting, value) in self.settings().into_iter().zip(values) {
+            code = code.replace(&format!("{{{}}}", setting.name), &in_code(value));
+        }
+        code
+    }
+}
+
+/// A number as code writes it: with a decimal point or an exponent, to nine digits.
+pub fn in_code(value: f64) -> String {
+    let rounded = format!("{value:.8e}").parse::<f64>();
+    format!("{:?}", rounded.unwrap_or(value))
+}
+
+/// A mode, which is implicit or as the engine has it.
+pub(super) const fn mode(
+    id: &'static str,
+    stiffness: (&'static str, JointQuantity),
+    damping: (&'static str, JointQuantity),
+    code: &'static str,
+) -> JointMode {
+    let stiffness = Setting { name: stiffness.0, quantity: stiffness.1 };
+    let damping = Setting { name: damping.0, quantity: damping.1 };
+    JointMode { id, stiffness, damping, is_explicit: false, code }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_joint_is_the_same_by_the_values_of_any_pair_of_settings() {
+        let joint = [39.5, 0.7];
+        for stiffness in [Stiffness, StiffnessPerMass, Compliance, Frequency] {
+            for damping in [Damping, DampingPerMass, DampingRatio] {
+                let mode = mode("any", ("a", stiffness), ("b", damping), "f({a}, {b})");
+                let back = mode.joint(mode.values(joint, 80.0), 80.0);
+                let is_near = |(a, b): (f64, f64)| (a / b - 1.0).abs() < 1e-14;
+                assert!(back.into_iter().zip(joint).all(is_near), "{mode:?}: {back:?}");
+                assert_eq!(mode.code_with([2.0, 0.25]), "f(2.0, 0.25)");
+            }
+        }
+    }
+}

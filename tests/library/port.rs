@@ -1,0 +1,317 @@
+//! Settings that are ported from engine to engine: each is set, stepped, and what is seen is fitted to the run anew.
+
+use std::f64::consts::TAU;
+
+use regatta::lab::{
+    Approach, Ported, Reach, Setup, Wish, WishError, drive_limits, followers, port, setups,
+};
+use regatta::sim::integrators::{integrator, method};
+use regatta::sim::{Pursuit, State, System, least_squares};
+
+use crate::dice::Dice;
+use crate::engines::Body;
+
+/// How many wishes are tried; `REGATTA_WISHES` sets another number.
+fn wishes() -> usize {
+    let wishes = std::env::var("REGATTA_WISHES").ok().and_then(|count| count.parse().ok());
+    wishes.unwrap_or(24)
+}
+
+/// A wish, ticks per second and substeps, which can be seen.
+fn draw(dice: &mut Dice) -> (Wish, f64, u32) {
+    loop {
+        let wish = Wish {
+            frequency_hz: 0.2 * (150.0_f64).powf(dice.part()),
+            damping_ratio: if dice.below(6) == 0 { 0.0 } else { dice.between(0.0, 2.0) },
+            mass_kg: dice.between(0.1, 200.0),
+        };
+        let tick_hz = dice.between(30.0, 240.0).round();
+        let substeps = 1 + dice.below(8) as u32;
+        if wish.check(tick_hz).is_ok() {
+            return (wish, tick_hz, substeps);
+        }
+    }
+}
+
+/// The states of a run of `ticks` ticks.
+fn run(setup: &Setup, joint: [f64; 2], start: [f64; 2], ticks: u32) -> Vec<[f64; 2]> {
+    let body = Body { spring: joint, drag: 0.0, push: 0.0, is_held: false };
+    let mut state = State { q: start[0], v: start[1] };
+    // A force that is read anew in every substep is the right side of an equation under semi-implicit Euler.
+    let stepped = match setup.mode.is_explicit {
+        true => method("semi-implicit-euler").unwrap(),
+        false => setup.method,
+    };
+    let mut engine = integrator::<Body>(stepped, &state.q);
+    let mut states = vec![start];
+    for tick in 0..ticks {
+        let t = f64::from(tick) / setup.tick_hz;
+        engine.steps(&body, t, 1.0 / setup.tick_hz, setup.substeps, &mut state).unwrap();
+        states.push([state.q, state.v]);
+    }
+    states
+}
+
+/// The frequency and the damping ratio of runs from two starts: y″ = a y′ + b y of coordinates and of velocities, by least
+/// squares, with a term more for an engine that has a memory.
+fn fitted(setup: &Setup, joint: [f64; 2]) -> Option<[f64; 2]> {
+    const TICKS: u32 = 24;
+    let terms = if setup.method.restart.is_some() { 3 } else { 2 };
+    let (mut columns, mut right) = (vec![Vec::new(); terms], Vec::new());
+    for start in [[1e-3, 0.0], [0.0, 1e-3]] {
+        for rows in run(setup, joint, start, TICKS).windows(terms + 1) {
+            for part in 0..2 {
+                // Every row counts alike, however far the motion has died away.
+                let size = rows.iter().map(|state| state[part].abs()).fold(0.0, f64::max);
+                if size > 1e-30 {
+                    for (term, column) in columns.iter_mut().enumerate() {
+                        column.push(rows[terms - 1 - term][part] / size);
+                    }
+                    right.push(rows[terms][part] / size);
+                }
+            }
+        }
+    }
+    let found = least_squares(&columns, &right)?;
+    let (half, product) = match found[..] {
+        [a, b] => (a / 2.0, -b),
+        [a, b, c] => {
+            // What the memory adds decays the fastest: its root is the nearest to 0, and it is divided out.
+            let mut root = 0.0;
+            for _ in 0..30 {
+                let value = ((root - a) * root - b) * root - c;
+                root -= value / ((3.0 * root - 2.0 * a) * root - b);
+            }
+            ((a - root) / 2.0, -b - root * (a - root))
+        }
+        _ => return None,
+    };
+    let rates = -product.ln() * setup.tick_hz;
+    let apart = half * half - product;
+    let omega_square = match apart < 0.0 {
+        true => {
+            let angle = (-apart).sqrt().atan2(half) * setup.tick_hz;
+            rates * rates / 4.0 + angle * angle
+        }
+        false => {
+            let [fast, slow] = [-1.0, 1.0].map(|s| -(half + s * apart.sqrt()).ln() * setup.tick_hz);
+            fast * slow
+        }
+    };
+    let omega = omega_square.sqrt();
+    Some([omega / TAU, rates / 2.0 / omega])
+}
+
+/// What is missed, as the program says how near settings are.
+fn missed(wish: &Wish, setup: &Setup, joint: [f64; 2]) -> f64 {
+    let Some(seen) = setup.sees(joint) else { return f64::INFINITY };
+    let ratio = seen.decay / seen.omega - wish.damping_ratio;
+    (seen.omega / TAU / wish.frequency_hz).ln().abs() + ratio.abs()
+}
+
+/// The least that is missed of a wide search over the settings.
+fn best_of_search(wish: &Wish, setup: &Setup, around: [f64; 2]) -> f64 {
+    let [stiffness, damping] = wish.joint();
+    let omega = stiffness.sqrt();
+    let dampings = (0..25).map(|i| omega * (1e-3 * 1.6_f64.powi(i) - 1e-3));
+    let wide = dampings.flat_map(|c| (0..60).map(move |i| [stiffness * 1.3_f64.powi(i - 20), c]));
+    let near = (-8..=8).flat_map(|i| {
+        let k = around[0] * 1.01_f64.powi(i);
+        (-8..=8).map(move |j| [k, (around[1] + 0.01 * f64::from(j) * omega).max(0.0)])
+    });
+    let all = wide.chain(near).chain([[stiffness, damping]]);
+    all.map(|joint| missed(wish, setup, joint)).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn a_wish_that_is_reached_is_seen_in_the_run_and_nothing_is_nearer_where_it_is_not() {
+    let mut dice = Dice::new(281);
+    let mut counts = [0_u32; 3];
+    let mut worst = [0.0_f64; 2];
+    for _ in 0..wishes() {
+        let (wish, tick_hz, substeps) = draw(&mut dice);
+        for setup in setups(None, tick_hz, Some(substeps)) {
+            let what = format!("{wish:?} {tick_hz} Hz, {} ×{substeps}", setup.method.id);
+            let found = port(&wish, setup).unwrap_or_else(|| panic!("{what}: nothing"));
+            let Ported { reach, values, sees, .. } = &found;
+            let joint = setup.mode.joint(*values, wish.mass_kg);
+            counts[*reach as usize] += 1;
+            let fit = fitted(&setup, joint);
+            let shown = [sees.omega / TAU, sees.decay / sees.omega];
+            if *reach == Reach::Reached {
+                let [hz, ratio] = fit.unwrap_or_else(|| panic!("{what}: no fit"));
+                let off =
+                    [(hz / wish.frequency_hz - 1.0).abs(), (ratio - wish.damping_ratio).abs()];
+                assert!(off[0] < 1e-3 && off[1] < 2e-3, "{what}: {values:?} fits {hz} {ratio}");
+                assert!((shown[0] / wish.frequency_hz - 1.0).abs() < 2e-8, "{what}: {shown:?}");
+                worst = [worst[0].max(off[0]), worst[1].max(off[1])];
+                continue;
+            }
+            let nearest = missed(&wish, &setup, joint);
+            let best = best_of_search(&wish, &setup, joint);
+            assert!(best > nearest - 2e-3, "{what}: {values:?} miss {nearest}, not {best}");
+            let is_below = found.floor.is_some_and(|floor| wish.damping_ratio < floor);
+            assert_eq!(*reach == Reach::Unreachable, is_below, "{what}: {sees:?}");
+        }
+    }
+    println!("reached, nearest, unreachable: {counts:?}; worst fit {worst:?}");
+    assert!(counts.iter().all(|count| *count > 0), "{counts:?}");
+}
+
+#[test]
+fn settings_go_to_another_engine_and_come_back() {
+    let mut dice = Dice::new(282);
+    let (mut there_and_back, mut worst) = (0, 0.0_f64);
+    for _ in 0..wishes() {
+        let (wish, tick_hz, substeps) = draw(&mut dice);
+        let all = setups(None, tick_hz, Some(substeps));
+        let [from, to] = [(); 2].map(|()| all[dice.below(all.len())]);
+        let reached = |wish: &Wish, setup: Setup| {
+            port(wish, setup).filter(|ported| ported.reach == Reach::Reached)
+        };
+        let Some(first) = reached(&wish, from) else { continue };
+        let seen = from.sees(from.mode.joint(first.values, wish.mass_kg)).unwrap();
+        let Some(second) = reached(&Wish::of(seen, wish.mass_kg), to) else { continue };
+        let seen = to.sees(to.mode.joint(second.values, wish.mass_kg)).unwrap();
+        let Some(back) = reached(&Wish::of(seen, wish.mass_kg), from) else {
+            // A damping ratio of 0 may come back as less, by rounding.
+            assert!(wish.damping_ratio < 1e-9, "{wish:?}");
+            continue;
+        };
+        let critical = Wish { damping_ratio: 1.0, ..wish };
+        let scales = from.mode.values(critical.joint(), wish.mass_kg);
+        for (i, scale) in scales.into_iter().enumerate() {
+            let off = (back.values[i] - first.values[i]).abs() / first.values[i].abs().max(scale);
+            worst = worst.max(off);
+            assert!(
+                off < 1e-9,
+                "{wish:?} {tick_hz} ×{substeps} {} {}: {off:e}",
+                from.method.id,
+                to.method.id
+            );
+        }
+        there_and_back += 1;
+    }
+    println!("{there_and_back} came back, the worst to {worst:e}");
+    assert!(there_and_back > wishes() / 4);
+}
+
+#[test]
+fn the_floor_of_box2d_is_that_of_its_card_and_more_substeps_lower_it() {
+    let wish = Wish { frequency_hz: 1.0, damping_ratio: 0.0, mass_kg: 1.0 };
+    let box2d = method("engine-box2d").unwrap();
+    let [setup] = setups(Some(&[box2d]), 60.0, None)[..] else { panic!("one mode") };
+    let found = port(&wish, setup).unwrap();
+    assert_eq!(found.reach, Reach::Unreachable);
+    let claimed = box2d.engine.unwrap().damping_ratio.unwrap();
+    assert!((found.floor.unwrap() - claimed).abs() < 1e-4, "{found:?}");
+    let relief = found.relief.unwrap();
+    assert_eq!(relief.setup.substeps, 8);
+    assert!((relief.damping_ratio / 0.01309 - 1.0).abs() < 0.01, "{relief:?}");
+    // Over four substeps a force of one's own gains energy, which its damping takes.
+    assert!(found.own_force.is_some_and(|[_, damping]| damping > 0.0), "{found:?}");
+    let eased = Wish { damping_ratio: 0.005, ..wish };
+    assert_eq!(port(&eased, setup).unwrap().relief.unwrap().enough, Some(32));
+}
+
+#[test]
+fn a_wish_that_no_engine_can_show_says_why() {
+    let wish = Wish { frequency_hz: 2.0, damping_ratio: 0.1, mass_kg: 1.0 };
+    assert_eq!(wish.check(60.0), Ok(()));
+    let out =
+        |wish: Wish, tick_hz| matches!(wish.check(tick_hz), Err(WishError::OutOfRange { .. }));
+    assert!(out(Wish { mass_kg: -1.0, ..wish }, 60.0) && out(wish, 0.0));
+    assert!(out(Wish { frequency_hz: f64::NAN, ..wish }, 60.0));
+    assert!(out(Wish { damping_ratio: -0.1, ..wish }, 60.0));
+    let fast = Wish { frequency_hz: 30.0, ..wish };
+    assert!(matches!(fast.check(60.0), Err(WishError::BeyondNyquist { .. })));
+    let stiff = Wish { damping_ratio: 200.0, ..wish };
+    assert!(matches!(stiff.check(60.0), Err(WishError::TooFast { .. })));
+}
+
+#[test]
+fn a_drive_is_stable_up_to_its_limits_and_not_beyond() {
+    let euler = |m: &Setup| m.mode.is_explicit;
+    let mujoco = setups(Some(&[method("engine-mujoco").unwrap()]), 500.0, None);
+    let setup = *mujoco.iter().find(|setup| euler(setup)).unwrap();
+    let joint = Wish { frequency_hz: 20.0, damping_ratio: 0.5, mass_kg: 1.0 }.joint();
+    let limits = drive_limits(setup, joint, None);
+    // h² K < 4 - 2 h c, and h c < 2 - h² K / 2.
+    let (h, [stiffness, damping]) = (1.0 / 500.0, joint);
+    let most = (4.0 - 2.0 * h * damping) / (h * h);
+    assert!((limits.max_stiffness.unwrap() / most - 1.0).abs() < 1e-6, "{limits:?}");
+    let most = (2.0 - h * h * stiffness / 2.0) / h;
+    assert!((limits.max_damping.unwrap() / most - 1.0).abs() < 1e-6, "{limits:?}");
+    assert_eq!(limits.fewest_substeps, Some(1));
+    // An implicit drive has no limit; a force that is held through eight ticks has one that is far lower.
+    let jolt = setups(Some(&[method("engine-jolt").unwrap()]), 60.0, None)[0];
+    assert_eq!(drive_limits(jolt, joint, None).max_stiffness, None);
+    let held = |ticks| drive_limits(setup, joint, Some(ticks)).max_damping.unwrap();
+    assert!((held(1) / most - 1.0).abs() < 1e-6 && held(8) < 0.2 * held(1), "{}", held(8));
+    // Through two ticks: by hand.
+    let by_hand = |[k, c]: [f64; 2]| {
+        let mut state = [1.0, 0.0];
+        for _ in 0..4000 {
+            let force = -k * state[0] - c * state[1];
+            for _ in 0..2 {
+                state[1] += h * force;
+                state[0] += h * state[1];
+            }
+        }
+        state[0].abs() < 1.0
+    };
+    let most = held(2);
+    assert!(by_hand([stiffness, 0.99 * most]) && !by_hand([stiffness, 1.01 * most]));
+}
+
+/// A value whose target rests at 0.
+struct Value {
+    rate: f64,
+    order: u32,
+}
+
+impl System for Value {
+    type Vector = f64;
+
+    fn acceleration(&self, _t: f64, _x: &f64, _v: &f64, a: &mut f64) {
+        *a = 0.0;
+    }
+
+    fn pursuit(&self, _t: f64) -> Option<Pursuit<f64>> {
+        Some(Pursuit { target: 0.0, rate: self.rate, order: self.order, is_still: true })
+    }
+}
+
+#[test]
+fn every_follower_halves_the_distance_in_the_same_time_at_every_rate_of_frames() {
+    let approach = Approach::of_lerp(0.1, 60.0);
+    assert!((approach.rate() - 6.3216).abs() < 1e-4);
+    let ports = followers(approach, Some(60.0));
+    assert_eq!(ports.len(), 6 * 5);
+    for port in ports {
+        let seconds = 8.0 * approach.half_life_s;
+        let frames = (seconds * port.fps).round();
+        // Order 2 approaches as (1 + z) exp(-z).
+        let z = 1.678_347 * frames / port.fps / approach.half_life_s;
+        let (rate, left) = match (port.setting, port.method.only.unwrap().law_order) {
+            ("part", _) => {
+                let left = (1.0 - port.value).powf(frames);
+                let wanted = (-approach.rate() * frames / port.fps).exp();
+                assert!((left / wanted - 1.0).abs() < 1e-9, "{port:?}");
+                continue;
+            }
+            (_, Some(1)) => (port.value, (-approach.rate() * frames / port.fps).exp()),
+            ("smooth_time", _) => (2.0 / port.value, (1.0 + z) * (-z).exp()),
+            _ => (port.value, (1.0 + z) * (-z).exp()),
+        };
+        let system = Value { rate, order: port.method.only.unwrap().law_order.unwrap() };
+        let mut state = State { q: 1.0, v: 0.0 };
+        let mut follower = integrator::<Value>(port.method, &state.q);
+        for _ in 0..frames as u32 {
+            follower.steps(&system, 0.0, 1.0 / port.fps, 1, &mut state).unwrap();
+        }
+        // What has another shape than the exponential is as fast in the long run.
+        let tolerance = if port.method.id == "implicit-spring" { 0.5 } else { 0.02 };
+        assert!((state.q / left - 1.0).abs() < tolerance, "{port:?}: {} {left}", state.q);
+    }
+}

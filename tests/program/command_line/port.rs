@@ -1,0 +1,154 @@
+//! `port`: a wish, an engine's settings or a log in; every engine's settings out.
+
+use serde_json::Value;
+
+use super::{run, stderr, stdout_of};
+
+fn json(arguments: &str) -> Value {
+    serde_json::from_str(&stdout_of(&format!("port {arguments} --format json"))).unwrap()
+}
+
+fn rows(found: &Value, key: &str) -> Vec<Value> {
+    found[key].as_array().unwrap_or_else(|| panic!("{key}: {found}")).clone()
+}
+
+#[test]
+fn a_wish_has_the_settings_of_every_mode_of_every_engine_with_code_and_version() {
+    let found = json("--want 2.5Hz --zeta 0.3 --mass 80");
+    assert_eq!(found["want"]["frequency_hz"], 2.5);
+    assert_eq!((&found["want"]["mass_kg"], &found["tick_hz"]), (&80.0.into(), &60.0.into()));
+    let engines = rows(&found, "engines");
+    let modes: Vec<&str> = engines.iter().map(|row| row["mode"].as_str().unwrap()).collect();
+    for mode in
+        ["acceleration-based", "spring-damper", "stiffness-and-damping", "unity", "actuator"]
+    {
+        assert!(modes.contains(&mode), "{modes:?}");
+    }
+    for row in &engines {
+        let text = row["code"].as_str().unwrap();
+        let settings = row["settings"].as_object().unwrap();
+        assert_eq!(settings.len(), 2, "{row}");
+        for value in settings.values() {
+            let digits = format!("{:.5e}", value.as_f64().unwrap());
+            let written = text.split(|c: char| !(c.is_ascii_digit() || "-.e".contains(c)));
+            let mut numbers = written.filter_map(|word| word.parse::<f64>().ok());
+            assert!(numbers.any(|number| format!("{:.5e}", number.abs()) == digits), "{row}");
+        }
+        let reached = row["word"] == "reached";
+        let near = |key: &str, wanted: f64| {
+            (row["sees"][key].as_f64().unwrap() / wanted - 1.0).abs() < 1e-7
+        };
+        assert_eq!(reached, near("frequency_hz", 2.5) && near("damping_ratio", 0.3), "{row}");
+    }
+    let box2d = &engines[0];
+    assert_eq!((&box2d["method"], &box2d["substeps"]), (&"engine-box2d".into(), &4.into()));
+    assert!((box2d["settings"]["hertz"].as_f64().unwrap() - 2.518_990).abs() < 1e-5, "{box2d}");
+    assert!((box2d["floor"]["damping_ratio"].as_f64().unwrap() - 0.0653).abs() < 1e-3, "{box2d}");
+    assert_eq!(
+        (&box2d["version"], &box2d["logged"]),
+        (&"3.x main 617d32a".into(), &"2026-11-21".into())
+    );
+}
+
+#[test]
+fn a_floor_says_how_low_an_engine_goes_and_what_goes_lower() {
+    let text = stdout_of("port --want 1Hz --to engine-box2d,engine-physx");
+    for said in [
+        "engine-box2d ×4, spring: unreachable",
+        "Box2D ×4 at 60 Hz cannot go below a damping ratio of 0.0262 at 1 Hz; ×8 can go to 0.0131",
+        "a force of your own reaches it: stiffness 39.4424 N/m, damping 0.246515 N s/m",
+        "at 120 Hz can go to 0.0262",
+    ] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+    let text = stdout_of("port --want 6Hz --zeta 0.2 --to engine-bullet");
+    assert!(
+        text.contains("6dof-spring: nearest") && text.contains("missed: frequency by"),
+        "{text}"
+    );
+}
+
+#[test]
+fn settings_of_an_engine_and_a_log_are_ported_and_come_back() {
+    let found = json("--from engine-godot:stiffness=1000,damping=80 --mass 80 --to engine-godot");
+    let settings = &rows(&found, "engines")[0]["settings"];
+    let near = |key: &str, wanted: f64| {
+        assert!((settings[key].as_f64().unwrap() / wanted - 1.0).abs() < 1e-9, "{settings}");
+    };
+    near("stiffness", 1000.0);
+    near("damping", 80.0);
+    // Another rate, another count of substeps, another mode.
+    let from =
+        "engine-rapier:mode=acceleration-based,stiffness=250,damping=9,tick_hz=120,substeps=2";
+    let found = json(&format!("--from {from} --mass 3 --to engine-jolt"));
+    for row in rows(&found, "engines") {
+        assert_eq!(row["word"], "reached", "{row}");
+    }
+    // Box2D's spring of 1 Hz and ζ 0.05, as it was logged.
+    let log = "tests/data/engines/box2d__spring_1hz_z005_60hz.csv";
+    let found = json(&format!("--from {log} --to engine-box2d --k 39.4784 --c 0.628319"));
+    let settings = &rows(&found, "engines")[0]["settings"];
+    assert!((settings["hertz"].as_f64().unwrap() - 1.0).abs() < 1e-3, "{settings}");
+    assert!((settings["dampingRatio"].as_f64().unwrap() - 0.05).abs() < 1e-3, "{settings}");
+}
+
+#[test]
+fn a_drive_has_its_limits_and_a_chase_its_rate_in_every_follower() {
+    let found = json(
+        "--want 5Hz --zeta 1 --mass 2 --drive --decimation 4 --tick-hz 500 --to engine-mujoco",
+    );
+    let drives = rows(&found, "drives");
+    let of = |mode: &str| drives.iter().find(|row| row["mode"] == mode).unwrap();
+    // h² K < 4 - 2 h c.
+    let most = of("actuator-euler")["max_kp_n_per_m"].as_f64().unwrap();
+    assert!((most / 1.874_336e6 - 1.0).abs() < 1e-5, "{most}");
+    assert!(of("joint")["max_kv_n_s_per_m"].is_null());
+    assert_eq!(of("own-force")["decimation"], 4);
+    assert!(of("own-force")["max_kp_n_per_m"].as_f64().unwrap() < most / 20.0);
+
+    let text = stdout_of("port --from lerp:0.1@60fps");
+    assert!(text.starts_with("halves in 0.1096 s: 1 - exp(-6.322 dt)\n"), "{text}");
+    assert!(text.contains("144 fps  0.042951"), "{text}");
+    let found = json("--from smooth-damp:0.3");
+    assert!((found["want"]["half_life_s"].as_f64().unwrap() - 0.251_752).abs() < 1e-6, "{found}");
+    let found = json("--from half-life:0.2s");
+    assert!((found["want"]["rate_per_s"].as_f64().unwrap() - 3.465_736).abs() < 1e-6, "{found}");
+}
+
+#[test]
+fn what_cannot_be_asked_is_one_error_with_a_remedy() {
+    for (arguments, told) in [
+        ("", "required arguments were not provided"),
+        ("--want 2.5s", "\"2.5s\" is no number of Hz; write it as 2.5Hz"),
+        ("--want -2Hz", "the frequency is -2; give hertz above 0"),
+        ("--want 40Hz", "40 Hz cannot be seen at 60 ticks per second"),
+        ("--want 20Hz --zeta 100", "is over within a tick of 60 Hz; damp less, or tick faster"),
+        ("--want 2Hz --zeta -1", "give a number from 0 up"),
+        ("--want 2Hz --mass -1", "give a number above 0"),
+        ("--want 2Hz --to engine-foo", "no engine with a spring is called engine-foo"),
+        ("--want 2Hz --to engine-pybullet", "no engine with a spring is called engine-pybullet"),
+        ("--want 2Hz --decimation 2", "--drive"),
+        ("--from engine-gdot:stiffness=1", "did you mean engine-godot?"),
+        (
+            "--from engine-godot:stiffness=1,dampng=8",
+            "engine-godot has no stiffness and dampng; it has stiffness and damping",
+        ),
+        ("--from engine-godot:stiffness=1kg", "stiffness: \"1kg\" is no number of N/m"),
+        ("--from engine-godot:damping=8", "give stiffness too"),
+        ("--from engine-godot:stiffness", "\"stiffness\" is no KEY=VALUE"),
+        ("--from engine-jolt:mStiffness=10,mDamping=-1", "mDamping is -1; it must be 0 or more"),
+        ("--from engine-physx:mode=soft,stiffness=1", "no mode soft; there are force-drive,"),
+        ("--from held-force:stiffness=1e5", "nothing swings so in held-force ×4 at 60 Hz"),
+        ("--from held-force:stiffness=100", "gains energy: its damping ratio is -0.03"),
+        ("--from nothing.csv", "cannot read the log nothing.csv"),
+        ("--from lerp:2@60fps", "the part is 2; it must be between 0 and 1"),
+        ("--from lerp:0.1", "give the frames too: lerp:0.1@60fps"),
+        ("--from half-life:1s --drive", "--drive is for a spring"),
+    ] {
+        let output = run(&format!("port {arguments}"));
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {said}");
+        assert!(said.contains(told) && said.matches("error:").count() == 1, "{arguments}: {said}");
+        assert!(output.stdout.is_empty(), "{arguments}");
+    }
+}
