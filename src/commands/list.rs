@@ -10,7 +10,8 @@ use super::output::print;
 use super::output::table::{self, Column, TableFormat};
 use crate::lab::pacing::{POLICIES, PolicyCard, RefreshRate, TRACES, TraceCard};
 use crate::lab::{Binding, KEYS, METRICS, Metric, SCENES, Scale, Scene};
-use crate::sim::bodies::{BODIES, Coordinate, Kind, Net, Parameter};
+use crate::sim::BodyClass;
+use crate::sim::bodies::{BODIES, Body, Coordinate, Kind, Net, Parameter, stepped_kinds};
 use crate::sim::integrators::{FreeSpin, METHODS, Method, SpinMap};
 use crate::sim::law::{UNITS, functions, operators, values};
 
@@ -134,24 +135,25 @@ const NETS: &str = "
 fn bodies_with_keys() -> String {
     let keys = BODIES.iter().map(|body| {
         let keys = table::text(PARAMETER, &body.parameters, "  ");
-        let refused = body.engine_refusal.map(|why| refused_by_engines(body.id, why));
+        let refused = refused_by_engines(body.class);
         format!("\n[[{}]]\n{keys}{}", body.id, refused.unwrap_or_default())
     });
     let of_nets = table::text(PARAMETER, Net::descriptions(), "  ");
-    let of_nets = of_nets + &refused_by_engines("net", Net::ENGINE_REFUSAL);
+    let of_nets = of_nets + &refused_by_engines(Net::CLASS).unwrap_or_default();
     table::text(BODY, &BODIES, "") + &keys.collect::<String>() + &laws() + NETS + &of_nets
 }
 
-/// Two lines that say why engines do not step the bodies of this kind, and which methods of the family do.
-fn refused_by_engines(kind: &str, why: &str) -> String {
-    let steps = |method: &&Method| method.only.is_some_and(|only| only.kinds.contains(&kind));
+/// Two lines that say why engines do not step bodies of this class, and which methods of the family do.
+fn refused_by_engines(class: BodyClass) -> Option<String> {
+    let why = class.engine_refusal()?;
+    let steps = |method: &&Method| method.only.is_some_and(|only| only.refusal(class).is_none());
     let engines = METHODS.iter().filter(|method| method.is_engine());
     let others: Vec<&str> = engines.filter(steps).map(|method| method.id).collect();
     let except = match &others[..] {
         [] => String::new(),
         others => format!(" except {}", others.join(", ")),
     };
-    format!("  No method of an engine{except}:\n    {why}.\n")
+    Some(format!("  No method of an engine{except}:\n    {why}.\n"))
 }
 
 const SCENE: &[Column<Scene>] = &[
@@ -219,11 +221,7 @@ const METHOD: &[Column<Method>] = &[
     Column { key: "restart", heading: None, value: |method| json!(method.restart) },
     Column { key: "keeps_time", heading: None, value: |method| json!(method.keeps_time) },
     Column { key: "as_printed", heading: Some("AS PRINTED"), value: |m| json!(m.is_as_printed()) },
-    Column {
-        key: "only",
-        heading: Some("ONLY FOR"),
-        value: |method| method.only.map_or(Value::Null, |only| json!(only.to_string())),
-    },
+    Column { key: "only", heading: Some("ONLY FOR"), value: |method| json!(stepped_kinds(method)) },
     Column {
         key: "only_because",
         heading: None,
@@ -278,7 +276,11 @@ const BODY: &[Column<Arc<Kind>>] = &[
         heading: None,
         value: |body| json!(body.truth.aimed_accuracy()),
     },
-    Column { key: "engine_refusal", heading: None, value: |body| json!(body.engine_refusal) },
+    Column {
+        key: "engine_refusal",
+        heading: None,
+        value: |body| json!(body.class.engine_refusal()),
+    },
     Column { key: "inputs", heading: Some("INPUTS"), value: |body| json!(body.inputs) },
     Column {
         key: "parameters",

@@ -5,14 +5,12 @@ use glam::DVec2;
 use super::parameter::{self, ParameterOf};
 use super::piece::{Distances, NO_BOUNDARIES, Piece};
 use super::state::{State, Vector};
-use super::system::System;
+use super::system::{BodyClass, System};
 
 /// Something that moves by an equation of motion.
 pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
-    /// Whether it follows a target, so that [followers](super::integrators::Family::Follower) step it.
-    const FOLLOWS: bool = false;
-    /// Whether physics engines can be [told](System::engine_settings) of it.
-    const HAS_JOINT: bool = true;
+    /// What it is to the methods that are for [some](super::integrators::Only) bodies only.
+    const CLASS: BodyClass = BodyClass::Forced;
 
     /// Whether it has a closed form: [`Body::exact`] and the like.
     const HAS_EXACT: bool = false;

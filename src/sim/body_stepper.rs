@@ -5,7 +5,6 @@ use std::any::Any;
 use glam::DVec2;
 
 use super::body::Body;
-use super::engine_settings::EngineSettings;
 use super::exact_flow::ExactFlow;
 use super::exact_since_start::{ExactSinceStart, is_start};
 use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
@@ -14,7 +13,7 @@ use super::reference::{MOST_REFERENCE_WORK, Reference};
 use super::solver::Solver;
 use super::state::{Elementwise, State, Vector};
 use super::stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
-use super::system::{Counted, Counts, Coupling, Pursuit, Recorded};
+use super::system::{BodyClass, Counted, Counts, Coupling, EngineSettings, Pursuit, Recorded};
 
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
@@ -61,8 +60,7 @@ struct UnderMethod<B: Body> {
 impl<B: Body> Construct<Counted<B>> for UnderMethod<B> {
     type Output = Box<dyn Stepper>;
 
-    const FOLLOWS: bool = B::FOLLOWS;
-    const HAS_JOINT: bool = B::HAS_JOINT;
+    const CLASS: Option<BodyClass> = Some(B::CLASS);
 
     #[inline(always)]
     fn of<I: Integrator<Counted<B>> + Clone + 'static>(
@@ -178,11 +176,11 @@ impl<B: Body> PlacedBody for Placed<B> {
     }
 
     fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
-        let Pursuit { target, rate, order, is_still } = self.body.system.pursuit(t)?;
+        let Pursuit { target, rate, order, is_still } = Pursuit::of(&self.body.system, t)?;
         Some(Pursuit { target: target.components()[0], rate, order, is_still })
     }
-    fn engine_settings(&self, t: f64) -> Option<EngineSettings> {
-        self.body.system.engine_settings(t, &self.state, &mut self.state.q.clone())
+    fn engine_settings(&self, t: f64) -> EngineSettings {
+        EngineSettings::of(&self.body.system, t, &self.state, &mut self.state.q.clone())
     }
 
     fn place(&self) -> DVec2 {

@@ -13,7 +13,6 @@ mod clock;
 pub mod conformance;
 mod curve;
 mod double_double;
-mod engine_settings;
 mod exact_flow;
 mod exact_since_start;
 pub mod integrators;
@@ -33,6 +32,7 @@ pub mod stability;
 mod state;
 mod stepper;
 mod system;
+mod vec_system;
 mod xor_shift;
 
 #[cfg(feature = "lab")]
@@ -40,7 +40,6 @@ pub(crate) use accumulator::most_ticks;
 pub use accumulator::{Accumulator, Due, LONGEST_FRAME_MS};
 pub use body_stepper::stepper;
 pub use clock::Clock;
-pub use engine_settings::EngineSettings;
 #[cfg(feature = "lab")]
 pub use least_squares::least_squares;
 pub use points::Points;
@@ -48,4 +47,7 @@ pub use reference::{MOST_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
 pub use state::{Elementwise, State, Vector};
 pub use stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
-pub use system::{Counted, Counts, Coupling, Evaluation, Pursuit, Recorded, System};
+pub use system::{
+    BodyClass, Counted, Counts, Coupling, EngineSettings, Evaluation, Pursuit, Question, Recorded,
+    System,
+};

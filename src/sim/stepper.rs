@@ -6,11 +6,10 @@ use std::ops::Deref;
 use glam::DVec2;
 
 use super::body::{Body, Input};
-use super::engine_settings::EngineSettings;
 use super::integrators::{Method, StepFailure};
 use super::solver::Solver;
 use super::state::{State, Vector};
-use super::system::{Counts, Evaluation, Pursuit};
+use super::system::{Counts, EngineSettings, Evaluation, Pursuit};
 
 /// A tick that was taken on a copy of a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -192,9 +191,8 @@ pub trait PlacedBody {
     /// What the body follows at time `t` (s), in its first coordinate; `None` if it follows nothing. It is not
     /// counted as an evaluation.
     fn pursuit(&self, t: f64) -> Option<Pursuit<f64>>;
-    /// The joint and damping settings of the body in a physics engine; `None` if an engine cannot have it. It is not
-    /// counted as an evaluation.
-    fn engine_settings(&self, t: f64) -> Option<EngineSettings>;
+    /// The joint and damping settings of the body in a physics engine. It is not counted as an evaluation.
+    fn engine_settings(&self, t: f64) -> EngineSettings;
 
     /// Where the body is, in metres. Never allocates.
     fn place(&self) -> DVec2;

@@ -2,7 +2,6 @@
 
 use std::cell::{Cell, RefCell};
 
-use super::engine_settings::EngineSettings;
 use super::state::{Elementwise, State, Vector};
 
 /// An equation of motion of second order, `q″ = a(t, q, v)`.
@@ -23,38 +22,11 @@ pub trait System {
         self.acceleration(t, &state.q, &state.v, &mut d.v);
     }
 
-    /// Overwrites `slope` with the derivative of the acceleration at `state` in the direction `along`, if the
-    /// system has a formula for it. Returns whether it has; an implicit method takes differences if not. It
-    /// costs about as much as an evaluation, and [`Counted`] counts it as one.
+    /// Answers what a method or the program asks of the system beyond its acceleration, at time `t` (s). Returns whether
+    /// it does. A system that wraps another forwards this and the acceleration, and nothing else.
     #[inline]
-    fn acceleration_slope(
-        &self,
-        _t: f64,
-        _state: &State<Self::Vector>,
-        _along: &State<Self::Vector>,
-        _slope: &mut Self::Vector,
-    ) -> bool {
+    fn answer(&self, _t: f64, _question: Question<'_, Self::Vector>) -> bool {
         false
-    }
-
-    /// What the body follows at time `t` (s), which counts as an evaluation; `None` if it follows nothing. A
-    /// [follower](super::integrators::Family::Follower) steps by this alone.
-    #[inline]
-    fn pursuit(&self, _t: f64) -> Option<Pursuit<Self::Vector>> {
-        None
-    }
-
-    /// The body as a physics engine sees it: the joint and damping settings it integrates itself. Writes the remaining
-    /// force per unit mass to `force`. It counts as an evaluation. `None` if the body cannot be expressed so.
-    #[inline]
-    fn engine_settings(
-        &self,
-        t: f64,
-        state: &State<Self::Vector>,
-        force: &mut Self::Vector,
-    ) -> Option<EngineSettings> {
-        self.acceleration(t, &state.q, &state.v, force);
-        Some(EngineSettings::NONE)
     }
 
     /// Which coordinates act on which, for every system of the type.
@@ -65,12 +37,34 @@ pub trait System {
     {
         Coupling::All
     }
+}
 
-    /// Reports that a method left out `h` (s) of a step, as a method that does not [keep
-    /// time](super::integrators::Method::keeps_time) does. It does not affect the motion; [`Counted`]
-    /// sums it.
-    #[inline]
-    fn skipped(&self, _h: f64) {}
+/// What is asked of a system. [`Counted`] counts an answer as an evaluation.
+#[derive(Debug)]
+pub enum Question<'a, V> {
+    /// The derivative of the acceleration at a state in the direction `along`. Methods take differences without it.
+    Slope {
+        /// The state.
+        state: &'a State<V>,
+        /// The direction.
+        along: &'a State<V>,
+        /// Where to write the derivative.
+        slope: &'a mut V,
+    },
+    /// What the body follows: see [`Pursuit::of`].
+    Target(&'a mut Option<Pursuit<V>>),
+    /// The body as a physics engine sees it: see [`EngineSettings::of`].
+    Engine {
+        /// The state.
+        state: &'a State<V>,
+        /// Where to write what the engine integrates itself; [`EngineSettings::NONE`] before.
+        settings: &'a mut EngineSettings,
+        /// Where to write the remaining force per unit mass.
+        force: &'a mut V,
+    },
+    /// Nothing: a method that does not [keep time](super::integrators::Method::keeps_time) reports that it left out so
+    /// many seconds of a step. It does not affect the motion; [`Counted`] sums it.
+    LostTime(f64),
 }
 
 /// Which coordinates and velocities the acceleration of a coordinate depends on. Implicit methods choose their linear
@@ -105,26 +99,8 @@ impl<V: Elementwise> System for Box<dyn System<Vector = V>> {
         (**self).acceleration(t, q, v, a);
     }
 
-    fn acceleration_slope(
-        &self,
-        t: f64,
-        state: &State<V>,
-        along: &State<V>,
-        slope: &mut V,
-    ) -> bool {
-        (**self).acceleration_slope(t, state, along, slope)
-    }
-
-    fn pursuit(&self, t: f64) -> Option<Pursuit<V>> {
-        (**self).pursuit(t)
-    }
-
-    fn engine_settings(&self, t: f64, state: &State<V>, force: &mut V) -> Option<EngineSettings> {
-        (**self).engine_settings(t, state, force)
-    }
-
-    fn skipped(&self, h: f64) {
-        (**self).skipped(h);
+    fn answer(&self, t: f64, question: Question<'_, V>) -> bool {
+        (**self).answer(t, question)
     }
 }
 
@@ -139,6 +115,85 @@ pub struct Pursuit<V> {
     pub order: u32,
     /// Whether the target stays where it is.
     pub is_still: bool,
+}
+
+impl<V: Elementwise> Pursuit<V> {
+    /// What `system` follows at time `t` (s), which counts as an evaluation; `None` if it follows nothing. A
+    /// [follower](super::integrators::Family::Follower) steps by this alone.
+    #[inline]
+    pub fn of(system: &(impl System<Vector = V> + ?Sized), t: f64) -> Option<Self> {
+        let mut pursuit = None;
+        system.answer(t, Question::Target(&mut pursuit));
+        pursuit
+    }
+}
+
+/// The part of an acceleration that an engine's joint and its damping take over: `-(K q + c v) - C v`, the same for
+/// every coordinate, with the spring at rest where `q` is 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EngineSettings {
+    /// K, the stiffness of the joint for each kilogram, per second squared.
+    pub stiffness: f64,
+    /// c, the damping of the joint for each kilogram, per second.
+    pub damping: f64,
+    /// C, the damping setting of the body, per second.
+    pub drag: f64,
+}
+
+impl EngineSettings {
+    /// Everything is a force of user code.
+    pub const NONE: Self = Self { stiffness: 0.0, damping: 0.0, drag: 0.0 };
+
+    /// The settings of `system` in a physics engine. Writes the remaining force per unit mass to `force`: all of it if the
+    /// system says nothing of settings. It counts as an evaluation.
+    #[inline]
+    pub fn of<V: Elementwise>(
+        system: &(impl System<Vector = V> + ?Sized),
+        t: f64,
+        state: &State<V>,
+        force: &mut V,
+    ) -> Self {
+        let mut settings = Self::NONE;
+        if !system.answer(t, Question::Engine { state, settings: &mut settings, force }) {
+            system.acceleration(t, &state.q, &state.v, force);
+        }
+        settings
+    }
+
+    /// Whether there is a joint.
+    #[inline]
+    pub fn has_spring(&self) -> bool {
+        self.stiffness != 0.0 || self.damping != 0.0
+    }
+
+    /// `D = 1 + h c + h² K`, by which an implicit solve of a step of `h` (s) divides.
+    #[inline]
+    pub fn resistance(&self, h: f64) -> f64 {
+        1.0 + h * self.damping + h * h * self.stiffness
+    }
+}
+
+/// What a kind of body is to the methods that are for [some](super::integrators::Only) only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyClass {
+    /// It moves by a force, which an engine holds for a tick beside a drag that it integrates itself.
+    Forced,
+    /// A spring, which an engine has as a joint.
+    Joint,
+    /// It moves by a force, and an engine cannot express it. Why: a clause in lower case that follows a colon.
+    NoEngine(&'static str),
+    /// It follows a target by a rule. Why an engine cannot express it, as above.
+    Follower(&'static str),
+}
+
+impl BodyClass {
+    /// Why a physics engine cannot express the body; `None` if it can.
+    pub const fn engine_refusal(self) -> Option<&'static str> {
+        match self {
+            Self::Forced | Self::Joint => None,
+            Self::NoEngine(why) | Self::Follower(why) => Some(why),
+        }
+    }
 }
 
 /// A system that counts evaluations and skipped time. A clone continues from the same counts.
@@ -191,39 +246,14 @@ impl<S: System> System for Counted<S> {
     }
 
     #[inline]
-    fn acceleration_slope(
-        &self,
-        t: f64,
-        state: &State<S::Vector>,
-        along: &State<S::Vector>,
-        slope: &mut S::Vector,
-    ) -> bool {
-        let is_known = self.system.acceleration_slope(t, state, along, slope);
-        self.evaluations.set(self.evaluations.get() + u64::from(is_known));
-        is_known
-    }
-
-    #[inline]
-    fn pursuit(&self, t: f64) -> Option<Pursuit<S::Vector>> {
-        let pursuit = self.system.pursuit(t)?;
-        self.evaluations.set(self.evaluations.get() + 1);
-        Some(pursuit)
-    }
-
-    #[inline]
-    fn engine_settings(
-        &self,
-        t: f64,
-        state: &State<S::Vector>,
-        force: &mut S::Vector,
-    ) -> Option<EngineSettings> {
-        self.evaluations.set(self.evaluations.get() + 1);
-        self.system.engine_settings(t, state, force)
-    }
-
-    #[inline]
-    fn skipped(&self, h: f64) {
-        self.lost_time.set(self.lost_time.get() + h);
+    fn answer(&self, t: f64, question: Question<'_, S::Vector>) -> bool {
+        if let Question::LostTime(h) = question {
+            self.lost_time.set(self.lost_time.get() + h);
+            return true;
+        }
+        let is_answered = self.system.answer(t, question);
+        self.evaluations.set(self.evaluations.get() + u64::from(is_answered));
+        is_answered
     }
 }
 
@@ -267,29 +297,26 @@ impl<V: Vector> System for Recorded<'_, V> {
         self.evaluations.borrow_mut().push(Evaluation { t, q, v, a });
     }
 
-    /// Not kept: it finds no acceleration.
-    fn acceleration_slope(
-        &self,
-        t: f64,
-        state: &State<V>,
-        along: &State<V>,
-        slope: &mut V,
-    ) -> bool {
-        self.system.acceleration_slope(t, state, along, slope)
-    }
-
-    /// Kept as an evaluation.
-    fn engine_settings(&self, t: f64, state: &State<V>, force: &mut V) -> Option<EngineSettings> {
-        self.acceleration(t, &state.q, &state.v, force);
-        self.system.engine_settings(t, state, force)
-    }
-
-    /// Kept as an evaluation at rest in the target.
-    fn pursuit(&self, t: f64) -> Option<Pursuit<V>> {
-        let pursuit = self.system.pursuit(t)?;
-        let mut rest = pursuit.target.clone();
-        rest.components_mut().fill(0.0);
-        self.acceleration(t, &pursuit.target, &rest, &mut rest.clone());
-        Some(pursuit)
+    /// Kept as an evaluation: a slope and settings at their state, and a target at rest in it.
+    fn answer(&self, t: f64, question: Question<'_, V>) -> bool {
+        match question {
+            Question::Slope { state, .. } | Question::Engine { state, .. } => {
+                let is_answered = self.system.answer(t, question);
+                if is_answered {
+                    self.acceleration(t, &state.q, &state.v, &mut state.v.clone());
+                }
+                is_answered
+            }
+            Question::Target(pursuit) => {
+                *pursuit = Pursuit::of(self.system, t);
+                if let Some(Pursuit { target, .. }) = pursuit {
+                    let mut rest = target.clone();
+                    rest.components_mut().fill(0.0);
+                    self.acceleration(t, target, &rest, &mut rest.clone());
+                }
+                pursuit.is_some()
+            }
+            Question::LostTime(_) => self.system.answer(t, question),
+        }
     }
 }

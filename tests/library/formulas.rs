@@ -21,7 +21,7 @@ use evaluation::{Evaluation, Step, Values, acceleration};
 use regatta::sim::integrators::{
     DormandPrince54, EmbeddedPair, Family, METHODS, Method, Pair, integrator,
 };
-use regatta::sim::{Counted, EngineSettings, Pursuit, State, System};
+use regatta::sim::{Counted, EngineSettings, Pursuit, Question, State, System};
 use value::Value;
 
 mod evaluation;
@@ -50,12 +50,18 @@ impl System for Told {
     fn acceleration(&self, t: f64, q: &f64, v: &f64, a: &mut f64) {
         *a = acceleration(t, *q, *v);
     }
-    fn engine_settings(&self, _t: f64, _y: &State<f64>, force: &mut f64) -> Option<EngineSettings> {
-        *force = self.force;
-        Some(self.settings)
-    }
-    fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
-        Some(Pursuit { target: target(t), rate: self.rate, order: self.order, is_still: false })
+    fn answer(&self, t: f64, question: Question<'_, f64>) -> bool {
+        let Told { rate, order, .. } = *self;
+        match question {
+            Question::Engine { settings, force, .. } => {
+                (*settings, *force) = (self.settings, self.force);
+            }
+            Question::Target(pursuit) => {
+                *pursuit = Some(Pursuit { target: target(t), rate, order, is_still: false });
+            }
+            Question::Slope { .. } | Question::LostTime(_) => return false,
+        }
+        true
     }
 }
 
@@ -108,7 +114,7 @@ const STEPS: u32 = 4;
 fn steps(method: &Method, formula: &[&str], case: &Case) -> Vec<Step> {
     let [stiffness, damping, drag, force] = case.told;
     let settings = EngineSettings { stiffness, damping, drag };
-    let order = method.only.and_then(|only| only.law_order).unwrap_or(1);
+    let order = method.law_order().unwrap_or(1);
     let told = Told { settings, force, rate: case.rate, order };
     let [q, v] = case.start;
     let mut state = State { q, v };

@@ -6,7 +6,7 @@ use regatta::lab::{
     Approach, Ported, Reach, Setup, Wish, WishError, drive_limits, followers, port, setups,
 };
 use regatta::sim::integrators::{integrator, method};
-use regatta::sim::{Pursuit, State, System, least_squares};
+use regatta::sim::{Pursuit, Question, State, System, least_squares};
 
 use crate::dice::Dice;
 use crate::engines::Body;
@@ -277,8 +277,11 @@ impl System for Value {
         *a = 0.0;
     }
 
-    fn pursuit(&self, _t: f64) -> Option<Pursuit<f64>> {
-        Some(Pursuit { target: 0.0, rate: self.rate, order: self.order, is_still: true })
+    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
+        let Question::Target(pursuit) = question else { return false };
+        let (rate, order) = (self.rate, self.order);
+        *pursuit = Some(Pursuit { target: 0.0, rate, order, is_still: true });
+        true
     }
 }
 
@@ -293,7 +296,7 @@ fn every_follower_halves_the_distance_in_the_same_time_at_every_rate_of_frames()
         let frames = (seconds * port.fps).round();
         // Order 2 approaches as (1 + z) exp(-z).
         let z = 1.678_347 * frames / port.fps / approach.half_life_s;
-        let (rate, left) = match (port.setting, port.method.only.unwrap().law_order) {
+        let (rate, left) = match (port.setting, port.method.law_order()) {
             ("part", _) => {
                 let left = (1.0 - port.value).powf(frames);
                 let wanted = (-approach.rate() * frames / port.fps).exp();
@@ -304,7 +307,7 @@ fn every_follower_halves_the_distance_in_the_same_time_at_every_rate_of_frames()
             ("smooth_time", _) => (2.0 / port.value, (1.0 + z) * (-z).exp()),
             _ => (port.value, (1.0 + z) * (-z).exp()),
         };
-        let system = Value { rate, order: port.method.only.unwrap().law_order.unwrap() };
+        let system = Value { rate, order: port.method.law_order().unwrap() };
         let mut state = State { q: 1.0, v: 0.0 };
         let mut follower = integrator::<Value>(port.method, &state.q);
         for _ in 0..frames as u32 {

@@ -180,7 +180,7 @@ impl Motion {
         let small = SmallMotion::of(body)?;
         if let Some(mut modes) = small.normal_modes() {
             modes.sort_by(|a, b| b.omega_squared.total_cmp(&a.omega_squared));
-            let settings = body.engine_settings(0.0).unwrap_or(EngineSettings::NONE);
+            let settings = body.engine_settings(0.0);
             let is_held = settings == EngineSettings::NONE;
             let held = if is_held { small.coupled().ok() } else { None };
             return Ok(Self::Modes(Modes { modes, settings, held }));
@@ -340,7 +340,7 @@ fn chooses_steps(spec: &LaneSpec) -> bool {
 /// without a joint a ship. `None` if the method fails.
 fn stability(spec: &LaneSpec, has_joint: bool, mode: &NormalMode, hz: f64) -> Option<Stability> {
     let NormalMode { omega_squared, damping_per_s, .. } = *mode;
-    let order = spec.method.only.and_then(|only| only.law_order);
+    let order = spec.method.law_order();
     let (id, values) = match order {
         Some(order) => {
             let order = f64::from(order);

@@ -3,7 +3,7 @@
 use super::candidates::Candidate;
 use super::logged_body::LoggedBody;
 use crate::sim::integrators::integrator;
-use crate::sim::{EngineSettings, State, System};
+use crate::sim::{Question, State, System};
 
 /// A body whose numbers are known, as a system.
 #[derive(Clone, Debug)]
@@ -22,19 +22,19 @@ impl System for Known {
         *a = self.push - (stiffness * x + damping * v) - self.drag * v;
     }
 
-    fn engine_settings(
-        &self,
-        _t: f64,
-        State { q: x, v }: &State<f64>,
-        force: &mut f64,
-    ) -> Option<EngineSettings> {
-        let ([stiffness, damping], drag) = (self.spring, self.drag);
+    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
+        let Question::Engine { state: State { q: x, v }, settings, force } = question else {
+            return false;
+        };
+        let [stiffness, damping] = self.spring;
+        settings.drag = self.drag;
         if self.is_held {
             *force = self.push - (stiffness * x + damping * v);
-            return Some(EngineSettings { drag, ..EngineSettings::NONE });
+        } else {
+            *force = self.push;
+            (settings.stiffness, settings.damping) = (stiffness, damping);
         }
-        *force = self.push;
-        Some(EngineSettings { stiffness, damping, drag })
+        true
     }
 }
 

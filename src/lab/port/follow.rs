@@ -2,7 +2,7 @@
 
 use super::seen::seen;
 use crate::sim::integrators::{Method, in_code, integrator, method};
-use crate::sim::{Pursuit, State, System};
+use crate::sim::{Pursuit, Question, State, System};
 
 /// How fast a value approaches a target that rests.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,14 +99,17 @@ impl System for Chaser {
         *a = -self.rate * self.rate * x - 2.0 * self.rate * v;
     }
 
-    fn pursuit(&self, _t: f64) -> Option<Pursuit<f64>> {
-        Some(Pursuit { target: 0.0, rate: self.rate, order: self.order, is_still: true })
+    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
+        let Question::Target(pursuit) = question else { return false };
+        let (rate, order) = (self.rate, self.order);
+        *pursuit = Some(Pursuit { target: 0.0, rate, order, is_still: true });
+        true
     }
 }
 
 /// The time in which a follower with this rate halves the distance, in seconds; `None` if it overshoots within a frame.
 fn half_life(method: &Method, rate: f64, fps: f64) -> Option<f64> {
-    let order = method.only?.law_order?;
+    let order = method.law_order()?;
     let system = Chaser { rate, order };
     let step = |x: f64, v: f64| {
         let mut state = State { q: x, v };

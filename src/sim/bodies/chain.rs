@@ -13,10 +13,9 @@ use glam::DVec2;
 use super::kind::{Coordinate, Kind};
 use super::oscillator;
 use crate::sim::body::{Body, Input};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{Fault, ParameterOf, Range};
 use crate::sim::state::State;
-use crate::sim::system::{Coupling, System};
+use crate::sim::system::{BodyClass, Coupling, Question, System};
 
 /// The largest number of masses: as many as can be told apart on a wide stage. The closed form needs of
 /// the order of its square multiplications per tick.
@@ -39,9 +38,6 @@ pub(super) fn kind() -> Kind {
         }),
         _ => Ok(()),
     }),
-    engine_refusal: Some(
-        "an engine solves a chain joint by joint in sweeps, and its formula here is of one joint alone",
-    ),
         ..Kind::of(Chain::BLANK)
     }
 }
@@ -166,25 +162,10 @@ impl System for Chain {
         Coupling::Band(1)
     }
 
-    /// Solved joint by joint in sweeps.
-    fn engine_settings(
-        &self,
-        _t: f64,
-        _state: &State<Vec<f64>>,
-        _force: &mut Vec<f64>,
-    ) -> Option<EngineSettings> {
-        None
-    }
-
-    /// The force is linear: its slope is the force of the displacement alone.
     #[inline]
-    fn acceleration_slope(
-        &self,
-        t: f64,
-        _state: &State<Vec<f64>>,
-        along: &State<Vec<f64>>,
-        slope: &mut Vec<f64>,
-    ) -> bool {
+    fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
+        // The force is linear: its slope is the force of the displacement alone.
+        let Question::Slope { along, slope, .. } = question else { return false };
         self.acceleration(t, &along.q, &along.v, slope);
         true
     }
@@ -208,7 +189,9 @@ impl System for Chain {
 }
 
 impl Body for Chain {
-    const HAS_JOINT: bool = false;
+    const CLASS: BodyClass = BodyClass::NoEngine(
+        "an engine solves a chain joint by joint in sweeps, and its formula here is of one joint alone",
+    );
     const HAS_EXACT: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 

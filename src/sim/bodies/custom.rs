@@ -10,9 +10,8 @@ use super::bounds::bounds;
 use super::claims::{Checked, FalseClaims};
 use super::kind::CustomInfo;
 use crate::sim::body::{Body, Input};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{Question, System};
 
 mod claims;
 mod extras;
@@ -76,13 +75,8 @@ impl System for Custom {
         self.motion.acceleration(t, q, v, a);
     }
 
-    fn engine_settings(
-        &self,
-        t: f64,
-        State { q, v }: &State<Vec<f64>>,
-        force: &mut Vec<f64>,
-    ) -> Option<EngineSettings> {
-        self.motion.engine_settings(t, q, v, force)
+    fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
+        self.motion.answer(t, question)
     }
 }
 

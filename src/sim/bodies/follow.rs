@@ -9,11 +9,10 @@ use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
 use crate::sim::body::{Body, Input};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::LAW_ORDER;
 use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
-use crate::sim::system::{Pursuit, System};
+use crate::sim::system::{BodyClass, Pursuit, Question, System};
 
 pub(super) fn kind() -> Kind {
     Kind {
@@ -22,9 +21,6 @@ pub(super) fn kind() -> Kind {
             .into(),
         all_coordinates: vec![Coordinate::new("x", "v", "m")],
         leading: "rate_per_s".into(),
-        engine_refusal: Some(
-            "a follower moves towards its target by a rule, and an engine moves bodies by forces",
-        ),
         ..Kind::of(Follow::BLANK)
     }
 }
@@ -160,16 +156,6 @@ impl Follow {
 impl System for Follow {
     type Vector = f64;
 
-    /// No body.
-    fn engine_settings(
-        &self,
-        _t: f64,
-        _state: &State<f64>,
-        _force: &mut f64,
-    ) -> Option<EngineSettings> {
-        None
-    }
-
     /// The law of first order is differentiated once, and its defect `v - k (g - x)` dies away at the rate k:
     /// `x″ = k g′ - k x′ - k (x′ - k (g - x))`. The homogeneous part is that of the second order.
     #[inline]
@@ -180,16 +166,19 @@ impl System for Follow {
     }
 
     #[inline]
-    fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
+    fn answer(&self, t: f64, question: Question<'_, f64>) -> bool {
+        let Question::Target(pursuit) = question else { return false };
         let order = if self.order == 1 { 1 } else { 2 };
         let (rate, is_still) = (self.rate, self.is_still());
-        Some(Pursuit { target: self.target(t), rate, order, is_still })
+        *pursuit = Some(Pursuit { target: self.target(t), rate, order, is_still });
+        true
     }
 }
 
 impl Body for Follow {
-    const FOLLOWS: bool = true;
-    const HAS_JOINT: bool = false;
+    const CLASS: BodyClass = BodyClass::Follower(
+        "a follower moves towards its target by a rule, and an engine moves bodies by forces",
+    );
     const HAS_EXACT: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 

@@ -12,6 +12,7 @@ use crate::sim::parameter::{Fault, Parameter, ParameterOf, Text};
 use crate::sim::reference::REFERENCE_ACCURACY;
 use crate::sim::solver::Solver;
 use crate::sim::stepper::Stepper;
+use crate::sim::system::BodyClass;
 
 /// The kind of solution that methods are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,9 +83,8 @@ pub struct Kind {
     /// Builds a body from these parameter values (see
     /// [`Body::with_parameters`](super::Body::with_parameters)), at its start under a solver.
     pub build: Box<Build>,
-    /// Why an engine cannot be [told](crate::sim::System::engine_settings) of such a body: a clause in lower case that
-    /// follows a colon. `None` if it can.
-    pub engine_refusal: Option<&'static str>,
+    /// What it is to the methods that are for some bodies only.
+    pub class: BodyClass,
     /// What the kind was made of.
     pub origin: Origin,
 }
@@ -156,7 +156,7 @@ impl Kind {
             build: Box::new(move |values, solver| {
                 stepper(blank.clone().with_parameters(values), solver)
             }),
-            engine_refusal: None,
+            class: B::CLASS,
             origin: Origin::Table,
         }
     }

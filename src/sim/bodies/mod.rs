@@ -33,7 +33,7 @@ pub use law::{Law, check_law, law_kind};
 pub use net::{Net, net_kind};
 pub use orbit::{Ellipse, Orbit};
 pub use pendulum::Pendulum;
-pub use refusal::refusal;
+pub use refusal::{refusal, stepped_kinds};
 pub use ship::Ship;
 pub use spring::Spring;
 

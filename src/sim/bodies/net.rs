@@ -10,10 +10,9 @@ use glam::DVec2;
 
 use crate::sim::Points;
 use crate::sim::body::{Body, Input};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
-use crate::sim::system::{Coupling, System};
+use crate::sim::system::{BodyClass, Coupling, Question, System};
 use frame::{FIXED, Frame};
 use survey::Survey;
 
@@ -180,16 +179,6 @@ impl System for Net {
         Coupling::Few
     }
 
-    /// Solved joint by joint in sweeps.
-    fn engine_settings(
-        &self,
-        _t: f64,
-        _state: &State<Points>,
-        _force: &mut Points,
-    ) -> Option<EngineSettings> {
-        None
-    }
-
     #[inline]
     fn acceleration(&self, _t: f64, q: &Points, v: &Points, a: &mut Points) {
         let (q, v, a) = (q.pairs(), v.pairs(), a.pairs_mut());
@@ -216,13 +205,8 @@ impl System for Net {
     }
 
     #[inline]
-    fn acceleration_slope(
-        &self,
-        _t: f64,
-        state: &State<Points>,
-        along: &State<Points>,
-        slope: &mut Points,
-    ) -> bool {
+    fn answer(&self, _t: f64, question: Question<'_, Points>) -> bool {
+        let Question::Slope { state, along, slope } = question else { return false };
         let (q, v) = (state.q.pairs(), state.v.pairs());
         let (dq, dv, slope) = (along.q.pairs(), along.v.pairs(), slope.pairs_mut());
         let Frame { ends, anchors, .. } = &*self.frame;
@@ -276,7 +260,9 @@ fn pull_slope([k, c, rest]: &[f64; 3], [d, w]: [[f64; 2]; 2], [dd, dw]: [[f64; 2
 }
 
 impl Body for Net {
-    const HAS_JOINT: bool = false;
+    const CLASS: BodyClass = BodyClass::NoEngine(
+        "an engine solves a net joint by joint in sweeps, and its formula here is of one joint alone",
+    );
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn prepare(&mut self) {

@@ -4,10 +4,9 @@ use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
 use crate::sim::body::{Body, Input};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{BodyClass, System};
 
 pub(super) fn kind() -> Kind {
     Kind {
@@ -15,9 +14,6 @@ pub(super) fn kind() -> Kind {
         about: "m l² θ″ = -m g l sin θ - c θ′: a bob on a rod, at any angle".into(),
         all_coordinates: vec![Coordinate::new("theta", "omega", "rad")],
         leading: "gravity_m_per_s2".into(),
-        engine_refusal: Some(
-            "in an engine a pendulum is a hinge, whose rod the solver holds by constraint forces",
-        ),
         ..Kind::of(Pendulum::BLANK)
     }
 }
@@ -94,16 +90,6 @@ impl Pendulum {
 impl System for Pendulum {
     type Vector = f64;
 
-    /// A hinge.
-    fn engine_settings(
-        &self,
-        _t: f64,
-        _state: &State<f64>,
-        _force: &mut f64,
-    ) -> Option<EngineSettings> {
-        None
-    }
-
     #[inline]
     fn acceleration(&self, _t: f64, theta: &f64, omega: &f64, a: &mut f64) {
         let (pull, drag) = (self.gravity / self.length, self.damping / self.inertia());
@@ -112,7 +98,9 @@ impl System for Pendulum {
 }
 
 impl Body for Pendulum {
-    const HAS_JOINT: bool = false;
+    const CLASS: BodyClass = BodyClass::NoEngine(
+        "in an engine a pendulum is a hinge, whose rod the solver holds by constraint forces",
+    );
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 
     fn start(&self) -> State<f64> {

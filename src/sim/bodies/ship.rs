@@ -4,10 +4,9 @@ use glam::DVec2;
 
 use super::kind::{Coordinate, Kind};
 use crate::sim::body::{Body, Input};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{Question, System};
 
 pub(super) fn kind() -> Kind {
     Kind {
@@ -76,29 +75,18 @@ impl System for Ship {
         *a = push - rate * v;
     }
 
-    /// The drag is linear.
     #[inline]
-    fn acceleration_slope(
-        &self,
-        _t: f64,
-        _state: &State<f64>,
-        along: &State<f64>,
-        slope: &mut f64,
-    ) -> bool {
-        *slope = -(self.drag / self.mass) * along.v;
+    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
+        match question {
+            Question::Slope { along, slope, .. } => *slope = -(self.drag / self.mass) * along.v,
+            // The drag is the damping setting of the body, and the thrust is held.
+            Question::Engine { settings, force, .. } => {
+                settings.drag = self.drag / self.mass;
+                *force = self.thrust * self.throttle / self.mass;
+            }
+            Question::Target(_) | Question::LostTime(_) => return false,
+        }
         true
-    }
-
-    /// The drag is the damping setting of the body, and the thrust is held.
-    #[inline]
-    fn engine_settings(
-        &self,
-        _t: f64,
-        _state: &State<f64>,
-        force: &mut f64,
-    ) -> Option<EngineSettings> {
-        *force = self.thrust * self.throttle / self.mass;
-        Some(EngineSettings { drag: self.drag / self.mass, ..EngineSettings::NONE })
     }
 }
 

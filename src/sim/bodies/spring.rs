@@ -5,10 +5,9 @@ use glam::DVec2;
 use super::kind::{Coordinate, Kind};
 use super::oscillator;
 use crate::sim::body::{Body, Input};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{BodyClass, Question, System};
 
 pub(super) fn kind() -> Kind {
     Kind {
@@ -84,34 +83,24 @@ impl System for Spring {
         *a = -k * x - c * v;
     }
 
-    /// The force is linear: its slope is the force of the displacement alone.
     #[inline]
-    fn acceleration_slope(
-        &self,
-        t: f64,
-        _state: &State<f64>,
-        along: &State<f64>,
-        slope: &mut f64,
-    ) -> bool {
-        self.acceleration(t, &along.q, &along.v, slope);
+    fn answer(&self, t: f64, question: Question<'_, f64>) -> bool {
+        match question {
+            // The force is linear: its slope is the force of the displacement alone.
+            Question::Slope { along, slope, .. } => self.acceleration(t, &along.q, &along.v, slope),
+            Question::Engine { settings, force, .. } => {
+                settings.stiffness = self.stiffness / self.mass;
+                settings.damping = self.damping / self.mass;
+                *force = 0.0;
+            }
+            Question::Target(_) | Question::LostTime(_) => return false,
+        }
         true
-    }
-
-    /// A joint.
-    #[inline]
-    fn engine_settings(
-        &self,
-        _t: f64,
-        _state: &State<f64>,
-        force: &mut f64,
-    ) -> Option<EngineSettings> {
-        *force = 0.0;
-        let (stiffness, damping) = (self.stiffness / self.mass, self.damping / self.mass);
-        Some(EngineSettings { stiffness, damping, drag: 0.0 })
     }
 }
 
 impl Body for Spring {
+    const CLASS: BodyClass = BodyClass::Joint;
     const HAS_EXACT: bool = true;
     const PARAMETERS: &'static [Of] = &PARAMETERS;
 

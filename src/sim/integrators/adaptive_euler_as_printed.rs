@@ -5,7 +5,7 @@ use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
 use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{Question, System};
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler-as-printed",
@@ -77,7 +77,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for AdaptiveEulerAsPrinted<S::Vect
             system.acceleration(t, q, v, a);
             v.add_scaled(h_new, a);
             q.add_scaled(h_new, v);
-            system.skipped(h - h_new);
+            system.answer(t, Question::LostTime(h - h_new));
         } else {
             v.assign(v1);
             q.add_scaled(h, v);

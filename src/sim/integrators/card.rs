@@ -3,12 +3,11 @@
 //! A method sets its name, source, orders and evaluations, and takes the other fields from its family
 //! unless they differ.
 
-use std::fmt;
-
 use super::free_spin::FreeSpin;
 use super::joint_mode::JointMode;
 use super::own::OwnIntegrator;
 use super::tolerance::Tolerance;
+use crate::sim::system::BodyClass;
 
 /// The families of methods, for menus and tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,18 +78,39 @@ pub(in crate::sim) const LAW_ORDER: &str = "order";
 /// The bodies that a method is for, if it does not step every body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Only {
-    /// The ids of the kinds that it steps.
-    pub kinds: &'static [&'static str],
-    /// The order of the law by which a body must follow its target; `None` if the method is no follower.
-    pub law_order: Option<u32>,
+    /// What a body must be.
+    pub needs: Needs,
     /// Why it steps no other body: a clause in lower case that follows a colon.
     pub reason: &'static str,
 }
 
-impl fmt::Display for Only {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.kinds.join(", "))?;
-        self.law_order.map_or(Ok(()), |order| write!(f, " with {LAW_ORDER} = {order}"))
+/// What a method needs of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Needs {
+    /// A target that it follows by a law.
+    Law {
+        /// The order of the law: 1 or 2.
+        order: u32,
+    },
+    /// A force.
+    Force,
+    /// What an engine can express.
+    Engine,
+    /// What an engine without a joint can express.
+    EngineWithoutJoint,
+}
+
+impl Only {
+    /// Why the method does not step bodies of this class; `None` if it does, or those with the law of its order.
+    pub const fn refusal(&self, class: BodyClass) -> Option<&'static str> {
+        match (self.needs, class) {
+            (Needs::Law { .. }, BodyClass::Follower(_))
+            | (Needs::Force, BodyClass::Forced | BodyClass::Joint | BodyClass::NoEngine(_))
+            | (Needs::Engine, BodyClass::Forced | BodyClass::Joint)
+            | (Needs::EngineWithoutJoint, BodyClass::Forced) => None,
+            (Needs::Law { .. }, _) | (_, BodyClass::Joint) => Some(self.reason),
+            (_, BodyClass::NoEngine(why) | BodyClass::Follower(why)) => Some(why),
+        }
     }
 }
 
@@ -164,7 +184,7 @@ pub struct Method {
     /// if it is given a state other than it returned. `None` without memory.
     pub restart: Option<&'static str>,
     /// Whether a step of `h` always advances by `h`. A method that does not reports the rest to
-    /// [`System::skipped`](crate::sim::System::skipped).
+    /// [`Question::LostTime`](crate::sim::Question::LostTime).
     pub keeps_time: bool,
     /// The bodies that it is for; `None` if it steps every body.
     pub only: Option<Only>,
@@ -196,6 +216,14 @@ impl Method {
     pub fn evaluations_per_tick(&self, substeps: u32) -> Option<u32> {
         let reads_once = self.engine.is_some_and(|engine| engine.has_substeps);
         Some(self.evaluations? * if reads_once { 1 } else { substeps })
+    }
+
+    /// The order of the law by which a body must follow its target; `None` if the method is no follower.
+    pub fn law_order(&self) -> Option<u32> {
+        match self.only?.needs {
+            Needs::Law { order } => Some(order),
+            _ => None,
+        }
     }
 
     /// Whether it does what a physics engine does. Such a method is used only where it is asked for.
@@ -274,8 +302,7 @@ pub(super) const FIRST_ORDER_FOLLOWER: Method = Method {
     order_with_drag: 1,
     evaluations: Some(1),
     only: Some(Only {
-        kinds: &["follow"],
-        law_order: Some(1),
+        needs: Needs::Law { order: 1 },
         reason: "it moves straight towards a target, so that it steps only a `follow` of order 1",
     }),
     ..PLAIN
@@ -284,17 +311,11 @@ pub(super) const FIRST_ORDER_FOLLOWER: Method = Method {
 /// A follower by a law of second order, whose distance from a still target only shrinks.
 pub(super) const SECOND_ORDER_FOLLOWER: Method = Method {
     only: Some(Only {
-        kinds: &["follow"],
-        law_order: Some(2),
+        needs: Needs::Law { order: 2 },
         reason: "it moves towards a target with a velocity of its own, so that it steps only a `follow` of order 2",
     }),
     ..FIRST_ORDER_FOLLOWER
 };
-
-/// Why an engine does not step a body, where the [body](crate::sim::bodies::Kind::engine_refusal) gives no reason of its
-/// own.
-pub(super) const NOT_TOLD: &str =
-    "an engine is told of one body's spring, its drag and the force on it, and of nothing else";
 
 /// A tick of an engine, which reads the force once.
 pub(super) const ENGINE: Method = Method {
@@ -303,9 +324,8 @@ pub(super) const ENGINE: Method = Method {
     order_with_drag: 1,
     evaluations: Some(1),
     only: Some(Only {
-        kinds: &["spring", "ship", "helm", "orbit", "law", "own"],
-        law_order: None,
-        reason: NOT_TOLD,
+        needs: Needs::Engine,
+        reason: "an engine is told of one body's spring, its drag and the force on it, and of nothing else",
     }),
     ..PLAIN
 };

@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use super::card::Method;
+use super::card::{Method, Needs};
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use crate::sim::state::{State, Vector};
@@ -36,7 +36,8 @@ impl<S: System<Vector: Vector>, R: FollowerRule> Integrator<S> for Follower<S::V
         State { q, v }: &mut State<S::Vector>,
     ) -> Result<(), StepFailure> {
         let only = R::CARD.only.expect("a follower's card says what it follows");
-        let pursuit = system.pursuit(t + h).filter(|found| only.law_order == Some(found.order));
+        let pursuit = Pursuit::of(system, t + h);
+        let pursuit = pursuit.filter(|found| only.needs == Needs::Law { order: found.order });
         let refused = StepFailure::Refused { reason: only.reason };
         let Pursuit { target, rate, .. } = pursuit.ok_or(refused)?;
         let moved = q.components_mut().iter_mut().zip(v.components_mut());

@@ -11,7 +11,7 @@ use reset_on_change::ResetOnChange;
 use unfit::Unfit;
 
 use super::state::Vector;
-use super::system::System;
+use super::system::{BodyClass, System};
 
 mod adams_bashforth_2;
 mod adaptive_euler;
@@ -62,7 +62,7 @@ mod verlet_exact_drag;
 mod yoshida4;
 
 pub(in crate::sim) use card::LAW_ORDER;
-pub use card::{Engine, Family, Method, Only};
+pub use card::{Engine, Family, Method, Needs, Only};
 pub use engine::{EngineMethod, Rule, Tick};
 pub use failure::StepFailure;
 pub use follower::{Follower, FollowerRule};
@@ -77,11 +77,8 @@ pub use tolerance::Tolerance;
 pub trait Construct<S: System> {
     /// The result.
     type Output;
-    /// Whether the system may follow a target. If not, no [follower](Family::Follower) is compiled for it.
-    const FOLLOWS: bool = true;
-    /// Whether the system may be [told](System::engine_settings) to an engine. If not, no
-    /// [engine](Family::Engine) is compiled for it.
-    const HAS_JOINT: bool = true;
+    /// The class of the bodies; `None` if it is not known. No method is compiled that refuses them.
+    const CLASS: Option<BodyClass> = None;
     /// Builds the result from integrators of the type `I`, which `new` makes for coordinate vectors shaped like the
     /// one that it is given.
     fn of<I: Integrator<S> + Clone + 'static>(
@@ -90,12 +87,11 @@ pub trait Construct<S: System> {
     ) -> Self::Output;
 }
 
-/// Whether a method steps any system of the type for which `C` constructs.
-const fn fits<S: System, C: Construct<S>>(card: &Method) -> bool {
-    match card.family {
-        Family::Follower => C::FOLLOWS,
-        Family::Engine => C::HAS_JOINT,
-        _ => true,
+/// Why a method steps no system of the type for which `C` constructs; `None` if it may step some.
+const fn refusal<S: System, C: Construct<S>>(card: &Method) -> Option<&'static str> {
+    match (&card.only, C::CLASS) {
+        (Some(only), Some(class)) => only.refusal(class),
+        _ => None,
     }
 }
 
@@ -125,17 +121,17 @@ macro_rules! methods {
             if let Some(build) = method.own {
                 return construct.of(|like| Own::new(build, like));
             }
-            $(if const { fits::<S, C>(&$file::CARD) } {
+            $(if const { refusal::<S, C>(&$file::CARD).is_none() } {
                 if method.id == $file::CARD.id {
                     return construct.of(
                         <method_type!(S, $Type $(, $Family)?) as Integrator<S>>::new
                     );
                 }
             })+
-            let Some(only) = method.only else {
+            let Some(reason) = refusal::<S, C>(method) else {
                 panic!("{} is not in METHODS, and its card has no `own`", method.id)
             };
-            construct.of(|_| Unfit { reason: only.reason })
+            construct.of(|_| Unfit { reason })
         }
     };
 }

@@ -5,9 +5,9 @@ use std::cell::RefCell;
 use super::failure::StepFailure;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::state::{State, Vector};
-use crate::sim::system::{Pursuit, System};
+use crate::sim::system::{Question, System};
+use crate::sim::vec_system::{Scratch, VecSystem};
 
 /// A system of any type with its coordinates in a `Vec`: what a method of one's own steps.
 #[derive(Clone, Copy)]
@@ -20,21 +20,8 @@ impl System for AnySystem<'_> {
         self.0.acceleration(t, q, v, a);
     }
 
-    fn pursuit(&self, t: f64) -> Option<Pursuit<Vec<f64>>> {
-        self.0.pursuit(t)
-    }
-
-    fn engine_settings(
-        &self,
-        t: f64,
-        state: &State<Vec<f64>>,
-        force: &mut Vec<f64>,
-    ) -> Option<EngineSettings> {
-        self.0.engine_settings(t, state, force)
-    }
-
-    fn skipped(&self, h: f64) {
-        self.0.skipped(h);
+    fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
+        self.0.answer(t, question)
     }
 }
 
@@ -136,7 +123,7 @@ pub fn own_integrator<I: OwnIntegrator + for<'a> Integrator<AnySystem<'a>> + 'st
 pub(super) struct Own<V> {
     integrator: Box<dyn OwnIntegrator>,
     state: State<Vec<f64>>,
-    scratch: RefCell<(State<V>, V)>,
+    scratch: RefCell<Scratch<V>>,
 }
 
 impl<V: Vector> Own<V> {
@@ -146,7 +133,7 @@ impl<V: Vector> Own<V> {
         Self {
             integrator: build(zero.len()),
             state: State { q: zero.clone(), v: zero },
-            scratch: RefCell::new((State { q: like.clone(), v: like.clone() }, like.clone())),
+            scratch: RefCell::new(Scratch::new(like)),
         }
     }
 }
@@ -177,7 +164,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for Own<S::Vector> {
         let Self { integrator, state: many, scratch } = self;
         many.q.copy_from_slice(state.q.components());
         many.v.copy_from_slice(state.v.components());
-        let stepped = integrator.step(AnySystem(&Spread { system, scratch }), t, h, many);
+        let stepped = integrator.step(AnySystem(&VecSystem { system, scratch }), t, h, many);
         state.q.components_mut().copy_from_slice(&many.q);
         state.v.components_mut().copy_from_slice(&many.v);
         stepped
@@ -195,46 +182,5 @@ impl<S: System<Vector: Vector>> Integrator<S> for Own<S::Vector> {
         // An upper bound: as if every field were a coordinate vector.
         let fields = self.integrator.bytes();
         fields + (2 + fields / size_of::<Vec<f64>>()) * size_of_val(&self.state.q[..])
-    }
-}
-
-/// A system with its coordinates in a `Vec`.
-struct Spread<'a, S: System> {
-    system: &'a S,
-    scratch: &'a RefCell<(State<S::Vector>, S::Vector)>,
-}
-
-impl<S: System<Vector: Vector>> System for Spread<'_, S> {
-    type Vector = Vec<f64>;
-
-    fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
-        let (own, own_a) = &mut *self.scratch.borrow_mut();
-        own.q.components_mut().copy_from_slice(q);
-        own.v.components_mut().copy_from_slice(v);
-        self.system.acceleration(t, &own.q, &own.v, own_a);
-        a.copy_from_slice(own_a.components());
-    }
-
-    fn pursuit(&self, t: f64) -> Option<Pursuit<Vec<f64>>> {
-        let Pursuit { target, rate, order, is_still } = self.system.pursuit(t)?;
-        Some(Pursuit { target: target.components().to_vec(), rate, order, is_still })
-    }
-
-    fn engine_settings(
-        &self,
-        t: f64,
-        state: &State<Vec<f64>>,
-        force: &mut Vec<f64>,
-    ) -> Option<EngineSettings> {
-        let (own, own_force) = &mut *self.scratch.borrow_mut();
-        own.q.components_mut().copy_from_slice(&state.q);
-        own.v.components_mut().copy_from_slice(&state.v);
-        let settings = self.system.engine_settings(t, own, own_force)?;
-        force.copy_from_slice(own_force.components());
-        Some(settings)
-    }
-
-    fn skipped(&self, h: f64) {
-        self.system.skipped(h);
     }
 }

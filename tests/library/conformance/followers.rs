@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use glam::{DVec2, DVec3};
 use regatta::sim::bodies::{Body, Follow};
 use regatta::sim::integrators::{Family, METHODS, Method, StepFailure, integrator, method};
-use regatta::sim::{Counted, Pursuit, State, System, Vector};
+use regatta::sim::{Counted, Pursuit, Question, State, System, Vector};
 
 use super::systems::{bits, fresh, spring};
 
@@ -15,7 +15,7 @@ fn followers() -> impl Iterator<Item = &'static Method> {
 
 /// The order of the law that a follower is for.
 fn order_of(method: &Method) -> usize {
-    method.only.and_then(|only| only.law_order).expect("a follower is for one law") as usize
+    method.law_order().expect("a follower is for one law") as usize
 }
 
 /// A body at rest 2 m before a still target, by the law that `method` is for.
@@ -122,9 +122,9 @@ fn a_follower_has_no_memory_and_looks_at_the_target_at_the_end_of_its_step() {
         fn acceleration(&self, _t: f64, _q: &f64, _v: &f64, _a: &mut f64) {
             panic!("a follower needs no acceleration");
         }
-        fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
+        fn answer(&self, t: f64, question: Question<'_, f64>) -> bool {
             self.1.borrow_mut().push(t);
-            self.0.pursuit(t)
+            self.0.answer(t, question)
         }
     }
     for method in followers() {
@@ -168,10 +168,12 @@ impl<V: Vector> System for Ones<V> {
     fn acceleration(&self, _t: f64, _q: &V, _v: &V, _a: &mut V) {
         panic!("a follower needs no acceleration");
     }
-    fn pursuit(&self, _t: f64) -> Option<Pursuit<V>> {
+    fn answer(&self, _t: f64, question: Question<'_, V>) -> bool {
+        let Question::Target(pursuit) = question else { return false };
         let mut target = self.0.clone();
         target.components_mut().fill(1.0);
-        Some(Pursuit { target, rate: 3.0, order: self.1, is_still: true })
+        *pursuit = Some(Pursuit { target, rate: 3.0, order: self.1, is_still: true });
+        true
     }
 }
 

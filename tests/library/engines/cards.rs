@@ -3,9 +3,9 @@
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 
-use regatta::sim::bodies::{BODIES, Kind, Net, kind, refusal};
-use regatta::sim::integrators::{METHODS, Method, integrator, method};
-use regatta::sim::{Counted, State};
+use regatta::sim::bodies::{BODIES, Body as _, Kind, Net, Range, kind, refusal};
+use regatta::sim::integrators::{METHODS, Method, StepFailure, integrator, method};
+use regatta::sim::{Counted, Solver, State};
 
 use super::log::{Body, Log};
 
@@ -233,11 +233,11 @@ fn a_spring_force_held_over_one_substep_is_bounded_up_to_2_and_over_more_at_no_s
 #[test]
 fn a_body_that_no_engine_can_be_told_of_says_why_and_each_says_something_else() {
     let box2d = method("engine-box2d").unwrap();
-    let steps = |method: &Method, kind: &Kind| method.only.unwrap().kinds.contains(&kind.id);
+    let steps = |method: &Method, kind: &Kind| method.only.unwrap().refusal(kind.class).is_none();
     let mut reasons = Vec::new();
     for kind in BODIES.iter() {
-        assert_eq!(steps(box2d, kind), kind.engine_refusal.is_none(), "{}", kind.id);
-        let Some(reason) = kind.engine_refusal else { continue };
+        assert_eq!(steps(box2d, kind), kind.class.engine_refusal().is_none(), "{}", kind.id);
+        let Some(reason) = kind.class.engine_refusal() else { continue };
         reasons.push(reason);
         let values: Vec<f64> = kind.parameters.iter().map(|p| p.default.unwrap_or(1.0)).collect();
         for method in engines() {
@@ -245,11 +245,28 @@ fn a_body_that_no_engine_can_be_told_of_says_why_and_each_says_something_else() 
             assert_eq!(refusal(method, kind, &values), expected, "{} {}", method.id, kind.id);
         }
     }
-    reasons.push(Net::ENGINE_REFUSAL);
+    reasons.extend(Net::CLASS.engine_refusal());
     let distinct: HashSet<_> = reasons.iter().collect();
     assert_eq!((reasons.len(), distinct.len()), (4, 4), "{reasons:?}");
     // A reason of the engine's own stays.
     let spring = kind("spring").unwrap();
     let said = refusal(method("engine-pybullet").unwrap(), spring, &[1.0; 6]).unwrap();
     assert!(said.contains("no joint with a spring"), "{said}");
+}
+
+#[test]
+fn a_method_steps_the_bodies_that_are_not_refused_and_no_other() {
+    for kind in BODIES.iter() {
+        let mut values = kind.plain_values();
+        if kind.parameters.iter().any(|parameter| matches!(parameter.range, Range::Curve { .. })) {
+            // The last value is the x of the only point.
+            values.push(1.0);
+        }
+        for method in METHODS {
+            let mut body = (kind.build)(&values, Solver::Method(method));
+            let refused = refusal(method, kind, &values);
+            let expected = refused.map_or(Ok(()), |reason| Err(StepFailure::Refused { reason }));
+            assert_eq!(body.advance(0.0, 1e-3, 1), expected, "{} {}", method.id, kind.id);
+        }
+    }
 }

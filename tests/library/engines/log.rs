@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use regatta::sim::integrators::{Method, StepFailure, integrator, method};
-use regatta::sim::{EngineSettings, State, System};
+use regatta::sim::{Question, State, System};
 
 /// Where the logs are, with their manifest.
 fn folder() -> PathBuf {
@@ -33,20 +33,19 @@ impl System for Body {
         *a = self.push - (stiffness * x + damping * v) - self.drag * v;
     }
 
-    fn engine_settings(
-        &self,
-        _t: f64,
-        State { q: x, v }: &State<f64>,
-        force: &mut f64,
-    ) -> Option<EngineSettings> {
+    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
+        let Question::Engine { state: State { q: x, v }, settings, force } = question else {
+            return false;
+        };
         let [stiffness, damping] = self.spring;
-        let drag = self.drag;
+        settings.drag = self.drag;
         if self.is_held {
             *force = self.push - (stiffness * x + damping * v);
-            return Some(EngineSettings { drag, ..EngineSettings::NONE });
+        } else {
+            *force = self.push;
+            (settings.stiffness, settings.damping) = (stiffness, damping);
         }
-        *force = self.push;
-        Some(EngineSettings { stiffness, damping, drag })
+        true
     }
 }
 

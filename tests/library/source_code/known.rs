@@ -2,7 +2,7 @@
 
 use regatta::lab::MethodSource;
 use regatta::sim::integrators::{METHODS, Method, integrator};
-use regatta::sim::{EngineSettings, Pursuit, State, System};
+use regatta::sim::{Pursuit, Question, State, System};
 
 /// The acceleration of a run.
 pub(crate) struct Force {
@@ -86,22 +86,29 @@ impl System for Run {
         *a = (self.force)(*q, *v);
     }
 
-    fn engine_settings(&self, _t: f64, _y: &State<f64>, force: &mut f64) -> Option<EngineSettings> {
-        *force = FORCE;
-        let [stiffness, damping, drag] =
-            if self.has_joint { SETTINGS } else { [0.0, 0.0, SETTINGS[2]] };
-        Some(EngineSettings { stiffness, damping, drag })
-    }
-
-    fn pursuit(&self, t: f64) -> Option<Pursuit<f64>> {
-        Some(Pursuit { target: target(t), rate: RATE, order: self.order, is_still: false })
+    fn answer(&self, t: f64, question: Question<'_, f64>) -> bool {
+        match question {
+            Question::Engine { settings, force, .. } => {
+                *force = FORCE;
+                settings.drag = SETTINGS[2];
+                if self.has_joint {
+                    [settings.stiffness, settings.damping] = [SETTINGS[0], SETTINGS[1]];
+                }
+            }
+            Question::Target(pursuit) => {
+                let (rate, order) = (RATE, self.order);
+                *pursuit = Some(Pursuit { target: target(t), rate, order, is_still: false });
+            }
+            Question::Slope { .. } | Question::LostTime(_) => return false,
+        }
+        true
     }
 }
 
 /// The states that the method of the table passes through.
 pub(crate) fn steps(method: &Method, case: &Case) -> Vec<[f64; 2]> {
     let force = FORCES[case.force].a;
-    let order = method.only.and_then(|only| only.law_order).unwrap_or(1);
+    let order = method.law_order().unwrap_or(1);
     let run = Run { force, order, has_joint: method.id != "engine-pybullet" };
     let [q, v] = case.start;
     let mut state = State { q, v };

@@ -40,7 +40,7 @@ const CONCEPTS: [Concept; 11] = [
     Concept {
         name: "slope of a force, by its formula or by a difference",
         file: "src/sim/integrators/shared/slopes.rs",
-        marks: &["acceleration_slope(t, y,"],
+        marks: &["Question::Slope { state: y,"],
     },
     Concept {
         name: "convergence of the equations of a step",
@@ -50,7 +50,7 @@ const CONCEPTS: [Concept; 11] = [
     Concept {
         name: "linear equations without a matrix",
         file: "src/sim/integrators/shared/krylov.rs",
-        marks: &["omega2"],
+        marks: &["rho *= -omega2"],
     },
     Concept {
         name: "exponential of a linear flow",

@@ -1,7 +1,7 @@
 //! `list` and `completions`.
 
 use regatta::lab::{KEYS, METRICS, SCENES};
-use regatta::sim::bodies::{BODIES, Net, kind};
+use regatta::sim::bodies::{BODIES, Body, Net, kind, stepped_kinds};
 use regatta::sim::integrators::{METHODS, SpinMap};
 use regatta::sim::law::{UNITS, functions, operators, values};
 use serde_json::Value;
@@ -42,7 +42,7 @@ fn a_method_is_listed_with_all_of_its_card() {
                         engine_damping_ratio_at_1_hz engine_free_spin \
                         engine_free_spin_opt_in about source";
         assert_eq!(keys.join(" "), expected);
-        let only = method.only.map(|only| (only.to_string(), only.reason));
+        let only = stepped_kinds(method).zip(method.only.map(|only| only.reason));
         let (bodies, reason) = only.unzip();
         assert_eq!((&object["only"], &object["only_because"]), (&bodies.into(), &reason.into()));
         let also = (!method.also.is_empty()).then(|| method.also.join(", "));
@@ -86,7 +86,7 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
     }
     for (object, body) in bodies.iter().zip(BODIES.iter()) {
         assert_eq!(object["truth"], body.truth.id());
-        assert_eq!(object["engine_refusal"], Value::from(body.engine_refusal));
+        assert_eq!(object["engine_refusal"], Value::from(body.class.engine_refusal()));
         assert_eq!(object["aimed_accuracy"], Value::from(body.truth.aimed_accuracy()));
         let coordinates = object["coordinates"].as_array().unwrap();
         let names: Vec<_> = coordinates.iter().map(|c| c["name"].as_str().unwrap()).collect();
@@ -97,10 +97,13 @@ fn a_body_is_listed_with_the_keys_of_its_table() {
     }
     let text = stdout_of("list bodies");
     assert!(text.contains("[[spring]]\n"), "{text}");
-    let pendulum = kind("pendulum").unwrap().engine_refusal.unwrap();
+    let pendulum = kind("pendulum").unwrap().class.engine_refusal().unwrap();
     for refused in [
         format!("  No method of an engine except held-force:\n    {pendulum}.\n"),
-        format!("  No method of an engine except held-force:\n    {}.\n", Net::ENGINE_REFUSAL),
+        format!(
+            "  No method of an engine except held-force:\n    {}.\n",
+            Net::CLASS.engine_refusal().unwrap()
+        ),
         "  No method of an engine:\n    a follower moves".to_owned(),
     ] {
         assert!(text.contains(&refused), "{refused}: {text}");

@@ -140,15 +140,15 @@ fn leaking(leak: Leak) -> CustomFault {
 }
 
 /// Where a body that was told to be linear is not; `None` if it is, or if nobody has said so.
-fn find_bend(own: &Custom) -> Option<CustomFault> {
+fn find_nonlinearity(own: &Custom) -> Option<CustomFault> {
     if !own.is_linear {
         return None;
     }
     let n = own.start.q.len();
     let acceleration = |t: f64, state: &[f64]| {
-        let (q, v) = state.split_at(n);
+        let [q, v] = [&state[..n], &state[n..]].map(<[f64]>::to_vec);
         let mut a = vec![0.0; n];
-        own.motion.acceleration(t, q, v, &mut a);
+        own.acceleration(t, &q, &v, &mut a);
         a
     };
     let mut random = XorShift::new(0x2545_F491_4F6C_DD1D);
@@ -196,5 +196,5 @@ pub(super) fn check(own: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFau
     if let Some(leak) = find_leak(own).or_else(|| find_later_leak(own, horizon)) {
         return Err(leaking(leak));
     }
-    find_bend(own).map_or(Ok(()), Err)
+    find_nonlinearity(own).map_or(Ok(()), Err)
 }

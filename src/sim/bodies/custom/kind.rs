@@ -59,7 +59,7 @@ where
         None => kick[0] = 1.0,
     }
     let own = Custom {
-        motion: Box::new(Typed::new(system.clone(), start, extras)),
+        motion: Box::new(Typed::new(system.clone(), &start.q, extras)),
         info: Arc::new(CustomInfo { coordinates, plane, drawing }),
         values: parameters.iter().filter_map(|parameter| parameter.default).collect(),
         start: many,
@@ -129,7 +129,7 @@ fn kind(own: Custom, parameters: Vec<Parameter>) -> Kind {
         build: Box::new(move |values, solver| {
             stepper(copy(&template).with_parameters(values), solver)
         }),
-        engine_refusal: None,
+        class: Custom::CLASS,
         origin: Origin::Custom(info),
     }
 }

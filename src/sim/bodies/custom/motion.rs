@@ -5,22 +5,13 @@ use std::cell::RefCell;
 use std::fmt;
 
 use super::extras::{Energy, Exact, Extras};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::parameter::ParameterOf;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::state::{Elementwise, State, Vector};
+use crate::sim::system::{EngineSettings, Question, System};
+use crate::sim::vec_system::{Scratch, VecSystem};
 
-/// The motion of a custom body.
-pub(super) trait Motion: Send {
-    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]);
-    /// As [`System::engine_settings`].
-    fn engine_settings(
-        &self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        f: &mut [f64],
-    ) -> Option<EngineSettings>;
+/// The motion of a custom body. It answers for no target: a body that follows one has a kind of its own.
+pub(super) trait Motion: System<Vector = Vec<f64>> + Send {
     /// The energy of a state, or of the same place at rest; `None` if nobody has said what it is.
     fn energy(&self, q: &[f64], v: Option<&[f64]>) -> Option<f64>;
     /// Overwrites `to` with the exact state at time `t` (s). Returns whether anybody has said what it is.
@@ -59,64 +50,59 @@ pub(super) struct Typed<S: System<Vector: Vector>> {
     scratch: RefCell<Scratch<S::Vector>>,
 }
 
-#[derive(Clone)]
-struct Scratch<V> {
-    state: State<V>,
-    a: V,
-}
-
 impl<S: System<Vector: Vector>> Typed<S> {
-    pub(super) fn new(system: S, like: &State<S::Vector>, extras: &Extras<S>) -> Self {
+    pub(super) fn new(system: S, like: &S::Vector, extras: &Extras<S>) -> Self {
         Self {
             system,
             force: 1.0,
             parameters: extras.parameters.iter().filter_map(ParameterOf::acting_at_once).collect(),
             energy: extras.energy,
             exact: extras.exact,
-            scratch: RefCell::new(Scratch { state: like.clone(), a: like.v.clone() }),
+            scratch: RefCell::new(Scratch::new(like)),
+        }
+    }
+
+    /// The system without the factor of its force.
+    fn unscaled(&self) -> VecSystem<'_, S> {
+        VecSystem { system: &self.system, scratch: &self.scratch }
+    }
+}
+
+impl<S: System<Vector: Vector>> System for Typed<S> {
+    type Vector = Vec<f64>;
+
+    fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        self.unscaled().acceleration(t, q, v, a);
+        a.scale(self.force);
+    }
+
+    fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
+        match question {
+            Question::Slope { state, along, slope } => {
+                let question = Question::Slope { state, along, slope: &mut *slope };
+                let is_answered = self.unscaled().answer(t, question);
+                slope.scale(self.force);
+                is_answered
+            }
+            Question::Engine { state, settings, force } => {
+                let (engine, own) = (&mut *settings, &mut *force);
+                let question = Question::Engine { state, settings: engine, force: own };
+                let is_answered = self.unscaled().answer(t, question);
+                force.scale(self.force);
+                let EngineSettings { stiffness, damping, drag } = settings;
+                [stiffness, damping, drag].into_iter().for_each(|setting| *setting *= self.force);
+                is_answered
+            }
+            Question::Target(_) => false,
+            Question::LostTime(_) => self.unscaled().answer(t, question),
         }
     }
 }
 
 impl<S: System<Vector: Vector> + Clone + Send + 'static> Motion for Typed<S> {
-    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
-        let Scratch { state, a: own } = &mut *self.scratch.borrow_mut();
-        state.q.components_mut().copy_from_slice(q);
-        state.v.components_mut().copy_from_slice(v);
-        self.system.acceleration(t, &state.q, &state.v, own);
-        for (a, own) in a.iter_mut().zip(own.components()) {
-            *a = self.force * own;
-        }
-    }
-
-    fn engine_settings(
-        &self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        f: &mut [f64],
-    ) -> Option<EngineSettings> {
-        let Scratch { state, a: own } = &mut *self.scratch.borrow_mut();
-        state.q.components_mut().copy_from_slice(q);
-        state.v.components_mut().copy_from_slice(v);
-        let set = self.system.engine_settings(t, state, own)?;
-        for (f, own) in f.iter_mut().zip(own.components()) {
-            *f = self.force * own;
-        }
-        let [stiffness, damping, drag] =
-            [set.stiffness, set.damping, set.drag].map(|setting| self.force * setting);
-        Some(EngineSettings { stiffness, damping, drag })
-    }
-
     fn energy(&self, q: &[f64], v: Option<&[f64]>) -> Option<f64> {
         let energy = self.energy?;
-        let state = &mut self.scratch.borrow_mut().state;
-        state.q.components_mut().copy_from_slice(q);
-        match v {
-            Some(v) => state.v.components_mut().copy_from_slice(v),
-            None => state.v.components_mut().fill(0.0),
-        }
-        Some(energy(&self.system, state))
+        Some(energy(&self.system, self.scratch.borrow_mut().state(q, v)))
     }
 
     fn exact(&self, t: f64, to: &mut State<Vec<f64>>) -> bool {
@@ -147,6 +133,6 @@ impl<S: System<Vector: Vector> + Clone + Send + 'static> Motion for Typed<S> {
     }
 
     fn vectors(&self) -> usize {
-        3
+        Scratch::<S::Vector>::VECTORS
     }
 }

@@ -56,7 +56,7 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
             let law = template.lock().unwrap_or_else(PoisonError::into_inner).clone();
             stepper(law.with_parameters(values), solver)
         }),
-        engine_refusal: None,
+        class: Law::CLASS,
         origin: Origin::Law(equations.clone()),
     }))
 }

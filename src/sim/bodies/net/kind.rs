@@ -15,9 +15,6 @@ impl Net {
             LazyLock::new(|| PARAMETERS.iter().map(ParameterOf::parameter).collect());
         &DESCRIPTIONS
     }
-
-    /// Why no engine steps a net; see [`Kind::engine_refusal`].
-    pub const ENGINE_REFUSAL: &'static str = "an engine solves a net joint by joint in sweeps, and its formula here is of one joint alone";
 }
 
 /// The kind of nets of this plan.
@@ -41,7 +38,6 @@ pub fn net_kind(plan: NetPlan) -> Result<Arc<Kind>, Vec<NetFault>> {
                 .into(),
         all_coordinates: frame.free.iter().flat_map(axes).collect(),
         leading: "stiffness_n_per_m".into(),
-        engine_refusal: Some(Net::ENGINE_REFUSAL),
         origin: Origin::Net(Arc::new(plan)),
         ..Kind::of(Net::blank(Arc::new(frame)))
     }))

@@ -1,13 +1,12 @@
 //! A force of one's own, applied once a tick over an engine's substeps.
 
 use super::{Rule, Tick};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
-use crate::sim::integrators::card::{ENGINE, Engine, Method, Only};
+use crate::sim::integrators::card::{ENGINE, Engine, Method, Needs, Only};
 use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
 use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{EngineSettings, System};
 
 const MODES: [JointMode; 1] = [mode(
     "force",
@@ -21,11 +20,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
     name: "Held force",
     about: "one's own force, applied once a tick over an engine's substeps: with more than one a spring gains energy, and \
             with each the faster",
-    only: Some(Only {
-        kinds: &["spring", "ship", "helm", "orbit", "pendulum", "chain", "law", "own", "net"],
-        law_order: None,
-        reason: "a follower has no force",
-    }),
+    only: Some(Only { needs: Needs::Force, reason: "a follower has no force" }),
     stability_limit: Some(0.0),
     default_substeps: 4,
     engine: Some(Engine {

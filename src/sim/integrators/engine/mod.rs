@@ -3,7 +3,7 @@
 //! Each file has the formula of one engine, read from its source and held against logs of the engine
 //! itself (`tests/library/engines`). They share this: an engine is told the spring's stiffness and damping as
 //! settings of a joint and the drag as a setting of the body, and any other force once a tick, which it
-//! holds for all its substeps; see [`System::engine_settings`].
+//! holds for all its substeps; see [`EngineSettings::of`].
 //!
 //! Letters, as in the formulas: `H` a tick, `n` its substeps, `h = H/n`; `K` the stiffness, `c` the damping and
 //! `C` the drag, each per unit of mass; `f` the held force per unit of mass; `D = 1 + h c + h² K`. A part of a
@@ -11,12 +11,11 @@
 
 use std::marker::PhantomData;
 
-use super::card::{Method, NOT_TOLD};
+use super::card::Method;
 use super::failure::StepFailure;
 use super::integrator::Integrator;
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{EngineSettings, System};
 
 pub(super) mod avian;
 pub(super) mod avian_motor;
@@ -67,14 +66,14 @@ pub trait Rule: Clone + Send + 'static {
     ///
     /// # Errors
     /// If the engine cannot express the system.
+    #[inline]
     fn read<S: System<Vector: Vector>>(
         system: &S,
         t: f64,
         state: &State<S::Vector>,
         force: &mut S::Vector,
     ) -> Result<EngineSettings, StepFailure> {
-        let settings = system.engine_settings(t, state, force);
-        settings.ok_or(StepFailure::Refused { reason: NOT_TOLD })
+        Ok(EngineSettings::of(system, t, state, force))
     }
 }
 

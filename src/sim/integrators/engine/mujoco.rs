@@ -1,12 +1,12 @@
 //! MuJoCo with its Euler integrator: implicit in the damping, explicit in the stiffness.
 
 use super::{Rule, Tick, each};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
 use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
 use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
+use crate::sim::system::EngineSettings;
 
 const MODES: [JointMode; 3] = [
     mode(

@@ -1,15 +1,13 @@
 //! The multibody that pybullet loads a model as, unless it is told otherwise.
 
 use super::{Rule, Tick, each};
-use crate::sim::engine_settings::EngineSettings;
 use crate::sim::integrators::StepFailure;
-use crate::sim::integrators::card::{ENGINE, Engine, Method, NOT_TOLD, Only};
+use crate::sim::integrators::card::{ENGINE, Engine, Method, Needs, Only};
 use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{EngineSettings, System};
 
 const ONLY: Only = Only {
-    kinds: &["ship", "helm", "orbit", "law", "own"],
-    law_order: None,
+    needs: Needs::EngineWithoutJoint,
     reason: "pybullet's multibody has no joint with a spring",
 };
 
@@ -59,8 +57,7 @@ impl Rule for Pybullet {
         state: &State<S::Vector>,
         force: &mut S::Vector,
     ) -> Result<EngineSettings, StepFailure> {
-        let settings = system.engine_settings(t, state, force);
-        let settings = settings.ok_or(StepFailure::Refused { reason: NOT_TOLD })?;
+        let settings = EngineSettings::of(system, t, state, force);
         match settings.has_spring() {
             true => Err(StepFailure::Refused { reason: ONLY.reason }),
             false => Ok(settings),

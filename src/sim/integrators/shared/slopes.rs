@@ -7,7 +7,7 @@
 //! corner of the force is seldom within its reach.
 
 use crate::sim::state::{State, Vector, largest};
-use crate::sim::system::System;
+use crate::sim::system::{Question, System};
 
 /// The reach of a difference as a part of the motion of a step. A larger part takes more of a bend for
 /// slope, a smaller one more rounding.
@@ -59,7 +59,7 @@ impl<V: Vector> Slopes<V> {
         forward: Option<Forward<'_, V>>,
         slope: &mut V,
     ) {
-        if system.acceleration_slope(t, y, along, slope) {
+        if system.answer(t, Question::Slope { state: y, along, slope: &mut *slope }) {
             return;
         }
         let Self { reach, moved, behind } = self;

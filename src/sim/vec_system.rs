@@ -1,0 +1,85 @@
+//! A system of any type with its coordinates in a `Vec`.
+
+use std::cell::RefCell;
+
+use super::state::{State, Vector};
+use super::system::{Pursuit, Question, System};
+
+/// A system as one of a `Vec`.
+pub(super) struct VecSystem<'a, S: System> {
+    pub(super) system: &'a S,
+    pub(super) scratch: &'a RefCell<Scratch<S::Vector>>,
+}
+
+/// The coordinates in the system's own vectors: a state, a direction, and what the system writes.
+#[derive(Clone)]
+pub(super) struct Scratch<V> {
+    state: State<V>,
+    along: State<V>,
+    result: V,
+}
+
+impl<V: Vector> Scratch<V> {
+    /// The number of coordinate vectors.
+    pub(super) const VECTORS: usize = 5;
+
+    /// For coordinates shaped `like` these.
+    pub(super) fn new(like: &V) -> Self {
+        let state = State { q: like.clone(), v: like.clone() };
+        Self { along: state.clone(), result: like.clone(), state }
+    }
+
+    /// The state with these coordinates and velocities; at rest without them.
+    pub(super) fn state(&mut self, q: &[f64], v: Option<&[f64]>) -> &State<V> {
+        self.state.q.components_mut().copy_from_slice(q);
+        let own = self.state.v.components_mut();
+        match v {
+            Some(v) => own.copy_from_slice(v),
+            None => own.fill(0.0),
+        }
+        &self.state
+    }
+}
+
+impl<S: System<Vector: Vector>> System for VecSystem<'_, S> {
+    type Vector = Vec<f64>;
+
+    fn acceleration(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        let scratch = &mut *self.scratch.borrow_mut();
+        scratch.state(q, Some(v));
+        let Scratch { state, result, .. } = scratch;
+        self.system.acceleration(t, &state.q, &state.v, result);
+        a.copy_from_slice(result.components());
+    }
+
+    fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
+        let scratch = &mut *self.scratch.borrow_mut();
+        let (is_answered, to) = match question {
+            Question::Slope { state: State { q, v }, along: toward, slope } => {
+                scratch.state(q, Some(v));
+                let Scratch { state, along, result } = scratch;
+                along.q.components_mut().copy_from_slice(&toward.q);
+                along.v.components_mut().copy_from_slice(&toward.v);
+                (self.system.answer(t, Question::Slope { state, along, slope: result }), slope)
+            }
+            Question::Engine { state: State { q, v }, settings, force } => {
+                scratch.state(q, Some(v));
+                let Scratch { state, result, .. } = scratch;
+                let question = Question::Engine { state, settings, force: result };
+                (self.system.answer(t, question), force)
+            }
+            Question::Target(pursuit) => {
+                *pursuit = Pursuit::of(self.system, t).map(|found| {
+                    let Pursuit { target, rate, order, is_still } = found;
+                    Pursuit { target: target.components().to_vec(), rate, order, is_still }
+                });
+                return pursuit.is_some();
+            }
+            Question::LostTime(h) => return self.system.answer(t, Question::LostTime(h)),
+        };
+        if is_answered {
+            to.copy_from_slice(scratch.result.components());
+        }
+        is_answered
+    }
+}
