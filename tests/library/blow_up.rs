@@ -3,10 +3,10 @@
 use regatta::lab::{Clock, Command, ESCAPE, Lab, LaneBody, LaneSpec, Mode, Past, Race, Scene};
 use regatta::sim::integrators::{GENERAL_METHODS, StepFailure, method};
 
-/// Ticks of the long race: 4 h 38 min at 60 Hz.
-const TICKS: u64 = 1_000_000;
-/// Ticks in which it is held against the race without the lane: 1000 times as long as that lane lives.
-const SIDE_BY_SIDE: u64 = 150_000;
+/// Ticks of the long race: 83 min at 60 Hz.
+const TICKS: u64 = 300_000;
+/// Ticks in which it is held against the race without the lane: 300 times as long as that lane lives.
+const SIDE_BY_SIDE: u64 = 45_000;
 
 fn stiff() -> Scene {
     Scene::built_in("stiff").expect("a built-in scene")
@@ -33,7 +33,7 @@ fn states(race: &Race, without: &str) -> Vec<(usize, Vec<u64>)> {
 }
 
 #[test]
-fn explicit_euler_on_the_stiff_spring_halts_once_and_a_million_ticks_go_on() {
+fn explicit_euler_on_the_stiff_spring_halts_once_and_the_others_go_on() {
     let blown = "explicit-euler";
     let mut with = Race::new(&stiff(), entries(""));
     let mut without = Race::new(&stiff(), entries(blown));

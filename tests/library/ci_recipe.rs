@@ -82,7 +82,10 @@ impl Stranger {
     }
 
     fn cargo(&self, arguments: &[&str]) -> Output {
+        // Its few steps take less than optimising would.
+        let unoptimised = ["--config", "profile.dev.package.regatta.opt-level=0"];
         Command::new(env!("CARGO"))
+            .args(unoptimised)
             .args(arguments)
             .current_dir(&self.folder)
             .env("CARGO_TARGET_DIR", &self.target)

@@ -6,13 +6,14 @@ use regatta::lab::{Criteria, CriterionMet, MethodReport, Recommendation};
 use regatta::prelude::*;
 
 /// Every name that the prelude brings where all features are on.
-const PRELUDE: [&str; 38] = [
+const PRELUDE: [&str; 39] = [
     "Adviser",
     "BODIES",
     "Body",
     "CRITERIA",
     "Clock",
     "Due",
+    "Elementwise",
     "Extras",
     "Family",
     "Input",

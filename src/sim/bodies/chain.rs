@@ -15,7 +15,7 @@ use super::oscillator;
 use crate::sim::body::{Body, Input};
 use crate::sim::parameter::{Fault, ParameterOf, Range};
 use crate::sim::state::State;
-use crate::sim::system::{BodyClass, Coupling, Question, System};
+use crate::sim::system::{BodyClass, Coupling, System};
 
 /// The largest number of masses: as many as can be told apart on a wide stage. The closed form needs of
 /// the order of its square multiplications per tick.
@@ -160,14 +160,6 @@ impl System for Chain {
 
     fn coupling() -> Coupling {
         Coupling::Band(1)
-    }
-
-    #[inline]
-    fn answer(&self, t: f64, question: Question<'_, Vec<f64>>) -> bool {
-        // The force is linear: its slope is the force of the displacement alone.
-        let Question::Slope { along, slope, .. } = question else { return false };
-        self.acceleration(t, &along.q, &along.v, slope);
-        true
     }
 
     #[inline]

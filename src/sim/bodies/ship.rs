@@ -75,17 +75,12 @@ impl System for Ship {
         *a = push - rate * v;
     }
 
+    /// The drag is the damping setting of the body, and the thrust is held.
     #[inline]
     fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
-        match question {
-            Question::Slope { along, slope, .. } => *slope = -(self.drag / self.mass) * along.v,
-            // The drag is the damping setting of the body, and the thrust is held.
-            Question::Engine { settings, force, .. } => {
-                settings.drag = self.drag / self.mass;
-                *force = self.thrust * self.throttle / self.mass;
-            }
-            Question::Target(_) | Question::LostTime(_) => return false,
-        }
+        let Question::Engine { settings, force, .. } = question else { return false };
+        settings.drag = self.drag / self.mass;
+        *force = self.thrust * self.throttle / self.mass;
         true
     }
 }

@@ -83,18 +83,13 @@ impl System for Spring {
         *a = -k * x - c * v;
     }
 
+    /// A joint.
     #[inline]
-    fn answer(&self, t: f64, question: Question<'_, f64>) -> bool {
-        match question {
-            // The force is linear: its slope is the force of the displacement alone.
-            Question::Slope { along, slope, .. } => self.acceleration(t, &along.q, &along.v, slope),
-            Question::Engine { settings, force, .. } => {
-                settings.stiffness = self.stiffness / self.mass;
-                settings.damping = self.damping / self.mass;
-                *force = 0.0;
-            }
-            Question::Target(_) | Question::LostTime(_) => return false,
-        }
+    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
+        let Question::Engine { settings, force, .. } = question else { return false };
+        settings.stiffness = self.stiffness / self.mass;
+        settings.damping = self.damping / self.mass;
+        *force = 0.0;
         true
     }
 }

@@ -8,6 +8,9 @@ use regatta::sim::{State, Vector};
 
 use super::systems::Springs;
 
+/// The methods that take the exponential of a slope of the force.
+const EXPONENTIAL: [&str; 2] = ["verlet-exact-drag", "exponential-rosenbrock-euler"];
+
 /// The state after 200 steps of as many equal springs as `like` has components.
 fn run<V: Vector>(method: &Method, like: &V) -> State<V> {
     let system = Springs(PhantomData);
@@ -26,9 +29,15 @@ fn equal_springs_get_equal_bits_in_every_vector() {
     for method in GENERAL_METHODS {
         let State { q, v } = run(method, &0.0);
         assert!(q.is_finite() && v.is_finite() && q != 0.0, "{}: {q}, {v}", method.id);
+        // The exponential of a number is not rounded as that of a matrix.
+        let is_exponential = EXPONENTIAL.contains(&method.id);
+        let agree = |there: f64, here: f64| match is_exponential {
+            true => (there / here - 1.0).abs() < 1e-12,
+            false => there.to_bits() == here.to_bits(),
+        };
         let check = |q_there: &[f64], v_there: &[f64]| {
-            assert!(q_there.iter().all(|x| x.to_bits() == q.to_bits()), "{}", method.id);
-            assert!(v_there.iter().all(|x| x.to_bits() == v.to_bits()), "{}", method.id);
+            assert!(q_there.iter().all(|there| agree(*there, q)), "{}", method.id);
+            assert!(v_there.iter().all(|there| agree(*there, v)), "{}", method.id);
         };
         let plane = run(method, &DVec2::ZERO);
         check(plane.q.components(), plane.v.components());
