@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::parameter::{self, ParameterOf};
 use super::piece::{Distances, NO_BOUNDARIES, Piece};
-use super::state::{State, Vector};
-use super::system::{BodyClass, System};
+use super::state::Vector;
+use super::system::{BodyClass, StateOf, System};
 
 /// Something that moves by an equation of motion.
 pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
@@ -51,33 +51,22 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     }
 
     /// The state at tick 0.
-    fn start(&self) -> State<Self::Vector>;
+    fn start(&self) -> StateOf<Self>;
 
     /// The exact flow over `dt` (s) under constant input, from time 0 if the forces depend on time.
     /// `None` if the body has [no closed form](Body::HAS_EXACT); its truth is then a reference solution.
-    fn exact(&self, _dt: f64, _from: &State<Self::Vector>) -> Option<State<Self::Vector>> {
+    fn exact(&self, _dt: f64, _from: &StateOf<Self>) -> Option<StateOf<Self>> {
         None
     }
 
     /// The exact flow over `dt` (s) from time `t` (s). A body whose forces depend on time overrides this.
-    fn exact_at(
-        &self,
-        _t: f64,
-        dt: f64,
-        from: &State<Self::Vector>,
-    ) -> Option<State<Self::Vector>> {
+    fn exact_at(&self, _t: f64, dt: f64, from: &StateOf<Self>) -> Option<StateOf<Self>> {
         self.exact(dt, from)
     }
 
     /// Overwrites `to` with [`Body::exact_at`], and returns whether there is a closed form. A body with
     /// coordinates on the heap overrides this so that it does not allocate.
-    fn exact_into(
-        &self,
-        t: f64,
-        dt: f64,
-        from: &State<Self::Vector>,
-        to: &mut State<Self::Vector>,
-    ) -> bool {
+    fn exact_into(&self, t: f64, dt: f64, from: &StateOf<Self>, to: &mut StateOf<Self>) -> bool {
         let flown = self.exact_at(t, dt, from);
         flown.is_some_and(|state| {
             *to = state;
@@ -88,7 +77,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Overwrites `to` with the exact state at time `t` (s) of a body that nobody has touched since the
     /// start. Returns whether the body knows it. A body that knows [`Body::exact`] need not. Never
     /// allocates.
-    fn exact_since_start(&self, _t: f64, _to: &mut State<Self::Vector>) -> bool {
+    fn exact_since_start(&self, _t: f64, _to: &mut StateOf<Self>) -> bool {
         false
     }
 
@@ -98,8 +87,8 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         &self,
         _t: f64,
         _dt: f64,
-        _from: &State<Self::Vector>,
-        _to: &State<Self::Vector>,
+        _from: &StateOf<Self>,
+        _to: &StateOf<Self>,
     ) -> [f64; 2] {
         [f64::INFINITY; 2]
     }
@@ -122,17 +111,12 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 
     /// The smooth piece of the force law at this time and state. A reference solution ends a step at
     /// each boundary between pieces, so that no step contains a corner.
-    fn piece(&self, _t: f64, _state: &State<Self::Vector>) -> Piece {
+    fn piece(&self, _t: f64, _state: &StateOf<Self>) -> Piece {
         Piece::FIRST
     }
 
     /// The distances to the boundaries of a piece at this time and state.
-    fn distances_to_ends(
-        &self,
-        _piece: &Piece,
-        _t: f64,
-        _state: &State<Self::Vector>,
-    ) -> Distances {
+    fn distances_to_ends(&self, _piece: &Piece, _t: f64, _state: &StateOf<Self>) -> Distances {
         NO_BOUNDARIES
     }
 
@@ -161,11 +145,11 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     }
 
     /// The conserved energy in joules; `None` if no energy is conserved.
-    fn energy(&self, state: &State<Self::Vector>) -> Option<f64>;
+    fn energy(&self, state: &StateOf<Self>) -> Option<f64>;
 
     /// The kinetic part of [`Body::energy`], in joules: the energy less that of the body at rest in the
     /// same place. A body with coordinates on the heap overrides this so that it does not allocate.
-    fn kinetic_energy(&self, state: &State<Self::Vector>) -> Option<f64> {
+    fn kinetic_energy(&self, state: &StateOf<Self>) -> Option<f64> {
         let mut still = state.clone();
         still.v.components_mut().fill(0.0);
         Some(self.energy(state)? - self.energy(&still)?)
@@ -173,20 +157,20 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 
     /// The kinetic and the potential energy in joules, conserved or not; `None` if they are not known.
     /// Damping can only decrease their sum.
-    fn mechanical_energy(&self, state: &State<Self::Vector>) -> Option<[f64; 2]> {
+    fn mechanical_energy(&self, state: &StateOf<Self>) -> Option<[f64; 2]> {
         let kinetic = self.kinetic_energy(state)?;
         Some([kinetic, self.energy(state)? - kinetic])
     }
 
     /// An estimate of the work of a reference solution: evaluations of the parts of the force law for each
-    /// simulated second. If it is above [`MOST_REFERENCE_WORK`](super::MOST_REFERENCE_WORK), the body has no
+    /// simulated second. If it is above [`MAX_REFERENCE_WORK`](super::MAX_REFERENCE_WORK), the body has no
     /// truth.
     fn reference_work(&self) -> f64 {
         0.0
     }
 
     /// Applies an input to the body or its state at once. Returns whether this kind of body accepts it.
-    fn input(&mut self, input: Input, state: &mut State<Self::Vector>) -> bool;
+    fn input(&mut self, input: Input, state: &mut StateOf<Self>) -> bool;
 
     /// The position of the body in metres, to which the camera, trails and arrows refer.
     fn place(&self, q: &Self::Vector) -> DVec2;

@@ -7,13 +7,14 @@ use glam::DVec2;
 use super::body::Body;
 use super::exact_flow::ExactFlow;
 use super::exact_since_start::{ExactSinceStart, is_start};
-use super::integrators::{Construct, Integrator, Method, StepFailure, Tolerance, construct};
+use super::integrators::{Construct, Integrator, Method, Stepped, Tolerance, construct};
 use super::propagator::{MethodPropagator, Propagator};
-use super::reference::{MOST_REFERENCE_WORK, Reference};
+use super::reference::{MAX_REFERENCE_WORK, Reference};
 use super::solver::Solver;
 use super::state::{Elementwise, State, Vector};
 use super::stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
 use super::system::{BodyClass, Counted, Counts, Coupling, EngineSettings, Pursuit, Recorded};
+use crate::sim::system::StateOf;
 
 /// Puts `body` at its start, at time 0, under `solver`.
 pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
@@ -84,7 +85,7 @@ struct BodyStepper<B: Body, D> {
 }
 
 impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
-    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure> {
+    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
         let Self { placed: Placed { body, state }, propagator } = self;
         propagator.advance(body, t, h, substeps, state)
     }
@@ -112,7 +113,7 @@ impl<B: Body, D: Propagator<B> + Clone> Stepper for BodyStepper<B, D> {
 #[derive(Clone)]
 pub(super) struct Placed<B: Body> {
     pub(super) body: Counted<B>,
-    pub(super) state: State<B::Vector>,
+    pub(super) state: StateOf<B>,
 }
 
 impl<B: Body> PlacedBody for Placed<B> {
@@ -151,7 +152,7 @@ impl<B: Body> PlacedBody for Placed<B> {
         self.body.system.is_linear()
     }
     fn is_beyond_reference(&self) -> bool {
-        self.body.system.reference_work() > MOST_REFERENCE_WORK
+        self.body.system.reference_work() > MAX_REFERENCE_WORK
     }
     fn is_sparse(&self) -> bool {
         B::coupling() == Coupling::Few

@@ -1,11 +1,12 @@
 //! The truth of a body with a closed form.
 
 use super::body::Body;
-use super::integrators::StepFailure;
+use super::integrators::Stepped;
 use super::propagator::Propagator;
 use super::state::{State, Vector, largest};
 use super::stepper::Change;
 use super::system::Counted;
+use crate::sim::system::StateOf;
 
 /// The exact flow. Each state is computed in one stride from the anchor, so that no error accumulates.
 #[derive(Clone)]
@@ -80,8 +81,8 @@ impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
         t: f64,
         h: f64,
         _substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure> {
+        state: &mut StateOf<B>,
+    ) -> Stepped {
         self.t = t + h;
         let Anchor { state: from, t: begin, .. } = &self.anchor;
         let is_known = body.system.exact_into(*begin, self.t - begin, from, state);
@@ -89,13 +90,7 @@ impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
         Ok(())
     }
 
-    fn jump(
-        &mut self,
-        t: f64,
-        change: Change<'_>,
-        body: &mut B,
-        state: &mut State<B::Vector>,
-    ) -> bool {
+    fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
         let Self { anchor, t: now, scratch } = self;
         let error =
             if change.is_placing() { [0.0; 2] } else { anchor.error(body, *now, state, scratch) };
@@ -111,7 +106,7 @@ impl<B: Body> Propagator<B> for ExactFlow<B::Vector> {
         true
     }
 
-    fn truth_error(&self, body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
+    fn truth_error(&self, body: &Counted<B>, state: &StateOf<B>) -> Option<[f64; 2]> {
         let mut scratch = state.clone();
         Some(self.anchor.error(&body.system, self.t, state, &mut scratch))
     }

@@ -2,12 +2,13 @@
 //! input, an edit or a placing it is a reference solution.
 
 use super::body::Body;
-use super::integrators::StepFailure;
+use super::integrators::Stepped;
 use super::propagator::Propagator;
 use super::reference::Reference;
 use super::state::{State, Vector, largest};
 use super::stepper::Change;
 use super::system::Counted;
+use crate::sim::system::StateOf;
 
 /// The rounding of a closed form whose operations are not known, relative to its value.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -29,7 +30,7 @@ impl<V: Vector> ExactSinceStart<V> {
 }
 
 /// Whether `state` at time `t` (s) is the start of `body`.
-pub(super) fn is_start<B: Body>(body: &B, t: f64, state: &State<B::Vector>) -> bool {
+pub(super) fn is_start<B: Body>(body: &B, t: f64, state: &StateOf<B>) -> bool {
     let start = body.start();
     let is_equal = |a: &B::Vector, b: &B::Vector| a.components() == b.components();
     t == 0.0 && is_equal(&start.q, &state.q) && is_equal(&start.v, &state.v)
@@ -42,8 +43,8 @@ impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
         t: f64,
         h: f64,
         substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure> {
+        state: &mut StateOf<B>,
+    ) -> Stepped {
         self.t = t + h;
         if self.is_untouched && body.system.exact_since_start(self.t, state) {
             return Ok(());
@@ -51,13 +52,7 @@ impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
         self.reference.advance(body, t, h, substeps, state)
     }
 
-    fn jump(
-        &mut self,
-        t: f64,
-        change: Change<'_>,
-        body: &mut B,
-        state: &mut State<B::Vector>,
-    ) -> bool {
+    fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
         let is_changed = self.reference.jump(t, change, body, state);
         if is_changed {
             self.is_untouched = change.is_placing() && is_start(body, t, state);
@@ -70,7 +65,7 @@ impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
         self.is_untouched
     }
 
-    fn truth_error(&self, body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
+    fn truth_error(&self, body: &Counted<B>, state: &StateOf<B>) -> Option<[f64; 2]> {
         if !self.is_untouched {
             return self.reference.truth_error(body, state);
         }

@@ -4,7 +4,7 @@
 //! which differs from platform to platform; here every function is `libm`'s. The order of the operations is that of
 //! the text: `a + b + c` is `(a + b) + c`. A whole exponent up to 16 is written out, so that `x^2` has the bits of
 //! `x*x` and `x^3` those of `x*x*x`, and `x^-2` those of `1/(x*x)`; any other exponent is `libm::pow`'s. The parser
-//! calls itself for brackets, signs and functions, at most [`MOST_DEPTH`] within each other.
+//! calls itself for brackets, signs and functions, at most [`MAX_DEPTH`] within each other.
 
 use crate::sim::piece::Distances;
 
@@ -28,18 +28,18 @@ mod tape;
 mod text;
 mod token;
 
-pub use expression::{MOST_BYTES, MOST_DEPTH};
+pub use expression::{MAX_BYTES, MAX_DEPTH};
 pub use layout::Layout;
 pub use refusal::{Part, Refusal, Remedy};
 pub use registers::Registers;
-pub use tape::MOST_OPERATIONS;
+pub use tape::MAX_OPERATIONS;
 pub use text::{CoordinateText, LawText};
 
 /// The most coordinates of a law: as many as can be told apart on a stage.
-pub const MOST_COORDINATES: usize = 16;
+pub const MAX_COORDINATES: usize = 16;
 
 /// The most constants of a law.
-pub const MOST_CONSTANTS: usize = 64;
+pub const MAX_CONSTANTS: usize = 64;
 
 /// The units that a coordinate can have.
 pub const UNITS: [&str; 14] =

@@ -43,11 +43,11 @@ pub use clock::Clock;
 #[cfg(feature = "lab")]
 pub use least_squares::least_squares;
 pub use points::Points;
-pub use reference::{MOST_REFERENCE_WORK, REFERENCE_ACCURACY};
+pub use reference::{MAX_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
 pub use state::{Elementwise, State, Vector};
 pub use stepper::{Change, Memory, PlacedBody, RecordedTick, Stepper};
 pub use system::{
     BodyClass, Counted, Counts, Coupling, EngineSettings, Evaluation, Pursuit, Question, Recorded,
-    System,
+    StateOf, System,
 };

@@ -2,10 +2,10 @@
 
 /// The most nodes of a net. A longer list would be a net that no stage shows, and no lane steps at the rate
 /// of a display.
-pub const MOST_NODES: usize = 10_000;
+pub const MAX_NODES: usize = 10_000;
 
 /// The most springs of a net: eight to a node, twice what a grid with shear has.
-pub const MOST_SPRINGS: usize = 8 * MOST_NODES;
+pub const MAX_SPRINGS: usize = 8 * MAX_NODES;
 
 /// What a net is made of, as a scene writes it.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,8 +150,8 @@ impl Grid {
     fn fault(&self) -> Option<NetFault> {
         let Self { columns, rows, spacing, pin, .. } = *self;
         let nodes = columns.saturating_mul(rows);
-        let (part, what, remedy) = if nodes > MOST_NODES {
-            let remedy = format!("keep at most {MOST_NODES}: fewer `columns` or fewer `rows`");
+        let (part, what, remedy) = if nodes > MAX_NODES {
+            let remedy = format!("keep at most {MAX_NODES}: fewer `columns` or fewer `rows`");
             (NetPart::Nodes, format!("the grid has {nodes} nodes"), remedy)
         } else if nodes > 1 && pin.is_some_and(|pin| (0..nodes).all(|node| self.pins(pin, node))) {
             let remedy = "give the grid more `rows`, or remove `pin`".into();
@@ -217,17 +217,17 @@ impl Lists {
         let fault =
             |part, what: String, remedy: &str| NetFault { part, what, remedy: remedy.into() };
         let nodes = self.nodes.len();
-        if !(2..=MOST_NODES).contains(&nodes) {
+        if !(2..=MAX_NODES).contains(&nodes) {
             let what = format!("the net has {nodes} node{}", if nodes == 1 { "" } else { "s" });
-            let remedy = format!("give it 2 to {MOST_NODES}");
+            let remedy = format!("give it 2 to {MAX_NODES}");
             return vec![fault(NetPart::Nodes, what, &remedy)];
         }
         if (0..nodes).all(|node| self.fixed.contains(&node)) {
             return vec![fault(NetPart::Nodes, ALL_FIXED.into(), "free a node")];
         }
-        if !(1..=MOST_SPRINGS).contains(&self.springs.len()) {
+        if !(1..=MAX_SPRINGS).contains(&self.springs.len()) {
             let what = format!("the net has {} springs", self.springs.len());
-            let remedy = format!("give it 1 to {MOST_SPRINGS}");
+            let remedy = format!("give it 1 to {MAX_SPRINGS}");
             return vec![fault(NetPart::Springs, what, &remedy)];
         }
         let unknown = |node: usize| format!("node {node} does not exist");

@@ -34,11 +34,11 @@ pub fn round(value: f64, digits: usize) -> String {
 /// of it already, or is nothing but rounding.
 pub fn enlargement(distance: f64, room: f64) -> Option<f64> {
     /// A distance that is not seen at this many times its size is rounding.
-    const MOST: f64 = 1e10;
+    const MAX: f64 = 1e10;
     let most = room / distance;
     let decade = libm::pow(10.0, libm::floor(libm::log10(most)));
     let times = [5.0, 2.0, 1.0].into_iter().map(|n| n * decade).find(|times| *times <= most)?;
-    (2.0..=MOST).contains(&times).then_some(times)
+    (2.0..=MAX).contains(&times).then_some(times)
 }
 
 /// A whole number in raised figures.

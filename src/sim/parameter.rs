@@ -15,7 +15,7 @@ pub type Text = Cow<'static, str>;
 pub const LARGEST: f64 = 1e15;
 
 /// The largest number of points of a curve, enough for one typed by hand.
-pub const MOST_POINTS: usize = 64;
+pub const MAX_POINTS: usize = 64;
 
 /// One key of a body's table in a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +72,7 @@ pub enum Range {
     Within(f64),
     /// Whole numbers from 1 to this.
     Count(u32),
-    /// A curve of 2 to [`MOST_POINTS`] points `[x, y]` with rising x, each number from minus
+    /// A curve of 2 to [`MAX_POINTS`] points `[x, y]` with rising x, each number from minus
     /// [`LARGEST`] to that. Only a kind's last parameter can be one.
     Curve {
         /// The unit of x.
@@ -115,7 +115,7 @@ impl fmt::Display for Range {
             Range::Within(most) => write!(f, "from {} to {}", short(-most), short(most)),
             Range::Count(most) => write!(f, "whole, from 1 to {most}"),
             Range::Curve { x, y } => {
-                write!(f, "2 to {MOST_POINTS} points [{x}, {y}] in rising order")
+                write!(f, "2 to {MAX_POINTS} points [{x}, {y}] in rising order")
             }
             Range::Between(least, most) => write!(f, "from {} to {}", short(least), short(most)),
         }

@@ -17,10 +17,10 @@
 //!   cost time at every tick.
 
 use super::body::Body;
-use super::integrators::{Integrator, StepFailure};
-use super::state::State;
+use super::integrators::{Integrator, Stepped};
 use super::stepper::Change;
 use super::system::Counted;
+use crate::sim::system::StateOf;
 
 /// A method or a truth that advances bodies of type `B`.
 pub(super) trait Propagator<B: Body>: Send + 'static {
@@ -32,18 +32,12 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
         t: f64,
         h: f64,
         substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure>;
+        state: &mut StateOf<B>,
+    ) -> Stepped;
 
     /// Applies `change` to the body and its state at time `t` (s), and restarts from the result. If nothing
     /// changed, the propagator keeps its memory. Returns whether anything changed.
-    fn jump(
-        &mut self,
-        t: f64,
-        change: Change<'_>,
-        body: &mut B,
-        state: &mut State<B::Vector>,
-    ) -> bool;
+    fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool;
 
     /// Whether the state is that of a closed form.
     fn is_closed_form(&self) -> bool {
@@ -51,7 +45,7 @@ pub(super) trait Propagator<B: Body>: Send + 'static {
     }
 
     /// The error of a truth at the current `state`: of a coordinate and of a velocity.
-    fn truth_error(&self, _body: &Counted<B>, _state: &State<B::Vector>) -> Option<[f64; 2]> {
+    fn truth_error(&self, _body: &Counted<B>, _state: &StateOf<B>) -> Option<[f64; 2]> {
         None
     }
 
@@ -73,19 +67,13 @@ impl<B: Body, I: Integrator<Counted<B>> + Clone + 'static> Propagator<B> for Met
         t: f64,
         h: f64,
         substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure> {
+        state: &mut StateOf<B>,
+    ) -> Stepped {
         self.0.steps(body, t, h, substeps, state)
     }
 
     #[inline]
-    fn jump(
-        &mut self,
-        _t: f64,
-        change: Change<'_>,
-        body: &mut B,
-        state: &mut State<B::Vector>,
-    ) -> bool {
+    fn jump(&mut self, _t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
         let is_changed = change.apply(body, state);
         if is_changed {
             self.0.reset();

@@ -5,12 +5,13 @@
 //! It is not a method of the table: it chooses its own substeps, and its evaluations are not counted.
 
 use super::body::Body;
-use super::integrators::StepFailure;
+use super::integrators::{StepFailure, Stepped};
 use super::propagator::Propagator;
 use super::state::{State, Vector, largest};
 use super::stepper::Change;
 use super::system::Counted;
 
+use crate::sim::system::StateOf;
 use extrapolation::Extrapolation;
 use trajectory::{Ended, StepControl, Trajectory};
 
@@ -39,7 +40,7 @@ const MAX_SAVED_EVALUATIONS: u64 = 4_000_000;
 
 /// The most [work](Body::reference_work) for which a body has a reference solution, per simulated second:
 /// about as long as the second itself in an unoptimised build, and a tenth of that in an optimised one.
-pub const MOST_REFERENCE_WORK: f64 = 1e6;
+pub const MAX_REFERENCE_WORK: f64 = 1e6;
 
 /// The evaluations that a reference solution may use.
 #[derive(Clone, Copy, Debug)]
@@ -137,14 +138,14 @@ impl<V: Vector> Reference<V> {
         t: f64,
         h: f64,
         y: &mut State<V>,
-    ) -> Result<(), StepFailure> {
+    ) -> Stepped {
         if let Some(failure) = &self.failed {
             return Err(failure.clone());
         }
         let work_per_s = body.reference_work();
-        if work_per_s > MOST_REFERENCE_WORK {
+        if work_per_s > MAX_REFERENCE_WORK {
             let failure =
-                StepFailure::ReferenceTooExpensive { work_per_s, most: MOST_REFERENCE_WORK };
+                StepFailure::ReferenceTooExpensive { work_per_s, most: MAX_REFERENCE_WORK };
             self.failed = Some(failure.clone());
             return Err(failure);
         }
@@ -201,19 +202,13 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
         t: f64,
         h: f64,
         _substeps: u32,
-        state: &mut State<B::Vector>,
-    ) -> Result<(), StepFailure> {
+        state: &mut StateOf<B>,
+    ) -> Stepped {
         // Bypasses the counters of `body`: the truth does not compete.
         self.solve(&body.system, t, h, state)
     }
 
-    fn jump(
-        &mut self,
-        t: f64,
-        change: Change<'_>,
-        body: &mut B,
-        state: &mut State<B::Vector>,
-    ) -> bool {
+    fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
         let is_changed = change.apply(body, state);
         if is_changed && change.is_placing() {
             self.place();
@@ -223,7 +218,7 @@ impl<B: Body> Propagator<B> for Reference<B::Vector> {
         is_changed
     }
 
-    fn truth_error(&self, _body: &Counted<B>, state: &State<B::Vector>) -> Option<[f64; 2]> {
+    fn truth_error(&self, _body: &Counted<B>, state: &StateOf<B>) -> Option<[f64; 2]> {
         Some(self.error(state))
     }
 

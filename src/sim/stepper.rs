@@ -6,10 +6,11 @@ use std::ops::Deref;
 use glam::DVec2;
 
 use super::body::{Body, Input};
-use super::integrators::{Method, StepFailure};
+use super::integrators::{Method, StepFailure, Stepped};
 use super::solver::Solver;
-use super::state::{State, Vector};
+use super::state::Vector;
 use super::system::{Counts, EngineSettings, Evaluation, Pursuit};
+use crate::sim::system::StateOf;
 
 /// A tick that was taken on a copy of a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +30,7 @@ pub trait Stepper: Send {
     ///
     /// # Errors
     /// As [`Integrator::step`](super::integrators::Integrator::step).
-    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure>;
+    fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped;
 
     /// Changes the body or its state at time `t` (s), and restarts the solver there. Returns whether anything
     /// changed.
@@ -137,7 +138,7 @@ pub enum Change<'a> {
 
 impl Change<'_> {
     /// Changes `body` or its `state`. Returns whether it did.
-    pub(super) fn apply<B: Body>(self, body: &mut B, state: &mut State<B::Vector>) -> bool {
+    pub(super) fn apply<B: Body>(self, body: &mut B, state: &mut StateOf<B>) -> bool {
         match self {
             Change::State { q, v } => {
                 state.q.components_mut().copy_from_slice(q);
@@ -175,7 +176,7 @@ pub trait PlacedBody {
     }
     /// Whether the equation of motion is linear apart from a constant.
     fn is_linear(&self) -> bool;
-    /// Whether a reference solution would take more than [`MOST_REFERENCE_WORK`](super::MOST_REFERENCE_WORK).
+    /// Whether a reference solution would take more than [`MAX_REFERENCE_WORK`](super::MAX_REFERENCE_WORK).
     fn is_beyond_reference(&self) -> bool;
     /// Whether implicit methods solve the body's equations without a matrix.
     fn is_sparse(&self) -> bool;

@@ -17,7 +17,7 @@ pub trait System {
 
     /// Overwrites `d` with the derivative `(v, a)` of the state: one evaluation.
     #[inline]
-    fn derivative(&self, t: f64, state: &State<Self::Vector>, d: &mut State<Self::Vector>) {
+    fn derivative(&self, t: f64, state: &StateOf<Self>, d: &mut StateOf<Self>) {
         d.q.assign(&state.v);
         self.acceleration(t, &state.q, &state.v, &mut d.v);
     }
@@ -38,6 +38,9 @@ pub trait System {
         Coupling::All
     }
 }
+
+/// The state of a system.
+pub type StateOf<S> = State<<S as System>::Vector>;
 
 /// What is asked of a system. [`Counted`] counts an answer as an evaluation.
 #[derive(Debug)]

@@ -9,7 +9,7 @@ use super::nearest::nearest;
 use super::table::{Field, Named, Table, Written};
 use crate::sim::bodies::{ClaimHorizon, Kind, Range, check_law, law_kind};
 use crate::sim::law::{
-    CoordinateText, LawText, Layout, MOST_CONSTANTS, MOST_COORDINATES, Part, Refusal, Remedy, UNITS,
+    CoordinateText, LawText, Layout, MAX_CONSTANTS, MAX_COORDINATES, Part, Refusal, Remedy, UNITS,
 };
 
 /// The name of the table array.
@@ -90,8 +90,8 @@ pub(super) fn read_law(
 /// The names of the constants, and their values unless one has a fault.
 fn read_constants(row: &mut Table<'_>) -> (Vec<WrittenName>, Option<Vec<f64>>) {
     let entries = row.entries(CONSTANTS, &Wanted::Constants).unwrap_or_default();
-    check_count(row, "constants", &entries, MOST_CONSTANTS);
-    let entries = &entries[..entries.len().min(MOST_CONSTANTS)];
+    check_count(row, "constants", &entries, MAX_CONSTANTS);
+    let entries = &entries[..entries.len().min(MAX_CONSTANTS)];
     let numbers: Vec<_> = entries.iter().map(|entry| row.number_of(entry, Range::ANY)).collect();
     let names = entries.iter().map(|entry| (entry.key.to_owned(), entry.span.clone()));
     (names.collect(), numbers.into_iter().collect())
@@ -110,7 +110,7 @@ fn check_count(row: &mut Table<'_>, what: &str, entries: &[Named<'_>], most: usi
 fn read_coordinates(row: &mut Table<'_>) -> Option<Vec<WrittenCoordinate>> {
     let place = "law.coordinates";
     let entries = row.entries(COORDINATES, &Wanted::Coordinates(place))?;
-    check_count(row, "coordinates", &entries, MOST_COORDINATES);
+    check_count(row, "coordinates", &entries, MAX_COORDINATES);
     if entries.is_empty() {
         let cause = Cause::Law {
             what: "the law has no coordinate".into(),
@@ -120,7 +120,7 @@ fn read_coordinates(row: &mut Table<'_>) -> Option<Vec<WrittenCoordinate>> {
         return None;
     }
     let mut coordinates = Vec::new();
-    for (n, entry) in entries.iter().enumerate().take(MOST_COORDINATES) {
+    for (n, entry) in entries.iter().enumerate().take(MAX_COORDINATES) {
         let mut table = row.table_of(entry, place)?;
         let number = |table: &mut Table<'_>, field: Field, default: f64| match table.has(field.key)
         {

@@ -8,7 +8,7 @@ use super::fields::{TOP, optional, required};
 use super::nearest::nearest;
 use super::table::{Field, Table};
 use crate::sim::bodies::{
-    Form, Grid, Kind, Lists, MOST_NODES, NetFault, NetPart, NetPlan, Pin, PlannedSpring, Range,
+    Form, Grid, Kind, Lists, MAX_NODES, NetFault, NetPart, NetPlan, Pin, PlannedSpring, Range,
     net_kind,
 };
 
@@ -59,7 +59,7 @@ pub(super) fn read_net(row: &mut Table<'_>) -> Option<Arc<Kind>> {
         Some(_) => read_lists(row, &mut spans).map(Form::Lists),
         None => read_grid(row).map(Form::Grid),
     };
-    let most = MOST_NODES as u32 - 1;
+    let most = MAX_NODES as u32 - 1;
     let kicked = row.whole(KICKED, 0..=most).map(|node| node as usize);
     let is_given = row.has(KICKED.key);
     let plan = NetPlan { form: form?, kicked };
@@ -76,7 +76,7 @@ pub(super) fn read_net(row: &mut Table<'_>) -> Option<Arc<Kind>> {
 }
 
 fn read_grid(row: &mut Table<'_>) -> Option<Grid> {
-    let most = MOST_NODES as u32;
+    let most = MAX_NODES as u32;
     let [columns, rows] = [COLUMNS, ROWS].map(|field| row.whole(field, 1..=most));
     let spacing = row.number(SPACING, Range::POSITIVE);
     let shear = row.truth(SHEAR).unwrap_or(false);

@@ -45,7 +45,7 @@ const PARAMETERS: [Of; 9] = [
         .or(0.0)
         .at_start()
         .about("A, how far the target swings to either side"),
-    Of::number("sine_hz", Range::NonNegative(MOST_SINE_HZ), |follow| &mut follow.sine_hz)
+    Of::number("sine_hz", Range::NonNegative(MAX_SINE_HZ), |follow| &mut follow.sine_hz)
         .or(1.0)
         .at_start()
         .about("f, how often the target swings"),
@@ -67,7 +67,7 @@ const PARAMETERS: [Of; 9] = [
 const RATES: Range = Range::Between(1e-3, 1e6);
 
 /// The highest frequency of the target in hertz: above it the phase is lost to rounding within a day.
-const MOST_SINE_HZ: f64 = 1e4;
+const MAX_SINE_HZ: f64 = 1e4;
 
 /// A follower. Its coordinate is where it is, in metres.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,11 +18,11 @@ use crate::sim::double_double::{DoubleDouble, TWO_PI};
 
 /// The largest number of steps to the root before it is refined: more than bisection of a bracket needs
 /// down to the last digit.
-const MOST_STEPS: u32 = 200;
+const MAX_STEPS: u32 = 200;
 
 /// The largest number of doublings of the bracket of an open path: from the smallest number to beyond
 /// the largest.
-const MOST_DOUBLINGS: u32 = 2100;
+const MAX_DOUBLINGS: u32 = 2100;
 
 /// This close to the root, relative to it, Newton's method doubles the digits at every step and needs
 /// no bracket.
@@ -30,7 +30,7 @@ const NEAR: f64 = 1e-5;
 
 /// The largest number of Newton steps in double-double arithmetic. Near a collision the root is triple,
 /// and each step leaves two thirds of the error.
-const MOST_REFINEMENTS: u32 = 80;
+const MAX_REFINEMENTS: u32 = 80;
 
 /// The relative size of a step after which the root is accepted.
 const REFINED_TO: f64 = 1e-30;
@@ -251,7 +251,7 @@ fn dot(a: [DoubleDouble; 2], b: [DoubleDouble; 2]) -> DoubleDouble {
 fn refined(s: f64, f: impl Fn(DoubleDouble) -> (DoubleDouble, DoubleDouble)) -> DoubleDouble {
     let mut s = DoubleDouble::from(s);
     let mut last = f64::INFINITY;
-    for _ in 0..MOST_REFINEMENTS {
+    for _ in 0..MAX_REFINEMENTS {
         let (value, slope) = f(s);
         // An `f64` step is accurate enough. Steps grow again at the rounding level of `f`.
         let step = (value.high / slope.high).abs();
@@ -283,7 +283,7 @@ fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64
     let is_beyond = |time: f64| time.is_nan() || time * sign >= 0.0;
     // Less than one period; on an open path doubled until it brackets the root.
     let mut far = if beta > 0.0 { sign * TAU / beta.sqrt() } else { guess };
-    for _ in 0..MOST_DOUBLINGS {
+    for _ in 0..MAX_DOUBLINGS {
         if beta > 0.0 || is_beyond(late(far).0) {
             break;
         }
@@ -294,7 +294,7 @@ fn root(late: impl Fn(f64) -> (f64, f64), beta: f64, guess: f64, dt: f64) -> f64
         |s: f64, near: f64, far: f64| (s - near) * sign > 0.0 && (far - s) * sign > 0.0;
     let mut s = if is_between(guess, near, far) { guess } else { far / 2.0 };
     let mut last_step = (far - near).abs();
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let (time, distance) = late(s);
         if is_beyond(time) {
             far = s;

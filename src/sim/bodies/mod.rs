@@ -40,12 +40,10 @@ pub use spring::Spring;
 pub use super::body::{Body, Input};
 pub use super::curve::Curve;
 pub use super::net_plan::{
-    Form, Grid, Lists, MOST_NODES, MOST_SPRINGS, NetFault, NetPart, NetPlan, Pin, PlannedSpring,
+    Form, Grid, Lists, MAX_NODES, MAX_SPRINGS, NetFault, NetPart, NetPlan, Pin, PlannedSpring,
 };
-pub use super::parameter::{
-    Acts, Fault, LARGEST, MOST_POINTS, Parameter, ParameterOf, Range, Text,
-};
-pub use super::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
+pub use super::parameter::{Acts, Fault, LARGEST, MAX_POINTS, Parameter, ParameterOf, Range, Text};
+pub use super::piece::{Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 
 /// Every kind of body, in menu order.
 pub static BODIES: LazyLock<Vec<Arc<Kind>>> = LazyLock::new(|| {

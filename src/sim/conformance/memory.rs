@@ -2,14 +2,11 @@
 
 use super::problems::{Problem, fresh, problem, spring};
 use super::{Claim, yes_or_no};
-use crate::sim::integrators::{Integrator, Method, StepFailure};
+use crate::sim::integrators::{Integrator, Method, StepFailure, Stepped};
 use crate::sim::state::State;
 
 /// One step of a lively damped spring.
-fn step(
-    integrator: &mut dyn Integrator<Problem<f64>>,
-    state: &mut State<f64>,
-) -> Result<(), StepFailure> {
+fn step(integrator: &mut dyn Integrator<Problem<f64>>, state: &mut State<f64>) -> Stepped {
     integrator.step(&problem(spring(20.0, 0.1)), 0.0, 0.03, state)
 }
 

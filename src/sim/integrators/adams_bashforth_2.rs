@@ -1,11 +1,11 @@
 //! Adams-Bashforth 2: extrapolates the slopes here and one step ago to the middle of the step.
 
 use super::card::{EXPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "adams-bashforth-2",
@@ -38,13 +38,7 @@ impl<S: System> Integrator<S> for AdamsBashforth2<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { f, g, end, last_step } = self;
         system.derivative(t, y, f);
         if last_step.is_continued_by(h) {

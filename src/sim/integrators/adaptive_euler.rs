@@ -2,12 +2,12 @@
 //! step size.
 
 use super::card::{ADAPTIVE, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::step_size::{StepSize, factor};
 use super::tolerance::Tolerance;
 use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler",
@@ -70,13 +70,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for AdaptiveEuler<S::Vector> {
         Self::with_tolerance(like, TOLERANCE)
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { step_size, k1, k2, half, difference } = self;
         let mut progress = step_size.begin_tick(h);
         system.derivative(t, y, k1);

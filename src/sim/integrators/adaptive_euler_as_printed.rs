@@ -1,11 +1,11 @@
 //! Adaptive Euler as the chapter prints it: a shortened step still ends the tick.
 
 use super::card::{AS_PRINTED, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
 use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::{Question, System};
+use crate::sim::system::{Question, StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "adaptive-euler-as-printed",
@@ -54,13 +54,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for AdaptiveEulerAsPrinted<S::Vect
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        State { q, v }: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { tolerance, a, v1, v2 } = self;
         system.acceleration(t, q, v, a);
         v1.assign_sum(v, h, a);

@@ -1,12 +1,12 @@
 //! BDF2: the slope at the end from a parabola through the last two states and the new one.
 
 use super::card::{IMPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
 use super::shared::newton::Newton;
 use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "bdf2",
@@ -52,13 +52,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for Bdf2<S::Vector> {
         }
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { newton, before, start, stage, last_step } = self;
         start.assign(y);
         if last_step.is_continued_by(h) {

@@ -1,10 +1,10 @@
 //! Explicit Euler: follows the tangent at the start for the whole step.
 
 use super::card::{EXPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "explicit-euler",
@@ -32,13 +32,7 @@ impl<S: System> Integrator<S> for ExplicitEuler<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { k1 } = self;
         system.derivative(t, y, k1);
         y.add_scaled(h, k1);

@@ -1,12 +1,12 @@
 //! Exponential Rosenbrock-Euler: solves the equation linearised at the start of the step exactly.
 
 use super::card::{LINEARISED, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::jacobian::Jacobian;
 use super::shared::linear_flow::{LinearFlow, response};
 use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "exponential-rosenbrock-euler",
@@ -49,7 +49,7 @@ impl<V: Vector> ExponentialRosenbrockEuler<V> {
         system: &dyn System<Vector = V>,
         h: f64,
         y: &mut State<V>,
-    ) -> Result<(), StepFailure> {
+    ) -> Stepped {
         let Self { a, a_later, jacobian, flow, x, f, f_t } = self;
         let n = a.components().len();
 
@@ -95,13 +95,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for ExponentialRosenbrockEuler<S::
         }
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { a, a_later, jacobian, .. } = self;
         system.acceleration(t, &y.q, &y.v, a);
         system.acceleration(t + h, &y.q, &y.v, a_later);

@@ -5,6 +5,9 @@ use std::sync::Arc;
 
 use crate::sim::number::round;
 
+/// What a step gives: nothing, or why it could not be made.
+pub type Stepped = Result<(), StepFailure>;
+
 /// Why a body could not be advanced to the end of its tick.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StepFailure {
@@ -32,9 +35,9 @@ pub enum StepFailure {
     ReferenceTooExpensive {
         /// An estimate of it: evaluations of a spring for each simulated second.
         work_per_s: f64,
-        /// The most that a reference solution may take, [`MOST_REFERENCE_WORK`].
+        /// The most that a reference solution may take, [`MAX_REFERENCE_WORK`].
         ///
-        /// [`MOST_REFERENCE_WORK`]: crate::sim::MOST_REFERENCE_WORK
+        /// [`MAX_REFERENCE_WORK`]: crate::sim::MAX_REFERENCE_WORK
         most: f64,
     },
     /// The method is not for this body; see [`Only`](super::Only).

@@ -3,10 +3,10 @@
 use std::marker::PhantomData;
 
 use super::card::{Method, Needs};
-use super::failure::StepFailure;
+use super::failure::{StepFailure, Stepped};
 use super::integrator::Integrator;
 use crate::sim::state::{State, Vector};
-use crate::sim::system::{Pursuit, System};
+use crate::sim::system::{Pursuit, StateOf, System};
 
 /// The rule by which a follower moves.
 pub trait FollowerRule: Clone + Send + 'static {
@@ -28,13 +28,7 @@ impl<S: System<Vector: Vector>, R: FollowerRule> Integrator<S> for Follower<S::V
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        State { q, v }: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let only = R::CARD.only.expect("a follower's card says what it follows");
         let pursuit = Pursuit::of(system, t + h);
         let pursuit = pursuit.filter(|found| only.needs == Needs::Law { order: found.order });

@@ -1,12 +1,12 @@
 //! Gauss-Legendre of two stages: collocation at the two points of Gauss's quadrature.
 
 use super::card::{IMPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::newton::Newton;
 use super::shared::stages::Stages;
-use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::System;
+use crate::sim::state::{Elementwise, Vector};
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "gauss-legendre-4",
@@ -44,13 +44,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for GaussLegendre4<S::Vector> {
         Self { newton: Newton::new(like, S::coupling()) }
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { newton } = self;
         for (base, c) in newton.base.iter_mut().zip(C) {
             base.assign(y);

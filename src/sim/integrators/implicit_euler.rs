@@ -1,11 +1,11 @@
 //! Implicit Euler: follows the tangent at the end of the step.
 
 use super::card::{IMPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::newton::Newton;
-use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::state::Vector;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "implicit-euler",
@@ -30,13 +30,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for ImplicitEuler<S::Vector> {
         Self { newton: Newton::new(like, S::coupling()) }
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         self.newton.backward_euler(system, t + h, h, y)
     }
 

@@ -1,11 +1,11 @@
 //! Implicit midpoint: follows the slope at the middle of the chord for the whole step.
 
 use super::card::{IMPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::newton::Newton;
 use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "implicit-midpoint",
@@ -35,13 +35,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for ImplicitMidpoint<S::Vector> {
         Self { newton: Newton::new(like, S::coupling()), middle }
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { newton, middle } = self;
         middle.assign(y);
         newton.backward_euler(system, t + h / 2.0, h / 2.0, middle)?;

@@ -1,10 +1,10 @@
 //! Improved Euler (Heun): the mean of the slopes at both ends of the step.
 
 use super::card::{EXPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler",
@@ -36,13 +36,7 @@ impl<S: System> Integrator<S> for ImprovedEuler<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, end } = self;
         system.derivative(t, y, k1);
         end.assign_sum(y, h, k1);

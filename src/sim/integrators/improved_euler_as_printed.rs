@@ -1,10 +1,10 @@
 //! Improved Euler as the chapter prints it: the velocity alone is improved, and moves the position.
 
 use super::card::{AS_PRINTED, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use crate::sim::state::{Elementwise, State};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "improved-euler-as-printed",
@@ -38,13 +38,7 @@ impl<S: System> Integrator<S> for ImprovedEulerAsPrinted<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        State { q, v }: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, end } = self;
         system.acceleration(t, q, v, k1);
         end.assign_sum(v, h, k1);

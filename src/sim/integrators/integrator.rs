@@ -1,9 +1,8 @@
 //! The trait that every method implements.
 
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::tolerance::Tolerance;
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 /// A method that advances a system by steps.
 ///
@@ -23,26 +22,13 @@ pub trait Integrator<S: System>: Send {
     ///
     /// # Errors
     /// If the method gives up or is not for the system; `state` is then undefined.
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure>;
+    fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped;
 
     /// Advances from `t` to `t + h` in `n` equal steps: one dynamic call for a whole tick.
     ///
     /// # Errors
     /// As [`Integrator::step`].
-    fn steps(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        n: u32,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn steps(&mut self, system: &S, t: f64, h: f64, n: u32, state: &mut StateOf<S>) -> Stepped {
         let part = h / f64::from(n);
         for i in 0..n {
             self.step(system, t + part * f64::from(i), part, state)?;

@@ -1,10 +1,10 @@
 //! Jakobsen's Verlet: the next position from the last two, with the drag that hides in a factor of 0.99.
 
 use super::card::{AS_PRINTED, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use crate::sim::state::{Elementwise, State};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "jakobsen-verlet",
@@ -40,13 +40,7 @@ impl<S: System> Integrator<S> for JakobsenVerlet<S::Vector> {
         Self { a: like.clone() }
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        State { q, v }: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { a } = self;
         system.acceleration(t, q, v, a);
         v.scale(KEPT);

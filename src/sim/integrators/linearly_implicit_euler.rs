@@ -1,11 +1,11 @@
 //! Linearly implicit Euler: implicit Euler with one iteration of Newton's, from the start of the step.
 
 use super::card::{LINEARISED, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::linearisation::Linearisation;
-use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::System;
+use crate::sim::state::{Elementwise, Vector};
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "linearly-implicit-euler",
@@ -36,13 +36,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for LinearlyImplicitEuler<S::Vecto
         Self { a: like.clone(), equations: Linearisation::new(like, S::coupling()) }
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { a, equations } = self;
         system.acceleration(t + h, &y.q, &y.v, a);
         equations.slopes.reach_for(h, y, a);

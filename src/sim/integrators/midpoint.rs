@@ -1,10 +1,10 @@
 //! Midpoint: follows the slope halfway for the whole step.
 
 use super::card::{EXPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "midpoint",
@@ -36,13 +36,7 @@ impl<S: System> Integrator<S> for Midpoint<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, middle } = self;
         system.derivative(t, y, k1);
         middle.assign_sum(y, h / 2.0, k1);

@@ -64,7 +64,7 @@ mod yoshida4;
 pub(in crate::sim) use card::LAW_ORDER;
 pub use card::{Engine, Family, Method, Needs, Only};
 pub use engine::{EngineMethod, Rule, Tick};
-pub use failure::StepFailure;
+pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
 pub use integrator::Integrator;

@@ -1,12 +1,12 @@
 //! Newmark's method with β = 1/4 and γ = 1/2: the mean of the accelerations at both ends of the step.
 
 use super::card::{IMPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::newton::Newton;
 use super::shared::stages::Stages;
-use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::System;
+use crate::sim::state::{Elementwise, Vector};
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "newmark",
@@ -38,13 +38,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for Newmark<S::Vector> {
         Self { a: like.clone(), newton: Newton::new(like, S::coupling()) }
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { a, newton } = self;
         system.acceleration(t, &y.q, &y.v, a);
         y.q.add_scaled(h, &y.v);

@@ -2,11 +2,11 @@
 
 use std::cell::RefCell;
 
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
 use crate::sim::state::{State, Vector};
-use crate::sim::system::{Question, System};
+use crate::sim::system::{Question, StateOf, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
 
 /// A system of any type with its coordinates in a `Vec`: what a method of one's own steps.
@@ -37,7 +37,7 @@ pub trait OwnIntegrator: Send {
         t: f64,
         h: f64,
         state: &mut State<Vec<f64>>,
-    ) -> Result<(), StepFailure>;
+    ) -> Stepped;
     /// As [`Integrator::reset`].
     fn reset(&mut self);
     /// As [`Integrator::set_tolerance`].
@@ -58,7 +58,7 @@ where
         t: f64,
         h: f64,
         state: &mut State<Vec<f64>>,
-    ) -> Result<(), StepFailure> {
+    ) -> Stepped {
         Integrator::step(self, &system, t, h, state)
     }
     fn reset(&mut self) {
@@ -154,13 +154,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for Own<S::Vector> {
         unreachable!("a method of one's own is built by its card")
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped {
         let Self { integrator, state: many, scratch } = self;
         many.q.copy_from_slice(state.q.components());
         many.v.copy_from_slice(state.v.components());

@@ -1,11 +1,10 @@
 //! PEFRL, position-extended Forest-Ruth-like: one kick more than Yoshida 4, for a far smaller error.
 
 use super::card::{Method, SYMPLECTIC};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::composition::compose;
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "pefrl",
@@ -53,13 +52,7 @@ impl<S: System> Integrator<S> for Pefrl<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         compose(system, t, h, y, &mut self.a, &STAGES, LAST);
         Ok(())
     }

@@ -1,10 +1,10 @@
 //! Position Verlet: half a drift, a kick, half a drift.
 
 use super::card::{Method, SYMPLECTIC};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use crate::sim::state::{Elementwise, State};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "position-verlet",
@@ -31,13 +31,7 @@ impl<S: System> Integrator<S> for PositionVerlet<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        State { q, v }: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { a } = self;
         q.add_scaled(h / 2.0, v);
         system.acceleration(t + h / 2.0, q, v, a);

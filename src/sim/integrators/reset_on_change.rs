@@ -1,10 +1,10 @@
 //! A method that detects changes of its state by the caller.
 
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::tolerance::Tolerance;
 use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 /// A method that is [reset](Integrator::reset) if it is given a state other than it returned.
 pub(super) struct ResetOnChange<I, V> {
@@ -22,8 +22,8 @@ impl<I, V: Vector> ResetOnChange<I, V> {
     fn advance<S: System<Vector = V>>(
         &mut self,
         state: &mut State<V>,
-        advance: impl FnOnce(&mut I, &mut State<V>) -> Result<(), StepFailure>,
-    ) -> Result<(), StepFailure>
+        advance: impl FnOnce(&mut I, &mut State<V>) -> Stepped,
+    ) -> Stepped
     where
         I: Integrator<S>,
     {
@@ -42,24 +42,11 @@ impl<S: System<Vector: Vector>, I: Integrator<S>> Integrator<S> for ResetOnChang
         Self::around(I::new(like), like)
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped {
         self.advance::<S>(state, |method, state| method.step(system, t, h, state))
     }
 
-    fn steps(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        n: u32,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn steps(&mut self, system: &S, t: f64, h: f64, n: u32, state: &mut StateOf<S>) -> Stepped {
         self.advance::<S>(state, |method, state| method.steps(system, t, h, n, state))
     }
 

@@ -1,10 +1,10 @@
 //! The classical Runge-Kutta method: four slopes, weighted 1 2 2 1.
 
 use super::card::{EXPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "rk4",
@@ -45,13 +45,7 @@ impl<S: System> Integrator<S> for Rk4<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, k3, k4, stage } = self;
         system.derivative(t, y, k1);
 

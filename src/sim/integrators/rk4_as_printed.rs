@@ -1,10 +1,10 @@
 //! Runge-Kutta 4 as the chapter prints it: four slopes of the velocity alone, which moves the position.
 
 use super::card::{AS_PRINTED, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use crate::sim::state::{Elementwise, State};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "rk4-as-printed",
@@ -42,13 +42,7 @@ impl<S: System> Integrator<S> for Rk4AsPrinted<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        State { q, v }: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, k3, k4, stage } = self;
         system.acceleration(t, q, v, k1);
 

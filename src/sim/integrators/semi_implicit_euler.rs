@@ -1,10 +1,10 @@
 //! Semi-implicit Euler: kick the velocity, then drift with the new velocity.
 
 use super::card::{Method, SYMPLECTIC};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use crate::sim::state::{Elementwise, State};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "semi-implicit-euler",
@@ -32,13 +32,7 @@ impl<S: System> Integrator<S> for SemiImplicitEuler<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        State { q, v }: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, State { q, v }: &mut StateOf<S>) -> Stepped {
         let Self { a } = self;
         system.acceleration(t, q, v, a);
         S::Vector::kick_and_drift(h, a, v, h, q);

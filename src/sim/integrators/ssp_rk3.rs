@@ -1,10 +1,10 @@
 //! Strong-stability-preserving Runge-Kutta 3: three Euler steps, averaged.
 
 use super::card::{EXPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "ssp-rk3",
@@ -46,13 +46,7 @@ impl<S: System> Integrator<S> for SspRk3<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { k1, k2, k3, stage } = self;
         system.derivative(t, y, k1);
 

@@ -1,11 +1,11 @@
 //! Störmer-Verlet: the next position from the last two and the force; the velocity is read off them.
 
 use super::card::{Method, SYMPLECTIC};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
 use crate::sim::state::{Elementwise, State};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "stormer-verlet",
@@ -45,13 +45,7 @@ impl<S: System> Integrator<S> for StormerVerlet<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { p, a, q_end, last_step } = self;
         let State { q, v } = y;
         if !last_step.is_continued_by(h) {

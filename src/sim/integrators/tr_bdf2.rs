@@ -1,11 +1,11 @@
 //! TR-BDF2: the trapezoidal rule over a part of the step, and BDF2 over the whole of it.
 
 use super::card::{IMPLICIT, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::newton::Newton;
 use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "tr-bdf2",
@@ -46,13 +46,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for TrBdf2<S::Vector> {
         Self { newton: Newton::new(like, S::coupling()), f: zero.clone(), stage: zero }
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { newton, f, stage } = self;
         system.derivative(t, y, f);
         stage.assign_sum(y, h * D, f);

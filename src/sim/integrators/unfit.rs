@@ -1,9 +1,8 @@
 //! What stands for a method on a system that it cannot step.
 
-use super::failure::StepFailure;
+use super::failure::{StepFailure, Stepped};
 use super::integrator::Integrator;
-use crate::sim::state::State;
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 /// A method that refuses every step.
 #[derive(Clone)]
@@ -16,13 +15,7 @@ impl<S: System> Integrator<S> for Unfit {
         unreachable!("it is built with its reason")
     }
 
-    fn step(
-        &mut self,
-        _system: &S,
-        _t: f64,
-        _h: f64,
-        _state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, _system: &S, _t: f64, _h: f64, _state: &mut StateOf<S>) -> Stepped {
         Err(StepFailure::Refused { reason: self.reason })
     }
 }

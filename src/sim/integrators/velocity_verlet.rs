@@ -1,11 +1,11 @@
 //! Velocity Verlet: half a kick, a drift, half a kick by the force at the end.
 
 use super::card::{Method, SYMPLECTIC};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::last_step::LastStep;
 use crate::sim::state::{Elementwise, State};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "velocity-verlet",
@@ -42,13 +42,7 @@ impl<S: System> Integrator<S> for VelocityVerlet<S::Vector> {
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { a, a_end, v_end, last_step } = self;
         if !last_step.is_continued_by(h) {
             system.acceleration(t, &y.q, &y.v, a);

@@ -1,12 +1,12 @@
 //! Verlet with exact drag: half a step of exact decay, a step of velocity Verlet, half a step of exact decay.
 
 use super::card::{LINEARISED, Method};
-use super::failure::StepFailure;
+use super::failure::Stepped;
 use super::integrator::Integrator;
 use super::shared::jacobian::Jacobian;
 use super::shared::linear_flow::LinearFlow;
 use crate::sim::state::{Elementwise, State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 pub(super) const CARD: Method = Method {
     id: "verlet-exact-drag",
@@ -48,12 +48,7 @@ pub struct VerletExactDrag<V> {
 
 impl<V: Vector> VerletExactDrag<V> {
     /// `v = exp(h D / 2) v` of several coordinates.
-    fn decay(
-        &mut self,
-        system: &dyn System<Vector = V>,
-        h: f64,
-        v: &mut V,
-    ) -> Result<(), StepFailure> {
+    fn decay(&mut self, system: &dyn System<Vector = V>, h: f64, v: &mut V) -> Stepped {
         let Self { drag, decay, zeros, .. } = self;
         let [_, rate] = drag.norms(system);
         let norm = (h / 2.0 * rate).abs();
@@ -90,13 +85,7 @@ impl<S: System<Vector: Vector>> Integrator<S> for VerletExactDrag<S::Vector> {
         }
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         system.acceleration(t, &y.q, &y.v, &mut self.a);
         self.drag.take(system, t, h, y, &self.a);
         let State { q, v } = y;

@@ -6,12 +6,12 @@ use super::expression::{Expression, Scope, parse};
 use super::function::Function;
 use super::op::is_word;
 use super::refusal::{Fault, Part, Refusal, Remedy};
-use super::tape::{MOST_OPERATIONS, MOST_SWITCHES, Tape};
+use super::tape::{MAX_OPERATIONS, MAX_SWITCHES, Tape};
 use super::token::is_name_start;
 use super::{FIRST_COORDINATE, LawText, RUDDER, T, THROTTLE, inputs};
 
 /// The most characters of a name, which labels a marker.
-const MOST_NAME_CHARS: usize = 24;
+const MAX_NAME_CHARS: usize = 24;
 
 /// Compiles the parts of one text.
 pub(super) struct Compiler<'t> {
@@ -154,9 +154,9 @@ impl Compiler<'_> {
         tape.map_err(|long| {
             let (part, text) = parts[long.expression];
             let (what, most) = if long.are_switches {
-                ("corners and jumps", MOST_SWITCHES)
+                ("corners and jumps", MAX_SWITCHES)
             } else {
-                ("operations", MOST_OPERATIONS)
+                ("operations", MAX_OPERATIONS)
             };
             let what = format!("the law has more than {most} {what}");
             vec![Fault::new(0..text.len(), what, format!("keep at most {most}")).of(part)]
@@ -185,7 +185,7 @@ pub(super) fn check_names(text: &LawText) -> Vec<Refusal> {
         if !is_name(name) {
             let remedy = "write letters, digits and `_`, beginning with a letter";
             refuse(format!("`{}` cannot be a name", shown.escape_debug()), remedy);
-        } else if name.chars().count() > MOST_NAME_CHARS {
+        } else if name.chars().count() > MAX_NAME_CHARS {
             refuse(format!("the name `{shown}` has {} characters", name.len()), "keep at most 24");
         } else if is_reserved(name) {
             refuse(

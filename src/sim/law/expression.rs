@@ -14,11 +14,11 @@ mod call;
 mod nodes;
 
 /// The most bytes of an expression: several lines of a file.
-pub const MOST_BYTES: usize = 4096;
+pub const MAX_BYTES: usize = 4096;
 
 /// The most brackets, signs and functions within each other. The parser calls itself for each, about
 /// ten calls deep.
-pub const MOST_DEPTH: usize = 64;
+pub const MAX_DEPTH: usize = 64;
 
 /// The largest whole exponent that is written out as a product; a larger one is `libm::pow`'s.
 const LARGEST_PRODUCT: u32 = 16;
@@ -67,10 +67,10 @@ pub(super) trait Scope {
 
 /// Reads an expression. Its last node is its value.
 pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<Expression, Fault> {
-    if text.len() > MOST_BYTES {
+    if text.len() > MAX_BYTES {
         let what = format!("the expression has {} bytes", text.len());
-        let end = text.floor_char_boundary(MOST_BYTES);
-        return Err(Fault::new(end..text.len(), what, format!("keep at most {MOST_BYTES}")));
+        let end = text.floor_char_boundary(MAX_BYTES);
+        return Err(Fault::new(end..text.len(), what, format!("keep at most {MAX_BYTES}")));
     }
     let tokens = tokens(text)?;
     let expression = Expression::default();
@@ -167,8 +167,8 @@ impl Parser<'_> {
 
     /// One level deeper into brackets, signs or functions.
     fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Fault>) -> Result<T, Fault> {
-        if self.depth == MOST_DEPTH {
-            let what = format!("the expression is nested more than {MOST_DEPTH} deep");
+        if self.depth == MAX_DEPTH {
+            let what = format!("the expression is nested more than {MAX_DEPTH} deep");
             return Err(Fault::new(self.here(), what, "use fewer brackets"));
         }
         self.depth += 1;

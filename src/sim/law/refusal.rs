@@ -71,12 +71,12 @@ impl Fault {
 }
 
 /// The most characters of an expression in one message.
-const MOST_QUOTED_CHARS: usize = 40;
+const MAX_QUOTED_CHARS: usize = 40;
 
 /// Text of an expression for a message, shortened.
 pub(super) fn quoted(text: &str) -> String {
-    let mut quoted: String = text.chars().take(MOST_QUOTED_CHARS).collect();
-    if text.chars().nth(MOST_QUOTED_CHARS).is_some() {
+    let mut quoted: String = text.chars().take(MAX_QUOTED_CHARS).collect();
+    if text.chars().nth(MAX_QUOTED_CHARS).is_some() {
         quoted.push('…');
     }
     quoted

@@ -14,10 +14,10 @@ use super::switch::Switch;
 use crate::sim::curve::Curve;
 
 /// The most operations of a tape: a step of ten microseconds.
-pub const MOST_OPERATIONS: usize = 4096;
+pub const MAX_OPERATIONS: usize = 4096;
 
 /// The most switches of a tape, so that a [`Piece`](crate::sim::bodies::Piece) is small.
-pub(super) use crate::sim::piece::MOST_SWITCHES;
+pub(super) use crate::sim::piece::MAX_SWITCHES;
 
 /// One operation: reads up to three slots and writes one.
 #[derive(Clone, Copy, Debug)]
@@ -97,8 +97,8 @@ impl Tape {
                     Op::Input => node.index as u16,
                     _ => tape.place(node, operands, expression, &mut is_fixed, &mut known, origin),
                 };
-                let are_switches = tape.switches.len() > MOST_SWITCHES;
-                if are_switches || tape.slots > MOST_OPERATIONS {
+                let are_switches = tape.switches.len() > MAX_SWITCHES;
+                if are_switches || tape.slots > MAX_OPERATIONS {
                     return Err(TooLong { expression: place, are_switches });
                 }
             }

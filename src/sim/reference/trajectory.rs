@@ -3,7 +3,7 @@
 use super::extrapolation::Extrapolation;
 use crate::sim::body::Body;
 use crate::sim::double_double::{DoubleDouble, TWO_PI};
-use crate::sim::piece::{Distances, MOST_SWITCHES, NO_BOUNDARIES, Piece};
+use crate::sim::piece::{Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 use crate::sim::state::{State, Vector};
 
 /// A step accepted with at most this many columns was too short: the next is twice as long.
@@ -29,7 +29,7 @@ const CROSSING_ROUNDING: f64 = 1e-13;
 
 /// The largest number of boundaries crossed one after another without a step. A motion that is pushed back
 /// to a jump of the force from both sides, such as one at rest under dry friction, crosses it for ever.
-const MAX_STANDS: usize = 4 * MOST_SWITCHES;
+const MAX_STANDS: usize = 4 * MAX_SWITCHES;
 
 /// The largest number of attempts to end a step at a boundary; the search converges superlinearly.
 const MAX_SEARCH_STEPS: u32 = 60;
@@ -110,7 +110,7 @@ pub(super) struct Trajectory<V> {
     /// The current piece of the force law.
     piece: Piece,
     /// The largest distance of each switch to a boundary so far, where the force can jump; otherwise 0.
-    extents: [f64; MOST_SWITCHES],
+    extents: [f64; MAX_SWITCHES],
     control: StepControl,
 }
 
@@ -123,7 +123,7 @@ impl<V: Vector> Trajectory<V> {
             turns: state.q,
             step: None,
             piece: Piece::FIRST,
-            extents: [0.0; MOST_SWITCHES],
+            extents: [0.0; MAX_SWITCHES],
             control,
         }
     }
@@ -135,7 +135,7 @@ impl<V: Vector> Trajectory<V> {
             half.components_mut().fill(0.0);
         }
         self.step = None;
-        self.extents = [0.0; MOST_SWITCHES];
+        self.extents = [0.0; MAX_SWITCHES];
         self.unwind(body);
         self.piece = body.piece(t, &self.at);
     }
@@ -331,7 +331,7 @@ impl<V: Vector> Trajectory<V> {
         mut crossing: Crossing,
     ) -> Option<(f64, Crossing)> {
         let mut whole = 1.0;
-        for _ in 0..MOST_SWITCHES {
+        for _ in 0..MAX_SWITCHES {
             // Already beyond the boundary and moving away: change the piece without a step.
             if crossing.begun < 0.0 {
                 return Some((0.0, crossing));

@@ -3,7 +3,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::sim::integrators::{Integrator, Method, StepFailure, Tolerance, integrator};
+use crate::sim::integrators::{Integrator, Method, Stepped, Tolerance, integrator};
 use crate::sim::{Solver, State, Stepper, System};
 
 /// An acceleration function on slices: time, coordinates, velocities, output.
@@ -133,7 +133,7 @@ impl Ensemble {
     }
 
     /// Advances all copies from `t` to `t + h` (s).
-    pub(super) fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Result<(), StepFailure> {
+    pub(super) fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
         self.integrator.steps(&self.copies, t, h, substeps, &mut self.state)
     }
 

@@ -8,9 +8,9 @@ use crate::sim::xor_shift::XorShift;
 use crate::sim::{Solver, Stepper};
 
 /// The most iterations: they tell the radius to a thousandth.
-const MOST_ITERATIONS: usize = 2048;
+const MAX_ITERATIONS: usize = 2048;
 /// The fewest that tell anything.
-const FEWEST_ITERATIONS: usize = 64;
+const MIN_ITERATIONS: usize = 64;
 /// By how much the radius after three quarters of the iterations may differ from that after all.
 const SETTLED: f64 = 5e-3;
 /// The displacement of the state, relative to its size: between rounding and the curvature of the forces.
@@ -68,8 +68,8 @@ fn logs_of_displaced_ticks(
 
     // Coordinates, then velocities times the tick, so that both have one unit.
     let mut direction = start_vector(2 * n);
-    let (mut sum, mut logs) = (0.0, Vec::with_capacity(MOST_ITERATIONS));
-    while logs.len() < MOST_ITERATIONS && stepper.evaluations() - before <= most_evaluations {
+    let (mut sum, mut logs) = (0.0, Vec::with_capacity(MAX_ITERATIONS));
+    while logs.len() < MAX_ITERATIONS && stepper.evaluations() - before <= most_evaluations {
         let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         // Displaced by this much in the largest component.
         let largest = direction.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -111,8 +111,8 @@ fn logs_of_continued_run(
     start.iter_mut().for_each(|x| *x *= START);
     start[n..].iter_mut().for_each(|v| *v /= h);
     deviation.set(&[start]);
-    let mut logs = Vec::with_capacity(MOST_ITERATIONS);
-    while logs.len() < MOST_ITERATIONS && (logs.len() as u64) < most_ticks {
+    let mut logs = Vec::with_capacity(MAX_ITERATIONS);
+    while logs.len() < MAX_ITERATIONS && (logs.len() as u64) < most_ticks {
         if deviation.advance(t, h, substeps).is_err() {
             break;
         }
@@ -140,7 +140,7 @@ fn settled_radius(logs: &[f64]) -> Option<f64> {
 /// The radius from the logarithms of the lengths after each iteration.
 fn radius(logs: &[f64]) -> Option<f64> {
     let count = logs.len() / 8 * 8;
-    if count < FEWEST_ITERATIONS || !logs[count - 1].is_finite() {
+    if count < MIN_ITERATIONS || !logs[count - 1].is_finite() {
         return None;
     }
     let peak = |window: std::ops::Range<usize>| {

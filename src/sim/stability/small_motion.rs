@@ -44,7 +44,7 @@ pub enum NoSmallMotion {
 }
 
 /// The most coordinates that are stepped together: the work for a point grows as their cube.
-const MOST_COUPLED: usize = 16;
+const MAX_COUPLED: usize = 16;
 
 impl SmallMotion {
     /// The small motions of `body` about its origin if it rests there, or else about a place of rest near its start.
@@ -90,7 +90,7 @@ impl SmallMotion {
     /// # Errors
     /// If there are too many, or if their modes cannot be found because the rates overflow.
     pub fn coupled(self) -> Result<CoupledMotion, NoSmallMotion> {
-        if self.jacobian.nrows() > MOST_COUPLED {
+        if self.jacobian.nrows() > MAX_COUPLED {
             return Err(NoSmallMotion::TooManyCoordinates);
         }
         let (truth, rate) = true_modes(&self.jacobian).ok_or(NoSmallMotion::NotFinite)?;
@@ -211,7 +211,7 @@ fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
         return Ok(origin);
     }
     let mut q = free.q().to_vec();
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..MAX_ITERATIONS {
         let columns: Vec<DVector<f64>> = (0..n)
             .map(|j| {
                 let moved = |sign: f64| {
@@ -237,7 +237,7 @@ fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
 }
 
 /// Steps of Newton's iteration: from a start with the right stiffness about 5 are enough.
-const MOST_ITERATIONS: u32 = 30;
+const MAX_ITERATIONS: u32 = 30;
 
 /// The last step of Newton's iteration, relative to the coordinate: the next would be at rounding level.
 const AT_REST: f64 = 1e-9;

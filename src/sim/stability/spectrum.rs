@@ -76,7 +76,7 @@ pub(super) fn eigenvalues(derivatives: &Derivatives) -> Option<Vec<Eigenvalue>> 
         let (off, has_memory) = memory_defect(&now, &later);
         let (map, tolerance) = match has_memory {
             true => (&with_memory(&now, &later)?, NEUTRAL_WITH_MEMORY),
-            false => (&now[0], (NEUTRAL_IN_DEFECTS * off).min(MOST_NEUTRAL)),
+            false => (&now[0], (NEUTRAL_IN_DEFECTS * off).min(MAX_NEUTRAL)),
         };
         values.extend(
             eigenvalues_of_matrix(map)?
@@ -147,7 +147,7 @@ pub(super) const NEUTRAL_WITH_MEMORY: f64 = 1e-9;
 const NEUTRAL_IN_DEFECTS: f64 = 10.0;
 /// A modulus further from 1 is never taken for 1: the defect of a map that grows without limit says
 /// nothing.
-const MOST_NEUTRAL: f64 = 1e-3;
+const MAX_NEUTRAL: f64 = 1e-3;
 
 fn snapped_to_neutral(value: Eigenvalue, tolerance: f64) -> Eigenvalue {
     let neutral = (value.modulus - 1.0).abs() < tolerance;

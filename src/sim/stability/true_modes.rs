@@ -30,7 +30,7 @@ pub(super) fn true_modes(body: &dyn Stepper, tick: Tick) -> Result<Vec<Mode>, St
     }
     let mut modes = at(h)?;
     // A turn and a quarter looks like a quarter turn, so a result must be confirmed over half the time.
-    for _ in 0..MOST_HALVINGS {
+    for _ in 0..MAX_HALVINGS {
         let finer = at(h / 2.0)?;
         let (coarse, fine) = (fastest(&modes), fastest(&finer));
         if coarse * h < QUARTER_TURN && (coarse - fine).abs() <= 0.01 * fine {
@@ -44,7 +44,7 @@ pub(super) fn true_modes(body: &dyn Stepper, tick: Tick) -> Result<Vec<Mode>, St
 const QUARTER_TURN: f64 = std::f64::consts::FRAC_PI_2;
 
 /// Halves a second down to a microsecond.
-const MOST_HALVINGS: u32 = 20;
+const MAX_HALVINGS: u32 = 20;
 
 /// The highest frequency under the forces linearised about the current state, in radians per second.
 fn linearised_frequency(body: &dyn Stepper, here: &[f64], tick: Tick) -> f64 {

@@ -9,10 +9,10 @@ use super::{Field, Table, integer, number};
 use crate::lab::scene::LARGEST_COORDINATE;
 use crate::lab::scene::cause::{Cause, Wanted};
 use crate::lab::scene::clip::clip;
-use crate::sim::bodies::{LARGEST, MOST_NODES, MOST_POINTS, Range};
+use crate::sim::bodies::{LARGEST, MAX_NODES, MAX_POINTS, Range};
 
 impl Table<'_> {
-    /// The points of a curve, in rising order of their first numbers. At most [`MOST_POINTS`] are read.
+    /// The points of a curve, in rising order of their first numbers. At most [`MAX_POINTS`] are read.
     pub(in crate::lab::scene) fn curve(
         &mut self,
         field: Field,
@@ -25,11 +25,11 @@ impl Table<'_> {
             return self.wrong_type(format!("`{key}`"), value, wanted);
         };
         let found = entries.len();
-        if !(2..=MOST_POINTS).contains(&found) {
+        if !(2..=MAX_POINTS).contains(&found) {
             self.complain(value.span(), Cause::PointCount { key, found, wanted });
         }
         let mut points: Vec<[f64; 2]> = Vec::new();
-        for entry in entries.iter().take(MOST_POINTS) {
+        for entry in entries.iter().take(MAX_POINTS) {
             let point = self.point(field, entry)?;
             if let Some([before, _]) = points.last().filter(|last| last[0] >= point[0]) {
                 let cause = Cause::NotRising { key, value: point[0], before: *before };
@@ -64,13 +64,13 @@ impl Table<'_> {
         read.or_else(|| self.wrong_type(subject, entry, Wanted::Point))
     }
 
-    /// A list of places in the plane. At most one more than [`MOST_NODES`] are read.
+    /// A list of places in the plane. At most one more than [`MAX_NODES`] are read.
     pub(in crate::lab::scene) fn points(&mut self, field: Field) -> Option<Vec<[f64; 2]>> {
         let value = self.value(field, &Wanted::Places)?;
         let Some(entries) = value.get_ref().as_array() else {
             return self.wrong_type(format!("`{}`", field.key), value, Wanted::Places);
         };
-        let read = entries.iter().take(MOST_NODES + 1).enumerate();
+        let read = entries.iter().take(MAX_NODES + 1).enumerate();
         read.map(|(node, entry)| self.place(node, entry)).collect()
     }
 

@@ -12,7 +12,7 @@ use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range, Text};
 use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 /// The key of the parameter that bodies without parameters of their own have.
 const FORCE: &str = "force";
@@ -28,7 +28,7 @@ const MAX_COORDINATES: usize = 256;
 /// If the start, a name or a unit is unfit, or if something that is told in `extras` is not so.
 pub fn custom_kind<S>(
     system: &S,
-    start: &State<S::Vector>,
+    start: &StateOf<S>,
     extras: &Extras<S>,
     drawing: Option<Arc<dyn Any + Send + Sync>>,
     horizon: ClaimHorizon,

@@ -11,7 +11,7 @@ use crate::sim::system::System;
 const SECONDS: f64 = 4.0;
 
 /// The most evaluations of springs: some tens of milliseconds in an unoptimised build.
-const MOST_SPRINGS: f64 = 3e6;
+const MAX_SPRINGS: f64 = 3e6;
 
 /// The longest step in units of the fastest motion: half of what semi-implicit Euler bears.
 const STEP: f64 = 0.5;
@@ -35,7 +35,7 @@ impl Survey {
         let mut a = state.v.clone();
         let h = STEP / net.fastest_rate();
         let springs = net.springs.constants.len() as f64;
-        let steps = (SECONDS / h).min(MOST_SPRINGS / springs) as u64;
+        let steps = (SECONDS / h).min(MAX_SPRINGS / springs) as u64;
         let mut range = [DVec2::INFINITY, DVec2::NEG_INFINITY];
         let mut reach = vec![[f64::INFINITY, f64::NEG_INFINITY]; state.q.components().len()];
         let fixed: Vec<DVec2> = net.fixed().collect();

@@ -5,8 +5,8 @@ use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, Needs, Only};
 use crate::sim::integrators::joint_mode::JointQuantity::{Damping, Stiffness};
 use crate::sim::integrators::joint_mode::{JointMode, mode};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{EngineSettings, System};
+use crate::sim::state::Vector;
+use crate::sim::system::{EngineSettings, StateOf, System};
 
 const MODES: [JointMode; 1] = [mode(
     "force",
@@ -57,7 +57,7 @@ impl Rule for HeldForce {
     fn read<S: System<Vector: Vector>>(
         system: &S,
         t: f64,
-        state: &State<S::Vector>,
+        state: &StateOf<S>,
         force: &mut S::Vector,
     ) -> Result<EngineSettings, StepFailure> {
         system.acceleration(t, &state.q, &state.v, force);

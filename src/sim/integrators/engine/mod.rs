@@ -12,10 +12,10 @@
 use std::marker::PhantomData;
 
 use super::card::Method;
-use super::failure::StepFailure;
+use super::failure::{StepFailure, Stepped};
 use super::integrator::Integrator;
 use crate::sim::state::{State, Vector};
-use crate::sim::system::{EngineSettings, System};
+use crate::sim::system::{EngineSettings, StateOf, System};
 
 pub(super) mod avian;
 pub(super) mod avian_motor;
@@ -70,7 +70,7 @@ pub trait Rule: Clone + Send + 'static {
     fn read<S: System<Vector: Vector>>(
         system: &S,
         t: f64,
-        state: &State<S::Vector>,
+        state: &StateOf<S>,
         force: &mut S::Vector,
     ) -> Result<EngineSettings, StepFailure> {
         Ok(EngineSettings::of(system, t, state, force))
@@ -93,25 +93,12 @@ impl<S: System<Vector: Vector>, R: Rule> Integrator<S> for EngineMethod<S::Vecto
     }
 
     #[inline]
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped {
         self.tick(system, t, h, 1, state)
     }
 
     #[inline]
-    fn steps(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        n: u32,
-        state: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn steps(&mut self, system: &S, t: f64, h: f64, n: u32, state: &mut StateOf<S>) -> Stepped {
         if R::CARD.engine.is_some_and(|engine| engine.has_substeps) {
             return self.tick(system, t, h, n, state);
         }
@@ -133,7 +120,7 @@ impl<V: Vector, R: Rule> EngineMethod<V, R> {
         length: f64,
         substeps: u32,
         state: &mut State<V>,
-    ) -> Result<(), StepFailure> {
+    ) -> Stepped {
         let Self { force, carried, .. } = self;
         let settings = R::read(system, t, state, force)?;
         let tick = Tick { length, substeps, settings, force, carried };

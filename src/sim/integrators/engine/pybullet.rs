@@ -3,8 +3,8 @@
 use super::{Rule, Tick, each};
 use crate::sim::integrators::StepFailure;
 use crate::sim::integrators::card::{ENGINE, Engine, Method, Needs, Only};
-use crate::sim::state::{State, Vector};
-use crate::sim::system::{EngineSettings, System};
+use crate::sim::state::Vector;
+use crate::sim::system::{EngineSettings, StateOf, System};
 
 const ONLY: Only = Only {
     needs: Needs::EngineWithoutJoint,
@@ -54,7 +54,7 @@ impl Rule for Pybullet {
     fn read<S: System<Vector: Vector>>(
         system: &S,
         t: f64,
-        state: &State<S::Vector>,
+        state: &StateOf<S>,
         force: &mut S::Vector,
     ) -> Result<EngineSettings, StepFailure> {
         let settings = EngineSettings::of(system, t, state, force);

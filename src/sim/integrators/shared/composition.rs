@@ -1,7 +1,7 @@
 //! Composition of drifts and kicks, for higher-order symplectic methods.
 
 use crate::sim::state::{Elementwise, State};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 /// For each `(c, d)` of `stages` a drift `q += c h v` and a kick `v += d h a`, then the `last` drift.
 ///
@@ -12,7 +12,7 @@ pub(in crate::sim::integrators) fn compose<S: System>(
     system: &S,
     t: f64,
     h: f64,
-    State { q, v }: &mut State<S::Vector>,
+    State { q, v }: &mut StateOf<S>,
     a: &mut S::Vector,
     stages: &[(f64, f64)],
     last: f64,

@@ -4,11 +4,11 @@
 use std::marker::PhantomData;
 
 use super::step_size::{StepSize, steady_factor};
-use crate::sim::integrators::failure::StepFailure;
+use crate::sim::integrators::failure::Stepped;
 use crate::sim::integrators::integrator::Integrator;
 use crate::sim::integrators::tolerance::Tolerance;
 use crate::sim::state::{State, Vector};
-use crate::sim::system::System;
+use crate::sim::system::{StateOf, System};
 
 /// The tableau of a pair of `N` stages. The last stage is at the kept solution, so that its slope is
 /// the first of the next step.
@@ -72,13 +72,7 @@ impl<S: System<Vector: Vector>, P: Pair<N>, const N: usize> Integrator<S>
         Self::with_tolerance(like, P::TOLERANCE)
     }
 
-    fn step(
-        &mut self,
-        system: &S,
-        t: f64,
-        h: f64,
-        y: &mut State<S::Vector>,
-    ) -> Result<(), StepFailure> {
+    fn step(&mut self, system: &S, t: f64, h: f64, y: &mut StateOf<S>) -> Stepped {
         let Self { step_size, k, stage, error, zero, .. } = self;
         let mut progress = step_size.begin_tick(h);
         if !progress.continues_the_last() {

@@ -4,16 +4,16 @@
 //! & Higham, *Computing the action of the matrix exponential*, 2011). If that takes too many pieces and the matrix
 //! is small, scaling and squaring is used instead. Both use products and sums only.
 
-use crate::sim::integrators::failure::StepFailure;
+use crate::sim::integrators::failure::{StepFailure, Stepped};
 use crate::sim::state::largest;
 use crate::sim::system::Coupling;
 
 /// The degree of the Taylor polynomial. Over a piece of norm 1 it leaves out 1/19!, less than a unit of round-off.
 const DEGREE: u32 = 18;
 /// More pieces than this are left to scaling and squaring, which is then cheaper.
-const MOST_PIECES_IF_SMALL: f64 = 8.0;
+const MAX_PIECES_IF_SMALL: f64 = 8.0;
 /// The most pieces of a step: without a limit a stiff net would never end.
-const MOST_PIECES: f64 = 1000.0;
+const MAX_PIECES: f64 = 1000.0;
 /// The largest system that is scaled and squared; three matrices of this size are 28 kB.
 const SMALL: usize = 32;
 
@@ -103,20 +103,20 @@ impl LinearFlow {
         c: &[f64],
         norm: f64,
         product: &mut dyn FnMut(&[f64], &mut [f64]),
-    ) -> Result<(), StepFailure> {
+    ) -> Stepped {
         if !norm.is_finite() {
             x.fill(f64::NAN);
             return Ok(());
         }
         let pieces = libm::ceil(norm).max(1.0);
         if let Some(squaring) = &mut self.squaring
-            && pieces > MOST_PIECES_IF_SMALL
+            && pieces > MAX_PIECES_IF_SMALL
         {
             squaring.advance(x, b, c, norm, product);
             return Ok(());
         }
-        if pieces > MOST_PIECES {
-            return Err(StepFailure::TooManySubsteps { limit: MOST_PIECES as u32 });
+        if pieces > MAX_PIECES {
+            return Err(StepFailure::TooManySubsteps { limit: MAX_PIECES as u32 });
         }
         let Self { term, next, .. } = self;
         let part = 1.0 / pieces;

@@ -8,7 +8,7 @@ use super::krylov::Krylov;
 use super::lu::StageLu;
 use super::slopes::{Forward, Slopes};
 use super::stages::Stages;
-use crate::sim::integrators::failure::StepFailure;
+use crate::sim::integrators::failure::{StepFailure, Stepped};
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Coupling, System};
 
@@ -227,7 +227,7 @@ impl<V: Vector> Linearisation<V, 1> {
         y: &State<V>,
         [alpha, beta]: [f64; 2],
         x: &mut V,
-    ) -> Result<(), StepFailure> {
+    ) -> Stepped {
         self.at[0].assign(y);
         let stages = Stages { t: [t], alpha: [[alpha]], beta: [[beta]] };
         if x.components().len() == 1 {
@@ -244,7 +244,7 @@ impl<V: Vector> Linearisation<V, 1> {
         system: &dyn System<Vector = V>,
         stages: &Stages<1>,
         x: &mut V,
-    ) -> Result<(), StepFailure> {
+    ) -> Stepped {
         if self.is_matrix_free() {
             self.begin_step();
             self.iterate(system, stages, TOLERANCE, x.components_mut());

@@ -10,7 +10,7 @@
 
 use super::linearisation::Linearisation;
 use super::stages::{Stages, largest_of};
-use crate::sim::integrators::failure::StepFailure;
+use crate::sim::integrators::failure::{StepFailure, Stepped};
 use crate::sim::state::{State, Vector, largest};
 use crate::sim::system::{Coupling, System};
 use continuation::Curve;
@@ -108,7 +108,7 @@ impl<V: Vector> Newton<V, 1> {
         t: f64,
         c: f64,
         y: &mut State<V>,
-    ) -> Result<(), StepFailure> {
+    ) -> Stepped {
         self.base[0].assign(y);
         self.base[0].q.add_scaled(c, &y.v);
         self.solve(system, &Stages { t: [t], alpha: [[c * c]], beta: [[c]] })?;
@@ -149,7 +149,7 @@ impl<V: Vector, const S: usize> Newton<V, S> {
         &mut self,
         system: &impl System<Vector = V>,
         stages: &Stages<S>,
-    ) -> Result<(), StepFailure> {
+    ) -> Stepped {
         for a in &mut self.a {
             a.components_mut().fill(0.0);
         }

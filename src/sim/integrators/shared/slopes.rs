@@ -15,7 +15,7 @@ const PART: f64 = 1.0 / 16.0;
 
 /// The least reach, in metres or radians and per second, and relative to the state: the root of round-off.
 /// Without it a body at rest would have rounding for a slope.
-const LEAST: f64 = 1.5e-8;
+const MIN_REACH: f64 = 1.5e-8;
 
 /// The forces at the state of a forward difference, and how many times the direction it reaches.
 pub(in crate::sim::integrators) struct Forward<'a, V> {
@@ -43,7 +43,7 @@ impl<V: Vector> Slopes<V> {
     pub(in crate::sim::integrators) fn reach_for(&mut self, h: f64, y: &State<V>, a: &V) {
         let [q, v, a] = [&y.q, &y.v, a].map(|part| largest(part.components()));
         let change = v + h.abs() * a;
-        let reach = |ahead: f64, now: f64| (PART * ahead).max(LEAST * (1.0 + now));
+        let reach = |ahead: f64, now: f64| (PART * ahead).max(MIN_REACH * (1.0 + now));
         self.reach = [reach(h.abs() * change, q), reach(change, v)];
     }
 

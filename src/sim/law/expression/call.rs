@@ -9,7 +9,7 @@ use crate::sim::law::op::Op;
 use crate::sim::law::refusal::Fault;
 use crate::sim::law::switch::{Pieces, Switch, Value};
 use crate::sim::law::token::Token;
-use crate::sim::parameter::MOST_POINTS;
+use crate::sim::parameter::MAX_POINTS;
 
 impl Parser<'_> {
     /// The call of a function whose name has been taken.
@@ -84,9 +84,9 @@ impl Parser<'_> {
                 let what = format!("the points go from x = {before} to {x}");
                 return Err(Fault::new(span, what, "order them by rising x"));
             }
-            if points.len() == MOST_POINTS {
-                let what = format!("the table has more than {MOST_POINTS} points");
-                return Err(Fault::new(span, what, format!("keep at most {MOST_POINTS}")));
+            if points.len() == MAX_POINTS {
+                let what = format!("the table has more than {MAX_POINTS} points");
+                return Err(Fault::new(span, what, format!("keep at most {MAX_POINTS}")));
             }
             points.push([x, y]);
             if !self.takes(",") {
