@@ -95,9 +95,9 @@ pub(super) fn run(args: &VerifyArgs) -> Result<(), Error> {
     Ok(judge(args)?)
 }
 
-/// Whether the path is that of a file, or does not exist and ends in `.toml`.
+/// Whether something is at the path that is no directory, or nothing and the path ends in `.toml`.
 fn is_scene_file(path: &Path) -> bool {
-    path.is_file() || !path.is_dir() && path.extension().is_some_and(|ending| ending == "toml")
+    !path.is_dir() && (path.exists() || path.extension().is_some_and(|ending| ending == "toml"))
 }
 
 fn judge_checks(args: &VerifyArgs) -> Result<(), Error> {

@@ -288,6 +288,69 @@ fn every_text_of_every_instrument_of_the_loop_lab_can_be_read() {
     }
 }
 
+/// The texts beside the stage of a frame of this size, and where the stage ends.
+fn beside_the_stage(lab: &Lab, size: Vec2) -> Vec<Text> {
+    let left = (1.0 - panels::INSTRUMENTS) * size.x / theme::zoom(size.into(), 100);
+    texts(lab, size).into_iter().filter(|text| text.rect.left() > left).collect()
+}
+
+#[test]
+fn instruments_are_chosen_in_two_rows_of_tabs_and_in_a_small_window_from_a_menu() {
+    let lab = moved(Scene::built_in("spring").unwrap(), true);
+    for (size, rows, names) in [
+        (vec2(640.0, 360.0), 1, 1),
+        (vec2(800.0, 600.0), 2, Instrument::all().count()),
+        (vec2(1280.0, 720.0), 2, Instrument::all().count()),
+    ] {
+        let is_name =
+            |text: &Text| Instrument::all().any(|instrument| instrument.name() == text.words);
+        let mut tabs = beside_the_stage(&lab, size);
+        // The title of the instrument, which is below them, may be its name.
+        let head = tabs.iter().find(|text| is_name(text)).expect("a tab").rect.top();
+        tabs.retain(|text| is_name(text) && text.rect.top() < head + 50.0);
+        tabs.dedup_by(|a, b| a.words == b.words);
+        assert!(tabs.iter().all(|text| !text.is_elided && text.clip.contains_rect(text.rect)));
+        assert_eq!(tabs.len(), names, "{size}");
+        let mut tops: Vec<i32> = tabs.iter().map(|text| (text.rect.top() / 12.0) as i32).collect();
+        tops.dedup();
+        assert_eq!(tops.len(), rows, "{size}");
+    }
+}
+
+#[test]
+fn what_one_step_does_to_the_swing_is_seen_whole_under_any_method() {
+    let mut lab = race_of_all("spring");
+    lab.apply(Command::Instrument(Instrument::OneStep));
+    for entry in [0, 3, 11] {
+        lab.apply(Command::Pick(entry));
+        for size in [vec2(960.0, 540.0)].into_iter().chain(SIZES) {
+            let texts = beside_the_stage(&lab, size);
+            let said = texts.iter().position(|text| text.words.starts_with("This tick"));
+            let said = &texts[said.expect("what the tick does")..];
+            let last = said.iter().position(|text| text.words.trim_end().ends_with("m/s."));
+            for text in &said[..=last.expect("how far it misses")] {
+                let is_whole = text.clip.contains_rect(text.rect);
+                assert!(is_whole, "{entry}, {size}: {:?} by {:?}", text.words, text.clip);
+            }
+        }
+    }
+}
+
+#[test]
+fn one_step_far_out_the_stability_map_and_the_times_of_ticks_can_be_read() {
+    let mut lab = run("spring", true);
+    lab.apply(Command::Instrument(Instrument::StabilityMap));
+    lab.analyse();
+    assert_legible(&lab, "the map");
+    let times = lab.entries().iter().map(|spec| (*spec, Some(987.6))).collect();
+    lab.set_tick_times(times);
+    lab.apply(Command::Instrument(Instrument::Cost));
+    assert_legible(&lab, "the times");
+    lab.apply(Command::Instrument(Instrument::OneStep));
+    (0..1800).for_each(|_| lab.tick());
+    assert_legible(&lab, "a step far out");
+}
+
 #[test]
 fn every_text_of_this_windows_own_loop_can_be_read() {
     let mut lab = run("spring", false);

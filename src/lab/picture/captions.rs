@@ -162,6 +162,13 @@ pub(super) fn name(picture: &mut Picture, rect: Rect, moment: &Moment<'_>, index
     }
 }
 
+/// The room of the name of a body at the head of its cell, if it is named there.
+pub(super) fn name_room(rect: Rect, moment: &Moment<'_>, index: usize) -> Option<Rect> {
+    let [x, y] = caption_place(rect)?;
+    let letters = moment.lab.scene().bodies[index].name.chars().count();
+    Some(Rect { min: [x, y - 7.0], max: [x + NAME_LETTER * letters as f32, y + 7.0] })
+}
+
 fn capitalised(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
@@ -187,7 +194,8 @@ pub(super) fn head(
     let room_for = |from: f32| rect.max[0] - 10.0 - from;
     let beside_both = chip.as_ref().and_then(|chip| chip.within(room_for(right)));
     let alone = chip.as_ref().and_then(|chip| chip.within(room_for(left)));
-    if beside_both.is_some() || alone.is_none() {
+    // The chip of a body that halted says so already.
+    if beside_both.is_some() && body.halted().is_none() || alone.is_none() {
         state(picture, [left, y + 0.5], rect, moment, index, body);
     }
     if let Some(chip) = beside_both.or(alone) {
@@ -195,9 +203,17 @@ pub(super) fn head(
     }
 }
 
+/// The most letters of a number beside the name of a body.
+const NUMBER: usize = 10;
+
+/// A number in four figures, or in two where those are too many letters, as of a power of ten.
+fn brief(value: f64) -> String {
+    let words = significant(value, 4);
+    if words.chars().count() <= NUMBER { words } else { significant(value, 2) }
+}
+
 /// The most letters of what is said of where a body is.
 fn widest_state(coordinate: &Coordinate) -> usize {
-    const NUMBER: usize = 10;
     let words = [&*coordinate.name, coordinate.unit, &*coordinate.velocity, coordinate.unit];
     words.map(str::len).iter().sum::<usize>() + 2 * NUMBER + 9
 }
@@ -221,13 +237,13 @@ fn state(
             None => moment.lab.shown_state(body),
         };
         let (coordinate, plotted) = moment.lab.past().coordinate(moment.lab.race(), index);
-        let place = format!("{} {}", significant(q[plotted], 4), coordinate.shown_unit());
+        let place = format!("{} {}", brief(q[plotted]), coordinate.shown_unit());
         let words = format!(
             "{} = {}   {} = {} {}/s",
             coordinate.name,
             place.trim_end(),
             coordinate.velocity,
-            significant(v[plotted], 4),
+            brief(v[plotted]),
             coordinate.unit,
         );
         picture.labels.push(text(palette, at, Align::Left, 12.5, palette.dim, words));
@@ -406,4 +422,33 @@ pub(super) fn scale_bar(picture: &mut Picture, camera: &Camera, palette: &Palett
     }
     let words = format!("{} {}", round(length_m, 4), camera.unit);
     picture.labels.push(text(palette, at, Align::Centre, 11.0, colour, words));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::picture::compose;
+    use crate::lab::{Command, Scene};
+
+    #[test]
+    fn the_numbers_beside_a_name_end_before_the_chip_however_far_the_body_is() {
+        let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+        for _ in 0..3 {
+            lab.apply(Command::TickRateDown);
+        }
+        lab.analyse();
+        let mut said = 0;
+        for _ in 0..lab.race().tick_hz() {
+            lab.tick();
+            let picture = compose(&lab, [780.0, 460.0]);
+            let chip = picture.labels.iter().find(|label| label.text == "▲").expect("a chip");
+            let numbers = picture.labels.iter().filter(|label| label.text.starts_with("x = "));
+            for label in numbers {
+                said += 1;
+                let right = label.at[0] + LETTER * label.text.chars().count() as f32;
+                assert!(right < chip.at[0] - 11.0, "{} ends at {right}", label.text);
+            }
+        }
+        assert!(said > 20, "{said}");
+    }
 }

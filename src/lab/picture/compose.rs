@@ -23,6 +23,8 @@ const MAX_NUMBERED: usize = 9;
 
 /// The head of a cell in which its lane is named, and may have halted, in points.
 const CAPTION: f32 = 32.0;
+/// Where badges begin at the earliest, in points below the top of a cell.
+const BADGES: f32 = 30.0;
 /// From this height of the stage on, in points, a ruler fits above it.
 const ROOM_FOR_RULER: f32 = 260.0;
 /// How much is seen of a body where it was taken from, while it is held.
@@ -255,8 +257,14 @@ impl Band<'_> {
             Framing::Recorder { .. } => 0.72 * camera.block,
             Framing::Follow { .. } | Framing::Fixed { .. } => 22.0,
         };
-        let room = badges(picture, camera, &lost, 30.0, palette);
-        flags(picture, &flagged, lift, palette, (room, camera.rect));
+        // Below the row of a chart recorder's bodies, where they cover none of them.
+        let below = match framing {
+            Framing::Recorder { .. } => camera.at[1] - camera.rect.min[1] + 0.6 * camera.block,
+            Framing::Follow { .. } | Framing::Fixed { .. } => BADGES,
+        };
+        let room = badges(picture, camera, &lost, [below, BADGES], palette);
+        let name = captions::name_room(camera.rect, moment, index);
+        flags(picture, &flagged, lift, palette, (room, camera.rect, name));
         if shows_ghost {
             let half = row_width(flagged.len()) / 2.0 + camera.block;
             let [x, y] = camera.points(ghost.outline.at);

@@ -36,14 +36,14 @@ pub(super) struct Flag {
     pub(super) colour: Rgba,
 }
 
-/// Flags over these places, within `room`, pushed apart where they would cover each other. Of many, those that point at one place share
-/// one.
+/// Flags over these places, within `room` and beside the `name` of their body, pushed apart where they would cover each
+/// other. Of many, those that point at one place share one.
 pub(super) fn flags(
     picture: &mut Picture,
     flags: &[Flag],
     lift: f32,
     palette: &Palette,
-    (room, clip): (Rect, Rect),
+    (room, clip, name): (Rect, Rect, Option<Rect>),
 ) {
     let mut shared: Vec<Vec<Flag>> = Vec::new();
     for flag in flags {
@@ -65,10 +65,16 @@ pub(super) fn flags(
     };
     let widths: Vec<f32> = shared.iter().map(|flags| width(flags)).collect();
     let mut places: Vec<[f32; 2]> = shared.iter().map(over).collect();
+    let least = |([_, y], width): (&[f32; 2], &f32)| {
+        let beside = name.filter(|name| y - half < name.max[1] && y + half > name.min[1]);
+        beside.map_or(left, |name| (name.max[0] + GAP + width / 2.0).clamp(left, right))
+    };
+    let lefts: Vec<f32> = places.iter().zip(&widths).map(least).collect();
+    places.iter_mut().zip(&lefts).for_each(|(place, left)| place[0] = place[0].max(*left));
     for _ in 0..PUSHES * places.len() {
         for first in 0..places.len() {
             for second in first + 1..places.len() {
-                push_apart(&mut places, &widths, [first, second], (left, right));
+                push_apart(&mut places, &widths, [first, second], (&lefts, right));
             }
         }
     }
@@ -91,7 +97,7 @@ fn push_apart(
     places: &mut [[f32; 2]],
     widths: &[f32],
     [first, second]: [usize; 2],
-    (left, right): (f32, f32),
+    (lefts, right): (&[f32], f32),
 ) {
     let [a, b] = [places[first], places[second]];
     let (low, high) = if a[0] <= b[0] { (first, second) } else { (second, first) };
@@ -100,7 +106,7 @@ fn push_apart(
     if lack > 0.0 && (a[1] - b[1]).abs() < FLAG + GAP {
         // What one cannot move at the edge, the other moves more.
         let moved = (places[high][0] + lack / 2.0).min(right) - places[high][0];
-        let back = (places[low][0] - (lack - moved)).max(left);
+        let back = (places[low][0] - (lack - moved)).max(lefts[low]);
         let rest = lack - moved - (places[low][0] - back);
         places[low][0] = back;
         places[high][0] = (places[high][0] + moved + rest).min(right);
@@ -238,12 +244,13 @@ fn distance(value: f64, digits: usize) -> String {
     format!("{sign}10{}", superscript(libm::floor(libm::log10(value.abs())) as i32))
 }
 
-/// Badges at the edges of a cell, one below the other, for the lanes that leave it. Returns what they leave free.
+/// Badges at the edges of a cell, one below the other, for the lanes that leave it: from the first of these heights on
+/// from which they fit one below the other, in points below its top. Returns what they leave free.
 pub(super) fn badges(
     picture: &mut Picture,
     camera: &Camera,
     lost: &[Lost],
-    top: f32,
+    tops: [f32; 2],
     palette: &Palette,
 ) -> Rect {
     let clip = camera.rect;
@@ -251,10 +258,13 @@ pub(super) fn badges(
     let (width, height) = (clip.max[0] - clip.min[0], clip.max[1] - clip.min[1]);
     // In a low cell a badge is as high as that.
     let high = BADGE.min(height).max(1.0);
-    let (top, scale) = (top.min(height - high), high / BADGE);
+    let scale = high / BADGE;
     for is_right in [false, true] {
         let of_side: Vec<&Lost> = lost.iter().filter(|badge| badge.is_right == is_right).collect();
-        let rows = ((height - top) / (high + 3.0)).max(1.0) as usize;
+        let rows = |top: f32| ((height - top) / (high + 3.0)).max(1.0) as usize;
+        let top = if of_side.len() <= rows(tops[0]) { tops[0] } else { tops[1] };
+        let top = top.min(height - high);
+        let rows = rows(top);
         let letters = of_side.iter().map(|badge| badge.words.chars().count()).max().unwrap_or(0);
         let widest = (BESIDE_WORDS + LETTER * letters as f32).max(WIDE_BADGE);
         let is_wide = of_side.len() <= rows && width > 3.0 * widest;
@@ -309,6 +319,8 @@ pub(super) fn badges(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::picture::compose;
+    use crate::lab::{Command, Lab, Scene};
 
     /// What is told of a body that was at these places in a cell that shows 5 m to each side, and whether at the right.
     fn told(places: &[[f64; 2]]) -> Option<(String, bool)> {
@@ -355,5 +367,43 @@ mod tests {
         assert_eq!(told(&over_the_top), said("out to −37 m", false));
         assert_eq!(told(&over_the_top[1..]), said("up to 11 m", false), "it is back");
         assert_eq!(told(&[[1.0, -9.0], [1.0, -5.0]]), said("down at −9.00 m", true));
+    }
+
+    #[test]
+    fn no_badge_lies_over_a_spring_of_its_row_and_no_flag_over_the_name_of_its_body() {
+        let mut lab = Lab::new(Scene::built_in("harbour").unwrap());
+        lab.apply(Command::ToggleRace);
+        let (mut badges, mut beside) = (0, 0);
+        for _ in 0..300 {
+            lab.tick();
+            for size in [[496.0, 342.0], [794.0, 430.0]] {
+                let picture = compose(&lab, size);
+                for (cell, name) in picture.cells.iter().zip(["Free spring", "Damped spring"]) {
+                    let of_cell =
+                        |label: &&Label| cell.rect.contains(label.at) && label.at[1] > 30.0;
+                    let name = picture.labels.iter().find(|label| label.text == name).unwrap();
+                    let end = name.at[0] + 7.0 * name.text.chars().count() as f32;
+                    for label in picture.labels.iter().filter(of_cell) {
+                        let is_flag = label.text.len() == 1 && label.size == 0.68 * FLAG;
+                        if is_flag && (label.at[1] - name.at[1]).abs() < 0.8 * FLAG {
+                            beside += 1;
+                            assert!(
+                                label.at[0] - FLAG / 2.0 > end,
+                                "{} at {:?}",
+                                label.text,
+                                label.at
+                            );
+                        }
+                        if label.text.starts_with("swings") {
+                            badges += 1;
+                            let apart = (label.at[1] - cell.camera.at[1]).abs();
+                            let wanted = (cell.camera.block + BADGE) / 2.0;
+                            assert!(apart >= wanted, "{} at {:?}", label.text, label.at);
+                        }
+                    }
+                }
+            }
+        }
+        assert!(badges > 100 && beside > 100, "{badges} badges, {beside} flags");
     }
 }

@@ -121,13 +121,25 @@ fn answer(
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 copy_button(ui, lab, spec, commands);
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    let name = format!("{} ×{}", spec.method.name, met.substeps);
-                    let name = RichText::new(name).font(strong_font(TYPE)).color(ink(ui).good);
-                    line(ui, name).on_hover_text(told_of(met));
+                    taken_line(ui, spec.method.name, met);
                 });
             });
         });
     }
+}
+
+/// A method and its substeps, of which the name gives way to the substeps.
+fn taken_line(ui: &mut Ui, name: &str, met: &CriterionMet) {
+    let font = strong_font(TYPE);
+    let strong = |words: &str| RichText::new(words).font(font.clone()).color(ink(ui).good);
+    let substeps = format!("×{}", met.substeps);
+    let width = |words: &str| {
+        ui.painter().layout_no_wrap(words.to_owned(), font.clone(), ink(ui).good).size().x
+    };
+    let room = ui.available_width() - width(&substeps) - ui.spacing().item_spacing.x;
+    let (name_width, name, substeps) = (width(name).min(room), strong(name), strong(&substeps));
+    slot(ui, name_width, |ui| line(ui, name)).on_hover_text(told_of(met));
+    line(ui, substeps).on_hover_text(told_of(met));
 }
 
 /// A button that copies a method as source code.
@@ -365,6 +377,9 @@ mod tests {
                     text.starts_with('×') && at.y > head.y && (at.x - head.x).abs() < 12.0
                 };
                 assert!(texts.iter().any(|text| is_under(&text)), "{size:?}: {head:?} {texts:?}");
+                let taken = |(at, text): &&(Pos2, String)| text.starts_with('×') && at.y < head.y;
+                let taken = texts.iter().filter(taken).count();
+                assert_eq!(taken, CRITERIA.len(), "substeps of the answer, {size:?}: {texts:?}");
             }
         }
     }
@@ -385,7 +400,8 @@ mod tests {
         of(&lab, "none yet");
         judge(&mut lab, &mut worker, 2);
         of(&lab, &told(2));
-        assert!(of(&lab, "Semi-implicit Euler ×1") < of(&lab, "method"));
+        // The cells of the table have more words.
+        assert!(of(&lab, "×1") < of(&lab, "method"));
     }
 
     #[test]

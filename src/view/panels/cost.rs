@@ -10,6 +10,9 @@ use crate::view::plot;
 
 /// The width of the longest bar, in points.
 const BAR: f32 = 70.0;
+/// From these widths on, in points, there is room for bars, and for the share of a frame.
+const ROOM_FOR_BARS: f32 = 440.0;
+const ROOM_FOR_SHARES: f32 = 380.0;
 const ROW: f32 = 20.0;
 /// A frame at 60 Hz, in nanoseconds.
 const FRAME_NS: f64 = 1e9 / 60.0;
@@ -24,16 +27,29 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
     let has_times = lanes.iter().any(|row| row.ns.is_some());
     ui.label(RichText::new("Cost of the next tick, all bodies").font(strong_font(13.0)));
     let height = room.y - 66.0;
+    let columns = Columns {
+        most: (room.x >= ROOM_FOR_BARS).then_some(most),
+        has_times,
+        has_shares: has_times && room.x >= ROOM_FOR_SHARES,
+    };
+    let gap = if room.x >= ROOM_FOR_SHARES { 12.0 } else { 8.0 };
     ScrollArea::both().id_salt("cost").max_height(height.max(40.0)).show(ui, |ui| {
-        let grid = Grid::new("cost").num_columns(6).spacing([12.0, 2.0]).min_row_height(ROW);
+        let grid = Grid::new("cost").spacing([gap, 2.0]).min_row_height(ROW);
         grid.show(ui, |ui| {
-            let heads = ["", "method", "evaluations", "", "time", "60 Hz frame"];
-            for head in &heads[..if has_times { 6 } else { 4 }] {
-                ui.label(RichText::new(*head).size(11.0).color(ink(ui).dim));
+            let heads = [
+                ("", true),
+                ("method", true),
+                ("evaluations", true),
+                ("", columns.most.is_some()),
+                ("time", columns.has_times),
+                ("60 Hz frame", columns.has_shares),
+            ];
+            for (head, _) in heads.into_iter().filter(|(_, is_shown)| *is_shown) {
+                ui.label(RichText::new(head).size(11.0).color(ink(ui).dim));
             }
             ui.end_row();
             for row in &lanes {
-                row.show(ui, lab, most, has_times);
+                row.show(ui, lab, &columns);
                 ui.end_row();
             }
         });
@@ -45,6 +61,14 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
         (false, false) => NOT_MEASURED,
     };
     ui.add(Label::new(RichText::new(note).size(12.0).color(ink(ui).dim)).wrap());
+}
+
+/// What is shown of each lane beside its name and its evaluations.
+struct Columns {
+    /// The evaluations of the longest bar, if there are bars.
+    most: Option<u64>,
+    has_times: bool,
+    has_shares: bool,
 }
 
 /// A lane.
@@ -70,7 +94,7 @@ impl Row {
         }
     }
 
-    fn show(&self, ui: &mut Ui, lab: &Lab, most: u64, has_times: bool) {
+    fn show(&self, ui: &mut Ui, lab: &Lab, columns: &Columns) {
         let (colour, dash) = ink(ui).style(lab.entries(), &self.spec);
         let (swatch, _) = ui.allocate_exact_size(vec2(30.0, ROW), Sense::hover());
         plot::swatch(ui.painter(), swatch.left_center(), 28.0, dash, colour);
@@ -80,16 +104,21 @@ impl Row {
         let evaluations = self.evaluations;
         let text = if self.is_halted { "halted".into() } else { evaluations.to_string() };
         ui.label(RichText::new(text));
-        let (bar, response) = ui.allocate_exact_size(vec2(BAR, ROW), Sense::hover());
-        let width = BAR * evaluations as f32 / most as f32;
-        let filled = egui::Rect::from_min_size(bar.min + vec2(0.0, 5.0), vec2(width, ROW - 10.0));
-        ui.painter().rect_filled(filled, 2.0, colour);
-        let about =
-            format!("{}: {evaluations} evaluations in the next tick", self.spec.method.name);
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Meter, true, &about));
-        if has_times {
+        if let Some(most) = columns.most {
+            let (bar, response) = ui.allocate_exact_size(vec2(BAR, ROW), Sense::hover());
+            let width = BAR * evaluations as f32 / most as f32;
+            let size = vec2(width, ROW - 10.0);
+            let filled = egui::Rect::from_min_size(bar.min + vec2(0.0, 5.0), size);
+            ui.painter().rect_filled(filled, 2.0, colour);
+            let about =
+                format!("{}: {evaluations} evaluations in the next tick", self.spec.method.name);
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Meter, true, &about));
+        }
+        if columns.has_times {
             let time = self.ns.map_or_else(|| "-".into(), time);
             ui.label(RichText::new(time).font(FontId::proportional(13.0)));
+        }
+        if columns.has_shares {
             ui.label(self.ns.map_or_else(|| "-".into(), |ns| share(ns, lab.race().tick_hz())));
         }
     }

@@ -17,7 +17,7 @@ use crate::lab::{
     Lab, METRICS, Quantity,
 };
 use crate::view::plot;
-use crate::view::theme::strong_font;
+use crate::view::theme::{TYPE, strong_font};
 pub(in crate::view) use export::{csv, svg};
 use sheet::Sheet;
 
@@ -36,6 +36,9 @@ mod tests;
 
 /// The width of the words before the tabs, in points.
 const ROW_NAME: f32 = 52.0;
+/// The room between two tabs, and beside the words of a tab where the panel is narrow, in points.
+const BETWEEN_TABS: f32 = 2.0;
+const TIGHT: f32 = 2.5;
 /// Below this height, in points, there is no legend.
 const ROOM_FOR_LEGEND: f32 = 130.0;
 /// With more lines than this there is no legend either: the table below has the names, and the plots need the room.
@@ -108,20 +111,32 @@ fn sheet_of(lab: &Lab, detail: Detail) -> Option<Sheet> {
     }
 }
 
-/// Two rows of tabs.
+/// Two rows of tabs: without their names in a narrow panel, and in one that is narrower still a menu.
 fn tabs(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
+    let room = ui.available_width() - indent;
+    let usual = ui.spacing().button_padding.x;
+    let fits = |padding: f32, name: f32| {
+        InstrumentRow::ALL.iter().all(|row| name + row_width(ui, *row, padding) <= room)
+    };
+    let (has_names, padding) = match () {
+        () if fits(usual, ROW_NAME) => (true, usual),
+        () if fits(TIGHT, 0.0) => (false, TIGHT),
+        () => return tabs_menu(ui, lab, indent, commands),
+    };
     for row in InstrumentRow::ALL {
-        ui.horizontal_wrapped(|ui| {
+        ui.horizontal(|ui| {
             ui.add_space(indent);
-            ui.spacing_mut().item_spacing.x = 2.0;
-            let height = ui.spacing().interact_size.y;
-            let (place, _) = ui.allocate_exact_size(vec2(ROW_NAME, height), Sense::hover());
-            let name = Label::new(RichText::new(row.name()).color(ink(ui).dim)).selectable(false);
-            ui.put(place, name);
-            for card in INSTRUMENTS.iter().filter(|card| card.row == row) {
-                let is_open = lab.loop_lab().is_none() || card.instrument.is_in_loop_lab();
+            ui.spacing_mut().item_spacing.x = BETWEEN_TABS;
+            ui.spacing_mut().button_padding.x = padding;
+            if has_names {
+                let height = ui.spacing().interact_size.y;
+                let (place, _) = ui.allocate_exact_size(vec2(ROW_NAME, height), Sense::hover());
+                let name = RichText::new(row.name()).color(ink(ui).dim);
+                ui.put(place, Label::new(name).selectable(false));
+            }
+            for card in cards(row) {
                 let is_chosen = lab.display().instrument == card.instrument;
-                if tab(ui, card, is_chosen, is_open) {
+                if tab(ui, card, is_chosen, is_open(lab, card)) {
                     commands.push(Command::Instrument(card.instrument));
                 }
             }
@@ -129,11 +144,40 @@ fn tabs(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
     }
 }
 
+fn cards(row: InstrumentRow) -> impl Iterator<Item = &'static InstrumentCard> {
+    INSTRUMENTS.iter().filter(move |card| card.row == row)
+}
+
+fn is_open(lab: &Lab, card: &InstrumentCard) -> bool {
+    lab.loop_lab().is_none() || card.instrument.is_in_loop_lab()
+}
+
+/// The width of the tabs of a row, of which any may be the chosen one, with this much beside the words of each, in points.
+fn row_width(ui: &Ui, row: InstrumentRow, padding: f32) -> f32 {
+    let tab = |card: &InstrumentCard| {
+        let words = ui.painter().layout_no_wrap(card.name.into(), strong_font(TYPE), ink(ui).text);
+        words.size().x + 2.0 * padding + BETWEEN_TABS
+    };
+    cards(row).map(tab).sum()
+}
+
+/// A menu of the instruments.
+fn tabs_menu(ui: &mut Ui, lab: &Lab, indent: f32, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        ui.add_space(indent);
+        let instrument = lab.display().instrument;
+        let open = INSTRUMENTS.iter().filter(|card| is_open(lab, card));
+        let offered = open.map(|card| (Command::Instrument(card.instrument), card.name));
+        let chosen = (Command::Instrument(instrument), instrument.name());
+        choice(ui, "instrument", offered, chosen, commands);
+    });
+}
+
 /// Shows a tab, which can be clicked if it `is_open`. Returns whether it was clicked.
 fn tab(ui: &mut Ui, card: &InstrumentCard, is_chosen: bool, is_open: bool) -> bool {
     let ink = ink(ui);
     let text = match is_chosen {
-        true => RichText::new(card.name).color(ink.on_accent).font(strong_font(13.0)),
+        true => RichText::new(card.name).color(ink.on_accent).font(strong_font(TYPE)),
         false => RichText::new(card.name).color(ink.text),
     };
     let fill = if is_chosen { ink.accent } else { Color32::TRANSPARENT };
@@ -149,7 +193,7 @@ fn plots(ui: &mut Ui, lab: &Lab, sheet: &Sheet, commands: &mut Vec<Command>) {
     let has_legend = ui.available_height() >= ROOM_FOR_LEGEND && lines.len() <= MOST_IN_LEGEND;
     let may_be_beside =
         has_legend && lines.len() <= BESIDE_TITLE && lab.display().instrument == Instrument::Motion;
-    let is_beside = ui.horizontal(|ui| {
+    let is_beside = ui.horizontal_wrapped(|ui| {
         let is_error = lab.display().instrument == Instrument::Error;
         // The metric is said by its menu.
         let title = if is_error { Instrument::Error.name() } else { &sheet.title };

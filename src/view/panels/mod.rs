@@ -55,7 +55,7 @@ const HEIGHT_FOR_TIMELINE: f32 = 420.0;
 const HEIGHT_FOR_TIMES: f32 = 560.0;
 
 /// The part of the width that the instruments take.
-const INSTRUMENTS: f32 = 0.38;
+pub(super) const INSTRUMENTS: f32 = 0.38;
 
 /// The part of their height that the inspector takes at first, where it leaves them enough, and the least that it has.
 const INSPECTOR: f32 = 0.62;

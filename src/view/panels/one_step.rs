@@ -1,7 +1,9 @@
 //! One step: what the selected method does in the next tick, in the phase plane of the displayed body.
 
+use std::sync::Arc;
+
 use egui::{
-    Align2, Color32, FontId, Grid, Label, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui,
+    Align2, Color32, FontId, Galley, Grid, Pos2, Rect, RichText, ScrollArea, Sense, Stroke, Ui,
     Vec2, pos2, vec2,
 };
 
@@ -9,6 +11,7 @@ use super::plot_area::{PlotArea, arrow, label};
 use super::{colour, formula, ink, strong_font};
 use crate::lab::number::{round, significant};
 use crate::lab::{Coordinate, Lab, OneStep, Slope, Unit};
+use crate::view::theme::TYPE;
 
 mod loupe;
 
@@ -21,6 +24,8 @@ const ROOM_BESIDE: f32 = 700.0;
 const TABLE: f32 = 380.0;
 /// The least part of the height that the plot takes above the table.
 const PLOT: f32 = 0.42;
+/// Below this width, in points, the table has three figures of a number, and less room between its columns.
+const ROOM_FOR_FIGURES: f32 = 330.0;
 /// The height of a row of the table and of a line of the formula, in points.
 const ROW: f32 = 20.0;
 const FORMULA: f32 = 20.0;
@@ -48,13 +53,30 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2) {
     if room.x >= ROOM_BESIDE {
         ui.horizontal_top(|ui| {
             plot(ui, lab, &step, vec2(room.x - TABLE, height));
-            ui.vertical(|ui| table(ui, lab, &step));
+            ui.vertical(|ui| {
+                ui.label(said(ui, lab, &step, TABLE));
+                table(ui, lab, &step);
+            });
         });
     } else {
-        let plot_height = (height - table_height(&step)).max(PLOT * height);
+        // What the step does is seen whole; what the table has no room for is scrolled to.
+        let said = said(ui, lab, &step, room.x);
+        let left = height - said.size().y - ui.spacing().item_spacing.y;
+        let plot_height = (left - table_height(&step)).max(PLOT * left);
         plot(ui, lab, &step, vec2(room.x, plot_height));
+        ui.label(said);
         table(ui, lab, &step);
     }
+}
+
+/// [`words`] as they are painted.
+fn said(ui: &Ui, lab: &Lab, step: &OneStep, width: f32) -> Arc<Galley> {
+    let words = words(step, shown_coordinate(lab));
+    ui.painter().layout(words, FontId::proportional(TYPE), ink(ui).text, width)
+}
+
+fn shown_coordinate(lab: &Lab) -> &Coordinate {
+    &lab.race().truth().bodies()[lab.display().body].coordinates()[0]
 }
 
 fn head(ui: &mut Ui, step: &OneStep) {
@@ -64,10 +86,10 @@ fn head(ui: &mut Ui, step: &OneStep) {
         1 => String::new(),
         n => format!(", in {n} substeps"),
     };
-    ui.horizontal(|ui| {
-        ui.label(RichText::new(title).font(strong_font(13.0)));
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(title).font(strong_font(TYPE)));
         let length = format!("h = {} s{substeps}", significant(step.h, 4));
-        ui.add(Label::new(RichText::new(length).color(ink(ui).dim)).truncate());
+        ui.label(RichText::new(length).color(ink(ui).dim));
     });
 }
 
@@ -102,7 +124,7 @@ fn plot(ui: &mut Ui, lab: &Lab, step: &OneStep, size: Vec2) {
     let painter = ui.painter_at(whole);
     painter.rect_filled(rect, 0.0, ink.plot);
     area.axes(&painter, ink, [&area.marks(0, 64.0), &area.marks(1, 26.0)]);
-    let coordinate = &lab.race().truth().bodies()[lab.display().body].coordinates()[0];
+    let coordinate = shown_coordinate(lab);
     let small = FontId::proportional(11.5);
     let up = format!("velocity {}, {}", coordinate.velocity, Unit::Velocity.on(coordinate));
     painter.text(whole.left_top(), Align2::LEFT_TOP, up, small.clone(), ink.dim);
@@ -252,19 +274,20 @@ fn badge(painter: &egui::Painter, at: Pos2, number: usize, [colour, text]: [Colo
 fn table_height(step: &OneStep) -> f32 {
     let lines = step.spec.method.formula.len();
     let rows = step.evaluations.len().min(MOST_DRAWN) + 3;
-    FORMULA * lines as f32 + ROW * rows as f32 + 24.0
+    FORMULA * lines as f32 + ROW * rows as f32
 }
 
 /// The formula, every evaluation in numbers, and where the tick ends.
 fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
-    let coordinate = &lab.race().truth().bodies()[lab.display().body].coordinates()[0];
+    let coordinate = shown_coordinate(lab);
     let (q, v) = (&coordinate.name, &coordinate.velocity);
     ui.spacing_mut().item_spacing.y = 1.0;
+    let (figures, gap) = if ui.available_width() < ROOM_FOR_FIGURES { (3, 5.0) } else { (4, 14.0) };
     ScrollArea::vertical().id_salt("one step").auto_shrink(false).show(ui, |ui| {
         for line in step.spec.method.formula {
             ui.label(formula::job(line, 16.0, ink(ui).text));
         }
-        let grid = Grid::new("evaluations").num_columns(5).spacing([14.0, 1.0]).striped(true);
+        let grid = Grid::new("evaluations").num_columns(5).spacing([gap, 1.0]).striped(true);
         grid.min_row_height(ROW - 2.0).show(ui, |ui| {
             for head in [
                 String::new(),
@@ -281,7 +304,7 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
                 badge(ui.painter(), rect.center(), number, [colour, ink(ui).background]);
                 ui.label(RichText::new(when(slope.when)).color(colour));
                 for value in [slope.at[0], slope.at[1], slope.slope[1]] {
-                    ui.label(RichText::new(signed(value)).color(colour));
+                    ui.label(RichText::new(signed(value, figures)).color(colour));
                 }
                 ui.end_row();
             }
@@ -292,13 +315,12 @@ fn table(ui: &mut Ui, lab: &Lab, step: &OneStep) {
                 ui.label("");
                 ui.label(RichText::new(name).color(colour));
                 for value in point.unwrap_or([f64::NAN; 2]) {
-                    ui.label(RichText::new(signed(value)).color(colour));
+                    ui.label(RichText::new(signed(value, figures)).color(colour));
                 }
                 ui.label("");
                 ui.end_row();
             }
         });
-        ui.add(Label::new(RichText::new(words(step, coordinate)).color(ink(ui).text)).wrap());
     });
 }
 
@@ -318,12 +340,12 @@ fn when(part: f64) -> String {
     }
 }
 
-fn signed(value: f64) -> String {
+fn signed(value: f64, figures: usize) -> String {
     if !value.is_finite() {
         return "-".into();
     }
     let sign = if value >= 0.0 { "+" } else { "" };
-    format!("{sign}{}", significant(value, 4))
+    format!("{sign}{}", significant(value, figures))
 }
 
 /// A change of the swing below this part is rounding.

@@ -1,9 +1,11 @@
 //! The stability map: where each method is stable, in the plane of the tick rate and of a parameter, and where the
 //! run is.
 
+use std::sync::Arc;
+
 use egui::{
-    Align2, Color32, ComboBox, EventFilter, FontId, Id, Key, Label, Pos2, Rect, RichText, Sense,
-    Stroke, Ui, Vec2, pos2, vec2,
+    Align2, Color32, ComboBox, EventFilter, FontId, Galley, Id, Key, Label, Pos2, Rect, RichText,
+    Sense, Stroke, Ui, Vec2, pos2, vec2,
 };
 
 use super::plot_area::{PlotArea, decades, label, mixed, polygon};
@@ -35,6 +37,8 @@ const STEPS_OF_DECADE: f64 = 20.0;
 /// How far a boundary's label is from it, and from the middle of any other label or boundary, in points.
 const BESIDE: f32 = 10.0;
 const APART: f32 = 13.0;
+/// Half the height of the letters of a label, in points.
+const HALF_LETTER: f32 = 6.0;
 
 pub(super) fn show(ui: &mut Ui, lab: &Lab, room: Vec2, commands: &mut Vec<Command>) {
     let top = ui.cursor().top();
@@ -179,8 +183,13 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
         let width = if is_selected(*entry) { 3.4 } else { 2.2 };
         curves::paint(&painter, points, &[], &curve(colour, width, dash));
     }
-    let mut taken: Vec<Pos2> =
-        cross_at(lab, map, area).map(|at| vec![at, at + vec2(50.0, 0.0)]).unwrap_or_default();
+    let mut taken: Vec<Pos2> = Vec::new();
+    if let Some(at) = cross_at(lab, map, area) {
+        let (chip, _) = you_are_here(ui, at, area.rect);
+        let edge = |y| along(pos2(chip.center().x, y), 0.0, chip.width());
+        taken.extend(edge(chip.top() + HALF_LETTER).chain(edge(chip.bottom() - HALF_LETTER)));
+        taken.push(at);
+    }
     taken.extend(only_everywhere(ui, lab, map, area));
     let mut named: Vec<usize> = Vec::new();
     for (entry, points) in order.iter().rev() {
@@ -329,14 +338,20 @@ fn cross(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea, commands: &mut
         painter.line_segment([at - vec2(CROSS, 0.0), at + vec2(CROSS, 0.0)], stroke);
         painter.line_segment([at - vec2(0.0, CROSS), at + vec2(0.0, CROSS)], stroke);
     }
-    let galley = painter.layout_no_wrap("you are here".into(), strong_font(12.0), ink.on_accent);
-    let size = galley.size() + vec2(12.0, 6.0);
-    let is_left = at.x + CROSS + 6.0 + size.x > area.rect.right();
-    let left = if is_left { at.x - CROSS - 6.0 - size.x } else { at.x + CROSS + 6.0 };
-    let top = (at.y - size.y / 2.0).clamp(area.rect.top(), area.rect.bottom() - size.y);
-    let chip = Rect::from_min_size(pos2(left, top), size);
+    let (chip, galley) = you_are_here(ui, at, area.rect);
     painter.rect_filled(chip, 4.0, ink.accent);
     painter.galley(chip.min + vec2(6.0, 3.0), galley, ink.on_accent);
+}
+
+/// The words beside a cross at this place of a map, and their frame.
+fn you_are_here(ui: &Ui, at: Pos2, map: Rect) -> (Rect, Arc<Galley>) {
+    let colour = ink(ui).on_accent;
+    let words = ui.painter().layout_no_wrap("you are here".into(), strong_font(12.0), colour);
+    let size = words.size() + vec2(12.0, 6.0);
+    let is_left = at.x + CROSS + 6.0 + size.x > map.right();
+    let left = if is_left { at.x - CROSS - 6.0 - size.x } else { at.x + CROSS + 6.0 };
+    let top = (at.y - size.y / 2.0).clamp(map.top(), map.bottom() - size.y);
+    (Rect::from_min_size(pos2(left, top), size), words)
 }
 
 /// Moves the cross by the arrow keys: along the ladder of tick rates, and by equal factors of the parameter.

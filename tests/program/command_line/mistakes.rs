@@ -140,6 +140,7 @@ fn a_pipe_without_a_writer_is_refused_and_not_waited_for() {
         "loop --trace pipe.csv",
         "loop --scene pipe.csv",
         "trace --scene pipe.csv",
+        "verify pipe.csv",
     ] {
         let output = run_in(folder.path(), command);
         assert_eq!(output.status.code(), Some(2), "{command}");

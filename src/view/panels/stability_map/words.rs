@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::text::{LayoutJob, TextWrapping};
+use egui::text::LayoutJob;
 use egui::{Color32, FontId, Galley, TextFormat, Ui};
 
 use crate::lab::number::round;
@@ -36,28 +36,35 @@ pub(super) fn point_in_words(lab: &Lab, place: usize, tick_hz: u32, value: f64) 
 /// for that, in points: it does not change while the cross is moved.
 pub(super) fn sentence(ui: &Ui, lab: &Lab, map: &StabilityMap, width: f32) -> (Arc<Galley>, f32) {
     let notes = " Drag the cross to change both values at once.".to_owned() + &notes(map);
-    let wrapped = |mut job: LayoutJob| {
-        append(&mut job, &notes, FontId::proportional(12.0), ink(ui).dim);
-        job.wrap.max_width = width;
-        ui.painter().layout_job(job)
-    };
-    let words = wrapped(counted_job(ui, lab, map, 13.0));
-    let room = wrapped(job(ui, &longest(lab, map), 13.0)).size().y;
-    let height = room.max(words.size().y);
-    (words, height)
+    wrapped(ui, lab, map, width, (13.0, &notes))
 }
 
-/// What the methods do at the present point, in one line that is cut off at a width, and its height in points.
+/// The same without what the map does not draw.
 pub(super) fn short_sentence(
     ui: &Ui,
     lab: &Lab,
     map: &StabilityMap,
     width: f32,
 ) -> (Arc<Galley>, f32) {
-    let mut job = counted_job(ui, lab, map, 12.0);
-    job.wrap = TextWrapping::truncate_at_width(width);
-    let words = ui.painter().layout_job(job);
-    let height = words.size().y;
+    wrapped(ui, lab, map, width, (12.0, ""))
+}
+
+/// What the methods do at the present point in type of this size, and the notes, wrapped to a width.
+fn wrapped(
+    ui: &Ui,
+    lab: &Lab,
+    map: &StabilityMap,
+    width: f32,
+    (size, notes): (f32, &str),
+) -> (Arc<Galley>, f32) {
+    let wrapped = |mut job: LayoutJob| {
+        append(&mut job, notes, FontId::proportional(12.0), ink(ui).dim);
+        job.wrap.max_width = width;
+        ui.painter().layout_job(job)
+    };
+    let words = wrapped(counted_job(ui, lab, map, size));
+    let room = wrapped(job(ui, &longest(lab, map), size)).size().y;
+    let height = room.max(words.size().y);
     (words, height)
 }
 
