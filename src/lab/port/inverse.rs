@@ -33,11 +33,13 @@ const NO_DAMPING: f64 = 1e-9;
 /// steps.
 const SPAN: [f64; 2] = [-12.0, 24.0];
 const STEPS: u32 = 240;
-/// The grid of a search in two numbers: its cells from the middle to a side, how much smaller the next is, and how many
-/// are laid.
-const CELLS: i32 = 5;
+/// The grids of a search in two numbers: how far the first reaches, as an exponent of e, and its cells from the middle to a
+/// side. It is laid anew from the nearest found, so that it leaves a ridge. Then the cells of those that follow, how much
+/// smaller each is, and how many are laid.
+const REACHES: [(f64, i32); 3] = [(10.0, 20), (2.0, 10), (0.5, 10)];
+const CELLS: i32 = 4;
 const ZOOM: f64 = 0.7;
-const ROUNDS: u32 = 60;
+const ROUNDS: u32 = 40;
 /// How often an interval is halved: to rounding.
 const HALVED: u32 = 60;
 
@@ -166,24 +168,25 @@ fn zoomed(sees: Sees, wanted: &Effective) -> Option<Found> {
         let stiffness = wanted.omega * wanted.omega * libm::exp(s);
         found(sees, wanted, [stiffness, damping_of(d)])
     };
-    let (mut middle, mut reach) = ([2.0, -3.0], [10.0, 9.0]);
+    let mut middle = [2.0, -3.0];
     let mut best: Option<Found> = None;
-    for round in 0..ROUNDS {
-        let cells = if round == 0 { 4 * CELLS } else { CELLS };
-        let offset = |i: i32| f64::from(i) / f64::from(cells);
-        let places = (-cells..=cells).flat_map(|i| {
-            (-cells..=cells).map(move |j| {
-                [middle[0] + reach[0] * offset(i), (middle[1] + reach[1] * offset(j)).max(SPAN[0])]
-            })
-        });
-        let found = places.filter_map(|place| Some((place, of(place)?)));
-        let nearest = found.min_by(|a, b| a.1.missed.total_cmp(&b.1.missed));
-        if let Some((place, found)) = nearest
-            && best.is_none_or(|best| found.missed < best.missed)
-        {
-            (middle, best) = (place, Some(found));
+    for (mut reach, first) in REACHES {
+        for round in 0..ROUNDS {
+            let cells = if round == 0 { first } else { CELLS };
+            let offset = |i: i32| f64::from(i) / f64::from(cells);
+            let place = |i: i32, j: i32| {
+                [middle[0] + reach * offset(i), (middle[1] + reach * offset(j)).max(SPAN[0])]
+            };
+            let places = (-cells..=cells).flat_map(|i| (-cells..=cells).map(move |j| (i, j)));
+            let found = places.filter_map(|(i, j)| Some((place(i, j), of(place(i, j))?)));
+            let nearest = found.min_by(|a, b| a.1.missed.total_cmp(&b.1.missed));
+            if let Some((place, found)) = nearest
+                && best.is_none_or(|best| found.missed < best.missed)
+            {
+                (middle, best) = (place, Some(found));
+            }
+            reach *= ZOOM;
         }
-        reach = reach.map(|reach| reach * ZOOM);
     }
     best
 }
