@@ -35,6 +35,7 @@ chapters! {
     commands: "the command line by examples: advise, sweep, trace, capture, verify"
     loops: "what a game's loop and display add to a motion"
     logs: "which engine or method made a log"
+    questions: "why a spring dies, a camera lags, a jump is lower: each with a command and a number"
     code: "a method as source code for a game"
     library: "bodies and methods of one's own, in a game or its tests"
     ci: "frames and hashes in continuous integration"

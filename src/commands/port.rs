@@ -218,7 +218,8 @@ pub(super) fn run(args: &PortArgs) -> Result<(), Error> {
         let limits = |setup: Setup| {
             let of = |held| drive_limits(setup, wish.joint(), held);
             let modes = setup.method.engine.map_or(&[][..], |engine| engine.modes);
-            let own_force = (modes.first() == Some(setup.mode)).then(|| of(Some(args.decimation)));
+            let is_first = modes.first() == Some(setup.mode);
+            let own_force = is_first.then(|| of(Some(args.decimation)));
             Drive { setup, limits: [of(None)].into_iter().chain(own_force).collect() }
         };
         let drives: Vec<Drive> = setups.into_iter().map(limits).collect();

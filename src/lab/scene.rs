@@ -239,6 +239,7 @@ pub static SCENES: &[BuiltIn] = &[
         text: include_str!("../../assets/scenes/bouncing-bungee.toml"),
     },
     BuiltIn { name: "lift", text: include_str!("../../assets/scenes/lift.toml") },
+    BuiltIn { name: "jump", text: include_str!("../../assets/scenes/jump.toml") },
     BuiltIn { name: "rope", text: include_str!("../../assets/scenes/rope.toml") },
     BuiltIn { name: "cloth", text: include_str!("../../assets/scenes/cloth.toml") },
     BuiltIn { name: "bridge", text: include_str!("../../assets/scenes/bridge.toml") },

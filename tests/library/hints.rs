@@ -310,3 +310,11 @@ fn a_throttle_by_hand_changes_the_analysis_request_and_one_of_the_script_does_no
     lab.apply(Command::Restart);
     assert!(lab.analysis_request() == asked);
 }
+
+#[test]
+fn a_jump_is_higher_at_a_higher_rate() {
+    let (mut slow, mut fast) = (open("jump"), open("jump"));
+    press(&mut fast, &[HIGHER_RATE]);
+    let [low, high] = [&mut slow, &mut fast].map(|lab| largest(lab, 0, 0.8));
+    assert!((low - 1.1445).abs() < 1e-9 && high > low + 0.01, "{low} {high}");
+}

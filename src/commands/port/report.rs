@@ -183,6 +183,7 @@ pub(super) fn drives(wish: &Wish, tick_hz: f64, all: &[Drive], format: TableForm
             let gains = format!("kp {} N/m, kv {} N s/m\n", round(kp, 6), round(kv, 6));
             let said = |drive: &Drive, limits: &DriveLimits| {
                 let gain = |most: Option<f64>, unit: &str| match most {
+                    Some(0.0) => "none".into(),
                     Some(most) => format!("up to {} {unit}", round(most * mass, 4)),
                     None => "any".into(),
                 };

@@ -18,6 +18,7 @@ mod manifest;
 mod mishaps;
 mod mistakes;
 mod port;
+mod questions;
 mod recordings;
 mod show;
 mod sweep;
