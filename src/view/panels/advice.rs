@@ -24,6 +24,8 @@ const GAP: f32 = 6.0;
 const LEAST_NAME: f32 = 120.0;
 /// The width of a criterion's name before its answer, in points.
 const CRITERION: f32 = 76.0;
+/// From this width of an answer on, in points, the whole name of its button fits.
+const ROOM_FOR_COPY_CODE: f32 = 240.0;
 /// What a scroll bar may cover at the right, in points.
 const BAR: f32 = 8.0;
 
@@ -149,7 +151,8 @@ fn copy_button(ui: &mut Ui, lab: &Lab, spec: LaneSpec, commands: &mut Vec<Comman
     };
     let language = lab.viewer().language();
     let about = format!("copy {} as {language}; other languages: right click", spec.method.name);
-    let response = ui.button(RichText::new("Copy code").size(SMALL)).on_hover_text(&about);
+    let word = if ui.available_width() < ROOM_FOR_COPY_CODE { "Copy" } else { "Copy code" };
+    let response = ui.button(RichText::new(word).size(SMALL)).on_hover_text(&about);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &about));
     if response.clicked() {
         commands.push(Command::CopyMethod { entry, language });
@@ -380,6 +383,9 @@ mod tests {
                 let taken = |(at, text): &&(Pos2, String)| text.starts_with('×') && at.y < head.y;
                 let taken = texts.iter().filter(taken).count();
                 assert_eq!(taken, CRITERIA.len(), "substeps of the answer, {size:?}: {texts:?}");
+                let is_named =
+                    |(at, text): &&(Pos2, String)| text == "Semi-implicit Euler" && at.y < head.y;
+                assert!(texts.iter().any(|text| is_named(&text)), "{size:?}: {texts:?}");
             }
         }
     }
