@@ -1,6 +1,6 @@
 //! What an accepted step of Dormand-Prince's costs, ours against the crate `ode_solvers`.
 //!
-//! `cargo bench --no-default-features --bench adaptive` lets both carry the spring of 1 Hz over some
+//! `cargo bench --no-default-features --features lab --bench adaptive` lets both carry the spring of 1 Hz over some
 //! seconds in one call, and prints nanoseconds an accepted step, the steps and evaluations of both, and
 //! the largest error at the end of a second.
 //!

@@ -1,6 +1,6 @@
 //! What a step costs of a spring that is written as a law, against the built-in one.
 //!
-//! `cargo bench --no-default-features --bench law` steps both under some methods, and prints nanoseconds a
+//! `cargo bench --no-default-features --features lab --bench law` steps both under some methods, and prints nanoseconds a
 //! step and the law's time in units of the built-in spring's, which is to be at most 10.
 //!
 //! The two take turns in one process, so that the ratio, a median over the rounds, holds on a busy

@@ -1,6 +1,6 @@
 //! What it takes to go to another tick of a run: one second back, and anywhere in ten minutes.
 //!
-//! `cargo bench --no-default-features --bench seek` prints milliseconds for the harbour's race of all methods at
+//! `cargo bench --no-default-features --features lab --bench seek` prints milliseconds for the harbour's race of all methods at
 //! 60 Hz, and beside them what the ticks that are done again take alone, which is the floor.
 
 use std::time::{Duration, Instant};

@@ -1,6 +1,6 @@
 //! What a step costs through the face that lanes use, against the same formula written out by hand.
 //!
-//! `cargo bench --no-default-features --bench step` prints nanoseconds a step for each body and method,
+//! `cargo bench --no-default-features --features lab --bench step` prints nanoseconds a step for each body and method,
 //! one virtual call a tick, with 1 and with 16 substeps in it, and beside them three plain loops over
 //! local numbers: the equation as it is printed, with its division by the mass at every stage; the bare
 //! one, with every division taken out of the loop, which has to give the same bits as ours; and the bare

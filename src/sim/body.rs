@@ -22,6 +22,7 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
     /// Returns the body with these values of its [parameters](Body::PARAMETERS), in order: one value
     /// per parameter, and two per point of a curve.
     ///
+    /// # Panics
     /// If the number of values is wrong, or if no body of this kind can be built from them: see
     /// [`Kind::check`](super::bodies::Kind::check).
     fn with_parameters(mut self, values: &[f64]) -> Self {
@@ -30,9 +31,9 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
         self
     }
 
-    /// Sets the parameter in this place, if it acts at once. Returns whether the body changed.
-    fn set_parameter(&mut self, place: usize, value: f64) -> bool {
-        let parameter = Self::PARAMETERS.get(place);
+    /// Sets the parameter with this index, if it acts at once. Returns whether the body changed.
+    fn set_parameter(&mut self, index: usize, value: f64) -> bool {
+        let parameter = Self::PARAMETERS.get(index);
         let Some(field) = parameter.and_then(ParameterOf::acting_at_once) else { return false };
         let is_new = *field(self) != value;
         if is_new {

@@ -132,11 +132,11 @@ impl Body for Law {
         self
     }
 
-    fn set_parameter(&mut self, place: usize, value: f64) -> bool {
+    fn set_parameter(&mut self, index: usize, value: f64) -> bool {
         let n = self.coordinates();
         let constants = self.equations.text().constants.len();
-        let acts_at_once = place < constants || place >= constants + 2 * n;
-        match self.values.get_mut(place) {
+        let acts_at_once = index < constants || index >= constants + 2 * n;
+        match self.values.get_mut(index) {
             Some(old) if acts_at_once && *old != value => *old = value,
             _ => return false,
         }

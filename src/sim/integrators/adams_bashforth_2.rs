@@ -15,6 +15,7 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 2,
     evaluations: Some(1),
     restart: Some("by a step of improved Euler"),
+    damped_limits: Some([0.8, 1.394, 2.0]),
     source: "Bashforth & Adams, An Attempt to Test the Theories of Capillary Action (1883)",
     formula: &["k = f(t, y), k₋₁ = f(t − h, y₋₁)", "y′ = y + ½h (3 k − k₋₁)"],
     code: include_str!("../../../assets/methods/adams-bashforth-2.step"),

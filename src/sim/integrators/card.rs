@@ -136,6 +136,9 @@ pub struct Engine {
     pub modes: &'static [JointMode],
 }
 
+/// The damping ratios of [`Method::damped_limits`].
+pub const DAMPING_RATIOS: [f64; 3] = [0.05, 0.2, 1.0];
+
 /// The card of a method: its claims. `tests/library/conformance` measures every field.
 #[derive(Debug)]
 pub struct Method {
@@ -178,6 +181,9 @@ pub struct Method {
     /// and for those that choose their own substeps. Of a follower, the largest product of `h` and its rate
     /// at which it stays near a still target; `None` if it does at any step.
     pub stability_limit: Option<f64>,
+    /// The largest `h ω` at which the first step of an oscillator that is damped by each of [`DAMPING_RATIOS`] does not grow;
+    /// `None` as for the undamped. What a method with memory carries may lower it in a long run.
+    pub damped_limits: Option<[f64; 3]>,
     /// The default tolerance of a substep of an adaptive method.
     pub tolerance: Option<Tolerance>,
     /// How a method with memory starts: at the start, after a kick, a switch or a change of step, and
@@ -255,6 +261,7 @@ const PLAIN: Method = Method {
     symplectic: false,
     reversible: false,
     stability_limit: None,
+    damped_limits: None,
     tolerance: None,
     restart: None,
     keeps_time: true,

@@ -13,6 +13,7 @@ pub(super) const CARD: Method = Method {
     order: 1,
     order_with_drag: 1,
     evaluations: Some(1),
+    damped_limits: Some([0.1, 0.4, 2.0]),
     source: "Euler, Institutionum calculi integralis I (1768); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7, Figure 7-5",
     formula: &["y′ = y + h f(t, y)"],
     weights: &[1.0],

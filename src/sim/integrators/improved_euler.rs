@@ -13,6 +13,7 @@ pub(super) const CARD: Method = Method {
     order: 2,
     order_with_drag: 2,
     evaluations: Some(2),
+    damped_limits: Some([0.8, 1.394, 2.0]),
     source: "Heun, Neue Methoden zur approximativen Integration (1900); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
     formula: &["k₁ = f(t, y)", "k₂ = f(t + h, y + h k₁)", "y′ = y + ½h (k₁ + k₂)"],
     weights: &[0.5, 0.5],

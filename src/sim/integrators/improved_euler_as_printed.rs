@@ -13,6 +13,7 @@ pub(super) const CARD: Method = Method {
     order: 1,
     order_with_drag: 1,
     evaluations: Some(2),
+    damped_limits: Some([2.011, 2.405, 1.0]),
     source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the improved Euler method",
     formula: &[
         "k₁ = a(t, q, v), k₂ = a(t + h, q, v + h k₁)",

@@ -16,6 +16,8 @@ pub(super) const CARD: Method = Method {
     symplectic: false,
     // √(2 + 2 KEPT)
     stability_limit: Some(1.994_993_734_326_0),
+    // z = √(4 ζ² + 3.98) - 2 ζ
+    damped_limits: Some([1.897, 1.635, 0.825]),
     source: "Jakobsen, Advanced Character Physics (2001), with his drag of 0.99",
     formula: &["p = q − h v, q′ = q + 0.99 (q − p) + h² a", "v′ = (q′ − q) / h"],
     code: include_str!("../../../assets/methods/jakobsen-verlet.step"),

@@ -13,6 +13,7 @@ pub(super) const CARD: Method = Method {
     order: 2,
     order_with_drag: 2,
     evaluations: Some(2),
+    damped_limits: Some([0.8, 1.394, 2.0]),
     source: "Runge, Über die numerische Auflösung von Differentialgleichungen (1895)",
     formula: &["k₁ = f(t, y)", "k₂ = f(t + ½h, y + ½h k₁)", "y′ = y + h k₂"],
     weights: &[0.0, 1.0],

@@ -62,7 +62,7 @@ mod verlet_exact_drag;
 mod yoshida4;
 
 pub(in crate::sim) use card::LAW_ORDER;
-pub use card::{Engine, Family, Method, Needs, Only};
+pub use card::{DAMPING_RATIOS, Engine, Family, Method, Needs, Only};
 pub use engine::{EngineMethod, Rule, Tick};
 pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};

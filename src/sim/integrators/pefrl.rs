@@ -14,6 +14,7 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 1,
     evaluations: Some(4),
     stability_limit: Some(2.989),
+    damped_limits: Some([2.67, 2.947, 1.078]),
     source: "Omelyan, Mryglod & Folk, Optimized Forest-Ruth- and Suzuki-like algorithms for integration of motion in many-body systems (2002)",
     formula: &[
         "drift ξ, kick ½ − λ, drift χ, kick λ",

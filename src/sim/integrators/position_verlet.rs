@@ -13,6 +13,7 @@ pub(super) const CARD: Method = Method {
     order: 2,
     order_with_drag: 1,
     evaluations: Some(1),
+    damped_limits: Some([1.902, 1.64, 0.828]),
     source: "Tuckerman, Berne & Martyna, Reversible multiple time scale molecular dynamics (1992)",
     formula: &["q½ = q + ½h v", "v′ = v + h a(t + ½h, q½, v)", "q′ = q½ + ½h v′"],
     code: include_str!("../../../assets/methods/position-verlet.step"),

@@ -14,6 +14,7 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 4,
     evaluations: Some(4),
     stability_limit: Some(2.0 * std::f64::consts::SQRT_2),
+    damped_limits: Some([2.91, 2.94, 2.785]),
     source: "Kutta, Beitrag zur näherungsweisen Integration totaler Differentialgleichungen (1901); Bourg & Bywalec, Physics for Game Developers 2e, ch. 7",
     formula: &[
         "k₁ = f(t, y)",

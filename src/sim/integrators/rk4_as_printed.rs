@@ -13,6 +13,7 @@ pub(super) const CARD: Method = Method {
     order: 1,
     order_with_drag: 1,
     evaluations: Some(4),
+    damped_limits: Some([2.003, 2.062, 1.393]),
     source: "Bourg & Bywalec, Physics for Game Developers 2e (2013), ch. 7, listing of the Runge-Kutta method",
     formula: &[
         "k₁ = a(t, q, v), k₂ = a(t + ½h, q, v + ½h k₁)",

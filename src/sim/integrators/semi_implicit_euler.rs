@@ -14,6 +14,7 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 1,
     evaluations: Some(1),
     reversible: false,
+    damped_limits: Some([1.902, 1.64, 0.828]),
     source: "de Vogelaere, Methods of integration which preserve the contact transformation property of the Hamilton equations (1956)",
     formula: &["v′ = v + h a(t, q, v)", "q′ = q + h v′"],
     code: include_str!("../../../assets/methods/semi-implicit-euler.step"),

@@ -15,6 +15,7 @@ pub(super) const CARD: Method = Method {
     evaluations: Some(3),
     // √3, where z⁴ (z² - 3) / 36, the growth of the squared amplitude in a step, changes sign.
     stability_limit: Some(1.732_050_807_568_877_2),
+    damped_limits: Some([1.988, 2.369, 2.513]),
     source: "Shu & Osher, Efficient implementation of essentially non-oscillatory shock-capturing schemes (1988)",
     formula: &[
         "k₁ = f(t, y)",

@@ -15,6 +15,7 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 2,
     evaluations: Some(1),
     restart: Some("by placing the position of one step ago on the parabola through q, v and a"),
+    damped_limits: Some([1.912, 1.757, 1.0]),
     source: "Störmer, Sur les trajectoires des corpuscules électrisés (1907); Verlet, Computer \"Experiments\" on Classical Fluids (1967); Jakobsen, Advanced Character Physics (2001)",
     formula: &[
         "q′ = 2 q − q₋₁ + h² a",

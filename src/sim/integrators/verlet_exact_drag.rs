@@ -17,6 +17,8 @@ pub(super) const CARD: Method = Method {
     symplectic: true,
     reversible: true,
     stability_limit: Some(2.0),
+    // The drag shrinks both eigenvalues alike.
+    damped_limits: Some([2.0, 2.0, 2.0]),
     source: "Strang, On the construction and comparison of difference schemes (1968); in molecular dynamics Bussi & Parrinello, Accurate sampling using Langevin dynamics (2007)",
     formula: &[
         "D = ∂a/∂v, w = exp(½h D) v, r = a(t, q, w) − D w",

@@ -15,6 +15,7 @@ pub(super) const CARD: Method = Method {
     order_with_drag: 1,
     evaluations: Some(3),
     stability_limit: Some(1.573),
+    damped_limits: Some([2.046, 1.111, 0.584]),
     source: "Forest & Ruth, Fourth-order symplectic integration (1990); Yoshida, Construction of higher order symplectic integrators (1990)",
     formula: &[
         "drift ½θ, kick θ, drift ½(1 − θ), kick 1 − 2θ",

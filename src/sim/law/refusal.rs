@@ -5,15 +5,15 @@ use std::ops::Range;
 /// A part of a law's text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// The name of the constant in this place.
+    /// The name of the constant with this index.
     Constant(usize),
-    /// The name of the coordinate in this place.
+    /// The name of the coordinate with this index.
     Coordinate(usize),
-    /// The acceleration of the coordinate in this place.
+    /// The acceleration of the coordinate with this index.
     Acceleration(usize),
-    /// The exact solution of the coordinate in this place.
+    /// The exact solution of the coordinate with this index.
     Exact(usize),
-    /// Where the coordinate in this place is drawn: its x (0) or y (1).
+    /// Where the coordinate with this index is drawn: its x (0) or y (1).
     Place(usize, usize),
     /// The energy.
     Energy,

@@ -54,7 +54,7 @@ pub(super) struct Tape {
     origins: HashMap<u16, Origin>,
 }
 
-/// A tape is too long, or has too many switches, from the expression in this place on.
+/// A tape is too long, or has too many switches, from the expression with this index on.
 pub(super) struct TooLong {
     pub(super) expression: usize,
     pub(super) are_switches: bool,
@@ -83,7 +83,7 @@ impl Tape {
         };
         let mut is_fixed: Vec<bool> = (0..inputs).map(&fixed).collect();
         let mut known: HashMap<Key, u16> = HashMap::new();
-        for (place, (part, expression)) in expressions.iter().enumerate() {
+        for (index, (part, expression)) in expressions.iter().enumerate() {
             let used = used(expression);
             let mut slots = vec![0; expression.nodes.len()];
             let rows = expression.nodes.iter().zip(&expression.spans).zip(used).enumerate();
@@ -99,7 +99,7 @@ impl Tape {
                 };
                 let are_switches = tape.switches.len() > MAX_SWITCHES;
                 if are_switches || tape.slots > MAX_OPERATIONS {
-                    return Err(TooLong { expression: place, are_switches });
+                    return Err(TooLong { expression: index, are_switches });
                 }
             }
             tape.outputs.extend(slots.last());
@@ -131,10 +131,10 @@ impl Tape {
         let count = node.arguments().len();
         let is_constant = operands[..count].iter().all(|&slot| is_fixed[slot as usize]);
         is_fixed.push(is_constant);
-        let place = self.tables.len() as u16;
+        let index = self.tables.len() as u16;
         self.tables.extend(table.cloned());
         let count = count as u8;
-        let instruction = Instruction { op: node.op, to, operands, count, table: place };
+        let instruction = Instruction { op: node.op, to, operands, count, table: index };
         match node.op {
             Op::Number => self.numbers.push((to, node.number)),
             _ if is_constant => self.prelude.push(instruction),
@@ -200,9 +200,9 @@ impl Tape {
         self.switches.len()
     }
 
-    /// The mode of the switch in this place beyond a boundary of its mode.
-    pub(super) fn neighbour(&self, place: usize, mode: i64, side: usize) -> i64 {
-        self.switches[place].0.neighbour(mode, side)
+    /// The mode of the switch with this index beyond a boundary of its mode.
+    pub(super) fn neighbour(&self, index: usize, mode: i64, side: usize) -> i64 {
+        self.switches[index].0.neighbour(mode, side)
     }
 
     /// The operations of the prelude and of the main part, with their operands and where they write.

@@ -70,6 +70,20 @@ impl Mode {
     }
 }
 
+/// The stability of a tick of `times` steps over `h` (s), from the eigenvalues of the map of a step; `None` if that
+/// overflows.
+pub(super) fn compare_step(
+    truth: &[Mode],
+    values: Option<Vec<Eigenvalue>>,
+    h: f64,
+    times: u32,
+) -> Stability {
+    let Some(values) = values else { return Stability::OVERFLOW };
+    let stability = compare(truth, &values, h);
+    let spectral_radius = libm::pow(stability.spectral_radius, f64::from(times));
+    Stability { spectral_radius, ..stability }
+}
+
 /// A growth per tick below this is zero: it is the rounding of the differences.
 const NO_GROWTH: f64 = 1e-9;
 

@@ -6,9 +6,10 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::comparison::{Mode, Stability, compare};
-use super::spectrum::{self, Derivatives, NEUTRAL_WITH_MEMORY};
+use super::comparison::{Mode, Stability, compare_step};
+use super::spectrum::{self, NEUTRAL_WITH_MEMORY};
 use super::tick::Tick;
+use super::tick_map::{force_slopes, linear_maps};
 use super::trend::growth_of_energy;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::StepFailure;
@@ -76,7 +77,6 @@ impl NormalMode {
         let n = self.shape.len();
         // The unit of velocity: the orbit of the mode is a circle, or the distance in a step is 1.
         let rate = if self.omega_squared > 0.0 { self.omega_squared.sqrt() } else { 1.0 / tick.h };
-        let mut maps: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(2, 2));
         // What a target does to the body at rest is no part of the map.
         let mut driven = [[0.0; 2]; 3];
         if !stays_at_rest(body, tick.t) {
@@ -87,27 +87,23 @@ impl NormalMode {
                 *driven = [self.part(stepper.q()), self.part(stepper.v())];
             }
         }
-        for column in 0..2 {
-            let mut state = vec![0.0; 2 * n];
-            let unit = if column == 0 { 1.0 } else { rate };
-            for (x, shape) in state[column * n..(column + 1) * n].iter_mut().zip(&self.shape) {
-                *x = unit * shape;
+        let run = |column: usize, k: usize| {
+            if k == 0 {
+                let mut state = vec![0.0; 2 * n];
+                let unit = if column == 0 { 1.0 } else { rate };
+                for (x, shape) in state[column * n..(column + 1) * n].iter_mut().zip(&self.shape) {
+                    *x = unit * shape;
+                }
+                stepper.set(tick.t, &state[..n], &state[n..]);
             }
-            stepper.set(tick.t, &state[..n], &state[n..]);
-            for (k, map) in maps.iter_mut().enumerate() {
-                stepper.advance(tick.t + tick.h * k as f64, tick.h, tick.substeps)?;
-                map[(0, column)] = self.part(stepper.q()) - driven[k][0];
-                map[(1, column)] = (self.part(stepper.v()) - driven[k][1]) / rate;
-            }
-        }
-        let later = [maps[0].clone(), maps[1].clone()];
-        let derivatives = Derivatives { now: maps, later };
-        let has_memory = derivatives.has_memory();
-        let Some(values) = spectrum::eigenvalues(&derivatives) else {
-            return Ok(Stability::OVERFLOW);
+            stepper.advance(tick.t + tick.h * k as f64, tick.h, tick.substeps)?;
+            let [q, v] = [stepper.q(), stepper.v()].map(|half| self.part(half));
+            Ok(vec![q - driven[k][0], (v - driven[k][1]) / rate])
         };
-        let mut stability = compare(&self.true_modes(), &values, tick.h);
-        stability.spectral_radius = libm::pow(stability.spectral_radius, f64::from(times));
+        let maps = linear_maps(2, run)?;
+        let has_memory = maps.has_memory();
+        let values = spectrum::eigenvalues(&maps);
+        let mut stability = compare_step(&self.true_modes(), values, tick.h, times);
         let is_blurred = (stability.growth_per_s * tick.h).abs() <= NEUTRAL_WITH_MEMORY;
         if has_memory && is_blurred && self.is_conserved() && self.omega_squared > 0.0 {
             // The map of a method with memory is not accurate enough for a small growth; the energy
@@ -149,16 +145,7 @@ pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
 
 /// The Jacobian of the acceleration of a linear body with respect to coordinates and velocities.
 pub(super) fn linear_jacobian(body: &dyn Stepper) -> DMatrix<f64> {
-    let n = body.q().len();
-    let push = push_at_rest(body, 0.0);
-    let column = |j: usize| {
-        let mut state = vec![0.0; 2 * n];
-        state[j] = 1.0;
-        let mut a = vec![0.0; n];
-        body.acceleration(0.0, &state[..n], &state[n..], &mut a);
-        a.into_iter().zip(&push).map(|(a, push)| a - push).collect::<Vec<_>>()
-    };
-    DMatrix::from_vec(n, 2 * n, (0..2 * n).flat_map(column).collect())
+    force_slopes(body, &vec![0.0; 2 * body.q().len()], 1.0, 0.0)
 }
 
 /// The acceleration of `body` at rest at the origin at time `t` (s), which a target causes.

@@ -4,6 +4,7 @@
 use super::ensemble::Ensemble;
 use super::tick::Tick;
 use crate::sim::integrators::{Method, StepFailure};
+use crate::sim::state::largest;
 use crate::sim::xor_shift::XorShift;
 use crate::sim::{Solver, Stepper};
 
@@ -63,7 +64,7 @@ fn logs_of_displaced_ticks(
     stepper.set(t, &q, &v);
     stepper.advance(t, h, substeps)?;
     let image = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
-    let size = q.iter().chain(&image[0]).fold(0.0, |most: f64, x| most.max(x.abs()));
+    let size = largest(q.iter().chain(&image[0]));
     let distance = DISPLACEMENT * if size > 0.0 { size } else { 1.0 };
 
     // Coordinates, then velocities times the tick, so that both have one unit.
@@ -72,11 +73,11 @@ fn logs_of_displaced_ticks(
     while logs.len() < MAX_ITERATIONS && stepper.evaluations() - before <= most_evaluations {
         let length = direction.iter().map(|x| x * x).sum::<f64>().sqrt();
         // Displaced by this much in the largest component.
-        let largest = direction.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        if largest == 0.0 || !length.is_finite() {
+        let longest = largest(&direction);
+        if longest == 0.0 || !length.is_finite() {
             return Ok(None);
         }
-        let part = distance / largest;
+        let part = distance / longest;
         let moved = |x: &[f64], along: &[f64], unit: f64| -> Vec<f64> {
             x.iter().zip(along).map(|(x, along)| x + part * along / unit).collect()
         };
@@ -118,10 +119,10 @@ fn logs_of_continued_run(
         }
         let mut state = deviation.state(0);
         state[n..].iter_mut().for_each(|v| *v *= h);
-        let largest = state.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        // Relative to the largest, whose square may overflow.
-        let square: f64 = state.iter().map(|x| (x / largest) * (x / largest)).sum();
-        let log = libm::log(largest) + libm::log(square) / 2.0;
+        let longest = largest(&state);
+        // Relative to the longest, whose square may overflow.
+        let square: f64 = state.iter().map(|x| (x / longest) * (x / longest)).sum();
+        let log = libm::log(longest) + libm::log(square) / 2.0;
         if !log.is_finite() {
             break;
         }

@@ -3,11 +3,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::comparison::{Mode, Stability, compare};
+use super::comparison::{Mode, Stability, compare_step};
 use super::ensemble::Ensemble;
 use super::modes::{NormalMode, linear_jacobian, modes_of, unforced};
-use super::spectrum::{self, Derivatives, Eigenvalue};
+use super::spectrum::{self, Eigenvalue};
 use super::tick::Tick;
+use super::tick_map::{force_slopes, linear_maps};
 use crate::sim::Stepper;
 use crate::sim::integrators::{Method, StepFailure};
 
@@ -119,26 +120,22 @@ impl CoupledMotion {
         let (tick, times) = Tick { t: 0.0, h, substeps }.repeated(Some(method));
         let n = self.jacobian.nrows();
         let mut ensemble = Ensemble::linear(self.jacobian.clone(), method);
-        let mut maps: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(2 * n, 2 * n));
-        for column in 0..2 * n {
-            let mut state = vec![0.0; 2 * n];
-            state[column] = if column < n { 1.0 } else { self.rate };
-            ensemble.set(&[state]);
-            for (k, map) in maps.iter_mut().enumerate() {
-                ensemble.advance(tick.h * k as f64, tick.h, tick.substeps)?;
-                let reached = ensemble.state(0).into_iter().enumerate();
-                let in_units = reached.map(|(i, x)| if i < n { x } else { x / self.rate });
-                map.set_column(column, &DVector::from_iterator(2 * n, in_units));
+        let run = |column: usize, k: usize| {
+            if k == 0 {
+                let mut state = vec![0.0; 2 * n];
+                state[column] = if column < n { 1.0 } else { self.rate };
+                ensemble.set(&[state]);
             }
-        }
-        let later = [maps[0].clone(), maps[1].clone()];
-        let Some(mut values) = spectrum::eigenvalues(&Derivatives { now: maps, later }) else {
-            return Ok(Stability::OVERFLOW);
+            ensemble.advance(tick.h * k as f64, tick.h, tick.substeps)?;
+            let mut reached = ensemble.state(0);
+            reached[n..].iter_mut().for_each(|v| *v /= self.rate);
+            Ok(reached)
         };
-        self.keep_what_drifts(&mut values);
-        let mut stability = compare(&self.truth, &values, tick.h);
-        stability.spectral_radius = libm::pow(stability.spectral_radius, f64::from(times));
-        Ok(stability)
+        let mut values = spectrum::eigenvalues(&linear_maps(2 * n, run)?);
+        if let Some(values) = &mut values {
+            self.keep_what_drifts(values);
+        }
+        Ok(compare_step(&self.truth, values, tick.h, times))
     }
 
     /// Sets to 1 as many of the eigenvalues nearest 1 as there are force-free modes: methods preserve uniform drift,
@@ -212,17 +209,11 @@ fn place_of_rest(free: &dyn Stepper) -> Result<Vec<f64>, NoSmallMotion> {
     }
     let mut q = free.q().to_vec();
     for _ in 0..MAX_ITERATIONS {
-        let columns: Vec<DVector<f64>> = (0..n)
-            .map(|j| {
-                let moved = |sign: f64| {
-                    let mut q = q.clone();
-                    q[j] += sign * DISTANCES[0][0];
-                    q
-                };
-                (push(&moved(1.0), 0.0) - push(&moved(-1.0), 0.0)) / (2.0 * DISTANCES[0][0])
-            })
-            .collect();
-        let step = DMatrix::from_columns(&columns).lu().solve(&push(&q, 0.0));
+        let at = [&q[..], &origin].concat();
+        let [ahead, behind] = [1.0, -1.0].map(|side| {
+            force_slopes(free, &at, side * DISTANCES[0][0], 0.0).columns(0, n).into_owned()
+        });
+        let step = ((ahead + behind) / 2.0).lu().solve(&push(&q, 0.0));
         let step = step.filter(|step| step.iter().all(|x| x.is_finite()));
         let step = step.ok_or(NoSmallMotion::NoRest)?;
         let is_near = step.iter().zip(&q).all(|(step, q)| step.abs() <= AT_REST * (1.0 + q.abs()));
@@ -246,20 +237,8 @@ const AT_REST: f64 = 1e-9;
 /// together as the distances shrink.
 fn smooth_jacobian(free: &dyn Stepper, q: &[f64], t: f64) -> Result<DMatrix<f64>, NoSmallMotion> {
     let n = q.len();
-    let acceleration = |moved: Option<(usize, f64)>| {
-        let mut state = [q, &vec![0.0; n]].concat();
-        if let Some((place, by)) = moved {
-            state[place] += by;
-        }
-        let mut a = vec![0.0; n];
-        free.acceleration(t, &state[..n], &state[n..], &mut a);
-        DVector::from_vec(a)
-    };
-    let here = acceleration(None);
-    let slopes = |by: f64| {
-        let column = |j: usize| (acceleration(Some((j, by))) - &here) / by;
-        DMatrix::from_columns(&(0..2 * n).map(column).collect::<Vec<_>>())
-    };
+    let at = [q, &vec![0.0; n]].concat();
+    let slopes = |by: f64| force_slopes(free, &at, by, t);
     let mut wider: Option<Vec<f64>> = None;
     for [far, near] in DISTANCES {
         let found = [slopes(far), slopes(-far), slopes(near), slopes(-near)];

@@ -3,8 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::ensemble::Ensemble;
+use super::spectrum::Derivatives;
 use super::tick::Tick;
 use crate::sim::integrators::{StepFailure, Tolerance};
+use crate::sim::state::largest;
 use crate::sim::{Solver, Stepper};
 
 /// Distances of the differences in units of the scale. A large one loses nothing to rounding if the map
@@ -23,14 +25,14 @@ pub(super) fn state_of(stepper: &dyn Stepper) -> Vec<f64> {
 /// The scale of each component: the largest magnitude in its half of the state, now or one tick later.
 pub(super) fn scale(here: &[f64], there: &[f64], h: f64) -> Vec<f64> {
     let n = here.len() / 2;
-    let largest = |half: std::ops::Range<usize>| {
+    let size = |half: std::ops::Range<usize>| {
         let both = here[half.clone()].iter().chain(&there[half]);
-        let largest = both.filter(|x| x.is_finite()).fold(0.0, |most: f64, x| most.max(x.abs()));
+        let size = largest(both.filter(|x| x.is_finite()));
         // Below this, a distance would lose digits to underflow.
-        if largest > 1e-290 { Some(largest) } else { None }
+        if size > 1e-290 { Some(size) } else { None }
     };
-    let v = largest(n..2 * n);
-    let q = largest(0..n).or(v.map(|v| v * h)).unwrap_or(1.0);
+    let v = size(n..2 * n);
+    let q = size(0..n).or(v.map(|v| v * h)).unwrap_or(1.0);
     [vec![q; n], vec![v.unwrap_or(1.0); n]].concat()
 }
 
@@ -142,7 +144,7 @@ impl TickMap {
                 (0..at.len()).map(row).collect()
             });
             let columns: Vec<Vec<f64>> = columns.collect();
-            let size = columns.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+            let size = largest(columns.iter().flatten());
             Ok((nonlinearity / size.max(1.0), columns))
         }))
     }
@@ -176,7 +178,51 @@ fn most_linear<T>(
     }
 }
 
-/// The Jacobian of the acceleration of a body with respect to coordinates and velocities.
+/// The maps of a linear motion over 1, 2 and 3 ticks. `run` returns the state after tick number `k` of a run that begins
+/// in a unit of component `column`, in such units; it begins the run if `k` is 0.
+pub(super) fn linear_maps(
+    size: usize,
+    mut run: impl FnMut(usize, usize) -> Result<Vec<f64>, StepFailure>,
+) -> Result<Derivatives, StepFailure> {
+    let mut now: [DMatrix<f64>; 3] = std::array::from_fn(|_| DMatrix::zeros(size, size));
+    for column in 0..size {
+        for (k, map) in now.iter_mut().enumerate() {
+            map.set_column(column, &DVector::from_vec(run(column, k)?));
+        }
+    }
+    let later = [now[0].clone(), now[1].clone()];
+    Ok(Derivatives { now, later })
+}
+
+/// The acceleration of a body in the state `at`, coordinates first, with component `moved.0` displaced by `moved.1`.
+fn acceleration_at(
+    body: &dyn Stepper,
+    at: &[f64],
+    moved: Option<(usize, f64)>,
+    t: f64,
+) -> Vec<f64> {
+    let mut state = at.to_vec();
+    if let Some((index, by)) = moved {
+        state[index] += by;
+    }
+    let (q, v) = state.split_at(at.len() / 2);
+    let mut a = vec![0.0; q.len()];
+    body.acceleration(t, q, v, &mut a);
+    a
+}
+
+/// The Jacobian of the acceleration of a body with respect to coordinates and velocities, by differences over `by` to one
+/// side.
+pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> DMatrix<f64> {
+    let here = acceleration_at(body, at, None, t);
+    let column = |j: usize| {
+        let moved = acceleration_at(body, at, Some((j, by)), t).into_iter();
+        moved.zip(&here).map(|(moved, here)| (moved - here) / by).collect::<Vec<_>>()
+    };
+    DMatrix::from_vec(here.len(), at.len(), (0..at.len()).flat_map(column).collect())
+}
+
+/// The same by differences to both sides, over distances that fit the scale of each component.
 pub(super) fn force_jacobian(
     body: &dyn Stepper,
     here: &[f64],
@@ -184,12 +230,9 @@ pub(super) fn force_jacobian(
     t: f64,
 ) -> DMatrix<f64> {
     let n = here.len() / 2;
-    let at = |j: usize, offset: f64| {
-        let mut moved = here.to_vec();
-        moved[j] += offset * FORCE_DISTANCE * scale[j];
-        let mut a = vec![0.0; n];
-        body.acceleration(t, &moved[..n], &moved[n..], &mut a);
-        (moved[j], a)
+    let at = |j: usize, side: f64| {
+        let by = side * FORCE_DISTANCE * scale[j];
+        (here[j] + by, acceleration_at(body, here, Some((j, by)), t))
     };
     let mut force_jacobian = DMatrix::zeros(n, 2 * n);
     for j in 0..2 * n {

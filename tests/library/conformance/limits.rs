@@ -1,38 +1,9 @@
 //! The largest stable steps on damped oscillators, measured on the real stepper.
 
 use regatta::sim::State;
-use regatta::sim::integrators::{GENERAL_METHODS, Method, method};
+use regatta::sim::integrators::{DAMPING_RATIOS, GENERAL_METHODS, Method};
 
 use super::systems::{fresh, spring};
-
-/// The damping ratios of the tables. What holds without damping is on the cards.
-const RATIOS: [f64; 3] = [0.05, 0.2, 1.0];
-
-/// The largest `h ω` at each of those, below which the one-step map of a method that begins there has no
-/// eigenvalue beyond the unit circle.
-const ONE_STEP: [(&str, [f64; 3]); 17] = [
-    ("explicit-euler", [0.100, 0.400, 2.000]),
-    ("semi-implicit-euler", [1.902, 1.640, 0.828]),
-    ("velocity-verlet", [1.912, 1.757, 1.000]),
-    ("stormer-verlet", [1.912, 1.757, 1.000]),
-    ("position-verlet", [1.902, 1.640, 0.828]),
-    ("improved-euler", [0.800, 1.394, 2.000]),
-    ("midpoint", [0.800, 1.394, 2.000]),
-    ("rk4", [2.910, 2.940, 2.785]),
-    ("yoshida4", [2.046, 1.111, 0.584]),
-    ("pefrl", [2.670, 2.947, 1.078]),
-    ("ssp-rk3", [1.988, 2.369, 2.513]),
-    ("improved-euler-as-printed", [2.011, 2.405, 1.000]),
-    ("rk4-as-printed", [2.003, 2.062, 1.393]),
-    // z = 2 ζ + 2 √(1 + ζ²)
-    ("semi-implicit-euler-implicit-drag", [2.102, 2.440, 4.828]),
-    // The drag shrinks both eigenvalues alike.
-    ("verlet-exact-drag", [2.000, 2.000, 2.000]),
-    // z = √(4 ζ² + 3.98) - 2 ζ
-    ("jakobsen-verlet", [1.897, 1.635, 0.825]),
-    // What it is only at its first step.
-    ("adams-bashforth-2", [0.800, 1.394, 2.000]),
-];
 
 /// The largest `h ω` at which a method that carries something stays stable in the long run: the Verlets go
 /// on with a force that was taken at a predicted velocity.
@@ -42,7 +13,7 @@ const LONG_RUN: [(&str, [f64; 3]); 3] = [
     ("adams-bashforth-2", [0.539, 0.765, 1.000]),
 ];
 
-/// Half a unit of the tables' last digit, and a little for the search.
+/// Half a unit of the last digit, and a little for the search.
 const RESOLUTION: f64 = 6e-4;
 
 /// The spectral radius of the map of one step of a fresh method, by differences.
@@ -91,12 +62,17 @@ fn limit(stable: impl Fn(f64) -> bool) -> f64 {
 }
 
 #[test]
-fn the_one_step_map_leaves_the_unit_circle_at_the_tabulated_step() {
+fn the_one_step_map_leaves_the_unit_circle_at_the_step_on_the_card() {
     // Under drag the adaptive listing cuts its steps as it likes.
     for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
+        assert_eq!(
+            method.stability_limit.is_some(),
+            method.damped_limits.is_some(),
+            "{}",
+            method.id
+        );
         let (id, Some(undamped)) = (method.id, method.stability_limit) else { continue };
-        let (_, damped) = ONE_STEP.iter().find(|(tabled, _)| *tabled == id).expect("a row");
-        let damped = RATIOS.into_iter().zip(*damped);
+        let damped = DAMPING_RATIOS.into_iter().zip(method.damped_limits.unwrap());
         for (ratio, listed) in [(0.0, undamped)].into_iter().chain(damped) {
             // Without drag some are unstable at every step, but by z⁴/8: too little to see at first.
             let lowest = if ratio == 0.0 { 0.06 } else { 0.0 };
@@ -111,12 +87,12 @@ fn the_one_step_map_leaves_the_unit_circle_at_the_tabulated_step() {
 
 #[test]
 fn long_runs_are_stable_up_to_the_limit_of_the_map_with_memory() {
-    for (id, one_step) in ONE_STEP {
-        let method = method(id).expect("a method");
+    for method in GENERAL_METHODS {
+        let (id, Some(one_step)) = (method.id, method.damped_limits) else { continue };
         let carried = LONG_RUN.iter().find(|(carrying, _)| *carrying == id);
         assert_eq!(carried.is_some(), method.restart.is_some(), "{id}");
         let limits = carried.map_or(one_step, |(_, limits)| *limits);
-        for (ratio, limit) in RATIOS.into_iter().zip(limits) {
+        for (ratio, limit) in DAMPING_RATIOS.into_iter().zip(limits) {
             let (within, beyond) = (limit - RESOLUTION, limit + RESOLUTION);
             let [within, beyond] = [within, beyond].map(|h| growth(method, ratio, h));
             println!("{id:26} {ratio:4} {limit:.3} {within:.1e} {beyond:.1e}");
