@@ -50,7 +50,8 @@ One row for each trace and policy, in the order asked for:
 --frames writes one line for each frame, policy and trace; q is the first coordinate of the
 scene's first body as the picture shows it. A trace from a file begins with its first row; a row
 that was never displayed steps the game and shows nothing. A file of several programs gives a
-trace for each.
+trace for each. MangoHud logs no display: its frames are displayed when they begin. Frames that a
+driver generated, by the column FrameType, only let time pass.
 
 Examples:
   regatta loop > loops.csv
@@ -67,8 +68,8 @@ pub(super) struct LoopArgs {
     #[arg(long = "policy", value_name = "ID", value_parser = known_policy)]
     policies: Vec<&'static PolicyCard>,
 
-    /// A built-in trace (`regatta list traces`), or else a CSV file of PresentMon, OCAT, CapFrameX or
-    /// FrameView; give several to go through them [default: all built-in traces]
+    /// A built-in trace (`regatta list traces`), or else a CSV file of PresentMon, OCAT, CapFrameX,
+    /// FrameView or MangoHud; give several to go through them [default: all built-in traces]
     #[arg(long = "trace", value_name = "ID|FILE", value_parser = PathOrName(trace_names))]
     #[arg(hide_possible_values = true)]
     traces: Vec<PathBuf>,

@@ -310,15 +310,15 @@ fn every_fault_is_named_with_its_line_and_a_remedy() {
     let row = |cells: &str| format!("MsBetweenPresents,MsBetweenDisplayChange\n1,1\n{cells}\n");
     let capture = "capture some frames";
     for (text, message) in [
-        (String::new(), format!("log:1: there is nothing here; {capture} with PresentMon, OCAT, CapFrameX or FrameView")),
-        ("\u{feff}\r\n".into(), format!("log:1: there is nothing here; {capture} with PresentMon, OCAT, CapFrameX or FrameView")),
+        (String::new(), format!("log:1: there is nothing here; {capture} with PresentMon, OCAT, CapFrameX, FrameView or MangoHud")),
+        ("\u{feff}\r\n".into(), format!("log:1: there is nothing here; {capture} with PresentMon, OCAT, CapFrameX, FrameView or MangoHud")),
         (
             "//a\nMsBetweenPresents,MsBetweenDisplayChange\n".into(),
-            format!("log:2: there is a header and no row below it; {capture}"),
+            format!("log:2: there is a header and no frame of a program below it; {capture}"),
         ),
         (
             "Application,msBetweenPresents\na,1\n".into(),
-            "log:1: the columns MsBetweenPresents and MsBetweenDisplayChange, or FrameTime and DisplayedTime, are needed, and here are Application, msBetweenPresents; let the tool track the display, and write a row for each frame under a header".into(),
+            "log:1: the columns MsBetweenPresents and MsBetweenDisplayChange, FrameTime and DisplayedTime, or MangoHud's fps and frametime, are needed, and here are Application, msBetweenPresents; let the tool track the display, and write a row for each frame under a header".into(),
         ),
         (row("1"), "log:3: the row has 1 of the header's 2 cells; take it out if it was cut off".into()),
         (
@@ -365,4 +365,41 @@ fn a_million_rows_of_a_thousand_streams_are_read() {
     println!("{} MB in {:?}", text.len() / 1_000_000, start.elapsed());
     assert_eq!(traces.len(), 1000);
     assert!(traces.iter().all(|trace| frames(trace).len() == 1000));
+}
+
+#[test]
+fn a_log_of_mangohud_is_read_below_its_lines_about_the_machine() {
+    let rows = "60,16.5,3\n59.9,17.25,3\n60,16,4\n";
+    let machine =
+        "os,cpu,gpu,ram,kernel,driver,cpuscheduler\nLinux,A CPU,\"A GPU, big\",32,6.1,1,none\n";
+    let versioned = format!("v1\n0.8\n-----SYSTEM INFO-----\n{machine}-----FRAME METRICS-----\n");
+    for before in ["", machine, &versioned] {
+        let text = format!("{before}fps,frametime,cpu_load\n{rows}");
+        let [trace] = &traces("hud", &text)[..] else { panic!("one trace") };
+        let ms = 1_000_000;
+        // What is not known of the display is taken to be as it is of the frames.
+        let expected = [0, 17_250 * ms / 1000, 33_250 * ms / 1000];
+        let expected = expected.map(|ns| Frame { began_ns: ns, displayed_ns: Some(ns) });
+        assert_eq!(frames(trace), expected, "{text}");
+    }
+    // The names of PresentMon alone are no log of MangoHud.
+    assert!(read("log", "FrameTime,CPUBusy\n16,3\n").is_err());
+    let far = format!("{}fps,frametime\n60,16\n", "a remark\n".repeat(9));
+    assert!(read("log", &far).err().unwrap().to_string().starts_with("log:1: the columns"));
+}
+
+#[test]
+fn generated_frames_let_time_pass_and_are_no_frames_of_the_program() {
+    let ms = |ms: i64| ms * 1_000_000;
+    let at = |began, shown| Frame { began_ns: ms(began), displayed_ns: Some(ms(shown)) };
+    let before = "Application,MsBetweenPresents,MsBetweenDisplayChange,FrameType\n\
+                  a,16,16,Application\na,1,8,AMD_AFMF\na,15,8,Application\na,2,9,Repeated\na,14,7,NotSet\n";
+    let [trace] = &traces("log", before)[..] else { panic!("one trace") };
+    assert_eq!(frames(trace), [at(0, 0), at(16, 16), at(32, 32)]);
+    let after = "Application,FrameTime,DisplayedTime,FrameType\n\
+                 a,16,8,Application\na,NA,9,Intel_XEFG\na,17,8,Application\na,NA,8,Intel_XEFG\na,16,8,Application\n";
+    let [trace] = &traces("log", after)[..] else { panic!("one trace") };
+    assert_eq!(frames(trace), [at(0, 0), at(16, 17), at(33, 33)]);
+    let none = "Application,FrameTime,DisplayedTime,FrameType\na,NA,8,Intel_XEFG\n";
+    assert!(read("log", none).err().unwrap().to_string().contains("no frame of a program"));
 }

@@ -574,7 +574,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l plot -d 'Draw 
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l force -d 'Replace the files that are there'
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -s h -l help -d 'Print help'
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l policy -d 'A policy (`regatta list policies`); give several to compare them [default: all]' -r
-complete -c regatta -n "__fish_regatta_using_subcommand loop" -l trace -d 'A built-in trace (`regatta list traces`), or else a CSV file of PresentMon, OCAT, CapFrameX or FrameView; give several to go through them [default: all built-in traces]' -r -f -a "steady-60\t''
+complete -c regatta -n "__fish_regatta_using_subcommand loop" -l trace -d 'A built-in trace (`regatta list traces`), or else a CSV file of PresentMon, OCAT, CapFrameX, FrameView or MangoHud; give several to go through them [default: all built-in traces]' -r -f -a "steady-60\t''
 steady-59.94\t''
 steady-75\t''
 steady-120\t''

@@ -1,4 +1,5 @@
-//! Traces from the logs of frame-time tools: PresentMon, OCAT, CapFrameX and FrameView write a row for each frame.
+//! Traces from the logs of frame-time tools: PresentMon, OCAT, CapFrameX, FrameView and MangoHud write a row for each
+//! frame.
 //!
 //! A log can hold several streams of frames, from several programs and windows; each is a trace of its own. The first row
 //! of a stream starts its clock. From then on a frame begins `MsBetweenPresents` after the one before, and is displayed
@@ -20,6 +21,9 @@ use error::Fault;
 use stream::Stream;
 
 pub use error::TraceFileError;
+
+/// The most rows before the header.
+const MAX_PREAMBLE_ROWS: u32 = 8;
 
 /// Reads the streams of a log from the bytes of a file, like [`read`]; what is not UTF-8 is read as well as it can be.
 ///
@@ -52,8 +56,20 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
         is_row.then(|| before + row.position().expect("just read").line())
     };
 
-    let header_line = next(&mut row).ok_or_else(|| at(1, Fault::Empty))?;
-    let columns = Columns::find(&row).map_err(|fault| at(header_line, fault))?;
+    let first_line = next(&mut row).ok_or_else(|| at(1, Fault::Empty))?;
+    let (mut header_line, mut found) = (first_line, Columns::find(&row));
+    // MangoHud writes a few lines about the machine first.
+    let mut preamble = StringRecord::new();
+    for _ in 0..MAX_PREAMBLE_ROWS {
+        if found.is_ok() {
+            break;
+        }
+        let Some(line) = next(&mut preamble) else { break };
+        if let Ok(columns) = Columns::find(&preamble) {
+            (header_line, found) = (line, Ok(columns));
+        }
+    }
+    let columns = found.map_err(|fault| at(first_line, fault))?;
 
     let (mut streams, mut numbers) = (Vec::<Stream>::new(), HashMap::<String, usize>::new());
     let mut key = String::new();
@@ -71,6 +87,7 @@ pub fn read(name: &str, text: &str) -> Result<Vec<FrameTrace>, TraceFileError> {
         };
         streams[number].push(&cells).map_err(|fault| at(line, fault))?;
     }
+    streams.retain(|stream| !stream.is_empty());
     if streams.is_empty() {
         return Err(at(header_line, Fault::NoRows));
     }

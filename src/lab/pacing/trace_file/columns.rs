@@ -9,24 +9,31 @@ use crate::lab::scene::clip::{clip, clip_list};
 /// Whether a row says how long it took until its frame, or from its frame on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Span {
-    /// Since the frame before: PresentMon 1 and 2, OCAT, CapFrameX, FrameView.
+    /// Since the frame before: PresentMon 1 and 2, OCAT, CapFrameX, FrameView, MangoHud.
     Before,
     /// Until the frame after: the metrics of PresentMon 2.0, `--v2_metrics`.
     After,
 }
 
-/// The names of the two columns of times; each also without its `Ms`.
-const TIMES: [(Span, &str, &str); 2] = [
-    (Span::Before, "MsBetweenPresents", "MsBetweenDisplayChange"),
-    (Span::After, "MsFrameTime", "MsDisplayedTime"),
+/// The names of the two columns of times; each also without its `Ms`. MangoHud knows nothing of the display: its frames
+/// are taken as displayed when they begin.
+const TIMES: [(Span, &str, Option<&str>); 3] = [
+    (Span::Before, "MsBetweenPresents", Some("MsBetweenDisplayChange")),
+    (Span::After, "MsFrameTime", Some("MsDisplayedTime")),
+    (Span::Before, "frametime", None),
 ];
+/// The column that is beside the last of these: another tool's log with a column of that name lacks the display.
+const BESIDE_FRAMETIME: &str = "fps";
+/// What PresentMon calls a frame of the program, or one of which it does not know. Any other was generated or repeated.
+const RENDERED: [&str; 4] = ["", "Application", "NotSet", "Unspecified"];
 
 /// Where the columns are.
 pub(super) struct Columns {
     span: Span,
     began: Column,
-    displayed: Column,
+    displayed: Option<Column>,
     dropped: Option<Column>,
+    frame_type: Option<usize>,
     application: Option<usize>,
     process: Option<usize>,
     swap_chain: Option<usize>,
@@ -52,6 +59,8 @@ pub(super) struct Cells<'a> {
     pub(super) displayed_ns: Option<i64>,
     /// Whether a column says that it was displayed.
     pub(super) surely_displayed: bool,
+    /// Whether a driver generated it, or repeated it, so that the program did not begin a frame.
+    pub(super) is_generated: bool,
 }
 
 impl Columns {
@@ -62,8 +71,12 @@ impl Columns {
             let place = place(name).or_else(|| place(name.strip_prefix("Ms")?))?;
             Some(Column { place, name: header[place].trim().to_owned() })
         };
-        let times = |&(span, began, displayed): &(Span, &str, &str)| {
-            Some((span, column(began)?, column(displayed)?))
+        let times = |&(span, began, displayed): &(Span, &str, Option<&str>)| {
+            let displayed = match displayed {
+                Some(name) => Some(column(name)?),
+                None => place(BESIDE_FRAMETIME).map(|_| None)?,
+            };
+            Some((span, column(began)?, displayed))
         };
         let Some((span, began, displayed)) = TIMES.iter().find_map(times) else {
             let found = clip_list(header.iter().map(str::trim));
@@ -74,6 +87,7 @@ impl Columns {
             began,
             displayed,
             dropped: column("Dropped"),
+            frame_type: place("FrameType"),
             application: place("Application"),
             process: place("ProcessID"),
             swap_chain: place("SwapChainAddress"),
@@ -92,7 +106,11 @@ impl Columns {
         let text = |place: Option<usize>| place.map_or("", |place| row[place].trim());
         let dropped = self.dropped.as_ref().map(|column| column.flag(row)).transpose()?;
         let began_ns = self.began.time(row)?;
-        let displayed_ns = self.displayed.time(row)?;
+        let displayed_ns = match &self.displayed {
+            Some(column) => column.time(row)?,
+            None => began_ns,
+        };
+        let frame_type = text(self.frame_type);
         Ok(Cells {
             application: text(self.application),
             process: text(self.process),
@@ -100,7 +118,8 @@ impl Columns {
             span: self.span,
             began_ns: began_ns.ok_or_else(|| Fault::NoTime { column: self.began.name.clone() }),
             displayed_ns: displayed_ns.filter(|_| dropped != Some(true)),
-            surely_displayed: dropped == Some(false),
+            surely_displayed: dropped == Some(false) || self.displayed.is_none(),
+            is_generated: !RENDERED.iter().any(|known| known.eq_ignore_ascii_case(frame_type)),
         })
     }
 }

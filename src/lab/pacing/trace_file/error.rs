@@ -16,15 +16,15 @@ pub struct TraceFileError {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(super) enum Fault {
     #[error(
-        "there is nothing here; capture some frames with PresentMon, OCAT, CapFrameX or FrameView"
+        "there is nothing here; capture some frames with PresentMon, OCAT, CapFrameX, FrameView or MangoHud"
     )]
     Empty,
     #[error("the text is in UTF-16, as PowerShell writes it; save it as UTF-8")]
     Utf16,
-    #[error("there is a header and no row below it; capture some frames")]
+    #[error("there is a header and no frame of a program below it; capture some frames")]
     NoRows,
     #[error(
-        "the columns MsBetweenPresents and MsBetweenDisplayChange, or FrameTime and DisplayedTime, are needed, and here are {found}; let the tool track the display, and write a row for each frame under a header"
+        "the columns MsBetweenPresents and MsBetweenDisplayChange, FrameTime and DisplayedTime, or MangoHud's fps and frametime, are needed, and here are {found}; let the tool track the display, and write a row for each frame under a header"
     )]
     Columns { found: String },
     #[error("the row has {cells} of the header's {header} cells; take it out if it was cut off")]

@@ -18,6 +18,8 @@ pub(super) struct Stream {
     /// Where rows say how long their own frame lasted and stayed up: when the next frame begins, and when it appears.
     next_began_ns: Result<i64, Fault>,
     next_shown_ns: i64,
+    /// How long ago the last frame began, where generated ones came after it.
+    generated_ns: i64,
 }
 
 /// A name with a replacement for each control character: it is printed in messages and on screens.
@@ -35,6 +37,7 @@ impl Stream {
             last_shown_ns: None,
             next_began_ns: Ok(0),
             next_shown_ns: 0,
+            generated_ns: 0,
         }
     }
 
@@ -47,8 +50,17 @@ impl Stream {
         &self.process
     }
 
-    /// Adds the frame of a row.
+    /// Whether it has no frame of the program.
+    pub(super) fn is_empty(&self) -> bool {
+        self.frames.is_empty()
+    }
+
+    /// Adds the frame of a row. One that was generated only lets time pass: the program's loop has no part in it.
     pub(super) fn push(&mut self, cells: &Cells) -> Result<(), Fault> {
+        if cells.is_generated {
+            self.pass(cells);
+            return Ok(());
+        }
         let frame = match cells.span {
             Span::Before => self.after_the_last(cells)?,
             Span::After => self.at_the_next(cells)?,
@@ -58,12 +70,28 @@ impl Stream {
         }
         self.last_shown_ns = frame.displayed_ns.or(self.last_shown_ns);
         self.frames.push(frame);
+        self.generated_ns = 0;
         Ok(())
+    }
+
+    /// Lets the times of a generated frame pass. Its own beginning may be unknown.
+    fn pass(&mut self, cells: &Cells) {
+        let (began, shown) = (cells.began_ns.as_ref().copied().unwrap_or(0), cells.displayed_ns);
+        match cells.span {
+            Span::Before => {
+                self.generated_ns += began;
+                self.last_shown_ns = self.last_shown_ns.map(|last| last + shown.unwrap_or(0));
+            }
+            Span::After => {
+                self.next_began_ns = self.next_began_ns.clone().map(|next| next + began);
+                self.next_shown_ns += shown.unwrap_or(0);
+            }
+        }
     }
 
     fn after_the_last(&self, cells: &Cells) -> Result<Frame, Fault> {
         let began_ns = match self.frames.last() {
-            Some(last) => last.began_ns + cells.began_ns.clone()?,
+            Some(last) => last.began_ns + self.generated_ns + cells.began_ns.clone()?,
             None => 0,
         };
         let displayed_ns = match (cells.displayed_ns, self.last_shown_ns) {
