@@ -225,6 +225,7 @@ impl App {
                 }
                 Some(DriverRequest::CopyInstrument) => self.copy_instrument(),
                 Some(DriverRequest::CopyMethod(entry)) => self.copy_method(entry),
+                Some(DriverRequest::CopyJoint(entry)) => self.copy_joint(entry),
                 Some(DriverRequest::ExportInstrument) => self.export_instrument(),
                 Some(DriverRequest::ToggleFullScreen) => self.toggle_full_screen(),
                 Some(DriverRequest::OpenTypedPath) => {

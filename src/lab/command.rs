@@ -142,7 +142,7 @@ pub enum Command {
     /// Shows the instrument over the stage, or beside it again.
     ToggleEnlarged,
     /// Copies the method of the lane that is [pointed at](Command::PointAt) as source code in the language of the last
-    /// copy, or else the instrument's values.
+    /// copy; of an engine's the lines that tell it the displayed spring; or else the instrument's values.
     Copy,
     /// Copies the instrument's values.
     CopyInstrument,

@@ -120,6 +120,8 @@ pub enum DriverRequest {
     /// Copy the method at this place of the list to the clipboard, as source code in the viewer's
     /// [language](super::Viewer::language).
     CopyMethod(usize),
+    /// Copy the lines of code that tell the engine at this place of the list the displayed body's spring.
+    CopyJoint(usize),
     /// Save the instrument as a picture, a drawing and a table.
     ExportInstrument,
     /// Enter or leave full screen.

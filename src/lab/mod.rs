@@ -94,8 +94,8 @@ pub use past::{
     TruthSample,
 };
 pub use port::{
-    Approach, DriveLimits, FollowerPort, Ported, Reach, Relief, Setup, Wish, WishError,
-    drive_limits, followers, port, setups,
+    Approach, DriveLimits, FollowerPort, Ported, Reach, Relief, Setup, SpringJoint, Wish,
+    WishError, drive_limits, followers, port, setups,
 };
 pub use quantity::Quantity;
 pub use race::{Entrant, Mode, Observer, Race};

@@ -37,6 +37,18 @@ impl App {
         });
     }
 
+    /// Puts the lines of code that tell an engine the displayed spring on the clipboard.
+    pub(super) fn copy_joint(&mut self, entry: usize) {
+        let Some(code) = self.lab.joint_code(entry) else { return };
+        let method = self.lab.entries()[entry].method;
+        self.lab.set_notice(match self.clipboard.set_text(code) {
+            Ok(()) => format!("copied the spring's settings of {}", method.name),
+            Err(reason) => {
+                format!("no clipboard: {reason}; `regatta port --to {}` prints them", method.id)
+            }
+        });
+    }
+
     /// Saves three files under new names.
     pub(super) fn export_instrument(&mut self) {
         if let Some(canvas) = &self.canvas {

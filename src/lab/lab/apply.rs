@@ -146,7 +146,10 @@ impl Lab {
             }
             Command::Copy => {
                 let pointed = self.viewer.pointed.filter(|entry| *entry < self.entries().len());
-                let copy = pointed.map(DriverRequest::CopyMethod);
+                let copy = pointed.map(|entry| match self.joint_code(entry) {
+                    Some(_) => DriverRequest::CopyJoint(entry),
+                    None => DriverRequest::CopyMethod(entry),
+                });
                 return Some(copy.unwrap_or(DriverRequest::CopyInstrument));
             }
             Command::CopyInstrument => return Some(DriverRequest::CopyInstrument),

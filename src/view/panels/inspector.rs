@@ -10,6 +10,7 @@ use self::rows::{Reach, Row, Spacing, Values, rows};
 use super::ink;
 use crate::lab::{Action, Acts, Command, Lab, edited_values};
 
+mod engine;
 mod number;
 mod rows;
 mod run;
@@ -80,6 +81,7 @@ fn show_body(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
         }
         show_row(ui, lab, &row, commands);
     }
+    engine::show(ui, lab, body, commands);
 }
 
 fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {

@@ -196,7 +196,8 @@ fn show_row(
 /// The menu of a row: its method as code, in each language.
 pub(super) fn menu(ui: &mut Ui, lab: &Lab, entry: usize, commands: &mut Vec<Command>) {
     for language in Language::ALL {
-        let key = if language == lab.viewer().language() { " (Ctrl C)" } else { "" };
+        let is_by_key = language == lab.viewer().language() && lab.joint_code(entry).is_none();
+        let key = if is_by_key { " (Ctrl C)" } else { "" };
         if ui.button(format!("Copy as {language}{key}")).clicked() {
             commands.push(Command::CopyMethod { entry, language });
             ui.close();

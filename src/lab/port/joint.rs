@@ -1,0 +1,97 @@
+//! A spring of a lab's scene as engines are told it.
+
+use super::{Setup, setups};
+use crate::lab::{Action, Lab};
+use crate::sim::BodyClass;
+
+/// A spring, by the places and the values of its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringJoint {
+    /// Its body's place in the scene.
+    pub body: usize,
+    /// Where the mass, the stiffness and the damping are among the parameters of the body.
+    places: [usize; 3],
+    /// The mass in kg.
+    pub mass_kg: f64,
+    /// Stiffness in 1/s² and damping in 1/s, each per unit of mass.
+    pub joint: [f64; 2],
+}
+
+/// The keys of a spring's mass, stiffness and damping.
+const KEYS: [&str; 3] = ["mass_kg", "stiffness_n_per_m", "damping_n_s_per_m"];
+
+impl SpringJoint {
+    /// What makes this setting of a mode `value`: the other setting stays.
+    pub fn set(&self, setup: Setup, setting: usize, value: f64) -> [Action; 2] {
+        let mut values = setup.mode.values(self.joint, self.mass_kg);
+        values[setting] = value;
+        let joint = setup.mode.joint(values, self.mass_kg);
+        [0, 1].map(|i| Action::Set {
+            body: self.body,
+            parameter: self.places[i + 1],
+            value: joint[i] * self.mass_kg,
+        })
+    }
+}
+
+impl Lab {
+    /// A body of the scene that is a spring which engines can be told, as it is now.
+    pub fn spring_joint(&self, body: usize) -> Option<SpringJoint> {
+        let kind = &self.scene().bodies[body].kind;
+        let [mass, stiffness, damping] = KEYS.map(|key| Some(kind.parameter(key)?.0));
+        let places = [mass?, stiffness?, damping?];
+        let [mass_kg, stiffness, damping] = places.map(|place| self.race().values(body)[place]);
+        let is_joint = kind.class == BodyClass::Joint && stiffness > 0.0;
+        let joint = [stiffness / mass_kg, damping / mass_kg];
+        is_joint.then_some(SpringJoint { body, places, mass_kg, joint })
+    }
+
+    /// Every mode of every engine, at the race's tick rate.
+    pub fn joint_setups(&self) -> Vec<Setup> {
+        setups(None, f64::from(self.race().tick_hz()), None)
+    }
+
+    /// The lines of code that tell the engine at this place of the list the displayed body's spring. `None` if it is no
+    /// engine with a joint, or the body no spring.
+    pub fn joint_code(&self, entry: usize) -> Option<String> {
+        let spring = self.spring_joint(self.display().body)?;
+        let mode = self.entries().get(entry)?.method.engine?.modes.first()?;
+        Some(mode.code_with(mode.values(spring.joint, spring.mass_kg)) + "\n")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{Command, DriverRequest, Scene};
+
+    #[test]
+    fn a_setting_of_an_engine_sets_the_spring_and_control_c_on_the_engine_copies_it() {
+        let mut lab = Lab::new(Scene::built_in("engines").unwrap());
+        let spring = lab.spring_joint(0).unwrap();
+        let setups = lab.joint_setups();
+        let box2d = setups.iter().find(|setup| setup.mode.stiffness.name == "hertz").unwrap();
+        for action in spring.set(*box2d, 0, 3.0) {
+            lab.apply(Command::Act(action));
+        }
+        let spring = lab.spring_joint(0).unwrap();
+        for action in spring.set(*box2d, 1, 0.25) {
+            lab.apply(Command::Act(action));
+        }
+        let spring = lab.spring_joint(0).unwrap();
+        let [hertz, ratio] = box2d.mode.values(spring.joint, spring.mass_kg);
+        assert!((hertz - 3.0).abs() < 1e-12 && (ratio - 0.25).abs() < 1e-12, "{hertz} {ratio}");
+
+        let entry = lab.entries().iter().position(|spec| spec.method == box2d.method).unwrap();
+        let code = lab.joint_code(entry).unwrap();
+        assert!(code.contains("def.hertz = 3.0;\n"), "{code}");
+        lab.apply(Command::PointAt(Some(entry)));
+        assert_eq!(lab.apply(Command::Copy), Some(DriverRequest::CopyJoint(entry)));
+        // A method of one's own is copied as source code, and so is an engine's step by its menu.
+        let ship = lab.scene().bodies.iter().position(|body| body.kind.id == "ship").unwrap();
+        assert_eq!(lab.spring_joint(ship), None);
+        lab.apply(Command::Body(ship));
+        lab.apply(Command::PointAt(Some(entry)));
+        assert_eq!(lab.apply(Command::Copy), Some(DriverRequest::CopyMethod(entry)));
+    }
+}

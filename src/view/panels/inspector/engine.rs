@@ -1,0 +1,64 @@
+//! A spring's numbers in the names and units of an engine, to be read and to be set.
+
+use egui::{CollapsingHeader, ComboBox, RichText, Ui, vec2};
+
+use super::super::ink;
+use super::{Field, LINE, line};
+use crate::lab::number::significant;
+use crate::lab::{Command, Lab, Setup};
+
+/// Shows the numbers of a body that is a spring as the engine has them that is chosen; nothing of any other body.
+pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Command>) {
+    let Some(spring) = lab.spring_joint(body) else { return };
+    let header = CollapsingHeader::new(RichText::new("as in engine…").color(ink(ui).dim));
+    header.id_salt(("engine", body)).show_unindented(ui, |ui| {
+        let setups = lab.joint_setups();
+        let id = ui.scope_id().with("mode");
+        let selected = lab.entries()[lab.selected().entry].method;
+        let of_lane = setups.iter().position(|setup| setup.method == selected).unwrap_or(0);
+        let chosen = ui.data(|data| data.get_temp::<usize>(id)).unwrap_or(of_lane);
+        let name = |setup: &Setup| format!("{}, {}", setup.method.name, setup.mode.id);
+        let menu = ComboBox::from_id_salt("engine").selected_text(name(&setups[chosen]));
+        let menu = menu.width(ui.available_width() - 8.0).show_ui(ui, |ui| {
+            for (place, setup) in setups.iter().enumerate() {
+                if ui.selectable_label(place == chosen, name(setup)).clicked() {
+                    ui.data_mut(|data| data.insert_temp(id, place));
+                }
+            }
+        });
+        let about = format!("the engine whose settings are shown: {}", name(&setups[chosen]));
+        menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &about));
+        let setup = setups[chosen];
+        let values = setup.mode.values(spring.joint, spring.mass_kg);
+        for (place, (setting, value)) in setup.mode.settings().into_iter().zip(values).enumerate() {
+            let unit = setting.quantity.unit();
+            let field = Field {
+                id: ui.scope_id().with((chosen, place)),
+                value,
+                unit,
+                name: &format!("{} of {}", setting.name, setup.method.name),
+                is_whole: false,
+            };
+            let least = if place == 0 { "above 0" } else { "0 or more" };
+            let check = |value: f64| match value > 0.0 || place == 1 && value == 0.0 {
+                true => Ok(()),
+                false => Err(format!("{} must be {least}", setting.name)),
+            };
+            line(ui, setting.name, "in the engine's own name and unit", |ui, [room, _]| {
+                let (_, entered) = field.show(ui, vec2(room, LINE), check);
+                let set = |value| spring.set(setup, place, value).map(Command::Act);
+                commands.extend(entered.map(set).into_iter().flatten());
+            });
+            Field::show_fault(field.id, ui);
+        }
+        let lane = lab.entries().iter().find(|spec| spec.method == setup.method);
+        let substeps = lane.map_or(setup.substeps, |spec| spec.substeps);
+        let seen = Setup { substeps, ..setup }.sees(spring.joint);
+        let seen = seen.map_or("a player sees no swing".to_owned(), |seen| {
+            let [hz, ratio] = [seen.omega / std::f64::consts::TAU, seen.decay / seen.omega];
+            let [hz, ratio] = [hz, ratio].map(|number| significant(number, 3));
+            format!("×{substeps}: a player sees {hz} Hz, damping ratio {ratio}")
+        });
+        ui.label(RichText::new(seen).size(11.0).color(ink(ui).dim));
+    });
+}
