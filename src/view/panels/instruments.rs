@@ -40,7 +40,7 @@ const ROW_NAME: f32 = 52.0;
 const BETWEEN_TABS: f32 = 2.0;
 const TIGHT: f32 = 2.5;
 /// Below this height, in points, there is no legend.
-const ROOM_FOR_LEGEND: f32 = 130.0;
+const ROOM_FOR_LEGEND: f32 = 170.0;
 /// With more lines than this there is no legend either: the table below has the names, and the plots need the room.
 const MOST_IN_LEGEND: usize = 12;
 /// The most lines of a legend beside the title.

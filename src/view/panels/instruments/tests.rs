@@ -114,6 +114,20 @@ fn every_axis_of_every_instrument_is_named_and_has_three_marks() {
 }
 
 #[test]
+fn in_a_low_window_a_plot_has_the_room_of_its_legend() {
+    let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+    lab.apply(Command::ToggleRace);
+    (0..240).for_each(|_| lab.tick());
+    for size in [vec2(800.0, 450.0), vec2(960.0, 540.0)] {
+        let texts = texts(&lab, size);
+        let beside = |rect: &Rect| rect.left() > (1.0 - panels::INSTRUMENTS) * size.x;
+        let is_nought = |(rect, text): &&(Rect, String)| text == "0" && beside(rect);
+        // Of the times, and between 1 m and −1 m.
+        assert_eq!(texts.iter().filter(is_nought).count(), 2, "{size}: {texts:?}");
+    }
+}
+
+#[test]
 fn every_metric_can_be_looked_at() {
     let offered = error::choices().count();
     assert_eq!(offered + 1, METRICS.len(), "and the energy drift");
