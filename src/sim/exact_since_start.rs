@@ -1,14 +1,15 @@
 //! The truth of a body that knows its exact motion from the start, but not from any state: after an
 //! input, an edit or a placing it is a reference solution.
 
+use std::cell::RefCell;
+
 use super::body::Body;
 use super::integrators::Stepped;
 use super::propagator::Propagator;
 use super::reference::Reference;
 use super::state::{State, Vector, largest};
 use super::stepper::Change;
-use super::system::Counted;
-use crate::sim::system::StateOf;
+use super::system::{Counted, StateOf};
 
 /// The rounding of a closed form whose operations are not known, relative to its value.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -20,12 +21,15 @@ pub(super) struct ExactSinceStart<V> {
     /// The time of the current state, in seconds.
     t: f64,
     reference: Reference<V>,
+    /// Scratch of the error, which is asked for at every tick.
+    a: RefCell<V>,
 }
 
 impl<V: Vector> ExactSinceStart<V> {
     /// The motion of a body that stands at its start at time 0.
     pub(super) fn new(like: &State<V>) -> Self {
-        Self { is_untouched: true, t: 0.0, reference: Reference::new(like) }
+        let a = RefCell::new(like.v.clone());
+        Self { is_untouched: true, t: 0.0, reference: Reference::new(like), a }
     }
 }
 
@@ -69,13 +73,13 @@ impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
         if !self.is_untouched {
             return self.reference.truth_error(body, state);
         }
-        let mut a = state.v.clone();
-        body.system.acceleration(self.t, &state.q, &state.v, &mut a);
+        let a = &mut *self.a.borrow_mut();
+        body.system.acceleration(self.t, &state.q, &state.v, a);
         let late = f64::EPSILON * self.t;
         let of = |size: &B::Vector, rate: &B::Vector| {
             ROUNDING * largest(size.components()) + late * largest(rate.components())
         };
-        let error = [of(&state.q, &state.v), of(&state.v, &a)];
+        let error = [of(&state.q, &state.v), of(&state.v, a)];
         Some(error.map(|error| if error.is_nan() { f64::INFINITY } else { error }))
     }
 

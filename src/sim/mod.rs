@@ -23,7 +23,6 @@ mod net_plan;
 pub mod number;
 mod parameter;
 mod piece;
-mod points;
 mod propagator;
 mod reference;
 mod solver;
@@ -42,7 +41,6 @@ pub use body_stepper::stepper;
 pub use clock::Clock;
 #[cfg(feature = "lab")]
 pub use least_squares::least_squares;
-pub use points::Points;
 pub use reference::{MAX_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
 pub use state::{Elementwise, State, Vector};

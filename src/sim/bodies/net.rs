@@ -8,7 +8,6 @@ use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
 
-use crate::sim::Points;
 use crate::sim::body::{Body, Input};
 use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
@@ -100,10 +99,22 @@ impl Net {
         }
     }
 
+    /// The free nodes, each as x and y, of coordinates or velocities.
+    #[inline]
+    pub fn nodes(components: &[f64]) -> &[[f64; 2]] {
+        components.as_chunks().0
+    }
+
+    /// The same, mutable.
+    #[inline]
+    pub fn nodes_mut(components: &mut [f64]) -> &mut [[f64; 2]] {
+        components.as_chunks_mut().0
+    }
+
     /// The places of both ends of each spring with the free nodes at `q`, in the order of the arrays.
-    fn spring_ends<'a>(&'a self, q: &'a Points) -> impl Iterator<Item = [DVec2; 2]> + 'a {
+    fn spring_ends<'a>(&'a self, q: &'a [f64]) -> impl Iterator<Item = [DVec2; 2]> + 'a {
         let Frame { ends, anchors, .. } = &*self.frame;
-        let at = |place: u32| DVec2::from(q.pairs()[place as usize]);
+        let at = |place: u32| DVec2::from(Self::nodes(q)[place as usize]);
         let free = ends.iter().map(move |[a, b]| [at(*a), at(*b)]);
         free.chain(anchors.iter().map(move |(a, anchor)| [at(*a), DVec2::from(*anchor)]))
     }
@@ -118,12 +129,12 @@ impl Net {
     /// rows and columns of a grid, and every spring of lists.
     pub fn threads<'a>(
         &'a self,
-        q: &'a Points,
+        q: &'a [f64],
     ) -> impl Iterator<Item = (impl Iterator<Item = DVec2> + 'a, bool)> + 'a {
         let Frame { lists, place_of, threads, .. } = &*self.frame;
         let at = move |node: usize| match place_of[node] {
             FIXED => DVec2::from(lists.nodes[node]),
-            place => DVec2::from(q.pairs()[place as usize]),
+            place => DVec2::from(Self::nodes(q)[place as usize]),
         };
         threads
             .iter()
@@ -173,15 +184,15 @@ impl Net {
 }
 
 impl System for Net {
-    type Vector = Points;
+    type Vector = Vec<f64>;
 
     fn coupling() -> Coupling {
         Coupling::Few
     }
 
     #[inline]
-    fn acceleration(&self, _t: f64, q: &Points, v: &Points, a: &mut Points) {
-        let (q, v, a) = (q.pairs(), v.pairs(), a.pairs_mut());
+    fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        let (q, v, a) = (Self::nodes(q), Self::nodes(v), Self::nodes_mut(a));
         let Frame { ends, anchors, .. } = &*self.frame;
         let drag = self.drag / self.mass;
         for (a, v) in a.iter_mut().zip(v) {
@@ -205,10 +216,11 @@ impl System for Net {
     }
 
     #[inline]
-    fn answer(&self, _t: f64, question: Question<'_, Points>) -> bool {
+    fn answer(&self, _t: f64, question: Question<'_, Vec<f64>>) -> bool {
         let Question::Slope { state, along, slope } = question else { return false };
-        let (q, v) = (state.q.pairs(), state.v.pairs());
-        let (dq, dv, slope) = (along.q.pairs(), along.v.pairs(), slope.pairs_mut());
+        let (q, v) = (Self::nodes(&state.q), Self::nodes(&state.v));
+        let (dq, dv, slope) =
+            (Self::nodes(&along.q), Self::nodes(&along.v), Self::nodes_mut(slope));
         let Frame { ends, anchors, .. } = &*self.frame;
         let drag = self.drag / self.mass;
         for (slope, dv) in slope.iter_mut().zip(dv) {
@@ -282,7 +294,7 @@ impl Body for Net {
         self.springs = Arc::new(Springs { constants, are_elastic, reference_work });
     }
 
-    fn start(&self) -> State<Points> {
+    fn start(&self) -> State<Vec<f64>> {
         State { q: self.frame.start.clone(), v: self.frame.zeros() }
     }
 
@@ -290,31 +302,31 @@ impl Body for Net {
         self.springs.reference_work
     }
 
-    fn energy(&self, state: &State<Points>) -> Option<f64> {
+    fn energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
         let is_conserved = self.springs.are_elastic && self.drag == 0.0;
         is_conserved.then(|| self.kinetic(state) + self.potential(state))
     }
 
-    fn kinetic_energy(&self, state: &State<Points>) -> Option<f64> {
+    fn kinetic_energy(&self, state: &State<Vec<f64>>) -> Option<f64> {
         (self.springs.are_elastic && self.drag == 0.0).then(|| self.kinetic(state))
     }
 
-    fn mechanical_energy(&self, state: &State<Points>) -> Option<[f64; 2]> {
+    fn mechanical_energy(&self, state: &State<Vec<f64>>) -> Option<[f64; 2]> {
         Some([self.kinetic(state), self.potential(state)])
     }
 
-    fn input(&mut self, input: Input, state: &mut State<Points>) -> bool {
+    fn input(&mut self, input: Input, state: &mut State<Vec<f64>>) -> bool {
         let Input::Kick(times) = input else { return false };
         let kicked = if self.frame.kicks_first { 1 } else { self.frame.free.len() };
-        for [vx, vy] in &mut state.v.pairs_mut()[..kicked] {
+        for [vx, vy] in &mut Self::nodes_mut(&mut state.v)[..kicked] {
             *vx += times * self.kick.x;
             *vy += times * self.kick.y;
         }
         true
     }
 
-    fn place(&self, q: &Points) -> DVec2 {
-        DVec2::from(q.pairs()[0])
+    fn place(&self, q: &Vec<f64>) -> DVec2 {
+        DVec2::from(Self::nodes(q)[0])
     }
 
     /// That which moves farthest in the first seconds: of a bridge the height of its middle.
@@ -328,13 +340,13 @@ impl Body for Net {
 const EVALUATIONS_PER_RADIAN: f64 = 16.0;
 
 impl Net {
-    fn kinetic(&self, state: &State<Points>) -> f64 {
-        let squares = state.v.pairs().iter().map(|v| v[0] * v[0] + v[1] * v[1]);
+    fn kinetic(&self, state: &State<Vec<f64>>) -> f64 {
+        let squares = Self::nodes(&state.v).iter().map(|v| v[0] * v[0] + v[1] * v[1]);
         self.mass * squares.sum::<f64>() / 2.0
     }
 
-    fn potential(&self, state: &State<Points>) -> f64 {
-        let heights = state.q.pairs().iter().map(|q| q[1]);
+    fn potential(&self, state: &State<Vec<f64>>) -> f64 {
+        let heights = Self::nodes(&state.q).iter().map(|q| q[1]);
         let stretched = self.spring_ends(&state.q).zip(&self.springs.constants);
         let elastic = stretched.map(|([a, b], [k, _, rest])| {
             let stretch = (b - a).length() - rest;

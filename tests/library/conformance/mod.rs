@@ -16,5 +16,5 @@ mod linearised;
 mod long_run;
 mod memory;
 mod orbit;
-mod systems;
+pub(crate) mod systems;
 mod vectors;

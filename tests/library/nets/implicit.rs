@@ -2,7 +2,7 @@
 
 use regatta::sim::bodies::{Body, Input, Net};
 use regatta::sim::integrators::{Family, METHODS, Method, StepFailure};
-use regatta::sim::{Elementwise, Points, Question, State, System, Vector};
+use regatta::sim::{Elementwise, Question, State, System, Vector};
 
 use super::*;
 
@@ -75,7 +75,7 @@ fn the_slope_of_the_force_is_that_of_its_differences() {
     let stepper = build(&grid(4, 3, Some(Pin::Corners)), values, with("rk4"));
     let net = stepper.body().downcast_ref::<Net>().unwrap();
     let wave = |k: f64, size: f64| {
-        Points((0..20).map(|i| size * libm::sin(k * f64::from(i) + 0.3)).collect::<Vec<_>>())
+        (0..20).map(|i| size * libm::sin(k * f64::from(i) + 0.3)).collect::<Vec<_>>()
     };
     let start = net.start();
     let mut here = State { q: wave(1.7, 0.02), v: wave(0.9, 1.0) };

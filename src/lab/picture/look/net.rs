@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
 use crate::lab::picture::outline::Thread;
+use crate::sim::State;
 use crate::sim::bodies::Net;
-use crate::sim::{Points, State};
 
 /// The most nodes with beads: of more, beads hide the threads.
 const MOST_BEADS: usize = 64;
@@ -25,7 +25,7 @@ const MARGIN: f64 = 0.12;
 const TRAIL_S: f64 = 1.2;
 
 impl Drawn for Net {
-    fn draw(&self, q: &Points, outline: &mut Outline) {
+    fn draw(&self, q: &Vec<f64>, outline: &mut Outline) {
         let [low, high] = self.range();
         let largest = LARGEST_BEAD * (high - low).max_element();
         let radius = |part: f64| (part * self.shortest()).min(largest);
@@ -36,8 +36,8 @@ impl Drawn for Net {
         for centre in self.fixed() {
             outline.marks.push(Mark::Anchor { centre, radius: radius(PIN) });
         }
-        let beads = q.pairs().len() <= MOST_BEADS;
-        for &node in q.pairs().iter().filter(|_| beads) {
+        let beads = Self::nodes(q).len() <= MOST_BEADS;
+        for &node in Self::nodes(q).iter().filter(|_| beads) {
             outline.marks.push(Mark::Disc { centre: DVec2::from(node), radius: radius(BEAD) });
         }
     }
@@ -49,14 +49,14 @@ impl Drawn for Net {
         Framing::Fixed { centre_m: (low + high) / 2.0, half_m, trail_s: TRAIL_S }
     }
 
-    fn handles(&self, q: &Points) -> Vec<Handle> {
+    fn handles(&self, q: &Vec<f64>) -> Vec<Handle> {
         let radius = GRIP * self.shortest();
-        q.pairs().iter().map(|&node| Handle { at: DVec2::from(node), radius }).collect()
+        Self::nodes(q).iter().map(|&node| Handle { at: DVec2::from(node), radius }).collect()
     }
 
     /// The other nodes keep their places and their velocities.
-    fn pull(&self, state: &mut State<Points>, pull: Pull) {
-        state.q.pairs_mut()[pull.handle] = pull.to.into();
-        state.v.pairs_mut()[pull.handle] = pull.velocity.into();
+    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
+        Self::nodes_mut(&mut state.q)[pull.handle] = pull.to.into();
+        Self::nodes_mut(&mut state.v)[pull.handle] = pull.velocity.into();
     }
 }

@@ -1,9 +1,7 @@
 //! A plan prepared for stepping: the free nodes, and the springs in arrays.
 
 use super::threads::{Thread, threads};
-use crate::sim::Points;
 use crate::sim::net_plan::{Lists, NetPlan};
-use crate::sim::state::Vector;
 
 /// The place of a fixed node.
 pub(super) const FIXED: u32 = u32::MAX;
@@ -18,7 +16,7 @@ pub(super) struct Frame {
     /// The place of each node among the free ones, or [`FIXED`].
     pub(super) place_of: Vec<u32>,
     /// Where the free nodes stand at the start.
-    pub(super) start: Points,
+    pub(super) start: Vec<f64>,
     /// The places of the ends, among the free nodes, of each spring between two of them.
     pub(super) ends: Vec<[u32; 2]>,
     /// For each anchored spring: index of its free node, position of its anchor.
@@ -64,12 +62,12 @@ impl Frame {
         let threads = threads(plan, &lists);
         let lengths = lists.springs.iter().map(|spring| lists.length(spring.between));
         let shortest = lengths.fold(f64::INFINITY, f64::min);
-        let (start, kicks_first) = (Points(start), plan.kicked.is_some());
+        let kicks_first = plan.kicked.is_some();
         Self { lists, free, place_of, start, ends, anchors, order, kicks_first, threads, shortest }
     }
 
     /// As many zeros as there are coordinates.
-    pub(super) fn zeros(&self) -> Points {
-        Points(vec![0.0; self.start.components().len()])
+    pub(super) fn zeros(&self) -> Vec<f64> {
+        vec![0.0; self.start.len()]
     }
 }

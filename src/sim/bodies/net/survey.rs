@@ -40,7 +40,7 @@ impl Survey {
         let mut reach = vec![[f64::INFINITY, f64::NEG_INFINITY]; state.q.components().len()];
         let fixed: Vec<DVec2> = net.fixed().collect();
         for step in 0..=steps {
-            let nodes = state.q.pairs().iter().map(|&node| DVec2::from(node));
+            let nodes = Net::nodes(&state.q).iter().map(|&node| DVec2::from(node));
             range = nodes
                 .chain(fixed.iter().copied())
                 .fold(range, |[low, high], node| [low.min(node), high.max(node)]);

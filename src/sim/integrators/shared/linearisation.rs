@@ -270,7 +270,6 @@ fn add(to: &mut [f64], times: f64, x: &[f64]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::points::Points;
 
     /// Springs apart from each other, all equal or each stiffer than the last.
     struct Apart {
@@ -278,28 +277,28 @@ mod tests {
     }
 
     impl System for Apart {
-        type Vector = Points;
+        type Vector = Vec<f64>;
         fn coupling() -> Coupling {
             Coupling::Few
         }
-        fn acceleration(&self, _t: f64, q: &Points, v: &Points, a: &mut Points) {
-            for (i, a) in a.0.iter_mut().enumerate() {
-                *a = -(9.0 + self.stiffer * i as f64) * q.0[i] - 0.4 * v.0[i];
+        fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+            for (i, a) in a.iter_mut().enumerate() {
+                *a = -(9.0 + self.stiffer * i as f64) * q[i] - 0.4 * v[i];
             }
         }
     }
 
     #[test]
-    fn a_sparse_vector_is_solved_even_where_all_products_point_one_way() {
+    fn a_sparse_system_is_solved_even_where_all_products_point_one_way() {
         let start: Vec<f64> = (0..8).map(|i| 1.0 - 0.3 * f64::from(i)).collect();
-        let y = State { q: Points(start.clone()), v: Points(start.clone()) };
+        let y = State { q: start.clone(), v: start.clone() };
         let [alpha, beta] = [0.01, 0.1];
         for stiffer in [0.0, 2.0] {
             let mut equations = Linearisation::<_, 1>::new(&y.q, Coupling::Few);
-            let mut x = Points(start.clone());
+            let mut x = start.clone();
             equations.slopes.reach_for(0.1, &y, &y.q);
             equations.solve_at(&Apart { stiffer }, 0.0, &y, [alpha, beta], &mut x).unwrap();
-            for (i, (x, b)) in x.0.iter().zip(&start).enumerate() {
+            for (i, (x, b)) in x.iter().zip(&start).enumerate() {
                 let wanted = b / (1.0 + alpha * (9.0 + stiffer * i as f64) + beta * 0.4);
                 assert!((x - wanted).abs() < 1e-7, "{i}: {x}, not {wanted}");
             }
