@@ -20,6 +20,8 @@ pub(super) struct ExactSinceStart<V> {
     is_untouched: bool,
     /// The time of the current state, in seconds.
     t: f64,
+    /// Where the exact motion starts. Kept, for a change must not allocate.
+    start: State<V>,
     reference: Reference<V>,
     /// Scratch of the error, which is asked for at every tick.
     a: RefCell<V>,
@@ -29,15 +31,18 @@ impl<V: Vector> ExactSinceStart<V> {
     /// The motion of a body that stands at its start at time 0.
     pub(super) fn new(like: &State<V>) -> Self {
         let a = RefCell::new(like.v.clone());
-        Self { is_untouched: true, t: 0.0, reference: Reference::new(like), a }
+        let (start, reference) = (like.clone(), Reference::new(like));
+        Self { is_untouched: true, t: 0.0, start, reference, a }
     }
 }
 
 /// Whether `state` at time `t` (s) is the start of `body`.
 pub(super) fn is_start<B: Body>(body: &B, t: f64, state: &StateOf<B>) -> bool {
-    let start = body.start();
-    let is_equal = |a: &B::Vector, b: &B::Vector| a.components() == b.components();
-    t == 0.0 && is_equal(&start.q, &state.q) && is_equal(&start.v, &state.v)
+    t == 0.0 && are_equal(&body.start(), state)
+}
+
+fn are_equal<V: Vector>(a: &State<V>, b: &State<V>) -> bool {
+    a.q.components() == b.q.components() && a.v.components() == b.v.components()
 }
 
 impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
@@ -59,7 +64,7 @@ impl<B: Body> Propagator<B> for ExactSinceStart<B::Vector> {
     fn jump(&mut self, t: f64, change: Change<'_>, body: &mut B, state: &mut StateOf<B>) -> bool {
         let is_changed = self.reference.jump(t, change, body, state);
         if is_changed {
-            self.is_untouched = change.is_placing() && is_start(body, t, state);
+            self.is_untouched = change.is_placing() && t == 0.0 && are_equal(&self.start, state);
             self.t = t;
         }
         is_changed
