@@ -251,8 +251,10 @@ fn axes(ui: &Ui, cell: &Cell<'_>, bounds: &PlotBounds) {
         let x = on_screen(frame, bounds, [place, low[1]]).x;
         painter.vline(x, frame.y_range(), grid);
         if cell.is_lowest {
-            let at = pos2(x, frame.bottom() + 3.0);
-            painter.text(at, Align2::CENTER_TOP, text, number.clone(), ink.dim);
+            let text = painter.layout_no_wrap(text, number.clone(), ink.dim);
+            // The number of a mark at the edge ends with the panel.
+            let left = (x - text.size().x / 2.0).min(ui.max_rect().right() - text.size().x);
+            painter.galley(pos2(left, frame.bottom() + 3.0), text, ink.dim);
         }
     }
     let mut last = f32::NEG_INFINITY;
