@@ -8,7 +8,7 @@ const MILLIONS: [(&str, f64); 22] = [
     ("ship", 4.2),
     ("spring", 136.0),
     ("stiff", 97.0),
-    ("chain", 1453.0),
+    ("chain", 932.0),
     ("pendulum", 366.0),
     ("orbit", 317.0),
     ("helm", 160.0),
