@@ -154,8 +154,8 @@ impl Verdict {
         duration(self.starts_at_s + seconds)
     }
 
-    /// Where the run begins in which the lane fails, if it fails: that run need not be the one on the screen.
-    pub fn proviso(&self) -> Option<String> {
+    /// Where the run begins in which the lane fails, if it fails.
+    fn proviso(&self) -> Option<String> {
         let fails = matches!(self.outcome, Outcome::BlewUp | Outcome::GaveUp);
         let begins = match self.starts_at_s {
             0.0 => "the start".to_owned(),
@@ -239,9 +239,13 @@ impl Verdict {
     }
 }
 
+/// In the alternate form, `{:#}`, a method that fails is told with where it is run from: that run need not be the one on the
+/// screen.
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let horizon = duration(self.horizon_s);
+        let proviso = self.proviso().filter(|_| f.alternate());
+        let proviso = proviso.map_or(String::new(), |proviso| format!(", {proviso}"));
         match (self.outcome, &self.failure, &self.no_truth) {
             (Outcome::Rounding, ..) => {
                 let bound = libm::ceil(libm::log10(self.error.max(1e-15))) as i32;
@@ -264,7 +268,12 @@ impl fmt::Display for Verdict {
                 write!(f, "will blow up at {}", self.moment(failure.t))?;
             }
             (Outcome::GaveUp, Some(failure), _) => {
-                write!(f, "will give up at {}: {}", self.moment(failure.t), failure.cause)?;
+                write!(
+                    f,
+                    "will give up at {}{proviso}: {}",
+                    self.moment(failure.t),
+                    failure.cause
+                )?;
             }
             (Outcome::NoTruth, ..) if let Some(found) = self.by_energy => {
                 write!(f, "{}", found.kept(&horizon))?;
@@ -276,6 +285,9 @@ impl fmt::Display for Verdict {
             write!(f, ": {why}")?;
         }
         f.write_str(&self.in_brackets())?;
+        if self.outcome == Outcome::BlewUp {
+            f.write_str(&proviso)?;
+        }
         let is_told =
             matches!(self.outcome, Outcome::GainsEnergy | Outcome::BlewUp | Outcome::GaveUp);
         let later = self.doubles_in_s.filter(|_| !is_told);
@@ -383,6 +395,30 @@ mod tests {
         ] {
             let verdict = verdict(scene, id, tick_hz).starting_at(100.0);
             assert_eq!(verdict.to_string(), shown, "{scene} {id} {tick_hz} Hz");
+        }
+    }
+
+    #[test]
+    fn where_a_run_begins_is_said_after_when_it_fails_and_before_why() {
+        let blows_up = verdict("stiff", "semi-implicit-euler", 49);
+        let found = EnergyFinding { change: 0.5, is_conserved: true, spectral_radius: None };
+        let by_energy = Verdict { by_energy: Some(found), ..blows_up.clone() };
+        let gives_up = Verdict { outcome: Outcome::GaveUp, ..blows_up.clone() };
+        let why = &blows_up.failure.as_ref().unwrap().cause;
+        for (verdict, shown) in [
+            (blows_up.clone(), "will blow up at 4.14 s, if run from the start".to_owned()),
+            (
+                blows_up.clone().starting_at(100.0),
+                "will blow up at 104 s, if run from 100 s".into(),
+            ),
+            (by_energy, format!("will blow up at 4.14 s, if run from the start; {found}")),
+            (gives_up, format!("will give up at 4.14 s, if run from the start: {why}")),
+        ] {
+            assert_eq!(format!("{verdict:#}"), shown);
+            assert_eq!(
+                verdict.to_string(),
+                shown.replace(&*format!(", {}", verdict.proviso().unwrap()), "")
+            );
         }
     }
 }

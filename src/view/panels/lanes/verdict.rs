@@ -63,7 +63,8 @@ impl Said {
         let body_name = verdict.body_name.clone().filter(|_| is_named);
         let verdict = Verdict { body_name, ..verdict.clone() };
         let (full, missing) = (verdict.to_string(), verdict.missing_truth());
-        let proviso = verdict.proviso().map(|proviso| with_proviso(&full, &proviso));
+        let fails = matches!(verdict.outcome, Outcome::BlewUp | Outcome::GaveUp);
+        let with_start = fails.then(|| format!("{verdict:#}"));
         let name = verdict.body_name.map(|name| format!(" ({name})")).unwrap_or_default();
         let first = full.split(';').next().unwrap_or_default().to_owned();
         let bare = first.split(" (").next().unwrap_or_default();
@@ -71,7 +72,7 @@ impl Said {
         let outcome = verdict.outcome;
         let said = |wordings: Vec<String>| Self {
             outcome: Some(outcome),
-            wordings: proviso.clone().into_iter().chain(wordings).collect(),
+            wordings: with_start.clone().into_iter().chain(wordings).collect(),
         };
         let shorter = bare.strip_prefix("stable, ").unwrap_or(&bare).to_owned();
         let shortest = format!("{}{name}", outcome.text());
@@ -116,12 +117,6 @@ impl Said {
     }
 }
 
-/// What is said of a method that fails, with where it is run from after when it fails.
-fn with_proviso(said: &str, proviso: &str) -> String {
-    let (when, why) = said.split_at(said.find([';', ':']).unwrap_or(said.len()));
-    format!("{when}, {proviso}{why}")
-}
-
 /// Draws the sign of an outcome: ● is right, ◆ drifts, ▲ gains, ▼ loses, ✕ is lost, a ring is not known.
 fn glyph(ui: &Ui, at: Pos2, outcome: Outcome) {
     let colour = tone(ui, outcome);
@@ -145,25 +140,6 @@ fn glyph(ui: &Ui, at: Pos2, outcome: Outcome) {
                     .map(|end| pos2(at.x + side * end * HALF * 0.9, at.y + end * HALF * 0.9));
                 ui.painter().line_segment(ends, Stroke::new(2.2, colour));
             }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn where_a_run_begins_is_said_after_when_it_fails_and_before_why() {
-        for (said, with) in [
-            ("will blow up at 4.14 s", "will blow up at 4.14 s, if run from 0"),
-            (
-                "will blow up at 1 s; no reference",
-                "will blow up at 1 s, if run from 0; no reference",
-            ),
-            ("will give up at 0 s: it; raise", "will give up at 0 s, if run from 0: it; raise"),
-        ] {
-            assert_eq!(with_proviso(said, "if run from 0"), with);
         }
     }
 }
