@@ -6,6 +6,7 @@
 
 mod action;
 mod analysis;
+mod bisection;
 mod chase;
 mod command;
 mod display;

@@ -2,6 +2,7 @@
 
 use super::run::Run;
 use super::truth::{BodyTruth, Swing};
+use crate::lab::bisection::bisect;
 
 /// The relative frequency error of a lane, positive if it is too fast: over all its turns and over each half of them.
 pub(super) struct FrequencyError {
@@ -57,11 +58,7 @@ fn crossings(series: &[f64], level: f64) -> Vec<Crossing> {
         .map(|k| {
             let y: [f64; 4] = std::array::from_fn(|i| series[k - 1 + i] - level);
             let straight = y[1] / (y[1] - y[2]);
-            let (mut low, mut high) = (0.0, 1.0);
-            for _ in 0..40 {
-                let middle = (low + high) / 2.0;
-                if cubic(&y, middle) < 0.0 { low = middle } else { high = middle }
-            }
+            let [low, _] = bisect([0.0, 1.0], 40, |s| cubic(&y, s) < 0.0);
             Crossing { at: (k + 1) as f64 + low, blur: 0.2 * (low - straight).abs() }
         })
         .collect()

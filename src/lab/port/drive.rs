@@ -2,6 +2,7 @@
 
 use super::{MAX_SUBSTEPS, Setup};
 use crate::lab::Effective;
+use crate::lab::bisection::bisect;
 
 /// The limits of a drive: of an engine's own, or of a force of user code that is held through some ticks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,12 +64,6 @@ fn largest(first: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
             return None;
         }
     }
-    for _ in 0..HALVINGS {
-        let middle = (low + high) / 2.0;
-        match holds(middle) {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
+    let [low, _] = bisect([low, high], HALVINGS, holds);
     Some(low)
 }

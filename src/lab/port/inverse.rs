@@ -1,6 +1,7 @@
 //! The stiffness and damping under which a map shows a spring.
 
 use crate::lab::Effective;
+use crate::lab::bisection::bisect;
 
 /// What is seen of a joint, by its stiffness in 1/s² and damping in 1/s.
 pub(super) type Sees<'a> = &'a dyn Fn([f64; 2]) -> Option<Effective>;
@@ -141,17 +142,16 @@ fn newton(
 pub(super) fn least_damping(sees: Sees, omega: f64) -> Option<(f64, f64)> {
     let at = |s: f64| sees([omega * omega * libm::exp(s), 0.0]);
     let is_fast = |s: f64| at(s).map(|seen| seen.omega >= omega);
-    let (mut low, mut high) = intervals()
+    let (low, high) = intervals()
         .find(|(low, high)| is_fast(*low) == Some(false) && is_fast(*high) == Some(true))?;
-    for _ in 0..HALVED {
-        let middle = (low + high) / 2.0;
-        match is_fast(middle)? {
-            true => high = middle,
-            false => low = middle,
-        }
-    }
-    let seen = at(high)?;
-    Some((omega * omega * libm::exp(high), seen.decay / seen.omega))
+    let mut is_seen = true;
+    let [_, high] = bisect([low, high], HALVED, |s| {
+        let is_fast = is_fast(s);
+        is_seen &= is_fast.is_some();
+        is_fast == Some(false)
+    });
+    let ratio = at(high).filter(|_| is_seen)?.damping_ratio()?;
+    Some((omega * omega * libm::exp(high), ratio))
 }
 
 /// The steps of a search.
@@ -196,16 +196,9 @@ fn least_stiff(sees: Sees, wanted: &Effective, best: Found) -> Found {
     let [stiffness, damping] = best.joint;
     let joint = |s: f64| [stiffness * libm::exp(s), damping];
     let is_same = |s: f64| sees(joint(s)) == Some(best.seen);
-    let (mut low, mut high) = (SPAN[0] - SPAN[1], 0.0);
     if !is_same(-1e-3) {
         return best;
     }
-    for _ in 0..HALVED {
-        let middle = (low + high) / 2.0;
-        match is_same(middle) {
-            true => high = middle,
-            false => low = middle,
-        }
-    }
+    let [_, high] = bisect([SPAN[0] - SPAN[1], 0.0], HALVED, |s| !is_same(s));
     found(sees, wanted, joint(high)).unwrap_or(best)
 }

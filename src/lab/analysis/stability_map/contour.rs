@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Coverage, Region};
+use crate::lab::bisection::bisect;
 
 /// Halvings of the distance between two points of the grid: a boundary is found to a five-hundredth of it, which is
 /// less than a pixel of a map that fills a screen.
@@ -105,11 +106,7 @@ pub(super) fn contour(
 
 /// Where the condition changes between `from`, where it is `holds`, and `to`.
 fn between(from: f64, to: f64, holds: bool, holds_at: impl Fn(f64) -> bool) -> f64 {
-    let [mut from, mut to] = [from, to];
-    for _ in 0..HALVINGS {
-        let middle = (from + to) / 2.0;
-        if holds_at(middle) == holds { from = middle } else { to = middle }
-    }
+    let [from, to] = bisect([from, to], HALVINGS, |at| holds_at(at) == holds);
     (from + to) / 2.0
 }
 

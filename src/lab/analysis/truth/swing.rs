@@ -2,6 +2,7 @@
 
 use super::{BodyTruth, Moment};
 use crate::lab::analysis::survey::follow_truth;
+use crate::lab::bisection::bisect;
 use crate::sim::Solver;
 
 /// A crossing slower than this part of the largest speed does not count as a swing.
@@ -72,10 +73,6 @@ impl BodyTruth {
 
 /// The time in seconds at which coordinate `i` crosses `level` between two moments.
 fn crossing(from: &Moment, to: &Moment, i: usize, level: f64) -> f64 {
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..50 {
-        let middle = (low + high) / 2.0;
-        if from.between(to, i, middle) < level { low = middle } else { high = middle }
-    }
+    let [low, _] = bisect([0.0, 1.0], 50, |part| from.between(to, i, part) < level);
     from.t + low * (to.t - from.t)
 }

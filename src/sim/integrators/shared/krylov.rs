@@ -168,7 +168,8 @@ fn assign_sum(to: &mut [f64], x: &[f64], times: f64) {
     to.iter_mut().zip(x).for_each(|(to, x)| *to = x + times * *to);
 }
 
-fn add(to: &mut [f64], times: f64, x: &[f64]) {
+/// `to += times x`
+pub(super) fn add(to: &mut [f64], times: f64, x: &[f64]) {
     to.iter_mut().zip(x).for_each(|(to, x)| *to += times * x);
 }
 

@@ -4,7 +4,7 @@
 //! [few](Coupling::Few) coordinates at any index act on each it is never formed: its equations are solved by iteration.
 //! All that a method learns of the derivatives of a force is [slopes](Slopes) along directions.
 
-use super::krylov::Krylov;
+use super::krylov::{Krylov, add};
 use super::lu::StageLu;
 use super::slopes::{Forward, Slopes};
 use super::stages::Stages;
@@ -261,10 +261,6 @@ pub(super) fn alternate<V: Vector>(x: &mut V, distance: f64) {
     for (i, x) in x.components_mut().iter_mut().enumerate() {
         *x = if i / 2 % 2 == 0 { distance } else { -distance };
     }
-}
-
-fn add(to: &mut [f64], times: f64, x: &[f64]) {
-    to.iter_mut().zip(x).for_each(|(to, x)| *to += times * x);
 }
 
 #[cfg(test)]
