@@ -18,6 +18,7 @@ mod search;
 pub use candidates::Candidate;
 use decision::{Decision, decide};
 pub use effective::Effective;
+pub(super) use effective::SLOW;
 use fit::Fit;
 pub use logged::{Columns, Log, LogError, LogRow};
 pub use logged_body::LoggedBody;

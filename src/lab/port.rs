@@ -124,8 +124,8 @@ impl Wish {
 
     /// The wish for what is seen of a spring on this mass in kg.
     pub fn of(seen: Effective, mass_kg: f64) -> Self {
-        let damping_ratio = seen.decay / seen.omega;
-        Self { frequency_hz: seen.omega / std::f64::consts::TAU, damping_ratio, mass_kg }
+        let damping_ratio = seen.damping_ratio().unwrap_or(0.0);
+        Self { frequency_hz: seen.undamped_hz(), damping_ratio, mass_kg }
     }
 }
 

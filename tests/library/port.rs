@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use regatta::lab::{
     Approach, Ported, Reach, Setup, Wish, WishError, drive_limits, followers, port, setups,
 };
-use regatta::sim::integrators::{integrator, method};
+use regatta::sim::integrators::{Family, METHODS, integrator, method};
 use regatta::sim::{Pursuit, Question, State, System, least_squares};
 
 use crate::dice::Dice;
@@ -291,6 +291,9 @@ fn every_follower_halves_the_distance_in_the_same_time_at_every_rate_of_frames()
     assert!((approach.rate() - 6.3216).abs() < 1e-4);
     let ports = followers(approach, Some(60.0));
     assert_eq!(ports.len(), 6 * 5);
+    for method in METHODS.iter().filter(|method| method.family == Family::Follower) {
+        assert!(ports.iter().any(|port| port.method == method), "{} has no setting", method.id);
+    }
     for port in ports {
         let seconds = 8.0 * approach.half_life_s;
         let frames = (seconds * port.fps).round();

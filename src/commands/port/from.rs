@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::engine;
 use crate::lab::{Approach, MOST_SUBSTEPS, Setup, Wish};
-use crate::sim::integrators::{JointMode, Method};
+use crate::sim::integrators::{JointMode, Method, Setting};
 
 /// Where a wish comes from.
 pub(super) enum From {
@@ -106,7 +106,7 @@ fn of_engine(
         return Err(format!("{} has no {keys}; it has {known}", method.id));
     };
     let [stiffness, damping] = mode.settings();
-    let value = |setting: crate::sim::integrators::Setting| {
+    let value = |setting: Setting| {
         let given = values.iter().find(|(key, _)| *key == setting.name);
         given.map(|(_, value)| with_unit(value, setting.quantity.unit())).transpose()
     };

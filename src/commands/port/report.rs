@@ -9,9 +9,9 @@ use crate::lab::{Approach, DriveLimits, Effective, FollowerPort, Ported, Reach, 
 
 /// A frequency, a damping ratio and how long the energy lasts.
 fn sees(seen: &Effective) -> String {
-    let ratio = seen.decay / seen.omega;
+    let ratio = seen.damping_ratio().unwrap_or(0.0);
     let ratio = if ratio.abs() < 5e-7 { 0.0 } else { ratio };
-    let hz = seen.omega / std::f64::consts::TAU;
+    let hz = seen.undamped_hz();
     let mut said = format!("{} Hz, damping ratio {}", significant(hz, 4), significant(ratio, 3));
     match seen.frequency_hz() {
         Some(swings) if (swings / hz - 1.0).abs() > 1e-3 => {
@@ -29,8 +29,8 @@ fn sees(seen: &Effective) -> String {
 
 fn seen_object(seen: &Effective) -> Value {
     json!({
-        "frequency_hz": seen.omega / std::f64::consts::TAU,
-        "damping_ratio": seen.decay / seen.omega,
+        "frequency_hz": seen.undamped_hz(),
+        "damping_ratio": seen.damping_ratio(),
         "swings_hz": seen.frequency_hz(),
         "energy_halves_s": seen.energy_halves_s(),
     })
@@ -150,8 +150,8 @@ fn missed(wish: &Wish, ported: &Ported) -> Option<String> {
             Some(said)
         }
         _ => {
-            let off = 100.0 * (ported.sees.omega / std::f64::consts::TAU / wish.frequency_hz - 1.0);
-            let ratio = ported.sees.decay / ported.sees.omega - wish.damping_ratio;
+            let off = 100.0 * (ported.sees.undamped_hz() / wish.frequency_hz - 1.0);
+            let ratio = ported.sees.damping_ratio().unwrap_or(0.0) - wish.damping_ratio;
             Some(format!("missed: frequency by {off:+.3} %, damping ratio by {ratio:+.4}"))
         }
     }

@@ -21,7 +21,7 @@ const TICKS: u64 = 400;
 /// The fewest of these that are read.
 const LEAST_TICKS: usize = 6;
 /// Where such a run starts, in metres and in metres per second.
-const SLOW: f64 = 1e-6;
+pub(in crate::lab) const SLOW: f64 = 1e-6;
 /// How far it is read, in the same units: engines limit a body only at far higher speeds.
 const FAST: f64 = 1e-2;
 /// The part of the square of the angular frequency below which nothing is seen to swing.
@@ -32,6 +32,11 @@ impl Effective {
     pub fn frequency_hz(&self) -> Option<f64> {
         let square = self.omega * self.omega - self.decay * self.decay;
         (square > NO_SWING * self.omega * self.omega).then(|| square.sqrt() / std::f64::consts::TAU)
+    }
+
+    /// The frequency at which it would swing without its damping, in hertz; 0 without a spring.
+    pub fn undamped_hz(&self) -> f64 {
+        self.omega / std::f64::consts::TAU
     }
 
     /// The damping ratio; negative if energy is gained; `None` without a spring.

@@ -11,7 +11,7 @@ pub struct Approach {
     pub half_life_s: f64,
 }
 
-/// The setting of a follower for a approach.
+/// The setting of a follower for an approach.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FollowerPort {
     /// The follower.

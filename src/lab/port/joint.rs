@@ -4,13 +4,13 @@ use super::{Setup, setups};
 use crate::lab::{Action, Lab};
 use crate::sim::BodyClass;
 
-/// A spring, by the places and the values of its parameters.
+/// A spring, by the indices and the values of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpringJoint {
-    /// Its body's place in the scene.
+    /// The index of its body in the scene.
     pub body: usize,
-    /// Where the mass, the stiffness and the damping are among the parameters of the body.
-    places: [usize; 3],
+    /// The indices of mass, stiffness and damping among the parameters of the body.
+    indices: [usize; 3],
     /// The mass in kg.
     pub mass_kg: f64,
     /// Stiffness in 1/s² and damping in 1/s, each per unit of mass.
@@ -28,7 +28,7 @@ impl SpringJoint {
         let joint = setup.mode.joint(values, self.mass_kg);
         [0, 1].map(|i| Action::Set {
             body: self.body,
-            parameter: self.places[i + 1],
+            parameter: self.indices[i + 1],
             value: joint[i] * self.mass_kg,
         })
     }
@@ -39,11 +39,11 @@ impl Lab {
     pub fn spring_joint(&self, body: usize) -> Option<SpringJoint> {
         let kind = &self.scene().bodies[body].kind;
         let [mass, stiffness, damping] = KEYS.map(|key| Some(kind.parameter(key)?.0));
-        let places = [mass?, stiffness?, damping?];
-        let [mass_kg, stiffness, damping] = places.map(|place| self.race().values(body)[place]);
+        let indices = [mass?, stiffness?, damping?];
+        let [mass_kg, stiffness, damping] = indices.map(|index| self.race().values(body)[index]);
         let is_joint = kind.class == BodyClass::Joint && stiffness > 0.0;
         let joint = [stiffness / mass_kg, damping / mass_kg];
-        is_joint.then_some(SpringJoint { body, places, mass_kg, joint })
+        is_joint.then_some(SpringJoint { body, indices, mass_kg, joint })
     }
 
     /// Every mode of every engine, at the race's tick rate.
@@ -51,7 +51,7 @@ impl Lab {
         setups(None, f64::from(self.race().tick_hz()), None)
     }
 
-    /// The lines of code that tell the engine at this place of the list the displayed body's spring. `None` if it is no
+    /// The lines of code that tell the engine with this index in the list the displayed body's spring. `None` if it is no
     /// engine with a joint, or the body no spring.
     pub fn joint_code(&self, entry: usize) -> Option<String> {
         let spring = self.spring_joint(self.display().body)?;

@@ -1,6 +1,6 @@
 //! What a player sees of a spring in an engine, read off the map of its tick.
 
-use crate::lab::identify::{Candidate, Effective, LoggedBody, run};
+use crate::lab::identify::{Candidate, Effective, LoggedBody, SLOW, run};
 use crate::sim::integrators::{JointMode, Method};
 
 /// How an engine is told a spring, and how often it ticks.
@@ -19,8 +19,6 @@ pub struct Setup {
 /// A map of coordinate and velocity: rows of a matrix.
 pub(super) type Map = [[f64; 2]; 2];
 
-/// Where the runs of a map start, in metres and metres per second: so low that no engine limits the speed.
-const SMALL: f64 = 1e-6;
 /// Iterations of Newton on the eigenvalue that a memory adds; it is near 0, and three are enough.
 const ITERATIONS: u32 = 20;
 
@@ -62,7 +60,7 @@ impl Setup {
             }
         };
         let from = |start| run(candidate, &body, start, tick_s, (0..=ticks).map(|i| i * every));
-        columns(&from([SMALL, 0.0])?, &from([0.0, SMALL])?)
+        columns(&from([SLOW, 0.0])?, &from([0.0, SLOW])?)
     }
 
     /// The map of `ticks` ticks through which user code holds the spring's force.
@@ -73,7 +71,7 @@ impl Setup {
             let body = LoggedBody { spring: Some([0.0; 2]), drag: 0.0, push };
             run(candidate, &body, start, 1.0 / tick_hz, [0, u64::from(ticks)].into_iter())
         };
-        let free = columns(&after([SMALL, 0.0], 0.0)?, &after([0.0, SMALL], 0.0)?)?;
+        let free = columns(&after([SLOW, 0.0], 0.0)?, &after([0.0, SLOW], 0.0)?)?;
         // What a force of 1 N/kg that is held does to a body at rest.
         let pushed = *after([0.0; 2], 1.0)?.last()?;
         let row =
@@ -96,7 +94,7 @@ impl Setup {
 
 /// The maps whose columns are these runs, without their starts.
 fn columns(first: &[[f64; 2]], second: &[[f64; 2]]) -> Option<Vec<Map>> {
-    let map = |(a, b): (&[f64; 2], &[f64; 2])| [0, 1].map(|i| [a[i] / SMALL, b[i] / SMALL]);
+    let map = |(a, b): (&[f64; 2], &[f64; 2])| [0, 1].map(|i| [a[i] / SLOW, b[i] / SLOW]);
     let maps: Vec<Map> = first.iter().zip(second).skip(1).map(map).collect();
     maps.iter().flatten().flatten().all(|x| x.is_finite()).then_some(maps)
 }

@@ -20,9 +20,9 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Comma
         let name = |setup: &Setup| format!("{}, {}", setup.method.name, setup.mode.id);
         let menu = ComboBox::from_id_salt("engine").selected_text(name(&setups[chosen]));
         let menu = menu.width(ui.available_width() - 8.0).show_ui(ui, |ui| {
-            for (place, setup) in setups.iter().enumerate() {
-                if ui.selectable_label(place == chosen, name(setup)).clicked() {
-                    ui.data_mut(|data| data.insert_temp(id, place));
+            for (index, setup) in setups.iter().enumerate() {
+                if ui.selectable_label(index == chosen, name(setup)).clicked() {
+                    ui.data_mut(|data| data.insert_temp(id, index));
                 }
             }
         });
@@ -30,23 +30,23 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Comma
         menu.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &about));
         let setup = setups[chosen];
         let values = setup.mode.values(spring.joint, spring.mass_kg);
-        for (place, (setting, value)) in setup.mode.settings().into_iter().zip(values).enumerate() {
+        for (index, (setting, value)) in setup.mode.settings().into_iter().zip(values).enumerate() {
             let unit = setting.quantity.unit();
             let field = Field {
-                id: ui.scope_id().with((chosen, place)),
+                id: ui.scope_id().with((chosen, index)),
                 value,
                 unit,
                 name: &format!("{} of {}", setting.name, setup.method.name),
                 is_whole: false,
             };
-            let least = if place == 0 { "above 0" } else { "0 or more" };
-            let check = |value: f64| match value > 0.0 || place == 1 && value == 0.0 {
+            let least = if index == 0 { "above 0" } else { "0 or more" };
+            let check = |value: f64| match value > 0.0 || index == 1 && value == 0.0 {
                 true => Ok(()),
                 false => Err(format!("{} must be {least}", setting.name)),
             };
             line(ui, setting.name, "in the engine's own name and unit", |ui, [room, _]| {
                 let (_, entered) = field.show(ui, vec2(room, LINE), check);
-                let set = |value| spring.set(setup, place, value).map(Command::Act);
+                let set = |value| spring.set(setup, index, value).map(Command::Act);
                 commands.extend(entered.map(set).into_iter().flatten());
             });
             Field::show_fault(field.id, ui);
@@ -55,7 +55,7 @@ pub(super) fn show(ui: &mut Ui, lab: &Lab, body: usize, commands: &mut Vec<Comma
         let substeps = lane.map_or(setup.substeps, |spec| spec.substeps);
         let seen = Setup { substeps, ..setup }.sees(spring.joint);
         let seen = seen.map_or("a player sees no swing".to_owned(), |seen| {
-            let [hz, ratio] = [seen.omega / std::f64::consts::TAU, seen.decay / seen.omega];
+            let [hz, ratio] = [seen.undamped_hz(), seen.damping_ratio().unwrap_or(0.0)];
             let [hz, ratio] = [hz, ratio].map(|number| significant(number, 3));
             format!("×{substeps}: a player sees {hz} Hz, damping ratio {ratio}")
         });
