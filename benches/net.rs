@@ -1,4 +1,4 @@
-//! How many nodes of a net are stepped in a second: `cargo bench --no-default-features --bench net`.
+//! How many nodes of a net are stepped in a second: `cargo bench --no-default-features --features lab --bench net`.
 
 use std::time::{Duration, Instant};
 

@@ -40,7 +40,7 @@
 //!
 //! Each layer is a feature that has those below it. `view`, `window` and `commands` are there with the default feature
 //! `desktop`. `lab` alone pulls in no graphics crate: what a game's own tests want. Without any feature the package is
-//! `sim`, which needs two crates: what a game's loop wants.
+//! `sim` without its [`bodies`](sim::bodies) and [`law`](sim::law)s, and needs two crates: what a game's loop wants.
 //!
 //! # A frame
 //!

@@ -1,6 +1,6 @@
 //! What a game's loop needs, in one import, with [`glam`] in the version whose vectors the systems use.
 //!
-//! With the feature `lab` it also has scenes, races and verdicts.
+//! With the feature `lab` it also has bodies, scenes, races and verdicts.
 
 pub use glam;
 
@@ -11,10 +11,14 @@ pub use crate::lab::{
     Adviser, CRITERIA, Judge, Lane, LaneSpec, METRICS, Options, Race, Report, SCENES, Scene,
     Session, Verdict,
 };
-pub use crate::sim::bodies::{BODIES, Body, Extras, Input, ParameterOf, Range};
+#[cfg(feature = "lab")]
+pub use crate::sim::bodies::{BODIES, Extras};
 pub use crate::sim::integrators::{
     Family, Integrator, METHODS, Method, StepFailure, integrator, method, own_integrator,
 };
-pub use crate::sim::{Clock, Due, Elementwise, Solver, State, Stepper, System, Vector, stepper};
+pub use crate::sim::{
+    Body, Clock, Due, Elementwise, Input, ParameterOf, Range, Solver, State, Stepper, System,
+    Vector, stepper,
+};
 #[cfg(feature = "desktop")]
 pub use crate::window::Window;

@@ -4,21 +4,30 @@
 //! uses only `+ - × ÷ √` and `libm`, so that the same inputs give the same bits on every platform,
 //! in every build profile.
 
+#![cfg_attr(
+    not(feature = "lab"),
+    allow(dead_code, reason = "what bodies and their truths use of it is there with them")
+)]
+
 mod accumulator;
+#[cfg(feature = "lab")]
 pub mod bodies;
 mod body;
 mod body_stepper;
 mod clock;
 #[cfg(feature = "lab")]
 pub mod conformance;
+#[cfg(feature = "lab")]
 mod curve;
 mod double_double;
 mod exact_flow;
 mod exact_since_start;
 pub mod integrators;
+#[cfg(feature = "lab")]
 pub mod law;
 #[cfg(feature = "lab")]
 mod least_squares;
+#[cfg(feature = "lab")]
 mod net_plan;
 pub mod number;
 mod parameter;
@@ -32,15 +41,19 @@ mod state;
 mod stepper;
 mod system;
 mod vec_system;
+#[cfg(feature = "lab")]
 mod xor_shift;
 
 #[cfg(feature = "lab")]
 pub(crate) use accumulator::most_ticks;
 pub use accumulator::{Accumulator, Due, LONGEST_FRAME_MS};
+pub use body::{Body, Input};
 pub use body_stepper::stepper;
 pub use clock::Clock;
 #[cfg(feature = "lab")]
 pub use least_squares::least_squares;
+pub use parameter::{Acts, Fault, LARGEST, MAX_POINTS, Parameter, ParameterOf, Range, Text};
+pub use piece::{Distances, MAX_SWITCHES, NO_BOUNDARIES, Piece};
 pub use reference::{MAX_REFERENCE_WORK, REFERENCE_ACCURACY};
 pub use solver::Solver;
 pub use state::{Elementwise, State, Vector};

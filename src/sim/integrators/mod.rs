@@ -61,6 +61,7 @@ mod velocity_verlet;
 mod verlet_exact_drag;
 mod yoshida4;
 
+#[cfg(feature = "lab")]
 pub(in crate::sim) use card::LAW_ORDER;
 pub use card::{DAMPING_RATIOS, Engine, Family, Method, Needs, Only};
 pub use engine::{EngineMethod, Rule, Tick};
