@@ -106,7 +106,7 @@ pub enum Command {
     CloseDialog,
     /// Shows or hides the exact ghost.
     ToggleGhost,
-    /// The next way of drawing between ticks: raw, linear, Hermite.
+    /// The next [way](super::Interpolation::ALL) of drawing between ticks.
     NextInterpolation,
     /// Race: lanes over each other, or side by side.
     ToggleArrangement,

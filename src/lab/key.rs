@@ -186,7 +186,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "I",
-        about: "drawing between ticks: raw / extrapolated / linear / Hermite",
+        about: "drawing between ticks: raw / extrapolated / linear / Hermite / monotone Hermite",
         keys: &[(Key::Sign('i'), Command::NextInterpolation)],
         repeats: false,
     },

@@ -80,7 +80,7 @@ impl Viewer {
         Self {
             display: Display {
                 ghost: true,
-                interpolation: Interpolation::Hermite,
+                interpolation: Interpolation::default(),
                 instrument: Instrument::Motion,
                 quantity: Quantity::default(),
                 coordinates: Vec::new(),

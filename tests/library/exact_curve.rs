@@ -129,7 +129,7 @@ fn the_ghost_is_the_exact_motion_at_the_moment_of_the_lanes_however_they_are_dra
             assert!((x - exact).abs() < 1e-3, "frame {frame}: {x} m, truly {exact} m");
             reach = (reach.0.min(x), reach.1.max(x));
         }
-        assert_eq!(lab.display().interpolation, Interpolation::Hermite);
+        assert_eq!(lab.display().interpolation, Interpolation::Monotone);
         assert!((lab.shown_s() - moment_s).abs() < 1e-12, "frame {frame}");
     }
     assert!(reach.0 < -0.99 && reach.1 > 0.99, "{reach:?}");

@@ -35,8 +35,10 @@ impl Lab {
     pub(super) fn run_on(&mut self) {
         // Where bodies are drawn a tick late, the tick reached is shown when the next one is due.
         match self.display().interpolation {
-            Interpolation::Linear | Interpolation::Hermite => self.clock.fill(),
             Interpolation::Raw | Interpolation::Extrapolated => self.clock.restart(),
+            Interpolation::Linear | Interpolation::Hermite | Interpolation::Monotone => {
+                self.clock.fill();
+            }
         }
     }
 }

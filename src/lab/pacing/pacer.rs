@@ -63,7 +63,7 @@ impl Pacer {
     pub fn shown(&self) -> i128 {
         match self.card.drawing {
             Interpolation::Raw => self.simulated,
-            Interpolation::Linear | Interpolation::Hermite => {
+            Interpolation::Linear | Interpolation::Hermite | Interpolation::Monotone => {
                 self.simulated - self.base.tick() + self.policy.owed()
             }
             Interpolation::Extrapolated => self.simulated + self.policy.owed(),
