@@ -102,17 +102,45 @@ impl Goal {
 }
 
 /// A person's way through the stops.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tour {
     stop: usize,
     guess: Option<usize>,
     is_done: bool,
+    before: Chosen,
+}
+
+/// What a person chose to see before the guide, of what its stops set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Chosen {
+    quantity: Quantity,
+    metric: usize,
+    interpolation: Interpolation,
+}
+
+impl Chosen {
+    pub(super) fn of(display: &Display) -> Self {
+        let &Display { quantity, metric, interpolation, .. } = display;
+        Self { quantity, metric, interpolation }
+    }
+
+    /// Shows this again.
+    pub(super) fn restore(self, display: &mut Display) {
+        display.quantity = self.quantity;
+        display.metric = self.metric;
+        display.interpolation = self.interpolation;
+    }
 }
 
 impl Tour {
     /// At this stop, with nothing done there.
-    pub(super) fn at(stop: usize) -> Self {
-        Self { stop: stop.min(STOPS.len() - 1), ..Self::default() }
+    pub(super) fn at(stop: usize, before: Chosen) -> Self {
+        Self { stop: stop.min(STOPS.len() - 1), guess: None, is_done: false, before }
+    }
+
+    /// What the person chose to see before the guide was opened.
+    pub(super) fn before(&self) -> Chosen {
+        self.before
     }
 
     /// The stop.

@@ -2,7 +2,7 @@
 
 use super::Lab;
 use crate::lab::command::Command;
-use crate::lab::guide::{Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
+use crate::lab::guide::{Chosen, Goal, Hints, STOPS, Situation, Stop, Tour, suits_race};
 use crate::lab::interpolation::Interpolation;
 use crate::lab::journal::Source;
 use crate::lab::metrics::METRICS;
@@ -54,18 +54,25 @@ impl Lab {
 
     /// Opens the guide where it was left, or closes it.
     pub(super) fn toggle_guide(&mut self) {
-        match self.viewer.tour.take() {
-            Some(tour) => self.viewer.left_at = tour.place(),
-            None => self.go_to_stop(self.viewer.left_at),
+        if !self.close_guide() {
+            self.go_to_stop(self.viewer.left_at);
         }
     }
 
     /// Closes the guide, as what it tells of is no longer shown.
     pub(super) fn leave_guide(&mut self) {
-        if let Some(tour) = self.viewer.tour.take() {
-            self.viewer.left_at = tour.place();
+        if self.close_guide() {
             self.set_notice("the guide is closed: F2 opens it where you left it");
         }
+    }
+
+    /// Closes the guide and shows again what the person chose before it. Scene, run and instrument stay: they are in sight.
+    /// Returns whether the guide was open.
+    fn close_guide(&mut self) -> bool {
+        let Some(tour) = self.viewer.tour.take() else { return false };
+        self.viewer.left_at = tour.place();
+        tour.before().restore(&mut self.viewer.display);
+        true
     }
 
     /// Opens the stop this many further on, if the guide is open and has one.
@@ -78,9 +85,10 @@ impl Lab {
     /// Opens this stop of the guide: its scene from the start under its method and rate, and its instrument. Time runs,
     /// unless a person is to step.
     pub(super) fn go_to_stop(&mut self, place: usize) {
-        let tour = Tour::at(place);
+        let display = &self.viewer.display;
+        let before = self.viewer.tour.take().map_or_else(|| Chosen::of(display), |t| t.before());
+        let tour = Tour::at(place, before);
         let Stop { scene, method, tick_hz, mode, instrument, quantity, goal, .. } = *tour.stop();
-        self.viewer.tour = None;
         let listed = SCENES.iter().position(|built_in| built_in.name == scene);
         self.open(listed.expect("a stop names a built-in scene"));
         let method = self.entries().iter().position(|spec| spec.method.id == method);
@@ -93,7 +101,7 @@ impl Lab {
         self.viewer.display.instrument = instrument;
         self.viewer.display.quantity = quantity;
         self.viewer.display.metric = error_of(quantity);
-        self.viewer.display.interpolation = Interpolation::Hermite;
+        self.viewer.display.interpolation = Interpolation::default();
         self.viewer.tour = Some(tour);
     }
 
@@ -125,6 +133,28 @@ fn error_of(quantity: Quantity) -> usize {
 mod tests {
     use super::*;
     use crate::lab::{Key, Scene, command_for};
+
+    #[test]
+    fn what_a_stop_sets_without_saying_so_is_undone_when_the_guide_is_left() {
+        let chosen = |lab: &Lab| {
+            let display = lab.display();
+            (display.quantity, display.metric, display.interpolation)
+        };
+        for (close, stops) in
+            [(Command::Escape, 1), (Command::ToggleGuide, 4), (Command::NextScene, 14)]
+        {
+            let mut lab = Lab::new(Scene::built_in("spring").unwrap());
+            lab.apply(Command::Metric(METRICS.len() - 1));
+            lab.apply(Command::NextInterpolation);
+            let before = chosen(&lab);
+            lab.apply(Command::ToggleGuide);
+            (0..stops).for_each(|_| _ = lab.apply(Command::NextStop));
+            assert_ne!(chosen(&lab), before);
+            lab.apply(Command::NextInterpolation);
+            lab.apply(close.clone());
+            assert!(lab.viewer.tour.is_none() && chosen(&lab) == before, "{close:?}");
+        }
+    }
 
     #[test]
     fn keys_go_through_the_stops_of_the_open_guide_both_ways_and_stay_at_its_ends() {
