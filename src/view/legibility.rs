@@ -352,6 +352,31 @@ fn one_step_far_out_the_stability_map_and_the_times_of_ticks_can_be_read() {
 }
 
 #[test]
+fn large_energies_can_be_read_beside_their_names() {
+    let mut lab = run("stiff", true);
+    lab.apply(Command::ToggleEqualCost);
+    lab.apply(Command::Pick(1));
+    lab.apply(Command::Instrument(Instrument::Energy));
+    (0..8 * 60).for_each(|_| lab.tick());
+    assert_legible(&lab, "the energies");
+    let mut longest = 0;
+    for _ in 0..60 {
+        lab.tick();
+        let texts = texts(&lab, SIZES[1]);
+        let name = texts.iter().find(|text| text.words == "2 potential").expect("it has a value");
+        let is_value =
+            |text: &&Text| text.words.ends_with(" J") && text.rect.left() > name.rect.left();
+        let row = name.rect.center().y;
+        let value = texts.iter().filter(is_value).find(|text| text.rect.y_range().contains(row));
+        let value = value.expect("beside it");
+        longest = longest.max(value.words.len());
+        let gap = value.rect.left() - name.rect.right();
+        assert!(gap > 6.0, "{:?} is {gap} points from its name", value.words);
+    }
+    assert!(longest > 6, "{longest}");
+}
+
+#[test]
 fn every_text_of_this_windows_own_loop_can_be_read() {
     let mut lab = run("spring", false);
     lab.apply(Command::Instrument(Instrument::Loop));

@@ -24,8 +24,8 @@ const PARTS: [Part; 3] = [
 pub(super) fn sheet(lab: &Lab) -> Sheet {
     let body = lab.display().body;
     let drift = METRICS.iter().position(|metric| metric.id == "energy_drift");
-    let drift = drift
-        .map(|place| error::plot(lab, body, place, "Energy drift, % of the swing's energy".into()));
+    let drift =
+        drift.map(|place| error::plot(lab, body, place, "share of the swing's energy".into()));
     let energies = energies(lab, body);
     let conserves = !energies.exact.iter().all(|line| line.times.is_empty());
     // Why there is no drift is said only where there is no energy either.
@@ -50,7 +50,7 @@ fn energies(lab: &Lab, body: usize) -> PlotModel {
     let y = ranges::around_truth(range, &Track::fitted(lab, &tracks), 1, healthy(lab));
     PlotModel {
         id: format!("energies of {body}"),
-        title: "total solid, kinetic dashed, potential dotted".into(),
+        title: "kinetic dashed, potential dotted".into(),
         body,
         axes: [PlotAxis::time(), PlotAxis::new("energy", "J", AxisScale::Linear)],
         fit: over_time(lab, y),

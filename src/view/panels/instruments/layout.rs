@@ -11,7 +11,7 @@ pub(super) const NUMBER: f32 = 11.5;
 pub(super) const WORDS: f32 = 12.5;
 /// Room at the right for values, in points, and for those that have names.
 const RIGHT: f32 = 92.0;
-const RIGHT_OF_PARTS: f32 = 124.0;
+const RIGHT_OF_PARTS: f32 = 156.0;
 /// The least width of a plot that has values beside it, in points.
 const ROOM_FOR_VALUES: f32 = 170.0;
 /// The height of a plot's title, of the numbers below the lowest plot, and of the axis's name, in points.
