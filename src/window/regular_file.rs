@@ -36,7 +36,7 @@ impl Unreadable {
     }
 }
 
-/// The bytes of a regular file of at most `max_bytes`.
+/// The bytes of a regular file of at most `max_bytes`: none of a file whose length is 0.
 pub(crate) fn read(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unreadable> {
     let bytes = read_start(path, max_bytes.saturating_add(1))?;
     if bytes.len() > max_bytes {
@@ -50,7 +50,12 @@ pub(crate) fn read_start(path: &Path, max_bytes: usize) -> Result<Vec<u8>, Unrea
     // Before it is opened: opening a pipe waits for its other end.
     check(&path.metadata()?)?;
     let file = File::open(path)?;
-    check(&file.metadata()?)?;
+    let found = file.metadata()?;
+    check(&found)?;
+    // What says that it is empty may be the kernel's, as /proc/kmsg is, and reading it could wait for ever too.
+    if found.len() == 0 {
+        return Ok(Vec::new());
+    }
     let mut bytes = Vec::new();
     file.take(max_bytes as u64).read_to_end(&mut bytes)?;
     Ok(bytes)
@@ -78,6 +83,14 @@ mod tests {
         assert!(matches!(read(&path, 3), Err(Unreadable::TooLarge { max_bytes: 3 })));
         assert!(matches!(read(folder.path(), 4), Err(Unreadable::Directory)));
         assert!(read(&folder.path().join("b"), 4).unwrap_err().is_missing());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn of_a_file_that_tells_no_length_nothing_is_read() {
+        let path = Path::new("/proc/version");
+        assert!(path.is_file() && !std::fs::read(path).unwrap().is_empty());
+        assert_eq!(read(path, 4).unwrap(), b"");
     }
 
     #[cfg(unix)]
