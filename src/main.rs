@@ -5,7 +5,6 @@ use std::io::{self, Write};
 use std::panic::{self, PanicHookInfo};
 use std::process::ExitCode;
 
-use clap::Parser;
 use regatta::commands::{self, Cli};
 
 /// The libraries below us speak of errors only, and EGL not at all: it tries drivers that are not there,
@@ -20,7 +19,7 @@ fn main() -> ExitCode {
 }
 
 fn run() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let cli = match Cli::read(std::env::args_os()) {
         Ok(cli) => cli,
         Err(answer) => {
             // Help and version come this way too. A closed pipe is no reason to complain.

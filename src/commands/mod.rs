@@ -8,6 +8,9 @@
 //! into a folder, a stream or a sheet; and what all of them share. Each error type is declared beside the
 //! code that raises it, and gives the exit code as a [`Cause`].
 
+use std::ffi::OsString;
+
+use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 
 mod advise;
@@ -70,6 +73,8 @@ pub use terminal::{stderr_renderer, tell};
 use trace::TraceArgs;
 use verify::VerifyArgs;
 
+use crate::lab::clip as shortened;
+
 const EXAMPLES: &str = "\
 Examples:
   regatta                                          open the harbour under explicit Euler
@@ -100,6 +105,31 @@ pub struct Cli {
     command: Option<Command>,
     #[command(flatten)]
     play: PlayArgs,
+}
+
+/// The most bytes of an argument: more than a path has. Messages quote arguments.
+const MAX_ARGUMENT_BYTES: usize = 4096;
+
+impl Cli {
+    /// Reads a command line, the program's name first.
+    ///
+    /// # Errors
+    ///
+    /// What is to be shown in place of running it: a mistake, or the help or version that it asks for.
+    pub fn read(arguments: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        let arguments: Vec<OsString> = arguments.into_iter().collect();
+        let long =
+            (1..).zip(arguments.iter().skip(1)).find(|(_, one)| one.len() > MAX_ARGUMENT_BYTES);
+        if let Some((place, long)) = long {
+            let message = format!(
+                "argument {place} has {} bytes, and the most are {MAX_ARGUMENT_BYTES}; give a file in place of \"{}\"\n",
+                long.len(),
+                shortened(&long.to_string_lossy()),
+            );
+            return Err(Self::command().error(ErrorKind::InvalidValue, message));
+        }
+        Self::try_parse_from(arguments)
+    }
 }
 
 #[derive(Debug, Subcommand)]

@@ -1,4 +1,4 @@
-//! Shortens a file's text for messages.
+//! Shortens the text of a file or of an argument for messages.
 
 /// The most characters of a file's text in one message, so that it stays a line.
 const MOST_QUOTED_CHARS: usize = 40;
@@ -6,8 +6,8 @@ const MOST_QUOTED_CHARS: usize = 40;
 /// The most characters of a list of names from a file, such as a header.
 const MOST_LISTED_CHARS: usize = 200;
 
-/// Text of a file for a message: shortened, and without control characters.
-pub(in crate::lab) fn clip(text: &str) -> String {
+/// Text for a message: shortened, and without control characters.
+pub(crate) fn clip(text: &str) -> String {
     clip_to(MOST_QUOTED_CHARS, text)
 }
 

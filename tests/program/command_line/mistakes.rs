@@ -209,6 +209,24 @@ fn a_message_quotes_a_line_of_a_file_and_no_megabytes() {
 }
 
 #[test]
+fn an_argument_longer_than_any_path_is_refused_in_a_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let long = "x".repeat(100_000);
+    for (place, command) in
+        [(3, "trace --scene"), (3, "trace --method"), (2, "verify"), (2, "show"), (1, "")]
+    {
+        let output = run_in(folder.path(), &format!("{command} {long}"));
+        assert_eq!(output.status.code(), Some(2), "{command}");
+        let said = stderr(&output);
+        let named = format!("argument {place} has 100000 bytes, and the most are 4096");
+        assert!(said.contains(&named) && said.len() < 600, "{said:.900}");
+    }
+    let path = format!("{}.toml", "x".repeat(200));
+    let said = stderr(&run_in(folder.path(), &format!("trace --scene {path}")));
+    assert!(said.contains(&path), "{said}");
+}
+
+#[test]
 fn files_that_are_no_text_or_too_large_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     for (bytes, said) in [
