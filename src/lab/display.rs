@@ -44,7 +44,7 @@ pub struct Display {
     /// What the motion instrument shows of every body.
     pub quantity: Quantity,
     /// The coordinate of each body that a person has chosen for the plots, by its index; a body beyond the end has the
-    /// [usual one](crate::sim::PlacedBody::plotted_coordinate).
+    /// [usual one](super::LaneBody::plotted_coordinate).
     pub coordinates: Vec<Option<usize>>,
     /// The metric of the error instrument, by its place in [`METRICS`](super::METRICS).
     pub metric: usize,

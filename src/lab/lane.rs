@@ -6,9 +6,10 @@
 use std::sync::Arc;
 
 use super::action::Action;
+use super::appearance::{Appearance, Drawing, Preview};
 use super::chase::Chase;
 use super::extent::Extent;
-use super::scene::Scene;
+use super::scene::{Scene, SceneBody};
 use crate::sim::bodies::{Coordinate, Custom, FalseClaims, Input, Kind, Law, Truth};
 use crate::sim::integrators::StepFailure;
 use crate::sim::number::superscript;
@@ -75,6 +76,7 @@ pub struct LaneBody {
     /// The range of the true motion so far; `None` under a method.
     extent: Option<Extent>,
     chase: Option<Chase>,
+    appearance: Arc<Appearance>,
 }
 
 impl LaneBody {
@@ -86,14 +88,14 @@ impl LaneBody {
         body.downcast_ref().map(Custom::false_claims).or_else(law).unwrap_or_default()
     }
 
-    /// A body of `kind` with `values` at its start, under `solver`.
-    pub(super) fn new(kind: Arc<Kind>, values: &[f64], solver: Solver) -> Self {
-        let stepper = (kind.build)(values, solver);
+    /// A body of a scene at its start, under `solver`.
+    pub(super) fn new(body: &SceneBody, solver: Solver) -> Self {
+        let stepper = (body.kind.build)(&body.values, solver);
         let state = [stepper.q(), stepper.v()].map(<[f64]>::to_vec);
         let [previous_q, previous_v] = state.clone();
         let chase = Chase::new(&*stepper, 0.0);
         let mut body = Self {
-            kind,
+            kind: body.kind.clone(),
             stepper,
             previous_q,
             previous_v,
@@ -102,6 +104,7 @@ impl LaneBody {
             evaluations_before: 0,
             extent: (solver == Solver::Truth).then(Extent::default),
             chase,
+            appearance: body.appearance.clone(),
         };
         body.cover();
         body
@@ -131,6 +134,22 @@ impl LaneBody {
     /// if it follows nothing, or a target that moves.
     pub fn chase(&self) -> Option<&Chase> {
         self.chase.as_ref()
+    }
+
+    /// How the author of a custom body draws it, if not in the usual way.
+    pub(super) fn drawing(&self) -> Option<&Drawing> {
+        self.appearance.drawing.as_deref()
+    }
+
+    /// Where a law, a net or a custom body goes in its first seconds.
+    pub(super) fn preview(&self) -> Arc<Preview> {
+        self.appearance.preview(&self.kind, self.stepper.body())
+    }
+
+    /// The index of the coordinate that a plot shows unless a person chooses another: of a net that which moves farthest
+    /// in the first seconds, such as the height of the middle of a bridge, and of other bodies the first.
+    pub fn plotted_coordinate(&self) -> usize {
+        self.kind.net().map_or(0, |_| self.preview().farthest())
     }
 
     /// The values whose coordinate has the same unit as the first; `values` has one per coordinate.
@@ -304,9 +323,7 @@ pub struct Lane {
 impl Lane {
     /// The scene's bodies at their start under `solver`, which takes `substeps` steps in a tick.
     pub fn new(scene: &Scene, solver: Solver, substeps: u32) -> Self {
-        let bodies = scene.bodies.iter();
-        let bodies =
-            bodies.map(|body| LaneBody::new(body.kind.clone(), &body.values, solver)).collect();
+        let bodies = scene.bodies.iter().map(|body| LaneBody::new(body, solver)).collect();
         Self { solver, substeps, bodies }
     }
 

@@ -383,7 +383,7 @@ impl LoopLab {
 /// The one body of a scene at its start.
 fn at_start(scene: &Scene) -> LaneBody {
     let body = &scene.bodies[0];
-    LaneBody::new(body.kind.clone(), &body.values, Solver::Truth)
+    LaneBody::new(body, Solver::Truth)
 }
 
 #[cfg(test)]

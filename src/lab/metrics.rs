@@ -207,6 +207,7 @@ fn largest_difference(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::scene::SceneBody;
     use crate::lab::{Lane, Race, Scene};
     use crate::sim::Solver;
     use crate::sim::bodies::{Input, kind};
@@ -346,10 +347,8 @@ mod tests {
 
     #[test]
     fn a_heading_is_no_distance() {
-        let helm = kind("helm").unwrap();
         let scene = Scene::built_in("helm").unwrap();
-        let [truth, mut lane] =
-            [(); 2].map(|()| LaneBody::new(helm.clone(), &scene.bodies[0].values, Solver::Truth));
+        let [truth, mut lane] = [(); 2].map(|()| LaneBody::new(&scene.bodies[0], Solver::Truth));
         let moved = |by: &[f64], values: &[f64]| -> Vec<f64> {
             values.iter().zip(by).map(|(value, by)| value + by).collect()
         };
@@ -363,11 +362,11 @@ mod tests {
 
     #[test]
     fn time_lost_as_printed_stays_lost_through_placings_and_switches() {
-        let ship = kind("ship").unwrap();
+        let ship = kind("ship").unwrap().clone();
+        let ship = SceneBody::new("ship", ship, vec![2e4, 1e3, 1e4, 0.0, 0.0, 2e4]);
         let under = |id| Solver::Method(method(id).unwrap());
-        let values = [2e4, 1e3, 1e4, 0.0, 0.0, 2e4];
-        let truth = LaneBody::new(ship.clone(), &values, Solver::Truth);
-        let mut lane = LaneBody::new(ship.clone(), &values, under("adaptive-euler-as-printed"));
+        let truth = LaneBody::new(&ship, Solver::Truth);
+        let mut lane = LaneBody::new(&ship, under("adaptive-euler-as-printed"));
         let lost = |lane: &LaneBody| (metric("lost_time").measure)(lane, &truth).unwrap();
         lane.stepper.advance(0.0, 0.5, 1).unwrap();
         let once = lost(&lane);

@@ -6,6 +6,7 @@
 
 mod action;
 mod analysis;
+mod appearance;
 mod bisection;
 mod chase;
 mod command;
@@ -33,6 +34,7 @@ mod my_spring;
 mod notice;
 mod notices;
 mod one_step;
+mod outline;
 mod own;
 pub mod pacing;
 pub mod palette;
@@ -62,6 +64,7 @@ pub use analysis::{
     MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome, Region, RunFailure, Severity,
     StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
 };
+pub use appearance::Appearance;
 pub use chase::Chase;
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace};

@@ -4,8 +4,9 @@ use std::any::Any;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::appearance::{Appearance, Drawing};
 use super::lane_spec::LaneSpec;
-use super::picture::{Drawing, Mark};
+use super::outline::Mark;
 use super::race::Race;
 use super::scene::{
     LEAST_SECONDS, MOST_LANES, MOST_NAME_CHARS, MOST_SECONDS, MOST_TICK_HZ, Scene, SceneBody,
@@ -106,7 +107,8 @@ impl Scene {
             return Err(error("seconds", seconds.to_string(), remedy));
         }
         let drawing = draw.map(|draw| drawing::<S>(draw, start.q.clone()));
-        let kind = custom_kind(system, &start, &extras, drawing, claim_horizon(seconds, tick_hz))?;
+        let appearance = Arc::new(Appearance::drawn(drawing));
+        let kind = custom_kind(system, &start, &extras, claim_horizon(seconds, tick_hz))?;
         let values = kind.plain_values();
         let steps = |method: &&'static Method| refusal(method, &kind, &values).is_none();
         let lanes = match &methods[..] {
@@ -140,7 +142,7 @@ impl Scene {
             opening_method: None,
             equal_cost: false,
             opens_as_race: methods.len() != 1,
-            bodies: vec![SceneBody { name: name.to_owned(), kind, values }],
+            bodies: vec![SceneBody { appearance, ..SceneBody::new(name, kind, values) }],
             script: Vec::new(),
             checks: Vec::new(),
         })
@@ -217,15 +219,12 @@ fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {
 }
 
 /// The drawing function of a custom body.
-fn drawing<S: System<Vector: Vector> + 'static>(
-    draw: Draw<S>,
-    like: S::Vector,
-) -> Arc<dyn Any + Send + Sync> {
+fn drawing<S: System<Vector: Vector> + 'static>(draw: Draw<S>, like: S::Vector) -> Box<Drawing> {
     let like = Mutex::new(like);
     let draw = move |system: &dyn Any, q: &[f64]| {
         let mut own_q = like.lock().unwrap_or_else(PoisonError::into_inner).clone();
         own_q.components_mut().copy_from_slice(q);
         system.downcast_ref().map_or_else(Vec::new, |system| draw(system, &own_q))
     };
-    Arc::new(Drawing(Box::new(draw)))
+    Box::new(draw)
 }

@@ -67,7 +67,7 @@ impl Past {
     /// plots show unless a person chooses another.
     pub fn new(race: &Race, span_s: f64) -> Self {
         let bodies = race.truth().bodies().iter();
-        Self::of_coordinates(race, span_s, bodies.map(|body| body.stepper.plotted_coordinate()))
+        Self::of_coordinates(race, span_s, bodies.map(|body| body.plotted_coordinate()))
     }
 
     /// Like [`Past::new`], of the coordinates with these indices, one for each body.

@@ -20,16 +20,14 @@ mod loupe;
 mod mass;
 mod moment;
 mod outgrown;
-mod outline;
 mod sketch;
 mod trails;
 
+pub use super::outline::{Mark, Outline};
 pub use compose::compose;
 pub use grasp::{Cell, Grasp, Grip, Whose};
-pub(super) use look::Drawing;
 pub use look::{Framing, Handle, Look, Pull};
 pub(super) use outgrown::slow_motion_percent;
-pub use outline::{Mark, Outline};
 
 pub use super::palette::{self, Rgba};
 

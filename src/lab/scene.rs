@@ -8,6 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::action::Action;
+use super::appearance::Appearance;
 use super::lane_spec::LaneSpec;
 use crate::sim::bodies::{ClaimHorizon, Kind, Origin};
 use crate::sim::integrators::Method;
@@ -120,6 +121,15 @@ pub struct SceneBody {
     /// What [`Kind::build`] takes: one value for each of the kind's parameters, in their order, and for
     /// a curve two for each point.
     pub values: Vec<f64>,
+    /// How it is drawn; shared by its copies.
+    pub appearance: Arc<Appearance>,
+}
+
+impl SceneBody {
+    /// A body that is drawn as all of its kind are.
+    pub(in crate::lab) fn new(name: impl Into<String>, kind: Arc<Kind>, values: Vec<f64>) -> Self {
+        Self { name: name.into(), kind, values, appearance: Arc::default() }
+    }
 }
 
 /// A command of a scene's script.

@@ -175,11 +175,6 @@ pub trait Body: System<Vector: Vector> + Clone + Send + 'static {
 
     /// The position of the body in metres, to which the camera, trails and arrows refer.
     fn place(&self, q: &Self::Vector) -> DVec2;
-
-    /// The index of the coordinate that a plot shows unless a person chooses another.
-    fn plotted_coordinate(&self) -> usize {
-        0
-    }
 }
 
 /// An input from a person or a script.

@@ -187,9 +187,6 @@ impl<B: Body> PlacedBody for Placed<B> {
     fn place(&self) -> DVec2 {
         self.body.system.place(&self.state.q)
     }
-    fn plotted_coordinate(&self) -> usize {
-        self.body.system.plotted_coordinate()
-    }
     fn body(&self) -> &dyn Any {
         &self.body.system
     }

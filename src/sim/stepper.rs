@@ -197,9 +197,6 @@ pub trait PlacedBody {
 
     /// Where the body is, in metres. Never allocates.
     fn place(&self) -> DVec2;
-    /// The index of the coordinate that a plot shows unless a person chooses another: where several move, one that
-    /// moves far.
-    fn plotted_coordinate(&self) -> usize;
     /// The body with its current parameters; its type is the one that the kind builds.
     fn body(&self) -> &dyn Any;
 

@@ -25,7 +25,7 @@ impl Lab {
             chosen.filter(|&index| index < count).unwrap_or(usual)
         };
         let bodies = self.race().truth().bodies().iter();
-        let usual = bodies.map(|body| body.stepper.plotted_coordinate()).enumerate();
+        let usual = bodies.map(|body| body.plotted_coordinate()).enumerate();
         let coordinates: Vec<usize> = usual.map(coordinate).collect();
         self.timeline.record_coordinates(&coordinates)
     }

@@ -3,9 +3,9 @@
 use super::coil::{Span, coil, silhouette, strut};
 use super::hull::{self, Berth};
 use super::mass::{self, Coat};
-use super::outline::Thread;
 use super::sketch::{Camera, SOLID, line, path};
 use super::{Align, Label, Mark, Outline, Picture, Shape};
+use crate::lab::outline::Thread;
 use crate::lab::palette::{Palette, Rgba, faded, is_bright, mixed};
 
 /// The width of a thread of a net in front, in points: of the border, and within it.

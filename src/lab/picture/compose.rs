@@ -205,8 +205,8 @@ impl Band<'_> {
         };
         for lane in behind.chain([&self.front]) {
             let body = &lane.lane.bodies()[index];
-            let (look, coordinates) = (Look::of(&body.kind), lab.shown_state(body).0);
-            let outline = look.outline(&*body.stepper, moment.t, &coordinates);
+            let (look, coordinates) = (Look::of(body), lab.shown_state(body).0);
+            let outline = look.outline(moment.t, &coordinates);
             let (colour, dash) = moment.style(lane.entry);
             let at = camera.points(outline.at);
             let flag = Flag { at, number: lane.entry + 1, colour };
@@ -232,7 +232,7 @@ impl Band<'_> {
                 flagged.push(flag);
                 continue;
             }
-            let in_hand = held.map(|held| look.outline(&*body.stepper, moment.t, &held.q));
+            let in_hand = held.map(|held| look.outline(moment.t, &held.q));
             let shown = Seen { outline: in_hand.as_ref().unwrap_or(&outline), ..seen };
             if held.is_some() {
                 let left = Coat { colour: faded(colour, LEFT_BEHIND), dash, fill: self.fill() };

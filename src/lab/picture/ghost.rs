@@ -27,10 +27,10 @@ impl Ghost {
         let remembered = moment.lab.past();
         let curve = &remembered.truth_curves()[index];
         let (q, v) = moment.lab.shown_truth(index);
-        let look = Look::of(&body.kind);
-        let course = look.course(&*body.stepper, &q, &v);
-        let outline = Outline { course, ..look.outline(&*body.stepper, moment.t, &q) };
-        let framing = look.framing(&*body.stepper);
+        let look = Look::of(body);
+        let course = look.course(&q, &v);
+        let outline = Outline { course, ..look.outline(moment.t, &q) };
+        let framing = look.framing();
         let centre_m = match framing {
             Framing::Follow { .. } | Framing::Recorder { .. } => DVec2::ZERO,
             Framing::Fixed { centre_m, .. } => centre_m,

@@ -84,7 +84,7 @@ impl Cell {
     }
 
     pub(super) fn add_grips(&mut self, body: &LaneBody, q: &[f64], whose: Whose) {
-        let handles = Look::of(&body.kind).handles(&*body.stepper, q);
+        let handles = Look::of(body).handles(q);
         let is_recorder = self.camera.quay_m != 0.0;
         let least =
             if is_recorder { LEAST_RADIUS.max(self.camera.block / 2.0) } else { LEAST_RADIUS };
@@ -142,12 +142,12 @@ impl Grasp {
     pub fn pull(&mut self, lab: &Lab, hand: [f32; 2], velocity: [f64; 2]) {
         let Self { cell, handle, offset_m, held } = self;
         let body = &lab.race().truth().bodies()[cell.body];
-        let look = Look::of(&body.kind);
+        let look = Look::of(body);
         held.hand = cell.metres(hand);
         let velocity = DVec2::new(velocity[0], -velocity[1]) / cell.camera.points_per_metre;
         let pull = Pull { handle: *handle, to: held.hand - *offset_m, velocity };
-        look.pull(&*body.stepper, &mut held.q, &mut held.v, pull);
-        held.handle = look.handles(&*body.stepper, &held.q)[*handle].at;
+        look.pull(&mut held.q, &mut held.v, pull);
+        held.handle = look.handles(&held.q)[*handle].at;
     }
 
     /// The body as it is held.

@@ -5,11 +5,12 @@ use std::any::Any;
 
 use glam::DVec2;
 
-use super::outline::{Mark, Outline};
+use super::{Mark, Outline};
+use crate::lab::LaneBody;
 use crate::sim::bodies::{
     Body, Chain, Custom, Follow, Helm, Kind, Law, Net, Orbit, Origin, Pendulum, Ship, Spring,
 };
-use crate::sim::{State, Stepper, Vector};
+use crate::sim::{State, Vector};
 
 mod beads;
 mod chain;
@@ -22,8 +23,6 @@ mod orbit;
 mod pendulum;
 mod ship;
 mod spring;
-
-pub(in crate::lab) use custom::Drawing;
 
 /// What part of a body's world the stage shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +68,7 @@ pub struct Handle {
 /// Where a hand has brought a handle, and how it moves there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pull {
-    /// The handle's place among the body's [handles](Look::handles).
+    /// The handle's index among the body's [handles](Look::handles).
     pub handle: usize,
     /// Where it is to be, in metres.
     pub to: DVec2,
@@ -99,35 +98,64 @@ trait Drawn: Body {
     fn pull(&self, state: &mut State<Self::Vector>, pull: Pull);
 }
 
-/// How bodies of one kind look.
-#[derive(Debug)]
-pub struct Look {
-    /// The kind's id.
-    kind: &'static str,
-    outline: fn(&dyn Any, f64, &[f64]) -> Outline,
-    framing: fn(&dyn Any) -> Framing,
-    course: fn(&dyn Any, &[f64], &[f64]) -> Vec<DVec2>,
-    handles: fn(&dyn Any, &[f64]) -> Vec<Handle>,
-    pull: fn(&dyn Any, &mut [f64], &mut [f64], Pull),
+/// A picture of one body at any of its coordinates: as [`Drawn`], of coordinates of any number.
+trait BodyPicture {
+    fn draw(&self, q: &[f64], outline: &mut Outline);
+    fn framing(&self) -> Framing;
+    fn course(&self, _q: &[f64], _v: &[f64]) -> Vec<DVec2> {
+        Vec::new()
+    }
+    fn handles(&self, q: &[f64]) -> Vec<Handle>;
+    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull);
 }
 
-/// Every kind's look, in the order of [`BODIES`](crate::sim::bodies::BODIES).
-static LOOKS: &[Look] = &[
-    Look::of_type::<Ship>("ship"),
-    Look::of_type::<Spring>("spring"),
-    Look::of_type::<Chain>("chain"),
-    Look::of_type::<Pendulum>("pendulum"),
-    Look::of_type::<Orbit>("orbit"),
-    Look::of_type::<Helm>("helm"),
-    Look::of_type::<Follow>("follow"),
+/// The picture of a body whose type says it all.
+struct Plain<'a, B>(&'a B);
+
+impl<B: Drawn> BodyPicture for Plain<'_, B> {
+    fn draw(&self, q: &[f64], outline: &mut Outline) {
+        self.0.draw(&vector(self.0, q), outline);
+    }
+    fn framing(&self) -> Framing {
+        self.0.framing()
+    }
+    fn course(&self, q: &[f64], v: &[f64]) -> Vec<DVec2> {
+        self.0.course(&State { q: vector(self.0, q), v: vector(self.0, v) })
+    }
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        self.0.handles(&vector(self.0, q))
+    }
+    fn pull(&self, State { q, v }: &mut State<Vec<f64>>, pull: Pull) {
+        let mut state = State { q: vector(self.0, q), v: vector(self.0, v) };
+        self.0.pull(&mut state, pull);
+        q.copy_from_slice(state.q.components());
+        v.copy_from_slice(state.v.components());
+    }
+}
+
+/// How bodies of one kind look.
+struct LookCard {
+    /// The kind's id.
+    kind: &'static str,
+    place: fn(&dyn Any, &[f64]) -> DVec2,
+    picture: for<'a> fn(&'a LaneBody) -> Box<dyn BodyPicture + 'a>,
+}
+
+/// The look of every kind in the table, in the order of [`BODIES`](crate::sim::bodies::BODIES).
+static LOOKS: &[LookCard] = &[
+    LookCard::plain::<Ship>("ship"),
+    LookCard::plain::<Spring>("spring"),
+    LookCard::plain::<Chain>("chain"),
+    LookCard::plain::<Pendulum>("pendulum"),
+    LookCard::plain::<Orbit>("orbit"),
+    LookCard::plain::<Helm>("helm"),
+    LookCard::plain::<Follow>("follow"),
 ];
 
-/// The looks of laws and of nets, whose kinds are not in that table.
-static LAW_LOOK: Look = Look::of_type::<Law>("law");
-static NET_LOOK: Look = Look::of_type::<Net>("net");
-
-/// The look of custom bodies, whose kinds are not in it either.
-static CUSTOM_LOOK: Look = Look::of_type::<Custom>("own");
+/// The looks of kinds that are not in that table.
+static LAW_LOOK: LookCard = LookCard::of::<Law>("law", law::picture);
+static NET_LOOK: LookCard = LookCard::of::<Net>("net", net::picture);
+static CUSTOM_LOOK: LookCard = LookCard::of::<Custom>("own", custom::picture);
 
 /// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate. Empty for a pure
 /// number.
@@ -140,36 +168,24 @@ pub(super) fn drawn_unit(kind: &Kind) -> &'static str {
     kind.all_coordinates[plane.map_or(0, |[x, _]| x)].shown_unit()
 }
 
-impl Look {
-    const fn of_type<B: Drawn>(kind: &'static str) -> Self {
-        let outline = |body: &dyn Any, t: f64, q: &[f64]| {
+impl LookCard {
+    const fn plain<B: Drawn>(kind: &'static str) -> Self {
+        Self::of::<B>(kind, |body| Box::new(Plain(typed::<B>(body.stepper.body()))))
+    }
+
+    const fn of<B: Body>(
+        kind: &'static str,
+        picture: for<'a> fn(&'a LaneBody) -> Box<dyn BodyPicture + 'a>,
+    ) -> Self {
+        let place = |body: &dyn Any, q: &[f64]| {
             let body = typed::<B>(body);
-            let shown = vector::<B>(body, q);
-            let mut outline = Outline { t, at: body.place(&shown), ..Outline::default() };
-            body.draw(&shown, &mut outline);
-            outline
+            body.place(&vector(body, q))
         };
-        let handles = |body: &dyn Any, q: &[f64]| {
-            let body = typed::<B>(body);
-            body.handles(&vector::<B>(body, q))
-        };
-        let pull = |body: &dyn Any, q: &mut [f64], v: &mut [f64], pull: Pull| {
-            let body = typed::<B>(body);
-            let mut state = State { q: vector::<B>(body, q), v: vector::<B>(body, v) };
-            body.pull(&mut state, pull);
-            q.copy_from_slice(state.q.components());
-            v.copy_from_slice(state.v.components());
-        };
-        let course = |body: &dyn Any, q: &[f64], v: &[f64]| {
-            let body = typed::<B>(body);
-            body.course(&State { q: vector::<B>(body, q), v: vector::<B>(body, v) })
-        };
-        let framing = |body: &dyn Any| typed::<B>(body).framing();
-        Self { kind, outline, framing, course, handles, pull }
+        Self { kind, place, picture }
     }
 
     /// The look of bodies of this kind.
-    pub fn of(kind: &Kind) -> &'static Look {
+    fn find(kind: &Kind) -> &'static Self {
         match kind.origin {
             Origin::Law(_) => return &LAW_LOOK,
             Origin::Custom(_) => return &CUSTOM_LOOK,
@@ -179,30 +195,51 @@ impl Look {
         let look = LOOKS.iter().find(|look| look.kind == kind.id);
         look.expect("the tests below find a look for every kind")
     }
+}
 
-    /// The outline of `body`, which is of this kind, at the coordinates `q` at time `t` (s).
-    pub fn outline(&self, body: &dyn Stepper, t: f64, q: &[f64]) -> Outline {
-        (self.outline)(body.body(), t, q)
+/// How a body looks with its present parameters.
+pub struct Look<'a> {
+    body: &'a LaneBody,
+    card: &'static LookCard,
+    picture: Box<dyn BodyPicture + 'a>,
+}
+
+impl<'a> Look<'a> {
+    /// How `body` looks.
+    pub fn of(body: &'a LaneBody) -> Self {
+        let card = LookCard::find(&body.kind);
+        Self { body, card, picture: (card.picture)(body) }
     }
 
-    /// What part of the world of `body`, which is of this kind, the stage shows.
-    pub fn framing(&self, body: &dyn Stepper) -> Framing {
-        (self.framing)(body.body())
+    /// The outline at the coordinates `q` at time `t` (s).
+    pub fn outline(&self, t: f64, q: &[f64]) -> Outline {
+        let at = (self.card.place)(self.body.stepper.body(), q);
+        let mut outline = Outline { t, at, ..Outline::default() };
+        self.picture.draw(q, &mut outline);
+        outline
     }
 
-    /// The closed course that `body`, which is of this kind, goes along in this state, if it does.
-    pub fn course(&self, body: &dyn Stepper, q: &[f64], v: &[f64]) -> Vec<DVec2> {
-        (self.course)(body.body(), q, v)
+    /// What part of the body's world the stage shows.
+    pub fn framing(&self) -> Framing {
+        self.picture.framing()
     }
 
-    /// Where a hand can take hold of `body`, which is of this kind, at the coordinates `q`.
-    pub fn handles(&self, body: &dyn Stepper, q: &[f64]) -> Vec<Handle> {
-        (self.handles)(body.body(), q)
+    /// The closed course that the body goes along in this state, if it does.
+    pub fn course(&self, q: &[f64], v: &[f64]) -> Vec<DVec2> {
+        self.picture.course(q, v)
     }
 
-    /// Changes the coordinates and velocities of `body`, which is of this kind, as a hand pulls it.
-    pub fn pull(&self, body: &dyn Stepper, q: &mut [f64], v: &mut [f64], pull: Pull) {
-        (self.pull)(body.body(), q, v, pull);
+    /// Where a hand can take hold of the body at the coordinates `q`.
+    pub fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        self.picture.handles(q)
+    }
+
+    /// Changes coordinates and velocities as a hand pulls the body.
+    pub fn pull(&self, q: &mut [f64], v: &mut [f64], pull: Pull) {
+        let mut state = State { q: q.to_vec(), v: v.to_vec() };
+        self.picture.pull(&mut state, pull);
+        q.copy_from_slice(&state.q);
+        v.copy_from_slice(&state.v);
     }
 }
 
@@ -220,46 +257,50 @@ fn typed<B: Body>(body: &dyn Any) -> &B {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lab::Scene;
+    use crate::lab::{Action, Lane, Scene};
     use crate::sim::Solver;
-    use crate::sim::bodies::BODIES;
+    use crate::sim::bodies::{BODIES, kind};
 
-    /// The body of the scene of the kind's name.
-    fn body(kind: &Kind) -> Box<dyn Stepper> {
-        let scene = Scene::built_in(kind.id).expect("a scene for each kind");
-        (kind.build)(&scene.bodies[0].values, Solver::Truth)
+    /// The scene of the kind's name under the truth.
+    fn lane(kind: &Kind) -> Lane {
+        Lane::new(&Scene::built_in(kind.id).expect("a scene for each kind"), Solver::Truth, 1)
     }
 
     #[test]
     fn every_kind_has_a_look_that_shows_where_the_body_is() {
         assert!(LOOKS.iter().map(|look| look.kind).eq(BODIES.iter().map(|kind| kind.id)));
         for kind in BODIES.iter() {
-            let (look, mut body) = (Look::of(kind), body(kind));
+            let mut lane = lane(kind);
             for tick in 0..30 {
-                let outline = look.outline(&*body, f64::from(tick) / 60.0, body.q());
-                assert!(outline.at == body.place() && !outline.marks.is_empty(), "{}", kind.id);
-                body.advance(f64::from(tick) / 60.0, 1.0 / 60.0, 1).unwrap();
+                let body = &lane.bodies()[0];
+                let outline = Look::of(body).outline(tick as f64 / 60.0, body.stepper.q());
+                let is_there = outline.at == body.stepper.place();
+                assert!(is_there && !outline.marks.is_empty(), "{}", kind.id);
+                lane.tick(tick, tick as f64 / 60.0, 1.0 / 60.0);
             }
             let (Framing::Follow { width_m: wide, .. }
             | Framing::Recorder { half_width_m: wide }
-            | Framing::Fixed { half_m: DVec2 { x: wide, .. }, .. }) = look.framing(&*body);
+            | Framing::Fixed { half_m: DVec2 { x: wide, .. }, .. }) =
+                Look::of(&lane.bodies()[0]).framing();
             assert!(wide > 0.0 && wide.is_finite(), "{}: {wide} m", kind.id);
         }
     }
 
     #[test]
     fn a_look_follows_an_edit() {
-        let pendulum = BODIES.iter().find(|kind| kind.id == "pendulum").unwrap();
-        let mut body = body(pendulum);
-        let half_m = |body: &dyn Stepper| match Look::of(pendulum).framing(body) {
+        let pendulum = kind("pendulum").unwrap();
+        let mut lane = lane(pendulum);
+        let half_m = |lane: &Lane| match Look::of(&lane.bodies()[0]).framing() {
             Framing::Fixed { half_m, .. } => half_m,
             framing => panic!("{framing:?}"),
         };
-        let (before, (place, length)) = (half_m(&*body), pendulum.parameter("length_m").unwrap());
-        assert!(length.range.contains(7.0) && body.set_parameter(0.0, place, 7.0));
-        assert_ne!(half_m(&*body), before);
-        assert_eq!(half_m(&*body), DVec2::splat(1.2 * 7.0));
-        let outline = Look::of(pendulum).outline(&*body, 0.0, &[0.0]);
+        let (before, (parameter, length)) =
+            (half_m(&lane), pendulum.parameter("length_m").unwrap());
+        assert!(length.range.contains(7.0));
+        lane.act(0, 0.0, &Action::Set { body: 0, parameter, value: 7.0 });
+        assert_ne!(half_m(&lane), before);
+        assert_eq!(half_m(&lane), DVec2::splat(1.2 * 7.0));
+        let outline = Look::of(&lane.bodies()[0]).outline(0.0, &[0.0]);
         assert_eq!(outline.at, DVec2::new(0.0, -7.0));
     }
 }

@@ -163,7 +163,7 @@ impl<'a> Band<'a> {
 
     fn framing(&self) -> Framing {
         let body = self.loops.body();
-        Look::of(&body.kind).framing(&*body.stepper)
+        Look::of(body).framing()
     }
 
     fn is_recorded(&self) -> bool {
@@ -176,7 +176,7 @@ impl<'a> Band<'a> {
 
     fn outline(&self, t: f64, q: &[f64]) -> Outline {
         let body = self.loops.body();
-        Look::of(&body.kind).outline(&*body.stepper, t, q)
+        Look::of(body).outline(t, q)
     }
 
     /// The body as a frame shows it.

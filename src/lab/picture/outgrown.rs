@@ -63,13 +63,13 @@ impl Room {
     /// How far the parts of a body are now, at most.
     fn present(&self, moment: &Moment<'_>, lane: &Entrant, body: usize) -> DVec2 {
         let body = &lane.lane.bodies()[body];
-        let look = Look::of(&body.kind);
+        let look = Look::of(body);
         let race = moment.lab.race();
         let h = race.last_step_s();
         let extent = |q: &[f64], v: &[f64]| {
             let reaches = [-OVERSHOT * h, OVERSHOT * h].map(|h| {
                 let q: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + h * v).collect();
-                let outline = look.outline(&*body.stepper, moment.t, &q);
+                let outline = look.outline(moment.t, &q);
                 let reach = parts(&outline).map(|place| (place - self.centre_m).abs());
                 reach.filter(|reach| reach.is_finite()).fold(self.base_m, DVec2::max)
             });
@@ -108,7 +108,7 @@ pub(in crate::lab) fn slow_motion_percent(lab: &Lab) -> u32 {
     }
     let decades = lab.past().histories(0).iter().zip(lab.selected().lane.bodies());
     let decades = decades.map(|(history, body)| {
-        let base_m = match Look::of(&body.kind).framing(&*body.stepper) {
+        let base_m = match Look::of(body).framing() {
             Framing::Recorder { half_width_m } => half_width_m,
             Framing::Fixed { half_m, .. } => half_m.max_element(),
             Framing::Follow { width_m, .. } => width_m,

@@ -108,7 +108,7 @@ pub(super) fn name_the_nameless(bodies: &mut [Described]) {
 /// The bodies that have all their parameters.
 pub(super) fn finish_bodies(bodies: Vec<Described>) -> Vec<SceneBody> {
     let finish = |Described { kind, name, values, .. }| {
-        Some(SceneBody { name: name.expect("each has one by now"), kind: kind?, values: values? })
+        Some(SceneBody::new(name.expect("each has one by now"), kind?, values?))
     };
     bodies.into_iter().filter_map(finish).collect()
 }

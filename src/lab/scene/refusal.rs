@@ -20,7 +20,7 @@ pub struct Refusal {
 impl Scene {
     /// Why `method` cannot step this scene; `None` if it steps every body.
     pub fn refusal(&self, method: &Method) -> Option<Refusal> {
-        self.bodies.iter().find_map(|SceneBody { name, kind, values }| {
+        self.bodies.iter().find_map(|SceneBody { name, kind, values, .. }| {
             let reason = refusal(method, kind, values)?;
             Some(Refusal { method: method.id, body: name.clone(), reason })
         })

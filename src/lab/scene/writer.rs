@@ -202,7 +202,7 @@ fn spring(PlannedSpring { between: [a, b], stiffness, damping, rest }: &PlannedS
 }
 
 fn write_body(text: &mut String, body: &SceneBody) {
-    let SceneBody { name, kind, values } = body;
+    let SceneBody { name, kind, values, .. } = body;
     if let Some(law) = kind.law() {
         return write_law(text, body, law.text());
     }

@@ -1,12 +1,10 @@
 //! A custom body: any [`System`] with a start.
 
 use std::any::Any;
-use std::cell::OnceCell;
 use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::bounds::bounds;
 use super::claims::{Checked, FalseClaims};
 use super::kind::CustomInfo;
 use crate::sim::body::{Body, Input};
@@ -36,7 +34,6 @@ pub struct Custom {
     /// Whether the acceleration is linear.
     is_linear: bool,
     checked: Checked,
-    bounds: OnceCell<Vec<(f64, f64)>>,
 }
 
 impl Custom {
@@ -55,9 +52,9 @@ impl Custom {
         self.checked.false_claims(self, &self.values)
     }
 
-    /// The least and the largest value of each coordinate in the first seconds of the motion.
-    pub fn bounds(&self) -> &[(f64, f64)] {
-        self.bounds.get_or_init(|| bounds(self))
+    /// The present values of its parameters.
+    pub fn values(&self) -> &[f64] {
+        &self.values
     }
 
     /// Sets all parameters.
@@ -99,15 +96,13 @@ impl Body for Custom {
     }
 
     fn prepare(&mut self) {
-        self.bounds.take();
         self.checked.reset();
     }
 
     fn heap_bytes(&self) -> usize {
         let vectors = 3 + self.motion.vectors();
-        let bounds = self.bounds.get().map_or(0, |bounds| size_of_val(&bounds[..]));
         let values = size_of_val(&self.values[..]);
-        self.motion.bytes() + vectors * size_of_val(&self.start.q[..]) + values + bounds
+        self.motion.bytes() + vectors * size_of_val(&self.start.q[..]) + values
     }
 
     fn start(&self) -> State<Vec<f64>> {

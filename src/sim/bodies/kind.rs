@@ -1,6 +1,5 @@
 //! The card of a kind of body.
 
-use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
@@ -109,8 +108,6 @@ pub struct CustomInfo {
     pub coordinates: Vec<Coordinate>,
     /// The indices of the coordinates that are x and y of a plane, if it is drawn in one.
     pub plane: Option<[usize; 2]>,
-    /// How it is drawn, for a layer that knows the type; `None` for the usual look.
-    pub drawing: Option<Arc<dyn Any + Send + Sync>>,
 }
 
 /// Two are equal if they describe the same bodies: by the same text or plan, or as clones of one custom body.

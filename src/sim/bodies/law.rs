@@ -1,11 +1,10 @@
 //! A body whose equation of motion a scene writes itself.
 
-use std::cell::{OnceCell, RefCell};
+use std::cell::RefCell;
 use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::bounds::{bounds, bounds_seen};
 use super::claims::{Checked, Claimant, FalseClaims};
 use crate::sim::body::{Body, Input};
 use crate::sim::law::{At, Equations, Layout, Registers};
@@ -29,8 +28,6 @@ pub struct Law {
     steering: [f64; 2],
     registers: RefCell<Registers>,
     checked: Checked,
-    bounds: OnceCell<Vec<(f64, f64)>>,
-    corners: OnceCell<[DVec2; 2]>,
 }
 
 impl Law {
@@ -49,8 +46,6 @@ impl Law {
             steering: [1.0, 0.0],
             registers: RefCell::new(registers),
             checked: Checked::default(),
-            bounds: OnceCell::new(),
-            corners: OnceCell::new(),
         }
     }
 
@@ -59,9 +54,9 @@ impl Law {
         &self.equations
     }
 
-    /// The least and the largest value of each coordinate in the first seconds of the motion.
-    pub fn bounds(&self) -> &[(f64, f64)] {
-        self.bounds.get_or_init(|| bounds(self))
+    /// The present values of its parameters.
+    pub fn values(&self) -> &[f64] {
+        &self.values
     }
 
     /// The claims of the text that do not hold with the present constants.
@@ -75,21 +70,6 @@ impl Law {
         let registers = &mut self.registers.borrow_mut();
         self.equations.place(registers, q, |place| places.push(DVec2::from(place)));
         places
-    }
-
-    /// The lower left and the upper right corner of where the places are in the first seconds of the motion.
-    pub fn places_corners(&self) -> [DVec2; 2] {
-        *self.corners.get_or_init(|| {
-            let mut corners = [DVec2::INFINITY, DVec2::NEG_INFINITY];
-            let registers = &mut self.registers.borrow().clone();
-            bounds_seen(self, |q| {
-                self.equations.place(registers, q, |place| {
-                    let place = DVec2::from(place);
-                    corners = [corners[0].min(place), corners[1].max(place)];
-                });
-            });
-            corners
-        })
     }
 
     fn coordinates(&self) -> usize {
@@ -147,14 +127,11 @@ impl Body for Law {
     fn prepare(&mut self) {
         let values = known(&self.equations, &self.values);
         self.registers.get_mut().set(&self.equations, values);
-        self.bounds.take();
-        self.corners.take();
         self.checked.reset();
     }
 
     fn heap_bytes(&self) -> usize {
-        let bounds = self.bounds.get().map_or(0, |bounds| size_of_val(&bounds[..]));
-        size_of_val(&self.values[..]) + self.registers.borrow().heap_bytes() + bounds
+        size_of_val(&self.values[..]) + self.registers.borrow().heap_bytes()
     }
 
     fn start(&self) -> State<Vec<f64>> {

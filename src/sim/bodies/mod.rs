@@ -6,7 +6,6 @@
 
 use std::sync::{Arc, LazyLock};
 
-mod bounds;
 mod chain;
 mod claims;
 mod custom;

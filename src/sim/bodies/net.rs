@@ -4,7 +4,7 @@
 //! summed in the order of the springs: those to free nodes, then those to fixed ones. That order is part of
 //! the definition, so that a sum by node in parallel would have the same bits.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -13,12 +13,9 @@ use crate::sim::parameter::{ParameterOf, Range};
 use crate::sim::state::State;
 use crate::sim::system::{BodyClass, Coupling, Question, System};
 use frame::{FIXED, Frame};
-use survey::Survey;
 
 mod frame;
 mod kind;
-mod survey;
-mod threads;
 
 pub use kind::net_kind;
 
@@ -68,8 +65,6 @@ pub struct Net {
     kick: DVec2,
     /// Shared by all copies until a parameter changes.
     springs: Arc<Springs>,
-    /// Shared by all copies.
-    survey: Arc<OnceLock<Survey>>,
 }
 
 /// The springs, in the order of the frame's arrays.
@@ -95,7 +90,6 @@ impl Net {
             rest_ratio: 1.0,
             kick: DVec2::ZERO,
             springs: Arc::default(),
-            survey: Arc::default(),
         }
     }
 
@@ -119,45 +113,17 @@ impl Net {
         free.chain(anchors.iter().map(move |(a, anchor)| [at(*a), DVec2::from(*anchor)]))
     }
 
-    /// Where the fixed nodes are.
-    pub fn fixed(&self) -> impl Iterator<Item = DVec2> + '_ {
-        let Frame { lists, .. } = &*self.frame;
-        lists.fixed.iter().map(|&node| DVec2::from(lists.nodes[node]))
-    }
-
-    /// Lines along the springs with the free nodes at `q`, each with whether it is a part of the border: the
-    /// rows and columns of a grid, and every spring of lists.
-    pub fn threads<'a>(
-        &'a self,
-        q: &'a [f64],
-    ) -> impl Iterator<Item = (impl Iterator<Item = DVec2> + 'a, bool)> + 'a {
-        let Frame { lists, place_of, threads, .. } = &*self.frame;
-        let at = move |node: usize| match place_of[node] {
+    /// The place of a node, by its number in the plan, with the free nodes at `q`.
+    pub fn place_of(&self, node: usize, q: &[f64]) -> DVec2 {
+        let Frame { lists, place_of, .. } = &*self.frame;
+        match place_of[node] {
             FIXED => DVec2::from(lists.nodes[node]),
             place => DVec2::from(Self::nodes(q)[place as usize]),
-        };
-        threads
-            .iter()
-            .map(move |thread| (thread.nodes.iter().map(move |&node| at(node)), thread.is_border))
+        }
     }
 
-    /// The length of the shortest spring at the start, in metres.
-    pub fn shortest(&self) -> f64 {
-        self.frame.shortest
-    }
-
-    /// The lower left and the upper right corner of the rectangle that holds all nodes in the first seconds
-    /// of the motion, for drawing.
-    pub fn range(&self) -> [DVec2; 2] {
-        self.survey().range
-    }
-
-    fn survey(&self) -> &Survey {
-        self.survey.get_or_init(|| Survey::of(self))
-    }
-
-    /// A bound on the fastest frequency, in radians per second, and on the fastest rate of damping.
-    fn fastest_rate(&self) -> f64 {
+    /// A bound on the fastest frequency, in radians per second, and on the fastest rate of damping; positive.
+    pub fn fastest_rate(&self) -> f64 {
         let [stiffness, damping] = self.fastest(&self.springs.constants);
         stiffness.sqrt().max(damping).max(f64::MIN_POSITIVE)
     }
@@ -327,11 +293,6 @@ impl Body for Net {
 
     fn place(&self, q: &Vec<f64>) -> DVec2 {
         DVec2::from(Self::nodes(q)[0])
-    }
-
-    /// That which moves farthest in the first seconds: of a bridge the height of its middle.
-    fn plotted_coordinate(&self) -> usize {
-        self.survey().farthest
     }
 }
 

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 use regatta::lab::picture::{Framing, Look, Mark, Outline, Pull};
-use regatta::lab::{Scene, SceneBody};
-use regatta::sim::{Solver, Stepper};
+use regatta::lab::{Lane, Scene};
+use regatta::sim::Solver;
 
 const HEAD: &str = "title = 'Mine'\ntick_hz = 60\nseconds = 10\n[[law]]\n";
 const TWO: &str =
@@ -13,13 +13,16 @@ fn read(keys: &str, coordinates: &str) -> Result<Scene, String> {
     Scene::parse("mine.toml", &format!("{HEAD}{keys}{coordinates}")).map_err(|it| it.to_string())
 }
 
+fn truth(scene: &Scene) -> Lane {
+    Lane::new(scene, Solver::Truth, 1)
+}
+
 /// The body of a built-in scene, with what shows it at these coordinates.
 fn drawn(scene: &str, q: &[f64]) -> (Outline, Framing, Vec<DVec2>) {
-    let SceneBody { kind, values, .. } = Scene::built_in(scene).unwrap().bodies.remove(0);
-    let body: Box<dyn Stepper> = (kind.build)(&values, Solver::Truth);
-    let look = Look::of(&kind);
-    let handles = look.handles(&*body, q).iter().map(|handle| handle.at).collect();
-    (look.outline(&*body, 0.0, q), look.framing(&*body), handles)
+    let lane = truth(&Scene::built_in(scene).unwrap());
+    let look = Look::of(&lane.bodies()[0]);
+    let handles = look.handles(q).iter().map(|handle| handle.at).collect();
+    (look.outline(0.0, q), look.framing(), handles)
 }
 
 #[test]
@@ -108,12 +111,11 @@ fn a_law_is_drawn_where_its_scene_says_and_a_hand_takes_it_there() {
     let again = Scene::parse("mine.toml", &scene.to_toml()).unwrap();
     assert!(again.bodies[0].kind == scene.bodies[0].kind, "{}", scene.to_toml());
 
-    let SceneBody { kind, values, .. } = &scene.bodies[0];
-    let mut body: Box<dyn Stepper> = (kind.build)(values, Solver::Truth);
-    let (look, q) = (Look::of(kind), [1.0, -0.5, 7.0]);
+    let lane = truth(&scene);
+    let (look, q) = (Look::of(&lane.bodies()[0]), [1.0, -0.5, 7.0]);
     let upper = 2.0 * DVec2::new(1.0_f64.sin(), -1.0_f64.cos());
     let lower = upper + DVec2::new((-0.5_f64).sin(), -(-0.5_f64).cos());
-    let outline = look.outline(&*body, 0.0, &q);
+    let outline = look.outline(0.0, &q);
     let discs = outline.marks.iter().filter_map(|mark| match *mark {
         Mark::Disc { centre, .. } => Some(centre),
         _ => None,
@@ -121,7 +123,7 @@ fn a_law_is_drawn_where_its_scene_says_and_a_hand_takes_it_there() {
     let discs: Vec<DVec2> = discs.collect();
     assert_eq!((outline.at, discs.len()), (upper, 2));
     assert!(discs[0].distance(upper) < 1e-12 && discs[1].distance(lower) < 1e-12, "{discs:?}");
-    let Framing::Fixed { centre_m, half_m, .. } = look.framing(&*body) else { panic!() };
+    let Framing::Fixed { centre_m, half_m, .. } = look.framing() else { panic!() };
     // It swings from 1 rad to the other side, with the lower rod straight down.
     for corner in [upper - DVec2::Y, DVec2::new(-upper.x, upper.y - 1.0), DVec2::new(0.0, -3.0)] {
         assert!((corner - centre_m).abs().cmple(half_m).all(), "{corner} {centre_m} {half_m}");
@@ -130,12 +132,11 @@ fn a_law_is_drawn_where_its_scene_says_and_a_hand_takes_it_there() {
     let to = DVec2::new(1.5, -2.0);
     let (mut q, mut v) = (q, [0.0, 0.0, 3.0]);
     let pull = Pull { handle: 1, to, velocity: DVec2::new(0.25, 0.5) };
-    look.pull(&*body, &mut q, &mut v, pull);
-    assert!(look.handles(&*body, &q)[1].at.distance(to) < 1e-6, "{q:?}");
+    look.pull(&mut q, &mut v, pull);
+    assert!(look.handles(&q)[1].at.distance(to) < 1e-6, "{q:?}");
     assert_eq!((q[2], v[2]), (7.0, 3.0), "what moves no disc keeps its state");
-    body.set(0.0, &q, &v);
     let moved = [0, 1].map(|i| q[i] + 1e-6 * v[i]);
-    let there = look.handles(&*body, &[moved[0], moved[1], 7.0])[1].at;
+    let there = look.handles(&[moved[0], moved[1], 7.0])[1].at;
     assert!(((there - to) / 1e-6).distance(pull.velocity) < 1e-3, "{there}");
 }
 
@@ -163,12 +164,12 @@ fn places_that_cannot_be_are_refused_with_their_place_and_a_remedy() {
 
 #[test]
 fn the_course_of_an_orbit_goes_through_its_body_and_through_where_it_will_be() {
-    let SceneBody { kind, values, .. } = Scene::built_in("orbit").unwrap().bodies.remove(0);
-    let mut body = (kind.build)(&values, Solver::Truth);
-    let course = Look::of(&kind).course(&*body, body.q(), body.v());
+    let mut lane = truth(&Scene::built_in("orbit").unwrap());
+    let body = &lane.bodies()[0];
+    let course = Look::of(body).course(body.stepper.q(), body.stepper.v());
     assert!(course.len() > 100 && course[0].distance(*course.last().unwrap()) < 1e-9);
     for tick in 0..300 {
-        let place = body.place();
+        let place = lane.bodies()[0].stepper.place();
         let near = course.windows(2).map(|ends| {
             let along = ends[1] - ends[0];
             let part = ((place - ends[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
@@ -176,6 +177,6 @@ fn the_course_of_an_orbit_goes_through_its_body_and_through_where_it_will_be() {
         });
         let near = near.fold(f64::INFINITY, f64::min);
         assert!(near < 2e-3 * course[0].length(), "tick {tick}: {near} m");
-        body.advance(f64::from(tick) / 10.0, 0.1, 1).unwrap();
+        lane.tick(tick, tick as f64 / 10.0, 0.1);
     }
 }

@@ -1,7 +1,7 @@
 //! What each function and operator of an expression is: its value, its derivatives, and its corners and jumps.
 
 use regatta::sim::Solver;
-use regatta::sim::bodies::{Input, Law};
+use regatta::sim::bodies::Input;
 
 use super::{body, parse, stepper};
 
@@ -196,12 +196,4 @@ fn kicks_and_constants_act_at_once_and_starts_do_not() {
     let defaults =
         ["x.kick", "y.kick", "y.start"].map(|key| whole.kind.parameter(key).unwrap().1.default);
     assert_eq!(defaults, [Some(1.0), Some(0.0), Some(0.0)]);
-}
-
-#[test]
-fn the_range_of_a_coordinate_is_found_before_the_motion_is_drawn() {
-    let law = body("[[law]]\n[law.coordinates.x]\nstart = 2\nacceleration = '-9*x'");
-    let law = Law::new(law.kind.law().unwrap().clone(), &law.values);
-    let &[(least, most)] = law.bounds() else { panic!("{:?}", law.bounds()) };
-    assert!((least + 2.0).abs() < 0.01 && (most - 2.0).abs() < 0.01, "{least} to {most}");
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 use regatta::lab::picture::{Look, Mark, Outline};
-use regatta::lab::{Adviser, CRITERIA, Lab, LaneSpec, Mode, RecordingError, Report};
+use regatta::lab::{Adviser, CRITERIA, Lab, Lane, LaneSpec, Mode, RecordingError, Report};
 use regatta::prelude::{Options, Scene, Session, State};
 use regatta::sim::Solver;
 use regatta::sim::integrators::method;
@@ -84,9 +84,9 @@ fn an_own_body_is_drawn_as_its_author_says_or_as_beads() {
         let start = State { q: DVec2::new(3.0, 0.0), v: DVec2::new(0.0, 3.0) };
         let options = Options { draw, ..Options::default() };
         let scene = Scene::of(&Orbit { mu: 40.0 }, start, options).unwrap();
-        let body = &scene.bodies[0];
-        let stepper = (body.kind.build)(&body.values, Solver::Truth);
-        Look::of(&body.kind).outline(&*stepper, 0.0, stepper.q())
+        let lane = Lane::new(&scene, Solver::Truth, 1);
+        let body = &lane.bodies()[0];
+        Look::of(body).outline(0.0, body.stepper.q())
     };
     let Outline { marks, at, .. } = outline(None);
     assert_eq!(at, DVec2::new(3.0, 0.0));

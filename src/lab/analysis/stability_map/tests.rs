@@ -10,7 +10,7 @@ fn spring(damping: f64, ids: &[&str]) -> StabilityMap {
 
 fn map(values: [f64; 6], parameter: usize, specs: Vec<LaneSpec>) -> StabilityMap {
     let kind = kind("spring").unwrap();
-    let opened = SceneBody { name: "spring".into(), kind: kind.clone(), values: values.to_vec() };
+    let opened = SceneBody::new("spring", kind.clone(), values.to_vec());
     let specs = specs.into_iter().enumerate().collect();
     let request = MapRequest::new((0, parameter), &opened, &values, 20, specs);
     let mut work = MapWork::new(kind.clone(), request);

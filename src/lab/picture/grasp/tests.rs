@@ -57,7 +57,7 @@ fn a_body_that_is_placed_where_it_is_held_is_seen_there() {
         // A camera that follows the truth follows it there.
         let body = &lab.race().entrants()[0].lane.bodies()[0];
         assert_eq!(body.stepper.q(), &held.q[..]);
-        let handles = Look::of(&body.kind).handles(&*body.stepper, body.stepper.q());
+        let handles = Look::of(body).handles(body.stepper.q());
         assert_eq!(handles[grip.handle].at, held.handle);
         // As near to the hand as the body can be.
         let reached = cell.camera.points(held.handle);

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Framing, Handle, Mark, Outline, Pull};
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 
 /// The radius of a bead in halves of the picture's width, on a rail and in a plane.
@@ -59,7 +59,7 @@ pub(super) struct Beads<'a> {
     /// The name and the unit of each coordinate.
     pub(super) coordinates: Vec<[&'a str; 2]>,
     /// The least and the largest value of each coordinate.
-    pub(super) ranges: &'a [(f64, f64)],
+    pub(super) ranges: Vec<(f64, f64)>,
     /// The coordinates that are x and y of a plane, if it is drawn in one.
     pub(super) plane: Option<[usize; 2]>,
 }
@@ -91,8 +91,10 @@ impl Beads<'_> {
         let near = |own: f64| own.max(0.4 * half);
         [DVec2::new(x[0], y[0]), BEYOND * DVec2::new(near(x[1]), near(y[1]))]
     }
+}
 
-    pub(super) fn draw(&self, q: &[f64], outline: &mut Outline) {
+impl BodyPicture for Beads<'_> {
+    fn draw(&self, q: &[f64], outline: &mut Outline) {
         if let Some(plane) = self.plane {
             let [_, half] = self.plane_room(plane);
             let radius = BEAD_IN_PLANE * half.max_element();
@@ -116,7 +118,7 @@ impl Beads<'_> {
         }
     }
 
-    pub(super) fn framing(&self) -> Framing {
+    fn framing(&self) -> Framing {
         if let Some(plane) = self.plane {
             let [centre_m, half_m] = self.plane_room(plane);
             return Framing::Fixed { centre_m, half_m, trail_s: TRAIL_S };
@@ -132,7 +134,7 @@ impl Beads<'_> {
         }
     }
 
-    pub(super) fn handles(&self, q: &[f64]) -> Vec<Handle> {
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
         if let Some(plane) = self.plane {
             let [_, half] = self.plane_room(plane);
             let at = DVec2::new(q[plane[0]], q[plane[1]]);
@@ -144,7 +146,7 @@ impl Beads<'_> {
     }
 
     /// The other coordinates keep their places and their velocities.
-    pub(super) fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
+    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
         match self.plane {
             Some([x, y]) => {
                 (state.q[x], state.q[y]) = (pull.to.x, pull.to.y);

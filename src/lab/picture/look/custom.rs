@@ -1,41 +1,42 @@
 //! A custom body: as its author draws it, or beads on rails or in a plane.
 
-use std::any::Any;
-
 use super::beads::Beads;
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
+use super::{BodyPicture, Framing, Handle, Outline, Pull, typed};
+use crate::lab::LaneBody;
 use crate::sim::State;
 use crate::sim::bodies::Custom;
 
-/// What its author draws: the system and the coordinates, to marks.
-type Draw = dyn Fn(&dyn Any, &[f64]) -> Vec<Mark> + Send + Sync;
-
-/// How the author of a body draws it; its kind holds it.
-pub(in crate::lab) struct Drawing(pub(in crate::lab) Box<Draw>);
-
-fn beads(own: &Custom) -> Beads<'_> {
-    let info = own.info();
-    let coordinates = info.coordinates.iter().map(|of| [&*of.name, of.unit]).collect();
-    Beads { coordinates, ranges: own.bounds(), plane: info.plane }
+struct CustomPicture<'a> {
+    body: &'a LaneBody,
+    custom: &'a Custom,
+    beads: Beads<'a>,
 }
 
-impl Drawn for Custom {
-    fn draw(&self, q: &Vec<f64>, outline: &mut Outline) {
-        match self.info().drawing.as_ref().and_then(|drawing| drawing.downcast_ref::<Drawing>()) {
-            Some(Drawing(draw)) => outline.marks.extend(draw(self.system(), q)),
-            None => beads(self).draw(q, outline),
+pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
+    let custom = typed::<Custom>(body.stepper.body());
+    let info = custom.info();
+    let coordinates = info.coordinates.iter().map(|of| [&*of.name, of.unit]).collect();
+    let beads = Beads { coordinates, ranges: body.preview().ranges.clone(), plane: info.plane };
+    Box::new(CustomPicture { body, custom, beads })
+}
+
+impl BodyPicture for CustomPicture<'_> {
+    fn draw(&self, q: &[f64], outline: &mut Outline) {
+        match self.body.drawing() {
+            Some(draw) => outline.marks.extend(draw(self.custom.system(), q)),
+            None => self.beads.draw(q, outline),
         }
     }
 
     fn framing(&self) -> Framing {
-        beads(self).framing()
+        self.beads.framing()
     }
 
-    fn handles(&self, q: &Vec<f64>) -> Vec<Handle> {
-        beads(self).handles(q)
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        self.beads.handles(q)
     }
 
     fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        beads(self).pull(state, pull);
+        self.beads.pull(state, pull);
     }
 }

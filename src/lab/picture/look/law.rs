@@ -2,7 +2,8 @@
 //! its own.
 
 use super::beads::Beads;
-use super::{Drawn, Framing, Handle, Outline, Pull};
+use super::{BodyPicture, typed};
+use crate::lab::LaneBody;
 use crate::sim::State;
 use crate::sim::bodies::Law;
 use crate::sim::law::Layout;
@@ -17,64 +18,24 @@ mod follower;
 mod places;
 mod vertical;
 
-/// A picture of a law: as [`Drawn`], of coordinates of any number.
-trait Arrangement {
-    fn draw(&self, q: &[f64], outline: &mut Outline);
-    fn framing(&self) -> Framing;
-    fn handles(&self, q: &[f64]) -> Vec<Handle>;
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull);
-}
-
-impl Arrangement for Beads<'_> {
-    fn draw(&self, q: &[f64], outline: &mut Outline) {
-        self.draw(q, outline);
-    }
-    fn framing(&self) -> Framing {
-        self.framing()
-    }
-    fn handles(&self, q: &[f64]) -> Vec<Handle> {
-        self.handles(q)
-    }
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        self.pull(state, pull);
-    }
-}
-
-fn arrangement(law: &Law) -> Box<dyn Arrangement + '_> {
+pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
+    let law = typed::<Law>(body.stepper.body());
+    let (text, preview) = (law.equations().text(), body.preview());
     if law.equations().has_places() {
-        return Box::new(Places { law });
+        return Box::new(Places { law, corners: preview.corners });
     }
-    let text = law.equations().text();
     let unit = text.coordinates[0].unit;
     let alike = text.coordinates.iter().take_while(|of| of.unit == unit).count();
     // Those of other units are no places.
-    let ranges = &law.bounds()[..alike];
+    let ranges = preview.ranges[..alike].to_vec();
     match text.layout {
         Layout::Beads => {
             let coordinates = text.coordinates.iter().map(|of| [&*of.name, of.unit]).collect();
-            Box::new(Beads { coordinates, ranges: law.bounds(), plane: text.plane })
+            Box::new(Beads { coordinates, ranges: preview.ranges.clone(), plane: text.plane })
         }
         Layout::Vertical => Box::new(Vertical { ranges }),
-        Layout::Carriage => Box::new(Carriage::new(ranges)),
+        Layout::Carriage => Box::new(Carriage::new(&ranges)),
         Layout::Follower => Box::new(Follower { ranges }),
-    }
-}
-
-impl Drawn for Law {
-    fn draw(&self, q: &Vec<f64>, outline: &mut Outline) {
-        arrangement(self).draw(q, outline);
-    }
-
-    fn framing(&self) -> Framing {
-        arrangement(self).framing()
-    }
-
-    fn handles(&self, q: &Vec<f64>) -> Vec<Handle> {
-        arrangement(self).handles(q)
-    }
-
-    fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        arrangement(self).pull(state, pull);
     }
 }
 

@@ -1,9 +1,13 @@
 //! Threads between nodes, and a bead on each node of a small net.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
-use super::{Drawn, Framing, Handle, Mark, Outline, Pull};
-use crate::lab::picture::outline::Thread;
+use super::{BodyPicture, Framing, Handle, Mark, Outline, Pull, typed};
+use crate::lab::LaneBody;
+use crate::lab::appearance::Preview;
+use crate::lab::outline::Thread;
 use crate::sim::State;
 use crate::sim::bodies::Net;
 
@@ -24,39 +28,49 @@ const MARGIN: f64 = 0.12;
 /// How long the trail of the marked node is, in seconds.
 const TRAIL_S: f64 = 1.2;
 
-impl Drawn for Net {
-    fn draw(&self, q: &Vec<f64>, outline: &mut Outline) {
-        let [low, high] = self.range();
+struct NetPicture<'a> {
+    net: &'a Net,
+    preview: Arc<Preview>,
+}
+
+pub(super) fn picture(body: &LaneBody) -> Box<dyn BodyPicture + '_> {
+    Box::new(NetPicture { net: typed(body.stepper.body()), preview: body.preview() })
+}
+
+impl BodyPicture for NetPicture<'_> {
+    fn draw(&self, q: &[f64], outline: &mut Outline) {
+        let Self { net, preview } = self;
+        let [low, high] = preview.corners;
         let largest = LARGEST_BEAD * (high - low).max_element();
-        let radius = |part: f64| (part * self.shortest()).min(largest);
-        outline.threads.extend(
-            self.threads(q)
-                .map(|(points, is_border)| Thread { points: points.collect(), is_border }),
-        );
-        for centre in self.fixed() {
+        let radius = |part: f64| (part * preview.springs.shortest).min(largest);
+        outline.threads.extend(preview.springs.lines.iter().map(|line| Thread {
+            points: line.nodes.iter().map(|&node| net.place_of(node, q)).collect(),
+            is_border: line.is_border,
+        }));
+        for &centre in &preview.springs.fixed {
             outline.marks.push(Mark::Anchor { centre, radius: radius(PIN) });
         }
-        let beads = Self::nodes(q).len() <= MOST_BEADS;
-        for &node in Self::nodes(q).iter().filter(|_| beads) {
+        let beads = Net::nodes(q).len() <= MOST_BEADS;
+        for &node in Net::nodes(q).iter().filter(|_| beads) {
             outline.marks.push(Mark::Disc { centre: DVec2::from(node), radius: radius(BEAD) });
         }
     }
 
     fn framing(&self) -> Framing {
-        let [low, high] = self.range();
+        let [low, high] = self.preview.corners;
         let half = (high - low) / 2.0;
         let half_m = (1.0 + MARGIN) * half.max(DVec2::splat(0.25 * half.max_element()));
         Framing::Fixed { centre_m: (low + high) / 2.0, half_m, trail_s: TRAIL_S }
     }
 
-    fn handles(&self, q: &Vec<f64>) -> Vec<Handle> {
-        let radius = GRIP * self.shortest();
-        Self::nodes(q).iter().map(|&node| Handle { at: DVec2::from(node), radius }).collect()
+    fn handles(&self, q: &[f64]) -> Vec<Handle> {
+        let radius = GRIP * self.preview.springs.shortest;
+        Net::nodes(q).iter().map(|&node| Handle { at: DVec2::from(node), radius }).collect()
     }
 
     /// The other nodes keep their places and their velocities.
     fn pull(&self, state: &mut State<Vec<f64>>, pull: Pull) {
-        Self::nodes_mut(&mut state.q)[pull.handle] = pull.to.into();
-        Self::nodes_mut(&mut state.v)[pull.handle] = pull.velocity.into();
+        Net::nodes_mut(&mut state.q)[pull.handle] = pull.to.into();
+        Net::nodes_mut(&mut state.v)[pull.handle] = pull.velocity.into();
     }
 }

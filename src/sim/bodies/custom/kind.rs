@@ -1,7 +1,5 @@
 //! The kind of a custom body.
 
-use std::any::Any;
-use std::cell::OnceCell;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::motion::Typed;
@@ -20,8 +18,7 @@ const FORCE: &str = "force";
 /// The largest number of coordinates. Larger systems need a sparse Jacobian; write a body.
 const MAX_COORDINATES: usize = 256;
 
-/// The kind of bodies that move as `system` does, from `start`. What a layer above needs to draw them is in
-/// `drawing`. What `extras` claims is held against the motion at the ticks of `horizon`. Its parameters have the numbers
+/// The kind of bodies that move as `system` does, from `start`. What `extras` claims is held against the motion at the ticks of `horizon`. Its parameters have the numbers
 /// of `system` as defaults.
 ///
 /// # Errors
@@ -30,7 +27,6 @@ pub fn custom_kind<S>(
     system: &S,
     start: &StateOf<S>,
     extras: &Extras<S>,
-    drawing: Option<Arc<dyn Any + Send + Sync>>,
     horizon: ClaimHorizon,
 ) -> Result<Arc<Kind>, CustomFault>
 where
@@ -60,13 +56,12 @@ where
     }
     let own = Custom {
         motion: Box::new(Typed::new(system.clone(), &start.q, extras)),
-        info: Arc::new(CustomInfo { coordinates, plane, drawing }),
+        info: Arc::new(CustomInfo { coordinates, plane }),
         values: parameters.iter().filter_map(|parameter| parameter.default).collect(),
         start: many,
         kick,
         is_linear: extras.is_linear,
         checked: Checked::default(),
-        bounds: OnceCell::new(),
     };
     claims::check(&own, horizon)?;
     Ok(Arc::new(kind(own, parameters)))

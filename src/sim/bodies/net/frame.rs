@@ -1,6 +1,5 @@
 //! A plan prepared for stepping: the free nodes, and the springs in arrays.
 
-use super::threads::{Thread, threads};
 use crate::sim::net_plan::{Lists, NetPlan};
 
 /// The place of a fixed node.
@@ -25,9 +24,6 @@ pub(super) struct Frame {
     pub(super) order: Vec<usize>,
     /// Whether a kick hits only the first of the free nodes, and not all of them.
     pub(super) kicks_first: bool,
-    pub(super) threads: Vec<Thread>,
-    /// The length of the shortest spring at the start, in metres.
-    pub(super) shortest: f64,
 }
 
 impl Frame {
@@ -59,11 +55,8 @@ impl Frame {
         }
         order.append(&mut anchored);
         let start = free.iter().flat_map(|&node| lists.nodes[node]).collect();
-        let threads = threads(plan, &lists);
-        let lengths = lists.springs.iter().map(|spring| lists.length(spring.between));
-        let shortest = lengths.fold(f64::INFINITY, f64::min);
         let kicks_first = plan.kicked.is_some();
-        Self { lists, free, place_of, start, ends, anchors, order, kicks_first, threads, shortest }
+        Self { lists, free, place_of, start, ends, anchors, order, kicks_first }
     }
 
     /// As many zeros as there are coordinates.

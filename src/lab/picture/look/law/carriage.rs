@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::super::{Framing, Handle, Mark, Outline, Pull};
-use super::{Arrangement, lift, reach};
+use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
+use super::{lift, reach};
 use crate::sim::State;
 
 /// The sizes of the parts, in units of the farthest that the carriage or the wheel goes from its rest: half the body,
@@ -33,7 +33,7 @@ impl Carriage {
     }
 }
 
-impl Arrangement for Carriage {
+impl BodyPicture for Carriage {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let unit = self.unit;
         let (body, hub) = (DVec2::new(0.0, q[0]), self.hub(q[1]));

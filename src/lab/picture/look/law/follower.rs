@@ -2,21 +2,21 @@
 
 use glam::DVec2;
 
-use super::super::{Framing, Handle, Mark, Outline, Pull};
-use super::{Arrangement, reach};
+use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
+use super::reach;
 use crate::sim::State;
 
 /// The radii of the body and of what it follows, in parts of the farthest that they go.
 const BODY: f64 = 0.08;
 const TARGET: f64 = 0.05;
 
-pub(super) struct Follower<'a> {
-    pub(super) ranges: &'a [(f64, f64)],
+pub(super) struct Follower {
+    pub(super) ranges: Vec<(f64, f64)>,
 }
 
-impl Follower<'_> {
+impl Follower {
     fn farthest(&self) -> f64 {
-        let [low, high] = reach(self.ranges);
+        let [low, high] = reach(&self.ranges);
         high.max(-low)
     }
 
@@ -26,7 +26,7 @@ impl Follower<'_> {
     }
 }
 
-impl Arrangement for Follower<'_> {
+impl BodyPicture for Follower {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let farthest = self.farthest();
         let at = |x: f64| DVec2::new(x, 0.0);

@@ -2,8 +2,7 @@
 
 use glam::{DMat2, DVec2};
 
-use super::super::{Framing, Handle, Mark, Outline, Pull};
-use super::Arrangement;
+use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
 use crate::sim::State;
 use crate::sim::bodies::Law;
 
@@ -31,12 +30,14 @@ const DAMPING: f64 = 1e-9;
 
 pub(super) struct Places<'a> {
     pub(super) law: &'a Law,
+    /// Of the rectangle that holds the places in the first seconds.
+    pub(super) corners: [DVec2; 2],
 }
 
 impl Places<'_> {
     /// The middle of the picture, and half of it.
     fn room(&self) -> [DVec2; 2] {
-        let [low, high] = self.law.places_corners();
+        let [low, high] = self.corners;
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
         if !(middle.is_finite() && half.is_finite()) {
             return [DVec2::ZERO, DVec2::ONE];
@@ -79,7 +80,7 @@ fn least_change(slopes: &[DVec2], by: DVec2) -> Vec<f64> {
     slopes.iter().map(|slope| slope.dot(weights)).collect()
 }
 
-impl Arrangement for Places<'_> {
+impl BodyPicture for Places<'_> {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
         let radius = self.radius();
         let discs = self.law.places(q).into_iter().map(|centre| Mark::Disc { centre, radius });

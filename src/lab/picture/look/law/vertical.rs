@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 
-use super::super::{Framing, Handle, Mark, Outline, Pull};
-use super::{Arrangement, lift, reach};
+use super::super::{BodyPicture, Framing, Handle, Mark, Outline, Pull};
+use super::{lift, reach};
 use crate::sim::State;
 
 /// The radius of a body, the distance of two, and half the length of the line at 0, in parts of the heights' range.
@@ -13,13 +13,13 @@ const HALF_GROUND: f64 = 0.4;
 /// The room above and below, in the same parts.
 const MARGIN: f64 = 0.12;
 
-pub(super) struct Vertical<'a> {
-    pub(super) ranges: &'a [(f64, f64)],
+pub(super) struct Vertical {
+    pub(super) ranges: Vec<(f64, f64)>,
 }
 
-impl Vertical<'_> {
+impl Vertical {
     fn range(&self) -> f64 {
-        let [low, high] = reach(self.ranges);
+        let [low, high] = reach(&self.ranges);
         high - low
     }
 
@@ -29,9 +29,9 @@ impl Vertical<'_> {
     }
 }
 
-impl Arrangement for Vertical<'_> {
+impl BodyPicture for Vertical {
     fn draw(&self, q: &[f64], outline: &mut Outline) {
-        let ([low, high], range) = (reach(self.ranges), self.range());
+        let ([low, high], range) = (reach(&self.ranges), self.range());
         let last = self.at(self.ranges.len() - 1, 0.0);
         let aside = DVec2::X * HALF_GROUND * range;
         outline.marks.push(Mark::Wall { from: -aside, to: last + aside });
@@ -50,7 +50,7 @@ impl Arrangement for Vertical<'_> {
     }
 
     fn framing(&self) -> Framing {
-        let ([low, high], range) = (reach(self.ranges), self.range());
+        let ([low, high], range) = (reach(&self.ranges), self.range());
         let last = self.at(self.ranges.len() - 1, 0.0).x;
         let centre_m = DVec2::new(last / 2.0, (low + high) / 2.0);
         let half_m = DVec2::new(last / 2.0 + HALF_GROUND * range, (0.5 + MARGIN) * range);

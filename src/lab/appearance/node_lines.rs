@@ -1,44 +1,44 @@
-//! The springs of a net as lines through many nodes, for drawing.
+//! The springs of a net as lines through many nodes.
 
-use crate::sim::net_plan::{Form, Grid, Lists, NetPlan};
+use crate::sim::bodies::{Form, Grid, Lists, NetPlan};
 
 /// A line through nodes that springs join one after the other.
 #[derive(Debug)]
-pub(super) struct Thread {
+pub(in crate::lab) struct NodeLine {
     /// The numbers of the nodes.
-    pub(super) nodes: Vec<usize>,
+    pub(in crate::lab) nodes: Vec<usize>,
     /// Whether it is a part of the border, which alone tells where the net is.
-    pub(super) is_border: bool,
+    pub(in crate::lab) is_border: bool,
 }
 
 /// The rows and columns of a grid, without the diagonals, or lines through all springs of lists.
-pub(super) fn threads(plan: &NetPlan, lists: &Lists) -> Vec<Thread> {
+pub(super) fn lines(plan: &NetPlan, lists: &Lists) -> Vec<NodeLine> {
     match &plan.form {
         Form::Grid(grid) => of_grid(*grid),
         Form::Lists(_) => of_lists(lists),
     }
 }
 
-fn of_grid(Grid { columns, rows, .. }: Grid) -> Vec<Thread> {
-    let across = (0..rows).map(|row| Thread {
+fn of_grid(Grid { columns, rows, .. }: Grid) -> Vec<NodeLine> {
+    let across = (0..rows).map(|row| NodeLine {
         nodes: (0..columns).map(|column| row * columns + column).collect(),
         is_border: row == 0 || row + 1 == rows,
     });
-    let down = (0..columns).map(|column| Thread {
+    let down = (0..columns).map(|column| NodeLine {
         nodes: (0..rows).map(|row| row * columns + column).collect(),
         is_border: column == 0 || column + 1 == columns,
     });
-    across.chain(down).filter(|thread| thread.nodes.len() > 1).collect()
+    across.chain(down).filter(|line| line.nodes.len() > 1).collect()
 }
 
 /// Each line goes on as long as there is a spring that none has.
-fn of_lists(lists: &Lists) -> Vec<Thread> {
+fn of_lists(lists: &Lists) -> Vec<NodeLine> {
     let mut at_node = vec![Vec::new(); lists.nodes.len()];
     for (place, spring) in lists.springs.iter().enumerate() {
         spring.between.iter().for_each(|&end| at_node[end].push(place));
     }
     let mut is_drawn = vec![false; lists.springs.len()];
-    let mut threads = Vec::new();
+    let mut lines = Vec::new();
     for first in 0..lists.springs.len() {
         if is_drawn[first] {
             continue;
@@ -50,19 +50,19 @@ fn of_lists(lists: &Lists) -> Vec<Thread> {
             let [a, b] = lists.springs[next].between;
             nodes.push(if a == nodes[nodes.len() - 1] { b } else { a });
         }
-        threads.push(Thread { nodes, is_border: true });
+        lines.push(NodeLine { nodes, is_border: true });
     }
-    threads
+    lines
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::net_plan::PlannedSpring;
+    use crate::sim::bodies::PlannedSpring;
 
     /// The springs that lines go along, each once.
-    fn drawn(threads: &[Thread]) -> Vec<[usize; 2]> {
-        let pairs = threads.iter().flat_map(|thread| thread.nodes.windows(2));
+    fn drawn(lines: &[NodeLine]) -> Vec<[usize; 2]> {
+        let pairs = lines.iter().flat_map(|line| line.nodes.windows(2));
         let mut pairs: Vec<_> =
             pairs.map(|ends| [ends[0].min(ends[1]), ends[0].max(ends[1])]).collect();
         pairs.sort_unstable();
@@ -78,16 +78,16 @@ mod tests {
             fixed: vec![],
             springs: springs.map(spring).to_vec(),
         };
-        let threads = of_lists(&lists);
-        assert_eq!(drawn(&threads), [[0, 1], [0, 2], [1, 2], [2, 3], [3, 4], [5, 6]]);
-        assert_eq!(threads.len(), 3);
+        let lines = of_lists(&lists);
+        assert_eq!(drawn(&lines), [[0, 1], [0, 2], [1, 2], [2, 3], [3, 4], [5, 6]]);
+        assert_eq!(lines.len(), 3);
     }
 
     #[test]
     fn a_grid_is_drawn_as_its_rows_and_columns() {
         let grid = Grid { columns: 3, rows: 2, spacing: 1.0, shear: true, pin: None };
-        let threads = of_grid(grid);
-        assert_eq!(drawn(&threads), [[0, 1], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [4, 5]]);
-        assert_eq!(threads.iter().filter(|thread| thread.is_border).count(), 4);
+        let lines = of_grid(grid);
+        assert_eq!(drawn(&lines), [[0, 1], [0, 3], [1, 2], [1, 4], [2, 5], [3, 4], [4, 5]]);
+        assert_eq!(lines.iter().filter(|line| line.is_border).count(), 4);
     }
 }
