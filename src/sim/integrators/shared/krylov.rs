@@ -7,6 +7,8 @@
 //! nalgebra-sparse has no solver for such a matrix, and faer is many times the size of this layer and chooses
 //! its sums by the processor: ours have the same bits everywhere.
 
+use crate::sim::state::largest;
+
 /// The most products of matrix and vector in one step of a method. A soft net needs tens and a stiff one
 /// hundreds; without a limit, equations that have no solution would never end.
 const MAX_PRODUCTS: u32 = 12_000;
@@ -14,6 +16,9 @@ const MAX_PRODUCTS: u32 = 12_000;
 const PRODUCTS: u32 = 4;
 /// The relative residual of the linear equations of a descent.
 const DESCENT_TOLERANCE: f64 = 1e-2;
+/// Right-hand sides below this are scaled up: the fourth power of what a tolerance of 1e-10 leaves of it is a normal
+/// number, and products of inner products are of that size.
+const TINY: f64 = f64::from_bits((1023 - 200) << 52);
 
 /// A matrix: overwrites its second argument with the product of the matrix and the first.
 pub(super) type Matrix<'a> = dyn FnMut(&[f64], &mut [f64]) + 'a;
@@ -56,11 +61,12 @@ impl Krylov {
     /// Overwrites the right-hand side `b` with the solution, to a residual of `tolerance` times `b`, or as
     /// near as the products left allow.
     pub(super) fn solve(&mut self, matrix: &mut Matrix<'_>, tolerance: f64, b: &mut [f64]) {
-        self.r.copy_from_slice(b);
+        let unit = unit(b);
+        self.r.iter_mut().zip(&*b).for_each(|(r, b)| *r = b / unit);
         self.x.fill(0.0);
         let enough = tolerance * dot(&self.r, &self.r).sqrt();
         self.iterate(matrix, enough);
-        b.copy_from_slice(&self.x);
+        b.iter_mut().zip(&self.x).for_each(|(b, x)| *b = x * unit);
     }
 
     /// Overwrites the residual `b` with a direction down the energy whose gradient it is: the solution by
@@ -68,7 +74,8 @@ impl Krylov {
     /// trust regions in large scale optimization*, 1983). Returns whether it does so along all that was tried.
     pub(super) fn descend(&mut self, matrix: &mut Matrix<'_>, b: &mut [f64]) -> bool {
         let Self { left, x, r, u: p, v: product, .. } = self;
-        r.copy_from_slice(b);
+        let unit = unit(b);
+        r.iter_mut().zip(&*b).for_each(|(r, b)| *r = b / unit);
         x.fill(0.0);
         p.copy_from_slice(r);
         let mut size = dot(r, r);
@@ -93,7 +100,7 @@ impl Krylov {
         if dot(x, x) == 0.0 {
             x.copy_from_slice(r);
         }
-        b.copy_from_slice(x);
+        b.iter_mut().zip(&*x).for_each(|(b, x)| *b = x * unit);
         curves_upwards
     }
 
@@ -171,6 +178,21 @@ fn assign_sum(to: &mut [f64], x: &[f64], times: f64) {
 /// `to += times x`
 pub(super) fn add(to: &mut [f64], times: f64, x: &[f64]) {
     to.iter_mut().zip(x).for_each(|(to, x)| *to += times * x);
+}
+
+/// The length of a vector, whose squares do not underflow.
+pub(super) fn length(x: &[f64]) -> f64 {
+    let unit = unit(x);
+    unit * x.iter().fold(0.0, |sum, x| sum + (x / unit) * (x / unit)).sqrt()
+}
+
+/// A power of 2, so that dividing by it is exact: near the largest component if that is [tiny](TINY), else 1.
+fn unit(x: &[f64]) -> f64 {
+    let largest = largest(x);
+    if largest >= TINY || largest.is_nan() {
+        return 1.0;
+    }
+    f64::from_bits(largest.to_bits() & f64::INFINITY.to_bits()).max(f64::MIN_POSITIVE)
 }
 
 /// The inner product, summed in order.

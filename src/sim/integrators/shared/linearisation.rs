@@ -266,10 +266,13 @@ pub(super) fn alternate<V: Vector>(x: &mut V, distance: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::integrators::{Family, METHODS, integrator};
 
     /// Springs apart from each other, all equal or each stiffer than the last.
     struct Apart {
+        stiffness: f64,
         stiffer: f64,
+        damping: f64,
     }
 
     impl System for Apart {
@@ -279,7 +282,7 @@ mod tests {
         }
         fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
             for (i, a) in a.iter_mut().enumerate() {
-                *a = -(9.0 + self.stiffer * i as f64) * q[i] - 0.4 * v[i];
+                *a = -(self.stiffness + self.stiffer * i as f64) * q[i] - self.damping * v[i];
             }
         }
     }
@@ -293,10 +296,32 @@ mod tests {
             let mut equations = Linearisation::<_, 1>::new(&y.q, Coupling::Few);
             let mut x = start.clone();
             equations.slopes.reach_for(0.1, &y, &y.q);
-            equations.solve_at(&Apart { stiffer }, 0.0, &y, [alpha, beta], &mut x).unwrap();
+            let apart = Apart { stiffness: 9.0, stiffer, damping: 0.4 };
+            equations.solve_at(&apart, 0.0, &y, [alpha, beta], &mut x).unwrap();
             for (i, (x, b)) in x.iter().zip(&start).enumerate() {
                 let wanted = b / (1.0 + alpha * (9.0 + stiffer * i as f64) + beta * 0.4);
                 assert!((x - wanted).abs() < 1e-7, "{i}: {x}, not {wanted}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_sparse_system_decays_until_nothing_is_left_of_it() {
+        let start: Vec<f64> = (0..8).map(|i| 1e-60 * (1.0 - 0.3 * f64::from(i))).collect();
+        for stiffer in [0.0, 2.0] {
+            let apart = Apart { stiffness: 100.0, stiffer, damping: 20.0 };
+            for method in METHODS {
+                if !matches!(method.family, Family::Implicit | Family::Linearised) {
+                    continue;
+                }
+                let mut y = State { q: start.clone(), v: start.clone() };
+                let mut integrator = integrator::<Apart>(method, &y.q);
+                for step in 0..1200 {
+                    let stepped = integrator.step(&apart, 0.1 * f64::from(step), 0.1, &mut y);
+                    assert_eq!(stepped, Ok(()), "{} at {y:?}", method.id);
+                }
+                let left = largest(y.q.iter().chain(&y.v));
+                assert!(left < 1e-300, "{} with {stiffer}: {left}", method.id);
             }
         }
     }

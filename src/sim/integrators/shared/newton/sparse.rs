@@ -7,6 +7,7 @@
 //! near a solution, from which Newton's iteration goes on.
 
 use super::{Convergence, MAX_ITERATIONS, Newton, Progress, ROUND_OFF};
+use crate::sim::integrators::shared::krylov::length;
 use crate::sim::integrators::shared::stages::{Stages, largest_of};
 use crate::sim::state::{Vector, largest};
 use crate::sim::system::System;
@@ -24,6 +25,9 @@ const MIN_DESCENT: f64 = 1e-9;
 const UPHILL: f64 = 0.5;
 /// The part of the residual that a whole correction must remove.
 const MIN_PROGRESS: f64 = 1e-4;
+
+/// Residuals below this are rounding: near it forces lose digits to underflow.
+const UNDERFLOW: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// What became of a step down the energy.
 enum Descent {
@@ -112,9 +116,9 @@ impl<V: Vector, const S: usize> Newton<V, S> {
             let is_at_rounding = loop {
                 self.evaluate_residual(system, stages);
                 if iteration == 0 {
-                    rounding = ROUND_OFF * self.rounding_of_forces(system, stages);
+                    rounding = ROUND_OFF * self.rounding_of_forces(system, stages) + UNDERFLOW;
                 }
-                let now = self.residual.iter().map(|off| off * off).sum::<f64>().sqrt();
+                let now = length(&self.residual);
                 let is_at_rounding = largest(&self.residual) <= rounding;
                 if now <= (1.0 - MIN_PROGRESS * part) * norm || is_at_rounding {
                     norm = now;
