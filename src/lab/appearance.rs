@@ -197,8 +197,11 @@ mod tests {
 
     #[test]
     fn the_range_of_a_coordinate_is_found_before_the_motion_is_drawn() {
-        let law = "[[law]]\n[law.coordinates.x]\nstart = 2\nacceleration = '-9*x'";
-        let &[(least, most)] = &ranges(&Scene::parse("law", law).unwrap())[..] else { panic!() };
+        let law = "title = 'Mine'\ntick_hz = 60\nseconds = 5\n\
+            [[law]]\n[law.coordinates.x]\nstart = 2\nacceleration = '-9*x'";
+        let &[(least, most)] = &ranges(&Scene::parse("mine.toml", law).unwrap())[..] else {
+            panic!()
+        };
         assert!((least + 2.0).abs() < 0.01 && (most - 2.0).abs() < 0.01, "{least} to {most}");
     }
 }
