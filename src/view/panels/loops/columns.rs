@@ -14,6 +14,8 @@ pub(super) enum Cell {
     Verdict,
     /// The metric of this id, at the right.
     Metric(&'static str),
+    /// How far the display is behind the moment shown, in the mean, at the right.
+    Latency,
 }
 
 /// One column.
@@ -35,8 +37,12 @@ const fn fixed(head: &'static str, width: f32, cell: Cell) -> Column {
     Column { head, width, turn: 0, cell }
 }
 
+const fn number(head: &'static str, width: f32, turn: u8, cell: Cell) -> Column {
+    Column { head, width, turn, cell }
+}
+
 const fn metric(head: &'static str, width: f32, turn: u8, id: &'static str) -> Column {
-    Column { head, width, turn, cell: Cell::Metric(id) }
+    number(head, width, turn, Cell::Metric(id))
 }
 
 /// Every column, from left to right.
@@ -50,7 +56,7 @@ pub(super) static COLUMNS: &[Column] = &[
     metric("double", 56.0, 4, "double_percent"),
     metric("error RMS", 76.0, 1, "animation_error_rms_ms"),
     metric("largest", 70.0, 5, "animation_error_max_ms"),
-    metric("latency", 70.0, 3, "latency_mean_ms"),
+    number("latency", 70.0, 3, Cell::Latency),
     metric("dropped", 70.0, 7, "dropped_ms"),
     metric("position", 72.0, 8, "position_error_rms"),
     metric("at ½ rate", 72.0, 6, "state_difference"),
@@ -59,7 +65,11 @@ pub(super) static COLUMNS: &[Column] = &[
 impl Cell {
     /// The metric, if it shows one.
     pub(super) fn metric(self) -> Option<&'static PacingMetric> {
-        let Cell::Metric(id) = self else { return None };
+        let id = match self {
+            Cell::Metric(id) => id,
+            Cell::Latency => "latency_mean_ms",
+            _ => return None,
+        };
         PACING_METRICS.iter().find(|metric| metric.id == id)
     }
 
@@ -73,7 +83,7 @@ impl Cell {
             Cell::Verdict => {
                 "what this loop does to motion at this tick rate on this display; sorted from best to worst"
             }
-            Cell::Metric(_) => {
+            Cell::Metric(_) | Cell::Latency => {
                 let metric = self.metric();
                 let unit = match metric.map(|metric| metric.unit) {
                     Some(AMPLITUDES) => ", in percent of the amplitude",
@@ -86,11 +96,23 @@ impl Cell {
         words.into()
     }
 
+    /// The metric of the loop at this place in words.
+    pub(super) fn written(self, loops: &LoopLab, place: usize) -> Option<String> {
+        let metric = self.metric()?;
+        let value = loops.lanes()[place].report().and_then(metric.measure)?;
+        Some(match self {
+            Cell::Latency => latency(value),
+            _ => shown(value, metric.unit),
+        })
+    }
+
     /// What the loop at this place is sorted by; `None` comes last.
     pub(super) fn rank(self, loops: &LoopLab, place: usize) -> Option<f64> {
         let lane = &loops.lanes()[place];
         match self {
-            Cell::Metric(_) => (self.metric()?.measure)(lane.report()?).map(f64::abs),
+            Cell::Metric(_) | Cell::Latency => {
+                (self.metric()?.measure)(lane.report()?).map(f64::abs)
+            }
             Cell::Verdict => Some(match lane.verdict(loops.scene().tick_hz).severity {
                 Severity::Fine => 0.0,
                 Severity::Doubtful => 1.0,
@@ -109,10 +131,22 @@ const AMPLITUDES: &str = "amplitudes";
 const MANY_MS: f64 = 10_000.0;
 /// From here on a share of the amplitude is that of a motion that has blown up.
 const LOST_PERCENT: f64 = 1e5;
+/// Frames begin early and late by more than this: a lesser mean latency is none.
+const LEAST_LATENCY_MS: f64 = 0.1;
 /// Less is not told from nothing by three decimals.
 const LEAST: f64 = 1e-3;
 /// From here on three digits have no more than two decimals.
 const SMALL: f64 = 0.1;
+
+/// A mean latency in milliseconds as the table has it.
+fn latency(ms: f64) -> String {
+    match ms {
+        ms if ms.abs() < LEAST_LATENCY_MS => "0 ms".into(),
+        // It grows as long as the run goes on.
+        ahead if ahead < 0.0 => "ahead".into(),
+        behind => shown(behind, "ms"),
+    }
+}
 
 /// A value of a metric as the table has it.
 pub(super) fn shown(value: f64, unit: &str) -> String {
@@ -159,7 +193,7 @@ mod tests {
     #[test]
     fn every_number_is_a_metric_of_the_table() {
         for column in COLUMNS {
-            let is_number = matches!(column.cell, Cell::Metric(_));
+            let is_number = column.turn > 0;
             assert_eq!(column.cell.metric().is_some(), is_number, "{}", column.head);
             assert!(column.cell.about().len() > 20, "{}", column.head);
         }
@@ -183,18 +217,10 @@ mod tests {
 
     #[test]
     fn values_have_three_digits_or_decimals_and_nothing_is_told_from_almost_nothing() {
-        let texts = [
-            (8.2247, "ms"),
-            (-14_000.0, "ms"),
-            (-0.008_81, "ms"),
-            (0.0, "ms"),
-            (1e-7, "ms"),
-            (0.1234, AMPLITUDES),
-        ];
+        let texts = [(8.2247, "ms"), (0.0, "ms"), (1e-7, "ms"), (0.1234, AMPLITUDES)];
         let texts = texts.map(|(value, unit)| shown(value, unit));
-        assert_eq!(
-            texts,
-            ["8.22 ms", "\u{2212}14 s", "\u{2212}0.009 ms", "0 ms", "<0.001 ms", "12.3 %"]
-        );
+        assert_eq!(texts, ["8.22 ms", "0 ms", "<0.001 ms", "12.3 %"]);
+        let texts = [-290_000.0, -0.008_81, 3e-7, 0.3, 16.66, 14_000.0].map(latency);
+        assert_eq!(texts, ["ahead", "0 ms", "0 ms", "0.3 ms", "16.7 ms", "14 s"]);
     }
 }

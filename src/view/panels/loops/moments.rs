@@ -1,6 +1,11 @@
 //! What moment each loop shows when: a staircase, because a display holds a frame until the next.
 
-use egui::{Align2, FontId, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, pos2, vec2};
+use std::sync::Arc;
+
+use egui::text::{LayoutJob, TextFormat};
+use egui::{
+    Color32, FontId, Galley, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, pos2, vec2,
+};
 
 use super::ShownLane;
 use super::counts::BELOW;
@@ -24,8 +29,8 @@ const LEFT: f32 = 44.0;
 const MARK: f32 = 6.0;
 /// The radii of the dots of neighbours, which may lie on each other.
 const DOTS: [f32; 2] = [2.6, 4.4];
-/// From this height on, in points, the marks have their names.
-const ROOM_FOR_MARKS: f32 = 90.0;
+/// Between the name of an axis and that of its marks, in points.
+const APART: f32 = 14.0;
 
 /// The length of the plot in milliseconds.
 fn length_ms(loops: &LoopLab) -> f64 {
@@ -73,16 +78,15 @@ pub(super) fn show(ui: &mut Ui, loops: &LoopLab, lanes: &[ShownLane<'_>], size: 
     let painter = ui.painter_at(room.expand(1.0));
     painter.rect_filled(rect, 0.0, ink.plot);
     area.axes(&painter, ink, [&area.marks(0, 56.0), &area.marks(1, 26.0)]);
-    let small = FontId::proportional(11.5);
-    painter.text(
-        pos2(rect.left(), room.top()),
-        Align2::LEFT_TOP,
-        "moment shown, ms from now",
-        small.clone(),
-        ink.dim,
-    );
-    let at = pos2(rect.center().x, room.bottom());
-    painter.text(at, Align2::CENTER_BOTTOM, "moment of display, ms from now", small, ink.dim);
+    let ticks = format!("{} Hz ticks", loops.scene().tick_hz);
+    let words = named(&painter, ink, "moment shown, ms from now", (ticks, ink.accent));
+    painter.galley(pos2(rect.left(), room.top()), words, ink.dim);
+    let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
+    let frames = (format!("{hz} Hz frames"), ink.text);
+    let words = named(&painter, ink, "displayed, ms from now", frames);
+    let half = words.size().x / 2.0;
+    let middle = rect.center().x.min(rect.right() - half);
+    painter.galley(pos2(middle - half, room.bottom() - words.size().y), words, ink.dim);
 
     marks(&painter, loops, &area, ink);
     let inner = painter.with_clip_rect(rect);
@@ -153,14 +157,19 @@ fn marks(painter: &Painter, loops: &LoopLab, area: &PlotArea, ink: &Ink) {
             painter.vline(x, rect.bottom() - MARK..=rect.bottom(), Stroke::new(1.2, ink.text));
         }
     }
-    if rect.height() >= ROOM_FOR_MARKS {
-        let font = || FontId::proportional(11.5);
-        let at = rect.left_top() + vec2(8.0, MARK + 3.0);
-        painter.text(at, Align2::LEFT_TOP, format!("{tick_hz} Hz ticks"), font(), ink.accent);
-        let hz = round(loops.traces()[loops.trace()].refresh().hz(), 4);
-        let at = rect.right_bottom() - vec2(8.0, MARK + 3.0);
-        painter.text(at, Align2::RIGHT_BOTTOM, format!("{hz} Hz frames"), font(), ink.text);
-    }
+}
+
+/// The name of an axis, and behind it what the marks along it are.
+fn named(
+    painter: &Painter,
+    ink: &Ink,
+    axis: &str,
+    (marks, colour): (String, Color32),
+) -> Arc<Galley> {
+    let format = |colour| TextFormat::simple(FontId::proportional(11.5), colour);
+    let mut job = LayoutJob::single_section(axis.into(), format(ink.dim));
+    job.append(&marks, APART, format(colour));
+    painter.layout_job(job)
 }
 
 /// A line under the pointer, and what each lane shows there.

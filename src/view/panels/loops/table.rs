@@ -6,7 +6,7 @@ use egui::{
     vec2,
 };
 
-use super::columns::{COLUMNS, Cell, Column, fitting, shown};
+use super::columns::{COLUMNS, Cell, Column, fitting};
 use crate::lab::{Command, LoopCommand, LoopLab, LoopVerdict, Severity};
 use crate::view::panels::lanes::{self, BAR, HEAD, MARGIN, ROW};
 use crate::view::panels::plot_area::polygon;
@@ -77,7 +77,7 @@ fn head(
         };
         let is_lit = response.hovered() || response.has_focus();
         let inked = if is_lit { ink(ui).accent } else { ink(ui).dim };
-        let is_number = matches!(column.cell, Cell::Metric(_));
+        let is_number = column.cell.metric().is_some();
         let side = if is_number { Align2::RIGHT_CENTER } else { Align2::LEFT_CENTER };
         let (text, _) =
             short(ui, &format!("{words}{sign}"), FontId::proportional(TYPE), own, inked);
@@ -119,7 +119,7 @@ fn row(
     let verdict = lane.verdict(loops.scene().tick_hz);
     let is_selected = place == loops.selected();
     let numbers = columns.iter().filter_map(|(column, ..)| {
-        Some(format!(", {} {}", column.head, written(loops, place, column.cell)?))
+        Some(format!(", {} {}", column.head, column.cell.written(loops, place)?))
     });
     let numbers: String = numbers.collect();
     let spoken = format!("{} {}, {}{numbers}", place + 1, lane.card().name, verdict.text);
@@ -213,19 +213,12 @@ fn paint(ui: &Ui, loops: &LoopLab, place: usize, cell: Cell, rect: Rect, verdict
             let words = wordings.iter().copied().find(fits);
             write(words.unwrap_or(wordings[wordings.len() - 1]), at, FontId::proportional(TYPE));
         }
-        Cell::Metric(_) => {
-            let Some(words) = written(loops, place, cell) else { return };
+        Cell::Metric(_) | Cell::Latency => {
+            let Some(words) = cell.written(loops, place) else { return };
             let font = FontId::proportional(TYPE);
             ui.painter().text(rect.right_center(), Align2::RIGHT_CENTER, words, font, text);
         }
     }
-}
-
-/// The number of a cell, if it has one.
-fn written(loops: &LoopLab, place: usize, cell: Cell) -> Option<String> {
-    let metric = cell.metric()?;
-    let value = loops.lanes()[place].report().and_then(metric.measure)?;
-    Some(shown(value, metric.unit))
 }
 
 /// A verdict, and what is left of it without its last parts.
