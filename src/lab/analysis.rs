@@ -32,7 +32,7 @@ pub use judge::{Judge, LONGEST_HORIZON_S};
 pub use limits::{FREQUENCY_TOLERANCE, TOLERANCE, VISIBLE};
 pub use outcome::{Outcome, Severity};
 pub use run::MOST_WORK;
-pub use stability_map::{Coverage, Here, MapRequest, Region, StabilityMap};
+pub use stability_map::{Coverage, Here, MapRequest, Region, SeenLine, StabilityMap};
 pub use truth::LONG_RUN;
 pub use verdict::{NoTruth, NotJudged, RunFailure, Verdict, duration};
 pub use worker::{Advice, AdvisedBodies, AnalysisRequest, AnalysisWorker, Findings};

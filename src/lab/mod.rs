@@ -62,7 +62,7 @@ pub use analysis::{
     Coverage, Criterion, CriterionMet, CriterionResult, EnergyFinding, FREQUENCY_TOLERANCE,
     Findings, Here, Judge, LONG_RUN, LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK,
     MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome, Region, RunFailure, Severity,
-    StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
+    SeenLine, StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
 };
 pub use appearance::Appearance;
 pub use chase::Chase;

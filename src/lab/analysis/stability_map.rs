@@ -7,6 +7,8 @@
 use std::sync::Arc;
 
 use contour::{Corners, contour};
+pub use seen::SeenLine;
+use seen::seen_lines;
 
 use crate::lab::lane_spec::LaneSpec;
 use crate::lab::scene::SceneBody;
@@ -14,9 +16,10 @@ use crate::sim::bodies::{Kind, kind};
 use crate::sim::stability::{
     CoupledMotion, NoSmallMotion, NormalMode, SmallMotion, Stability, Tick,
 };
-use crate::sim::{EngineSettings, Solver, Stepper};
+use crate::sim::{BodyClass, EngineSettings, Solver, Stepper};
 
 mod contour;
+mod seen;
 
 /// The tick rates of a map in Hz: those of the keys. A present rate outside widens the map.
 const RATES_HZ: [f64; 2] = [2.0, 1000.0];
@@ -115,6 +118,8 @@ pub struct Region {
     pub boundary: Vec<Vec<[f64; 2]>>,
     /// The ω h of a tick at the boundary, where the method's card tells it: nothing on the map may be damped.
     pub limit: Option<f64>,
+    /// Lines along which a player sees the same damping; of an engine whose joint the body is.
+    pub seen: Vec<SeenLine>,
 }
 
 /// How much of a map a region covers.
@@ -292,7 +297,7 @@ impl MapWork {
             let spec = *spec;
             let region = if chooses_steps(&spec) {
                 let coverage = Coverage::OwnSteps;
-                Region { coverage, pieces: vec![], boundary: vec![], limit: None }
+                Region { coverage, pieces: vec![], boundary: vec![], limit: None, seen: vec![] }
             } else {
                 self.region(&spec)
             };
@@ -319,16 +324,30 @@ impl MapWork {
         );
         let is_undamped = self.rows.iter().flatten().all(Motion::is_undamped);
         let of_step = spec.method.stability_limit.filter(|limit| is_undamped && *limit > 0.0);
-        Region { limit: of_step.map(|limit| limit * f64::from(spec.substeps)), ..region }
+        let limit = of_step.map(|limit| limit * f64::from(spec.substeps));
+        let seen = seen_lines(spec, &corners, |value| self.joint_at(value));
+        Region { limit, seen, ..region }
+    }
+
+    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, that engines are told of the body with this
+    /// value of the mapped parameter; `None` if there is more to its motion.
+    fn joint_at(&self, value: f64) -> Option<[f64; 2]> {
+        let body = self.body_at(value);
+        let EngineSettings { stiffness, damping, drag } = body.engine_settings(0.0);
+        let is_joint = self.kind.class == BodyClass::Joint && stiffness > 0.0 && drag == 0.0;
+        is_joint.then_some([stiffness, damping])
     }
 
     /// The motion of the body with this value of the mapped parameter.
     fn motion_at(&self, value: f64) -> Option<Motion> {
+        Motion::of(&*self.body_at(value)).ok()
+    }
+
+    fn body_at(&self, value: f64) -> Box<dyn Stepper> {
         let MapRequest { values, parameter, .. } = &self.map.request;
         let mut values = values.clone();
         values[*parameter] = value;
-        let body = (self.kind.build)(&values, Solver::Truth);
-        Motion::of(&*body).ok()
+        (self.kind.build)(&values, Solver::Truth)
     }
 }
 

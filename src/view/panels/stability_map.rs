@@ -12,7 +12,7 @@ use super::plot_area::{PlotArea, decades, label, mixed, polygon};
 use super::{colour, ink, strong_font};
 use crate::lab::number::round;
 use crate::lab::{
-    Action, Command, Coverage, Lab, MapRequest, Parameter, StabilityMap, edited_values,
+    Action, Command, Coverage, Lab, MapRequest, Parameter, SeenLine, StabilityMap, edited_values,
 };
 use crate::view::curves::{self, Curve, Dots};
 use words::{each_method, full_name, no_map, point_in_words, sentence, short_sentence};
@@ -26,6 +26,8 @@ const BELOW: f32 = 18.0;
 const NAME: f32 = 19.0;
 /// From this height on, in points, there is room for all words.
 const ROOM_FOR_WORDS: f32 = 260.0;
+/// From this height of the plot on, in points, there is room for all lines of equal damping, and not only for powers of ten.
+const ROOM_FOR_LINES: f32 = 130.0;
 /// How opaque the water is where every method is stable.
 const DEEPEST: f32 = 0.7;
 /// What the cross is known by.
@@ -166,16 +168,21 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
     let style = |entry: usize| ink(ui).style(lab.entries(), &lab.entries()[entry]);
     let mut order: Vec<&(usize, Vec<Pos2>)> = lines.iter().collect();
     order.sort_by_key(|(entry, _)| is_selected(*entry));
+    let curve = |colour: Color32, width: f32, dash: [f32; 2]| Curve {
+        colour,
+        width,
+        dash,
+        dots: Dots::None,
+        points: Vec::new(),
+        swept: Vec::new(),
+    };
+    let seen = seen_lines(lab, map, area);
+    let seen_colour = mixed(ink(ui).dim, style(lab.active()).0, 0.6);
+    for (_, points) in &seen {
+        curves::paint(&painter, points, &[], &curve(seen_colour, 1.2, [1.0, 0.0]));
+    }
     for (entry, points) in &order {
         let (colour, dash) = style(*entry);
-        let curve = |colour: Color32, width: f32, dash: [f32; 2]| Curve {
-            colour,
-            width,
-            dash,
-            dots: Dots::None,
-            points: Vec::new(),
-            swept: Vec::new(),
-        };
         if is_selected(*entry) {
             let glow = curve(colour.gamma_multiply(0.25), 7.0, [1.0, 0.0]);
             curves::paint(&painter, points, &[], &glow);
@@ -213,6 +220,34 @@ fn boundaries(ui: &Ui, lab: &Lab, map: &StabilityMap, area: &PlotArea) {
             }
         }
     }
+    let land = ink(ui).plot.gamma_multiply(0.8);
+    for (ratio, points) in &seen {
+        let others = seen.iter().filter(|(other, _)| other != ratio).map(|(_, points)| points);
+        let others = others.chain(lines.iter().map(|(_, points)| points)).flatten();
+        let others: Vec<Pos2> = others.copied().collect();
+        for text in [format!("damping {ratio}"), ratio.to_string()] {
+            let width = 7.0 * text.chars().count() as f32;
+            if let Some((at, angle)) = label_place(points, width, area.rect, &taken, &others) {
+                label(&painter, (at, angle), &text, [seen_colour, land]);
+                taken.extend(along(at, angle, width));
+                break;
+            }
+        }
+    }
+}
+
+/// The lines along which a player sees the same damping ratio of the selected engine.
+fn seen_lines(lab: &Lab, map: &StabilityMap, area: &PlotArea) -> Vec<(f64, Vec<Pos2>)> {
+    let found = map.regions.iter().zip(&map.request.specs);
+    let selected = found.filter(|(_, (entry, _))| *entry == lab.active());
+    let has_room = area.rect.height() >= ROOM_FOR_LINES;
+    let is_decade = |ratio: f64| libm::log10(ratio).fract().abs() < 1e-9;
+    let lines = selected.flat_map(|(region, _)| &region.seen);
+    let lines = lines.filter(|line| has_room || is_decade(line.damping_ratio));
+    let line = |line: &SeenLine| {
+        (line.damping_ratio, line.points.iter().map(|point| area.at(*point)).collect())
+    };
+    lines.map(line).collect()
 }
 
 /// The limit of a method on the map, as a formula: `ω h < 2`.

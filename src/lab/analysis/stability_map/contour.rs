@@ -21,6 +21,11 @@ impl Corners {
         Self { counts, ends }
     }
 
+    /// How many points there are along each axis.
+    pub(super) fn counts(&self) -> [usize; 2] {
+        self.counts
+    }
+
     /// The place of a point.
     pub(super) fn at(&self, place: [usize; 2]) -> [f64; 2] {
         std::array::from_fn(|axis| {
@@ -101,7 +106,7 @@ pub(super) fn contour(
     };
     let lines = chains(segments).into_iter();
     let boundary = lines.map(|line| line.into_iter().map(|side| crossings[&side]).collect());
-    Region { coverage, pieces, boundary: boundary.collect(), limit: None }
+    Region { coverage, pieces, boundary: boundary.collect(), limit: None, seen: Vec::new() }
 }
 
 /// Where the condition changes between `from`, where it is `holds`, and `to`.

@@ -373,3 +373,26 @@ fn a_follower_is_mapped_on_a_body_of_its_rate() {
         assert!(holds(&map.regions[1], 12.0, 20.0) && !holds(&map.regions[1], 8.0, 20.0));
     }
 }
+
+#[test]
+fn along_a_line_of_an_engine_a_player_sees_the_same_damping() {
+    let map = spring(0.0, &["engine-rapier", "engine-mujoco", "implicit-euler"]);
+    let [rapier, mujoco, own] = &map.regions[..] else { panic!() };
+    assert!(mujoco.seen.is_empty() && own.seen.is_empty(), "{mujoco:?}");
+    let mut ratios: Vec<f64> = rapier.seen.iter().map(|line| line.damping_ratio).collect();
+    ratios.dedup();
+    assert_eq!(ratios, [0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5]);
+    for SeenLine { damping_ratio, points } in &rapier.seen {
+        for [x, y] in points {
+            // Implicit Euler at four substeps a tick.
+            let [hz, stiffness] = [x, y].map(|log| libm::pow(10.0, *log));
+            let z = stiffness.sqrt() / hz / 4.0;
+            let [decay, turned] = [(1.0 + z * z).ln() / 2.0, z.atan()];
+            let ratio = decay / decay.hypot(turned);
+            // Beyond half a turn a tick another swing is seen.
+            let is_seen = 4.0 * turned < std::f64::consts::PI;
+            let is_near = (ratio / damping_ratio - 1.0).abs() < 0.02;
+            assert!(is_near || !is_seen, "{hz} Hz, {stiffness}: {ratio}");
+        }
+    }
+}

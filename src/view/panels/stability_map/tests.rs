@@ -118,3 +118,21 @@ fn a_boundary_is_labelled_with_its_limit_where_nothing_is_damped() {
     let map = damped.viewer().stability_map().unwrap();
     assert!(map.regions.iter().all(|region| region.limit.is_none()));
 }
+
+#[test]
+fn the_lines_of_equal_damping_of_the_selected_engine_are_labelled_and_explained() {
+    let context = Context::default();
+    theme::dress(&context);
+    let mut lab = lab("engines");
+    let words = |lab: &Lab| {
+        let (_, texts) = frame(&context, lab, Vec::new());
+        texts.into_iter().map(|(_, text)| text).collect::<Vec<_>>().join("\n")
+    };
+    let shown = words(&lab);
+    for part in ["damping 0.05", "damping 0.1", "sees the same damping ratio of Box2D"] {
+        assert!(shown.contains(part), "{part}: {shown}");
+    }
+    // An undamped spring of Bullet is seen undamped.
+    lab.apply(Command::Pick(6));
+    assert!(!words(&lab).contains("damping 0."));
+}

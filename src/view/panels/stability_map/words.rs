@@ -35,7 +35,8 @@ pub(super) fn point_in_words(lab: &Lab, place: usize, tick_hz: u32, value: f64) 
 /// What the methods do at the present point, and what the map does not draw, wrapped to a width; and the room that is left
 /// for that, in points: it does not change while the cross is moved.
 pub(super) fn sentence(ui: &Ui, lab: &Lab, map: &StabilityMap, width: f32) -> (Arc<Galley>, f32) {
-    let notes = " Drag the cross to change both values at once.".to_owned() + &notes(map);
+    let seen = seen_note(lab, map);
+    let notes = " Drag the cross to change both values at once.".to_owned() + &seen + &notes(map);
     wrapped(ui, lab, map, width, (13.0, &notes))
 }
 
@@ -161,6 +162,19 @@ pub(super) fn no_map(why: NoSmallMotion) -> String {
     format!(
         "No stability map: {why} The lanes below say how each method does on the motion itself."
     )
+}
+
+/// What the thin lines are, if there are any.
+fn seen_note(lab: &Lab, map: &StabilityMap) -> String {
+    let found = map.regions.iter().zip(&map.request.specs);
+    let mut selected = found.filter(|(_, (entry, _))| *entry == lab.active());
+    match selected.any(|(region, _)| !region.seen.is_empty()) {
+        true => format!(
+            " Along a thin line a player sees the same damping ratio of {}.",
+            lab.lane_name(lab.active())
+        ),
+        false => String::new(),
+    }
 }
 
 /// What the map does not draw.
