@@ -8,7 +8,7 @@
 //! - `settings`: everything that the run depends on.
 //!   - `scene`: `name`, `text` (the TOML) and the text's `hash`.
 //!   - `lanes`: the scene's lanes, with the command line applied: each a `method`, its `substeps` and, where
-//!     the scene gives one, its `tolerance`.
+//!     the scene gives one, its `tolerance`, and `joint`, what its engine is told of springs.
 //!   - `race`: whether all of them race. If not, the `selected` method is shown solo; `null`, as older programs
 //!     wrote it, stands for the scene's opening method.
 //!   - `tick_hz` at the start, `frames` asked for, `fps`, `size` in pixels, `scale` in pixels a point,
@@ -114,6 +114,9 @@ pub struct LaneEntry {
     /// The tolerance in place of the method's own, where the scene gives one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
+    /// The frequency in hertz and the damping ratio that the engine is told of springs, where the scene gives them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<[f64; 2]>,
 }
 
 /// The graphics adapter that drew the frames.

@@ -8,6 +8,7 @@ use super::recording::Recording;
 use super::schedule::{MOST_FPS, Schedule};
 use crate::lab::palette::Theme;
 use crate::lab::{Clock, LaneSpec, MOST_LANES, MOST_SUBSTEPS, Scene, TOLERANCES};
+use crate::sim::bodies::Range;
 use crate::sim::integrators::method;
 use crate::view::Panels;
 
@@ -21,6 +22,7 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
         method: lane.method.id.to_owned(),
         substeps: lane.substeps,
         tolerance: lane.tolerance,
+        joint: lane.joint,
     };
     Settings {
         scene: SceneText {
@@ -58,6 +60,12 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
     let tolerance = |lane: &LaneEntry| {
         lane.tolerance.is_none_or(|given| (TOLERANCES.0..=TOLERANCES.1).contains(&given))
     };
+    let joint = |lane: &LaneEntry| {
+        let is_told = |[hz, ratio]: [f64; 2]| {
+            Range::POSITIVE.contains(hz) && Range::NON_NEGATIVE.contains(ratio)
+        };
+        lane.joint.is_none_or(is_told)
+    };
     for (key, is_in_range) in [
         ("tick_hz", Clock::TICK_HZ.contains(&settings.tick_hz)),
         ("frames", (1..=MOST_FRAMES).contains(&settings.frames)),
@@ -67,6 +75,7 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
         ("lanes", (1..=MOST_LANES).contains(&settings.lanes.len())),
         ("substeps", settings.lanes.iter().all(substeps)),
         ("tolerance", settings.lanes.iter().all(tolerance)),
+        ("joint", settings.lanes.iter().all(joint)),
     ] {
         if !is_in_range {
             return Err(format!("its {key} is out of range; capture again"));
@@ -81,7 +90,8 @@ pub(super) fn read(settings: &Settings) -> Result<(Experiment, Recording), Strin
                 method.id
             ));
         }
-        Ok(LaneSpec { method, substeps: lane.substeps, tolerance: lane.tolerance })
+        let &LaneEntry { substeps, tolerance, joint, .. } = lane;
+        Ok(LaneSpec { method, substeps, tolerance, joint })
     };
     // The lanes already have the substeps of equal cost.
     scene.equal_cost = false;

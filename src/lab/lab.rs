@@ -18,12 +18,15 @@ mod apply;
 mod driving;
 mod findings;
 mod guiding;
+mod joint;
 mod looping;
 mod opening;
 mod plotting;
 mod restarting;
 mod resting;
 mod showing;
+
+pub use joint::SpringJoint;
 
 /// A scene being run and looked at.
 pub struct Lab {

@@ -2,6 +2,7 @@
 
 use crate::sim::Solver;
 use crate::sim::integrators::Method;
+use crate::sim::number::round;
 
 /// A lane of the race.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,12 +14,15 @@ pub struct LaneSpec {
     /// Overrides the absolute and the relative tolerance of an adaptive method's card, within
     /// [`TOLERANCES`](super::TOLERANCES); `None` keeps the card's tolerance, and is the only value for other methods.
     pub tolerance: Option<f64>,
+    /// The frequency in hertz and the damping ratio that an engine is told of every spring, in place of the body's own;
+    /// `None` is the only value for methods without a joint.
+    pub joint: Option<[f64; 2]>,
 }
 
 impl LaneSpec {
     /// A method with its card's tolerance and substeps.
     pub fn plain(method: &'static Method) -> Self {
-        Self { method, substeps: method.default_substeps, tolerance: None }
+        Self { method, substeps: method.default_substeps, tolerance: None, joint: None }
     }
 
     /// `name`, which is its method's, with its substeps or its tolerance after it where another of `lanes` has the method
@@ -30,7 +34,9 @@ impl LaneSpec {
         let within =
             self.tolerance.filter(|_| alike().any(|other| other.tolerance != self.tolerance));
         let within = within.map(|tolerance| format!(" {tolerance:e}")).unwrap_or_default();
-        format!("{name}{times}{within}")
+        let told = self.joint.filter(|_| alike().any(|other| other.joint != self.joint));
+        let told = told.map(|[hz, _]| format!(", told {} Hz", round(hz, 3))).unwrap_or_default();
+        format!("{name}{times}{within}{told}")
     }
 
     /// The method's name with the substeps, which are left out if there is one and no other of `lanes` has the method.
@@ -45,9 +51,13 @@ impl LaneSpec {
 
     /// The solver of the lane's bodies.
     pub fn solver(&self) -> Solver {
-        match self.tolerance {
-            Some(tolerance) => Solver::WithTolerance(self.method, tolerance),
-            None => Solver::Method(self.method),
+        match (self.joint, self.tolerance) {
+            (Some([hz, damping_ratio]), _) => {
+                let omega = std::f64::consts::TAU * hz;
+                Solver::WithJoint(self.method, [omega * omega, 2.0 * damping_ratio * omega])
+            }
+            (None, Some(tolerance)) => Solver::WithTolerance(self.method, tolerance),
+            (None, None) => Solver::Method(self.method),
         }
     }
 }
@@ -59,9 +69,14 @@ mod tests {
 
     #[test]
     fn lanes_of_one_method_are_told_apart_by_what_differs() {
-        let lane =
-            |id, substeps, tolerance| LaneSpec { method: method(id).unwrap(), substeps, tolerance };
+        let lane = |id, substeps, tolerance| LaneSpec {
+            substeps,
+            tolerance,
+            ..LaneSpec::plain(method(id).unwrap())
+        };
+        let told = LaneSpec { joint: Some([1.0009, 0.074]), ..lane("engine-box2d", 4, None) };
         let lanes = [
+            told,
             lane("held-force", 1, None),
             lane("held-force", 4, None),
             lane("engine-box2d", 4, None),
@@ -71,6 +86,7 @@ mod tests {
         ];
         let names = lanes.map(|lane| lane.told_apart(lane.method.name, &lanes));
         let expected = [
+            "Box2D, told 1 Hz",
             "Held force ×1",
             "Held force ×4",
             "Box2D",

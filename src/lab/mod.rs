@@ -61,8 +61,8 @@ pub use analysis::{
     Advice, AdvisedBodies, Adviser, AnalysisRequest, AnalysisWorker, CRITERIA, ChaseFinding,
     Coverage, Criterion, CriterionMet, CriterionResult, EnergyFinding, FREQUENCY_TOLERANCE,
     Findings, Here, Judge, LONG_RUN, LONGEST_HORIZON_S, MOST_ADVISED_SUBSTEPS, MOST_WORK,
-    MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome, Region, RunFailure, Severity,
-    SeenLine, StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
+    MapRequest, MethodAdvice, NoTruth, NotJudged, Outcome, Region, RunFailure, SeenLine, Severity,
+    StabilityMap, TOLERANCE, VISIBLE, Verdict, duration, recommended,
 };
 pub use appearance::Appearance;
 pub use chase::Chase;
@@ -80,7 +80,7 @@ pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
 pub use interpolation::Interpolation;
 pub use journal::{Journal, JournalRow, Source};
 pub use key::{Binding, KEYS, Key, command_for};
-pub use lab::Lab;
+pub use lab::{Lab, SpringJoint};
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use lane_spec::LaneSpec;
 pub use live_loop::{LiveFrame, LiveLoop};
@@ -98,8 +98,8 @@ pub use past::{
     TruthSample,
 };
 pub use port::{
-    Approach, DriveLimits, FollowerPort, Ported, Reach, Relief, Setup, SpringJoint, Wish,
-    WishError, drive_limits, followers, port, setups,
+    Approach, DriveLimits, FollowerPort, Ported, Reach, Relief, Setup, Wish, WishError,
+    drive_limits, followers, port, setups,
 };
 pub use quantity::Quantity;
 pub use race::{Entrant, Mode, Observer, Race};

@@ -10,13 +10,11 @@ use crate::sim::integrators::{METHODS, Method};
 mod drive;
 mod follow;
 mod inverse;
-mod joint;
 mod seen;
 
 pub use drive::{DriveLimits, drive_limits};
 pub use follow::{Approach, FollowerPort, followers};
 use inverse::{Found, invert, least_damping};
-pub use joint::SpringJoint;
 pub use seen::Setup;
 
 /// What a player is to see of a spring.

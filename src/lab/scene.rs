@@ -253,6 +253,7 @@ pub static SCENES: &[BuiltIn] = &[
     BuiltIn { name: "rope", text: include_str!("../../assets/scenes/rope.toml") },
     BuiltIn { name: "cloth", text: include_str!("../../assets/scenes/cloth.toml") },
     BuiltIn { name: "bridge", text: include_str!("../../assets/scenes/bridge.toml") },
+    BuiltIn { name: "alike", text: include_str!("../../assets/scenes/alike.toml") },
     BuiltIn { name: "engines", text: include_str!("../../assets/scenes/engines.toml") },
     BuiltIn { name: "held-force", text: include_str!("../../assets/scenes/held-force.toml") },
     BuiltIn {

@@ -25,10 +25,13 @@ pub fn stepper<B: Body>(body: B, solver: Solver) -> Box<dyn Stepper> {
 /// Puts a body under `solver` at time `t` (s).
 pub(super) fn with_solver<B: Body>(placed: Placed<B>, solver: Solver, t: f64) -> Box<dyn Stepper> {
     match solver {
-        Solver::Method(method) => construct(method, UnderMethod { placed, tolerance: None }),
+        Solver::Method(method) => construct(method, UnderMethod { placed, set: Set::Nothing }),
         Solver::WithTolerance(method, tolerance) => {
-            let tolerance = Some(Tolerance::uniform(tolerance));
-            construct(method, UnderMethod { placed, tolerance })
+            let set = Set::Tolerance(Tolerance::uniform(tolerance));
+            construct(method, UnderMethod { placed, set })
+        }
+        Solver::WithJoint(method, joint) => {
+            construct(method, UnderMethod { placed, set: Set::Joint(joint) })
         }
         Solver::Truth if B::HAS_EXACT => {
             let propagator = ExactFlow::new(&placed.state, t);
@@ -54,8 +57,16 @@ fn is_solved<B: Body>(placed: &Placed<B>, t: f64) -> bool {
 /// A body that is put under a method.
 struct UnderMethod<B: Body> {
     placed: Placed<B>,
-    /// Overrides the tolerance on the card of an adaptive method.
-    tolerance: Option<Tolerance>,
+    set: Set,
+}
+
+/// What is set of a method.
+enum Set {
+    Nothing,
+    /// In place of the tolerance on the card of an adaptive method.
+    Tolerance(Tolerance),
+    /// What an engine is told of a joint.
+    Joint([f64; 2]),
 }
 
 impl<B: Body> Construct<Counted<B>> for UnderMethod<B> {
@@ -68,10 +79,12 @@ impl<B: Body> Construct<Counted<B>> for UnderMethod<B> {
         self,
         new: impl FnOnce(&B::Vector) -> I,
     ) -> Self::Output {
-        let Self { placed, tolerance } = self;
+        let Self { placed, set } = self;
         let mut integrator = new(&placed.state.q);
-        if let Some(tolerance) = tolerance {
-            integrator.set_tolerance(tolerance);
+        match set {
+            Set::Nothing => {}
+            Set::Tolerance(tolerance) => integrator.set_tolerance(tolerance),
+            Set::Joint(joint) => integrator.set_joint(joint),
         }
         Box::new(BodyStepper { placed, propagator: MethodPropagator(integrator) })
     }

@@ -10,6 +10,9 @@ pub enum Solver {
     /// An adaptive method from the table; the number replaces its card's tolerance, absolute and
     /// relative.
     WithTolerance(&'static Method, f64),
+    /// An engine from the table whose joint is told this stiffness in 1/s² and this damping in 1/s, each per unit of
+    /// mass, in place of the body's. Other methods, and engines on a body without a joint, ignore it.
+    WithJoint(&'static Method, [f64; 2]),
     /// The exact flow from the last jump; for a body without a closed form, a reference solution.
     Truth,
 }
@@ -18,7 +21,9 @@ impl Solver {
     /// The method, unless this is the truth.
     pub fn method(self) -> Option<&'static Method> {
         match self {
-            Solver::Method(method) | Solver::WithTolerance(method, _) => Some(method),
+            Solver::Method(method)
+            | Solver::WithTolerance(method, _)
+            | Solver::WithJoint(method, _) => Some(method),
             Solver::Truth => None,
         }
     }

@@ -2,7 +2,7 @@
 
 use regatta::lab::{
     Command, Goal, Instrument, Judge, Lab, LaneSpec, LoopCommand, LoopLab, METRICS, OneStep,
-    Outcome, Quantity, Race, SCENES, STOPS, Scene, Verdict, command_for,
+    Outcome, Quantity, Race, SCENES, STOPS, Scene, Verdict, Wish, command_for, port, setups,
 };
 use regatta::sim::integrators::method;
 
@@ -314,6 +314,39 @@ fn the_fixed_loop_judders_by_12_ms_and_the_one_that_counts_refreshes_does_not() 
         .collect();
     let [("fixed", fixed), ("whole-refresh", whole)] = shown[..] else { panic!("{shown:?}") };
     assert!((11.5..12.5).contains(&fixed) && whole < 1e-6, "{shown:?}");
+}
+
+#[test]
+fn engines_that_are_told_the_numbers_of_port_swing_alike_and_others_do_not() {
+    let scene = Scene::built_in("alike").unwrap();
+    let [mass_kg, stiffness, damping, ..] = scene.bodies[0].values[..] else { panic!() };
+    let omega = (stiffness / mass_kg).sqrt();
+    let frequency_hz = omega / std::f64::consts::TAU;
+    let wish = Wish { frequency_hz, damping_ratio: damping / mass_kg / 2.0 / omega, mass_kg };
+    let mut race = Race::of_scene(&scene);
+    let mut off = vec![0.0_f64; scene.lanes.len()];
+    for _ in 0..180 {
+        race.run(1);
+        let truth = race.truth().bodies()[0].stepper.q()[0];
+        for (off, entrant) in off.iter_mut().zip(race.entrants()) {
+            *off = off.max((entrant.lane.bodies()[0].stepper.q()[0] - truth).abs());
+        }
+    }
+    for (spec, off) in scene.lanes.iter().zip(off) {
+        let Some(told) = spec.joint else {
+            // MuJoCo damps by as much as it is told; its swing is a little fast.
+            let most = if spec.method.id == "engine-mujoco" { 0.02..0.08 } else { 0.08..0.4 };
+            assert!(most.contains(&off), "{} is off by {off}", spec.method.id);
+            continue;
+        };
+        assert!(off < 0.07, "{} is off by {off}", spec.method.id);
+        let setup = setups(Some(&[spec.method]), 60.0, None)[0];
+        let found = port(&wish, setup).unwrap();
+        let [stiffness, damping] = setup.mode.joint(found.values, mass_kg);
+        let omega = stiffness.sqrt();
+        let [hz, ratio] = [omega / std::f64::consts::TAU, damping / 2.0 / omega];
+        assert!((told[0] - hz).abs() < 1e-9 && (told[1] - ratio).abs() < 1e-9, "{found:?}");
+    }
 }
 
 #[test]

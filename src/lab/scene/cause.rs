@@ -8,7 +8,7 @@ use super::clip::clip;
 use super::refusal::Refusal;
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::{self, BODIES, Fault, Pin, Text};
-use crate::sim::integrators::METHODS;
+use crate::sim::integrators::{METHODS, Method};
 use crate::sim::law::Layout;
 
 /// A fault of a scene file. Its display says what is wrong, and [`Cause::remedy`] what to do.
@@ -79,6 +79,10 @@ pub(super) enum Cause {
     Refused { key: &'static str, refusal: Refusal },
     #[error("`{key}` does not apply to the method {method:?}")]
     NoTolerance { key: &'static str, method: &'static str },
+    #[error("`{key}` does not apply to the method {method:?}, which is told no spring")]
+    NoJoint { key: &'static str, method: &'static str },
+    #[error("`{key}` stands alone")]
+    Alone { key: &'static str, needed: &'static str },
     #[error("`tolerance` does not apply to lane {lane}: at tick {tick} its method is {method:?}")]
     NoToleranceInLane { lane: usize, method: &'static str, tick: u64 },
     #[error("the command does nothing")]
@@ -232,6 +236,8 @@ impl Cause {
             Cause::NoTolerance { .. } => {
                 format!("remove it, or choose an adaptive method: {}", adaptive_methods())
             }
+            Cause::NoJoint { .. } => format!("remove it, or choose an engine: {}", engines()),
+            Cause::Alone { needed, .. } => format!("remove it, or write `{needed}` too"),
             Cause::NoToleranceInLane { .. } => {
                 format!("remove it, or give it with an adaptive `method`: {}", adaptive_methods())
             }
@@ -356,14 +362,25 @@ impl fmt::Display for Wanted {
 }
 
 fn adaptive_methods() -> String {
-    let adaptive = METHODS.iter().filter(|method| method.tolerance.is_some());
-    list(&adaptive.map(|method| method.id).collect::<Vec<_>>(), '"', ", ")
+    methods(|method| method.tolerance.is_some())
+}
+
+/// The engines that are told a spring.
+fn engines() -> String {
+    methods(Method::has_joint)
+}
+
+fn methods(fits: fn(&Method) -> bool) -> String {
+    let fitting = METHODS.iter().filter(|method| fits(method));
+    list(&fitting.map(|method| method.id).collect::<Vec<_>>(), '"', ", ")
 }
 
 fn describe(lane: &LaneSpec) -> String {
-    let LaneSpec { method, substeps, tolerance } = lane;
+    let LaneSpec { method, substeps, tolerance, joint } = lane;
     let within = tolerance.map(|tolerance| format!(" and `tolerance = {tolerance:e}`"));
-    format!("{:?} with `substeps = {substeps}`{}", method.id, within.unwrap_or_default())
+    let told = joint.map(|[hz, _]| format!(" and `joint_hz = {hz}`"));
+    let beside = [within, told].into_iter().flatten().collect::<String>();
+    format!("{:?} with `substeps = {substeps}`{beside}", method.id)
 }
 
 fn offer(nearest: Option<&str>, known: &[impl AsRef<str>], quote: char) -> String {

@@ -6,16 +6,15 @@ use super::cause::{Cause, Wanted};
 use super::described::{Described, check_names, finish_bodies, name_the_nameless, read_bodies};
 use super::errors::{SceneError, position};
 use super::fields::{
-    ABOUT, HINT, METHOD_LIST, OPENING_METHOD, SECONDS, SUBSTEPS, TICK_HZ, TITLE, TOP, optional,
-    read_tolerance, required,
+    ABOUT, HINT, METHOD_LIST, OPENING_METHOD, SECONDS, TICK_HZ, TITLE, TOP, optional,
+    read_lane_spec, required,
 };
 use super::fitting::{check_method, every_lane};
 use super::script::{self, SceneContext};
 use super::syntax;
 use super::table::{Field, Table};
 use super::{
-    LEAST_SECONDS, MOST_LANES, MOST_SECONDS, MOST_SUBSTEPS, MOST_TICK_HZ, Scene, USUAL_SECONDS,
-    claim_horizon,
+    LEAST_SECONDS, MOST_LANES, MOST_SECONDS, MOST_TICK_HZ, Scene, USUAL_SECONDS, claim_horizon,
 };
 use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
@@ -118,13 +117,9 @@ fn read_lanes(text: &str, bodies: &[Described], top: &mut Table<'_>) -> Vec<Lane
     let is_given = is_listed || !rows.is_empty();
     for mut row in rows.into_iter().take(MOST_LANES) {
         let method = row.method(LANE_METHOD);
-        let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS);
-        let tolerance = read_tolerance(&mut row, method);
+        let spec = read_lane_spec(&mut row, method);
         let span = row.span(LANE_METHOD.key);
-        lanes.extend(method.map(|method| {
-            let substeps = substeps.unwrap_or(method.default_substeps);
-            (span, LaneSpec { method, substeps, tolerance })
-        }));
+        lanes.extend(spec.map(|spec| (span, spec)));
         top.adopt(row, &TOP);
     }
 

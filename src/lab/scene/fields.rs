@@ -1,8 +1,9 @@
 //! The keys at the top level of a scene file, and the keys that several of its tables share.
 
-use super::TOLERANCES;
 use super::cause::Cause;
 use super::table::{Field, Table};
+use super::{MOST_SUBSTEPS, TOLERANCES};
+use crate::lab::lane_spec::LaneSpec;
 use crate::sim::bodies::Range;
 use crate::sim::integrators::Method;
 
@@ -18,6 +19,8 @@ pub(super) const TOP: [Field; 7] =
 
 pub(super) const SUBSTEPS: Field = optional("substeps");
 pub(super) const TOLERANCE: Field = optional("tolerance");
+pub(super) const JOINT_HZ: Field = optional("joint_hz");
+const JOINT_DAMPING_RATIO: Field = optional("joint_damping_ratio");
 
 pub(super) const fn required(key: &'static str, about: &'static str) -> Field {
     Field { key, needed_as: Some(about) }
@@ -25,6 +28,33 @@ pub(super) const fn required(key: &'static str, about: &'static str) -> Field {
 
 pub(super) const fn optional(key: &'static str) -> Field {
     Field { key, needed_as: None }
+}
+
+/// Reads what a lane of this method has beside it. Complains of what the method does not take.
+pub(super) fn read_lane_spec(
+    row: &mut Table<'_>,
+    method: Option<&'static Method>,
+) -> Option<LaneSpec> {
+    let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS);
+    let tolerance = read_tolerance(row, method);
+    let joint = read_joint(row, method);
+    let method = method?;
+    let substeps = substeps.unwrap_or(method.default_substeps);
+    Some(LaneSpec { method, substeps, tolerance, joint })
+}
+
+/// Reads the frequency and the damping ratio that an engine is told of springs.
+fn read_joint(row: &mut Table<'_>, method: Option<&'static Method>) -> Option<[f64; 2]> {
+    let hz = row.number(JOINT_HZ, Range::POSITIVE);
+    let damping_ratio = row.number(JOINT_DAMPING_RATIO, Range::NON_NEGATIVE);
+    let given = [JOINT_HZ, JOINT_DAMPING_RATIO].into_iter().find(|field| row.has(field.key))?;
+    if let Some(method) = method.filter(|method| !method.has_joint()) {
+        row.complain(row.span(given.key), Cause::NoJoint { key: given.key, method: method.id });
+    } else if !row.has(JOINT_HZ.key) {
+        let (key, needed) = (JOINT_DAMPING_RATIO.key, JOINT_HZ.key);
+        row.complain(row.span(key), Cause::Alone { key, needed });
+    }
+    Some([hz?, damping_ratio.unwrap_or(0.0)])
 }
 
 /// Reads a tolerance. If the lane's method is known, reports one that takes none.

@@ -2,7 +2,9 @@
 
 use super::cause::Cause;
 use super::described::Described;
-use super::fields::{SUBSTEPS, TOLERANCE, TOP, optional, read_tolerance, required};
+use super::fields::{
+    JOINT_HZ, SUBSTEPS, TOLERANCE, TOP, optional, read_lane_spec, read_tolerance, required,
+};
 use super::fitting::check_method;
 use super::nearest::nearest;
 use super::table::{Field, Table};
@@ -205,14 +207,10 @@ fn read_method(context: &SceneContext<'_>, row: &mut Table<'_>) -> Option<Action
     if let Some(method) = method {
         check_method(METHOD.key, method, row.span(METHOD.key), context.bodies, row);
     }
-    let substeps = row.whole(SUBSTEPS, 1..=MOST_SUBSTEPS);
-    let tolerance = read_tolerance(row, method);
-    if [LANE, SUBSTEPS, TOLERANCE].iter().any(|field| row.has(field.key)) {
+    let spec = read_lane_spec(row, method);
+    if [LANE, SUBSTEPS, TOLERANCE, JOINT_HZ].iter().any(|field| row.has(field.key)) {
         let lane = read_lane(context, row)?;
-        let method = method?;
-        let substeps = substeps.unwrap_or(method.default_substeps);
-        let spec = LaneSpec { method, substeps, tolerance };
-        return Some(Action::Lane { lane, spec });
+        return Some(Action::Lane { lane, spec: spec? });
     }
     method.map(Action::Method)
 }

@@ -81,13 +81,7 @@ impl Scene {
             Action::Method(method) => line("method", quoted(method.id)),
             Action::Lane { lane, spec } => {
                 line("lane", lane.to_string());
-                line("method", quoted(spec.method.id));
-                if spec.substeps != spec.method.default_substeps {
-                    line("substeps", spec.substeps.to_string());
-                }
-                spec.tolerance
-                    .into_iter()
-                    .for_each(|tolerance| line("tolerance", number(tolerance)));
+                write_spec(text, spec);
             }
             Action::Substeps { lane, substeps } => {
                 line("lane", lane.to_string());
@@ -126,12 +120,22 @@ impl Check {
 }
 
 fn write_lane(text: &mut String, spec: &LaneSpec) {
-    *text += &format!("\n[[lane]]\nmethod = {}\n", quoted(spec.method.id));
+    *text += "\n[[lane]]\n";
+    write_spec(text, spec);
+}
+
+/// The lines of a lane's method with what is beside it.
+fn write_spec(text: &mut String, spec: &LaneSpec) {
+    *text += &format!("method = {}\n", quoted(spec.method.id));
     if spec.substeps != spec.method.default_substeps {
         *text += &format!("substeps = {}\n", spec.substeps);
     }
     if let Some(tolerance) = spec.tolerance {
         *text += &format!("tolerance = {}\n", number(tolerance));
+    }
+    if let Some([hz, damping_ratio]) = spec.joint {
+        *text += &format!("joint_hz = {}\n", number(hz));
+        *text += &format!("joint_damping_ratio = {}\n", number(damping_ratio));
     }
 }
 

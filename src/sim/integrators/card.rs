@@ -236,6 +236,11 @@ impl Method {
     pub fn is_engine(&self) -> bool {
         self.family == Family::Engine
     }
+
+    /// Whether it is an engine that has springs as joints: no force of user code.
+    pub fn has_joint(&self) -> bool {
+        self.engine.is_some_and(|engine| !engine.version.is_empty() && !engine.modes.is_empty())
+    }
 }
 
 impl PartialEq for Method {

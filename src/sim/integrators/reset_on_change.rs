@@ -58,6 +58,10 @@ impl<S: System<Vector: Vector>, I: Integrator<S>> Integrator<S> for ResetOnChang
         self.method.set_tolerance(tolerance);
     }
 
+    fn set_joint(&mut self, joint: [f64; 2]) {
+        self.method.set_joint(joint);
+    }
+
     fn heap_bytes(&self) -> usize {
         self.method.heap_bytes()
     }

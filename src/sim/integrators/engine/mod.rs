@@ -82,6 +82,8 @@ pub trait Rule: Clone + Send + 'static {
 pub struct EngineMethod<V, R> {
     force: V,
     carried: V,
+    /// K and c that it is told in place of the body's.
+    joint: Option<[f64; 2]>,
     rule: PhantomData<R>,
 }
 
@@ -89,7 +91,7 @@ impl<S: System<Vector: Vector>, R: Rule> Integrator<S> for EngineMethod<S::Vecto
     fn new(like: &S::Vector) -> Self {
         let mut zero = like.clone();
         zero.components_mut().fill(0.0);
-        Self { force: zero.clone(), carried: zero, rule: PhantomData }
+        Self { force: zero.clone(), carried: zero, joint: None, rule: PhantomData }
     }
 
     #[inline]
@@ -104,6 +106,10 @@ impl<S: System<Vector: Vector>, R: Rule> Integrator<S> for EngineMethod<S::Vecto
         }
         let part = h / f64::from(n);
         (0..n).try_for_each(|i| self.tick(system, t + part * f64::from(i), part, 1, state))
+    }
+
+    fn set_joint(&mut self, joint: [f64; 2]) {
+        self.joint = Some(joint);
     }
 
     fn reset(&mut self) {
@@ -121,8 +127,11 @@ impl<V: Vector, R: Rule> EngineMethod<V, R> {
         substeps: u32,
         state: &mut State<V>,
     ) -> Stepped {
-        let Self { force, carried, .. } = self;
-        let settings = R::read(system, t, state, force)?;
+        let Self { force, carried, joint, .. } = self;
+        let mut settings = R::read(system, t, state, force)?;
+        if let (Some([stiffness, damping]), true) = (*joint, settings.has_spring()) {
+            settings = EngineSettings { stiffness, damping, ..settings };
+        }
         let tick = Tick { length, substeps, settings, force, carried };
         R::tick(tick, &mut state.q, &mut state.v);
         Ok(())

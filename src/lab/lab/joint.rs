@@ -1,7 +1,8 @@
 //! A spring of a lab's scene as engines are told it.
 
-use super::{Setup, setups};
-use crate::lab::{Action, Lab};
+use super::Lab;
+use crate::lab::action::Action;
+use crate::lab::port::{Setup, setups};
 use crate::sim::BodyClass;
 
 /// A spring, by the indices and the values of its parameters.
