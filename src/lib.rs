@@ -95,20 +95,20 @@
 #![doc = include_str!("../examples/game_loop.rs")]
 //! ```
 //!
-//! # Bodies and methods of one's own
+//! # Custom bodies and methods
 //!
 //! A [`System`](sim::System) and a start are enough for [`advise`], [`Race::of`](lab::Race::of),
 //! [`Scene::of`](lab::Scene::of) and `Window::run`; [`Options`](lab::Options) and [`Extras`](sim::bodies::Extras) say more:
 //!
 //! ```
-#![doc = include_str!("../examples/own_body.rs")]
+#![doc = include_str!("../examples/custom_body.rs")]
 //! ```
 //!
-//! A method of one's own is an [`Integrator`](sim::integrators::Integrator) and a card, which
+//! A custom method is an [`Integrator`](sim::integrators::Integrator) and a card, which
 //! [`conformance::check`] measures:
 //!
 //! ```
-#![doc = include_str!("../examples/own_method.rs")]
+#![doc = include_str!("../examples/custom_method.rs")]
 //! ```
 //!
 //! # In continuous integration

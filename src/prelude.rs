@@ -14,7 +14,7 @@ pub use crate::lab::{
 #[cfg(feature = "lab")]
 pub use crate::sim::bodies::{BODIES, Extras};
 pub use crate::sim::integrators::{
-    Family, Integrator, METHODS, Method, StepFailure, integrator, method, own_integrator,
+    Family, Integrator, METHODS, Method, StepFailure, custom_integrator, integrator, method,
 };
 pub use crate::sim::{
     Body, Clock, Due, Elementwise, Input, ParameterOf, Range, Solver, State, Stepper, System,

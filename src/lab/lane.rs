@@ -80,7 +80,7 @@ pub struct LaneBody {
 }
 
 impl LaneBody {
-    /// The claims of a [`Law`], or of a body of one's [`Custom`], that do not hold with the present parameters; of other
+    /// The claims of a [`Law`], or of a [`Custom`] body, that do not hold with the present parameters; of other
     /// bodies none.
     pub fn false_claims(&self) -> FalseClaims {
         let body = self.stepper.body();

@@ -10,6 +10,7 @@ mod appearance;
 mod bisection;
 mod chase;
 mod command;
+mod custom;
 mod display;
 mod duration;
 mod equal_cost;
@@ -35,7 +36,6 @@ mod notice;
 mod notices;
 mod one_step;
 mod outline;
-mod own;
 pub mod pacing;
 pub mod palette;
 mod past;
@@ -67,6 +67,7 @@ pub use analysis::{
 pub use appearance::Appearance;
 pub use chase::Chase;
 pub use command::{Command, SCALE_LADDER, SPEED_LADDER, TICK_LADDER, USUAL_SCALE_PERCENT};
+pub use custom::{Draw, Options, OptionsError};
 pub use display::{Arrangement, Display, DriverRequest, Motion, Pace};
 pub use equal_cost::{equal_cost, lanes_that_race};
 pub use gesture::{GESTURES, Gesture};
@@ -92,7 +93,6 @@ pub use metrics::{METRICS, Metric, Scale, Unit};
 pub use my_spring::MySpring;
 pub use notice::Notice;
 pub use one_step::{OneStep, Slope};
-pub use own::{Draw, Options, OptionsError};
 pub use past::{
     CAPACITY, Energies, History, Past, Run, Sample, Samples, Summary, SweptRange, TruthCurve,
     TruthSample,

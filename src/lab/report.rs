@@ -1,4 +1,4 @@
-//! Advice on a body of one's own as a value: to print, to test, or to write as JSON.
+//! Advice on a custom body as a value: to print, to test, or to write as JSON.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use super::analysis::{
     Adviser, CRITERIA, Criterion, CriterionMet, CriterionResult, MOST_ADVISED_SUBSTEPS,
     MethodAdvice, recommended,
 };
-use super::own::{Options, scene};
+use super::custom::{Options, scene};
 use super::scene::Scene;
 use crate::sim::{State, System, Vector};
 

@@ -207,7 +207,7 @@ impl Scene {
     pub fn in_rust(&self) -> Option<&str> {
         let mut bodies =
             self.bodies.iter().filter(|body| matches!(body.kind.origin, Origin::Custom(_)));
-        let mut lanes = self.lanes.iter().filter(|lane| lane.method.own.is_some());
+        let mut lanes = self.lanes.iter().filter(|lane| lane.method.custom.is_some());
         let body = bodies.next().map(|body| &*body.name);
         body.or_else(|| lanes.next().map(|lane| lane.method.id))
     }

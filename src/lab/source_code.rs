@@ -84,7 +84,7 @@ impl fmt::Display for NoSourceCode {
 /// The function of a method in a language and a precision, with what it is on its card as a comment above it.
 ///
 /// # Errors
-/// If the method is [one's own](Method::own), or cannot be written as such a function, or the language has no such
+/// If the method is [custom](Method::custom), or cannot be written as such a function, or the language has no such
 /// precision.
 pub fn source_code(
     method: &Method,
@@ -93,8 +93,7 @@ pub fn source_code(
 ) -> Result<String, NoSourceCode> {
     let refused = |reason| NoSourceCode { method: method.id, language, reason };
     let source = MethodSource::of(method);
-    let source =
-        source.ok_or(refused("it is a method of one's own, whose code is where it was made"))?;
+    let source = source.ok_or(refused("it is a custom method, whose code is where it was made"))?;
     let program = source.0;
     if let Some(reason) = program.refusal(language).or(language.refusal(precision)) {
         return Err(refused(reason));

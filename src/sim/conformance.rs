@@ -90,7 +90,7 @@ pub fn check(method: &Method) -> Conformance {
             holds: false,
         }],
         // Nothing can be built by such a card.
-        None if !is_listed(method) && method.own.is_none() => vec![named(method)],
+        None if !is_listed(method) && method.custom.is_none() => vec![named(method)],
         None => vec![
             named(method),
             order::without_drag(method),
@@ -122,9 +122,9 @@ fn named(method: &Method) -> Claim {
         ("an id has lower-case letters, digits and hyphens".to_owned(), false)
     } else if name.is_empty() {
         ("it has no name".to_owned(), false)
-    } else if is_listed && method.own.is_some() {
+    } else if is_listed && method.custom.is_some() {
         ("a method of the table has this id".to_owned(), false)
-    } else if !is_listed && method.own.is_none() {
+    } else if !is_listed && method.custom.is_none() {
         ("it is not in the table, and `own` does not say how it is built".to_owned(), false)
     } else {
         (format!("{name:?}"), true)

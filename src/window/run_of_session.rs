@@ -1,4 +1,4 @@
-//! The window on a run that a program of one's own has made.
+//! The window on a run that a user's program has made.
 
 use std::path::Path;
 use std::sync::Arc;

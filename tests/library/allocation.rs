@@ -7,7 +7,7 @@ use std::cell::Cell;
 use regatta::lab::{Action, Command, Lab, Options, Past, Race, SCENES, Scene};
 use regatta::sim::bodies::{Follow, Ship, Spring};
 use regatta::sim::integrators::{
-    GENERAL_METHODS, ImplicitMidpoint, METHODS, Method, Rk4, integrator, method, own_integrator,
+    GENERAL_METHODS, ImplicitMidpoint, METHODS, Method, Rk4, custom_integrator, integrator, method,
 };
 use regatta::sim::{Elementwise, Solver, State, System, Vector};
 
@@ -121,10 +121,10 @@ fn no_method_allocates_in_a_thousand_steps_on_any_vector() {
 
 #[test]
 fn neither_a_method_nor_a_body_of_ones_own_allocates() {
-    let card = |own| Method { id: "mine", own: Some(own), ..*method("rk4").expect("a method") };
+    let card = |own| Method { id: "mine", custom: Some(own), ..*method("rk4").expect("a method") };
     let mine = [
-        card(own_integrator::<Rk4<Vec<f64>>>),
-        Method { id: "mine-too", ..card(own_integrator::<ImplicitMidpoint<Vec<f64>>>) },
+        card(custom_integrator::<Rk4<Vec<f64>>>),
+        Method { id: "mine-too", ..card(custom_integrator::<ImplicitMidpoint<Vec<f64>>>) },
     ];
     let springs = Springs(std::marker::PhantomData);
     all_step_without_allocating(&mine, &springs, &glam::DVec2::ONE);

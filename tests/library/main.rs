@@ -12,6 +12,7 @@ mod chapter;
 mod ci_recipe;
 mod compilers;
 mod conformance;
+mod custom;
 #[path = "../dice/mod.rs"]
 mod dice;
 mod editing;
@@ -30,7 +31,6 @@ mod laws;
 mod layouts;
 mod loop_snippets;
 mod nets;
-mod own;
 mod pacing_policies;
 mod picture;
 mod pinned;

@@ -44,7 +44,7 @@ const PRELUDE: [&str; 39] = [
     "glam",
     "integrator",
     "method",
-    "own_integrator",
+    "custom_integrator",
     "stepper",
 ];
 

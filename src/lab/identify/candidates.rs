@@ -33,7 +33,7 @@ const MOST_SUBSTEPS: u32 = 16;
 const HELD: &str = "held-force";
 
 /// Twice the logarithm of the odds against an engine that is set otherwise than by default, against a game that holds a
-/// spring's force in an engine, against a method of one's own that is set otherwise than by default, and against a count
+/// spring's force in an engine, against a custom method that is set otherwise than by default, and against a count
 /// of substeps that few set.
 const RARITY: [f64; 4] = [8.0, 12.0, 20.0, 24.0];
 
@@ -49,7 +49,7 @@ impl Candidate {
         if self.is_held && self.method.id != HELD { ", force held" } else { "" }
     }
 
-    /// Whether it is an engine, or a method of one's own, as it is set by default.
+    /// Whether it is an engine, or a custom method, as it is set by default.
     fn is_as_set(&self) -> bool {
         self.substeps == self.method.default_substeps && !self.method.is_as_printed()
     }

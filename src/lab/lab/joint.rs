@@ -88,7 +88,7 @@ mod tests {
         assert!(code.contains("def.hertz = 3.0;\n"), "{code}");
         lab.apply(Command::PointAt(Some(entry)));
         assert_eq!(lab.apply(Command::Copy), Some(DriverRequest::CopyJoint(entry)));
-        // A method of one's own is copied as source code, and so is an engine's step by its menu.
+        // A custom method is copied as source code, and so is an engine's step by its menu.
         let ship = lab.scene().bodies.iter().position(|body| body.kind.id == "ship").unwrap();
         assert_eq!(lab.spring_joint(ship), None);
         lab.apply(Command::Body(ship));

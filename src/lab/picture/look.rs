@@ -155,7 +155,7 @@ static LOOKS: &[LookCard] = &[
 /// The looks of kinds that are not in that table.
 static LAW_LOOK: LookCard = LookCard::of::<Law>("law", law::picture);
 static NET_LOOK: LookCard = LookCard::of::<Net>("net", net::picture);
-static CUSTOM_LOOK: LookCard = LookCard::of::<Custom>("own", custom::picture);
+static CUSTOM_LOOK: LookCard = LookCard::of::<Custom>("custom", custom::picture);
 
 /// The unit of what is drawn in its own scale, for people: of the plane, or of the first coordinate. Empty for a pure
 /// number.

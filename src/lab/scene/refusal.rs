@@ -34,7 +34,7 @@ impl Scene {
     }
 
     /// Those of the [methods that fit](Scene::fitting_methods) that one would write oneself: none of an engine.
-    pub fn own_methods(&self) -> impl Iterator<Item = &'static Method> {
+    pub fn custom_methods(&self) -> impl Iterator<Item = &'static Method> {
         self.fitting_methods().filter(|method| !method.is_engine())
     }
 

@@ -20,7 +20,7 @@ pub fn refusal(method: &Method, kind: &Kind, values: &[f64]) -> Option<&'static 
 /// The kinds of bodies that `method` steps, for people; `None` if it steps all.
 pub fn stepped_kinds(method: &Method) -> Option<String> {
     let only = method.only?;
-    let others = [("law", Law::CLASS), ("own", Custom::CLASS), ("net", Net::CLASS)];
+    let others = [("law", Law::CLASS), ("custom", Custom::CLASS), ("net", Net::CLASS)];
     let kinds = BODIES.iter().map(|kind| (kind.id, kind.class)).chain(others);
     let stepped = kinds.filter(|(_, class)| only.refusal(*class).is_none());
     let ids = stepped.map(|(id, _)| id).collect::<Vec<_>>().join(", ");

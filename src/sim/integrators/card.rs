@@ -3,9 +3,9 @@
 //! A method sets its name, source, orders and evaluations, and takes the other fields from its family
 //! unless they differ.
 
+use super::custom_method::CustomIntegrator;
 use super::free_spin::FreeSpin;
 use super::joint_mode::JointMode;
-use super::own::OwnIntegrator;
 use super::tolerance::Tolerance;
 use crate::sim::system::BodyClass;
 
@@ -200,9 +200,9 @@ pub struct Method {
     pub engine: Option<Engine>,
     /// Where the method comes from; of an engine its version, and the files that the formula was read from.
     pub source: &'static str,
-    /// How a method of one's own is built, which is not in [`METHODS`](super::METHODS): [`own_integrator`](super::own_integrator) of its
+    /// How a custom method is built, which is not in [`METHODS`](super::METHODS): [`custom_integrator`](super::custom_integrator) of its
     /// type. `None` for those of the table.
-    pub own: Option<fn(usize) -> Box<dyn OwnIntegrator>>,
+    pub custom: Option<fn(usize) -> Box<dyn CustomIntegrator>>,
 }
 
 impl Method {
@@ -274,7 +274,7 @@ const PLAIN: Method = Method {
     default_substeps: 1,
     engine: None,
     source: "",
-    own: None,
+    custom: None,
 };
 
 /// An explicit method: an undamped oscillator grows at every step.

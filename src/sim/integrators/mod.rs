@@ -3,10 +3,10 @@
 //! A method implements [`Integrator`] for every [`System`] and describes itself on a [`Method`] card. If it
 //! is for some bodies [only](Only), its card says which, and its step fails on others.
 //! Menus, command line, help and tests loop over [`METHODS`]; the conformance suite measures each field
-//! of each card, both ways. A method of [one's own](Method::own) needs no place in the table. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
+//! of each card, both ways. A [custom](Method::custom) method needs no place in the table. To add one, copy `improved_euler.rs`, declare it, and name it in `methods!`.
 
+use custom_method::CustomMethod;
 use engine::*;
-use own::Own;
 use reset_on_change::ResetOnChange;
 use unfit::Unfit;
 
@@ -20,6 +20,7 @@ mod bdf2;
 mod bogacki_shampine_32;
 mod card;
 mod critically_damped_spring;
+mod custom_method;
 mod dormand_prince_54;
 mod engine;
 mod explicit_euler;
@@ -42,7 +43,6 @@ mod lerp_per_frame;
 mod linearly_implicit_euler;
 mod midpoint;
 mod newmark;
-mod own;
 mod pefrl;
 mod position_verlet;
 mod reset_on_change;
@@ -64,13 +64,13 @@ mod yoshida4;
 #[cfg(feature = "lab")]
 pub(in crate::sim) use card::LAW_ORDER;
 pub use card::{DAMPING_RATIOS, Engine, Family, Method, Needs, Only};
+pub use custom_method::{AnySystem, CustomIntegrator, custom_integrator};
 pub use engine::{EngineMethod, Rule, Tick};
 pub use failure::{StepFailure, Stepped};
 pub use follower::{Follower, FollowerRule};
 pub use free_spin::{FreeSpin, SpinMap};
 pub use integrator::Integrator;
 pub use joint_mode::{JointMode, JointQuantity, Setting, in_code};
-pub use own::{AnySystem, OwnIntegrator, own_integrator};
 pub use shared::embedded_pair::{EmbeddedPair, Pair};
 pub use tolerance::Tolerance;
 
@@ -114,13 +114,13 @@ macro_rules! methods {
         /// A method that steps no such system is one that [refuses](StepFailure::Refused) every step.
         ///
         /// # Panics
-        /// If `method` is neither from [`METHODS`] nor [one's own](Method::own).
+        /// If `method` is neither from [`METHODS`] nor [custom](Method::custom).
         pub fn construct<S: System<Vector: Vector>, C: Construct<S>>(
             method: &Method,
             construct: C,
         ) -> C::Output {
-            if let Some(build) = method.own {
-                return construct.of(|like| Own::new(build, like));
+            if let Some(build) = method.custom {
+                return construct.of(|like| CustomMethod::new(build, like));
             }
             $(if const { refusal::<S, C>(&$file::CARD).is_none() } {
                 if method.id == $file::CARD.id {

@@ -4,7 +4,7 @@
 use regatta::conformance::check;
 use regatta::sim::integrators::{
     AdamsBashforth2, BogackiShampine32, Family, GENERAL_METHODS, ImplicitMidpoint, METHODS, Method,
-    Rk4, Tolerance, VelocityVerlet, method, own_integrator,
+    Rk4, Tolerance, VelocityVerlet, custom_integrator, method,
 };
 
 #[test]
@@ -20,7 +20,7 @@ fn every_claim_of_every_card_holds() {
 fn misprints(card: &Method) -> Vec<(&'static str, Method)> {
     let flipped = |is_so: Option<&'static str>| is_so.is_none().then_some("somehow");
     let mut misprints = vec![
-        ("id", Method { id: "unlisted", own: None, ..*card }),
+        ("id", Method { id: "unlisted", custom: None, ..*card }),
         ("order", Method { order: card.order + 1, ..*card }),
         ("order", Method { order: card.order - 1, ..*card }),
         ("order_with_drag", Method { order_with_drag: card.order_with_drag + 1, ..*card }),
@@ -75,14 +75,14 @@ fn each_claim_that_is_changed_is_seen_and_no_other() {
 fn a_method_of_ones_own_is_held_to_its_card_like_those_of_the_table() {
     let own = |id: &str, new_id: &'static str, own| {
         let card = method(id).expect("a method");
-        Method { id: new_id, own: Some(own), ..*card }
+        Method { id: new_id, custom: Some(own), ..*card }
     };
     let mine = [
-        own("rk4", "my-rk4", own_integrator::<Rk4<Vec<f64>>>),
-        own("velocity-verlet", "my-verlet", own_integrator::<VelocityVerlet<Vec<f64>>>),
-        own("adams-bashforth-2", "my-ab2", own_integrator::<AdamsBashforth2<Vec<f64>>>),
-        own("bogacki-shampine-32", "my-bs32", own_integrator::<BogackiShampine32<Vec<f64>>>),
-        own("implicit-midpoint", "my-midpoint", own_integrator::<ImplicitMidpoint<Vec<f64>>>),
+        own("rk4", "my-rk4", custom_integrator::<Rk4<Vec<f64>>>),
+        own("velocity-verlet", "my-verlet", custom_integrator::<VelocityVerlet<Vec<f64>>>),
+        own("adams-bashforth-2", "my-ab2", custom_integrator::<AdamsBashforth2<Vec<f64>>>),
+        own("bogacki-shampine-32", "my-bs32", custom_integrator::<BogackiShampine32<Vec<f64>>>),
+        own("implicit-midpoint", "my-midpoint", custom_integrator::<ImplicitMidpoint<Vec<f64>>>),
     ];
     for card in &mine {
         let found = check(card);
@@ -97,7 +97,8 @@ fn a_method_of_ones_own_is_held_to_its_card_like_those_of_the_table() {
         let found = check(&nameless);
         assert!(found.broken().map(|claim| claim.field).eq(["id"]), "{found}");
     }
-    let wrong = check(&Method { own: Some(own_integrator::<VelocityVerlet<Vec<f64>>>), ..*rk4 });
+    let wrong =
+        check(&Method { custom: Some(custom_integrator::<VelocityVerlet<Vec<f64>>>), ..*rk4 });
     assert!(wrong.broken().any(|claim| claim.field == "order"), "{wrong}");
 }
 
@@ -130,7 +131,7 @@ fn a_method_that_fails_breaks_its_claims_and_nothing_else() {
         order: 1,
         order_with_drag: 1,
         evaluations: Some(1),
-        own: Some(own_integrator::<GivesUp>),
+        custom: Some(custom_integrator::<GivesUp>),
         ..Family::Explicit.card()
     };
     let found = check(&card);

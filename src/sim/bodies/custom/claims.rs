@@ -98,8 +98,8 @@ impl Claimant for Custom {
     }
 }
 
-fn unsolved(own: &Custom, fault: NotSolved) -> CustomFault {
-    let name = |i: usize| &own.info.coordinates[i].name;
+fn unsolved(body: &Custom, fault: NotSolved) -> CustomFault {
+    let name = |i: usize| &body.info.coordinates[i].name;
     let velocity_of = |is_velocity| if is_velocity { "the velocity of " } else { "" };
     let what = match fault {
         NotSolved::Start { coordinate, is_velocity, found, start } => {
@@ -140,15 +140,15 @@ fn leaking(leak: Leak) -> CustomFault {
 }
 
 /// Where a body that was told to be linear is not; `None` if it is, or if nobody has said so.
-fn find_nonlinearity(own: &Custom) -> Option<CustomFault> {
-    if !own.is_linear {
+fn find_nonlinearity(body: &Custom) -> Option<CustomFault> {
+    if !body.is_linear {
         return None;
     }
-    let n = own.start.q.len();
+    let n = body.start.q.len();
     let acceleration = |t: f64, state: &[f64]| {
         let [q, v] = [&state[..n], &state[n..]].map(<[f64]>::to_vec);
         let mut a = vec![0.0; n];
-        own.acceleration(t, &q, &v, &mut a);
+        body.acceleration(t, &q, &v, &mut a);
         a
     };
     let mut random = XorShift::new(0x2545_F491_4F6C_DD1D);
@@ -166,7 +166,7 @@ fn find_nonlinearity(own: &Custom) -> Option<CustomFault> {
                 let size = parts.iter().fold(sum[i].abs(), |size, part| size.max(part.abs()));
                 let off = [sum[i] - none[i] - parts[0] - parts[1], none[i] - parts[2]];
                 if off.iter().any(|off| off.is_nan() || off.abs() > 1e-9 * size) {
-                    let name = &own.info.coordinates[i].name;
+                    let name = &body.info.coordinates[i].name;
                     let what =
                         format!("the acceleration of {name} is not linear at {reach} from 0");
                     let remedy = "leave it out: the default is no";
@@ -179,22 +179,22 @@ fn find_nonlinearity(own: &Custom) -> Option<CustomFault> {
 }
 
 /// Checks a custom body at its start, and what is told of it, at the ticks of the horizon too.
-pub(super) fn check(own: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFault> {
-    let State { q, v } = own.start();
+pub(super) fn check(body: &Custom, horizon: ClaimHorizon) -> Result<(), CustomFault> {
+    let State { q, v } = body.start();
     let mut a = v.clone();
-    own.acceleration(0.0, &q, &v, &mut a);
+    body.acceleration(0.0, &q, &v, &mut a);
     for (values, what) in [(&q, "coordinate"), (&v, "velocity"), (&a, "acceleration")] {
         if let Some(i) = values.iter().position(|value| !value.is_finite()) {
-            let name = &own.info.coordinates[i].name;
+            let name = &body.info.coordinates[i].name;
             let what = format!("the {what} of {name} is {} at the start", values[i]);
             return Err(CustomFault { field: "start", what, remedy: "begin with finite numbers" });
         }
     }
-    if let Some(fault) = find_unsolved(own).or_else(|| find_departure(own, horizon)) {
-        return Err(unsolved(own, fault));
+    if let Some(fault) = find_unsolved(body).or_else(|| find_departure(body, horizon)) {
+        return Err(unsolved(body, fault));
     }
-    if let Some(leak) = find_leak(own).or_else(|| find_later_leak(own, horizon)) {
+    if let Some(leak) = find_leak(body).or_else(|| find_later_leak(body, horizon)) {
         return Err(leaking(leak));
     }
-    find_nonlinearity(own).map_or(Ok(()), Err)
+    find_nonlinearity(body).map_or(Ok(()), Err)
 }

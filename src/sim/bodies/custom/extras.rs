@@ -1,4 +1,4 @@
-//! What a person may tell of a body of one's own beyond its motion.
+//! What a person may tell of a custom body beyond its motion.
 
 use crate::sim::parameter::ParameterOf;
 use crate::sim::state::State;

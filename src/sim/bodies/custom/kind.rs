@@ -12,7 +12,7 @@ use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range, Text};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{StateOf, System};
 
-/// The key of the parameter that bodies without parameters of their own have.
+/// The key of the parameter that bodies without parameters have.
 const FORCE: &str = "force";
 
 /// The largest number of coordinates. Larger systems need a sparse Jacobian; write a body.
@@ -43,18 +43,18 @@ where
     let plane = plane(extras.plane, &coordinates)?;
     let parameters: Vec<Parameter> = match &extras.parameters[..] {
         [] => vec![force_parameter()],
-        own => own.iter().map(|parameter| told_parameter(parameter, system)).collect(),
+        told => told.iter().map(|parameter| told_parameter(parameter, system)).collect(),
     };
     check_keys(&parameters)?;
     let mut kick = vec![0.0; n];
     match &extras.kick {
-        Some(own) if own.components().len() == n => kick.copy_from_slice(own.components()),
+        Some(given) if given.components().len() == n => kick.copy_from_slice(given.components()),
         Some(_) => {
             return fault("kick", "it has another length".into(), "give it one velocity each");
         }
         None => kick[0] = 1.0,
     }
-    let own = Custom {
+    let body = Custom {
         motion: Box::new(Typed::new(system.clone(), &start.q, extras)),
         info: Arc::new(CustomInfo { coordinates, plane }),
         values: parameters.iter().filter_map(|parameter| parameter.default).collect(),
@@ -63,8 +63,8 @@ where
         is_linear: extras.is_linear,
         checked: Checked::default(),
     };
-    claims::check(&own, horizon)?;
-    Ok(Arc::new(kind(own, parameters)))
+    claims::check(&body, horizon)?;
+    Ok(Arc::new(kind(body, parameters)))
 }
 
 /// The parameter, with the number of `system` as its default.
@@ -87,21 +87,21 @@ fn force_parameter() -> Parameter {
     }
 }
 
-fn kind(own: Custom, parameters: Vec<Parameter>) -> Kind {
-    let info = own.info.clone();
+fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
+    let info = body.info.clone();
     let leading = parameters[0].key.clone();
     // A system need not be shared between threads: each body gets a copy.
-    let template = Arc::new(Mutex::new(own));
+    let template = Arc::new(Mutex::new(body));
     let copy =
         |template: &Mutex<Custom>| template.lock().unwrap_or_else(PoisonError::into_inner).clone();
     let check = {
         let (template, info, leading) = (template.clone(), info.clone(), leading.clone());
         move |values: &[f64]| {
-            let mut own = copy(&template);
-            own.write(values);
-            let State { q, v } = own.start();
+            let mut body = copy(&template);
+            body.write(values);
+            let State { q, v } = body.start();
             let mut a = v.clone();
-            own.acceleration(0.0, &q, &v, &mut a);
+            body.acceleration(0.0, &q, &v, &mut a);
             let unfit = a.iter().position(|a| !a.is_finite());
             unfit.map_or(Ok(()), |i| {
                 let name = &info.coordinates[i].name;
@@ -112,7 +112,7 @@ fn kind(own: Custom, parameters: Vec<Parameter>) -> Kind {
         }
     };
     Kind {
-        id: "own",
+        id: "custom",
         about: "a body written in Rust".into(),
         all_coordinates: info.coordinates.clone(),
         is_counted: false,

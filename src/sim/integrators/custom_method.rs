@@ -1,4 +1,4 @@
-//! Methods of one's own: they are in no table, and their cards say how they are built.
+//! Custom methods: they are in no table, and their cards say how they are built.
 
 use std::cell::RefCell;
 
@@ -9,7 +9,7 @@ use crate::sim::state::{State, Vector};
 use crate::sim::system::{Question, StateOf, System};
 use crate::sim::vec_system::{Scratch, VecSystem};
 
-/// A system of any type with its coordinates in a `Vec`: what a method of one's own steps.
+/// A system of any type with its coordinates in a `Vec`: what a custom method steps.
 #[derive(Clone, Copy)]
 pub struct AnySystem<'a>(&'a dyn System<Vector = Vec<f64>>);
 
@@ -25,8 +25,8 @@ impl System for AnySystem<'_> {
     }
 }
 
-/// A method of one's own behind a pointer. Every `Clone` [`Integrator`] of systems with a `Vec` is one.
-pub trait OwnIntegrator: Send {
+/// A custom method behind a pointer. Every `Clone` [`Integrator`] of systems with a `Vec` is one.
+pub trait CustomIntegrator: Send {
     /// As [`Integrator::step`].
     ///
     /// # Errors
@@ -45,10 +45,10 @@ pub trait OwnIntegrator: Send {
     /// Memory in bytes, without its coordinate vectors.
     fn bytes(&self) -> usize;
     /// A copy with the same memory.
-    fn boxed_clone(&self) -> Box<dyn OwnIntegrator>;
+    fn boxed_clone(&self) -> Box<dyn CustomIntegrator>;
 }
 
-impl<I> OwnIntegrator for I
+impl<I> CustomIntegrator for I
 where
     I: for<'a> Integrator<AnySystem<'a>> + Clone + 'static,
 {
@@ -70,12 +70,12 @@ where
     fn bytes(&self) -> usize {
         size_of::<I>() + Integrator::heap_bytes(self)
     }
-    fn boxed_clone(&self) -> Box<dyn OwnIntegrator> {
+    fn boxed_clone(&self) -> Box<dyn CustomIntegrator> {
         Box::new(self.clone())
     }
 }
 
-/// What the card of a method of one's own gives as [`Method::own`](super::Method::own): it builds the
+/// What the card of a custom method gives as [`Method::custom`](super::Method::custom): it builds the
 /// integrator `I`, for as many coordinates as it is given.
 ///
 /// ```
@@ -108,27 +108,27 @@ where
 ///     order: 1,
 ///     order_with_drag: 1,
 ///     evaluations: Some(1),
-///     own: Some(own_integrator::<Plain<Vec<f64>>>),
+///     custom: Some(custom_integrator::<Plain<Vec<f64>>>),
 ///     ..Family::Explicit.card()
 /// };
 /// assert_eq!(PLAIN.stability_limit, Some(0.0));
 /// ```
-pub fn own_integrator<I: OwnIntegrator + for<'a> Integrator<AnySystem<'a>> + 'static>(
+pub fn custom_integrator<I: CustomIntegrator + for<'a> Integrator<AnySystem<'a>> + 'static>(
     coordinates: usize,
-) -> Box<dyn OwnIntegrator> {
+) -> Box<dyn CustomIntegrator> {
     Box::new(I::new(&vec![0.0; coordinates]))
 }
 
-/// A method of one's own on systems with coordinates in a `V`.
-pub(super) struct Own<V> {
-    integrator: Box<dyn OwnIntegrator>,
+/// A custom method on systems with coordinates in a `V`.
+pub(super) struct CustomMethod<V> {
+    integrator: Box<dyn CustomIntegrator>,
     state: State<Vec<f64>>,
     scratch: RefCell<Scratch<V>>,
 }
 
-impl<V: Vector> Own<V> {
+impl<V: Vector> CustomMethod<V> {
     /// The method that `build` builds, for coordinates shaped `like` these.
-    pub(super) fn new(build: fn(usize) -> Box<dyn OwnIntegrator>, like: &V) -> Self {
+    pub(super) fn new(build: fn(usize) -> Box<dyn CustomIntegrator>, like: &V) -> Self {
         let zero = vec![0.0; like.components().len()];
         Self {
             integrator: build(zero.len()),
@@ -138,7 +138,7 @@ impl<V: Vector> Own<V> {
     }
 }
 
-impl<V: Clone> Clone for Own<V> {
+impl<V: Clone> Clone for CustomMethod<V> {
     fn clone(&self) -> Self {
         let Self { integrator, state, scratch } = self;
         Self {
@@ -149,9 +149,9 @@ impl<V: Clone> Clone for Own<V> {
     }
 }
 
-impl<S: System<Vector: Vector>> Integrator<S> for Own<S::Vector> {
+impl<S: System<Vector: Vector>> Integrator<S> for CustomMethod<S::Vector> {
     fn new(_like: &S::Vector) -> Self {
-        unreachable!("a method of one's own is built by its card")
+        unreachable!("a custom method is built by its card")
     }
 
     fn step(&mut self, system: &S, t: f64, h: f64, state: &mut StateOf<S>) -> Stepped {

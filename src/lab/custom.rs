@@ -28,7 +28,7 @@ pub struct Options<S: System> {
     /// How long it runs, in seconds, from [`LEAST_SECONDS`] to [`MOST_SECONDS`]. The default is 20. Verdicts are
     /// on the first minute.
     pub seconds: f64,
-    /// The methods, at most [`MOST_LANES`], from [`METHODS`] or one's own. Empty: all that step such a body.
+    /// The methods, at most [`MOST_LANES`], from [`METHODS`] or custom ones. Empty: all that step such a body.
     pub methods: Vec<&'static Method>,
     /// What is known of the body beyond its equation.
     pub extras: Extras<S>,
@@ -202,16 +202,16 @@ fn check_methods(chosen: &[&'static Method]) -> Result<(), OptionsError> {
             return Err(error("methods", format!("two have the id {:?}", method.id), "rename one"));
         }
         let is_listed = METHODS.iter().any(|listed| listed.id == method.id);
-        if is_listed && method.own.is_some() {
+        if is_listed && method.custom.is_some() {
             let what = format!("a method of the table has the id {:?} too", method.id);
             return Err(error("methods", what, "give yours another id"));
         }
-        if !is_listed && method.own.is_none() {
+        if !is_listed && method.custom.is_none() {
             let what = format!("{:?} is not in the table", method.id);
             return Err(error(
                 "methods",
                 what,
-                "say in the field `own` of its card how it is built",
+                "say in the field `custom` of its card how it is built",
             ));
         }
     }

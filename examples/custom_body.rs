@@ -1,4 +1,4 @@
-//! A body of one's own: which method should step it, and at what rate?
+//! A custom body: which method should step it, and at what rate?
 
 use regatta::prelude::glam::DVec2;
 use regatta::prelude::*;

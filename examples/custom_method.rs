@@ -1,4 +1,4 @@
-//! A method of one's own, held to its card, and raced on a built-in scene.
+//! A custom method, held to its card, and raced on a built-in scene.
 
 use regatta::prelude::*;
 
@@ -39,7 +39,7 @@ static RALSTON: Method = Method {
     order_with_drag: 2,
     evaluations: Some(2),
     source: "Ralston 1962",
-    own: Some(own_integrator::<Ralston<Vec<f64>>>),
+    custom: Some(custom_integrator::<Ralston<Vec<f64>>>),
     ..Family::Explicit.card()
 };
 

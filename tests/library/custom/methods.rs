@@ -1,9 +1,9 @@
-//! Own methods in a race, a verdict and a run that is gone back in.
+//! Custom methods in a race, a verdict and a run that is gone back in.
 
 use regatta::lab::{Adviser, Criterion, Judge, LaneSpec, Race, Scene, Session, Timeline};
 use regatta::sim::integrators::{
     AdamsBashforth2, BogackiShampine32, Family, ImplicitMidpoint, Integrator, Method, Rk4,
-    StepFailure, VelocityVerlet, method, own_integrator,
+    StepFailure, VelocityVerlet, custom_integrator, method,
 };
 use regatta::sim::{State, System};
 
@@ -11,14 +11,14 @@ use regatta::sim::{State, System};
 fn copies() -> [(&'static Method, Method); 5] {
     let copy = |id: &str, new_id: &'static str, own| {
         let card = method(id).expect("a method");
-        (card, Method { id: new_id, name: new_id, own: Some(own), ..*card })
+        (card, Method { id: new_id, name: new_id, custom: Some(own), ..*card })
     };
     [
-        copy("rk4", "my-rk4", own_integrator::<Rk4<Vec<f64>>>),
-        copy("velocity-verlet", "my-verlet", own_integrator::<VelocityVerlet<Vec<f64>>>),
-        copy("adams-bashforth-2", "my-ab2", own_integrator::<AdamsBashforth2<Vec<f64>>>),
-        copy("bogacki-shampine-32", "my-bs32", own_integrator::<BogackiShampine32<Vec<f64>>>),
-        copy("implicit-midpoint", "my-midpoint", own_integrator::<ImplicitMidpoint<Vec<f64>>>),
+        copy("rk4", "my-rk4", custom_integrator::<Rk4<Vec<f64>>>),
+        copy("velocity-verlet", "my-verlet", custom_integrator::<VelocityVerlet<Vec<f64>>>),
+        copy("adams-bashforth-2", "my-ab2", custom_integrator::<AdamsBashforth2<Vec<f64>>>),
+        copy("bogacki-shampine-32", "my-bs32", custom_integrator::<BogackiShampine32<Vec<f64>>>),
+        copy("implicit-midpoint", "my-midpoint", custom_integrator::<ImplicitMidpoint<Vec<f64>>>),
     ]
 }
 
@@ -59,7 +59,7 @@ fn a_copy_is_judged_and_advised_as_its_original() {
 }
 
 #[test]
-fn a_run_with_own_methods_is_gone_back_in_and_copied_to_the_bit() {
+fn a_run_with_custom_methods_is_gone_back_in_and_copied_to_the_bit() {
     let scene = with_copies("surge");
     let mut timeline = Timeline::new(Session::racing(scene.into()));
     let mut hashes = Vec::new();
@@ -104,7 +104,7 @@ fn a_card_that_claims_too_much_is_told_where() {
         order_with_drag: 1,
         evaluations: Some(1),
         symplectic: true,
-        own: Some(own_integrator::<Hasty<Vec<f64>>>),
+        custom: Some(custom_integrator::<Hasty<Vec<f64>>>),
         ..Family::Explicit.card()
     };
     let found = regatta::conformance::check(&card);

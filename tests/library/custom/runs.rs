@@ -1,4 +1,4 @@
-//! Reports, recordings, pictures and the lab on an own body.
+//! Reports, recordings, pictures and the lab on a custom body.
 
 use glam::DVec2;
 use regatta::lab::picture::{Look, Mark, Outline};
@@ -56,7 +56,7 @@ fn a_report_is_written_as_json_with_the_keys_of_the_command() {
 }
 
 #[test]
-fn a_run_of_an_own_body_is_not_recorded_and_the_reason_is_told() {
+fn a_run_of_a_custom_body_is_not_recorded_and_the_reason_is_told() {
     let mut session = Session::racing(scene().into());
     session.run(30);
     let error = session.recording_text(30).expect_err("no file can hold it");
@@ -79,7 +79,7 @@ fn the_lab_goes_on_with_a_run_where_it_is() {
 }
 
 #[test]
-fn an_own_body_is_drawn_as_its_author_says_or_as_beads() {
+fn a_custom_body_is_drawn_as_its_author_says_or_as_beads() {
     let outline = |draw| {
         let start = State { q: DVec2::new(3.0, 0.0), v: DVec2::new(0.0, 3.0) };
         let options = Options { draw, ..Options::default() };

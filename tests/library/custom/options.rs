@@ -3,7 +3,7 @@
 use glam::DVec2;
 use regatta::lab::OptionsError;
 use regatta::prelude::{Extras, Options, ParameterOf, Range, Scene, State, System};
-use regatta::sim::integrators::{Family, Method, Rk4, method, own_integrator};
+use regatta::sim::integrators::{Family, Method, Rk4, custom_integrator, method};
 
 use super::{Orbit, Spring};
 
@@ -21,10 +21,10 @@ fn refused_extras(extras: Extras<Spring>) -> OptionsError {
 fn each_option_out_of_its_range_is_named() {
     let plain = Options::<Spring>::default;
     let rk4 = method("rk4").unwrap();
-    let own = |id: &'static str, own| {
-        &*Box::leak(Box::new(Method { id, name: "mine", own, ..Family::Explicit.card() }))
+    let made = |id: &'static str, custom| {
+        &*Box::leak(Box::new(Method { id, name: "mine", custom, ..Family::Explicit.card() }))
     };
-    let mine = Some(own_integrator::<Rk4<Vec<f64>>> as fn(usize) -> _);
+    let mine = Some(custom_integrator::<Rk4<Vec<f64>>> as fn(usize) -> _);
     for (field, says, options) in [
         ("name", "0 characters", Options { name: "", ..plain() }),
         ("tick_hz", "0", Options { tick_hz: 0, ..plain() }),
@@ -35,9 +35,9 @@ fn each_option_out_of_its_range_is_named() {
         (
             "methods",
             "has the id \"rk4\" too",
-            Options { methods: vec![own("rk4", mine)], ..plain() },
+            Options { methods: vec![made("rk4", mine)], ..plain() },
         ),
-        ("methods", "not in the table", Options { methods: vec![own("mine", None)], ..plain() }),
+        ("methods", "not in the table", Options { methods: vec![made("mine", None)], ..plain() }),
         (
             "methods",
             "moves straight",

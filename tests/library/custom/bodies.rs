@@ -1,4 +1,4 @@
-//! Own bodies beside the built-in ones that move by the same equation.
+//! Custom bodies beside the built-in ones that move by the same equation.
 
 use glam::DVec2;
 use regatta::lab::{Judge, LaneSpec, Race, Scene};
@@ -134,7 +134,7 @@ fn own_parameters_act_in_a_run_and_have_their_units() {
     assert_eq!((a[0], stepper.energy()), (-90.0, Some(45.0)));
     assert!(stepper.set_parameter(0.0, 1, 0.5));
     assert_eq!(stepper.energy(), None, "drag conserves no energy");
-    let claims = stepper.body().downcast_ref::<Custom>().expect("an own body").false_claims();
+    let claims = stepper.body().downcast_ref::<Custom>().expect("a custom body").false_claims();
     assert_eq!(claims, FalseClaims { energy: true, exact: false });
     assert!(stepper.set_parameter(0.0, 1, 0.0));
     assert_eq!(stepper.energy(), Some(45.0));
