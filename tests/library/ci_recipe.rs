@@ -29,7 +29,7 @@ fn recipe() -> &'static str {
 }
 
 /// The body of one's own as the manual prints it, as a program.
-fn own_body() -> String {
+fn custom_body() -> String {
     let mut bodies = blocks("rust").filter(|block| block.contains("impl System for"));
     format!("fn main() {{\n{}}}\n", bodies.next().expect("the manual prints a body"))
 }
@@ -69,7 +69,7 @@ impl Stranger {
         for (name, text) in examples() {
             write(&format!("examples/{name}.rs"), &text);
         }
-        write("examples/printed_body.rs", &own_body());
+        write("examples/printed_body.rs", &custom_body());
         Self { folder, target }
     }
 
