@@ -154,14 +154,13 @@ impl Verdict {
         duration(self.starts_at_s + seconds)
     }
 
-    /// Where the run begins in which the lane fails, if it fails.
-    fn proviso(&self) -> Option<String> {
-        let fails = matches!(self.outcome, Outcome::BlewUp | Outcome::GaveUp);
-        let begins = match self.starts_at_s {
-            0.0 => "the start".to_owned(),
-            seconds => duration(seconds),
-        };
-        fails.then(|| format!("if run from {begins}"))
+    /// Where the run begins in which the lane fails, if that is said.
+    fn start(&self, said: Said) -> String {
+        match self.starts_at_s {
+            _ if !said.start => String::new(),
+            0.0 => ", if run from the start".to_owned(),
+            seconds => format!(", if run from {}", duration(seconds)),
+        }
     }
 
     pub(super) fn is_worse_than(&self, other: &Self) -> bool {
@@ -194,23 +193,22 @@ impl Verdict {
     /// that dies away has other errors too.
     fn out_of_phase(&self) -> String {
         let (error, horizon) = (percent(self.error), duration(self.horizon_s));
-        let bounded = if self.is_bounded == Some(true) { "stable, " } else { "" };
         if self.is_phase_error() {
-            return format!("{bounded}out of phase by {error} after {horizon}");
+            return format!("out of phase by {error} after {horizon}");
         }
         if let Some(pitch) = self.pitch_that_tells() {
-            return format!("{bounded}{pitch}: off by up to {error} in {horizon}");
+            return format!("{pitch}: off by up to {error} in {horizon}");
         }
         let at = self.moment(self.error_at_s);
         match self.last_error {
             last if last <= TOLERANCE => {
                 let settled = self.moment(self.horizon_s);
-                format!("{bounded}off by {error} at {at}, settled by {settled}")
+                format!("off by {error} at {at}, settled by {settled}")
             }
             last if last < 0.9 * self.error => {
-                format!("{bounded}off by {error} at {at}, by {} after {horizon}", percent(last))
+                format!("off by {error} at {at}, by {} after {horizon}", percent(last))
             }
-            _ => format!("{bounded}off by {error} after {horizon}"),
+            _ => format!("off by {error} after {horizon}"),
         }
     }
 
@@ -231,78 +229,130 @@ impl Verdict {
         self.pitch().filter(|_| self.error > ANY_PHASE && self.last_error > TOLERANCE)
     }
 
-    /// The frequency error and the body's name in brackets, if there are any.
-    fn in_brackets(&self) -> String {
-        let pitch = self.pitch().filter(|_| self.pitch_that_tells().is_none());
-        let parts: Vec<String> = pitch.into_iter().chain(self.body_name.clone()).collect();
+    /// The frequency error and the body's name in brackets, as far as they are said and there are any.
+    fn in_brackets(&self, said: Said) -> String {
+        let pitch = self.pitch().filter(|_| said.pitch && self.pitch_that_tells().is_none());
+        let name = self.body_name.clone().filter(|_| said.name);
+        let parts: Vec<String> = pitch.into_iter().chain(name).collect();
         if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
     }
-}
 
-/// In the alternate form, `{:#}`, a method that fails is told with where it is run from: that run need not be the one on the
-/// screen.
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    /// What is found, without brackets and clauses.
+    fn finding(&self, said: Said) -> String {
         let horizon = duration(self.horizon_s);
-        let proviso = self.proviso().filter(|_| f.alternate());
-        let proviso = proviso.map_or(String::new(), |proviso| format!(", {proviso}"));
         match (self.outcome, &self.failure, &self.no_truth) {
             (Outcome::Rounding, ..) => {
                 let bound = libm::ceil(libm::log10(self.error.max(1e-15))) as i32;
-                write!(f, "within rounding: error below 10{} in {horizon}", superscript(bound))?;
+                format!("within rounding: error below 10{} in {horizon}", superscript(bound))
             }
             (Outcome::Accurate, ..) => {
-                write!(f, "accurate: error {} in {horizon}", percent(self.error))?
+                format!("accurate: error {} in {horizon}", percent(self.error))
             }
-            (Outcome::OutOfPhase, ..) => f.write_str(&self.out_of_phase())?,
+            (Outcome::OutOfPhase, ..) if said.is_stable && self.is_bounded == Some(true) => {
+                format!("stable, {}", self.out_of_phase())
+            }
+            (Outcome::OutOfPhase, ..) => self.out_of_phase(),
             (Outcome::GainsEnergy, ..) => {
                 // Without a swing and an energy nobody can say what it gains.
                 let is_known = self.doubles_in_s.or(self.energy_change).is_some();
                 let word = if is_known { "gains energy" } else { "grows" };
-                write!(f, "{word}: {}", self.swing(self.doubles_in_s, "×2"))?;
+                format!("{word}: {}", self.swing(self.doubles_in_s, "×2"))
             }
             (Outcome::LosesEnergy, ..) => {
-                write!(f, "loses energy: {}", self.swing(self.halves_in_s, "½"))?;
+                format!("loses energy: {}", self.swing(self.halves_in_s, "½"))
             }
             (Outcome::BlewUp, Some(failure), _) => {
-                write!(f, "will blow up at {}", self.moment(failure.t))?;
+                format!("will blow up at {}", self.moment(failure.t))
             }
             (Outcome::GaveUp, Some(failure), _) => {
-                write!(
-                    f,
-                    "will give up at {}{proviso}: {}",
-                    self.moment(failure.t),
-                    failure.cause
-                )?;
+                let start = self.start(said);
+                format!("will give up at {}{start}: {}", self.moment(failure.t), failure.cause)
             }
-            (Outcome::NoTruth, ..) if let Some(found) = self.by_energy => {
-                write!(f, "{}", found.kept(&horizon))?;
+            (Outcome::NoTruth, ..) if let Some(found) = self.by_energy => found.kept(&horizon),
+            (Outcome::NoTruth, _, Some(why)) => format!("no truth: {why}"),
+            (Outcome::NotJudged, ..) if let Some(why) = self.not_judged => {
+                format!("{}: {why}", self.outcome.text())
             }
-            (Outcome::NoTruth, _, Some(why)) => write!(f, "no truth: {why}")?,
-            (word, ..) => f.write_str(word.text())?,
+            (outcome, ..) => outcome.text().to_owned(),
         }
-        if let Some(why) = self.not_judged.filter(|_| self.outcome == Outcome::NotJudged) {
-            write!(f, ": {why}")?;
-        }
-        f.write_str(&self.in_brackets())?;
-        if self.outcome == Outcome::BlewUp {
-            f.write_str(&proviso)?;
-        }
+    }
+
+    /// What is said after the finding, each behind a semicolon.
+    fn clauses(&self) -> Vec<String> {
         let is_told =
             matches!(self.outcome, Outcome::GainsEnergy | Outcome::BlewUp | Outcome::GaveUp);
         let later = self.doubles_in_s.filter(|_| !is_told);
-        if let Some(seconds) = later {
-            write!(f, "; grows slowly: {} ×2 in {}", self.what_grows(), duration(seconds))?;
+        let faint = self.parasite_doubles_in_s.filter(|_| self.outcome <= Outcome::GainsEnergy);
+        let by_energy = self.by_energy.filter(|_| self.missing_truth().is_some());
+        [
+            later.map(|s| format!("grows slowly: {} ×2 in {}", self.what_grows(), duration(s))),
+            faint.map(|s| format!("a faint mode grows: ×2 in {}", duration(s))),
+            by_energy.map(|found| found.to_string()),
+            self.chase.as_ref().map(|chase| chase.to_string()),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+
+    fn line(&self, said: Said) -> String {
+        let mut line = self.finding(said) + &self.in_brackets(said);
+        if self.outcome == Outcome::BlewUp {
+            line += &self.start(said);
         }
-        if let Some(seconds) =
-            self.parasite_doubles_in_s.filter(|_| self.outcome <= Outcome::GainsEnergy)
-        {
-            write!(f, "; a faint mode grows: ×2 in {}", duration(seconds))?;
+        for clause in self.clauses().iter().filter(|_| said.clauses) {
+            line = format!("{line}; {clause}");
         }
-        if let Some(found) = self.by_energy.filter(|_| self.missing_truth().is_some()) {
-            write!(f, "; {found}")?;
+        line
+    }
+
+    /// The verdict in fewer and fewer words, as room is short; the first says everything. The body is named where there are
+    /// several, if `is_named`.
+    pub fn wordings(&self, is_named: bool) -> Vec<String> {
+        let all = Said { name: is_named, ..Said::EVERYTHING };
+        let whole = Said { start: false, ..all };
+        let first = Said { clauses: false, ..whole };
+        let bare = Said { pitch: false, ..first };
+        let shorter = Said { is_stable: false, ..bare };
+        let outcome = format!("{}{}", self.outcome.text(), self.in_brackets(bare));
+        let mut wordings = vec![self.line(all), self.line(whole)];
+        let Some(missing) = self.missing_truth() else {
+            wordings.extend([first, bare, shorter].map(|said| self.line(said)));
+            wordings.push(outcome);
+            return wordings;
+        };
+        // Without its reason such a verdict would look like any other.
+        let why = |said: &str| format!("{said}; {missing}");
+        wordings.extend([first, shorter].map(|said| why(&self.line(said))));
+        match self.outcome {
+            Outcome::NoTruth => wordings.push(missing.to_owned()),
+            _ => wordings.extend([why(&outcome), outcome]),
         }
-        self.chase.as_ref().map_or(Ok(()), |chase| write!(f, "; {chase}"))
+        wordings
+    }
+}
+
+/// Which of its parts a verdict says besides its finding.
+#[derive(Clone, Copy)]
+struct Said {
+    /// Where the run begins in which the lane fails: that run need not be the one on the screen.
+    start: bool,
+    clauses: bool,
+    pitch: bool,
+    name: bool,
+    /// That a motion out of phase does not grow.
+    is_stable: bool,
+}
+
+impl Said {
+    const EVERYTHING: Self =
+        Self { start: true, clauses: true, pitch: true, name: true, is_stable: true };
+}
+
+/// In the alternate form, `{:#}`, a method that fails is told with where it is run from.
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.line(Said { start: f.alternate(), ..Said::EVERYTHING }))
     }
 }
 
@@ -387,6 +437,34 @@ mod tests {
     }
 
     #[test]
+    fn a_verdict_is_said_in_fewer_and_fewer_words() {
+        let found = verdict("harbour", "improved-euler", 60);
+        assert_eq!(
+            found.wordings(true)[1..],
+            [
+                "out of phase by 23 % after 20 s (0.18 % fast, free spring); grows slowly: swing ×2 in 769 s",
+                "out of phase by 23 % after 20 s (0.18 % fast, free spring)",
+                "out of phase by 23 % after 20 s (free spring)",
+                "out of phase by 23 % after 20 s (free spring)",
+                "out of phase (free spring)",
+            ]
+        );
+        assert!(found.wordings(false).iter().all(|said| !said.contains("free spring")));
+        for outcome in Outcome::ALL {
+            let by_energy =
+                Some(EnergyFinding { change: 0.5, is_conserved: true, spectral_radius: None });
+            for verdict in [
+                Verdict { outcome, ..found.clone() },
+                Verdict { outcome, by_energy, ..found.clone() },
+            ] {
+                let said = verdict.wordings(true);
+                assert!(said.is_sorted_by_key(|said| std::cmp::Reverse(said.len())), "{said:?}");
+                assert_eq!(said[0], format!("{verdict:#}"));
+            }
+        }
+    }
+
+    #[test]
     fn moments_are_times_of_the_run_and_lengths_count_from_where_it_is_judged() {
         for (scene, id, tick_hz, shown) in [
             ("spring", "explicit-euler", 60, "gains energy: swing ×2 in 2.12 s"),
@@ -415,10 +493,8 @@ mod tests {
             (gives_up, format!("will give up at 4.14 s, if run from the start: {why}")),
         ] {
             assert_eq!(format!("{verdict:#}"), shown);
-            assert_eq!(
-                verdict.to_string(),
-                shown.replace(&*format!(", {}", verdict.proviso().unwrap()), "")
-            );
+            let start = verdict.start(Said::EVERYTHING);
+            assert_eq!(verdict.to_string(), shown.replace(&*start, ""));
         }
     }
 }

@@ -3,7 +3,7 @@
 use egui::epaint::PathShape;
 use egui::{Color32, FontId, Pos2, Stroke, Ui, pos2};
 
-use crate::lab::{Entrant, Lab, Outcome, Verdict};
+use crate::lab::{Entrant, Lab, Outcome};
 use crate::view::panels::{ink, short, tone};
 use crate::view::theme::TYPE;
 
@@ -60,32 +60,7 @@ impl Said {
             return Self { outcome: None, wordings: vec!["judging…".into()] };
         };
         let is_named = body.is_none() && named_above != Some(verdict.body);
-        let body_name = verdict.body_name.clone().filter(|_| is_named);
-        let verdict = Verdict { body_name, ..verdict.clone() };
-        let (full, missing) = (verdict.to_string(), verdict.missing_truth());
-        let fails = matches!(verdict.outcome, Outcome::BlewUp | Outcome::GaveUp);
-        let with_start = fails.then(|| format!("{verdict:#}"));
-        let name = verdict.body_name.map(|name| format!(" ({name})")).unwrap_or_default();
-        let first = full.split(';').next().unwrap_or_default().to_owned();
-        let bare = first.split(" (").next().unwrap_or_default();
-        let bare = format!("{bare}{name}");
-        let outcome = verdict.outcome;
-        let said = |wordings: Vec<String>| Self {
-            outcome: Some(outcome),
-            wordings: with_start.clone().into_iter().chain(wordings).collect(),
-        };
-        let shorter = bare.strip_prefix("stable, ").unwrap_or(&bare).to_owned();
-        let shortest = format!("{}{name}", outcome.text());
-        let Some(missing) = missing else {
-            return said(vec![full, first, bare, shorter, shortest]);
-        };
-        // Without its reason such a verdict would look like any other.
-        let why = |said: &str| format!("{said}; {missing}");
-        let wordings = match outcome {
-            Outcome::NoTruth => vec![why(&first), why(&shorter), missing.into()],
-            _ => vec![why(&first), why(&shorter), why(&shortest), shortest],
-        };
-        said([vec![full], wordings].concat())
+        Self { outcome: Some(verdict.outcome), wordings: verdict.wordings(is_named) }
     }
 
     /// Everything.
