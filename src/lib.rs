@@ -7,8 +7,8 @@
 //!
 //! - [`sim`] is mathematics: a [`State`](sim::State), an equation of motion ([`System`](sim::System)),
 //!   and ways to step it ([`Integrator`](sim::integrators::Integrator)). It knows no files, clocks or
-//!   pixels. RK4's formula is in `sim/integrators/rk4.rs`. [`sim::stability`] finds the one-step map of a
-//!   method on a body, or on a linear body's [normal modes](sim::stability::NormalMode), and its spectral radius.
+//!   pixels. RK4's formula is in `sim/integrators/rk4.rs`. [`sim::stability`] finds the map of a step of a
+//!   method on a body's [small motions](sim::stability::SmallMotion) and [normal modes](sim::stability::NormalMode).
 //! - [`lab`] is the experiment: a [`Scene`](lab::Scene) is read from text and written as text, a
 //!   [`Clock`](lab::Clock) turns frames into ticks, a [`Race`](lab::Race) steps its [`Lane`](lab::Lane)s and the
 //!   truth, and a [`Picture`](lab::picture::Picture) says what to draw. A run is a value, a

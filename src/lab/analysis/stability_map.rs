@@ -355,8 +355,8 @@ fn chooses_steps(spec: &LaneSpec) -> bool {
     spec.method.tolerance.is_some() || !spec.method.keeps_time
 }
 
-/// Stability on one mode, measured on a stand-in: a spring; for a follower method a follower; for an engine on a body
-/// without a joint a ship. `None` if the method fails.
+/// Stability on one mode, measured on a body of one coordinate that has it: a spring; for a follower method a follower; for
+/// an engine on a body without a joint a ship. `None` if the method fails.
 fn stability(spec: &LaneSpec, has_joint: bool, mode: &NormalMode, hz: f64) -> Option<Stability> {
     let NormalMode { omega_squared, damping_per_s, .. } = *mode;
     let order = spec.method.law_order();
@@ -372,7 +372,7 @@ fn stability(spec: &LaneSpec, has_joint: bool, mode: &NormalMode, hz: f64) -> Op
     };
     let body = (kind(id).expect("a kind of body").build)(&values, Solver::Truth);
     let tick = Tick { t: 0.0, h: 1.0 / hz, substeps: spec.substeps };
-    Stability::of(&*body, spec.solver(), tick.repeated(Some(spec.method)).0).ok()
+    NormalMode { shape: vec![1.0], ..*mode }.stability_of_small(&*body, spec.solver(), tick).ok()
 }
 
 fn here(spec: &LaneSpec, motion: Option<&Motion>, hz: f64) -> Here {

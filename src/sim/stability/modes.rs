@@ -1,15 +1,14 @@
 //! The normal modes of a linear body, and the stability of a method on each.
 //!
-//! The modes come from the body's own acceleration. A method acts on each mode of a linear body
+//! The modes come from the body's acceleration. A method acts on each mode of a linear body
 //! separately, so that its map is found mode by mode from the stepper: of size 2 without memory,
 //! instead of twice the number of coordinates.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::comparison::{Mode, Stability, compare_step};
-use super::spectrum::{self, NEUTRAL_WITH_MEMORY};
+use super::spectrum::{self, NEUTRAL_WITH_MEMORY, linear_maps};
 use super::tick::Tick;
-use super::tick_map::{force_slopes, linear_maps};
 use super::trend::growth_of_energy;
 use crate::sim::bodies::Input;
 use crate::sim::integrators::StepFailure;
@@ -71,15 +70,56 @@ impl NormalMode {
         solver: Solver,
         tick: Tick,
     ) -> Result<Stability, StepFailure> {
+        let mut stepper = body.with_solver(solver, tick.t);
+        let (mut stability, has_memory) =
+            self.stability_by_map(&mut *stepper, solver, tick, 1.0)?;
+        let (step, _) = tick.repeated(solver.method());
+        let is_blurred = (stability.growth_per_s * step.h).abs() <= NEUTRAL_WITH_MEMORY;
+        if has_memory && is_blurred && self.is_conserved() && self.omega_squared > 0.0 {
+            // The map of a method with memory is not accurate enough for a small growth; the energy
+            // over many ticks is.
+            stepper.set(step.t, &self.shape, &vec![0.0; self.shape.len()]);
+            let scale = stepper.energy().unwrap_or(0.0);
+            if scale > 0.0 && scale.is_finite() {
+                let growth = growth_of_energy(&mut *stepper, step, FOLLOWED_TICKS, scale)?;
+                stability.growth_per_s = growth;
+                stability.loss_per_s = (-growth).max(0.0);
+            }
+        }
+        Ok(stability)
+    }
+
+    /// The same from the map of a small motion alone, which is quick and takes a growth per step of less than 1e-9 for none
+    /// where the method has memory.
+    ///
+    /// # Errors
+    /// As [`NormalMode::stability`].
+    pub fn stability_of_small(
+        &self,
+        body: &dyn Stepper,
+        solver: Solver,
+        tick: Tick,
+    ) -> Result<Stability, StepFailure> {
+        let mut stepper = body.with_solver(solver, tick.t);
+        Ok(self.stability_by_map(&mut *stepper, solver, tick, SMALL)?.0)
+    }
+
+    /// From the map of a motion of this `amplitude`; and whether the method has memory.
+    fn stability_by_map(
+        &self,
+        stepper: &mut dyn Stepper,
+        solver: Solver,
+        tick: Tick,
+        amplitude: f64,
+    ) -> Result<(Stability, bool), StepFailure> {
         // The map of a tick is a power of that of a step, in which the mode turns less.
         let (tick, times) = tick.repeated(solver.method());
-        let mut stepper = body.with_solver(solver, tick.t);
         let n = self.shape.len();
         // The unit of velocity: the orbit of the mode is a circle, or the distance in a step is 1.
         let rate = if self.omega_squared > 0.0 { self.omega_squared.sqrt() } else { 1.0 / tick.h };
         // What a target does to the body at rest is no part of the map.
         let mut driven = [[0.0; 2]; 3];
-        if !stays_at_rest(body, tick.t) {
+        if !stays_at_rest(stepper, tick.t) {
             let rest = vec![0.0; n];
             stepper.set(tick.t, &rest, &rest);
             for (k, driven) in driven.iter_mut().enumerate() {
@@ -90,7 +130,7 @@ impl NormalMode {
         let run = |column: usize, k: usize| {
             if k == 0 {
                 let mut state = vec![0.0; 2 * n];
-                let unit = if column == 0 { 1.0 } else { rate };
+                let unit = amplitude * if column == 0 { 1.0 } else { rate };
                 for (x, shape) in state[column * n..(column + 1) * n].iter_mut().zip(&self.shape) {
                     *x = unit * shape;
                 }
@@ -98,27 +138,18 @@ impl NormalMode {
             }
             stepper.advance(tick.t + tick.h * k as f64, tick.h, tick.substeps)?;
             let [q, v] = [stepper.q(), stepper.v()].map(|half| self.part(half));
-            Ok(vec![q - driven[k][0], (v - driven[k][1]) / rate])
+            Ok(vec![(q - driven[k][0]) / amplitude, (v - driven[k][1]) / amplitude / rate])
         };
         let maps = linear_maps(2, run)?;
-        let has_memory = maps.has_memory();
         let values = spectrum::eigenvalues(&maps);
-        let mut stability = compare_step(&self.true_modes(), values, tick.h, times);
-        let is_blurred = (stability.growth_per_s * tick.h).abs() <= NEUTRAL_WITH_MEMORY;
-        if has_memory && is_blurred && self.is_conserved() && self.omega_squared > 0.0 {
-            // The map of a method with memory is not accurate enough for a small growth; the energy
-            // over many ticks is.
-            stepper.set(tick.t, &self.shape, &vec![0.0; n]);
-            let scale = stepper.energy().unwrap_or(0.0);
-            if scale > 0.0 && scale.is_finite() {
-                let growth = growth_of_energy(&mut *stepper, tick, FOLLOWED_TICKS, scale)?;
-                stability.growth_per_s = growth;
-                stability.loss_per_s = (-growth).max(0.0);
-            }
-        }
-        Ok(stability)
+        let stability = compare_step(&self.true_modes(), values, tick.h, times);
+        Ok((stability, spectrum::has_memory(&maps)))
     }
 }
+
+/// The amplitude of a small motion, far below the speed limits of engines. A power of 2, so that the map of a linear
+/// method has the same bits as at amplitude 1.
+const SMALL: f64 = 1.0 / (1 << 20) as f64;
 
 /// Ticks over which the energy of a mode is followed.
 const FOLLOWED_TICKS: u64 = 1 << 14;
@@ -146,6 +177,34 @@ pub fn normal_modes(body: &dyn Stepper) -> Option<Vec<NormalMode>> {
 /// The Jacobian of the acceleration of a linear body with respect to coordinates and velocities.
 pub(super) fn linear_jacobian(body: &dyn Stepper) -> DMatrix<f64> {
     force_slopes(body, &vec![0.0; 2 * body.q().len()], 1.0, 0.0)
+}
+
+/// The acceleration of a body in the state `at`, coordinates first, with component `moved.0` displaced by `moved.1`.
+fn acceleration_at(
+    body: &dyn Stepper,
+    at: &[f64],
+    moved: Option<(usize, f64)>,
+    t: f64,
+) -> Vec<f64> {
+    let mut state = at.to_vec();
+    if let Some((index, by)) = moved {
+        state[index] += by;
+    }
+    let (q, v) = state.split_at(at.len() / 2);
+    let mut a = vec![0.0; q.len()];
+    body.acceleration(t, q, v, &mut a);
+    a
+}
+
+/// The Jacobian of the acceleration of a body with respect to coordinates and velocities, by differences over `by` to one
+/// side.
+pub(super) fn force_slopes(body: &dyn Stepper, at: &[f64], by: f64, t: f64) -> DMatrix<f64> {
+    let here = acceleration_at(body, at, None, t);
+    let column = |j: usize| {
+        let moved = acceleration_at(body, at, Some((j, by)), t).into_iter();
+        moved.zip(&here).map(|(moved, here)| (moved - here) / by).collect::<Vec<_>>()
+    };
+    DMatrix::from_vec(here.len(), at.len(), (0..at.len()).flat_map(column).collect())
 }
 
 /// The acceleration of `body` at rest at the origin at time `t` (s), which a target causes.
@@ -279,12 +338,13 @@ mod tests {
             for mode in normal_modes(&*chain).unwrap() {
                 let values = [1.0, mode.omega_squared, mode.damping_per_s, 1.0, 0.0, 1.0];
                 let spring = body("spring", &values);
+                let alone = NormalMode { shape: vec![1.0], ..mode.clone() };
                 for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
                     for (h, substeps) in [(0.02, 1), (0.04, 2), (0.06, 1)] {
                         let solver = Solver::Method(method);
                         let tick = Tick { t: 0.0, h, substeps };
                         let found = mode.stability(&*chain, solver, tick).unwrap();
-                        let alone = Stability::of(&*spring, solver, tick).unwrap();
+                        let alone = alone.stability(&*spring, solver, tick).unwrap();
                         let all = |s: Stability| {
                             [
                                 s.spectral_radius,
@@ -305,6 +365,41 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_frequency_error_is_known_up_to_half_a_turn_per_tick_and_not_beyond() {
+        let midpoint = Solver::Method(method("implicit-midpoint").unwrap());
+        for (turned, told) in
+            [(3.1, true), (3.2, false), (8.0, false), (13.0, false), (30.0, false)]
+        {
+            let spring = body("spring", &[1.0, turned * turned, 0.0, 1.0, 0.0, 1.0]);
+            let tick = Tick { t: 0.0, h: 1.0, substeps: 1 };
+            let found = mode(turned * turned, 0.0).stability(&*spring, midpoint, tick);
+            let error = found.unwrap().frequency_error;
+            let wanted = 2.0 * libm::atan(turned / 2.0) / turned - 1.0;
+            assert_eq!(error.is_some(), told, "{turned} rad");
+            let is_near = |error: f64| (error - wanted).abs() <= 1e-9 * wanted.abs();
+            assert!(error.is_none_or(is_near), "{turned} rad: {error:?}, not {wanted}");
+        }
+    }
+
+    #[test]
+    fn a_small_motion_has_the_map_of_a_large_one_and_no_limit_of_speed() {
+        let spring = body("spring", &[1.0, 9e6, 600.0, 1.0, 0.0, 1.0]);
+        let of = |id: &str, h: f64| {
+            let (mode, solver) = (mode(9e6, 600.0), Solver::Method(method(id).unwrap()));
+            let tick = Tick { t: 0.0, h, substeps: 1 };
+            let small = mode.stability_of_small(&*spring, solver, tick).unwrap();
+            (small, mode.stability(&*spring, solver, tick).unwrap())
+        };
+        for id in ["rk4", "implicit-midpoint", "adams-bashforth-2"] {
+            let (small, large) = of(id, 1e-4);
+            assert_eq!(small, large, "{id}");
+        }
+        // Rapier's limit of 400 m/s is below the 3000 m/s of an amplitude of 1 m.
+        let (small, large) = of("engine-rapier", 1e-4);
+        assert_ne!(small, large);
     }
 
     #[test]

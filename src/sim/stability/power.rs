@@ -1,7 +1,7 @@
 //! The spectral radius of the one-tick map of a body of many coordinates, by power iteration: without the
 //! map, from differences of the stepper itself.
 
-use super::ensemble::Ensemble;
+use super::deviation::Deviation;
 use super::tick::Tick;
 use crate::sim::integrators::{Method, StepFailure};
 use crate::sim::state::largest;
@@ -107,17 +107,17 @@ fn logs_of_continued_run(
 ) -> Option<Vec<f64>> {
     let Tick { t, h, substeps } = tick;
     let n = body.q().len();
-    let mut deviation = Ensemble::of_deviation(body, t, h, DISPLACEMENT, method);
+    let mut deviation = Deviation::along(body, t, h, DISPLACEMENT, method);
     let mut start = start_vector(2 * n);
     start.iter_mut().for_each(|x| *x *= START);
     start[n..].iter_mut().for_each(|v| *v /= h);
-    deviation.set(&[start]);
+    deviation.set(&start);
     let mut logs = Vec::with_capacity(MAX_ITERATIONS);
     while logs.len() < MAX_ITERATIONS && (logs.len() as u64) < most_ticks {
         if deviation.advance(t, h, substeps).is_err() {
             break;
         }
-        let mut state = deviation.state(0);
+        let mut state = deviation.state();
         state[n..].iter_mut().for_each(|v| *v *= h);
         let longest = largest(&state);
         // Relative to the longest, whose square may overflow.
@@ -165,6 +165,7 @@ mod tests {
     use super::*;
     use crate::sim::bodies::kind;
     use crate::sim::integrators::method;
+    use crate::sim::stability::SmallMotion;
 
     /// The radius of a method on a chain of ω² = 800, whose fastest mode has ω² = 3200 sin²(5π/22).
     fn radius_on_chain(id: &str, h: f64) -> Option<f64> {
@@ -219,7 +220,8 @@ mod tests {
             // The limit of velocity Verlet at this damping ratio is 1.354, without damping 2.
             for z in [0.5, 1.2, 1.7, 3.0] {
                 let tick = Tick { t: 0.0, h: z / fastest(), substeps: 1 };
-                let wanted = super::super::Stability::of(&*chain, solver, tick).unwrap();
+                let coupled = SmallMotion::of(&*chain).unwrap().coupled().unwrap();
+                let wanted = coupled.stability(method(id).unwrap(), tick.h, 1).unwrap();
                 let wanted = wanted.spectral_radius;
                 let found = spectral_radius(&*chain, solver, tick, u64::MAX).unwrap().unwrap();
                 let off = (found / wanted - 1.0).abs();

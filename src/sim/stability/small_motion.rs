@@ -4,11 +4,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::comparison::{Mode, Stability, compare_step};
-use super::ensemble::Ensemble;
-use super::modes::{NormalMode, linear_jacobian, modes_of, unforced};
-use super::spectrum::{self, Eigenvalue};
+use super::deviation::Deviation;
+use super::modes::{NormalMode, force_slopes, linear_jacobian, modes_of, unforced};
+use super::spectrum::{self, Eigenvalue, linear_maps};
 use super::tick::Tick;
-use super::tick_map::{force_slopes, linear_maps};
 use crate::sim::Stepper;
 use crate::sim::integrators::{Method, StepFailure};
 
@@ -119,15 +118,15 @@ impl CoupledMotion {
         // The map of a tick is a power of that of a step, in which the modes turn less.
         let (tick, times) = Tick { t: 0.0, h, substeps }.repeated(Some(method));
         let n = self.jacobian.nrows();
-        let mut ensemble = Ensemble::linear(self.jacobian.clone(), method);
+        let mut deviation = Deviation::linear(self.jacobian.clone(), method);
         let run = |column: usize, k: usize| {
             if k == 0 {
                 let mut state = vec![0.0; 2 * n];
                 state[column] = if column < n { 1.0 } else { self.rate };
-                ensemble.set(&[state]);
+                deviation.set(&state);
             }
-            ensemble.advance(tick.h * k as f64, tick.h, tick.substeps)?;
-            let mut reached = ensemble.state(0);
+            deviation.advance(tick.h * k as f64, tick.h, tick.substeps)?;
+            let mut reached = deviation.state();
             reached[n..].iter_mut().for_each(|v| *v /= self.rate);
             Ok(reached)
         };

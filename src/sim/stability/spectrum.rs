@@ -1,6 +1,8 @@
 //! Eigenvalues of the one-tick map from its Jacobians, also for methods with memory.
 
-use nalgebra::{ColPivQR, DMatrix, Schur};
+use nalgebra::{ColPivQR, DMatrix, DVector, Schur};
+
+use crate::sim::integrators::StepFailure;
 
 /// An eigenvalue; a conjugate pair is given by its upper half.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,34 +23,36 @@ impl Eigenvalue {
     }
 }
 
-/// Jacobians of the state after 1, 2, 3 ticks: `now` from the current state, `later` from the state one
-/// tick later.
-pub(super) struct Derivatives {
-    pub(super) now: [DMatrix<f64>; 3],
-    pub(super) later: [DMatrix<f64>; 2],
+/// The maps of the state over 1, 2 and 3 ticks after a fresh start.
+pub(super) type Maps = [DMatrix<f64>; 3];
+
+/// The maps of a linear motion over 1, 2 and 3 ticks. `run` returns the state after tick number `k` of a run that begins
+/// in a unit of component `column`, in such units; it begins the run if `k` is 0.
+pub(super) fn linear_maps(
+    size: usize,
+    mut run: impl FnMut(usize, usize) -> Result<Vec<f64>, StepFailure>,
+) -> Result<Maps, StepFailure> {
+    let mut maps: Maps = std::array::from_fn(|_| DMatrix::zeros(size, size));
+    for column in 0..size {
+        for (k, map) in maps.iter_mut().enumerate() {
+            map.set_column(column, &DVector::from_vec(run(column, k)?));
+        }
+    }
+    Ok(maps)
 }
 
-impl Derivatives {
-    /// Whether the map over two ticks differs from the product of two one-tick maps.
-    pub(super) fn has_memory(&self) -> bool {
-        memory_defect(&self.now, &self.later).1
-    }
-
-    /// Whether the map depends on the state.
-    pub(super) fn is_nonlinear(&self) -> bool {
-        (&self.now[0] - &self.later[0]).amax() > NONLINEAR * (1.0 + self.now[0].amax())
-    }
+/// Whether the map over two ticks differs from the product of two one-tick maps.
+pub(super) fn has_memory(maps: &Maps) -> bool {
+    memory_defect(maps).1
 }
 
 /// The defect of the two-tick map against the product of two one-tick maps, and whether it shows
 /// memory.
-fn memory_defect(now: &[DMatrix<f64>; 3], later: &[DMatrix<f64>; 2]) -> (f64, bool) {
-    let off = (&now[1] - &later[0] * &now[0]).amax();
-    (off, off > MEMORY * (1.0 + now[1].amax()))
+fn memory_defect([once, twice, _]: &Maps) -> (f64, bool) {
+    let off = (twice - once * once).amax();
+    (off, off > MEMORY * (1.0 + twice.amax()))
 }
 
-/// A map that changes by more than this within a tick belongs to a nonlinear body.
-const NONLINEAR: f64 = 1e-9;
 /// A defect above this shows memory: well above the rounding of the differences, and well below the
 /// contribution of a multistep method at any useful step.
 const MEMORY: f64 = 1e-10;
@@ -61,22 +65,20 @@ const SWEEPS_PER_ROW: usize = 60;
 /// memory together, reconstructed from successive states.
 ///
 /// `None` if they are not finite or the iteration does not converge.
-pub(super) fn eigenvalues(derivatives: &Derivatives) -> Option<Vec<Eigenvalue>> {
-    let Derivatives { now, later } = derivatives;
-    let all = now.iter().chain(later);
-    if all.clone().any(|matrix| matrix.iter().any(|x| !x.is_finite())) {
+pub(super) fn eigenvalues(maps: &Maps) -> Option<Vec<Eigenvalue>> {
+    if maps.iter().any(|map| map.iter().any(|x| !x.is_finite())) {
         return None;
     }
     // Strongly connected components are solved separately: exact zeros keep neutral eigenvalues exactly
     // neutral, while an iteration over the whole would perturb double eigenvalues.
     let mut values = Vec::new();
-    for part in strongly_connected_components(&all.collect::<Vec<_>>()) {
-        let cut = |matrix: &DMatrix<f64>| matrix.select_rows(&part).select_columns(&part);
-        let (now, later) = (now.each_ref().map(cut), later.each_ref().map(cut));
-        let (off, has_memory) = memory_defect(&now, &later);
+    for part in strongly_connected_components(&maps.each_ref()) {
+        let maps =
+            maps.each_ref().map(|map: &DMatrix<f64>| map.select_rows(&part).select_columns(&part));
+        let (off, has_memory) = memory_defect(&maps);
         let (map, tolerance) = match has_memory {
-            true => (&with_memory(&now, &later)?, NEUTRAL_WITH_MEMORY),
-            false => (&now[0], (NEUTRAL_IN_DEFECTS * off).min(MAX_NEUTRAL)),
+            true => (&with_memory(&maps)?, NEUTRAL_WITH_MEMORY),
+            false => (&maps[0], (NEUTRAL_IN_DEFECTS * off).min(MAX_NEUTRAL)),
         };
         values.extend(
             eigenvalues_of_matrix(map)?
@@ -157,14 +159,14 @@ fn snapped_to_neutral(value: Eigenvalue, tolerance: f64) -> Eigenvalue {
 /// The map of (state, state one tick ago), restricted to the reachable subspace. Its action on two
 /// pairs of states after a fresh start, one and two ticks later, is known. The memory of a method, be
 /// it forces, slopes or an older state, follows from two successive states.
-fn with_memory(now: &[DMatrix<f64>; 3], later: &[DMatrix<f64>; 2]) -> Option<DMatrix<f64>> {
-    let n = now[0].nrows();
+fn with_memory([once, twice, thrice]: &Maps) -> Option<DMatrix<f64>> {
+    let n = once.nrows();
     let identity = DMatrix::identity(n, n);
     let pairs = |blocks: [[&DMatrix<f64>; 2]; 2]| {
         DMatrix::from_fn(2 * n, 2 * n, |i, j| blocks[i / n][j / n][(i % n, j % n)])
     };
-    let reached = pairs([[&later[0], &now[1]], [&identity, &now[0]]]);
-    let mut next = pairs([[&later[1], &now[2]], [&later[0], &now[1]]]);
+    let reached = pairs([[once, twice], [&identity, once]]);
+    let mut next = pairs([[twice, thrice], [once, twice]]);
 
     let factors = ColPivQR::new(reached);
     let (q, r) = (factors.q(), factors.r());
@@ -211,9 +213,8 @@ mod tests {
             states.push(recur(&states));
         }
         let scalar = |x: f64| DMatrix::from_element(1, 1, x);
-        let now = [scalar(states[1]), scalar(states[2]), scalar(states[3])];
-        let later = [scalar(states[1]), scalar(states[2])];
-        let mut found = eigenvalues(&Derivatives { now, later }).unwrap();
+        let maps = [scalar(states[1]), scalar(states[2]), scalar(states[3])];
+        let mut found = eigenvalues(&maps).unwrap();
         found.sort_by(|a, b| a.modulus.total_cmp(&b.modulus));
         let root = (0.36_f64 + 0.3).sqrt();
         assert!((found[1].modulus - (0.6 + root)).abs() < 1e-12, "{found:?}");
@@ -239,9 +240,8 @@ mod tests {
                     x * (1.0 + 1e-12 * libm::sin(entry))
                 })
             };
-            let now = [seen(0, 0), seen(1, 1), seen(2, 2)];
-            let later = [seen(0, 0), seen(1, 1)];
-            let mut found = eigenvalues(&Derivatives { now, later }).unwrap();
+            let maps = [seen(0, 0), seen(1, 1), seen(2, 2)];
+            let mut found = eigenvalues(&maps).unwrap();
             found.sort_by(|a, b| a.modulus.total_cmp(&b.modulus));
             let root = 0.66_f64.sqrt();
             let wanted = [root - 0.6, 0.8, root + 0.6].map(|x| x * size);
@@ -261,28 +261,18 @@ mod tests {
         }
     }
 
-    /// Jacobians of a body whose map is `first`, then `then` for all later ticks.
-    fn without_memory(first: &DMatrix<f64>, then: &DMatrix<f64>) -> Derivatives {
-        let now = [first.clone(), then * first, then * then * first];
-        Derivatives { now, later: [then.clone(), then * then] }
+    fn without_memory(map: &DMatrix<f64>) -> Maps {
+        [map.clone(), map * map, map * map * map]
     }
 
     #[test]
-    fn memory_and_nonlinearity_are_told_from_rounding_at_any_scale() {
+    fn memory_is_told_from_rounding_at_any_scale() {
         for size in [1.0, 1e5] {
             let map = DMatrix::from_row_slice(2, 2, &[0.8, 0.3 * size, -0.5 / size, 0.9]);
-            let still = without_memory(&map, &map);
-            assert!(!still.has_memory() && !still.is_nonlinear(), "{size}");
-            let turned = without_memory(&map, &(&map * (1.0 + 1e-8)));
-            assert!(!turned.has_memory() && turned.is_nonlinear(), "{size}");
-            let blurred = without_memory(&map, &(&map * (1.0 + 1e-11)));
-            assert!(!blurred.has_memory() && !blurred.is_nonlinear(), "{size}");
-            for (off, has_memory) in [(1e-8, true), (1e-12, false)] {
-                let Derivatives { mut now, later } = without_memory(&map, &map);
-                now[1] *= 1.0 + off;
-                let found = Derivatives { now, later };
-                assert_eq!(found.has_memory(), has_memory, "{size}: {off}");
-                assert!(!found.is_nonlinear(), "{size}: {off}");
+            for (off, wanted) in [(0.0, false), (1e-8, true), (1e-12, false)] {
+                let mut maps = without_memory(&map);
+                maps[1] *= 1.0 + off;
+                assert_eq!(has_memory(&maps), wanted, "{size}: {off}");
             }
         }
     }
@@ -296,7 +286,7 @@ mod tests {
                 2,
                 &[0.9 * cos, 0.9 * sin * size, -0.9 * sin / size, 0.9 * cos],
             );
-            for value in eigenvalues(&without_memory(&map, &map)).unwrap() {
+            for value in eigenvalues(&without_memory(&map)).unwrap() {
                 assert!((value.modulus - 0.9).abs() < 1e-12, "{size}: {value:?}");
                 assert!((value.angle - 0.3).abs() < 1e-12, "{size}: {value:?}");
             }

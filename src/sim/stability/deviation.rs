@@ -1,0 +1,146 @@
+//! A small deviation of a body from a state, under linearised forces and one method.
+
+use nalgebra::DMatrix;
+
+use crate::sim::integrators::{Integrator, Method, Stepped, integrator};
+use crate::sim::{Solver, State, Stepper, System};
+
+/// An acceleration function on slices: coordinates, velocities, output.
+type Acceleration = Box<dyn Fn(&[f64], &[f64], &mut [f64])>;
+
+struct Linearised(Acceleration);
+
+impl System for Linearised {
+    type Vector = Vec<f64>;
+
+    fn acceleration(&self, _t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &mut Vec<f64>) {
+        (self.0)(q, v, a);
+    }
+}
+
+/// A deviation that a method steps.
+pub(super) struct Deviation {
+    system: Linearised,
+    integrator: Box<dyn Integrator<Linearised>>,
+    state: State<Vec<f64>>,
+}
+
+impl Deviation {
+    /// With an acceleration that is `jacobian` times coordinates and velocities, one row per coordinate.
+    pub(super) fn linear(jacobian: DMatrix<f64>, method: &Method) -> Self {
+        let n = jacobian.nrows();
+        let acceleration: Acceleration = Box::new(move |q, v, a| {
+            for (i, a) in a.iter_mut().enumerate() {
+                let row = |j: usize| jacobian[(i, j)] * q[j] + jacobian[(i, n + j)] * v[j];
+                *a = (0..n).map(row).sum();
+            }
+        });
+        Self::of(acceleration, n, method)
+    }
+
+    /// From the state of `body` at time `t`, under the forces linearised there by differences along the deviation: of `displacement` times the size of the state, whatever the deviation's own size. Velocities count
+    /// times `h`.
+    pub(super) fn along(
+        body: &dyn Stepper,
+        t: f64,
+        h: f64,
+        displacement: f64,
+        method: &Method,
+    ) -> Self {
+        let body = body.with_solver(Solver::Truth, t);
+        let (q0, v0) = (body.q().to_vec(), body.v().to_vec());
+        let n = q0.len();
+        let largest =
+            |x: &[f64], unit: f64| x.iter().fold(0.0, |most: f64, x| most.max((x * unit).abs()));
+        let size = largest(&q0, 1.0).max(largest(&v0, h));
+        let distance = displacement * if size > 0.0 { size } else { 1.0 };
+        let mut a0 = vec![0.0; n];
+        body.acceleration(t, &q0, &v0, &mut a0);
+        let moved = |x0: &[f64], part: f64, x: &[f64]| {
+            x0.iter().zip(x).map(|(x0, x)| x0 + part * x).collect()
+        };
+        let acceleration: Acceleration = Box::new(move |q, v, a| {
+            let part = distance / largest(q, 1.0).max(largest(v, h));
+            let (q, v): (Vec<f64>, Vec<f64>) = (moved(&q0, part, q), moved(&v0, part, v));
+            body.acceleration(t, &q, &v, a);
+            a.iter_mut().zip(&a0).for_each(|(a, a0)| *a = (*a - a0) / part);
+        });
+        Self::of(acceleration, n, method)
+    }
+
+    fn of(acceleration: Acceleration, n: usize, method: &Method) -> Self {
+        let state = State { q: vec![0.0; n], v: vec![0.0; n] };
+        let integrator = integrator(method, &state.q);
+        Self { system: Linearised(acceleration), integrator, state }
+    }
+
+    /// Puts it into a state, coordinates first, and resets the method.
+    pub(super) fn set(&mut self, state: &[f64]) {
+        let (q, v) = state.split_at(state.len() / 2);
+        self.state.q.copy_from_slice(q);
+        self.state.v.copy_from_slice(v);
+        self.integrator.reset();
+    }
+
+    /// Advances it from `t` to `t + h` (s).
+    pub(super) fn advance(&mut self, t: f64, h: f64, substeps: u32) -> Stepped {
+        self.integrator.steps(&self.system, t, h, substeps, &mut self.state)
+    }
+
+    /// The state, coordinates first.
+    pub(super) fn state(&self) -> Vec<f64> {
+        [&self.state.q[..], &self.state.v].concat()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::bodies::kind;
+    use crate::sim::integrators::{GENERAL_METHODS, method};
+
+    /// The largest difference between two states, relative to 1 and their size.
+    fn apart(found: &[f64], wanted: &[f64]) -> f64 {
+        let apart = found.iter().zip(wanted).map(|(a, b)| (a - b).abs() / (1.0 + b.abs()));
+        apart.fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_deviation_from_rest_moves_as_a_linear_body_does() {
+        let spring = kind("spring").unwrap();
+        let values = [2.0, 180.0, 3.0, 1.0, 0.0, 1.0];
+        for method in GENERAL_METHODS.iter().filter(|method| method.tolerance.is_none()) {
+            let mut stepper = (spring.build)(&values, Solver::Method(method));
+            let jacobian = DMatrix::from_row_slice(1, 2, &[-90.0, -1.5]);
+            let mut deviation = Deviation::linear(jacobian, method);
+            for from in [[1.0, 0.0], [-0.3, 4.0]] {
+                deviation.set(&from);
+                deviation.advance(0.0, 0.05, 3).unwrap();
+                stepper.set(0.0, &from[..1], &from[1..]);
+                stepper.advance(0.0, 0.05, 3).unwrap();
+                let wanted = [stepper.q(), stepper.v()].concat();
+                assert!(apart(&deviation.state(), &wanted) < 1e-12, "{}", method.id);
+            }
+        }
+    }
+
+    #[test]
+    fn the_difference_of_two_motions_of_a_linear_body_is_a_deviation() {
+        let rk4 = method("rk4").unwrap();
+        // From a state in which coordinate, velocity and force are all nonzero.
+        let values = [2.0, 180.0, 3.0, 0.7, 1.5, 1.0];
+        let body = (kind("spring").unwrap().build)(&values, Solver::Truth);
+        let mut deviation = Deviation::along(&*body, 0.0, 0.05, 1e-3, rk4);
+        let mut stepper = body.with_solver(Solver::Method(rk4), 0.0);
+        let mut reached = |q: f64, v: f64| {
+            stepper.set(0.0, &[q], &[v]);
+            stepper.advance(0.0, 0.05, 3).unwrap();
+            [stepper.q(), stepper.v()].concat()
+        };
+        deviation.set(&[0.2, -4.0]);
+        deviation.advance(0.0, 0.05, 3).unwrap();
+        let [near, far] = [reached(0.7, 1.5), reached(0.9, -2.5)];
+        let wanted: Vec<f64> = far.iter().zip(&near).map(|(far, near)| far - near).collect();
+        assert!(apart(&deviation.state(), &wanted) < 1e-9, "{:?}", deviation.state());
+    }
+}
