@@ -163,6 +163,16 @@ impl Verdict {
         }
     }
 
+    /// In few words from where it is run that the lane fails, if it does.
+    pub(in crate::lab) fn fails_in_brief(&self) -> Option<String> {
+        let how = match self.outcome {
+            Outcome::BlewUp => "blows up",
+            Outcome::GaveUp => "gives up",
+            _ => return None,
+        };
+        Some(format!("{how}{}", self.start(Said::EVERYTHING)))
+    }
+
     pub(super) fn is_worse_than(&self, other: &Self) -> bool {
         (self.outcome, self.error) > (other.outcome, other.error)
     }

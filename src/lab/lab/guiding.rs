@@ -38,7 +38,7 @@ impl Lab {
     }
 
     /// Whether a person has acted since the start, so that the run from the start is another.
-    fn was_changed_on_the_way(&self) -> bool {
+    pub(in crate::lab) fn was_changed_on_the_way(&self) -> bool {
         let race = self.race();
         let rows = &race.journal().rows()[..race.done()];
         rows.iter().any(|row| row.tick > 0 && row.source == Source::Hand)

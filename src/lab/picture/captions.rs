@@ -261,6 +261,8 @@ struct Chip {
     /// The colour of the sign, and of the rim.
     colours: [Rgba; 2],
     verdict: String,
+    /// The same in fewer words.
+    brief: Option<String>,
     /// How far the body has swung, and how far it should.
     swing: Option<String>,
 }
@@ -290,13 +292,19 @@ impl Chip {
         let unit = moment.lab.race().truth().bodies()[index].coordinates()[0].shown_unit();
         let how_far =
             |reach: f64| format!("{} {unit}", significant(reach, 2)).trim_end().to_owned();
+        let of_body = Verdict { body_name: None, ..verdict.clone() };
+        // The run on the screen is another than the judged one.
+        let is_other = moment.lab.was_changed_on_the_way();
+        let halt = entrant.lane.bodies()[index].halted();
         Some(Self {
             sign,
             colours: [tone, moment.style(entrant.entry).0],
-            verdict: match entrant.lane.bodies()[index].halted() {
+            verdict: match halt {
                 Some(halt) => halt.fate(),
-                None => Verdict { body_name: None, ..verdict.clone() }.to_string(),
+                None if is_other => format!("{of_body:#}"),
+                None => of_body.to_string(),
             },
+            brief: of_body.fails_in_brief().filter(|_| is_other && halt.is_none()),
             swing: (verdict.swings && past.coordinate(moment.lab.race(), index).1 == 0)
                 .then(|| format!("{}, exact {}", how_far(lane), how_far(exact))),
         })
@@ -310,13 +318,17 @@ impl Chip {
 
     /// As much of the chip as this width takes.
     fn within(&self, width: f32) -> Option<Self> {
-        let shorter = |swing| Self {
+        let with = |verdict: &String, swing| Self {
             sign: self.sign,
             colours: self.colours,
-            verdict: self.verdict.clone(),
+            verdict: verdict.clone(),
+            brief: None,
             swing,
         };
-        [shorter(self.swing.clone()), shorter(None)].into_iter().find(|chip| chip.width() <= width)
+        let whole = with(&self.verdict, self.swing.clone());
+        let shorter = [Some(&self.verdict), self.brief.as_ref()].into_iter().flatten();
+        let mut chips = std::iter::once(whole).chain(shorter.map(|verdict| with(verdict, None)));
+        chips.find(|chip| chip.width() <= width)
     }
 
     fn draw(self, picture: &mut Picture, rect: Rect, palette: &Palette) {
@@ -450,5 +462,29 @@ mod tests {
             }
         }
         assert!(said > 20, "{said}");
+    }
+
+    #[test]
+    fn a_chip_on_a_run_that_was_changed_says_that_the_verdict_is_of_another() {
+        let words = |lab: &Lab, size| -> Vec<String> {
+            let labels = compose(lab, size).labels.into_iter().map(|label| label.text);
+            labels.filter(|text| text.contains("blow")).collect()
+        };
+        for (ticks, wide, narrow) in [
+            (0, "will blow up at 4.14 s", "will blow up at 4.14 s"),
+            (
+                20,
+                "will blow up at 4.14 s, if run from the start",
+                "blows up, if run from the start",
+            ),
+        ] {
+            let mut lab = Lab::new(Scene::built_in("stiff").unwrap());
+            (0..ticks).for_each(|_| lab.tick());
+            lab.apply(Command::TickHz(49));
+            lab.analyse();
+            (0..20).for_each(|_| lab.tick());
+            assert_eq!(words(&lab, [960.0, 560.0]), [wide], "changed at {ticks}");
+            assert_eq!(words(&lab, [470.0, 330.0]), [narrow], "changed at {ticks}");
+        }
     }
 }
