@@ -11,7 +11,8 @@ use super::spring::SpringArgs;
 use crate::lab::pacing::{POLICIES, PolicyCard, TRACES, TraceCard, policy, trace_card};
 use crate::lab::palette::Theme;
 use crate::lab::{
-    Clock, Command, Lab, LaneSpec, MOST_SECONDS, SCENES, Scene, lanes_that_race, nearest,
+    Clock, Command, Lab, LaneSpec, MANY_LANES, MOST_SECONDS, SCENES, Scene, lanes_that_race,
+    nearest,
 };
 use crate::sim::integrators::{METHODS, Method, method};
 
@@ -55,7 +56,7 @@ pub(super) struct Experiment {
     pub(super) scene: Scene,
     /// The text of the scene file, without the options.
     pub(super) text: String,
-    /// The first method named.
+    /// The first method named; `None` where none is, or many are.
     pub(super) selected: Option<&'static Method>,
     pub(super) lineup: Lineup,
     /// The trace on which the loop lab is open, if it is.
@@ -74,7 +75,8 @@ impl ExperimentArgs {
             0 | 1 => lineup,
             _ => Lineup::Everyone,
         };
-        let selected = self.methods.first().copied();
+        // Who names many methods has chosen none of them.
+        let selected = self.methods.first().filter(|_| self.methods.len() < MANY_LANES).copied();
         Ok(Experiment { scene, text, selected, lineup, loop_trace: None })
     }
 
@@ -167,6 +169,12 @@ impl Experiment {
         self.selected.unwrap_or_else(|| opening_lane(&self.scene).method)
     }
 
+    /// Whether many lanes race of which nobody has named one: then their verdicts select.
+    pub(super) fn leaves_selection(&self) -> bool {
+        let is_race = self.lineup == Lineup::Everyone;
+        is_race && self.selected.is_none() && self.scene.lanes.len() >= MANY_LANES
+    }
+
     /// The lab at tick 0. A single lane is shown solo.
     pub(super) fn lab(&self) -> Lab {
         let mut lab = Lab::new(self.scene.clone());
@@ -175,6 +183,9 @@ impl Experiment {
             lab.apply(Command::ToggleRace);
         } else {
             lab.apply(Command::Restart);
+        }
+        if self.leaves_selection() {
+            lab.leave_selection();
         }
         lab.begin_hints();
         lab.forget_changes();
@@ -312,4 +323,32 @@ impl TypedValueParser for MethodParser {
 fn known_method(id: &str) -> Result<&'static Method, String> {
     let spellings = METHODS.iter().flat_map(Method::spellings);
     method(id).ok_or_else(|| no_such("method", "methods", nearest(id, spellings)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(clap::Parser)]
+    struct Line {
+        #[command(flatten)]
+        experiment: ExperimentArgs,
+    }
+
+    #[test]
+    fn of_many_methods_that_race_the_best_is_selected_and_of_few_the_first_named() {
+        let ids: Vec<&str> = METHODS.iter().map(|method| method.id).take(MANY_LANES).collect();
+        for (count, is_best) in [(MANY_LANES, true), (MANY_LANES - 1, false)] {
+            let named = ids[..count].iter().flat_map(|id| ["--method", id]);
+            let words = ["", "--scene", "spring"].into_iter().chain(named);
+            let line = <Line as clap::Parser>::parse_from(words);
+            let mut lab = line.experiment.load(Lineup::Solo).unwrap().lab();
+            assert_eq!(lab.entries()[lab.active()].method.id, ids[0]);
+            lab.analyse();
+            let outcome = |entry: usize| lab.viewer().verdict(entry).unwrap().outcome;
+            let best = (0..count).map(outcome).min().unwrap();
+            assert_ne!(outcome(0), best);
+            assert_eq!(outcome(lab.active()) == best, is_best, "{count}");
+        }
+    }
 }

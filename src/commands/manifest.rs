@@ -9,8 +9,8 @@
 //!   - `scene`: `name`, `text` (the TOML) and the text's `hash`.
 //!   - `lanes`: the scene's lanes, with the command line applied: each a `method`, its `substeps` and, where
 //!     the scene gives one, its `tolerance`, and `joint`, what its engine is told of springs.
-//!   - `race`: whether all of them race. If not, the `selected` method is shown solo; `null`, as older programs
-//!     wrote it, stands for the scene's opening method.
+//!   - `race`: whether all of them race. If not, the `selected` method is shown solo; `null` stands for the scene's opening
+//!     method, and among many lanes for the best.
 //!   - `tick_hz` at the start, `frames` asked for, `fps`, `size` in pixels, `scale` in pixels a point,
 //!     whether there are `panels`, whether there is `motion`, the `theme`
 //!     where it is `light`, the trace of the `loop` lab where that is shown, and `mark_every`, in ticks.

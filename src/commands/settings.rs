@@ -33,7 +33,8 @@ pub(super) fn written(experiment: &Experiment, recording: &Recording) -> Setting
         lanes: scene.lanes.iter().map(lane).collect(),
         race: experiment.lineup == Lineup::Everyone,
         loop_trace: experiment.loop_trace.map(|card| card.id.to_owned()),
-        selected: Some(experiment.opening_method().id.to_owned()),
+        selected: (!experiment.leaves_selection())
+            .then(|| experiment.opening_method().id.to_owned()),
         tick_hz: scene.tick_hz,
         frames: recording.schedule.frames,
         fps: recording.schedule.fps,

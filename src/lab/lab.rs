@@ -26,6 +26,7 @@ mod restarting;
 mod resting;
 mod showing;
 
+pub use findings::MANY_LANES;
 pub use joint::SpringJoint;
 
 /// A scene being run and looked at.

@@ -81,7 +81,7 @@ pub use instrument::{INSTRUMENTS, Instrument, InstrumentCard, InstrumentRow};
 pub use interpolation::Interpolation;
 pub use journal::{Journal, JournalRow, Source};
 pub use key::{Binding, KEYS, Key, command_for};
-pub use lab::{Lab, SpringJoint};
+pub use lab::{Lab, MANY_LANES, SpringJoint};
 pub use lane::{ESCAPE, Halt, Lane, LaneBody, Resumed, ResumedFrom};
 pub use lane_spec::LaneSpec;
 pub use live_loop::{LiveFrame, LiveLoop};

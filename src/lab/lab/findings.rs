@@ -10,6 +10,9 @@ use crate::lab::race::{Entrant, Mode};
 use crate::lab::scene::SceneBody;
 use crate::sim::bodies::{Acts, Range};
 
+/// From so many lanes on the best is selected: fewer are told apart whichever is in front.
+pub const MANY_LANES: usize = 10;
+
 impl Lab {
     /// The verdicts and the advice that the lab wants at present, for a [`AnalysisWorker`]: a verdict on each method of the
     /// list at the present tick rate, and advice while it is shown.
@@ -91,13 +94,17 @@ impl Lab {
         }
     }
 
+    /// Leaves the selection among many lanes to their verdicts, as if nobody had selected one: for a driver that has set up
+    /// the lab by commands.
+    pub fn leave_selection(&mut self) {
+        self.viewer.is_selected = false;
+    }
+
     /// Selects the best of many lanes once all are judged, if nobody has selected one: the first may be the first that
     /// leaves the stage.
     fn select_best(&mut self) {
-        /// From so many lanes on: those of a built-in scene are told apart whichever is in front.
-        const MANY: usize = 10;
         let lanes = self.race().entrants();
-        if self.viewer.is_selected || self.mode() == Mode::Solo || lanes.len() < MANY {
+        if self.viewer.is_selected || self.mode() == Mode::Solo || lanes.len() < MANY_LANES {
             return;
         }
         let judged = |lane: &Entrant| {

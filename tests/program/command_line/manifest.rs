@@ -6,6 +6,7 @@ use std::process::Output;
 
 use regatta::commands::manifest::{Manifest, SCHEMA};
 use regatta::lab::{Command, Lab, METRICS, Scene};
+use regatta::sim::integrators::METHODS;
 use serde_json::Value;
 
 use super::capture::drawn_or_skip;
@@ -83,6 +84,19 @@ fn settings_and_lanes_name_the_methods_that_flew() {
         assert_eq!(lanes, flown, "{listed} {option}");
         assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
     }
+}
+
+#[test]
+fn a_race_of_many_methods_names_none_of_them_as_selected() {
+    let test = "a_race_of_many_methods_names_none_of_them_as_selected";
+    let methods = METHODS.iter().take(10).map(|method| format!("'{}'", method.id));
+    let listed = methods.collect::<Vec<_>>().join(", ");
+    let scene = format!("title = 'x'\ntick_hz = 10\nseconds = 1\nmethods = [{listed}]\n{SPRING}");
+    let Some((manifest, judged)) = captured_or_skip(test, &scene, "--race --frames 2") else {
+        return;
+    };
+    assert_eq!(manifest.settings.selected, None);
+    assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
 }
 
 #[test]
