@@ -57,7 +57,7 @@ pub(super) struct IdentifyArgs {
     log: PathBuf,
 
     /// Ticks per second of the game that wrote it
-    #[arg(long, value_name = "N", value_parser = rate)]
+    #[arg(long, value_name = "N", value_parser = rate, allow_negative_numbers = true)]
     tick_hz: f64,
 
     /// The mass in kg

@@ -84,9 +84,10 @@ pub(super) struct PortArgs {
 
     /// Ticks per second of the engines, and of a log
     #[arg(long, value_name = "N", default_value = "60", value_parser = rate)]
+    #[arg(allow_negative_numbers = true)]
     tick_hz: f64,
 
-    /// Substeps per tick, 1 to 10000 [default: each engine's own]
+    /// Substeps per tick, 1 to 1000 [default: each engine's own]
     #[arg(long, value_name = "N")]
     #[arg(value_parser = RangedU64ValueParser::<u32>::new().range(1..=u64::from(MOST_SUBSTEPS)))]
     substeps: Option<u32>,

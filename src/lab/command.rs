@@ -153,6 +153,8 @@ pub enum Command {
         /// The language.
         language: Language,
     },
+    /// Copies the lines of code that tell the engine at this place of the list of lanes the displayed spring.
+    CopyJoint(usize),
     /// The pointer or the keyboard's focus comes to the lane at this place of the list, or leaves the list.
     PointAt(Option<usize>),
     /// Saves the instrument to files.

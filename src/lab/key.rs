@@ -237,7 +237,7 @@ pub static KEYS: &[Binding] = &[
     },
     Binding {
         shown: "Ctrl C, Ctrl E",
-        about: "copy the instrument's values, or on a lane its method as code; save as PNG, SVG and CSV",
+        about: "copy the instrument's values, or on a lane its method, or an engine's settings, as code; save as PNG, SVG and CSV",
         keys: &[
             (Key::ControlSign('c'), Command::Copy),
             (Key::ControlSign('e'), Command::ExportInstrument),

@@ -34,28 +34,38 @@ impl LaneSpec {
         let within =
             self.tolerance.filter(|_| alike().any(|other| other.tolerance != self.tolerance));
         let within = within.map(|tolerance| format!(" {tolerance:e}")).unwrap_or_default();
-        let told = self.joint.filter(|_| alike().any(|other| other.joint != self.joint));
-        let told = told.map(|[hz, _]| format!(", told {} Hz", round(hz, 3))).unwrap_or_default();
-        format!("{name}{times}{within}{told}")
+        format!("{name}{times}{within}{}", self.told(lanes))
+    }
+
+    /// What its engine is told, where another of `lanes` has the method and is told something else.
+    fn told(&self, lanes: &[LaneSpec]) -> String {
+        let mut alike = lanes.iter().filter(|other| other.method == self.method);
+        let told = self.joint.filter(|_| alike.any(|other| other.joint != self.joint));
+        told.map(|[hz, _]| format!(", told {} Hz", round(hz, 3))).unwrap_or_default()
     }
 
     /// The method's name with the substeps, which are left out if there is one and no other of `lanes` has the method.
     pub fn name_with_substeps(&self, lanes: &[LaneSpec]) -> String {
         let mut others = lanes.iter().filter(|other| other.method == self.method);
         let name = self.method.name;
+        let told = self.told(lanes);
         match self.substeps > 1 || others.any(|other| other.substeps != self.substeps) {
-            true => format!("{name} ×{}", self.substeps),
-            false => name.into(),
+            true => format!("{name} ×{}{told}", self.substeps),
+            false => format!("{name}{told}"),
         }
+    }
+
+    /// The stiffness in 1/s² and the damping in 1/s, each per unit of mass, of [`LaneSpec::joint`].
+    pub fn joint_per_mass(&self) -> Option<[f64; 2]> {
+        let [hz, damping_ratio] = self.joint?;
+        let omega = std::f64::consts::TAU * hz;
+        Some([omega * omega, 2.0 * damping_ratio * omega])
     }
 
     /// The solver of the lane's bodies.
     pub fn solver(&self) -> Solver {
-        match (self.joint, self.tolerance) {
-            (Some([hz, damping_ratio]), _) => {
-                let omega = std::f64::consts::TAU * hz;
-                Solver::WithJoint(self.method, [omega * omega, 2.0 * damping_ratio * omega])
-            }
+        match (self.joint_per_mass(), self.tolerance) {
+            (Some(joint), _) => Solver::WithJoint(self.method, joint),
             (None, Some(tolerance)) => Solver::WithTolerance(self.method, tolerance),
             (None, None) => Solver::Method(self.method),
         }
@@ -96,7 +106,8 @@ mod tests {
         ];
         assert_eq!(names, expected);
         let with_substeps = lanes.map(|lane| lane.name_with_substeps(&lanes));
-        assert_eq!(with_substeps[..3], ["Held force ×1", "Held force ×4", "Box2D ×4"]);
-        assert_eq!(with_substeps[5], "Runge-Kutta 4");
+        let expected = ["Box2D ×4, told 1 Hz", "Held force ×1", "Held force ×4", "Box2D ×4"];
+        assert_eq!(with_substeps[..4], expected);
+        assert_eq!(with_substeps[6], "Runge-Kutta 4");
     }
 }

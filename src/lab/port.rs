@@ -52,6 +52,17 @@ pub enum WishError {
         /// Ticks per second.
         tick_hz: f64,
     },
+    /// So many ticks a swing that rounding hides it.
+    #[error(
+        "a swing of {frequency_hz} Hz takes more than {MAX_TICKS} ticks at {tick_hz} Hz, so that rounding hides it; give more than {} Hz, or tick slower",
+        tick_hz / MAX_TICKS
+    )]
+    TooSlow {
+        /// Of the wish.
+        frequency_hz: f64,
+        /// Ticks per second.
+        tick_hz: f64,
+    },
     /// A part of the motion is over within a tick.
     #[error(
         "a damping ratio of {damping_ratio} at {frequency_hz} Hz is over within a tick of {tick_hz} Hz; damp less, or tick faster"
@@ -68,6 +79,8 @@ pub enum WishError {
 
 /// The most that the fast part of a damped motion may decay in a tick, as an exponent: beyond it rounding hides it.
 const MAX_DECAY: f64 = 16.0;
+/// The most ticks of a swing: of more, the map of a tick is the same as without a spring, to rounding.
+const MAX_TICKS: f64 = 30_000.0;
 /// What is missed at most where a wish is reached: of the frequency as a part of it, and of the damping ratio.
 const REACHED: f64 = 1e-8;
 /// The most substeps that are tried to see how far more of them lead.
@@ -97,6 +110,9 @@ impl Wish {
         }
         if 2.0 * frequency_hz >= tick_hz {
             return Err(WishError::BeyondNyquist { frequency_hz, tick_hz });
+        }
+        if frequency_hz * MAX_TICKS < tick_hz {
+            return Err(WishError::TooSlow { frequency_hz, tick_hz });
         }
         let apart = libm::sqrt((damping_ratio * damping_ratio - 1.0).max(0.0));
         if self.omega() / tick_hz * (damping_ratio + apart) > MAX_DECAY {

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use regatta::lab::{
     Approach, Ported, Reach, Setup, Wish, WishError, drive_limits, followers, port, setups,
 };
+use regatta::sim::bodies::Follow;
 use regatta::sim::integrators::{Family, METHODS, integrator, method};
-use regatta::sim::{Pursuit, Question, State, System, least_squares};
+use regatta::sim::{State, least_squares};
 
 use crate::dice::Dice;
 use crate::engines::Body;
@@ -225,6 +226,8 @@ fn a_wish_that_no_engine_can_show_says_why() {
     assert!(out(Wish { damping_ratio: -0.1, ..wish }, 60.0));
     let fast = Wish { frequency_hz: 30.0, ..wish };
     assert!(matches!(fast.check(60.0), Err(WishError::BeyondNyquist { .. })));
+    let slow = Wish { frequency_hz: 0.0019, ..wish };
+    assert!(matches!(slow.check(60.0), Err(WishError::TooSlow { .. })));
     let stiff = Wish { damping_ratio: 200.0, ..wish };
     assert!(matches!(stiff.check(60.0), Err(WishError::TooFast { .. })));
 }
@@ -264,27 +267,6 @@ fn a_drive_is_stable_up_to_its_limits_and_not_beyond() {
     assert!(by_hand([stiffness, 0.99 * most]) && !by_hand([stiffness, 1.01 * most]));
 }
 
-/// A value whose target rests at 0.
-struct Value {
-    rate: f64,
-    order: u32,
-}
-
-impl System for Value {
-    type Vector = f64;
-
-    fn acceleration(&self, _t: f64, _x: &f64, _v: &f64, a: &mut f64) {
-        *a = 0.0;
-    }
-
-    fn answer(&self, _t: f64, question: Question<'_, f64>) -> bool {
-        let Question::Target(pursuit) = question else { return false };
-        let (rate, order) = (self.rate, self.order);
-        *pursuit = Some(Pursuit { target: 0.0, rate, order, is_still: true });
-        true
-    }
-}
-
 #[test]
 fn every_follower_halves_the_distance_in_the_same_time_at_every_rate_of_frames() {
     let approach = Approach::of_lerp(0.1, 60.0);
@@ -310,9 +292,11 @@ fn every_follower_halves_the_distance_in_the_same_time_at_every_rate_of_frames()
             ("smooth_time", _) => (2.0 / port.value, (1.0 + z) * (-z).exp()),
             _ => (port.value, (1.0 + z) * (-z).exp()),
         };
-        let system = Value { rate, order: port.method.law_order().unwrap() };
+        let order = port.method.law_order().unwrap() as usize;
+        // Its target rests at 0.
+        let system = Follow { order, rate, ..Follow::BLANK };
         let mut state = State { q: 1.0, v: 0.0 };
-        let mut follower = integrator::<Value>(port.method, &state.q);
+        let mut follower = integrator::<Follow>(port.method, &state.q);
         for _ in 0..frames as u32 {
             follower.steps(&system, 0.0, 1.0 / port.fps, 1, &mut state).unwrap();
         }

@@ -43,6 +43,7 @@ jump\t''
 rope\t''
 cloth\t''
 bridge\t''
+alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
@@ -99,6 +100,7 @@ engine-chipmunk\t''
 engine-mujoco\t''
 engine-mujoco-rk4\t''
 engine-godot\t''
+engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_needs_command" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_needs_command" -l loop -d 'Open the loop lab on this built-in trace, edge if none is named' -r
@@ -145,6 +147,7 @@ jump\t''
 rope\t''
 cloth\t''
 bridge\t''
+alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
@@ -201,6 +204,7 @@ engine-chipmunk\t''
 engine-mujoco\t''
 engine-mujoco-rk4\t''
 engine-godot\t''
+engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand play" -l loop -d 'Open the loop lab on this built-in trace, edge if none is named' -r
@@ -232,6 +236,7 @@ jump\t''
 rope\t''
 cloth\t''
 bridge\t''
+alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
@@ -288,6 +293,7 @@ engine-chipmunk\t''
 engine-mujoco\t''
 engine-mujoco-rk4\t''
 engine-godot\t''
+engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand capture" -l loop -d 'Show the loop lab over this built-in trace, edge if none is named, at an eighth of real time' -r
@@ -337,6 +343,7 @@ jump\t''
 rope\t''
 cloth\t''
 bridge\t''
+alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
@@ -393,6 +400,7 @@ engine-chipmunk\t''
 engine-mujoco\t''
 engine-mujoco-rk4\t''
 engine-godot\t''
+engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand trace" -l seconds -d 'Length of the run in simulated seconds, to the nearest tick [default: the scene\'s]' -r
@@ -420,6 +428,7 @@ jump\t''
 rope\t''
 cloth\t''
 bridge\t''
+alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
@@ -476,6 +485,7 @@ engine-chipmunk\t''
 engine-mujoco\t''
 engine-mujoco-rk4\t''
 engine-godot\t''
+engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l tick-hz -d 'Ticks per second, 1 to 10000 [default: the scene\'s]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand advise" -l family -d 'Judge the methods of this family: explicit, symplectic, adaptive, implicit, linearised, as-printed, follower or engine; those of engines are judged only so' -r
@@ -506,6 +516,7 @@ jump\t''
 rope\t''
 cloth\t''
 bridge\t''
+alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
@@ -562,6 +573,7 @@ engine-chipmunk\t''
 engine-mujoco\t''
 engine-mujoco-rk4\t''
 engine-godot\t''
+engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l tick-hz -d 'Tick rates in Hz, 1 to 10000, separated by commas [default: octaves about the scene\'s own]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand sweep" -l vary -d 'Values of a parameter, of every body that has it (`regatta list bodies`), or of a constant of a law: a row for each' -r
@@ -608,6 +620,7 @@ jump\t''
 rope\t''
 cloth\t''
 bridge\t''
+alike\t''
 engines\t''
 held-force\t''
 stiff-in-engines\t''"
@@ -659,6 +672,7 @@ engine-chipmunk\t''
 engine-mujoco\t''
 engine-mujoco-rk4\t''
 engine-godot\t''
+engine-box3d\t''
 held-force\t''"
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l seconds -d 'Length of each run in seconds of real time; a trace from a file may end before [default: the scene\'s, but at least 10, and the whole of a file]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand loop" -l latency-ms -d 'The largest mean latency in ms of the policy that is advised; on a trace from a file, above the least' -r
@@ -689,7 +703,7 @@ complete -c regatta -n "__fish_regatta_using_subcommand port" -l zeta -d 'The da
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l from -d 'The settings of an engine, a log, or how a value chases its target' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l mass -d 'The mass on the spring in kg' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l tick-hz -d 'Ticks per second of the engines, and of a log' -r
-complete -c regatta -n "__fish_regatta_using_subcommand port" -l substeps -d 'Substeps per tick, 1 to 10000 [default: each engine\'s own]' -r
+complete -c regatta -n "__fish_regatta_using_subcommand port" -l substeps -d 'Substeps per tick, 1 to 1000 [default: each engine\'s own]' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l to -d 'The engines (`regatta list methods`), or all' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l decimation -d 'The ticks through which a drive of user code holds its force' -r
 complete -c regatta -n "__fish_regatta_using_subcommand port" -l k -d 'The stiffness of the spring in N/m [default: fitted]' -r

@@ -35,7 +35,10 @@ impl From {
     /// Reads it, at this tick rate in hertz and of a body of this mass in kg.
     pub(super) fn parse(written: &str, tick_hz: f64, mass_kg: f64) -> Result<Self, String> {
         let Some((head, rest)) = written.split_once(':') else {
-            return Ok(From::Log(written.into()));
+            return match engine(written) {
+                Ok(method) => Err(format!("give its settings too: {}", example(method))),
+                Err(_) => Ok(From::Log(written.into())),
+            };
         };
         match head {
             "lerp" => {
@@ -65,6 +68,13 @@ impl From {
     }
 }
 
+/// How the settings of an engine are written.
+fn example(method: &Method) -> String {
+    let mode = &method.engine.expect("an engine with a spring").modes[0];
+    let [stiffness, damping] = mode.settings().map(|setting| setting.name);
+    format!("{}:{stiffness}=NUMBER,{damping}=NUMBER", method.id)
+}
+
 /// What an engine shows with settings that are written as `key=value,…`.
 fn of_engine(
     method: &'static Method,
@@ -76,8 +86,8 @@ fn of_engine(
     let (mut mode, mut tick_hz, mut substeps) = (None, tick_hz, method.default_substeps);
     let mut values: Vec<(&str, &str)> = Vec::new();
     for pair in written.split(',') {
-        let (key, value) =
-            pair.split_once('=').ok_or_else(|| format!("\"{pair}\" is no KEY=VALUE"))?;
+        let wrong = || format!("\"{pair}\" is no KEY=VALUE; write {}", example(method));
+        let (key, value) = pair.split_once('=').ok_or_else(wrong)?;
         match key.trim() {
             "mode" => {
                 let known = modes.iter().find(|mode| mode.id == value);

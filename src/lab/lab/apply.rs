@@ -158,6 +158,9 @@ impl Lab {
                 let known = entry < self.entries().len();
                 return known.then_some(DriverRequest::CopyMethod(entry));
             }
+            Command::CopyJoint(entry) => {
+                return self.joint_code(entry).map(|_| DriverRequest::CopyJoint(entry));
+            }
             Command::PointAt(entry) => self.viewer.pointed = entry,
             Command::ExportInstrument => return Some(DriverRequest::ExportInstrument),
             Command::Body(body) => {

@@ -56,8 +56,10 @@ impl Lab {
     /// engine with a joint, or the body no spring.
     pub fn joint_code(&self, entry: usize) -> Option<String> {
         let spring = self.spring_joint(self.display().body)?;
-        let mode = self.entries().get(entry)?.method.engine?.modes.first()?;
-        Some(mode.code_with(mode.values(spring.joint, spring.mass_kg)) + "\n")
+        let spec = self.entries().get(entry)?;
+        let mode = spec.method.engine?.modes.first()?;
+        let joint = spec.joint_per_mass().unwrap_or(spring.joint);
+        Some(mode.code_with(mode.values(joint, spring.mass_kg)) + "\n")
     }
 }
 
@@ -86,6 +88,7 @@ mod tests {
         let entry = lab.entries().iter().position(|spec| spec.method == box2d.method).unwrap();
         let code = lab.joint_code(entry).unwrap();
         assert!(code.contains("def.hertz = 3.0;\n"), "{code}");
+        assert_eq!(lab.apply(Command::CopyJoint(entry)), Some(DriverRequest::CopyJoint(entry)));
         lab.apply(Command::PointAt(Some(entry)));
         assert_eq!(lab.apply(Command::Copy), Some(DriverRequest::CopyJoint(entry)));
         // A custom method is copied as source code, and so is an engine's step by its menu.
@@ -94,5 +97,10 @@ mod tests {
         lab.apply(Command::Body(ship));
         lab.apply(Command::PointAt(Some(entry)));
         assert_eq!(lab.apply(Command::Copy), Some(DriverRequest::CopyMethod(entry)));
+        assert_eq!(lab.apply(Command::CopyJoint(entry)), None);
+        // An engine that is told other numbers has those.
+        let alike = Lab::new(Scene::built_in("alike").unwrap());
+        let told = [0, 3].map(|entry| alike.joint_code(entry).unwrap());
+        assert!(told[0].contains("= 1.5;") && told[1].contains("= 1.50169895;"), "{told:?}");
     }
 }

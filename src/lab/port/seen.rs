@@ -1,5 +1,7 @@
 //! What a player sees of a spring in an engine, read off the map of its tick.
 
+use nalgebra::{Matrix2, RowVector2, Vector2};
+
 use crate::lab::identify::{Candidate, Effective, LoggedBody, SLOW, run};
 use crate::sim::integrators::{JointMode, Method};
 
@@ -16,8 +18,8 @@ pub struct Setup {
     pub substeps: u32,
 }
 
-/// A map of coordinate and velocity: rows of a matrix.
-pub(super) type Map = [[f64; 2]; 2];
+/// A map of coordinate and velocity.
+type Map = Matrix2<f64>;
 
 /// Iterations of Newton on the eigenvalue that a memory adds; it is near 0, and three are enough.
 const ITERATIONS: u32 = 20;
@@ -35,7 +37,7 @@ impl Setup {
         let has_memory = self.method.restart.is_some();
         let maps = self.maps(joint, if has_memory { 3 } else { 1 })?;
         match maps[..] {
-            [once] => Some([trace(&once), determinant(&once)]),
+            [once] => Some([once.trace(), once.determinant()]),
             [once, twice, thrice] => with_memory(&once, &twice, &thrice),
             _ => None,
         }
@@ -64,7 +66,7 @@ impl Setup {
     }
 
     /// The map of `ticks` ticks through which user code holds the spring's force.
-    pub(super) fn held_map(&self, [stiffness, damping]: [f64; 2], ticks: u32) -> Option<Map> {
+    fn held_map(&self, [stiffness, damping]: [f64; 2], ticks: u32) -> Option<Map> {
         let &Self { method, tick_hz, substeps, .. } = self;
         let candidate = Candidate { method, substeps, is_held: false };
         let after = |start, push| {
@@ -73,43 +75,28 @@ impl Setup {
         };
         let free = columns(&after([SLOW, 0.0], 0.0)?, &after([0.0, SLOW], 0.0)?)?;
         // What a force of 1 N/kg that is held does to a body at rest.
-        let pushed = *after([0.0; 2], 1.0)?.last()?;
-        let row =
-            |i: usize| [free[0][i][0] - pushed[i] * stiffness, free[0][i][1] - pushed[i] * damping];
-        Some([row(0), row(1)])
+        let pushed = Vector2::from(*after([0.0; 2], 1.0)?.last()?);
+        Some(free[0] - pushed * RowVector2::new(stiffness, damping))
     }
 
     /// What a player sees of a spring whose force user code holds through `ticks` ticks.
     pub fn sees_held(&self, joint: [f64; 2], ticks: u32) -> Option<Effective> {
         let map = self.held_map(joint, ticks)?;
-        seen(trace(&map), determinant(&map), f64::from(ticks) / self.tick_hz)
+        seen(map.trace(), map.determinant(), f64::from(ticks) / self.tick_hz)
     }
 
     /// As [`Setup::growth`], of a force that is held through `ticks` ticks.
     pub(super) fn held_growth(&self, joint: [f64; 2], ticks: u32) -> Option<f64> {
         let map = self.held_map(joint, ticks)?;
-        Some(spectral_radius(trace(&map), determinant(&map)))
+        Some(spectral_radius(map.trace(), map.determinant()))
     }
 }
 
 /// The maps whose columns are these runs, without their starts.
 fn columns(first: &[[f64; 2]], second: &[[f64; 2]]) -> Option<Vec<Map>> {
-    let map = |(a, b): (&[f64; 2], &[f64; 2])| [0, 1].map(|i| [a[i] / SLOW, b[i] / SLOW]);
+    let map = |(a, b): (&[f64; 2], &[f64; 2])| Map::from([*a, *b]) / SLOW;
     let maps: Vec<Map> = first.iter().zip(second).skip(1).map(map).collect();
-    maps.iter().flatten().flatten().all(|x| x.is_finite()).then_some(maps)
-}
-
-fn trace(map: &Map) -> f64 {
-    map[0][0] + map[1][1]
-}
-
-fn determinant(map: &Map) -> f64 {
-    map[0][0] * map[1][1] - map[0][1] * map[1][0]
-}
-
-fn product(a: &Map, b: &Map) -> Map {
-    let cell = |i: usize, j: usize| a[i][0] * b[0][j] + a[i][1] * b[1][j];
-    [[cell(0, 0), cell(0, 1)], [cell(1, 0), cell(1, 1)]]
+    maps.iter().flatten().all(|x| x.is_finite()).then_some(maps)
 }
 
 /// The largest modulus of an eigenvalue.
@@ -143,25 +130,21 @@ pub(super) fn seen(trace: f64, determinant: f64, tick_s: f64) -> Option<Effectiv
 /// With A the map of state alone, what the memory adds to a tick is w: none at the first, C of the state there at the
 /// second, and ρ times the last beside at the third. All w have one direction.
 fn with_memory(once: &Map, twice: &Map, thrice: &Map) -> Option<[f64; 2]> {
-    let less = |a: &Map, b: Map| [0, 1].map(|i| [0, 1].map(|j| a[i][j] - b[i][j]));
-    let added = less(twice, product(once, once));
-    let rest = less(&less(thrice, product(once, twice)), product(&added, once));
+    let added = twice - once * once;
+    let rest = thrice - once * twice - added * once;
     // Along the direction, which is that of the larger column.
-    let length = |j: usize| libm::hypot(added[0][j], added[1][j]);
-    let larger = usize::from(length(1) > length(0));
-    if length(larger) == 0.0 {
-        return Some([trace(once), determinant(once)]);
+    let lengths = added.column_iter().map(|column| column.norm()).collect::<Vec<_>>();
+    let larger = usize::from(lengths[1] > lengths[0]);
+    if lengths[larger] == 0.0 {
+        return Some([once.trace(), once.determinant()]);
     }
-    let along = [0, 1].map(|i| added[i][larger] / length(larger));
-    let on = |map: &Map| [0, 1].map(|j| along[0] * map[0][j] + along[1] * map[1][j]);
-    let (from_state, last) = (on(&added), on(&rest));
+    let along = added.column(larger) / lengths[larger];
+    let [from_state, last] = [added, rest].map(|map| along.transpose() * map);
     let kept = last[larger] / from_state[larger];
-    let (a, [b0, b1], [c0, c1]) = (once, along, from_state);
     // λ³ - s λ² + m λ - d of the state with its memory.
-    let s = trace(a) + kept;
-    let m = determinant(a) + kept * trace(a) - b0 * c0 - b1 * c1;
-    let d = kept * determinant(a) - c0 * (b0 * a[1][1] - b1 * a[0][1])
-        + c1 * (b0 * a[1][0] - b1 * a[0][0]);
+    let s = once.trace() + kept;
+    let m = once.determinant() + kept * once.trace() - along.dot(&from_state.transpose());
+    let d = kept * once.determinant() - (from_state * adjugate(once) * along).x;
     let mut root = 0.0_f64;
     for _ in 0..ITERATIONS {
         let value = ((root - s) * root + m) * root - d;
@@ -170,4 +153,9 @@ fn with_memory(once: &Map, twice: &Map, thrice: &Map) -> Option<[f64; 2]> {
     let [trace, determinant] = [s - root, m - root * (s - root)];
     let is_slower = root * root <= determinant.abs();
     (root.is_finite() && is_slower).then_some([trace, determinant])
+}
+
+/// The matrix whose product with `map` is its determinant.
+fn adjugate(map: &Map) -> Map {
+    Map::new(map.m22, -map.m12, -map.m21, map.m11)
 }

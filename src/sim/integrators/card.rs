@@ -136,6 +136,35 @@ pub struct Engine {
     pub modes: &'static [JointMode],
 }
 
+/// What a follower's card says beside: how a game says how fast it follows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FollowerSetting {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is.
+    pub quantity: FollowerQuantity,
+    /// A line of code; braces stand for the value.
+    pub code: &'static str,
+}
+
+/// What the setting of a follower is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FollowerQuantity {
+    /// k or ω of the law, per second.
+    Rate,
+    /// The part of the way that it goes in each frame.
+    Part,
+    /// 2/ω, in seconds.
+    SmoothTime,
+}
+
+impl FollowerSetting {
+    /// The rate of the law, in this line of code.
+    pub(super) const fn rate(code: &'static str) -> Self {
+        Self { name: "rate", quantity: FollowerQuantity::Rate, code }
+    }
+}
+
 /// The damping ratios of [`Method::damped_limits`].
 pub const DAMPING_RATIOS: [f64; 3] = [0.05, 0.2, 1.0];
 
@@ -198,6 +227,8 @@ pub struct Method {
     pub default_substeps: u32,
     /// What is known of the engine whose tick this is; `None` for any other method.
     pub engine: Option<Engine>,
+    /// How a game says how fast a follower follows; `None` for any other method.
+    pub follower: Option<FollowerSetting>,
     /// Where the method comes from; of an engine its version, and the files that the formula was read from.
     pub source: &'static str,
     /// How a custom method is built, which is not in [`METHODS`](super::METHODS): [`custom_integrator`](super::custom_integrator) of its
@@ -273,6 +304,7 @@ const PLAIN: Method = Method {
     only: None,
     default_substeps: 1,
     engine: None,
+    follower: None,
     source: "",
     custom: None,
 };

@@ -1,6 +1,6 @@
 //! Critically damped spring: the exact solution for a target that rests during the step.
 
-use super::card::{Method, SECOND_ORDER_FOLLOWER};
+use super::card::{FollowerSetting, Method, SECOND_ORDER_FOLLOWER};
 use super::follower::FollowerRule;
 
 pub(super) const CARD: Method = Method {
@@ -14,6 +14,9 @@ pub(super) const CARD: Method = Method {
         "v′ = (v − ω b) exp(−ω h)",
     ],
     code: include_str!("../../../assets/methods/critically-damped-spring.step"),
+    follower: Some(FollowerSetting::rate(
+        "(x, v) = critically_damped_spring(x, v, dt, target, {});",
+    )),
     ..SECOND_ORDER_FOLLOWER
 };
 

@@ -1,6 +1,6 @@
 //! Exponential decay: the exact solution for a target that rests during the step.
 
-use super::card::{FIRST_ORDER_FOLLOWER, Method};
+use super::card::{FIRST_ORDER_FOLLOWER, FollowerSetting, Method};
 use super::follower::{FollowerRule, lerp};
 
 pub(super) const CARD: Method = Method {
@@ -10,6 +10,7 @@ pub(super) const CARD: Method = Method {
     source: "exact solution of x' = k (g - x); F. Holmér, Lerp smoothing is broken (2024)",
     formula: &["x′ = g + (x − g) exp(−k h)", "v′ = k (g − x′)"],
     code: include_str!("../../../assets/methods/exponential-decay.step"),
+    follower: Some(FollowerSetting::rate("x += (target - x) * (1.0 - exp(-{} * dt));")),
     ..FIRST_ORDER_FOLLOWER
 };
 

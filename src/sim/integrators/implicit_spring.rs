@@ -1,6 +1,6 @@
 //! Implicit spring: backward Euler of the critically damped spring, solved by hand.
 
-use super::card::{Method, SECOND_ORDER_FOLLOWER};
+use super::card::{FollowerSetting, Method, SECOND_ORDER_FOLLOWER};
 use super::follower::FollowerRule;
 
 pub(super) const CARD: Method = Method {
@@ -10,6 +10,7 @@ pub(super) const CARD: Method = Method {
     source: "Holden, Spring-It-On: The Game Developer's Spring-Roll-Call (2021)",
     formula: &["v′ = (v + h ω² (g − x)) / (1 + ω h)²", "x′ = x + h v′"],
     code: include_str!("../../../assets/methods/implicit-spring.step"),
+    follower: Some(FollowerSetting::rate("(x, v) = implicit_spring(x, v, dt, target, {});")),
     ..SECOND_ORDER_FOLLOWER
 };
 

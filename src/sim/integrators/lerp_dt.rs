@@ -1,6 +1,6 @@
 //! Lerp by the frame's duration: explicit Euler of the law of first order.
 
-use super::card::{FIRST_ORDER_FOLLOWER, Method};
+use super::card::{FIRST_ORDER_FOLLOWER, FollowerSetting, Method};
 use super::follower::{FollowerRule, lerp};
 
 pub(super) const CARD: Method = Method {
@@ -11,6 +11,7 @@ pub(super) const CARD: Method = Method {
     source: "folklore of game code; F. Holmér, Lerp smoothing is broken (2024)",
     formula: &["x′ = x + k h (g − x)", "v′ = k (g − x′)"],
     code: include_str!("../../../assets/methods/lerp-dt.step"),
+    follower: Some(FollowerSetting::rate("x += (target - x) * {} * dt;")),
     ..FIRST_ORDER_FOLLOWER
 };
 

@@ -1,6 +1,6 @@
 //! Lerp per frame: a tenth of the way in every step, however long the step is.
 
-use super::card::{FIRST_ORDER_FOLLOWER, Method};
+use super::card::{FIRST_ORDER_FOLLOWER, FollowerQuantity, FollowerSetting, Method};
 use super::follower::{FollowerRule, lerp};
 
 pub(super) const CARD: Method = Method {
@@ -12,6 +12,11 @@ pub(super) const CARD: Method = Method {
     source: "folklore of game code; R. Pavlov, Improved Lerp Smoothing, Game Developer (2016)",
     formula: &["x′ = x + 0.1 (g − x)", "v′ = k (g − x′)"],
     code: include_str!("../../../assets/methods/lerp-per-frame.step"),
+    follower: Some(FollowerSetting {
+        name: "part",
+        quantity: FollowerQuantity::Part,
+        code: "x += (target - x) * {};",
+    }),
     ..FIRST_ORDER_FOLLOWER
 };
 

@@ -63,7 +63,9 @@ mod yoshida4;
 
 #[cfg(feature = "lab")]
 pub(in crate::sim) use card::LAW_ORDER;
-pub use card::{DAMPING_RATIOS, Engine, Family, Method, Needs, Only};
+pub use card::{
+    DAMPING_RATIOS, Engine, Family, FollowerQuantity, FollowerSetting, Method, Needs, Only,
+};
 pub use custom_method::{AnySystem, CustomIntegrator, custom_integrator};
 pub use engine::{EngineMethod, Rule, Tick};
 pub use failure::{StepFailure, Stepped};
@@ -186,6 +188,7 @@ methods! {
     mujoco::Mujoco as EngineMethod,
     mujoco_rk4::MujocoRk4 as EngineMethod,
     godot::Godot as EngineMethod,
+    box3d::Box3d as EngineMethod,
     held_force::HeldForce as EngineMethod,
 }
 

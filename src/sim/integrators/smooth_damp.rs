@@ -1,7 +1,7 @@
 //! Smooth damp, as Unity has it: the closed form of the critically damped spring with a rational function for
 //! the exponential, and a clamp of overshoot.
 
-use super::card::{Method, SECOND_ORDER_FOLLOWER};
+use super::card::{FollowerQuantity, FollowerSetting, Method, SECOND_ORDER_FOLLOWER};
 use super::follower::FollowerRule;
 
 pub(super) const CARD: Method = Method {
@@ -16,6 +16,11 @@ pub(super) const CARD: Method = Method {
         "else: x′ = p, v′ = (v − ω b) e",
     ],
     code: include_str!("../../../assets/methods/smooth-damp.step"),
+    follower: Some(FollowerSetting {
+        name: "smooth_time",
+        quantity: FollowerQuantity::SmoothTime,
+        code: "x = Mathf.SmoothDamp(x, target, ref velocity, {}f);",
+    }),
     ..SECOND_ORDER_FOLLOWER
 };
 

@@ -193,10 +193,15 @@ fn show_row(
     is_pointed_at
 }
 
-/// The menu of a row: its method as code, in each language.
+/// The menu of a row: a spring's settings in its engine, and its method as code, in each language.
 pub(super) fn menu(ui: &mut Ui, lab: &Lab, entry: usize, commands: &mut Vec<Command>) {
+    let has_joint = lab.joint_code(entry).is_some();
+    if has_joint && ui.button("Copy the spring's settings (Ctrl C)").clicked() {
+        commands.push(Command::CopyJoint(entry));
+        ui.close();
+    }
     for language in Language::ALL {
-        let is_by_key = language == lab.viewer().language() && lab.joint_code(entry).is_none();
+        let is_by_key = language == lab.viewer().language() && !has_joint;
         let key = if is_by_key { " (Ctrl C)" } else { "" };
         if ui.button(format!("Copy as {language}{key}")).clicked() {
             commands.push(Command::CopyMethod { entry, language });

@@ -114,6 +114,7 @@ impl Log {
     pub(crate) fn method(&self) -> &'static Method {
         let id = match &*self.engine {
             "box2d" | "box2d-prismatic" => "engine-box2d",
+            "box3d" | "box3d-prismatic" => "engine-box3d",
             "rapier2d" | "rapier3d" => "engine-rapier",
             "avian" => "engine-avian",
             "avian-motor" => "engine-avian-motor",
@@ -136,9 +137,8 @@ impl Log {
 
     /// What a row may be off by over one tick and over the run, in units of the largest coordinate or velocity.
     pub(crate) fn tolerances(&self) -> [f64; 2] {
-        match (&*self.engine, &*self.precision) {
-            ("avian" | "avian-motor", _) => [3e-7, 2e-5],
-            (_, "f32") => [4e-6, 5e-5],
+        match &*self.precision {
+            "f32" => [4e-6, 5e-5],
             _ => [3e-14, 1e-12],
         }
     }

@@ -62,7 +62,7 @@ impl Tumble {
         let entries = manifest();
         let logs: Vec<Tumble> =
             entries.iter().filter(|entry| entry["scenario"] == "tumble").map(Tumble::of).collect();
-        assert_eq!(logs.len(), 27);
+        assert_eq!(logs.len(), 33);
         logs
     }
 
@@ -71,6 +71,7 @@ impl Tumble {
         let opt_in = |id| (id, free_spin(id).opt_in.expect("something to switch on"));
         let (id, map) = match &*entry["engine"] {
             "rapier3d" => default("engine-rapier"),
+            "box3d" => default("engine-box3d"),
             "bullet" => default("engine-bullet"),
             "mujoco-Euler" => default("engine-mujoco"),
             "mujoco-RK4" => default("engine-mujoco-rk4"),
@@ -180,7 +181,7 @@ fn the_map_of_a_card_reproduces_each_logged_tick_of_a_tumble_from_the_one_before
             compared += 1;
         }
     }
-    assert_eq!(compared, 27 * 20);
+    assert_eq!(compared, 33 * 20);
     // The logs of engines in double precision have 12 digits.
     near("f64", worst[0], 4e-12, 2.0);
     near("f32", worst[1], 1e-6, 10.0);
@@ -206,14 +207,15 @@ fn the_first_twenty_ticks_of_a_tumble_come_out_to_the_digits_of_the_log() {
 }
 
 /// What the energy may be off by over a whole log, relative to it: of engines in double precision, of those near the
-/// middle axis, where errors grow e-fold in 0.35 s, of explicit Euler where it magnifies them, and of engines in
-/// single precision.
-const ENERGY_TOLERANCES: [f64; 4] = [5e-12, 1e-10, 2e-5, 5e-4];
+/// middle axis, where errors grow e-fold in 0.35 s, of explicit Euler where it magnifies them, of engines in single
+/// precision, and of those among them that lose energy near the middle axis.
+const ENERGY_TOLERANCES: [f64; 5] = [5e-12, 1e-10, 2e-5, 2e-3, 5e-2];
 
 /// Which of the tolerances is the log's.
 fn energy_tolerance(log: &Tumble) -> usize {
     let is_lost = log.rows.last().is_some_and(|row| row.tick < 3600);
     match log.map {
+        SpinMap::NewtonStep if log.is_f32 && log.is_near_the_middle_axis() => 4,
         _ if log.is_f32 => 3,
         SpinMap::Explicit if is_lost || log.is_near_the_middle_axis() => 2,
         _ if log.is_near_the_middle_axis() => 1,
@@ -223,7 +225,7 @@ fn energy_tolerance(log: &Tumble) -> usize {
 
 #[test]
 fn the_energy_of_a_tumble_stays_with_the_log_for_a_minute() {
-    let (mut lost, mut worst) = (Vec::new(), [0.0_f64; 4]);
+    let (mut lost, mut worst) = (Vec::new(), [0.0_f64; 5]);
     for log in Tumble::all() {
         let off = log.run().map(|(found, row)| (energy(found) / row.energy - 1.0).abs());
         let off = off.fold(0.0, larger);

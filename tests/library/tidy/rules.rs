@@ -37,7 +37,16 @@ pub(crate) const LAYERS: [Layer; 5] = [
     Layer {
         name: "lab",
         above: &["view", "window", "commands"],
-        crates: Crates::Only(&["csv", "glam", "libm", "thiserror", "toml", "serde", "strsim"]),
+        crates: Crates::Only(&[
+            "csv",
+            "glam",
+            "libm",
+            "nalgebra",
+            "thiserror",
+            "toml",
+            "serde",
+            "strsim",
+        ]),
         std: &["fs", "time", "thread", "env", "io", "net", "process"],
     },
     Layer {

@@ -13,7 +13,12 @@ const BODY: &str = "--tick-hz 60 --k 78.956835208714864 --c 1.25663706143591724 
 #[test]
 fn a_log_names_the_engine_that_made_it_and_what_a_player_sees() {
     let text = stdout_of(&format!("identify {LOG} {BODY}"));
-    assert!(text.starts_with("made by engine-box2d ×4, residual "), "{text}");
+    assert!(
+        text.starts_with(
+            "made by engine-box2d ×4 or engine-box3d ×4 (the same on this body), residual "
+        ),
+        "{text}"
+    );
     assert!(text.contains("a player sees: 0.9965 Hz, damping ratio 0.0761"), "{text}");
     assert!(text.contains("the equation says: 0.9987 Hz, damping ratio 0.0500"), "{text}");
     assert!(text.contains("\nunder velocity-verlet: "), "{text}");

@@ -123,6 +123,13 @@ fn what_cannot_be_asked_is_one_error_with_a_remedy() {
         ("--want -2Hz", "the frequency is -2; give hertz above 0"),
         ("--want 40Hz", "40 Hz cannot be seen at 60 ticks per second"),
         ("--want 20Hz --zeta 100", "is over within a tick of 60 Hz; damp less, or tick faster"),
+        ("--want 1e-9Hz", "takes more than 30000 ticks at 60 Hz, so that rounding hides it"),
+        ("--want 2Hz --tick-hz -60", "give a rate above 0"),
+        ("--want 2Hz --substeps 0", "0 is not in 1..=1000"),
+        (
+            "--from engine-godot",
+            "give its settings too: engine-godot:stiffness=NUMBER,damping=NUMBER",
+        ),
         ("--want 2Hz --zeta -1", "give a number from 0 up"),
         ("--want 2Hz --mass -1", "give a number above 0"),
         ("--want 2Hz --to engine-foo", "no engine with a spring is called engine-foo"),

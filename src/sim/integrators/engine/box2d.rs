@@ -1,7 +1,7 @@
 //! Box2D: every substep solves the soft joint twice.
 
 use super::{Rule, Tick, cap, each, each_with};
-use crate::sim::integrators::card::{ENGINE, Engine, Method};
+use crate::sim::integrators::card::{self, Engine, Method};
 use crate::sim::integrators::joint_mode::JointQuantity::{DampingRatio, Frequency};
 use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
@@ -13,20 +13,22 @@ const MODES: [JointMode; 1] = [mode(
     "def.enableSpring = true;\ndef.hertz = {hertz};\ndef.dampingRatio = {dampingRatio};\nbodyDef.linearDamping = 0.0;",
 )];
 
+pub(super) const ENGINE: Engine = Engine {
+    tick_hz: 60,
+    damping_ratio: Some(0.02617),
+    has_substeps: true,
+    free_spin: None,
+    version: "3.x main 617d32a",
+    logged: Some("2026-11-21"),
+    modes: &MODES,
+};
+
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-box2d",
     name: "Box2D",
     about: "its spring is solved twice a substep and loses energy twice as fast as implicit Euler at that step",
     default_substeps: 4,
-    engine: Some(Engine {
-        tick_hz: 60,
-        damping_ratio: Some(0.02617),
-        has_substeps: true,
-        free_spin: None,
-        version: "3.x main 617d32a",
-        logged: Some("2026-11-21"),
-        modes: &MODES,
-    }),
+    engine: Some(ENGINE),
     source: "Box2D 3.x main 617d32a: solver.c b2IntegrateVelocitiesTask, b2IntegratePositionsTask; solver.h b2MakeSoft; \
              distance_joint.c",
     formula: &[
@@ -36,7 +38,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         "v = (p − h K x) / D",
     ],
     code: include_str!("../../../../assets/methods/engine-box2d.step"),
-    ..ENGINE
+    ..card::ENGINE
 };
 
 /// Its speed limit, in metres per second.

@@ -20,6 +20,7 @@ use crate::sim::system::{EngineSettings, StateOf, System};
 pub(super) mod avian;
 pub(super) mod avian_motor;
 pub(super) mod box2d;
+pub(super) mod box3d;
 pub(super) mod bullet;
 pub(super) mod chipmunk;
 pub(super) mod godot;

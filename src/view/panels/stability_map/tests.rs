@@ -129,7 +129,7 @@ fn the_lines_of_equal_damping_of_the_selected_engine_are_labelled_and_explained(
         texts.into_iter().map(|(_, text)| text).collect::<Vec<_>>().join("\n")
     };
     let shown = words(&lab);
-    for part in ["damping 0.05", "damping 0.1", "sees the same damping ratio of Box2D"] {
+    for part in ["damping 0.05", "damping 0.1", "the damping ratio that a player sees of Box2D"] {
         assert!(shown.contains(part), "{part}: {shown}");
     }
     // An undamped spring of Bullet is seen undamped.

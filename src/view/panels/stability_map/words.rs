@@ -40,14 +40,14 @@ pub(super) fn sentence(ui: &Ui, lab: &Lab, map: &StabilityMap, width: f32) -> (A
     wrapped(ui, lab, map, width, (13.0, &notes))
 }
 
-/// The same without what the map does not draw.
+/// The same with the thin lines alone of what is drawn and what is not.
 pub(super) fn short_sentence(
     ui: &Ui,
     lab: &Lab,
     map: &StabilityMap,
     width: f32,
 ) -> (Arc<Galley>, f32) {
-    wrapped(ui, lab, map, width, (12.0, ""))
+    wrapped(ui, lab, map, width, (12.0, &seen_note(lab, map)))
 }
 
 /// What the methods do at the present point in type of this size, and the notes, wrapped to a width.
@@ -170,7 +170,7 @@ fn seen_note(lab: &Lab, map: &StabilityMap) -> String {
     let mut selected = found.filter(|(_, (entry, _))| *entry == lab.active());
     match selected.any(|(region, _)| !region.seen.is_empty()) {
         true => format!(
-            " Along a thin line a player sees the same damping ratio of {}.",
+            " Thin lines: the damping ratio that a player sees of {}.",
             lab.lane_name(lab.active())
         ),
         false => String::new(),

@@ -1,0 +1,36 @@
+//! Box3D: the soft step of Box2D, in space.
+
+use super::box2d::{self, Box2d};
+use super::{Rule, Tick};
+use crate::sim::integrators::card::{Engine, Method};
+use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
+use crate::sim::state::Vector;
+
+pub(in crate::sim::integrators) const CARD: Method = Method {
+    id: "engine-box3d",
+    name: "Box3D",
+    about: "the spring of Box2D to the bit: it is solved twice a substep and loses energy as fast",
+    engine: Some(Engine {
+        free_spin: Some(FreeSpin { default: SpinMap::NewtonStep, opt_in: None, per_substep: true }),
+        version: "0.1.0 in box3d-sys 0.1.16",
+        logged: Some("2026-11-22"),
+        ..box2d::ENGINE
+    }),
+    source: "Box3D 0.1.0 in box3d-sys 0.1.16: solver.c b3IntegrateVelocitiesTask, b3IntegratePositionsTask; \
+             distance_joint.c",
+    code: include_str!("../../../../assets/methods/engine-box3d.step"),
+    ..box2d::CARD
+};
+
+/// Box3D: a tick by the [formula](Method::formula) on its card, which is that of Box2D.
+#[derive(Clone)]
+pub struct Box3d;
+
+impl Rule for Box3d {
+    const CARD: &'static Method = &CARD;
+
+    #[inline]
+    fn tick<V: Vector>(tick: Tick<'_, V>, q: &mut V, v: &mut V) {
+        Box2d::tick(tick, q, v);
+    }
+}
