@@ -71,33 +71,9 @@ pub trait Vector: Elementwise {
     fn components_mut(&mut self) -> &mut [f64];
 }
 
-impl Elementwise for f64 {
-    #[inline]
-    fn assign(&mut self, from: &Self) {
-        *self = *from;
-    }
-    #[inline]
-    fn add_scaled(&mut self, h: f64, x: &Self) {
-        *self += h * x;
-    }
-    #[inline]
-    fn scale(&mut self, h: f64) {
-        *self *= h;
-    }
-}
-
-impl Vector for f64 {
-    fn components(&self) -> &[f64] {
-        std::slice::from_ref(self)
-    }
-    fn components_mut(&mut self) -> &mut [f64] {
-        std::slice::from_mut(self)
-    }
-}
-
-macro_rules! glam_vector {
-    ($($Vector:ty),+) => {$(
-        impl Elementwise for $Vector {
+macro_rules! elementwise {
+    ($($Small:ty),+) => {$(
+        impl Elementwise for $Small {
             #[inline]
             fn assign(&mut self, from: &Self) {
                 *self = *from;
@@ -111,7 +87,21 @@ macro_rules! glam_vector {
                 *self *= h;
             }
         }
+    )+};
+}
+elementwise!(f64, glam::DVec2, glam::DVec3);
 
+impl Vector for f64 {
+    fn components(&self) -> &[f64] {
+        std::slice::from_ref(self)
+    }
+    fn components_mut(&mut self) -> &mut [f64] {
+        std::slice::from_mut(self)
+    }
+}
+
+macro_rules! glam_vector {
+    ($($Vector:ty),+) => {$(
         impl Vector for $Vector {
             fn components(&self) -> &[f64] {
                 self.as_ref()

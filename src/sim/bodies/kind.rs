@@ -1,7 +1,7 @@
 //! The card of a kind of body.
 
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::sim::body::Body;
 use crate::sim::body_stepper::stepper;
@@ -139,7 +139,9 @@ impl fmt::Debug for Kind {
 impl Kind {
     /// The kind of bodies like `blank`, without a name, coordinates and a leading parameter: what most kinds have in
     /// common.
-    pub(super) fn of<B: Body + Sync>(blank: B) -> Self {
+    pub(super) fn of<B: Body>(blank: B) -> Self {
+        // A body need not be shared between threads: each gets a copy.
+        let template = Mutex::new(blank);
         Self {
             id: "",
             about: "".into(),
@@ -151,7 +153,8 @@ impl Kind {
             truth: if B::HAS_EXACT { Truth::Exact } else { Truth::Reference },
             check: Box::new(|_| Ok(())),
             build: Box::new(move |values, solver| {
-                stepper(blank.clone().with_parameters(values), solver)
+                let body = template.lock().unwrap_or_else(PoisonError::into_inner).clone();
+                stepper(body.with_parameters(values), solver)
             }),
             class: B::CLASS,
             origin: Origin::Table,

@@ -5,21 +5,20 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::motion::Typed;
 use super::{Custom, CustomFault, Extras, claims};
 use crate::sim::bodies::claims::{Checked, ClaimHorizon};
-use crate::sim::bodies::kind::{Coordinate, CustomInfo, Kind, Origin, Truth};
+use crate::sim::bodies::kind::{Coordinate, CustomInfo, Kind, Origin};
 use crate::sim::body::Body;
-use crate::sim::body_stepper::stepper;
 use crate::sim::parameter::{Acts, Fault, Parameter, ParameterOf, Range, Text};
 use crate::sim::state::{State, Vector};
 use crate::sim::system::{StateOf, System};
 
-/// The key of the parameter that bodies without parameters have.
+/// The key of the parameter of a body that is given none.
 const FORCE: &str = "force";
 
 /// The largest number of coordinates. Larger systems need a sparse Jacobian; write a body.
 const MAX_COORDINATES: usize = 256;
 
-/// The kind of bodies that move as `system` does, from `start`. What `extras` claims is held against the motion at the ticks of `horizon`. Its parameters have the numbers
-/// of `system` as defaults.
+/// The kind of bodies that move as `system` does, from `start`. What `extras` claims is held against the motion at the
+/// ticks of `horizon`. Its parameters have the numbers of `system` as defaults.
 ///
 /// # Errors
 /// If the start, a name or a unit is unfit, or if something that is told in `extras` is not so.
@@ -90,14 +89,11 @@ fn force_parameter() -> Parameter {
 fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
     let info = body.info.clone();
     let leading = parameters[0].key.clone();
-    // A system need not be shared between threads: each body gets a copy.
-    let template = Arc::new(Mutex::new(body));
-    let copy =
-        |template: &Mutex<Custom>| template.lock().unwrap_or_else(PoisonError::into_inner).clone();
+    let checked = Mutex::new(body.clone());
     let check = {
-        let (template, info, leading) = (template.clone(), info.clone(), leading.clone());
+        let (info, leading) = (info.clone(), leading.clone());
         move |values: &[f64]| {
-            let mut body = copy(&template);
+            let mut body = checked.lock().unwrap_or_else(PoisonError::into_inner).clone();
             body.write(values);
             let State { q, v } = body.start();
             let mut a = v.clone();
@@ -115,17 +111,11 @@ fn kind(body: Custom, parameters: Vec<Parameter>) -> Kind {
         id: "custom",
         about: "a body written in Rust".into(),
         all_coordinates: info.coordinates.clone(),
-        is_counted: false,
         parameters,
-        inputs: &["kick"],
         leading,
-        truth: Truth::Reference,
         check: Box::new(check),
-        build: Box::new(move |values, solver| {
-            stepper(copy(&template).with_parameters(values), solver)
-        }),
-        class: Custom::CLASS,
         origin: Origin::Custom(info),
+        ..Kind::of(body)
     }
 }
 

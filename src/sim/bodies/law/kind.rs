@@ -1,12 +1,10 @@
 //! The kind of a law.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use super::Law;
 use super::claims::{check_start, first_key};
-use crate::sim::bodies::kind::{Coordinate, Kind, Origin, Truth};
-use crate::sim::body::Body;
-use crate::sim::body_stepper::stepper;
+use crate::sim::bodies::kind::{Coordinate, Kind, Origin};
 use crate::sim::law::{At, CoordinateText, Equations, LawText, Refusal, Registers};
 use crate::sim::parameter::{Acts, Fault, Parameter, Range, Text};
 
@@ -31,17 +29,15 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
     let first_key: Text = first_key(&text.coordinates, &text.constants).into();
     let parameters = parameters(text);
     let leading = leading(&equations).map(|index| text.constants[index].clone().into());
-    // Of all bodies, so that they share the findings on their claims.
-    let template = Mutex::new(Law::new(equations.clone(), &vec![1.0; parameters.len()]));
+    // All bodies are its clones, so that they share the findings on their claims.
+    let template = Law::new(equations.clone(), &vec![1.0; parameters.len()]);
     Ok(Arc::new(Kind {
         id: "law",
         about: about.join("; ").into(),
         all_coordinates: text.coordinates.iter().map(coordinate).collect(),
-        is_counted: false,
         parameters,
         inputs,
         leading: leading.unwrap_or_else(|| first_key.clone()),
-        truth: Truth::Reference,
         check: Box::new({
             let equations = equations.clone();
             move |values| {
@@ -52,12 +48,8 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
                 })
             }
         }),
-        build: Box::new(move |values, solver| {
-            let law = template.lock().unwrap_or_else(PoisonError::into_inner).clone();
-            stepper(law.with_parameters(values), solver)
-        }),
-        class: Law::CLASS,
         origin: Origin::Law(equations.clone()),
+        ..Kind::of(template)
     }))
 }
 

@@ -9,7 +9,8 @@ use crate::sim::integrators::joint_mode::JointQuantity::{
 use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
 
-const MODES: [JointMode; 3] = [
+/// The drives of PhysX itself, whatever its solver.
+pub(super) const DRIVES: [JointMode; 2] = [
     mode(
         "force-drive",
         ("stiffness", Stiffness),
@@ -22,6 +23,11 @@ const MODES: [JointMode; 3] = [
         ("damping", DampingPerMass),
         "joint->setDrive(PxD6Drive::eX, PxD6JointDrive({stiffness}f, {damping}f, PX_MAX_F32, true));\nbody->setLinearDamping(0.0f);",
     ),
+];
+
+const MODES: [JointMode; 3] = [
+    DRIVES[0],
+    DRIVES[1],
     mode(
         "unity",
         ("positionSpring", Stiffness),

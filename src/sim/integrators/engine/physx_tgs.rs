@@ -1,28 +1,10 @@
 //! PhysX with its temporal Gauss-Seidel solver.
 
+use super::physx::DRIVES;
 use super::{Rule, Tick, each};
 use crate::sim::integrators::card::{ENGINE, Engine, Method};
 use crate::sim::integrators::free_spin::{FreeSpin, SpinMap};
-use crate::sim::integrators::joint_mode::JointQuantity::{
-    Damping, DampingPerMass, Stiffness, StiffnessPerMass,
-};
-use crate::sim::integrators::joint_mode::{JointMode, mode};
 use crate::sim::state::Vector;
-
-const MODES: [JointMode; 2] = [
-    mode(
-        "force-drive",
-        ("stiffness", Stiffness),
-        ("damping", Damping),
-        "joint->setDrive(PxD6Drive::eX, PxD6JointDrive({stiffness}f, {damping}f, PX_MAX_F32, false));\nbody->setLinearDamping(0.0f);",
-    ),
-    mode(
-        "acceleration-drive",
-        ("stiffness", StiffnessPerMass),
-        ("damping", DampingPerMass),
-        "joint->setDrive(PxD6Drive::eX, PxD6JointDrive({stiffness}f, {damping}f, PX_MAX_F32, true));\nbody->setLinearDamping(0.0f);",
-    ),
-];
 
 pub(in crate::sim::integrators) const CARD: Method = Method {
     id: "engine-physx-tgs",
@@ -41,7 +23,7 @@ pub(in crate::sim::integrators) const CARD: Method = Method {
         }),
         version: "5.1.3",
         logged: Some("2026-11-21"),
-        modes: &MODES,
+        modes: &DRIVES,
     }),
     source: "PhysX 5.1.3: DyTGSContactPrep.cpp, DyCpuGpu1dConstraint.h",
     formula: &[
