@@ -8,7 +8,7 @@ use crate::lab::instrument::Instrument;
 use crate::lab::intervention::Interventions;
 use crate::lab::race::{Entrant, Mode};
 use crate::lab::scene::SceneBody;
-use crate::sim::bodies::{Acts, Range};
+use crate::sim::bodies::{Acts, Parameter, Range};
 
 /// From so many lanes on the best is selected: fewer are told apart whichever is in front.
 pub const MANY_LANES: usize = 10;
@@ -58,7 +58,7 @@ impl Lab {
     pub fn mappable_parameters(&self) -> impl Iterator<Item = usize> {
         let SceneBody { kind, values, .. } = &self.scene().bodies[self.display().body];
         let parameters = kind.parameters.iter();
-        let is_mappable = |(place, parameter): &(usize, &crate::lab::Parameter)| {
+        let is_mappable = |(place, parameter): &(usize, &Parameter)| {
             // The constants of a law may have any sign, and a kick changes no motion.
             let is_positive =
                 kind.law().is_some() && values[*place] > 0.0 && !parameter.key.contains('.');
