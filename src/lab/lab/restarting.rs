@@ -46,10 +46,11 @@ impl Lab {
 
     /// Takes back the last change.
     pub(super) fn undo(&mut self) {
+        let rested = self.comes_to_rest();
         match self.timeline.undo_with(self.start.clone()) {
             Some(undone) => {
                 let notice = format!("undid {}: Ctrl Shift Z redoes it", undone.what);
-                self.after_exchange(undone, notice);
+                self.after_exchange(undone, notice, rested);
             }
             None => self.set_notice("nothing to undo"),
         }
@@ -57,16 +58,18 @@ impl Lab {
 
     /// Makes the change again that was undone last.
     pub(super) fn redo(&mut self) {
+        let rested = self.comes_to_rest();
         match self.timeline.redo_with(self.start.clone()) {
             Some(redone) => {
                 let notice = format!("redid {}: Ctrl Z takes it back", redone.what);
-                self.after_exchange(redone, notice);
+                self.after_exchange(redone, notice, rested);
             }
             None => self.set_notice("nothing to redo"),
         }
     }
 
-    fn after_exchange(&mut self, exchanged: Exchanged, notice: String) {
+    /// Shows the run that was exchanged for another, which `rested` where nobody had paused it.
+    fn after_exchange(&mut self, exchanged: Exchanged, notice: String, rested: bool) {
         let Exchanged { settings, is_restart, .. } = exchanged;
         let entry = self.start.entry;
         self.start = settings;
@@ -85,6 +88,7 @@ impl Lab {
         self.record_chosen_coordinates();
         self.timeline.show_present();
         self.clock.set_tick_hz(self.race().tick_hz());
+        self.running |= rested && !self.comes_to_rest();
         self.set_notice(notice);
     }
 }

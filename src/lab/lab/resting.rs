@@ -122,6 +122,23 @@ mod tests {
     }
 
     #[test]
+    fn what_is_undone_at_rest_runs_on_from_there() {
+        let mut lab = watched("spring");
+        watch(&mut lab, 5);
+        let switched = lab.race().tick();
+        lab.apply(Command::Pick(1));
+        watch(&mut lab, 20);
+        assert!(!lab.running());
+        lab.apply(Command::Undo);
+        assert!(lab.running() && lab.race().tick() == switched, "nobody has paused it");
+        watch(&mut lab, 20);
+        let end = lab.race().tick();
+        lab.apply(Command::Pick(2));
+        lab.apply(Command::Undo);
+        assert_eq!((lab.race().tick(), lab.running()), (end, false), "it rests there");
+    }
+
+    #[test]
     fn a_restart_runs_after_a_rest_and_stays_paused_after_a_pause() {
         let mut lab = watched("spring");
         watch(&mut lab, 21);
