@@ -9,11 +9,13 @@ spring's stiffness and damping, which a joint has, or, where the scenario is `he
 a tick; `C` is the drag coefficient per second, which each engine takes in a form of its own; `force` is constant. A tick
 of `dt_s` has `n` substeps. Sleeping is off.
 
-Other engines need a program in their own language, with the same body and the same rows: Box2D a prismatic and a distance
-joint, b2World_Step(world, dt_s, n); Rapier a SpringJoint, num_solver_iterations = n; Avian a DistanceJoint with
-JointDamping, SubstepCount(n), and a PrismaticJoint with a motor; Jolt a DistanceConstraint and a slider's motor,
-Update(dt_s, n); PhysX a D6 joint's drive with n position iterations; Bullet a btGeneric6DofSpring2Constraint, stepped n times
-by dt_s / n. Write x and v of every tick at first and then of every 15th. When a log is made again, put its day on the card
+Other engines need a program in their own language, with the same body and the same rows: Box2D and Box3D a prismatic and a
+distance joint without limits, 4 m long, told hertz and damping ratio, b2World_Step(world, dt_s, n) and b3World_Step; a
+tumbling body of Box3D has the inertias 1, 2 and 3 and allowFastRotation, and its angular velocity is written in the axes of
+the body; Rapier a SpringJoint, num_solver_iterations = n; Avian a DistanceJoint of 2 m with both limits at its length,
+compliance 1 / k and JointDamping c / mass, and a PrismaticJoint with MotorModel::SpringDamper, SubstepCount(n); Jolt a
+DistanceConstraint and a slider's motor, Update(dt_s, n); PhysX a D6 joint's drive with n position iterations; Bullet a
+btGeneric6DofSpring2Constraint, stepped n times by dt_s / n. Write x and v of every tick at first and then of every 15th. When a log is made again, put its day on the card
 of the engine, as `logged`, with the version.
 """
 import csv
