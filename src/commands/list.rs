@@ -301,7 +301,7 @@ const PARAMETER: &[Column<Parameter>] = &[
     Column { key: "default", heading: Some("DEFAULT"), value: |p| json!(p.default) },
     Column { key: "range", heading: Some("RANGE"), value: |p| json!(p.range.to_string()) },
     Column { key: "acts", heading: None, value: |parameter| json!(parameter.acts.id()) },
-    Column { key: "about", heading: Some("ABOUT"), value: |parameter| json!(parameter.about) },
+    Column { key: "about", heading: Some("ABOUT"), value: |p| json!(p.described()) },
 ];
 
 const METRIC: &[Column<Metric>] = &[

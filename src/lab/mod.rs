@@ -104,6 +104,7 @@ pub use port::{
 pub use quantity::Quantity;
 pub use race::{Entrant, Mode, Observer, Race};
 pub use report::{Criteria, MethodReport, Recommendation, Report, advise};
+#[cfg(feature = "desktop")]
 pub(crate) use scene::clip::clip;
 pub use scene::{
     BuiltIn, Check, EditError, LARGEST_FILE, LAST_TICK, LEAST_SECONDS, MOST_BODIES, MOST_LANES,

@@ -22,6 +22,8 @@ pub const MAX_POINTS: usize = 64;
 pub struct Parameter {
     /// The key, unit included.
     pub key: Text,
+    /// Its letter in the equation of motion, if it has one.
+    pub symbol: Option<&'static str>,
     /// What it is.
     pub about: &'static str,
     /// The symbol of the unit that ends the key, such as `N/m`; empty if the key names none.
@@ -35,6 +37,11 @@ pub struct Parameter {
 }
 
 impl Parameter {
+    /// What it is, after its letter: `m, the mass`.
+    pub fn described(&self) -> String {
+        self.symbol.map_or_else(|| self.about.into(), |symbol| format!("{symbol}, {}", self.about))
+    }
+
     /// Its name in words: the key without the unit.
     pub fn quantity(&self) -> String {
         let end = unit(&self.key).0;
@@ -151,7 +158,8 @@ impl<B> ParameterOf<B> {
     const fn new(key: &'static str, range: Range, acts: Acts, slot: Slot<B>) -> Self {
         let unit = Cow::Borrowed(unit(key).1);
         let key = Cow::Borrowed(key);
-        let parameter = Parameter { key, about: "", unit, default: None, range, acts };
+        let parameter =
+            Parameter { key, symbol: None, about: "", unit, default: None, range, acts };
         Self { parameter, slot }
     }
 
@@ -173,6 +181,12 @@ impl<B> ParameterOf<B> {
         write: fn(&mut B, &[[f64; 2]]),
     ) -> Self {
         Self::new(key, Range::Curve { x, y }, Acts::AtStart, Slot::Curve(write))
+    }
+
+    /// Sets the letter that stands for it in the equation of motion.
+    pub const fn symbol(mut self, symbol: &'static str) -> Self {
+        self.parameter.symbol = Some(symbol);
+        self
     }
 
     /// Sets the description.

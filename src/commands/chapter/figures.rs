@@ -185,9 +185,7 @@ fn spring_note(scene: &Scene) -> String {
 fn parameters(scene: &Scene) -> String {
     let body = &scene.bodies[0];
     let shown = body.kind.parameters.iter().zip(&body.values).filter_map(|(parameter, value)| {
-        let symbol = parameter.about.split(',').next().filter(|symbol| symbol.len() == 1)?;
-        let unit = parameter.key.split_once('_').map_or("", |(_, unit)| unit);
-        let unit = unit.replace("_per_", "/").replace('_', "·").replace("n", "N");
+        let (symbol, unit) = (parameter.symbol?, &parameter.unit);
         Some(format!("{symbol} = {} {unit}", crate::lab::number::round(*value, 5)))
     });
     shown.collect::<Vec<_>>().join(", ")

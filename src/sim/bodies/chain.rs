@@ -48,12 +48,14 @@ const PARAMETERS: [Of; 7] = [
     Of::count("masses", MAX_MASSES, |chain| &mut chain.masses)
         .or(8.0)
         .about("how many masses there are"),
-    Of::number("mass_kg", Range::POSITIVE, |chain| &mut chain.mass).about("m, each mass"),
+    Of::number("mass_kg", Range::POSITIVE, |chain| &mut chain.mass).symbol("m").about("each mass"),
     Of::number("stiffness_n_per_m", Range::POSITIVE, |chain| &mut chain.stiffness)
-        .about("k, the force of each spring for each metre of stretch"),
+        .symbol("k")
+        .about("the force of each spring for each metre of stretch"),
     Of::number("damping_n_s_per_m", Range::NON_NEGATIVE, |chain| &mut chain.damping)
         .or(0.0)
-        .about("c, the force of each spring's dash-pot for each metre per second of stretching"),
+        .symbol("c")
+        .about("the force of each spring's dash-pot for each metre per second of stretching"),
     Of::count("plucked_mass", MAX_MASSES, |chain| &mut chain.plucked)
         .or(1.0)
         .about("the mass that is held aside at the start, and that a kick hits"),

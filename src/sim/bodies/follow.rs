@@ -36,19 +36,19 @@ const PARAMETERS: [Of; 9] = [
     Of::number("step_m", Range::ANY, |follow| &mut follow.step)
         .or(1.0)
         .at_start()
-        .about("s, where the target is from the start on"),
+        .symbol("s").about("where the target is from the start on"),
     Of::number("ramp_m_per_s", Range::ANY, |follow| &mut follow.ramp)
         .or(0.0)
         .at_start()
-        .about("r, how fast the target moves away"),
+        .symbol("r").about("how fast the target moves away"),
     Of::number("sine_m", Range::ANY, |follow| &mut follow.sine)
         .or(0.0)
         .at_start()
-        .about("A, how far the target swings to either side"),
+        .symbol("A").about("how far the target swings to either side"),
     Of::number("sine_hz", Range::NonNegative(MAX_SINE_HZ), |follow| &mut follow.sine_hz)
         .or(1.0)
         .at_start()
-        .about("f, how often the target swings"),
+        .symbol("f").about("how often the target swings"),
     Of::number("x0_m", Range::ANY, |follow| &mut follow.x0)
         .or(0.0)
         .at_start()

@@ -29,17 +29,22 @@ pub(super) fn kind() -> Kind {
 type Of = ParameterOf<Helm>;
 
 const PARAMETERS: [Of; 12] = [
-    Of::number("mass_kg", Range::POSITIVE, |helm| &mut helm.mass).about("m, the mass"),
+    Of::number("mass_kg", Range::POSITIVE, |helm| &mut helm.mass).symbol("m").about("the mass"),
     Of::number("inertia_kg_m2", Range::POSITIVE, |helm| &mut helm.inertia)
-        .about("I, the moment of inertia about the upright axis"),
+        .symbol("I")
+        .about("the moment of inertia about the upright axis"),
     Of::number("drag_n_s_per_m", Range::NON_NEGATIVE, |helm| &mut helm.drag)
-        .about("C, the drag for each metre per second ahead"),
+        .symbol("C")
+        .about("the drag for each metre per second ahead"),
     Of::number("side_drag_n_s_per_m", Range::NON_NEGATIVE, |helm| &mut helm.side_drag)
-        .about("S, the drag for each metre per second sideways"),
+        .symbol("S")
+        .about("the drag for each metre per second sideways"),
     Of::number("yaw_drag_n_m_s", Range::NON_NEGATIVE, |helm| &mut helm.yaw_drag)
-        .about("D, the moment against turning for each radian per second"),
+        .symbol("D")
+        .about("the moment against turning for each radian per second"),
     Of::number("rudder_n_s", Range::NON_NEGATIVE, |helm| &mut helm.rudder_moment)
-        .about("L, the moment of the full rudder for each metre per second ahead"),
+        .symbol("L")
+        .about("the moment of the full rudder for each metre per second ahead"),
     Of::number("x0_m", Range::ANY, |helm| &mut helm.q0.x)
         .or(0.0)
         .at_start()

@@ -22,18 +22,22 @@ pub use kind::net_kind;
 type Of = ParameterOf<Net>;
 
 const PARAMETERS: [Of; 8] = [
-    Of::number("mass_kg", Range::POSITIVE, |net| &mut net.mass).about("m, each node"),
+    Of::number("mass_kg", Range::POSITIVE, |net| &mut net.mass).symbol("m").about("each node"),
     Of::number("stiffness_n_per_m", Range::POSITIVE, |net| &mut net.stiffness)
-        .about("k, of each spring without its own"),
+        .symbol("k")
+        .about("of each spring without its own"),
     Of::number("damping_n_s_per_m", Range::NON_NEGATIVE, |net| &mut net.damping)
         .or(0.0)
-        .about("c, along each spring without its own"),
+        .symbol("c")
+        .about("along each spring without its own"),
     Of::number("drag_n_s_per_m", Range::NON_NEGATIVE, |net| &mut net.drag)
         .or(0.0)
-        .about("b, of each node"),
+        .symbol("b")
+        .about("of each node"),
     Of::number("gravity_m_per_s2", Range::NON_NEGATIVE, |net| &mut net.gravity)
         .or(9.81)
-        .about("g, downwards"),
+        .symbol("g")
+        .about("downwards"),
     Of::number("rest_ratio", Range::NON_NEGATIVE, |net| &mut net.rest_ratio)
         .or(1.0)
         .about("the length at rest over that at the start"),

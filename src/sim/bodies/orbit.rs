@@ -31,7 +31,8 @@ type Of = ParameterOf<Orbit>;
 
 const PARAMETERS: [Of; 6] = [
     Of::number("mu_m3_per_s2", Range::POSITIVE, |orbit| &mut orbit.mu)
-        .about("μ, the pull of the centre, at the origin, times the distance squared"),
+        .symbol("μ")
+        .about("the pull of the centre, at the origin, times the distance squared"),
     Of::number("x0_m", Range::ANY, |orbit| &mut orbit.q0.x).at_start().about("x at the start"),
     Of::number("y0_m", Range::ANY, |orbit| &mut orbit.q0.y)
         .or(0.0)

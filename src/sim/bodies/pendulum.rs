@@ -22,16 +22,20 @@ type Of = ParameterOf<Pendulum>;
 
 const PARAMETERS: [Of; 7] = [
     Of::number("length_m", Range::POSITIVE, |pendulum| &mut pendulum.length)
-        .about("l, from the pivot to the bob"),
+        .symbol("l")
+        .about("from the pivot to the bob"),
     Of::number("mass_kg", Range::POSITIVE, |pendulum| &mut pendulum.mass)
         .or(1.0)
-        .about("m, the bob"),
+        .symbol("m")
+        .about("the bob"),
     Of::number("gravity_m_per_s2", Range::NON_NEGATIVE, |pendulum| &mut pendulum.gravity)
         .or(9.81)
-        .about("g, downwards"),
+        .symbol("g")
+        .about("downwards"),
     Of::number("damping_n_m_s", Range::NON_NEGATIVE, |pendulum| &mut pendulum.damping)
         .or(0.0)
-        .about("c, the torque for each radian per second"),
+        .symbol("c")
+        .about("the torque for each radian per second"),
     Of::number("theta0_rad", Range::ANY, |pendulum| &mut pendulum.theta0)
         .or(1.0)
         .at_start()

@@ -22,10 +22,13 @@ pub(super) fn kind() -> Kind {
 type Of = ParameterOf<Ship>;
 
 const PARAMETERS: [Of; 6] = [
-    Of::number("thrust_n", Range::ANY, |ship| &mut ship.thrust).about("T, the full thrust"),
+    Of::number("thrust_n", Range::ANY, |ship| &mut ship.thrust)
+        .symbol("T")
+        .about("the full thrust"),
     Of::number("drag_n_s_per_m", Range::NON_NEGATIVE, |ship| &mut ship.drag)
-        .about("C, the drag for each metre per second"),
-    Of::number("mass_kg", Range::POSITIVE, |ship| &mut ship.mass).about("m, the mass"),
+        .symbol("C")
+        .about("the drag for each metre per second"),
+    Of::number("mass_kg", Range::POSITIVE, |ship| &mut ship.mass).symbol("m").about("the mass"),
     Of::number("s0_m", Range::ANY, |ship| &mut ship.s0)
         .or(0.0)
         .at_start()

@@ -22,12 +22,14 @@ pub(super) fn kind() -> Kind {
 type Of = ParameterOf<Spring>;
 
 const PARAMETERS: [Of; 6] = [
-    Of::number("mass_kg", Range::POSITIVE, |spring| &mut spring.mass).about("m, the mass"),
+    Of::number("mass_kg", Range::POSITIVE, |spring| &mut spring.mass).symbol("m").about("the mass"),
     Of::number("stiffness_n_per_m", Range::POSITIVE, |spring| &mut spring.stiffness)
-        .about("k, the force for each metre of stretch"),
+        .symbol("k")
+        .about("the force for each metre of stretch"),
     Of::number("damping_n_s_per_m", Range::NON_NEGATIVE, |spring| &mut spring.damping)
         .or(0.0)
-        .about("c, the force for each metre per second"),
+        .symbol("c")
+        .about("the force for each metre per second"),
     Of::number("x0_m", Range::ANY, |spring| &mut spring.x0)
         .or(1.0)
         .at_start()

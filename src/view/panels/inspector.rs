@@ -88,7 +88,7 @@ fn show_row(ui: &mut Ui, lab: &Lab, row: &Row, commands: &mut Vec<Command>) {
     let Row { body, place, parameter, values } = row;
     let kind = &lab.scene().bodies[*body].kind;
     let set = |value| Command::Act(Action::Set { body: *body, parameter: *place, value });
-    let about = format!("{}\n{}, {}", parameter.about, parameter.key, parameter.range);
+    let about = format!("{}\n{}, {}", parameter.described(), parameter.key, parameter.range);
     let Some(values) = *values else {
         line(ui, &parameter.quantity(), &about, |ui, _| {
             let points = (lab.race().values(*body).len() - place) / 2;

@@ -78,6 +78,7 @@ fn told_parameter<S: System<Vector: Vector> + Clone>(
 fn force_parameter() -> Parameter {
     Parameter {
         key: FORCE.into(),
+        symbol: None,
         about: "what its acceleration is multiplied by",
         unit: "".into(),
         default: Some(1.0),

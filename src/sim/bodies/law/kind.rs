@@ -56,6 +56,7 @@ pub fn law_kind(text: LawText) -> Result<Arc<Kind>, Vec<Refusal>> {
 fn parameters(text: &LawText) -> Vec<Parameter> {
     let constant = |name: &String| Parameter {
         key: name.clone().into(),
+        symbol: None,
         about: "a constant of the law",
         unit: "".into(),
         default: None,
@@ -70,6 +71,7 @@ fn parameters(text: &LawText) -> Vec<Parameter> {
     ] {
         parameters.extend(text.coordinates.iter().enumerate().map(|(index, of)| Parameter {
             key: format!("{}.{key}", of.name).into(),
+            symbol: None,
             about,
             unit: match (of.unit, per_s) {
                 ("1", "") => "".into(),

@@ -13,9 +13,7 @@ use crate::view::panels::{ink, strong_font};
 
 /// The letter of a parameter in the equation of motion, or else its name.
 pub(super) fn letter(parameter: &Parameter) -> String {
-    let first = parameter.about.split_once(',').map(|(first, _)| first);
-    let letter = first.filter(|first| first.chars().count() <= 2);
-    letter.map_or_else(|| parameter.quantity(), str::to_owned)
+    parameter.symbol.map_or_else(|| parameter.quantity(), str::to_owned)
 }
 
 /// The name of a parameter with its letter, if it has one: `stiffness k`.
