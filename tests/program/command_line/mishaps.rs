@@ -112,7 +112,7 @@ fn interrupted_while_verdicts_are_found_it_ends_at_once() {
     let capture = "capture --scene orbit --race --tick-hz 10000 --frames 1 --size 96x54 --out clip";
     for signal in ["-INT", "-TERM"] {
         let mut child = start(folder, capture);
-        std::thread::sleep(Duration::from_millis(1500));
+        std::thread::sleep(Duration::from_millis(500));
         assert_eq!(child.try_wait().unwrap(), None, "verdicts take longer");
         let sent = Command::new("kill").args([signal, &child.id().to_string()]).status();
         assert!(sent.unwrap().success());
