@@ -206,8 +206,8 @@ fn script() -> Vec<Scripted> {
     ]
 }
 
-/// Beyond the last act of the script, far beyond it in an optimised build.
-const SCRIPTED_TICKS: u64 = if STOPS_EARLY { 1600 } else { 4000 };
+/// Beyond the last act of the script.
+const SCRIPTED_TICKS: u64 = 1600;
 
 /// One lane whose method the script switches, and all methods at once.
 fn fields() -> [(&'static str, Field); 2] {

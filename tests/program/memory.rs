@@ -43,7 +43,7 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 const SIZE_PX: [u32; 2] = [1280, 720];
-const EVENTS: usize = 3000;
+const EVENTS: usize = 2100;
 /// The memory for rewinding, in MB: small enough to be full at each rest.
 const REWIND_MB: usize = 1;
 /// The most that the program may hold more after the second half of the events than after the first, in MB, and the least

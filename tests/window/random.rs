@@ -55,9 +55,9 @@ const KEYS: [&str; 45] = [
     "z",
     "ctrl+c",
 ];
-/// How often the program comes to rest, and the events before each rest: 3000 in all.
+/// How often the program comes to rest, and the events before each rest: 2100 in all.
 const RESTS: usize = 6;
-const EVENTS: usize = 500;
+const EVENTS: usize = 350;
 /// Events that one call of xdotool makes.
 const BATCH: usize = 25;
 /// How much more memory the program may use at rest after the second half of the events than after the first, in MB.
